@@ -1,0 +1,16 @@
+// `rend help preset`: the parameter table as a page to read, at most 100 columns wide.
+#pragma once
+
+#include "sim/base/parameters.h"
+
+#include <optional>
+#include <string>
+
+namespace rend {
+
+// The page of all elements, or of `element`, which is a name (stretch: all elements of that name) or a path as
+// in --set (body.springs.stretch). `colour` adds terminal codes. Throws UserError (Usage) if there is no such
+// element.
+std::string help_preset(const ElementType& root, const std::optional<std::string>& element, bool colour);
+
+} // namespace rend

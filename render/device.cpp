@@ -1,0 +1,84 @@
+#include "render/device.h"
+
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+
+#define GL_GLEXT_PROTOTYPES
+#include <GL/osmesa.h>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+
+namespace rend {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, const std::string& hint) {
+  throw UserError(Exit::CannotCreate, {}, "pictures cannot be drawn: " + what, hint);
+}
+
+// llvmpipe crashes with vectors of 512 bits; 128 and 256 give the same pictures, so a choice of 128 is
+// respected.
+void pin_vector_width() {
+  const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+  if (width == nullptr || std::strcmp(width, "128") != 0) setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
+}
+
+class OsMesaDevice final : public Device {
+public:
+  OsMesaDevice() {
+    pin_vector_width();
+    const std::array<int, 15> attributes{OSMESA_FORMAT,
+                                         OSMESA_RGBA,
+                                         OSMESA_PROFILE,
+                                         OSMESA_CORE_PROFILE,
+                                         OSMESA_CONTEXT_MAJOR_VERSION,
+                                         3,
+                                         OSMESA_CONTEXT_MINOR_VERSION,
+                                         3,
+                                         OSMESA_DEPTH_BITS,
+                                         0,
+                                         OSMESA_STENCIL_BITS,
+                                         0,
+                                         0};
+    context_.reset(OSMesaCreateContextAttribs(attributes.data(), nullptr));
+    if (!context_)
+      refuse("off-screen OpenGL 3.3 (OSMesa) did not start.",
+             "rend needs Mesa's software renderer with OpenGL 3.3 core: the Debian package libosmesa6.");
+    make_current();
+    // A GL dispatch library loaded ahead of OSMesa swallows every call: frames would be black, without an
+    // error.
+    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const auto* version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+    if (renderer == nullptr || version == nullptr)
+      refuse("OpenGL started but does not answer.",
+             "Another OpenGL library (libGL, libOpenGL) is loaded ahead of libOSMesa; unset LD_PRELOAD.");
+    renderer_ = std::string(renderer) + ", " + version;
+  }
+
+  void make_current() override {
+    if (!OSMesaMakeCurrent(context_.get(), buffer_.data(), GL_UNSIGNED_BYTE, 1, 1))
+      refuse("off-screen OpenGL (OSMesa) cannot be used in this thread.",
+             "This may be a lack of memory; a smaller picture may help.");
+  }
+
+  void release() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+
+  const std::string& renderer() const override { return renderer_; }
+
+private:
+  struct Destroy {
+    void operator()(OSMesaContext context) const { OSMesaDestroyContext(context); }
+  };
+  std::array<std::uint8_t, 4>
+      buffer_{}; // one RGBA pixel: OSMesa wants a buffer, all drawing goes to framebuffers
+  std::unique_ptr<osmesa_context, Destroy> context_;
+  std::string renderer_;
+};
+
+} // namespace
+
+std::unique_ptr<Device> make_device() {
+  return std::make_unique<OsMesaDevice>();
+}
+
+} // namespace rend

@@ -1,0 +1,141 @@
+#include "render/floor_shadow.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+constexpr double light_width = 0.22;   // of the key light, as seen from the floor: penumbra per distance
+constexpr double contact_reach = 0.08; // height at which contact ends, per scale of the picture
+
+void clamp_to_edge(GLint filter) {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+// Textures are read beyond their edge as at their edge, and there nothing is kept from the floor.
+void begin_with_empty_rim(const GlFramebuffer& target, int side) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+  glViewport(0, 0, side, side);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(1, 1, side - 2, side - 2);
+}
+
+// From (x, y, 1) on the floor [m] to texture coordinates of what is seen from a light.
+Eigen::Matrix<double, 2, 3> texture_of_floor(const LightView& view, double floor_z) {
+  Eigen::Matrix<double, 2, 3> map;
+  map << view.world_to_clip.topLeftCorner<2, 2>(),
+      view.world_to_clip.block<2, 1>(0, 2) * floor_z + view.world_to_clip.block<2, 1>(0, 3);
+  map *= 0.5;
+  map.col(2).array() += 0.5;
+  return map;
+}
+
+} // namespace
+
+Pyramid::Pyramid(int side, int levels) : side_(side), levels_(static_cast<std::size_t>(levels)) {
+  glBindTexture(GL_TEXTURE_2D, texture_.name());
+  for (int level = 0; level < levels; ++level)
+    glTexImage2D(GL_TEXTURE_2D, level, GL_RG16, side >> level, side >> level, 0, GL_RG, GL_UNSIGNED_SHORT,
+                 nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
+  clamp_to_edge(GL_LINEAR_MIPMAP_LINEAR);
+  for (int level = 0; level < levels; ++level) {
+    glBindFramebuffer(GL_FRAMEBUFFER, levels_[static_cast<std::size_t>(level)].name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.name(), level);
+    check_framebuffer("Pyramid");
+  }
+}
+
+void Pyramid::build(const GlProgram& halve, const std::function<void()>& draw) {
+  begin_with_empty_rim(levels_[0], side_);
+  draw();
+
+  halve.use();
+  halve.set("source", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture_.name());
+  const int count = static_cast<int>(levels_.size());
+  for (int level = 1; level < count; ++level) {
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1); // reads one level, writes the next
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
+    begin_with_empty_rim(levels_[static_cast<std::size_t>(level)], side_ >> level);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, count - 1);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+FloorShadow::FloorShadow() {
+  glBindTexture(GL_TEXTURE_2D, shade_.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, key_.side(), key_.side(), 0, GL_RG, GL_UNSIGNED_BYTE, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  clamp_to_edge(GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, shade_target_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, shade_.name(), 0);
+  check_framebuffer("FloorShadow");
+}
+
+void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& towards_key,
+                        const Eigen::AlignedBox3d& lit, const std::function<void()>& draw) {
+  const double contact = contact_reach * scale;      // [m]
+  const Eigen::Vector3d around(contact, contact, 0); // room for the blur, which reaches beyond the bodies
+  const Eigen::AlignedBox3d covered(lit.min() - around, lit.max() + around);
+  const LightView key = light_view(towards_key, covered), above = light_view(Eigen::Vector3d::UnitZ(), covered);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_MAX);
+  const auto occluders = [&](const LightView& view, double reach, float sharpness) {
+    return [&, reach, sharpness] {
+      occluder_.use();
+      occluder_.set("world_to_clip", view.world_to_clip);
+      occluder_.set("floor_z", static_cast<float>(floor_z));
+      occluder_.set("reach", static_cast<float>(reach));
+      occluder_.set("sharpness", sharpness);
+      draw();
+    };
+  };
+  const double key_reach = 2 * key.half; // [m]
+  key_.build(halve_, occluders(key, key_reach, 1));
+  contact_.build(halve_, occluders(above, contact, 2));
+  glDisable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+
+  // A level is blurred over about two of its texels.
+  const double key_texel = 2 * key.half / key_.side(), contact_texel = 2 * above.half / contact_.side();
+  const double penumbra = std::log2(light_width * key_reach / towards_key.z() / (2 * key_texel));
+  const double contact_level = std::clamp(std::log2(0.4 * contact / contact_texel), 0.0, 4.0);
+  shade_of_floor_ = texture_of_floor(key, floor_z);
+  settle(penumbra, contact_level, texture_of_floor(above, floor_z));
+}
+
+void FloorShadow::settle(double penumbra, double contact_level,
+                         const Eigen::Matrix<double, 2, 3>& contact_of_floor) {
+  // shade = A floor + a, contact = C floor + c: contact = C A⁻¹ shade + (c - C A⁻¹ a)
+  const Eigen::Matrix2d turn = contact_of_floor.leftCols<2>() * shade_of_floor_.leftCols<2>().inverse();
+  const Eigen::Vector2d origin = contact_of_floor.col(2) - turn * shade_of_floor_.col(2);
+  begin_with_empty_rim(shade_target_, key_.side());
+  settle_.use();
+  settle_.set("penumbra", static_cast<float>(penumbra));
+  settle_.set("contact_level", static_cast<float>(contact_level));
+  settle_.set("contact_origin", Eigen::Vector2f(origin.cast<float>()));
+  settle_.set("contact_x", Eigen::Vector2f(turn.col(0).cast<float>()));
+  settle_.set("contact_y", Eigen::Vector2f(turn.col(1).cast<float>()));
+  settle_.set("occluders", 0);
+  settle_.set("contact", 1);
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, contact_.texture());
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, key_.texture());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+} // namespace rend

@@ -1,0 +1,61 @@
+// A frame: all that is needed to draw one picture, and nothing of how it came about.
+//
+// Bodies come as corners, three a triangle, not indexed: every corner has its own normal, so that a Möbius band
+// (no consistent sides), a crease and a face laid bare by fracture need no special case; and the line along
+// each side of a triangle is a property of the corner opposite to it, so that a quad shows as a quad.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace rend {
+
+// The line drawn along a side of a triangle.
+enum class Line : std::uint8_t {
+  None = 0,   // the diagonal of a quad
+  Cell = 1,   // an edge between two cells
+  Border = 2, // an edge that was a border from the start
+  Torn = 3,   // an edge laid bare by tearing
+};
+
+// One corner of a drawn triangle: 32 bytes, uploaded as it is.
+struct Corner {
+  std::array<float, 3> position;      // [m]
+  std::array<float, 3> normal;        // unit, or 0 for a flat triangle; the three of a triangle agree in sign
+  std::array<std::uint8_t, 4> colour; // sRGB, alpha = 255
+  std::array<std::uint8_t, 4> line;   // [k]: Line along the side opposite to the triangle's corner k; [3]: 0
+};
+static_assert(sizeof(Corner) == 32);
+
+struct FrameBody {
+  std::vector<Corner> corners; // 3 a triangle
+  bool edges = true;           // draw lines of cells (torn and border lines are drawn all the same)
+  bool two_sided = true;       // a sheet: both sides are lit; a solid: the far side is only seen through a gap
+  bool sides = true; // a sheet's far side is a shade darker; false: there is but one side (a Möbius band)
+};
+
+struct FrameCamera {
+  Eigen::Vector3d eye{3, -3, 2}, target{0, 0, 0}, up{0, 0, 1}; // [m]
+  double fov = 35;                                             // vertical angle [degrees]
+};
+
+struct FrameFloor {
+  double z = 0; // [m]
+};
+
+struct Frame {
+  double time = 0; // [s]
+  int number = 0;  // from 0
+  std::vector<FrameBody> bodies;
+  std::vector<FrameBody> obstacles;
+  std::optional<FrameFloor> floor;
+  FrameCamera camera;
+  std::optional<Eigen::Vector3d>
+      light; // towards the key light, any length; none: over the camera's left shoulder
+  std::array<float, 3> background{0.93f, 0.94f, 0.96f}; // sRGB; a soft gradient around it
+};
+
+} // namespace rend

@@ -1,0 +1,68 @@
+// OpenGL objects that free themselves, and programs whose uniforms are set by name.
+//
+// Only for use while a Device is current. The prototypes are linked from libOSMesa itself (no loader: the
+// loaders that Debian packages look for libGL and give black frames or abort).
+#pragma once
+
+#ifndef GL_GLEXT_PROTOTYPES
+#define GL_GLEXT_PROTOTYPES
+#endif
+#include <GL/glcorearb.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace rend {
+
+template <auto Create, auto Delete> class GlObject {
+public:
+  GlObject() { Create(1, &name_); }
+  ~GlObject() {
+    if (name_ != 0) Delete(1, &name_);
+  }
+  GlObject(GlObject&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  GlObject& operator=(GlObject&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  GLuint name() const { return name_; }
+
+private:
+  GLuint name_ = 0;
+};
+
+using GlBuffer = GlObject<glGenBuffers, glDeleteBuffers>;
+using GlTexture = GlObject<glGenTextures, glDeleteTextures>;
+using GlFramebuffer = GlObject<glGenFramebuffers, glDeleteFramebuffers>;
+using GlRenderbuffer = GlObject<glGenRenderbuffers, glDeleteRenderbuffers>;
+using GlVertexArray = GlObject<glGenVertexArrays, glDeleteVertexArrays>;
+
+// A vertex and a fragment shader out of shaders/, each with common.glsl in front.
+class GlProgram {
+public:
+  GlProgram(const std::string& vertex, const std::string& fragment); // names as in shaders/
+  ~GlProgram();
+  GlProgram(const GlProgram&) = delete;
+  GlProgram& operator=(const GlProgram&) = delete;
+
+  void use() const;
+  // Set uniforms of the program in use. CHECK that the program has one of that name.
+  void set(const char* name, int value) const;
+  void set(const char* name, float value) const;
+  void set(const char* name, const Eigen::Vector2f& value) const;
+  void set(const char* name, const Eigen::Vector3f& value) const;
+  void set(const char* name, const Eigen::Vector4f& value) const;
+  void set(const char* name, const Eigen::Matrix4d& value) const;
+
+private:
+  GLint location(const char* name) const;
+  GLuint name_ = 0;
+};
+
+// Throws InternalError if OpenGL reported an error, or if the bound framebuffer is not complete.
+void check_gl(const char* where);
+void check_framebuffer(const char* where);
+
+} // namespace rend

@@ -1,0 +1,37 @@
+// A picture in memory: 8-bit rows, top first, no padding between them.
+//
+// Everything that leaves the renderer (PNG, video, comparison) reads this one type, so that nobody else needs
+// to know that OpenGL hands its rows over upside down.
+#pragma once
+
+#include "sim/base/check.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rend {
+
+struct Image {
+  int width = 0, height = 0;        // [pixels]
+  int channels = 3;                 // 3: RGB, 4: RGBA
+  std::vector<std::uint8_t> pixels; // sRGB, height x width x channels, row 0 is the top
+
+  Image() = default;
+  Image(int width_, int height_, int channels_ = 3)
+      : width(width_), height(height_), channels(channels_),
+        pixels(static_cast<std::size_t>(width_) * height_ * channels_) {
+    CHECK(width > 0 && height > 0);
+    CHECK(channels == 3 || channels == 4);
+  }
+
+  std::size_t stride() const { return static_cast<std::size_t>(width) * channels; } // bytes a row
+  std::uint8_t* row(int y) { return pixels.data() + y * stride(); }
+  const std::uint8_t* row(int y) const { return pixels.data() + y * stride(); }
+  const std::uint8_t* at(int x, int y) const& { return row(y) + static_cast<std::size_t>(x) * channels; }
+  const std::uint8_t* at(int x, int y) const&& = delete; // it would point into a picture that is gone
+
+  bool operator==(const Image&) const = default;
+};
+
+} // namespace rend

@@ -1,0 +1,65 @@
+#include "render/output.h"
+
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <string>
+#include <unistd.h>
+
+namespace rend {
+namespace {
+
+std::string reason() {
+  return std::strerror(errno);
+}
+
+} // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& path) : path_(path), temporary_(path.string() + ".part") {
+  if (std::filesystem::is_directory(path_))
+    throw UserError(Exit::CannotCreate, {path_.string()}, "a folder of this name is in the way.",
+                    "Choose another name for the output.");
+  file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file_ < 0)
+    throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",
+                    "Check that the folder is there and may be written to.");
+}
+
+OutputFile::~OutputFile() {
+  if (file_ < 0) return;
+  ::close(file_);
+  ::unlink(temporary_.c_str());
+}
+
+void OutputFile::write(std::span<const std::uint8_t> bytes) {
+  CHECK(file_ >= 0);
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0)
+      throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + reason() + ".",
+                      "Free some space on the disk, or write elsewhere.");
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+}
+
+std::int64_t OutputFile::seek(std::int64_t offset, int whence) {
+  return ::lseek(file_, offset, whence);
+}
+
+void OutputFile::commit() {
+  CHECK(file_ >= 0);
+  const bool kept = ::fsync(file_) == 0 && ::rename(temporary_.c_str(), path_.c_str()) == 0;
+  const std::string why = kept ? "" : reason();
+  if (!kept) ::unlink(temporary_.c_str());
+  ::close(file_);
+  file_ = -1;
+  if (!kept)
+    throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why + ".",
+                    "Free some space on the disk, or write elsewhere.");
+}
+
+} // namespace rend

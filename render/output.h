@@ -1,0 +1,35 @@
+// A file that appears whole or not at all.
+//
+// It is written under a temporary name in the same folder (only a rename within one file system is atomic),
+// brought to the disk, and renamed. Until commit() the old file, if any, is untouched; without commit() the
+// temporary file is removed. The temporary name is fixed (name + ".part"), so that what a killed run leaves
+// behind is overwritten by the next and never piles up.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace rend {
+
+class OutputFile {
+public:
+  // Creates the temporary file. Throws UserError (CannotCreate).
+  explicit OutputFile(const std::filesystem::path& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& temporary() const { return temporary_; } // for libraries that write by name
+
+  void write(std::span<const std::uint8_t> bytes);    // throws UserError (ReadWrite)
+  std::int64_t seek(std::int64_t offset, int whence); // as lseek(2)
+  void commit();                                      // fsync and rename; throws UserError (ReadWrite)
+
+private:
+  std::filesystem::path path_, temporary_;
+  int file_ = -1; // descriptor; -1 once it is closed
+};
+
+} // namespace rend

@@ -1,0 +1,196 @@
+#include "render/pipeline.h"
+
+#include "render/device.h"
+#include "render/png.h"
+#include "render/queue.h"
+#include "render/stage.h"
+#include "render/video.h"
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+
+#include <chrono>
+#include <exception>
+#include <fmt/format.h>
+#include <thread>
+#include <vector>
+
+namespace rend {
+namespace {
+
+struct Picture {
+  int number = 0;
+  Image image;
+};
+using SharedPicture = std::shared_ptr<const Picture>; // both writers read the same one
+
+constexpr std::size_t waiting = 3; // things in a queue: enough to smooth over an uneven stage
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+struct Pipeline::Stages {
+  explicit Stages(const PipelineOptions& options);
+  ~Stages();
+  void push(Frame&& frame);
+  void finish();
+  PipelineSeconds seconds() const;
+
+private:
+  void draw();
+  void write_png_files();
+  void write_video();
+  template <class Work> void start(Work work);
+  void fail(std::exception_ptr error);
+  void rethrow() const;
+  void join();
+  void spent(double PipelineSeconds::*stage, double since);
+
+  PipelineOptions options_;
+  std::unique_ptr<Device> device_; // current in the drawing thread
+  std::unique_ptr<Stage> stage_;   // of that thread too
+  VideoWriter video_;
+  BoundedQueue<Frame> frames_{waiting};
+  BoundedQueue<SharedPicture> for_png_{waiting}, for_video_{waiting};
+  mutable std::mutex mutex_; // of the next two
+  std::exception_ptr error_; // the first of any thread
+  PipelineSeconds seconds_;
+  int last_number_ = -1;
+  bool finished_ = false;
+  std::vector<std::thread> threads_;
+};
+
+Pipeline::Stages::Stages(const PipelineOptions& options) : options_(options) {
+  CHECK(options.png_writers == 1 || options.png_writers == 2);
+  std::error_code error;
+  std::filesystem::create_directories(options.folder, error);
+  if (error)
+    throw UserError(Exit::CannotCreate, {options.folder.string()},
+                    "the folder cannot be made: " + error.message() + ".", "Choose another one with -o.");
+  device_ = make_device();
+  stage_ = std::make_unique<Stage>(options.width, options.height, options.samples);
+  device_->release();
+  if (options.video)
+    video_.open(options.folder / (options.name + options.extension), options.width, options.height,
+                options.fps);
+  start([this] { draw(); });
+  if (options.png)
+    for (int i = 0; i < options.png_writers; ++i) start([this] { write_png_files(); });
+  if (options.video) start([this] { write_video(); });
+}
+
+Pipeline::Stages::~Stages() {
+  if (!finished_) fail(nullptr);
+  join();
+}
+
+template <class Work> void Pipeline::Stages::start(Work work) {
+  threads_.emplace_back([this, work] {
+    try {
+      work();
+    } catch (...) {
+      fail(std::current_exception());
+    }
+  });
+}
+
+// Stops all threads; what waits in the queues is dropped.
+void Pipeline::Stages::fail(std::exception_ptr error) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!error_) error_ = error;
+  }
+  frames_.abandon();
+  for_png_.abandon();
+  for_video_.abandon();
+}
+
+void Pipeline::Stages::rethrow() const {
+  const std::lock_guard lock(mutex_);
+  if (error_) std::rethrow_exception(error_);
+}
+
+void Pipeline::Stages::join() {
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+void Pipeline::Stages::spent(double PipelineSeconds::*stage, double since) {
+  const std::lock_guard lock(mutex_);
+  seconds_.*stage += now() - since;
+}
+
+void Pipeline::Stages::draw() {
+  device_->make_current();
+  const std::unique_ptr<Stage> stage = std::move(stage_); // frees its OpenGL objects where they are current
+  while (auto frame = frames_.pop()) {
+    const double start = now();
+    auto picture = std::make_shared<Picture>();
+    picture->number = frame->number;
+    stage->draw(*frame);
+    picture->image = stage->read();
+    spent(&PipelineSeconds::draw, start);
+    if (options_.png && !for_png_.push(picture)) break;
+    if (options_.video && !for_video_.push(picture)) break;
+  }
+  for_png_.close();
+  for_video_.close();
+}
+
+void Pipeline::Stages::write_png_files() {
+  while (auto picture = for_png_.pop()) {
+    const double start = now();
+    write_png(options_.folder / fmt::format("{:05d}.png", (*picture)->number), (*picture)->image);
+    spent(&PipelineSeconds::png, start);
+  }
+}
+
+void Pipeline::Stages::write_video() {
+  while (auto picture = for_video_.pop()) {
+    const double start = now();
+    video_.add((*picture)->image);
+    spent(&PipelineSeconds::video, start);
+  }
+}
+
+void Pipeline::Stages::push(Frame&& frame) {
+  CHECK(!finished_);
+  CHECK(frame.number > last_number_);
+  rethrow();
+  last_number_ = frame.number;
+  if (!frames_.push(std::move(frame))) rethrow();
+}
+
+void Pipeline::Stages::finish() {
+  CHECK(!finished_);
+  frames_.close();
+  join();
+  finished_ = true;
+  rethrow();
+  if (options_.video) {
+    const double start = now();
+    video_.close();
+    spent(&PipelineSeconds::video, start);
+  }
+}
+
+PipelineSeconds Pipeline::Stages::seconds() const {
+  const std::lock_guard lock(mutex_);
+  return seconds_;
+}
+
+Pipeline::Pipeline(const PipelineOptions& options) : stages_(std::make_unique<Stages>(options)) {}
+Pipeline::~Pipeline() = default;
+void Pipeline::push(Frame&& frame) {
+  stages_->push(std::move(frame));
+}
+void Pipeline::finish() {
+  stages_->finish();
+}
+PipelineSeconds Pipeline::seconds() const {
+  return stages_->seconds();
+}
+
+} // namespace rend

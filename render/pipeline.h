@@ -1,0 +1,57 @@
+// Frames in, files out, with the stages overlapped:
+//
+//   push ─▶ [3 frames] ─▶ draw ─┬▶ [3 pictures] ─▶ PNG writers   folder/00000.png ...
+//          the simulation       └▶ [3 pictures] ─▶ video         folder/name.mp4
+//
+// One thread owns the Device and draws; others encode. The queues are short, so push() waits when drawing falls
+// behind. The first error of any thread stops them all and is thrown by the next push() or by finish().
+#pragma once
+
+#include "render/frame.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace rend {
+
+struct PipelineOptions {
+  std::filesystem::path folder; // made if it is not there
+  std::string name;             // of the video: folder/name.extension
+  int width = 1280, height = 720;
+  int samples = 4; // 1 or 4
+  double fps = 30; // of the video
+  bool png = true;
+  bool video = false;
+  std::string extension = ".mp4"; // of the video: .mp4 or .mkv
+  int png_writers = 1;            // 1 or 2 threads
+};
+
+// Seconds that each stage was at work (not waiting), over all pictures so far.
+struct PipelineSeconds {
+  double draw = 0, png = 0, video = 0; // png: the sum of its writers
+};
+
+class Pipeline {
+public:
+  // Starts OpenGL, makes the folder and opens the video: throws UserError (CannotCreate, Usage) before any
+  // frame.
+  explicit Pipeline(const PipelineOptions& options);
+  // Without finish() (an exception is on its way): frames already written stay, an unfinished video is removed.
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  // Frames come with growing numbers; frame 7 is written to 00007.png. Throws what a stage has thrown.
+  void push(Frame&& frame);
+  // Waits until all is written and the video has its name. Throws what a stage has thrown.
+  void finish();
+
+  PipelineSeconds seconds() const;
+
+private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+} // namespace rend

@@ -1,0 +1,62 @@
+// A queue between two stages of the pipeline that never holds more than a few things: a fast stage waits for a
+// slow one, so memory stays bounded.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace rend {
+
+template <class T> class BoundedQueue {
+public:
+  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
+
+  // Waits for room. False: the queue was abandoned or closed, and the thing is dropped.
+  bool push(T thing) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return closed_ || things_.size() < capacity_; });
+    if (closed_) return false;
+    things_.push_back(std::move(thing));
+    changed_.notify_all();
+    return true;
+  }
+
+  // Waits for a thing. None: the queue is closed and empty.
+  std::optional<T> pop() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return closed_ || !things_.empty(); });
+    if (things_.empty()) return std::nullopt;
+    std::optional<T> thing(std::move(things_.front()));
+    things_.pop_front();
+    changed_.notify_all();
+    return thing;
+  }
+
+  // No more pushes; what is inside may still be taken.
+  void close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+
+  // No more pushes, and what is inside is dropped.
+  void abandon() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    things_.clear();
+    changed_.notify_all();
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<T> things_;
+  std::size_t capacity_;
+  bool closed_ = false;
+};
+
+} // namespace rend

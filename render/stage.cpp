@@ -1,0 +1,258 @@
+#include "render/stage.h"
+
+#include "render/packing.h"
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace rend {
+namespace {
+
+constexpr int shadow_side = 1024;       // [texels]
+constexpr float shadow_spread = 2.0f;   // of the four taps [texels]
+constexpr double floor_reach = 4;       // where the floor has become backdrop, in distances from eye to target
+constexpr double sunk = 0.002;          // what may lie in the floor and still be seen, in the same distances
+constexpr float shadow_step_out = 2.5f; // along the normal [texels]
+
+// From [-1, 1]³ to [0, 1]³.
+Eigen::Matrix4d to_texture(const Eigen::Matrix4d& clip) {
+  Eigen::Matrix4d half = Eigen::Matrix4d::Identity() * 0.5;
+  half.topRightCorner<3, 1>().setConstant(0.5);
+  half(3, 3) = 1;
+  return half * clip;
+}
+
+Eigen::Vector3f colour_of(const std::array<float, 3>& colour) {
+  const Eigen::Vector3f value(colour[0], colour[1], colour[2]);
+  CHECK(value.allFinite());
+  return value;
+}
+
+} // namespace
+
+Stage::Stage(int width, int height, int samples) : width_(width), height_(height), samples_(samples) {
+  CHECK(samples == 1 || samples == 4);
+  GLint largest = 0, most = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  if (width < 1 || height < 1 || width > largest || height > largest)
+    throw UserError(Exit::BadInput, {}, fmt::format("a picture of {} x {} cannot be drawn.", width, height),
+                    fmt::format("Each side may have from 1 to {} pixels.", largest));
+  if (samples > most)
+    throw UserError(Exit::BadInput, {}, "this machine's OpenGL cannot take 4 samples a pixel.",
+                    "Set samples=\"1\" and draw a larger picture.");
+  make_targets(samples);
+  make_shadow_map();
+  make_vertex_array();
+  check_gl("Stage");
+}
+
+void Stage::make_targets(int samples) {
+  glBindRenderbuffer(GL_RENDERBUFFER, resolved_colour_.name());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_, height_);
+  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, resolved_colour_.name());
+  check_framebuffer("Stage, resolved picture");
+
+  const GLsizei count = samples == 1 ? 0 : samples;
+  glBindRenderbuffer(GL_RENDERBUFFER, target_colour_.name());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_RGBA8, width_, height_);
+  glBindRenderbuffer(GL_RENDERBUFFER, target_depth_.name());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT24, width_, height_);
+  glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target_colour_.name());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target_depth_.name());
+  check_framebuffer("Stage, picture");
+}
+
+void Stage::make_shadow_map() {
+  glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, shadow_side, shadow_side, 0, GL_DEPTH_COMPONENT,
+               GL_UNSIGNED_INT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_map_.name(), 0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+  check_framebuffer("Stage, shadow map");
+}
+
+void Stage::make_vertex_array() {
+  const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
+  constexpr GLsizei stride = sizeof(Corner);
+  glBindVertexArray(corners_array_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, corners_buffer_.name());
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Corner, position)));
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Corner, normal)));
+  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, at(offsetof(Corner, colour)));
+  glVertexAttribIPointer(3, 4, GL_UNSIGNED_BYTE, stride, at(offsetof(Corner, line)));
+  for (GLuint attribute = 0; attribute < 4; ++attribute) glEnableVertexAttribArray(attribute);
+}
+
+void Stage::draw(const Frame& frame) {
+  CHECK(!frame.floor || std::isfinite(frame.floor->z));
+  upload(frame);
+  const double aspect = static_cast<double>(width_) / height_;
+  const Eigen::AlignedBox3d bounds = bounds_of(frame);
+  const View view = view_of(frame.camera, bounds, aspect);
+  const Lights lights = lights_of(frame);
+  const Eigen::AlignedBox3d lit = lit_bounds(frame.camera, aspect, bounds);
+  const LightView light = light_view(lights.key, lit);
+
+  glEnable(GL_DEPTH_CLAMP);
+  draw_shadow_map(light);
+  if (frame.floor) floor_shadow_.build(frame.floor->z, view.distance, lights.key, lit, [this] { draw_all(); });
+  glDisable(GL_DEPTH_CLAMP);
+
+  glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+  glViewport(0, 0, width_, height_);
+  glEnable(GL_DEPTH_TEST);
+  glClearColor(0, 0, 0, 0); // nothing: the studio goes behind
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw_bodies(frame, view, lights, light);
+  resolve();
+  draw_studio(frame, view);
+  check_gl("Stage::draw");
+}
+
+void Stage::upload(const Frame& frame) {
+  packed_.clear();
+  draws_.clear();
+  for (const auto* bodies : {&frame.bodies, &frame.obstacles})
+    for (const FrameBody& body : *bodies) {
+      if (body.corners.empty()) continue;
+      const auto first = static_cast<GLint>(packed_.size());
+      draws_.push_back(
+          {first, static_cast<GLsizei>(body.corners.size()), body.edges, body.two_sided, body.sides});
+      pack(body, packed_);
+    }
+  glBindBuffer(GL_ARRAY_BUFFER, corners_buffer_.name());
+  if (packed_.size() > capacity_) {
+    capacity_ = packed_.size() + packed_.size() / 4; // tearing adds a few corners a frame
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_ * sizeof(Corner)), nullptr, GL_STREAM_DRAW);
+  }
+  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(packed_.size() * sizeof(Corner)), packed_.data());
+}
+
+void Stage::draw_all() const {
+  glBindVertexArray(corners_array_.name());
+  if (!packed_.empty()) glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(packed_.size()));
+}
+
+void Stage::draw_shadow_map(const LightView& light) {
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow_.name());
+  glViewport(0, 0, shadow_side, shadow_side);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_SCISSOR_TEST); // an empty rim: beyond the edge there is no shadow
+  glScissor(1, 1, shadow_side - 2, shadow_side - 2);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(2, 2);
+  depth_.use();
+  depth_.set("world_to_clip", light.world_to_clip);
+  draw_all();
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light) {
+  const auto texel = static_cast<float>(2 * light.half / shadow_side);
+  body_.use();
+  body_.set("world_to_clip", view.world_to_clip());
+  body_.set("world_to_shadow", to_texture(light.world_to_clip));
+  body_.set("eye", Eigen::Vector3f(view.eye.cast<float>()));
+  body_.set("key", Eigen::Vector3f(lights.key.cast<float>()));
+  body_.set("fill", Eigen::Vector3f(lights.fill.cast<float>()));
+  body_.set("sky", Eigen::Vector3f(lights.sky.cast<float>()));
+  body_.set("shadow_offset", shadow_step_out * texel);
+  body_.set("shadow_spread", shadow_spread / shadow_side);
+  body_.set("line_scale", std::max(static_cast<float>(height_) / 720.0f, 0.5f));
+  const bool floor_seen = frame.floor && view.eye.z() > frame.floor->z;
+  const double hidden_below = floor_seen ? frame.floor->z - sunk * view.distance : -1e30;
+  body_.set("hidden_below", static_cast<float>(hidden_below));
+  body_.set("shadow", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
+  glBindVertexArray(corners_array_.name());
+  glEnable(GL_CLIP_DISTANCE0);
+  for (const Draw& draw : draws_) {
+    body_.set("cells", draw.edges ? 1 : 0);
+    body_.set("transmission", draw.two_sided ? 0.16f : 0.0f);
+    body_.set("back_tint", !draw.two_sided ? 0.4f : draw.sides ? 0.74f : 1.0f);
+    glDrawArrays(GL_TRIANGLES, draw.first, draw.count);
+  }
+  glDisable(GL_CLIP_DISTANCE0);
+}
+
+void Stage::resolve() {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+}
+
+// Puts floor and backdrop behind what is in the resolved picture, by its alpha.
+void Stage::draw_studio(const Frame& frame, const View& view) {
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+  const bool floor = frame.floor && view.eye.z() > frame.floor->z; // seen from below it is not there
+  const GlProgram& program = floor ? studio_ : backdrop_;
+  program.use();
+  program.set("background", colour_of(frame.background));
+  if (floor) set_floor(frame, view);
+  glBindVertexArray(no_array_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_BLEND);
+}
+
+// Lengths on the floor are taken from below the camera's target, in units of the floor's reach.
+void Stage::set_floor(const Frame& frame, const View& view) {
+  const double reach = floor_reach * view.distance;
+  const Eigen::Vector3d centre(frame.camera.target.x(), frame.camera.target.y(), frame.floor->z);
+  const Eigen::Matrix3d axes = view.world_to_eye.topLeftCorner<3, 3>().transpose();
+  const auto set = [&](const char* name, const auto& value) {
+    studio_.set(name, value.template cast<float>().eval());
+  };
+  set("eye_height", Eigen::Vector3d((view.eye - centre) / reach));
+  set("ray", Eigen::Vector3d(-axes.col(2)));
+  set("ray_x", Eigen::Vector3d(axes.col(0) / view.eye_to_clip(0, 0)));
+  set("ray_y", Eigen::Vector3d(axes.col(1) / view.eye_to_clip(1, 1)));
+  const Eigen::Matrix<double, 2, 3>& shade = floor_shadow_.shade_of_floor();
+  set("shade_origin", Eigen::Vector2d(shade.leftCols<2>() * centre.head<2>() + shade.col(2)));
+  set("shade_x", Eigen::Vector2d(shade.col(0) * reach));
+  set("shade_y", Eigen::Vector2d(shade.col(1) * reach));
+  studio_.set("shade", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, floor_shadow_.shade());
+}
+
+Image Stage::read() {
+  pixels_.resize(static_cast<std::size_t>(width_) * height_ * 4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+  check_gl("Stage::read");
+  Image image(width_, height_, 3);
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* from = pixels_.data() + static_cast<std::size_t>(height_ - 1 - y) * width_ * 4;
+    std::uint8_t* to = image.row(y);
+    for (int x = 0; x < width_; ++x, from += 4, to += 3) {
+      to[0] = from[0];
+      to[1] = from[1];
+      to[2] = from[2];
+    }
+  }
+  return image;
+}
+
+} // namespace rend

@@ -1,0 +1,72 @@
+// The stage: draws a Frame into a picture.
+//
+// Passes: shadow map from the key light ─▶ floor's shadows ─▶ bodies (with samples) ─▶ resolve ─▶ floor and
+// backdrop. Bodies are drawn over nothing, and the studio is put behind them afterwards, once a pixel: it has
+// no edges that samples would smooth, and covers most of the picture. What is under the floor is clipped away.
+// Both sides of every triangle are lit. Lines along cells are worked out in the fragment shader, from
+// barycentric coordinates, so they cost no geometry and are smooth at any size. The picture is a pure function
+// of the frame, the size and the number of samples: the same on every run, for any number of threads.
+//
+// A Device must be current, from construction to destruction.
+#pragma once
+
+#include "render/floor_shadow.h"
+#include "render/frame.h"
+#include "render/gl.h"
+#include "render/image.h"
+#include "render/light.h"
+
+namespace rend {
+
+class Stage {
+public:
+  // width, height [pixels]; samples a pixel: 1 or 4. Throws UserError (BadInput) for a size that cannot be
+  // drawn.
+  Stage(int width, int height, int samples);
+
+  // Afterwards the resolved picture is the bound framebuffer: an overlay may draw on it before read().
+  // CHECK: all numbers of the frame are finite.
+  void draw(const Frame& frame);
+  Image read(); // RGB
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+private:
+  struct Draw { // a body's corners in the vertex buffer
+    GLint first = 0;
+    GLsizei count = 0;
+    bool edges = true, two_sided = true, sides = true; // as in FrameBody
+  };
+
+  void make_targets(int samples);
+  void make_shadow_map();
+  void make_vertex_array();
+  void upload(const Frame& frame);
+  void draw_all() const;
+  void draw_shadow_map(const LightView& light);
+  void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light);
+  void resolve();
+  void draw_studio(const Frame& frame, const View& view);
+  void set_floor(const Frame& frame, const View& view);
+
+  int width_, height_, samples_;
+  GlProgram depth_{"depth.vert", "depth.frag"};
+  GlProgram body_{"body.vert", "body.frag"};
+  GlProgram studio_{"screen.vert", "studio.frag"};
+  GlProgram backdrop_{"screen.vert", "backdrop.frag"};
+  FloorShadow floor_shadow_;
+
+  GlFramebuffer target_, resolved_, shadow_;
+  GlRenderbuffer target_colour_, target_depth_, resolved_colour_;
+  GlTexture shadow_map_;
+  GlVertexArray corners_array_, no_array_; // the second: for passes that make up their own corners
+  GlBuffer corners_buffer_;
+  std::size_t capacity_ = 0; // of that buffer [corners]
+
+  std::vector<Corner> packed_;       // the frame's corners, ready for upload
+  std::vector<Draw> draws_;          // one a body
+  std::vector<std::uint8_t> pixels_; // RGBA, bottom row first: as OpenGL hands them over
+};
+
+} // namespace rend

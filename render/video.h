@@ -1,0 +1,38 @@
+// H.264 video in an .mp4 or .mkv file, by libav.
+//
+// The same pictures give the same file, byte for byte: a fixed number of encoder threads, the bit-exact flags
+// of codec, container and colour conversion, no dates and no names of programs. Colours are BT.709, limited
+// range, 4:2:0, and tagged so, which every player shows alike; the index stands in front (a browser starts at
+// once). 4:2:0 wants even sides: an odd picture is padded by repeating its last column or row.
+#pragma once
+
+#include "render/image.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace rend {
+
+// False where rend was built without REND_VIDEO: VideoWriter then throws on open.
+bool video_available();
+
+class VideoWriter {
+public:
+  VideoWriter();
+  ~VideoWriter(); // without close() nothing is left behind
+  VideoWriter(VideoWriter&&) noexcept;
+  VideoWriter& operator=(VideoWriter&&) noexcept;
+
+  // width, height [pixels], fps [1/s]. Throws UserError: Usage for a file type that is not known or a rend
+  // without video, CannotCreate where the file cannot be made.
+  void open(const std::filesystem::path& path, int width, int height, double fps);
+  void add(const Image& image); // CHECK: of the size given to open. Throws UserError (ReadWrite)
+  void close();                 // the file appears under its name. Throws UserError (ReadWrite)
+  bool is_open() const;
+
+private:
+  struct Encoder;
+  std::unique_ptr<Encoder> encoder_;
+};
+
+} // namespace rend

@@ -1,0 +1,142 @@
+// The parameter table: every element and attribute that a preset may hold, said once.
+//
+// An ElementType stands beside the code that uses it (a force declares its stiffness beside its formula). The
+// one table drives the reader, the defaults, `rend help preset` and the schema presets/scene.xsd. A Node is one
+// element of a preset after it was checked against its type: every attribute is there, with its default where
+// the preset is silent, finite and in range.
+#pragma once
+
+#include "sim/base/error.h"
+#include "sim/base/wording.h"
+
+#include <Eigen/Core>
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rend {
+
+enum class AttributeKind {
+  Number,  // one finite number
+  Numbers, // `count` finite numbers, separated by blanks (0: any count)
+  Integer,
+  Integers,     // `count` integers
+  Word,         // one of `words`
+  Words,        // any of `words`, separated by blanks
+  Flag,         // yes, no
+  Text,         // anything
+  NumberOrWord, // a number, or one of `words` (step="auto")
+};
+
+struct AttributeType {
+  std::string name;
+  AttributeKind kind = AttributeKind::Number;
+  std::string unit;                    // "N/m"; empty: a pure number or a word
+  std::string what;                    // one line for a reader of `rend help preset`
+  std::optional<std::string> fallback; // the default, as it would stand in the preset; none: may be absent
+  bool required = false;
+  int count = 0;                     // Numbers, Integers
+  std::vector<std::string> words;    // Word, Words, NumberOrWord
+  double low = -1e300, high = 1e300; // inclusive bounds of each number
+  bool open_low = false;             // low itself is refused (k > 0)
+
+  // A table reads as sentences: number("k", "N/m", "stiffness").at_least(0).is_required()
+  AttributeType& is_required();
+  AttributeType& otherwise(std::string value); // sets fallback
+  AttributeType& at_least(double bound);
+  AttributeType& above(double bound);
+  AttributeType& at_most(double bound);
+};
+
+AttributeType number(std::string name, std::string unit, std::string what);
+AttributeType numbers(std::string name, int count, std::string unit, std::string what);
+AttributeType integer(std::string name, std::string what);
+AttributeType integers(std::string name, int count, std::string what);
+AttributeType word(std::string name, std::vector<std::string> words, std::string what);
+AttributeType words_of(std::string name, std::vector<std::string> words, std::string what);
+AttributeType flag(std::string name, std::string what);
+AttributeType text(std::string name, std::string what);
+AttributeType number_or(std::string name, std::vector<std::string> words, std::string unit, std::string what);
+
+struct ElementType;
+
+// A child element and how often it may stand in its parent.
+struct ChildType {
+  const ElementType* type;
+  int at_least = 0;
+  int at_most = 1; // -1: any number
+};
+
+struct ElementType {
+  std::string name;
+  std::string what; // one line
+  std::vector<AttributeType> attributes;
+  std::vector<ChildType> children;
+  const AttributeType* find(std::string_view attribute) const; // null if there is none
+};
+
+// What a value must be, for messages and help: "2 whole numbers, each of at least 1", "auto, or a number above
+// 0 [s]".
+std::string expected(const AttributeType& attribute);
+
+// One checked element of a preset.
+class Node {
+public:
+  Node(const ElementType& type, Place place);
+
+  const ElementType& type() const { return *type_; }
+  const std::string& name() const { return type_->name; }
+  const Place& place() const { return place_; }
+  const Place& place(std::string_view attribute) const; // of its value; the element's where it is a default
+
+  bool has(std::string_view attribute) const;   // given, or by default
+  bool given(std::string_view attribute) const; // stands in the preset (or was set on the command line)
+
+  // Values. CHECK that the attribute is of that kind and is there.
+  double number(std::string_view attribute) const;
+  Eigen::Vector3d vector(std::string_view attribute) const; // of 3 numbers
+  const std::vector<double>& numbers(std::string_view attribute) const;
+  int integer(std::string_view attribute) const;
+  const std::vector<double>& integers(std::string_view attribute) const { return numbers(attribute); }
+  bool flag(std::string_view attribute) const;
+  const std::string& text(std::string_view attribute) const; // Text, Word, or the word of a NumberOrWord
+  const std::vector<std::string>& words(std::string_view attribute) const; // Words, in their order
+  bool is_word(std::string_view attribute) const;                          // NumberOrWord: a word stands there
+
+  std::span<const std::unique_ptr<Node>> children() const { return children_; }
+  const Node* child(std::string_view name) const; // the first of that name, or null
+  std::vector<const Node*> all(std::string_view name) const;
+
+  // A bad value: file:line:column of the attribute, exit 65.
+  [[noreturn]] void fail(std::string_view attribute, const std::string& what,
+                         const std::string& hint = {}) const;
+
+  // For readers: sets an attribute from its text. Throws UserError with `place` where it does not fit its type.
+  void set(const AttributeType& attribute, const std::string& value, const Place& place, bool given = true);
+  Node& add(std::unique_ptr<Node> child);
+  void fill_defaults();        // of this element and those below
+  void check_complete() const; // required attributes, too few or too many children, here and below
+
+private:
+  struct Value {
+    std::string text; // as it stands, without blanks around it (Text: with them)
+    std::vector<double> numbers;
+    std::vector<std::string> words;
+    bool word = false, given = false;
+    Place place;
+  };
+  struct Reading; // turns a text into a Value
+  const Value& value(std::string_view attribute, std::initializer_list<AttributeKind> kinds) const;
+
+  const ElementType* type_;
+  Place place_;
+  std::map<std::string, Value, std::less<>> values_;
+  std::vector<std::unique_ptr<Node>> children_;
+};
+
+} // namespace rend

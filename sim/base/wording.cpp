@@ -1,0 +1,90 @@
+#include "sim/base/wording.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <fmt/format.h>
+#include <vector>
+
+namespace rend {
+namespace {
+
+std::string small_letters(std::string_view name) {
+  std::string out(name);
+  for (char& c : out) {
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  }
+  return out;
+}
+
+// Row by row; three rows suffice, as a swap looks back two.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) above[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, above);
+    std::swap(above, row);
+  }
+  return above[b.size()];
+}
+
+} // namespace
+
+std::string nearest(std::string_view name, std::span<const std::string> names) {
+  const std::string wanted = small_letters(name);
+  std::string best;
+  std::size_t best_distance = 0;
+  for (const std::string& candidate : names) {
+    const std::string other = small_letters(candidate);
+    const std::size_t shorter = std::min(wanted.size(), other.size());
+    const std::size_t longer = std::max(wanted.size(), other.size());
+    const bool begins = shorter >= 3 && wanted.compare(0, shorter, other, 0, shorter) == 0;
+    const std::size_t allowed = wanted == other || shorter < 2 ? 0 : std::max<std::size_t>(1, shorter / 3);
+    // A name that is far too long is not measured: the distance costs the product of the lengths.
+    if (!begins && longer - shorter > allowed) continue;
+    const std::size_t distance =
+        begins ? std::min<std::size_t>(longer - shorter, 1) : edit_distance(wanted, other);
+    if (!begins && distance > allowed) continue;
+    if (best.empty() || distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string listed(std::span<const std::string> names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+std::string suggestion(std::string_view name, std::span<const std::string> names, std::string_view what) {
+  if (names.empty()) return {};
+  const std::string near = nearest(name, names);
+  std::string out = near.empty() ? "" : fmt::format("did you mean '{}'?", near);
+  if (what.empty()) return out;
+  if (!out.empty()) out += ' ';
+  return out + fmt::format("{}: {}", what, listed(names));
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t most = 60;
+  std::string out = "'";
+  std::size_t end = std::min(text.size(), most);
+  // A character of several bytes is not cut in two.
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  for (const char c : text.substr(0, end)) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += byte < 0x20 || byte == 0x7F ? ' ' : c;
+  }
+  return out + (end < text.size() ? "...'" : "'");
+}
+
+} // namespace rend

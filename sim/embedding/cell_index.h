@@ -1,0 +1,60 @@
+// The slots of one kind of orbit: which slot each dart's orbit has, and what an edit does to them.
+//
+// Slots are truth: a slot never moves because of a change elsewhere. When an orbit falls apart, the fragment with
+// the smallest dart keeps the slot and the others take new ones; when orbits become one, it keeps the slot of its
+// smallest dart. Freed slots are reused, the last freed first. At a full build slots are numbered by smallest dart.
+#pragma once
+
+#include "sim/topology/gmap.h"
+#include "sim/topology/map_edit.h"
+
+#include <utility>
+#include <vector>
+
+namespace rend {
+
+using Slot = std::uint32_t;
+constexpr Slot no_slot = Dart::none_value;
+
+// What one edit did to the slots of one kind of orbit, in the order in which it is to be applied.
+struct SlotEvents {
+  std::vector<std::pair<Slot, Slot>> splits; // (whole, new slot of a fragment)
+  std::vector<std::pair<Slot, Slot>> merges; // (kept, absorbed)
+  std::vector<Slot> births;                  // orbits without any old dart
+  std::vector<Slot> deaths;                  // slots without darts, absorbed ones included
+  std::vector<Slot> settled;                 // slots of all orbits that hold a touched dart
+  std::vector<Dart> moved;                   // darts whose slot is another than before
+  void clear();
+};
+
+class CellIndex {
+public:
+  // Numbers all orbits of the map.
+  CellIndex(const GMap& map, Orbit orbit);
+
+  Orbit orbit() const { return orbit_; }
+  Slot slot(Dart d) const { return slot_of_dart_[d.value]; }
+  Slot find(Dart d) const {
+    return d.value < slot_of_dart_.size() ? slot(d) : no_slot;
+  }                                                        // for darts too new to have one
+  Dart first_dart(Slot s) const { return first_dart_[s]; } // the smallest of the orbit; none: the slot is free
+  bool alive(Slot s) const { return static_cast<bool>(first_dart_[s]); }
+  std::size_t slots() const { return first_dart_.size(); } // free ones included
+  std::size_t count() const { return first_dart_.size() - free_.size(); }
+  std::size_t bytes() const;
+
+  // Brings the slots up to date after the changes of `journal`, from the darts that it names alone.
+  void update(const GMap& map, const Journal& journal, SlotEvents& events);
+
+private:
+  struct Fragment;
+  void settle(Fragment& fragment, SlotEvents& events);
+  Slot new_slot();
+
+  Orbit orbit_;
+  std::vector<Slot> slot_of_dart_; // one per dart; no_slot: removed
+  std::vector<Dart> first_dart_;   // one per slot
+  std::vector<Slot> free_;         // reused from the back
+};
+
+} // namespace rend

@@ -1,0 +1,86 @@
+// Embeddings: a value on every orbit of one kind, and what becomes of it when the orbit changes.
+//
+// An embedding is a small type that says where it lives and what its policies are; no operator ever updates one.
+//
+//   struct CornerMass {
+//     using Value = double;                                 // [kg]
+//     std::string name = "corner mass";
+//     Orbit orbit = VertexOfFace;                           // who carries it
+//     Orbit support = FaceOfVolume;                         // whose shape it depends on
+//     Value birth(const EmbeddedMap&, Dart) const;          // a new orbit, or one whose support changed its links
+//     Value split(const Value& whole) const;                // a new fragment's share; the kept one keeps its value
+//     Value merge(const Value& kept, const Value& absorbed) const; // without one, what was merged is born again
+//   };
+//
+// `support` must contain `orbit`'s element: when any link of the support orbit changes, all values whose orbit holds
+// a dart of it are born again. A separation (α2 of a sheet, α3 of a solid) changes no element, so that a value with
+// support <0,1> (<0,1,2>) never notices one. support = orbit: only the orbit's own events count.
+#pragma once
+
+#include "sim/base/record.h"
+#include "sim/embedding/cell_index.h"
+
+#include <string>
+#include <vector>
+
+namespace rend {
+
+class EmbeddedMap;
+
+class ColumnBase {
+public:
+  virtual ~ColumnBase() = default;
+  virtual const std::string& name() const = 0;
+  virtual Orbit orbit() const = 0;
+  virtual Orbit support() const = 0;
+  virtual std::size_t bytes() const = 0;
+
+  // For EmbeddedMap alone.
+  virtual void resize(std::size_t slots) = 0;
+  virtual void apply(const EmbeddedMap& map, const CellIndex& cells, const SlotEvents& events) = 0;
+  virtual void bear(const EmbeddedMap& map, const CellIndex& cells, Slot slot) = 0;
+};
+
+template <class E> class Column final : public ColumnBase {
+public:
+  using Value = typename E::Value;
+
+  explicit Column(E embedding) : embedding_(std::move(embedding)) {}
+
+  const E& embedding() const { return embedding_; }
+  const std::string& name() const override { return embedding_.name; }
+  Orbit orbit() const override { return embedding_.orbit; }
+  Orbit support() const override { return embedding_.support; }
+  std::size_t bytes() const override { return values_.capacity() * sizeof(Value); }
+
+  // One per slot of the orbit; what free slots hold is not defined.
+  Value& operator[](Slot slot) { return values_[slot]; }
+  const Value& operator[](Slot slot) const { return values_[slot]; }
+  std::vector<Value>& values() { return values_; }
+  const std::vector<Value>& values() const { return values_; }
+
+  void resize(std::size_t slots) override { values_.resize(slots); }
+
+  void apply(const EmbeddedMap& map, const CellIndex& cells, const SlotEvents& events) override {
+    resize(cells.slots());
+    for (auto [whole, fragment] : events.splits) values_[fragment] = embedding_.split(values_[whole]);
+    for (auto [kept, absorbed] : events.merges) {
+      if constexpr (requires { embedding_.merge(values_[kept], values_[absorbed]); })
+        values_[kept] = embedding_.merge(values_[kept], values_[absorbed]);
+      else
+        bear(map, cells, kept);
+    }
+    for (Slot slot : events.deaths) values_[slot] = Value{};
+    for (Slot slot : events.births) bear(map, cells, slot);
+  }
+
+  void bear(const EmbeddedMap& map, const CellIndex& cells, Slot slot) override {
+    values_[slot] = embedding_.birth(map, cells.first_dart(slot));
+  }
+
+private:
+  E embedding_;
+  std::vector<Value> values_; // one per slot
+};
+
+} // namespace rend

@@ -1,0 +1,210 @@
+#include "sim/embedding/embedded_map.h"
+
+#include "sim/base/check.h"
+#include "sim/topology/validate.h"
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include <algorithm>
+
+namespace rend {
+
+void Changes::clear() {
+  if (!any) return;
+  for (auto& list : touched) list.clear();
+  for (auto& list : moved) list.clear();
+  for (auto& list : slots) list.clear();
+  any = false;
+}
+
+EmbeddedMap::EmbeddedMap(int dimension) : EmbeddedMap(GMap(dimension), [](Dart) { return Point{}; }) {}
+
+EmbeddedMap::EmbeddedMap(GMap map, const std::function<Point(Dart)>& point_of) : map_(std::move(map)) {
+  const CellIndex& vertices = use(Vertex);
+  position_ = &add(VertexRecord{"position"});
+  rest_ = &add(VertexRecord{"rest position"});
+  velocity_ = &add(VertexRecord{"velocity"});
+  for (Slot v = 0; v < vertices.slots(); ++v) {
+    const Point point = point_of(vertices.first_dart(v));
+    (*position_)[v] = point.position;
+    (*rest_)[v] = point.rest;
+    (*velocity_)[v] = point.velocity;
+  }
+}
+
+const CellIndex& EmbeddedMap::use(Orbit orbit) {
+  auto& index = cells_[orbit.mask];
+  if (!index) index = std::make_unique<CellIndex>(map_, orbit);
+  return *index;
+}
+
+const CellIndex& EmbeddedMap::cells(Orbit orbit) const {
+  CHECK_NOTE(cells_[orbit.mask], to_string(orbit));
+  return *cells_[orbit.mask];
+}
+
+void EmbeddedMap::adopt(std::unique_ptr<ColumnBase> column) {
+  const CellIndex& index = use(column->orbit());
+  column->resize(index.slots());
+  for (Slot slot = 0; slot < index.slots(); ++slot)
+    if (index.alive(slot)) column->bear(*this, index, slot);
+  columns_.push_back(std::move(column));
+}
+
+void EmbeddedMap::edit(const std::function<void(Edit&)>& change) {
+  journal_.clear();
+  Edit edit(map_, journal_, *this);
+  change(edit);
+  if (journal_.empty()) return;
+  close(edit);
+#ifdef REND_VALIDATE
+  if (const auto fault = validate(*this)) CHECK_NOTE(!fault, *fault);
+#endif
+}
+
+void EmbeddedMap::close(const Edit& edit) {
+  for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
+    born_[mask].clear();
+    if (cells_[mask]) cells_[mask]->update(map_, journal_, events_[mask]);
+  }
+  for (auto& column : columns_) {
+    const std::size_t mask = column->orbit().mask;
+    column->apply(*this, *cells_[mask], events_[mask]);
+    if (column.get() == velocity_) give_points(edit); // what follows is born from rest positions
+    if (column->support() != column->orbit()) bear_reshaped(*column);
+  }
+  publish();
+}
+
+void EmbeddedMap::give_points(const Edit& edit) {
+  const CellIndex& vertices = *cells_[Vertex.mask];
+  std::vector<Dart> darts;
+  for (Slot v : events_[Vertex.mask].births) {
+    std::uint32_t given = edit.given_.find(vertices.first_dart(v).value);
+    if (given == IndexMap::none) { // not the smallest dart: the next of them
+      darts.clear();
+      collect(map_, Vertex, vertices.first_dart(v), darts);
+      std::sort(darts.begin(), darts.end());
+      for (Dart d : darts)
+        if (given == IndexMap::none) given = edit.given_.find(d.value);
+    }
+    CHECK_NOTE(given != IndexMap::none, "a new vertex was given no point");
+    const Point& point = edit.points_[given];
+    (*position_)[v] = point.position;
+    (*rest_)[v] = point.rest;
+    (*velocity_)[v] = point.velocity;
+  }
+}
+
+void EmbeddedMap::bear_reshaped(ColumnBase& column) {
+  thread_local std::vector<Dart> darts;
+  thread_local IndexSet seen, done;
+  const Orbit support = column.support();
+  const CellIndex& index = *cells_[column.orbit().mask];
+  seen.clear();
+  done.clear();
+  for (Slot slot : events_[column.orbit().mask].births) done.insert(slot); // just born
+  for (int i = 0; i < 4; ++i) {
+    if (!support.has(i)) continue;
+    for (Dart touched : journal_.touched[static_cast<std::size_t>(i)]) {
+      if (!map_.alive(touched) || seen.contains(touched.value)) continue;
+      darts.clear();
+      collect(map_, support, touched, darts);
+      for (Dart d : darts) {
+        seen.insert(d.value);
+        const Slot slot = index.slot(d);
+        if (!done.insert(slot)) continue;
+        column.bear(*this, index, slot);
+        born_[column.orbit().mask].push_back(slot);
+      }
+    }
+  }
+}
+
+void EmbeddedMap::publish() {
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  for (Changes* changes : readers_) {
+    changes->any = true;
+    for (std::size_t i = 0; i < 4; ++i) append(changes->touched[i], journal_.touched[i]);
+    for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
+      if (!cells_[mask]) continue;
+      const SlotEvents& events = events_[mask];
+      append(changes->moved[mask], events.moved);
+      auto& slots = changes->slots[mask];
+      append(slots, events.settled);
+      append(slots, events.deaths);
+      append(slots, born_[mask]);
+    }
+  }
+}
+
+std::size_t EmbeddedMap::bytes() const {
+  std::size_t total = 0;
+  for (const auto& index : cells_)
+    if (index) total += index->bytes();
+  for (const auto& column : columns_) total += column->bytes();
+  return total;
+}
+
+std::uint32_t Edit::add_point(const Point& point) {
+  points_.push_back(point);
+  return static_cast<std::uint32_t>(points_.size() - 1);
+}
+
+Point Edit::point(Dart d) const {
+  if (const std::uint32_t given = given_.find(d.value); given != IndexMap::none) return points_[given];
+  const Slot v = embedded_.cells(Vertex).find(d);
+  CHECK_NOTE(v != no_slot, "the dart was created by this edit and given no point");
+  return {embedded_.position()[v], embedded_.rest()[v], embedded_.velocity()[v]};
+}
+
+namespace {
+
+std::optional<std::string> fault_of_slots(const EmbeddedMap& embedded, const CellIndex& index) {
+  const GMap& map = embedded.map();
+  std::vector<char> met(index.slots(), 0);
+  std::vector<char> seen(map.capacity(), 0);
+  std::optional<std::string> fault;
+  std::vector<Dart> darts;
+  map.for_each_dart([&](Dart first) {
+    if (fault || seen[first.value]) return;
+    const Slot slot = index.slot(first);
+    const std::string where = fmt::format("{} of dart {}", name(index.orbit()), first.value);
+    if (slot == no_slot)
+      fault = where + " has no slot";
+    else if (met[slot])
+      fault = fmt::format("{} shares slot {} with another orbit", where, slot);
+    else if (index.first_dart(slot) != first)
+      fault = where + ": its slot does not know its smallest dart";
+    if (fault) return;
+    met[slot] = 1;
+    darts.clear();
+    collect(map, index.orbit(), first, darts);
+    for (Dart d : darts) {
+      seen[d.value] = 1;
+      if (index.slot(d) != slot) fault = fmt::format("{}: dart {} has another slot", where, d.value);
+    }
+  });
+  for (Slot slot = 0; slot < index.slots() && !fault; ++slot)
+    if (index.alive(slot) && !met[slot])
+      fault = fmt::format("slot {} of {} lives without darts", slot, name(index.orbit()));
+  return fault;
+}
+
+} // namespace
+
+std::optional<std::string> validate(const EmbeddedMap& embedded) {
+  if (const auto fault = validate(embedded.map())) return fault->text();
+  for (int mask = 0; mask < orbit_kinds; ++mask) {
+    Orbit orbit;
+    orbit.mask = static_cast<std::uint8_t>(mask);
+    if (!embedded.uses(orbit)) continue;
+    if (auto fault = fault_of_slots(embedded, embedded.cells(orbit))) return fault;
+  }
+  return {};
+}
+
+} // namespace rend

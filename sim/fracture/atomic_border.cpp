@@ -1,0 +1,43 @@
+// The atomic criterion on edges (thesis 7.3): |(f_1 − f_2)·n|, with f_i the force that element i applies to the two
+// shared vertices. |f_1 − f_2| bounds it.
+#include "sim/fracture/border.h"
+#include "sim/fracture/criterion.h"
+
+#include <cmath>
+
+namespace rend {
+namespace {
+
+class AtomicBorder final : public Criterion {
+public:
+  explicit AtomicBorder(EmbeddedMap& map) : borders_(bind_borders(map, true)) {}
+
+  void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
+    const PackedRows& rows = borders_.rows();
+    const std::uint32_t *a1 = rows.index(2), *b1 = rows.index(3), *a2 = rows.index(4), *b2 = rows.index(5);
+    rows.for_each([&](std::size_t key, std::size_t row) {
+      const Vec3 difference = (view.corner[a1[row]].vec() + view.corner[b1[row]].vec()) -
+                              (view.corner[a2[row]].vec() + view.corner[b2[row]].vec());
+      if (difference.squaredNorm() <= threshold * threshold) return;
+      const Dart d = view.map.cells(EdgeOfVolume).first_dart(borders_.owner_of(key));
+      const double value = std::abs(difference.dot(across_border(view.map, view.position, d)));
+      if (value > threshold) candidates.push_back({value, d});
+    });
+  }
+
+  void rebind(const Changes& changes) override { borders_.rebind(changes); }
+  std::size_t bytes() const override { return borders_.rows().bytes(); }
+
+private:
+  Binder borders_;
+};
+
+} // namespace
+
+CriterionType atomic_border() {
+  return {"atomic-border", "|difference of the forces that the two elements apply, across the border|", "N",
+          Cell::Borders, true, "separate",
+          [](EmbeddedMap& map) -> std::unique_ptr<Criterion> { return std::make_unique<AtomicBorder>(map); }};
+}
+
+} // namespace rend

@@ -1,0 +1,15 @@
+#include "sim/fracture/change.h"
+
+namespace rend {
+
+const std::vector<ChangeType>& all_changes() {
+  static const std::vector<ChangeType> list{separate()};
+  return list;
+}
+
+const std::vector<CriterionType>& all_criteria() {
+  static const std::vector<CriterionType> list{global_border(), atomic_border()};
+  return list;
+}
+
+} // namespace rend

@@ -1,0 +1,54 @@
+// A law of tearing: a criterion, a threshold and a change, freely combined where their places fit (thesis 7.1).
+//
+// All candidates of a law are found on the unchanged map; then the changes are made in order, the largest value
+// first, ties by smallest dart, each checked again for being still possible; and the map is brought up to date once.
+#pragma once
+
+#include "sim/fracture/change.h"
+#include "sim/fracture/criterion.h"
+
+#include <limits>
+
+namespace rend {
+
+struct LawSettings {
+  const CriterionType* criterion = nullptr;
+  const ChangeType* change = nullptr;
+  double threshold = 0;
+  double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
+  int max_per_step = 0;                                             // 0: any number
+};
+
+// One applied change.
+struct TearEvent {
+  double time = 0; // [s]
+  long step = 0;
+  int law = 0; // of its body
+  double value = 0;
+  Dart dart;
+  Vec3 place = Vec3::Zero(); // [m], the middle of the cell
+};
+
+class TearLaw {
+public:
+  TearLaw(EmbeddedMap& map, const LawSettings& settings);
+
+  const LawSettings& settings() const { return settings_; }
+  bool active(double time) const { return time >= settings_.from && time <= settings_.until; }
+
+  // What exceeds the threshold, sorted. Looks, and changes nothing.
+  const std::vector<Candidate>& find(const ForceView& view);
+
+  // Makes the changes that find() asked for. Returns how many were made; appends an event for each.
+  int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events);
+
+  void rebind(const Changes& changes) { criterion_->rebind(changes); }
+  std::size_t bytes() const { return criterion_->bytes() + candidates_.capacity() * sizeof(Candidate); }
+
+private:
+  LawSettings settings_;
+  std::unique_ptr<Criterion> criterion_;
+  std::vector<Candidate> candidates_;
+};
+
+} // namespace rend

@@ -1,0 +1,14 @@
+// Separate: two elements let go of their common border. On a sheet α2 is unsewn along an edge (thesis fig. 7.5), in
+// a solid α3 along a face.
+#include "sim/fracture/change.h"
+
+namespace rend {
+
+ChangeType separate() {
+  return {"separate", "the two elements at the border let go of each other", {Cell::Borders},
+          [](Edit& edit, const ForceView&, const Candidate& candidate) {
+            return unsew(edit, edit.map().dimension(), candidate.dart);
+          }};
+}
+
+} // namespace rend

@@ -1,0 +1,28 @@
+// Explicit Euler, thesis 2.36:   v' = v + dt a(x, v),   x' = x + dt v
+//
+// Order 1. Without damping it gains energy at any step; with it, stable up to 2ξ/ω.
+#include "sim/integrate/integrator.h"
+
+namespace rend {
+namespace {
+
+class ExplicitEuler final : public Integrator {
+  void advance(System& system, double time, double step, const StateView& now, const Record* force,
+               State& next) override {
+    for (std::size_t i = 0; i < system.vertices(); ++i) {
+      const Vec3 v = now.velocity[i];
+      next.velocity[i] = Vec3(v + step * system.acceleration(i, force[i], v));
+      next.position[i] = Vec3(now.position[i].vec() + step * v);
+    }
+    system.constrain(time + step, next.position.data(), next.velocity.data());
+  }
+};
+
+} // namespace
+
+Scheme explicit_euler() {
+  return {"explicit", "explicit Euler: stable through damping alone", 1, 1, &limit_by_drag,
+          []() -> std::unique_ptr<Integrator> { return std::make_unique<ExplicitEuler>(); }};
+}
+
+} // namespace rend

@@ -1,0 +1,34 @@
+#include "sim/integrate/integrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rend {
+
+const std::vector<Scheme>& all_schemes() {
+  static const std::vector<Scheme> schemes{symplectic_euler(), explicit_euler(), velocity_verlet(), midpoint(),
+                                           runge_kutta_4()};
+  return schemes;
+}
+
+const Scheme* find_scheme(const std::string& name) {
+  for (const Scheme& scheme : all_schemes())
+    if (scheme.name == name) return &scheme;
+  return nullptr;
+}
+
+double limit_symplectic(const StabilityBounds& b) {
+  const double d = b.damping_rate / 2;
+  const double speed = std::sqrt(b.omega_squared + d * d) + d;
+  return speed > 0 ? 2 / speed : std::numeric_limits<double>::infinity();
+}
+
+double limit_by_drag(const StabilityBounds& b) {
+  if (b.omega_squared == 0 && b.damping_rate == 0) return std::numeric_limits<double>::infinity();
+  if (b.omega_squared == 0) return 2 / b.damping_rate;
+  const double by_drag = b.least_drag_rate / b.omega_squared;
+  return std::min(by_drag, b.damping_rate > 0 ? 1 / b.damping_rate : by_drag);
+}
+
+} // namespace rend

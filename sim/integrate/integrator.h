@@ -1,0 +1,50 @@
+// Time schemes (thesis 2.4; design: mechanics, "Time"): one file each, and one word in all_schemes().
+#pragma once
+
+#include "sim/integrate/system.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+class Integrator {
+public:
+  virtual ~Integrator() = default;
+
+  // One step from `now` at `time` over `step` into `next` (resized by the caller). `force` holds the internal forces
+  // of `now`, which the laws have looked at already: no scheme pays an evaluation for them.
+  virtual void advance(System& system, double time, double step, const StateView& now, const Record* force,
+                       State& next) = 0;
+};
+
+// ω² and damping rates that bound those of every mode; see Program::Bounds.
+struct StabilityBounds {
+  double omega_squared = 0;   // [1/s²]
+  double damping_rate = 0;    // the largest 2ξω [1/s]
+  double least_drag_rate = 0; // the smallest [1/s]
+};
+
+struct Scheme {
+  std::string name, what;
+  int order = 1;
+  int evaluations = 1;                       // of the forces, a step
+  double (*limit)(const StabilityBounds&);   // a stable step [s]; 0: there is none; infinity: all are
+  std::unique_ptr<Integrator> (*make)();
+};
+
+const std::vector<Scheme>& all_schemes();
+const Scheme* find_scheme(const std::string& name); // null: there is none
+
+Scheme explicit_euler();
+Scheme symplectic_euler();
+Scheme velocity_verlet();
+Scheme midpoint();
+Scheme runge_kutta_4();
+
+// Limits that schemes share. With ω and d = ξω bounded separately, since they belong to different modes:
+double limit_symplectic(const StabilityBounds& bounds);  // 2/(√(ω²+d²) + d)
+double limit_by_drag(const StabilityBounds& bounds);     // 2d/ω² with the least d: stable through damping alone
+
+} // namespace rend

@@ -1,0 +1,50 @@
+// What a time scheme may ask of a body: m dv/dt = f(x, v) + m g − γ v + loads, dx/dt = v, with some vertices prescribed.
+#pragma once
+
+#include "sim/base/record.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace rend {
+
+// Positions [m] and velocities [m/s], one per vertex slot.
+struct State {
+  std::vector<Record> position, velocity;
+  void resize(std::size_t vertices) {
+    position.resize(vertices);
+    velocity.resize(vertices);
+  }
+};
+
+// The same, to be read alone.
+struct StateView {
+  const Record *position, *velocity;
+};
+
+class System {
+public:
+  virtual ~System() = default;
+
+  virtual std::size_t vertices() const = 0; // slots
+
+  // Internal forces [N], one per vertex slot.
+  virtual void forces(double time, const Record* position, const Record* velocity, Record* force) = 0;
+
+  // Puts prescribed vertices where they are at `time`, and gives them their velocity there.
+  virtual void constrain(double time, Record* position, Record* velocity) = 0;
+
+  // dv/dt of a free vertex under the internal force f.
+  Vec3 acceleration(std::size_t vertex, const Record& f, const Vec3& v) const {
+    double rate = uniform_drag;
+    if (drag_rate) rate += drag_rate[vertex];
+    return f.vec() * inverse_mass[vertex] + gravity - rate * v;
+  }
+
+  const double* inverse_mass = nullptr; // [1/kg], one per vertex slot; 0: free slot
+  const double* drag_rate = nullptr;    // γ/m [1/s], one per vertex slot, or null
+  double uniform_drag = 0;              // γ/m [1/s], of all vertices
+  Vec3 gravity = Vec3::Zero();          // [m/s²]
+};
+
+} // namespace rend

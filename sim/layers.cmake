@@ -1,0 +1,63 @@
+# rend_library(FOLDER DEPENDS folder... LINKS target... [EXCLUDE file...])
+#
+# Makes one library of all .cpp files of FOLDER (such as sim/topology) and lets it include headers of its own
+# folder and of DEPENDS and what those depend on, and of no other: the check runs before the library compiles.
+# The library of sim/topology is called rend_topology.
+
+if(CMAKE_SCRIPT_MODE_FILE)
+  cmake_policy(VERSION 3.25) # a script starts without policies; IN_LIST needs one
+  # The check itself: cmake -DROOT=... -DALLOWED=a,b,c -DFILES=x,y -DSTAMP=... -P layers.cmake
+  string(REPLACE "," ";" ALLOWED "${ALLOWED}")
+  string(REPLACE "," ";" FILES "${FILES}")
+  foreach(file IN LISTS FILES)
+    file(STRINGS ${file} includes REGEX "^[ \t]*#[ \t]*include[ \t]+\"(sim|render)/")
+    foreach(line IN LISTS includes)
+      string(REGEX REPLACE "^[^\"]*\"([^\"]*)/[^/\"]*\".*$" "\\1" folder "${line}")
+      if(NOT folder IN_LIST ALLOWED)
+        string(REPLACE ";" " " allowed "${ALLOWED}")
+        message(FATAL_ERROR "${file} includes from ${folder}; it may include from: ${allowed}")
+      endif()
+    endforeach()
+  endforeach()
+  file(TOUCH ${STAMP})
+  return()
+endif()
+
+function(rend_library FOLDER)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LINKS;EXCLUDE" ${ARGN})
+  get_filename_component(name ${FOLDER} NAME)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${FOLDER}/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${FOLDER}/*.h)
+  foreach(file IN LISTS ARG_EXCLUDE)
+    list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/${FOLDER}/${file})
+  endforeach()
+  set(allowed ${FOLDER})
+  set(libraries "")
+  foreach(dependency IN LISTS ARG_DEPENDS)
+    get_filename_component(library ${dependency} NAME)
+    get_property(below GLOBAL PROPERTY REND_ALLOWED_${library})
+    list(APPEND allowed ${below})
+    list(APPEND libraries rend_${library})
+  endforeach()
+  list(REMOVE_DUPLICATES allowed)
+  set_property(GLOBAL PROPERTY REND_ALLOWED_${name} "${allowed}")
+
+  set(stamp ${CMAKE_CURRENT_BINARY_DIR}/${name}.layers)
+  string(REPLACE ";" "," allowed_text "${allowed}")
+  set(files ${sources} ${headers})
+  string(REPLACE ";" "," files_text "${files}")
+  add_custom_command(OUTPUT ${stamp} DEPENDS ${files} ${PROJECT_SOURCE_DIR}/sim/layers.cmake
+    COMMAND ${CMAKE_COMMAND} -DALLOWED=${allowed_text} -DFILES=${files_text} -DSTAMP=${stamp}
+            -P ${PROJECT_SOURCE_DIR}/sim/layers.cmake
+    COMMENT "Layers of ${FOLDER}" VERBATIM)
+  add_custom_target(layers_${name} DEPENDS ${stamp})
+
+  if(sources)
+    add_library(rend_${name} STATIC ${sources})
+    target_link_libraries(rend_${name} PUBLIC rend_flags ${libraries} ${ARG_LINKS})
+  else()
+    add_library(rend_${name} INTERFACE)
+    target_link_libraries(rend_${name} INTERFACE rend_flags ${libraries} ${ARG_LINKS})
+  endif()
+  add_dependencies(rend_${name} layers_${name})
+endfunction()

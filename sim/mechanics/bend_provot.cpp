@@ -1,0 +1,41 @@
+#include "sim/mechanics/bend_provot.h"
+
+#include "sim/mechanics/young.h"
+
+namespace rend {
+namespace {
+
+const std::vector<Word> across{"10", "210"};
+
+bool present(const GMap& map, Dart d) {
+  if (map.is_free(2, d)) return false;
+  const Dart left = map.alpha(1, d), right = map.alpha(1, map.alpha(2, d));
+  return !map.is_free(0, left) && !map.is_free(0, right) && left != d && right != map.alpha(2, d);
+}
+
+std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& request) {
+  if (!has_inner_edge(map)) {
+    request.notes.push_back("bend was left out: no edge lies between two faces");
+    return nullptr;
+  }
+  Pattern pattern{.owner = EdgeEndOfVolume,
+                  .support = FaceOfVolume,
+                  .units = {across},
+                  .fold = {"0", "121"},
+                  .present = &present};
+  const StiffnessOf k = stiffness_of(request, nullptr);
+  const double damping = request.node.number("damping");
+  return make_interaction<1>(map, "bend provot", Law::Spring, pattern, damping,
+                             [=](const EmbeddedMap& body, Dart d, int) {
+                               const std::vector<Vec3> x = rest_positions(body, d, across);
+                               return UnitParameters{k(body, d), damping, (x[1] - x[0]).norm()};
+                             });
+}
+
+} // namespace
+
+InteractionType bend_provot() {
+  return {"bend", "provot", "springs between the far ends of the edges that continue across an edge", "N/m", make};
+}
+
+} // namespace rend

@@ -1,0 +1,43 @@
+#include "sim/mechanics/interaction.h"
+
+#include "sim/mechanics/bend_angular.h"
+#include "sim/mechanics/bend_provot.h"
+#include "sim/mechanics/shear_face.h"
+#include "sim/mechanics/stretch.h"
+#include "sim/topology/walk.h"
+
+namespace rend {
+
+const std::vector<InteractionType>& all_interactions() {
+  static const std::vector<InteractionType> list{stretch(), shear_face_isotropic(), shear_face_anisotropic(),
+                                                 bend_provot(), bend_angular()};
+  return list;
+}
+
+int sides_of_face(const GMap& map, Dart d) {
+  int darts = 0;
+  bool closed = true;
+  walk_two(map, 0, 1, d, [&](Dart e) {
+    ++darts;
+    closed = closed && !map.is_free(0, e) && !map.is_free(1, e);
+  });
+  return closed ? darts / 2 : 0;
+}
+
+void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f) {
+  std::vector<char> seen(body.map().capacity(), 0);
+  body.map().for_each_dart([&](Dart d) {
+    if (seen[d.value]) return;
+    walk_two(body.map(), 0, 1, d, [&](Dart e) { seen[e.value] = 1; });
+    f(d);
+  });
+}
+
+std::vector<Vec3> rest_positions(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit) {
+  std::vector<Vec3> points;
+  points.reserve(unit.size());
+  for (const Word& word : unit) points.push_back(body.rest_of(body.map().follow(d, word)));
+  return points;
+}
+
+} // namespace rend

@@ -1,0 +1,123 @@
+// What an interaction is: an orbit that causes it, a pattern that names its particles, a law that gives the force.
+//
+// (thesis 6.2; design: mechanics, "Interactions".) The parameters are embedded on the orbit that causes the
+// interaction (the owner), so that a separation leaves them alone. The pattern is data, words of α-links, so that it
+// can be walked forwards (to bind rows) and backwards (to find which rows an edit concerns). One owner may carry
+// several units: a rectangle carries two diagonals.
+//
+// Adding one: a file with a function `InteractionType my_interaction()`, and its name in all_interactions().
+#pragma once
+
+#include "sim/base/parameters.h"
+#include "sim/embedding/embedded_map.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+// Links to follow from left to right: "010" is α0, then α1, then α0.
+using Word = std::string;
+
+struct Pattern {
+  Orbit owner;                          // carries the parameters
+  Orbit support;                        // whose links the rest state depends on
+  std::vector<std::vector<Word>> units; // of each unit, where its particles are from the owner's first dart
+  // Owners whose units may act between the same particles: their rows fold into one, that of the smallest slot.
+  // Each word is a palindrome or a single link, so that the relation goes both ways.
+  std::vector<Word> fold;
+  bool (*present)(const GMap&, Dart);   // is the pattern there? (an injective match; else the owner is silent)
+};
+
+// Of one unit, or of several folded into one (k and damping summed, the rest state is common).
+struct UnitParameters {
+  double k = 0;       // [N/m] (spring), [N·m/rad] (hinge)
+  double damping = 0; // [N·s/m], [N·m·s/rad]
+  double rest = 0;    // length [m], angle [rad]
+};
+
+enum class Law { Spring, Hinge };
+constexpr int particles_of(Law law) { return law == Law::Spring ? 2 : 6; }
+
+class Interaction {
+public:
+  virtual ~Interaction() = default;
+  std::string name; // "stretch", "shear isotropic", ...
+  Law law = Law::Spring;
+  Pattern pattern;
+  bool damped = false; // some unit has damping
+  virtual UnitParameters parameters(Slot owner, int unit) const = 0;
+};
+
+// The material of springs whose stiffness comes from a formula.
+struct SpringMaterial {
+  double young = 0;     // E [Pa]
+  double poisson = 0;   // ν
+  double thickness = 0; // h [m]
+};
+
+// A body's request for an interaction: one element of its <springs>.
+struct InteractionRequest {
+  const Node& node; // k, damping, kind, ...
+  std::optional<SpringMaterial> material;
+  std::vector<std::string>& notes; // what the preset's author should know
+};
+
+struct InteractionType {
+  std::string element; // "stretch", "shear", "bend"
+  std::string kind;    // its `kind`, where an element has several
+  std::string what;    // one line
+  std::string k_unit;
+  // Adds the embeddings to the map. Null: it would add nothing here, and a note says why. Throws UserError.
+  std::function<std::unique_ptr<Interaction>(EmbeddedMap&, const InteractionRequest&)> make;
+};
+
+const std::vector<InteractionType>& all_interactions();
+
+// The sides of the face of d; 0 if it is not closed.
+int sides_of_face(const GMap& map, Dart d);
+
+// Calls f(first dart) for every face (<0,1>), in the order of their smallest darts.
+void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f);
+
+// Rest positions of the particles of a unit.
+std::vector<Vec3> rest_positions(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit);
+
+// The embedding of an interaction's parameters: born from rest positions and stiffness; a fragment keeps them.
+template <int Units>
+struct UnitEmbedding {
+  using Value = std::array<UnitParameters, Units>;
+  std::string name;
+  Orbit orbit, support;
+  std::function<UnitParameters(const EmbeddedMap&, Dart, int unit)> bear;
+  Value birth(const EmbeddedMap& map, Dart d) const {
+    Value value;
+    for (int unit = 0; unit < Units; ++unit) value[static_cast<std::size_t>(unit)] = bear(map, d, unit);
+    return value;
+  }
+  Value split(const Value& whole) const { return whole; }
+};
+
+// Puts an interaction together from its parts.
+template <int Units>
+std::unique_ptr<Interaction> make_interaction(EmbeddedMap& map, std::string name, Law law, Pattern pattern,
+                                              double damping,
+                                              std::function<UnitParameters(const EmbeddedMap&, Dart, int)> bear) {
+  struct Carried final : Interaction {
+    const Column<UnitEmbedding<Units>>* column = nullptr;
+    UnitParameters parameters(Slot owner, int unit) const override {
+      return (*column)[owner][static_cast<std::size_t>(unit)];
+    }
+  };
+  auto made = std::make_unique<Carried>();
+  made->column = &map.add(UnitEmbedding<Units>{name, pattern.owner, pattern.support, std::move(bear)});
+  made->name = std::move(name);
+  made->law = law;
+  made->pattern = std::move(pattern);
+  made->damped = damping > 0;
+  return made;
+}
+
+} // namespace rend

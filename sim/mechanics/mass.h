@@ -1,0 +1,51 @@
+// Mass and ambient viscosity of element corners.
+//
+// Each corner of an element carries its share; a vertex's mass is the sum over its corners. A separation regroups
+// corners and changes none, so that mass and momentum, summed over corners in dart order, keep their last bit.
+#pragma once
+
+#include "sim/embedding/embedded_map.h"
+
+namespace rend {
+
+// Where an element's corner is: <1> on a sheet, <1,2> in a solid; and the element itself.
+constexpr Orbit corner_orbit(int dimension) { return dimension == 2 ? VertexOfFace : VertexOfVolume; }
+constexpr Orbit element_orbit(int dimension) { return dimension == 2 ? FaceOfVolume : Volume; }
+
+double rest_area(const EmbeddedMap& map, Dart d); // [m²], of the face of d (a warped one: of its fan from the centre)
+
+// Element mass / number of corners [kg].
+struct CornerMass {
+  using Value = double;
+  std::string name = "corner mass";
+  Orbit orbit = VertexOfFace;
+  Orbit support = FaceOfVolume;
+  double density = 0; // [kg/m²] of a sheet
+  Value birth(const EmbeddedMap& map, Dart d) const;
+  Value split(const Value& whole) const { return whole; }
+};
+using MassColumn = Column<CornerMass>;
+
+// The corner's share of its vertex's ambient viscosity [N·s/m].
+struct CornerDrag {
+  using Value = double;
+  std::string name = "corner viscosity";
+  Orbit orbit = VertexOfFace;
+  Orbit support = FaceOfVolume;
+  double per_vertex = 0; // [N·s/m] of a vertex of the whole body
+  Value birth(const EmbeddedMap& map, Dart d) const;
+  Value split(const Value& whole) const { return whole; }
+};
+using DragColumn = Column<CornerDrag>;
+
+// Sums over corners in the order of their smallest darts.
+double total_mass(const EmbeddedMap& map, const MassColumn& mass);
+Vec3 total_momentum(const EmbeddedMap& map, const MassColumn& mass);          // Σ m v [kg·m/s]
+Vec3 total_angular_momentum(const EmbeddedMap& map, const MassColumn& mass);  // Σ m x × v [kg·m²/s], about the origin
+double kinetic_energy(const EmbeddedMap& map, const MassColumn& mass);        // [J]
+double gravity_energy(const EmbeddedMap& map, const MassColumn& mass, const Vec3& gravity); // [J]
+
+// The sum of a corner column over the corners of a vertex, in the order of their smallest darts.
+double sum_at_vertex(const EmbeddedMap& map, Orbit corner, const std::vector<double>& values, Dart d);
+
+} // namespace rend

@@ -1,0 +1,86 @@
+#include "sim/mechanics/shear_face.h"
+
+#include "sim/mechanics/young.h"
+#include "sim/topology/walk.h"
+
+namespace rend {
+namespace {
+
+bool has_face(const EmbeddedMap& map, int at_least, int at_most) {
+  bool found = false;
+  for_each_face(map, [&](Dart d) {
+    const int sides = sides_of_face(map.map(), d);
+    found = found || (sides >= at_least && sides <= at_most);
+  });
+  return found;
+}
+
+UnitParameters along(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit, double k, double damping) {
+  const std::vector<Vec3> x = rest_positions(body, d, unit);
+  return {k, damping, (x[1] - x[0]).norm()};
+}
+
+const std::vector<std::vector<Word>> diagonals{{"", "010"}, {"0", "10"}};
+const std::vector<Word> across_corner{"0", "10"};
+
+std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionRequest& request) {
+  if (!has_face(map, 4, 4)) {
+    request.notes.push_back("shear was left out: no face is a quad, and a triangle keeps its angles by its sides");
+    return nullptr;
+  }
+  Pattern pattern{.owner = FaceOfVolume,
+                  .support = FaceOfVolume,
+                  .units = diagonals,
+                  .fold = {},
+                  .present = [](const GMap& m, Dart d) { return sides_of_face(m, d) == 4; }};
+  if (map.dimension() == 3) pattern.fold.push_back("3");
+  const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
+  const double damping = request.node.number("damping");
+  return make_interaction<2>(map, "shear isotropic", Law::Spring, pattern, damping,
+                             [=](const EmbeddedMap& body, Dart d, int unit) {
+                               if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
+                               return along(body, d, diagonals[static_cast<std::size_t>(unit)], k(body, d), damping);
+                             });
+}
+
+// Whether the corner of d carries a spring: every corner of a pentagon and more, of a quad the corner of its
+// smallest dart and the next one along that dart's edge.
+bool carries(const GMap& map, Dart d) {
+  const int sides = sides_of_face(map, d);
+  if (sides != 4) return sides > 4;
+  const Dart first = smallest_dart(map, FaceOfVolume, d);
+  const Dart next = map.alpha(0, first);
+  return same_cell(map, VertexOfFace, d, first) || same_cell(map, VertexOfFace, d, next);
+}
+
+std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const InteractionRequest& request) {
+  if (!has_face(map, 4, 1 << 30)) {
+    request.notes.push_back("shear was left out: no face has a diagonal, every one is a triangle");
+    return nullptr;
+  }
+  Pattern pattern{.owner = VertexOfFace,
+                  .support = FaceOfVolume,
+                  .units = {across_corner},
+                  .fold = {},
+                  .present = [](const GMap& m, Dart d) { return sides_of_face(m, d) >= 4; }};
+  if (map.dimension() == 3) pattern.fold.push_back("3");
+  const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
+  const double damping = request.node.number("damping");
+  return make_interaction<1>(map, "shear anisotropic", Law::Spring, pattern, damping,
+                             [=](const EmbeddedMap& body, Dart d, int) {
+                               if (!carries(body.map(), d)) return UnitParameters{};
+                               return along(body, d, across_corner, k(body, d), damping);
+                             });
+}
+
+} // namespace
+
+InteractionType shear_face_isotropic() {
+  return {"shear", "isotropic", "springs along both diagonals of each quad, one stiffness", "N/m", make_isotropic};
+}
+InteractionType shear_face_anisotropic() {
+  return {"shear", "anisotropic", "a spring across each corner, each with its own stiffness", "N/m",
+          make_anisotropic};
+}
+
+} // namespace rend

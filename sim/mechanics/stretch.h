@@ -1,0 +1,11 @@
+// Stretch: a spring along each side of each face (thesis 6.2.1, fig. 6.16), so that an edge between two faces
+// carries two. Owner EdgeOfFace <0>; particles d and α0(d). Sides of one edge fold into one row (cumulated).
+#pragma once
+
+#include "sim/mechanics/interaction.h"
+
+namespace rend {
+
+InteractionType stretch();
+
+} // namespace rend

@@ -1,0 +1,89 @@
+#include "sim/mechanics/young.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace rend {
+namespace {
+
+// Lengths of the sides of the face of d, that of d first.
+std::vector<double> side_lengths(const EmbeddedMap& map, Dart d) {
+  std::vector<double> lengths;
+  Dart at = d;
+  do {
+    const Dart end = map.map().alpha(0, at);
+    lengths.push_back((map.rest_of(end) - map.rest_of(at)).norm());
+    at = map.map().alpha(1, end);
+  } while (at != d);
+  return lengths;
+}
+
+std::string place_of(const EmbeddedMap& map, Dart d) {
+  const Vec3 x = 0.5 * (map.rest_of(d) + map.rest_of(map.map().alpha(0, d)));
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z());
+}
+
+} // namespace
+
+double edge_stiffness(const SpringMaterial& m, const EmbeddedMap& map, Dart d) {
+  const double E = m.young, nu = m.poisson, h = m.thickness;
+  const std::vector<double> side = side_lengths(map, d);
+  double k = 0;
+  if (side.size() == 3) {
+    const double c = side[0], a = side[1], b = side[2], s = (a + b + c) / 2;
+    const double area = std::sqrt(std::max(0.0, s * (s - a) * (s - b) * (s - c)));
+    if (area > 0)
+      k = h * (E / (1 + nu) * area / (c * c) + E * nu / (1 - nu * nu) * (a * a + b * b - c * c) / (8 * area));
+  } else {
+    const double l = side[0], w = side[1];
+    k = h * E * (w * w * (3 * nu + 2) - l * l) / (4 * l * w * (1 + nu));
+  }
+  if (!(k > 0))
+    throw std::domain_error(fmt::format("the formula gives the edge at {} the stiffness {:.4g} N/m in its {}",
+                                        place_of(map, d), k, side.size() == 3 ? "triangle" : "quad"));
+  return k;
+}
+
+double diagonal_stiffness(const SpringMaterial& m, const EmbeddedMap& map, Dart d) {
+  const std::vector<double> side = side_lengths(map, d);
+  const double l = side[0], w = side[1];
+  return m.thickness * m.young * (l * l + w * w) / (4 * l * w * (1 + m.poisson));
+}
+
+StiffnessOf stiffness_of(const InteractionRequest& request, StiffnessFormula formula) {
+  const Node& node = request.node;
+  if (node.given("k")) {
+    if (request.material && formula)
+      node.fail("k", "this spring has a stiffness of its own and a material (young) as well",
+                "leave out k here, or young in <springs>");
+    const double k = node.number("k");
+    return [k](const EmbeddedMap&, Dart) { return k; };
+  }
+  if (!formula || !request.material)
+    throw UserError(Exit::BadInput, node.place(), fmt::format("<{}> needs its stiffness k", node.name()),
+                    formula ? "give k, or young, poisson and thickness in <springs>"
+                            : "no formula gives this stiffness from young; give k");
+  const SpringMaterial material = *request.material;
+  const Place place = node.place();
+  return [=](const EmbeddedMap& map, Dart d) {
+    if (sides_of_face(map.map(), d) > 4)
+      throw UserError(Exit::BadInput, place, "stiffness from young is known for triangles and quads alone",
+                      "give k, or use other cells");
+    try {
+      return formula(material, map, d);
+    } catch (const std::domain_error& error) {
+      throw UserError(Exit::BadInput, place, error.what(),
+                      "a quad's edge may be at most w·sqrt(3·poisson + 2) long, a triangle must not be too obtuse: "
+                      "use other cells, or give k");
+    }
+  };
+}
+
+bool has_inner_edge(const EmbeddedMap& map) {
+  bool found = false;
+  map.map().for_each_dart([&](Dart d) { found = found || !map.map().is_free(2, d); });
+  return found;
+}
+
+} // namespace rend

@@ -1,0 +1,97 @@
+#include "sim/mesh/polygons.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace rend {
+
+void PolygonMesh::add(std::initializer_list<std::uint32_t> polygon) {
+  if (first.empty()) first.push_back(0);
+  corners.insert(corners.end(), polygon.begin(), polygon.end());
+  first.push_back(static_cast<std::uint32_t>(corners.size()));
+}
+
+namespace {
+
+[[noreturn]] void refuse(std::size_t polygon, const std::string& what) {
+  throw std::invalid_argument(fmt::format("polygon {}: {}", polygon, what));
+}
+
+void check(const PolygonMesh& mesh) {
+  for (std::size_t p = 0; p < mesh.polygons(); ++p) {
+    const auto begin = mesh.corners.begin() + mesh.first[p], end = mesh.corners.begin() + mesh.first[p + 1];
+    if (end - begin < 3) refuse(p, "has fewer than three corners");
+    for (auto c = begin; c != end; ++c) {
+      if (*c >= mesh.points.size()) refuse(p, fmt::format("has a corner {}, and there are {} points", *c, mesh.points.size()));
+      if (std::find(begin, c, *c) != c) refuse(p, fmt::format("meets point {} twice", *c));
+    }
+  }
+}
+
+// Side s runs from corner s to the next corner of its polygon; darts 2s and 2s+1 are its two ends.
+struct Sides {
+  std::vector<std::uint32_t> end;     // point at the far end of each side
+  std::vector<std::uint32_t> polygon; // of each side
+};
+
+Sides link_polygons(MapEdit& edit, const PolygonMesh& mesh) {
+  Sides sides;
+  sides.end.resize(mesh.corners.size());
+  sides.polygon.resize(mesh.corners.size());
+  for (std::size_t n = 0; n < 2 * mesh.corners.size(); ++n) edit.add_dart();
+  for (std::size_t p = 0; p < mesh.polygons(); ++p) {
+    const std::uint32_t begin = mesh.first[p], end = mesh.first[p + 1];
+    for (std::uint32_t s = begin; s < end; ++s) {
+      const std::uint32_t next = s + 1 < end ? s + 1 : begin;
+      sides.end[s] = mesh.corners[next];
+      sides.polygon[s] = static_cast<std::uint32_t>(p);
+      edit.link(0, Dart{2 * s}, Dart{2 * s + 1});
+      edit.link(1, Dart{2 * s + 1}, Dart{2 * next});
+    }
+  }
+  return sides;
+}
+
+// Sews the sides that join the same two points: sides are bucketed by their smaller point, and few share one.
+void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const Sides& sides) {
+  const std::size_t count = mesh.corners.size();
+  std::vector<std::uint32_t> start(mesh.points.size() + 1, 0), bucket(count);
+  const auto low = [&](std::size_t s) { return std::min(mesh.corners[s], sides.end[s]); };
+  const auto high = [&](std::size_t s) { return std::max(mesh.corners[s], sides.end[s]); };
+  for (std::size_t s = 0; s < count; ++s) ++start[low(s) + 1];
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) start[p + 1] += start[p];
+  std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
+  for (std::size_t s = 0; s < count; ++s) bucket[at[low(s)]++] = static_cast<std::uint32_t>(s);
+  for (std::size_t s = 0; s < count; ++s) {
+    for (std::uint32_t n = start[low(s)]; n < start[low(s) + 1]; ++n) {
+      const std::uint32_t t = bucket[n];
+      if (t >= s || high(t) != high(s)) continue;
+      const bool turned = mesh.corners[s] != mesh.corners[t];
+      const Dart mine{2 * s}, theirs{2 * t + (turned ? 1u : 0u)};
+      if (!edit.map().is_free(2, mine) || !edit.map().is_free(2, theirs))
+        refuse(sides.polygon[s], fmt::format("shares the edge between points {} and {} with more than one other",
+                                             mesh.corners[s], sides.end[s]));
+      edit.link(2, mine, theirs);
+      edit.link(2, edit.map().alpha(0, mine), edit.map().alpha(0, theirs));
+    }
+  }
+}
+
+} // namespace
+
+std::unique_ptr<EmbeddedMap> sheet_from(const PolygonMesh& mesh) {
+  check(mesh);
+  GMap map(2);
+  MapEdit edit(map);
+  edit.reserve(2 * mesh.corners.size());
+  const Sides sides = link_polygons(edit, mesh);
+  sew_sides(edit, mesh, sides);
+  return std::make_unique<EmbeddedMap>(std::move(map), [&](Dart d) {
+    const Vec3& x = mesh.points[d.value % 2 == 0 ? mesh.corners[d.value / 2] : sides.end[d.value / 2]];
+    return Point{x, x, Vec3::Zero()};
+  });
+}
+
+} // namespace rend

@@ -1,0 +1,196 @@
+#include "sim/program/binder.h"
+
+#include "sim/base/check.h"
+#include "sim/topology/walk.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+std::vector<Field> particle_fields(const Pattern& pattern, Orbit orbit) {
+  std::vector<Field> fields(pattern.units.front().size());
+  for (std::size_t p = 0; p < fields.size(); ++p) {
+    fields[p].orbit = orbit;
+    for (const auto& unit : pattern.units) fields[p].word.push_back(unit[p]);
+  }
+  return fields;
+}
+
+Dart follow_back(const GMap& map, Dart d, const Word& word, std::size_t length) {
+  while (length > 0) d = map.alpha(word[--length] - '0', d);
+  return d;
+}
+
+} // namespace
+
+Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, bool fold, std::optional<Orbit> corners) {
+  std::vector<Field> fields = particle_fields(interaction.pattern, Vertex);
+  const int places = static_cast<int>(fields.size());
+  if (corners) {
+    const std::vector<Field> more = particle_fields(interaction.pattern, *corners);
+    fields.insert(fields.end(), more.begin(), more.end());
+  }
+  Binder binder(map, interaction.pattern, std::move(fields), places);
+  binder.interaction_ = &interaction;
+  binder.fold_ = fold && !interaction.pattern.fold.empty();
+  binder.rows_ = PackedRows(static_cast<int>(binder.fields_.size()), places, 3);
+  return binder;
+}
+
+Binder::Binder(const EmbeddedMap& map, Pattern pattern, std::vector<Field> fields, int places)
+    : map_(&map), pattern_(std::move(pattern)), fields_(std::move(fields)),
+      rows_(static_cast<int>(fields_.size()), places, 0) {
+  CHECK(fields_.size() <= Row{}.index.size());
+}
+
+bool Binder::present(Slot owner) const {
+  const CellIndex& cells = map_->cells(pattern_.owner);
+  return cells.alive(owner) && pattern_.present(map_->map(), cells.first_dart(owner));
+}
+
+bool Binder::fill(Slot owner, int unit, Row& row) const {
+  const Dart d = map_->cells(pattern_.owner).first_dart(owner);
+  for (std::size_t c = 0; c < fields_.size(); ++c) {
+    const Dart end = map_->map().follow(d, fields_[c].word[static_cast<std::size_t>(unit)]);
+    row.index[c] = map_->slot(fields_[c].orbit, end);
+  }
+  row.value = {};
+  if (!interaction_) return true;
+  if (interaction_->law == Law::Spring && row.index[0] == row.index[1]) return false;
+  const UnitParameters p = interaction_->parameters(owner, unit);
+  row.value = {p.k, p.damping, p.rest};
+  return p.k != 0 || p.damping != 0;
+}
+
+bool Binder::same_particles(const Row& a, const Row& b) const {
+  return (a.index[0] == b.index[0] && a.index[1] == b.index[1]) ||
+         (a.index[0] == b.index[1] && a.index[1] == b.index[0]);
+}
+
+// Keys of all units that act between the same particles as this one, reached by fold words, itself included.
+void Binder::find_class(Slot owner, int unit, const Row& row, std::vector<std::size_t>& keys) const {
+  const std::size_t count = pattern_.units.size();
+  keys.assign(1, owner * count + static_cast<std::size_t>(unit));
+  thread_local std::vector<Dart> darts;
+  for (std::size_t at = 0; at < keys.size(); ++at) {
+    darts.clear();
+    collect(map_->map(), pattern_.owner, map_->cells(pattern_.owner).first_dart(owner_of(keys[at])), darts);
+    for (std::size_t n = 0; n < darts.size(); ++n) {
+      for (const Word& word : pattern_.fold) {
+        const Slot twin = map_->slot(pattern_.owner, map_->map().follow(darts[n], word));
+        for (std::size_t u = 0; u < count; ++u) {
+          const std::size_t key = twin * count + u;
+          Row other;
+          if (std::find(keys.begin(), keys.end(), key) != keys.end() || !present(twin)) continue;
+          if (fill(twin, static_cast<int>(u), other) && same_particles(row, other)) keys.push_back(key);
+        }
+      }
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+}
+
+// Brings the rows of one owner up to date.
+void Binder::write(Slot owner) {
+  const std::size_t count = pattern_.units.size();
+  thread_local std::vector<std::size_t> keys;
+  const bool there = present(owner);
+  for (std::size_t unit = 0; unit < count; ++unit) {
+    const std::size_t key = owner * count + unit;
+    Row row;
+    bool live = there && fill(owner, static_cast<int>(unit), row);
+    if (live && fold_) {
+      find_class(owner, static_cast<int>(unit), row, keys);
+      live = keys.front() == key;
+      if (live) {
+        row.value[0] = row.value[1] = 0;
+        for (std::size_t member : keys) {
+          const UnitParameters p = interaction_->parameters(owner_of(member), static_cast<int>(member % count));
+          row.value[0] += p.k;
+          row.value[1] += p.damping;
+        }
+      }
+    }
+    if (live) rows_.set(key, row.index.data(), row.value.data());
+    else rows_.erase(key);
+  }
+}
+
+void Binder::bind() {
+  const CellIndex& cells = map_->cells(pattern_.owner);
+  rows_.resize(cells.slots() * pattern_.units.size());
+  for (Slot owner = 0; owner < cells.slots(); ++owner) write(owner);
+  rows_.seal();
+}
+
+namespace {
+thread_local IndexSet owners_seen;
+}
+
+void Binder::add_owner(Dart d, std::vector<Slot>& owners) {
+  if (!map_->map().alive(d)) return;
+  const Slot owner = map_->slot(pattern_.owner, d);
+  if (owners_seen.insert(owner)) owners.push_back(owner);
+}
+
+void Binder::reach(const Changes& changes, std::vector<Slot>& owners) {
+  const GMap& map = map_->map();
+  const auto by_links = [&](const Word& word) {
+    for (std::size_t n = 0; n < word.size(); ++n)
+      for (Dart x : changes.touched[static_cast<std::size_t>(word[n] - '0')])
+        if (map.alive(x)) add_owner(follow_back(map, x, word, n), owners);
+  };
+  for (Slot owner : changes.slots[pattern_.owner.mask])
+    if (owners_seen.insert(owner)) owners.push_back(owner);
+  for (const Field& field : fields_) {
+    for (const Word& word : field.word) {
+      by_links(word);
+      for (Dart x : changes.moved[field.orbit.mask])
+        if (map.alive(x)) add_owner(follow_back(map, x, word, word.size()), owners);
+    }
+  }
+  if (fold_)
+    for (const Word& word : pattern_.fold) by_links(word);
+}
+
+// Owners may enter or leave a class although nothing of their own changed.
+void Binder::add_folding(std::vector<Slot>& owners) {
+  const CellIndex& cells = map_->cells(pattern_.owner);
+  const std::size_t count = pattern_.units.size();
+  thread_local std::vector<Dart> darts;
+  thread_local std::vector<std::size_t> keys;
+  const std::size_t reached = owners.size();
+  for (std::size_t at = 0; at < reached; ++at) { // whatever is one fold away
+    if (!cells.alive(owners[at])) continue;
+    darts.clear();
+    collect(map_->map(), pattern_.owner, cells.first_dart(owners[at]), darts);
+    for (std::size_t n = 0; n < darts.size(); ++n)
+      for (const Word& word : pattern_.fold) add_owner(map_->map().follow(darts[n], word), owners);
+  }
+  const std::size_t near = owners.size();
+  for (std::size_t at = 0; at < near; ++at) { // and the whole of their classes
+    if (!present(owners[at])) continue;
+    for (std::size_t unit = 0; unit < count; ++unit) {
+      Row row;
+      if (!fill(owners[at], static_cast<int>(unit), row)) continue;
+      find_class(owners[at], static_cast<int>(unit), row, keys);
+      for (std::size_t key : keys)
+        if (owners_seen.insert(owner_of(key))) owners.push_back(owner_of(key));
+    }
+  }
+}
+
+void Binder::rebind(const Changes& changes) {
+  if (!changes.any) return;
+  thread_local std::vector<Slot> owners;
+  owners.clear();
+  owners_seen.clear();
+  reach(changes, owners);
+  if (fold_) add_folding(owners);
+  rows_.resize(map_->cells(pattern_.owner).slots() * pattern_.units.size());
+  for (Slot owner : owners) write(owner);
+  rows_.seal();
+}
+
+} // namespace rend

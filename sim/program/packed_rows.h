@@ -1,0 +1,85 @@
+// Rows of one interaction, packed for the kernel, and changed one at a time.
+//
+// A row's key is fixed by the map: owner slot × units + unit. Keys come in blocks of 64, each with a mask of its live
+// keys; the live rows of a block stand packed at its beginning, in the order of their keys:
+//
+//   block b   keys   64b ... 64b+63         mask   1 0 1 1 0 ...
+//             rows   [64b] = key 64b, [64b+1] = key 64b+2, [64b+2] = key 64b+3, padding to a multiple of four, ...
+//
+// so that dead rows cost no time, the layout is a pure function of what lives (incremental = from scratch, byte for
+// byte), and an insertion moves at most 63 rows. Padding repeats the last row's indices with values 0: the kernel
+// takes four rows at a time and needs no remainder loop.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace rend {
+
+class PackedRows {
+public:
+  static constexpr std::size_t block_size = 64;
+  static constexpr std::size_t lanes = 4;
+
+  // `indices` index columns, the first `places` of which are vertex slots that the row writes to; `values` columns.
+  PackedRows(int indices, int places, int values);
+
+  void resize(std::size_t keys); // new keys are dead
+  std::size_t keys() const { return keys_; }
+  bool live(std::size_t key) const { return (mask_[key / block_size] >> (key % block_size) & 1) != 0; }
+  std::size_t live_count() const;
+
+  void set(std::size_t key, const std::uint32_t* index, const double* value);
+  void erase(std::size_t key);
+  void seal(); // writes padding and ranges of the blocks that changed; to be called before rows are read
+
+  // Where the row of a live key stands.
+  std::size_t row(std::size_t key) const {
+    const std::uint64_t below = (std::uint64_t{1} << key % block_size) - 1;
+    return key / block_size * block_size + std::popcount(mask_[key / block_size] & below);
+  }
+
+  std::size_t blocks() const { return mask_.size(); }
+  std::uint64_t mask(std::size_t block) const { return mask_[block]; }
+  std::size_t rows_in(std::size_t block) const { return std::popcount(mask_[block]); }
+  std::size_t padded_in(std::size_t block) const { return (rows_in(block) + lanes - 1) / lanes * lanes; }
+
+  const std::uint32_t* index(int column) const { return index_[column].data(); } // one per row, gaps between blocks
+  const double* value(int column) const { return value_[column].data(); }
+
+  // Smallest and largest vertex slot that rows of the block write to.
+  struct Range {
+    std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
+  };
+  Range range(std::size_t block) const { return range_[block]; }
+
+  // Calls f(key, row) for every live row in the order of keys.
+  template <class F>
+  void for_each(F&& f) const {
+    for (std::size_t block = 0; block < mask_.size(); ++block) {
+      std::size_t at = block * block_size;
+      for (std::uint64_t rest = mask_[block]; rest; rest &= rest - 1)
+        f(block * block_size + std::countr_zero(rest), at++);
+    }
+  }
+
+  std::size_t bytes() const;
+  bool same_as(const PackedRows& other) const { return mask_ == other.mask_ && index_ == other.index_ && value_ == other.value_; }
+
+private:
+  void shift(std::size_t from, std::size_t end, int by);
+  void touch(std::size_t block);
+
+  int places_;
+  std::size_t keys_ = 0;
+  std::vector<std::uint64_t> mask_;                // one per block
+  std::vector<Range> range_;                       // one per block
+  std::vector<std::vector<std::uint32_t>> index_;  // [column][row]
+  std::vector<std::vector<double>> value_;         // [column][row]
+  std::vector<std::size_t> dirty_;                 // blocks to be sealed
+};
+
+} // namespace rend

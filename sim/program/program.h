@@ -1,0 +1,82 @@
+// What the solver runs: flat arrays, a pure function of the body.
+//
+// Rows of every interaction (packed_rows.h), inverse masses and drag per vertex. Nothing that must survive lives
+// here. After an edit, rebind() brings up to date only what the changes concern; the result is byte for byte that of
+// building anew (same_as() says so, and a test asks it on every preset).
+//
+// Two sets of rows, each there only if somebody needs it:
+//   folded      parallel springs as one row, forces into vertices: what the integrator evaluates
+//   elementary  every spring for itself, forces into element corners: what laws on elements look at
+#pragma once
+
+#include "sim/mechanics/mass.h"
+#include "sim/program/binder.h"
+
+#include <memory>
+#include <string>
+
+namespace rend {
+
+struct ProgramOptions {
+  bool folded = true;
+  bool elementary = false;
+  bool fold = true;  // in the folded set: false (cumulated="no") gives every unit its own row
+  bool walk = false; // evaluate by walking the map, as the thesis did: the slow reference
+  int threads = 1;
+};
+
+class Program {
+public:
+  Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction>>& interactions, const MassColumn& mass,
+          const DragColumn* drag, const ProgramOptions& options);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  // Internal forces [N] at the given positions [m] and velocities [m/s], one record per vertex slot.
+  void forces(const Record* position, const Record* velocity, Record* force) const;
+
+  // The same by the elementary rows, each element corner's own share as well: one record per corner slot.
+  void corner_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
+
+  // The same by walking the map, unit after unit. Corner may be null.
+  void walk_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
+
+  void rebind(); // after edits; does nothing where there were none
+
+  std::size_t vertices() const { return inverse_mass_.size(); }            // slots
+  const double* inverse_mass() const { return inverse_mass_.data(); }      // [1/kg], 0: free slot
+  const double* drag_rate() const { return drag_ ? drag_rate_.data() : nullptr; } // [1/s], or null
+
+  double elastic_energy(const Record* position) const; // [J], where the interactions have one
+
+  // Bounds by Gershgorin's discs on element corners, which no separation changes: of the largest ω² [1/s²] and of
+  // the largest damping rate [1/s] among all modes, at the rest state.
+  struct Bounds {
+    double omega_squared = 0, damping_rate = 0, least_drag_rate = 0;
+  };
+  Bounds frequency_bounds() const;
+
+  const std::vector<Binder>& folded() const { return folded_; }
+  const std::vector<Binder>& elementary() const { return elementary_; }
+  const ProgramOptions& options() const { return options_; }
+  int parts() const; // threads that a step of this size is worth
+  std::size_t bytes() const;
+  bool same_as(const Program& other) const; // byte for byte
+
+private:
+  void weigh_all();
+  void weigh(Slot vertex);
+
+  EmbeddedMap* map_;
+  const std::vector<std::unique_ptr<Interaction>>* interactions_;
+  const MassColumn* mass_;
+  const DragColumn* drag_;
+  ProgramOptions options_;
+  Changes changes_;
+  std::vector<Binder> folded_, elementary_;
+  std::vector<double> inverse_mass_; // [1/kg], one per vertex slot
+  std::vector<double> drag_rate_;    // γ/m [1/s], one per vertex slot; empty without drag
+};
+
+} // namespace rend

@@ -1,0 +1,37 @@
+// Four doubles at once, with the same bits on every processor.
+//
+// GCC's vector types are lowered to whatever the target has (two SSE registers, one AVX register); every operation
+// is the IEEE one on each lane, so that the width never shows in a result. REND_CLONES compiles a function for
+// plain x86-64 and for AVX2 and picks one when the program starts.
+#pragma once
+
+#include "sim/base/record.h"
+
+namespace rend {
+
+using Double4 = double __attribute__((vector_size(32)));
+using Long4 = long long __attribute__((vector_size(32)));
+
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#define REND_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define REND_CLONES
+#endif
+#define REND_INLINE [[gnu::always_inline]] inline
+
+REND_INLINE Double4 load(const Record& r) { return *reinterpret_cast<const Double4*>(&r); }
+REND_INLINE void store(Record& r, Double4 v) { *reinterpret_cast<Double4*>(&r) = v; }
+REND_INLINE Double4 splat(double s) { return Double4{s, s, s, s}; }
+
+REND_INLINE Double4 square_root(Double4 v) {
+  return Double4{__builtin_sqrt(v[0]), __builtin_sqrt(v[1]), __builtin_sqrt(v[2]), __builtin_sqrt(v[3])};
+}
+
+// The sums (x + y) + z of four records, whose fourth component is 0.
+REND_INLINE Double4 sums_of(Double4 a, Double4 b, Double4 c, Double4 d) {
+  const Double4 ab = __builtin_shuffle(a, b, Long4{0, 4, 2, 6}) + __builtin_shuffle(a, b, Long4{1, 5, 3, 7});
+  const Double4 cd = __builtin_shuffle(c, d, Long4{0, 4, 2, 6}) + __builtin_shuffle(c, d, Long4{1, 5, 3, 7});
+  return __builtin_shuffle(ab, cd, Long4{0, 1, 4, 5}) + __builtin_shuffle(ab, cd, Long4{2, 3, 6, 7});
+}
+
+} // namespace rend

@@ -1,0 +1,86 @@
+#include "sim/program/kernels.h"
+#include "sim/program/simd.h"
+
+namespace rend {
+namespace {
+
+// The factor s of d = xj − xi in f_i = s d, of four rows.
+template <bool damped>
+REND_INLINE Double4 spring_factor(const Double4* d, const KernelArguments& a, const std::uint32_t* i,
+                                  const std::uint32_t* j, std::size_t at) {
+  Double4 k, rest;
+  __builtin_memcpy(&k, a.rows.value(0) + at, sizeof k);
+  __builtin_memcpy(&rest, a.rows.value(2) + at, sizeof rest);
+  const Double4 square = sums_of(d[0] * d[0], d[1] * d[1], d[2] * d[2], d[3] * d[3]);
+  const Double4 length = square_root(square);
+  const Double4 inverse = 1.0 / length;
+  Double4 s = k * (length - rest);
+  if constexpr (damped) {
+    Double4 damping, w[4];
+    __builtin_memcpy(&damping, a.rows.value(1) + at, sizeof damping);
+    for (int r = 0; r < 4; ++r) w[r] = (load(a.velocity[j[r]]) - load(a.velocity[i[r]])) * d[r];
+    s += damping * (sums_of(w[0], w[1], w[2], w[3]) * inverse);
+  }
+  s *= inverse;
+  return square > 0.0 ? s : Double4{}; // no direction, no force
+}
+
+template <bool damped, bool whole>
+REND_INLINE void run_block(const KernelArguments& a, std::size_t block) {
+  const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
+  const Record* x = a.position;
+  for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
+    const std::uint32_t *i = a.rows.index(0) + at, *j = a.rows.index(1) + at;
+    Double4 d[4];
+    for (int r = 0; r < 4; ++r) d[r] = load(x[j[r]]) - load(x[i[r]]);
+    const Double4 s = spring_factor<damped>(d, a, i, j, at);
+    for (int r = 0; r < 4; ++r) {
+      const Double4 f = splat(s[r]) * d[r];
+      if (whole || (i[r] >= a.low && i[r] < a.high)) store(a.force[i[r]], load(a.force[i[r]]) + f);
+      if (whole || (j[r] >= a.low && j[r] < a.high)) store(a.force[j[r]], load(a.force[j[r]]) - f);
+    }
+  }
+}
+
+template <bool damped>
+REND_INLINE void run(const KernelArguments& a) {
+  for (std::size_t block = 0; block < a.rows.blocks(); ++block) {
+    const PackedRows::Range range = a.rows.range(block);
+    if (range.low >= a.high || range.high < a.low) continue;
+    if (range.low >= a.low && range.high < a.high) run_block<damped, true>(a, block);
+    else run_block<damped, false>(a, block);
+  }
+}
+
+template <bool damped>
+REND_INLINE void run_corners(const KernelArguments& a) {
+  for (std::size_t block = 0; block < a.rows.blocks(); ++block) {
+    const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
+    for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
+      const std::uint32_t *i = a.rows.index(0) + at, *j = a.rows.index(1) + at;
+      const std::uint32_t *ci = a.rows.index(2) + at, *cj = a.rows.index(3) + at;
+      Double4 d[4];
+      for (int r = 0; r < 4; ++r) d[r] = load(a.position[j[r]]) - load(a.position[i[r]]);
+      const Double4 s = spring_factor<damped>(d, a, i, j, at);
+      for (int r = 0; r < 4; ++r) {
+        const Double4 f = splat(s[r]) * d[r];
+        store(a.force[ci[r]], load(a.force[ci[r]]) + f);
+        store(a.force[cj[r]], load(a.force[cj[r]]) - f);
+      }
+    }
+  }
+}
+
+REND_CLONES void run_undamped(const KernelArguments& a) { run<false>(a); }
+REND_CLONES void run_damped(const KernelArguments& a) { run<true>(a); }
+REND_CLONES void run_corners_undamped(const KernelArguments& a) { run_corners<false>(a); }
+REND_CLONES void run_corners_damped(const KernelArguments& a) { run_corners<true>(a); }
+
+} // namespace
+
+void spring_forces(const KernelArguments& a, bool damped) { damped ? run_damped(a) : run_undamped(a); }
+void spring_corner_forces(const KernelArguments& a, bool damped) {
+  damped ? run_corners_damped(a) : run_corners_undamped(a);
+}
+
+} // namespace rend

@@ -1,0 +1,23 @@
+#include "sim/program/threads.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <thread>
+
+namespace rend {
+
+void in_parts(int parts, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+  if (parts <= 1) return work(0, count);
+  const auto n = static_cast<std::size_t>(parts);
+  tbb::task_arena arena(parts);
+  arena.execute([&] {
+    tbb::parallel_for(
+        std::size_t{0}, n, [&](std::size_t part) { work(count * part / n, count * (part + 1) / n); },
+        tbb::simple_partitioner());
+  });
+}
+
+int hardware_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+} // namespace rend

@@ -1,0 +1,51 @@
+// Where the left graph of a rule lies in a map.
+//
+// From the hooks the match is unique: the darts of the first hook's orbit are the instances, in the order of a walk,
+// and every node has one dart at each of them. It is a match if all that the graph says holds at every instance, and
+// no two nodes or instances meet the same dart (thesis 3.4.1, footnote 3: a match is injective).
+#pragma once
+
+#include "sim/topology/rule.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+// One dart for every hook of a rule, in the order in which the rule names them.
+class Hooks {
+public:
+  Hooks() = default;
+  Hooks(Dart d) : darts_{d}, count_(1) {}
+  Hooks(std::initializer_list<Dart> darts); // CHECK: at most four
+
+  std::size_t size() const { return count_; }
+  Dart operator[](std::size_t n) const { return darts_[n]; }
+  std::span<const Dart> span() const { return {darts_.data(), count_}; }
+
+private:
+  std::array<Dart, 4> darts_;
+  std::size_t count_ = 0;
+};
+
+struct Match {
+  std::size_t nodes = 0;                 // of the left graph
+  std::size_t positions = 0;             // of its labels
+  std::size_t instances = 0;             // 1 for an empty left graph
+  std::vector<Dart> darts;               // [instance][node]
+  std::vector<std::uint32_t> neighbours; // instance, [instance][position]: across the hook's link
+
+  Dart dart(std::size_t instance, int node) const {
+    return darts[instance * nodes + static_cast<std::size_t>(node)];
+  }
+  std::uint32_t neighbour(std::size_t instance, int position) const {
+    return neighbours[instance * positions + static_cast<std::size_t>(position)];
+  }
+};
+
+// Fills `match`; returns why there is none, or an empty text. Linear in the darts that are matched.
+// CHECK: as many hooks as the rule has.
+std::string find_match(const Rule& rule, const GMap& map, const Hooks& hooks, Match& match);
+
+} // namespace rend

@@ -1,0 +1,68 @@
+// A body: a map with all that it carries, the interactions on it, and what is built upon them.
+#pragma once
+
+#include "sim/fracture/law.h"
+#include "sim/integrate/integrator.h"
+#include "sim/program/program.h"
+#include "sim/scene/constraint.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+// Whether a side of a face was a border when its face was born: what is a border now and was none then is torn.
+struct BornBorder {
+  using Value = std::uint8_t;
+  std::string name = "born border";
+  Orbit orbit = EdgeOfFace;
+  Orbit support = EdgeOfFace;
+  Value birth(const EmbeddedMap& map, Dart d) const { return map.map().is_free(2, d) ? 1 : 0; }
+  Value split(const Value& whole) const { return whole; }
+  Value merge(const Value& kept, const Value&) const { return kept; }
+};
+using BorderColumn = Column<BornBorder>;
+
+enum class Cumulated { Auto, Yes, No };
+
+struct Body final : System {
+  std::string name;
+  const Node* node = nullptr; // of the preset, for those who read more of it (look)
+  std::unique_ptr<EmbeddedMap> map;
+  MassColumn* mass = nullptr;
+  DragColumn* drag = nullptr;       // null: no viscosity per particle
+  BorderColumn* border = nullptr;   // null: nothing tears
+  std::vector<std::unique_ptr<Interaction>> interactions;
+  Cumulated cumulated = Cumulated::Auto;
+  Constraints constraints;
+  std::vector<TearLaw> laws;
+  std::vector<std::string> notes;   // what the preset's author should know
+  std::vector<std::string> left_out; // what this body does without, and why
+
+  std::unique_ptr<Program> program;
+  std::unique_ptr<Integrator> integrator;
+  std::vector<Record> force;        // internal [N] at the start of the step, one per vertex slot
+  std::vector<Record> corner_force; // [N], one per corner slot; empty unless a law looks at elements
+  State next;                       // where the integrator writes: the old state stays whole until the step is kept
+  Changes changes;                  // since constraints and laws were last bound
+  std::vector<TearEvent> events;
+
+  ~Body() override;
+  bool tears() const { return !laws.empty(); }
+
+  // Builds the program and all that the time loop needs. To be called once, when everything is declared.
+  void prepare(const Scheme& scheme, bool walk, int threads);
+
+  // System
+  std::size_t vertices() const override { return program->vertices(); }
+  void forces(double time, const Record* position, const Record* velocity, Record* out) override;
+  void constrain(double time, Record* position, Record* velocity) override;
+
+  void evaluate(double time);                     // force and corner_force of the current state
+  int tear(double time, double step, long number); // criteria, changes, rebinding; returns how many changes
+  void rebind();                                  // program, constraints, laws
+  bool commit();                                  // takes `next`; false (nothing taken): a number is not finite
+};
+
+} // namespace rend

@@ -1,0 +1,75 @@
+#include "sim/scene/constraint.h"
+
+#include "sim/base/check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+
+Vec3 Motion::offset(const Vec3& rest, double time) const {
+  const double s = std::clamp(time, from, std::max(from, until)) - from;
+  const double share = std::isinf(until) ? (time >= from ? 1.0 : 0.0) : (until > from ? s / (until - from) : 1.0);
+  return s * velocity + share * (displacement + gradient * rest);
+}
+
+Vec3 Motion::velocity_at(const Vec3& rest, double time) const {
+  if (time < from || time >= until) return Vec3::Zero();
+  Vec3 v = velocity;
+  if (!std::isinf(until) && until > from) v += (displacement + gradient * rest) / (until - from);
+  return v;
+}
+
+void Constraints::add(EmbeddedMap& map, const Motion& motion, const std::vector<Slot>& vertices) {
+  CHECK(motions_.size() < 64);
+  if (!obedience_) obedience_ = &map.add(Obedience{});
+  for (Slot v : vertices) (*obedience_)[v] |= std::uint64_t{1} << motions_.size();
+  motions_.push_back(motion);
+  list(map);
+}
+
+void Constraints::list(const EmbeddedMap& map) {
+  vertices_.clear();
+  if (!obedience_) return;
+  const CellIndex& cells = map.cells(Vertex);
+  for (Slot v = 0; v < cells.slots(); ++v)
+    if (cells.alive(v) && (*obedience_)[v] != 0) vertices_.push_back(v);
+}
+
+void Constraints::rebind(const EmbeddedMap& map, const Changes& changes) {
+  if (!obedience_ || !changes.any) return;
+  for (Slot v : changes.slots[Vertex.mask]) {
+    const auto at = std::lower_bound(vertices_.begin(), vertices_.end(), v);
+    const bool listed = at != vertices_.end() && *at == v;
+    const bool obeys = map.cells(Vertex).alive(v) && (*obedience_)[v] != 0;
+    if (obeys && !listed) vertices_.insert(at, v);
+    if (!obeys && listed) vertices_.erase(at);
+  }
+}
+
+void Constraints::apply(const EmbeddedMap& map, double time, Record* position, Record* velocity) const {
+  for (Slot vertex : vertices_) {
+    const Vec3 rest = map.rest()[vertex];
+    Vec3 x = position[vertex], v = velocity[vertex];
+    std::uint64_t obeys = (*obedience_)[vertex];
+    for (std::size_t k = 0; obeys; ++k, obeys >>= 1) {
+      if ((obeys & 1) == 0 || !motions_[k].acts(time)) continue;
+      const Vec3 offset = motions_[k].offset(rest, time), speed = motions_[k].velocity_at(rest, time);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!motions_[k].axes[static_cast<std::size_t>(axis)]) continue;
+        x[axis] = rest[axis] + offset[axis];
+        v[axis] = speed[axis];
+      }
+    }
+    position[vertex] = x;
+    velocity[vertex] = v;
+  }
+}
+
+bool Constraints::drives() const {
+  for (const Motion& m : motions_)
+    if (!m.velocity.isZero() || !m.displacement.isZero() || !m.gradient.isZero()) return true;
+  return false;
+}
+
+} // namespace rend

@@ -1,0 +1,192 @@
+#include "sim/scene/scene.h"
+
+#include "sim/base/hash.h"
+#include "sim/scene/build_body.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <set>
+
+namespace rend {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Reading the clock costs more than the step of a small body: one step in so many is timed, and counted so often.
+constexpr long sampled = 16;
+constexpr long checked = 8; // every so many steps one looks whether the motion is resolved
+
+} // namespace
+
+Scene::Scene(const Node& preset, const SceneOptions& options) {
+  const double start = now();
+  name_ = preset.text("name");
+  if (const Node* world = preset.child("world")) {
+    world_.gravity = world->vector("gravity");
+    if (const Node* floor = world->child("floor")) world_.floor = floor->number("z");
+  }
+  std::set<std::string> names;
+  for (const Node* node : preset.all("body")) {
+    if (!names.insert(node->text("name")).second)
+      throw UserError(Exit::BadInput, node->place(), fmt::format("two bodies are called '{}'", node->text("name")),
+                      "give each a name of its own");
+    bodies_.push_back(build_body(*node, world_.gravity));
+  }
+  const Node& time = *preset.child("time");
+  scheme_ = find_scheme(time.text("integrator"));
+  seconds_.build = now() - start;
+  for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads);
+  build_time(time, options);
+  seconds_.bind = now() - start - seconds_.build;
+}
+
+void Scene::build_time(const Node& time, const SceneOptions&) {
+  duration_ = time.number("duration");
+  step_place_ = time.place("step");
+  automatic_ = time.is_word("step");
+  step_ = automatic_ ? stable_step(time) : time.number("step");
+  if (duration_ / step_ > 1e12)
+    time.fail("step", fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration_, step_));
+}
+
+double Scene::stable_step(const Node& time) const {
+  double limit = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies_) {
+    const Program::Bounds b = body->program->frequency_bounds();
+    limit = std::min(limit, scheme_->limit({b.omega_squared, b.damping_rate + body->uniform_drag,
+                                            b.least_drag_rate + body->uniform_drag}));
+  }
+  if (limit <= 0)
+    time.fail("step", fmt::format("no step is stable with the integrator '{}' here: nothing damps", scheme_->name),
+              "use symplectic, verlet or rk4, or add viscosity");
+  if (std::isinf(limit))
+    time.fail("step", "nothing in the scene limits the step", "give a step in seconds");
+  return 0.9 * limit;
+}
+
+double Scene::time() const { return static_cast<double>(steps_done_) * step_; }
+
+long Scene::steps_planned() const { return static_cast<long>(std::ceil(duration_ / step_ * (1 - 1e-12))); }
+
+void Scene::step() {
+  const bool timed = steps_done_ % sampled == 0;
+  double last = timed ? now() : 0;
+  const auto lap = [&](double StageSeconds::*stage) {
+    if (!timed) return;
+    const double at = now();
+    seconds_.*stage += sampled * (at - last);
+    last = at;
+  };
+  for (auto& body : bodies_) body->evaluate(time());
+  lap(&StageSeconds::forces);
+  for (auto& body : bodies_)
+    if (body->tears()) body->tear(time(), step_, steps_done_);
+  lap(&StageSeconds::criteria);
+  for (auto& body : bodies_) {
+    body->next.resize(body->vertices());
+    const StateView view{body->map->position().values().data(), body->map->velocity().values().data()};
+    body->integrator->advance(*body, time(), step_, view, body->force.data(), body->next);
+  }
+  for (auto& body : bodies_)
+    if (!body->commit()) stop(*body, "a number of its state is not finite");
+  lap(&StageSeconds::integrate);
+  ++steps_done_;
+  if (steps_done_ % checked == 0 || steps_done_ < checked) check_resolved();
+}
+
+// A spring whose ends move by more than twice its length in one step, against each other, is not resolved by it.
+void Scene::check_resolved() const {
+  for (const auto& body : bodies_) {
+    const Program& program = *body->program;
+    const Record* x = body->map->position().values().data();
+    const Record* v = body->map->velocity().values().data();
+    for (const Binder& binder : program.folded().empty() ? program.elementary() : program.folded()) {
+      if (binder.interaction()->law != Law::Spring) continue;
+      const PackedRows& rows = binder.rows();
+      bool resolved = true;
+      rows.for_each([&](std::size_t, std::size_t row) {
+        const std::uint32_t i = rows.index(0)[row], j = rows.index(1)[row];
+        const double length = std::max(rows.value(2)[row], (x[j].vec() - x[i].vec()).norm());
+        resolved = resolved && (v[j].vec() - v[i].vec()).norm() * step_ <= 2 * length;
+      });
+      if (!resolved) stop(*body, "ends of a " + binder.interaction()->name + " spring pass each other within a step");
+      break; // the first kind will do: neighbours are neighbours
+    }
+  }
+}
+
+void Scene::stop(const Body& body, const std::string& what) const {
+  double limit = std::numeric_limits<double>::infinity();
+  for (const auto& each : bodies_) {
+    const Program::Bounds b = each->program->frequency_bounds();
+    limit = std::min(limit, scheme_->limit({b.omega_squared, b.damping_rate + each->uniform_drag,
+                                            b.least_drag_rate + each->uniform_drag}));
+  }
+  const std::string hint =
+      limit > 0 ? fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)", limit,
+                              scheme_->name)
+                : fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme_->name);
+  throw Unstable(Exit::Unstable, step_place_,
+                 fmt::format("the simulation was stopped as unstable at {:.6g} s (step {} of {:.3g} s) in body '{}': {}",
+                             time(), steps_done_, step_, body.name, what),
+                 hint);
+}
+
+std::size_t Scene::tears() const {
+  std::size_t count = 0;
+  for (const auto& body : bodies_) count += body->events.size();
+  return count;
+}
+
+double Scene::kinetic_energy() const {
+  double sum = 0;
+  for (const auto& body : bodies_) sum += rend::kinetic_energy(*body->map, *body->mass);
+  return sum;
+}
+double Scene::elastic_energy() const {
+  double sum = 0;
+  for (const auto& body : bodies_) sum += body->program->elastic_energy(body->map->position().values().data());
+  return sum;
+}
+double Scene::gravity_energy() const {
+  double sum = 0;
+  for (const auto& body : bodies_) sum += rend::gravity_energy(*body->map, *body->mass, world_.gravity);
+  return sum;
+}
+double Scene::mass() const {
+  double sum = 0;
+  for (const auto& body : bodies_) sum += total_mass(*body->map, *body->mass);
+  return sum;
+}
+Vec3 Scene::momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& body : bodies_) sum += total_momentum(*body->map, *body->mass);
+  return sum;
+}
+Vec3 Scene::angular_momentum() const {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& body : bodies_) sum += total_angular_momentum(*body->map, *body->mass);
+  return sum;
+}
+
+std::uint64_t Scene::hash() const {
+  std::uint64_t hash = 0;
+  for (const auto& body : bodies_) {
+    const auto& x = body->map->position().values();
+    const auto& v = body->map->velocity().values();
+    hash = hash_bytes(x.data(), x.size() * sizeof(Record), hash);
+    hash = hash_bytes(v.data(), v.size() * sizeof(Record), hash);
+    body->map->map().for_each_dart([&](Dart d) {
+      std::array<std::uint32_t, 5> links{d.value};
+      for (int i = 0; i < 4; ++i) links[static_cast<std::size_t>(i) + 1] = body->map->map().alpha(i, d).value;
+      hash = hash_bytes(links.data(), sizeof links, hash);
+    });
+  }
+  return hash;
+}
+
+} // namespace rend

@@ -1,0 +1,76 @@
+// A scene: bodies, their surroundings, and the time. step() goes from one state to the next.
+#pragma once
+
+#include "sim/scene/body.h"
+
+#include <optional>
+
+namespace rend {
+
+struct World {
+  Vec3 gravity{0, 0, -9.81};   // [m/s²]
+  std::optional<double> floor; // z [m]
+};
+
+struct SceneOptions {
+  bool walk = false; // --kernels walk
+  int threads = 1;
+};
+
+// Wall-clock seconds by stage; those of step() are sampled every few steps and scaled up.
+struct StageSeconds {
+  double build = 0, bind = 0, forces = 0, criteria = 0, change = 0, rebind = 0, integrate = 0;
+};
+
+struct Unstable : UserError {
+  using UserError::UserError;
+};
+
+class Scene {
+public:
+  // From a checked preset. UserError where it cannot be built.
+  Scene(const Node& preset, const SceneOptions& options);
+
+  const std::string& name() const { return name_; }
+  const World& world() const { return world_; }
+  const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
+
+  double time() const;              // [s]
+  long steps_done() const { return steps_done_; }
+  double step_size() const { return step_; } // [s]
+  double duration() const { return duration_; }
+  long steps_planned() const;       // until `duration`
+  const Scheme& scheme() const { return *scheme_; }
+  bool automatic_step() const { return automatic_; }
+
+  // One step. Throws Unstable (exit 76) with the state before the step still whole.
+  void step();
+
+  std::size_t tears() const;
+  double kinetic_energy() const;
+  double elastic_energy() const;
+  double gravity_energy() const;
+  double mass() const;
+  Vec3 momentum() const;
+  Vec3 angular_momentum() const;
+  std::uint64_t hash() const;       // of positions, velocities and topology
+  StageSeconds seconds() const { return seconds_; }
+
+private:
+  void build_time(const Node& time, const SceneOptions& options);
+  double stable_step(const Node& time) const;
+  void check_resolved() const;
+  [[noreturn]] void stop(const Body& body, const std::string& what) const;
+
+  std::string name_;
+  World world_;
+  std::vector<std::unique_ptr<Body>> bodies_;
+  const Scheme* scheme_ = nullptr;
+  double step_ = 0, duration_ = 0;
+  bool automatic_ = false;
+  long steps_done_ = 0;
+  Place step_place_;    // of time.step in the preset
+  StageSeconds seconds_;
+};
+
+} // namespace rend

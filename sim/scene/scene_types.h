@@ -1,0 +1,12 @@
+// The elements of a preset that the simulation reads: the parameter table of bodies, world and time.
+#pragma once
+
+#include "sim/base/parameters.h"
+
+namespace rend {
+
+const ElementType& body_type();
+const ElementType& world_type();
+const ElementType& time_type();
+
+} // namespace rend

@@ -1,0 +1,13 @@
+#include "sim/topology/gmap.h"
+
+#include "sim/base/check.h"
+
+namespace rend {
+
+GMap::GMap(int dimension) : dimension_(dimension) { CHECK(dimension == 2 || dimension == 3); }
+
+std::size_t GMap::bytes() const {
+  return links_.capacity() * sizeof(Links) + free_.capacity() * sizeof(std::uint32_t);
+}
+
+} // namespace rend

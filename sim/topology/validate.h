@@ -1,0 +1,20 @@
+// The axioms of a generalized map, stated one by one, and the name of what breaks them.
+#pragma once
+
+#include "sim/topology/gmap.h"
+
+#include <optional>
+#include <string>
+
+namespace rend {
+
+struct Fault {
+  Dart dart;
+  std::string axiom; // "α1 is an involution: α1(α1(7)) = 9"
+  std::string text() const;
+};
+
+// The first axiom that does not hold, in order of darts; empty if the map is valid.
+std::optional<Fault> validate(const GMap& map);
+
+} // namespace rend

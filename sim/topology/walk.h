@@ -1,0 +1,51 @@
+// Walks over the darts of an orbit, for all sixteen orbits.
+//
+// Orbits of at most two links are a path or a cycle and are walked without marks. So are <0,2,3> and <0,1,3>: α0
+// commutes with α2 and α3, hence <0,2,3>(d) = <2,3>(d) ∪ α0<2,3>(d); and α3 with α0 and α1. The others need to know
+// where they have been: a small hash set that is cleared by counting up. A walk's order depends on the map and the
+// first dart alone.
+#pragma once
+
+#include "sim/topology/gmap.h"
+#include "sim/topology/index_set.h"
+
+#include <span>
+#include <vector>
+
+namespace rend {
+
+// Appends the darts of orbit(d) to `out`, d first.
+void collect(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out);
+
+std::vector<Dart> darts_of(const GMap& map, Orbit orbit, Dart d);
+Dart smallest_dart(const GMap& map, Orbit orbit, Dart d);
+bool same_cell(const GMap& map, Orbit orbit, Dart a, Dart b);
+
+// Follows αi, αj, αi, .. from d and calls f on every dart of <i,j>(d), d first.
+template <class F> void walk_two(const GMap& map, int i, int j, Dart d, F&& f) {
+  f(d);
+  int link = i;
+  for (Dart at = d;;) {
+    const Dart next = map.alpha(link, at);
+    if (next == at) break; // the end of a path: the rest lies the other way
+    if (next == d) return; // once around
+    f(next);
+    at = next;
+    link = i + j - link;
+  }
+  link = j;
+  for (Dart at = d;;) {
+    const Dart next = map.alpha(link, at);
+    if (next == at) return;
+    f(next);
+    at = next;
+    link = i + j - link;
+  }
+}
+
+// Calls f on every dart of the vertex of d in a sheet.
+template <class F> void walk_sheet_vertex(const GMap& map, Dart d, F&& f) {
+  walk_two(map, 1, 2, d, f);
+}
+
+} // namespace rend

@@ -1,0 +1,153 @@
+// The cloth of the thesis's table 7.1: steps, criteria, flat against walk, and a plain loop over the same springs.
+#include "sim/presets.h"
+#include "sim/surface/surface.h"
+#include "sim/topology/count.h"
+
+#include <benchmark/benchmark.h>
+
+#include <sys/resource.h>
+
+namespace rend {
+namespace {
+
+const char* const global_law = R"(<tear criterion="global-border" threshold="1e9"/>)";
+const char* const atomic_law = R"(<tear criterion="atomic-border" threshold="1e9"/>)";
+
+void steps(benchmark::State& state, const std::string& xml, const SceneOptions& options = {}) {
+  presets::Loaded scene = presets::load(xml, options);
+  for (int n = 0; n < 200; ++n) scene->step();
+  for (auto _ : state) scene->step();
+  std::size_t rows = 0;
+  for (const Binder& binder : scene.body().program->folded()) rows += binder.rows().live_count();
+  state.counters["springs"] = static_cast<double>(rows);
+}
+
+void rk4_step(benchmark::State& state, const std::string& pattern, const std::string& law) {
+  steps(state, presets::cloth(pattern, 10, law));
+}
+BENCHMARK_CAPTURE(rk4_step, quads, "quads", "");
+BENCHMARK_CAPTURE(rk4_step, quads_global, "quads", global_law);
+BENCHMARK_CAPTURE(rk4_step, quads_atomic, "quads", atomic_law);
+BENCHMARK_CAPTURE(rk4_step, crossed, "crossed", "");
+BENCHMARK_CAPTURE(rk4_step, crossed_global, "crossed", global_law);
+BENCHMARK_CAPTURE(rk4_step, crossed_atomic, "crossed", atomic_law);
+BENCHMARK_CAPTURE(rk4_step, mixed, "mixed", "");
+BENCHMARK_CAPTURE(rk4_step, mixed_global, "mixed", global_law);
+BENCHMARK_CAPTURE(rk4_step, mixed_atomic, "mixed", atomic_law);
+
+const char* const small_steps = R"(<time step="1e-4" integrator="symplectic" duration="1"/>)";
+
+void flat(benchmark::State& state) {
+  steps(state, presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps));
+}
+BENCHMARK(flat)->Arg(10)->Arg(64)->Arg(100)->Arg(1000);
+
+void walk(benchmark::State& state) {
+  steps(state, presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps), {.walk = true, .threads = 1});
+}
+BENCHMARK(walk)->Arg(10)->Arg(100);
+
+// What one would write by hand: the same springs in plain arrays, symplectic Euler, no map and no tearing.
+struct PlainCloth {
+  struct P {
+    double x, y, z;
+  };
+  std::vector<P> x, v, f;
+  std::vector<double> inverse_mass, k, rest;
+  std::vector<int> i, j;
+  std::vector<int> fixed;
+  double drag = 0;
+
+  explicit PlainCloth(const Body& body) : drag(body.uniform_drag) {
+    for (const Record& r : body.map->position().values()) x.push_back({r.x, r.y, r.z});
+    v.resize(x.size(), {0, 0, 0});
+    f.resize(x.size());
+    inverse_mass.assign(body.program->inverse_mass(), body.program->inverse_mass() + x.size());
+    for (const Binder& binder : body.program->folded())
+      binder.rows().for_each([&](std::size_t, std::size_t row) {
+        i.push_back(static_cast<int>(binder.rows().index(0)[row]));
+        j.push_back(static_cast<int>(binder.rows().index(1)[row]));
+        k.push_back(binder.rows().value(0)[row]);
+        rest.push_back(binder.rows().value(2)[row]);
+      });
+    for (Slot s : body.constraints.vertices()) fixed.push_back(static_cast<int>(s));
+  }
+
+  void step(double dt) {
+    for (P& p : f) p = {0, 0, 0};
+    for (std::size_t s = 0; s < k.size(); ++s) {
+      const P &a = x[static_cast<std::size_t>(i[s])], &b = x[static_cast<std::size_t>(j[s])];
+      const double dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
+      const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
+      const double c = k[s] * (length - rest[s]) / length;
+      P &fa = f[static_cast<std::size_t>(i[s])], &fb = f[static_cast<std::size_t>(j[s])];
+      fa.x += c * dx, fa.y += c * dy, fa.z += c * dz;
+      fb.x -= c * dx, fb.y -= c * dy, fb.z -= c * dz;
+    }
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      const double w = inverse_mass[n];
+      v[n].x += dt * (w * f[n].x - drag * v[n].x);
+      v[n].y += dt * (w * f[n].y - drag * v[n].y);
+      v[n].z += dt * (w * f[n].z - 9.81 - drag * v[n].z);
+    }
+    for (int n : fixed) v[static_cast<std::size_t>(n)] = {0, 0, 0};
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      x[n].x += dt * v[n].x;
+      x[n].y += dt * v[n].y;
+      x[n].z += dt * v[n].z;
+    }
+  }
+};
+
+void plain_loop(benchmark::State& state) {
+  PlainCloth cloth([&] {
+    const presets::Loaded scene =
+        presets::load(presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps));
+    return PlainCloth(scene.body());
+  }());
+  for (int n = 0; n < 200; ++n) cloth.step(1e-4);
+  for (auto _ : state) cloth.step(1e-4);
+  state.counters["springs"] = static_cast<double>(cloth.k.size());
+}
+BENCHMARK(plain_loop)->Arg(10)->Arg(64)->Arg(100)->Arg(1000);
+
+void build_and_bind(benchmark::State& state) {
+  const std::string xml = presets::cloth("quads", static_cast<int>(state.range(0)), global_law, small_steps);
+  for (auto _ : state) {
+    presets::Loaded scene = presets::load(xml);
+    benchmark::DoNotOptimize(scene.scene);
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["peak_GB"] = static_cast<double>(usage.ru_maxrss) / 1048576;
+}
+BENCHMARK(build_and_bind)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+// One edge after another across the middle of the sheet: the map, embeddings, program and surface brought up to date.
+void one_separation(benchmark::State& state) {
+  const int cells = static_cast<int>(state.range(0));
+  presets::Loaded scene = presets::load(presets::cloth("quads", cells, global_law, small_steps));
+  Body& body = scene.body();
+  Surface surface(body);
+  std::vector<Dart> edges; // between rows of faces, from the border inwards
+  for (int row = cells / 8; row + 1 < cells; row += 3)
+    for (int column = 0; column + 3 < cells; ++column)
+      edges.push_back(Dart{static_cast<std::uint32_t>(8 * (row * cells + column) + 4)}); // the upper side of the quad
+  std::size_t at = 0;
+  for (auto _ : state) {
+    if (at == edges.size()) {
+      state.SkipWithError("no edge is left");
+      break;
+    }
+    body.map->edit([&](Edit& edit) { unsew(edit, 2, edges[at]); });
+    ++at;
+    body.rebind();
+    surface.update();
+  }
+  state.counters["fragments"] = static_cast<double>(count_cells(body.map->map(), Component));
+}
+BENCHMARK(one_separation)->Arg(100)->Iterations(2500);
+BENCHMARK(one_separation)->Arg(1000)->Iterations(2500);
+
+} // namespace
+} // namespace rend

@@ -1,0 +1,141 @@
+// What a walk, a separation and a subdivision cost. Run alone: cmake -DREND_BENCH=ON, then topology_bench.
+#include "sim/rules/rules.h"
+#include "sim/topology/walk.h"
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <random>
+
+namespace rend {
+namespace {
+
+// n × n quads of 8 darts, row by row, built in bulk. Dart 8q + 2s + e: end e of side s (south, east, north, west).
+GMap quads(std::uint32_t n) {
+  GMap map(2);
+  MapEdit edit(map);
+  edit.reserve(8ull * n * n);
+  const auto dart = [&](std::uint32_t x, std::uint32_t y, std::uint32_t k) {
+    return Dart{8 * (y * n + x) + k};
+  };
+  for (std::uint32_t y = 0; y < n; ++y) {
+    for (std::uint32_t x = 0; x < n; ++x) {
+      for (int k = 0; k < 8; ++k) edit.add_dart();
+      for (std::uint32_t k = 0; k < 8; ++k)
+        edit.link(k % 2 == 0 ? 0 : 1, dart(x, y, k), dart(x, y, (k + 1) % 8));
+      if (y > 0) {
+        edit.link(2, dart(x, y, 0), dart(x, y - 1, 5));
+        edit.link(2, dart(x, y, 1), dart(x, y - 1, 4));
+      }
+      if (x > 0) {
+        edit.link(2, dart(x, y, 7), dart(x - 1, y, 2));
+        edit.link(2, dart(x, y, 6), dart(x - 1, y, 3));
+      }
+    }
+  }
+  return map;
+}
+
+std::unique_ptr<EmbeddedMap> sheet(std::uint32_t n) {
+  return std::make_unique<EmbeddedMap>(quads(n), [](Dart d) {
+    const Vec3 place(d.value % 1000, d.value / 1000, 0);
+    return Point{place, place, Vec3::Zero()};
+  });
+}
+
+std::vector<Dart> one_dart_per_vertex(const GMap& map, bool shuffled) {
+  const CellIndex cells(map, Vertex);
+  std::vector<Dart> darts;
+  for (Slot s = 0; s < cells.slots(); ++s) darts.push_back(cells.first_dart(s));
+  if (shuffled) std::shuffle(darts.begin(), darts.end(), std::mt19937(1));
+  return darts;
+}
+
+void walk_vertices(benchmark::State& state) {
+  const GMap map = quads(static_cast<std::uint32_t>(state.range(0)));
+  const std::vector<Dart> firsts = one_dart_per_vertex(map, state.range(1) != 0);
+  for (auto _ : state) {
+    std::uint32_t sum = 0;
+    for (Dart d : firsts) walk_sheet_vertex(map, d, [&](Dart e) { sum += e.value; });
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(map.dart_count()));
+}
+BENCHMARK(walk_vertices)->ArgNames({"side", "shuffled"})->Args({50, 0})->Args({1000, 0})->Args({1000, 1});
+
+void collect_orbits(benchmark::State& state) {
+  const GMap map = quads(100);
+  Orbit orbit;
+  orbit.mask = static_cast<std::uint8_t>(state.range(0));
+  state.SetLabel(name(orbit));
+  const CellIndex cells(map, orbit);
+  std::vector<Dart> darts;
+  for (auto _ : state) {
+    for (Slot s = 0; s < cells.slots(); ++s) {
+      darts.clear();
+      collect(map, orbit, cells.first_dart(s), darts);
+      benchmark::DoNotOptimize(darts.data());
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(map.dart_count()));
+}
+BENCHMARK(collect_orbits)->Arg(Vertex.mask)->Arg(Edge.mask)->Arg(FaceOfVolume.mask)->Arg(Component.mask);
+
+// The east edges of every second column, bottom to top: each but the first of a column splits a vertex at least.
+std::vector<Dart> columns_of_edges(std::uint32_t n) {
+  std::vector<Dart> edges;
+  for (std::uint32_t x = 0; x + 1 < n; x += 2)
+    for (std::uint32_t y = 0; y < n; ++y) edges.push_back(Dart{8 * (y * n + x) + 2});
+  return edges;
+}
+
+enum Way { Single, ByRule, Together };
+
+// Vertices and one column more than the points; per edge. state: side of the sheet, way.
+void unsew_edges(benchmark::State& state) {
+  const auto n = static_cast<std::uint32_t>(state.range(0));
+  const std::vector<Dart> edges = columns_of_edges(n);
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto body = sheet(n);
+    body->add(VertexRecord{"another"});
+    state.ResumeTiming();
+    if (state.range(1) == Single)
+      for (Dart d : edges) body->edit([&](Edit& edit) { unsew(edit, 2, d); });
+    if (state.range(1) == ByRule)
+      for (Dart d : edges) apply(unsew_edge, *body, d);
+    if (state.range(1) == Together)
+      body->edit([&](Edit& edit) {
+        for (Dart d : edges) unsew(edit, 2, d);
+      });
+    state.PauseTiming();
+    body.reset();
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(edges.size()));
+}
+BENCHMARK(unsew_edges)
+    ->ArgNames({"side", "way"})
+    ->Args({50, Single})
+    ->Args({50, ByRule})
+    ->Args({50, Together})
+    ->Args({300, Single})
+    ->Args({300, Together});
+
+void subdivide_sheet(benchmark::State& state) {
+  const auto n = static_cast<std::uint32_t>(state.range(0));
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto body = sheet(n);
+    state.ResumeTiming();
+    apply(subdivide, *body, Dart{0u});
+    state.PauseTiming();
+    body.reset();
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(state.iterations() * 8 * n * n);
+}
+BENCHMARK(subdivide_sheet)->ArgName("side")->Arg(112)->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace rend

@@ -1,0 +1,46 @@
+#include "render/output.h"
+
+#include "tests/render/pictures.h"
+
+#include <array>
+#include <gtest/gtest.h>
+
+namespace rend {
+namespace {
+
+const std::array<std::uint8_t, 3> bytes{'a', 'b', 'c'};
+
+TEST(OutputFile, AppearsOnlyWhenItIsCommitted) {
+  const test::Folder folder;
+  OutputFile file(folder / "x");
+  file.write(bytes);
+  EXPECT_FALSE(std::filesystem::exists(folder / "x"));
+  file.commit();
+  EXPECT_EQ(std::filesystem::file_size(folder / "x"), 3u);
+  EXPECT_EQ(folder.files(), 1);
+}
+
+TEST(OutputFile, LeavesNothingWhenItIsGivenUp) {
+  const test::Folder folder;
+  {
+    OutputFile file(folder / "x");
+    file.write(bytes);
+  }
+  EXPECT_EQ(folder.files(), 0);
+}
+
+TEST(OutputFile, OverwritesWhatAKilledRunLeftBehind) {
+  const test::Folder folder;
+  for (int run = 0; run < 2; ++run) {
+    OutputFile file(folder / "x");
+    file.write(bytes);
+    std::filesystem::copy_file(file.temporary(), folder / "kept",
+                               std::filesystem::copy_options::overwrite_existing);
+    file.commit();
+    std::filesystem::copy_file(folder / "kept", file.temporary()); // as if it had never been renamed
+  }
+  EXPECT_EQ(std::filesystem::file_size(folder / "x"), 3u);
+}
+
+} // namespace
+} // namespace rend
