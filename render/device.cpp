@@ -17,10 +17,12 @@ namespace {
 }
 
 // llvmpipe crashes with vectors of 512 bits; 128 and 256 give the same pictures, so a choice of 128 is
-// respected.
+// respected. Mesa keeps compiled shaders on disk and forgets how wide their vectors were: found again at
+// another width they write beyond their buffers. Compiling them anew takes a third of a second.
 void pin_vector_width() {
   const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
   if (width == nullptr || std::strcmp(width, "128") != 0) setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
 class OsMesaDevice final : public Device {

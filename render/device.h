@@ -13,14 +13,14 @@ namespace rend {
 class Device {
 public:
   virtual ~Device() = default;
-  virtual void make_current() = 0; // in the calling thread
-  virtual void release() = 0;      // the calling thread no longer draws
-  virtual const std::string&
-  renderer() const = 0; // "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa ..."
+  virtual void make_current() = 0;                 // in the calling thread
+  virtual void release() = 0;                      // the calling thread no longer draws
+  virtual const std::string& renderer() const = 0; // "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 ..."
 };
 
 // Starts off-screen OpenGL; the context is current in the calling thread. Throws UserError (CannotCreate) where
-// the machine cannot. Sets LP_NATIVE_VECTOR_WIDTH in the environment: call it while no other thread reads that.
+// the machine cannot. Sets LP_NATIVE_VECTOR_WIDTH and MESA_SHADER_CACHE_DISABLE in the environment: call it
+// while no other thread reads that.
 std::unique_ptr<Device> make_device();
 
 } // namespace rend

@@ -7,6 +7,7 @@ namespace rend {
 namespace {
 
 constexpr double light_width = 0.22;   // of the key light, as seen from the floor: penumbra per distance
+constexpr int blur_side = 64;          // [texels]: how blurred a shadow is changes slowly
 constexpr double contact_reach = 0.08; // height at which contact ends, per scale of the picture
 
 void clamp_to_edge(GLint filter) {
@@ -14,6 +15,17 @@ void clamp_to_edge(GLint filter) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void make_target(const GlTexture& texture, const GlFramebuffer& target, GLint format, GLenum channels,
+                 int side) {
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, format, side, side, 0, channels, GL_UNSIGNED_BYTE, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  clamp_to_edge(GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
+  check_framebuffer("FloorShadow");
 }
 
 // Textures are read beyond their edge as at their edge, and there nothing is kept from the floor.
@@ -74,13 +86,8 @@ void Pyramid::build(const GlProgram& halve, const std::function<void()>& draw) {
 }
 
 FloorShadow::FloorShadow() {
-  glBindTexture(GL_TEXTURE_2D, shade_.name());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RG8, key_.side(), key_.side(), 0, GL_RG, GL_UNSIGNED_BYTE, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-  clamp_to_edge(GL_LINEAR);
-  glBindFramebuffer(GL_FRAMEBUFFER, shade_target_.name());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, shade_.name(), 0);
-  check_framebuffer("FloorShadow");
+  make_target(blur_, blur_target_, GL_R16, GL_RED, blur_side);
+  make_target(shade_, shade_target_, GL_RG8, GL_RG, key_.side());
 }
 
 void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& towards_key,
@@ -113,23 +120,36 @@ void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& tow
   const double penumbra = std::log2(light_width * key_reach / towards_key.z() / (2 * key_texel));
   const double contact_level = std::clamp(std::log2(0.4 * contact / contact_texel), 0.0, 4.0);
   shade_of_floor_ = texture_of_floor(key, floor_z);
-  settle(penumbra, contact_level, texture_of_floor(above, floor_z));
+  choose_blur(penumbra);
+  settle(contact_level, texture_of_floor(above, floor_z));
 }
 
-void FloorShadow::settle(double penumbra, double contact_level,
-                         const Eigen::Matrix<double, 2, 3>& contact_of_floor) {
+void FloorShadow::choose_blur(double penumbra) {
+  begin_with_empty_rim(blur_target_, blur_side);
+  glDisable(GL_SCISSOR_TEST);
+  choose_.use();
+  choose_.set("penumbra", static_cast<float>(penumbra));
+  choose_.set("occluders", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, key_.texture());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void FloorShadow::settle(double contact_level, const Eigen::Matrix<double, 2, 3>& contact_of_floor) {
   // shade = A floor + a, contact = C floor + c: contact = C A⁻¹ shade + (c - C A⁻¹ a)
   const Eigen::Matrix2d turn = contact_of_floor.leftCols<2>() * shade_of_floor_.leftCols<2>().inverse();
   const Eigen::Vector2d origin = contact_of_floor.col(2) - turn * shade_of_floor_.col(2);
   begin_with_empty_rim(shade_target_, key_.side());
   settle_.use();
-  settle_.set("penumbra", static_cast<float>(penumbra));
   settle_.set("contact_level", static_cast<float>(contact_level));
   settle_.set("contact_origin", Eigen::Vector2f(origin.cast<float>()));
   settle_.set("contact_x", Eigen::Vector2f(turn.col(0).cast<float>()));
   settle_.set("contact_y", Eigen::Vector2f(turn.col(1).cast<float>()));
   settle_.set("occluders", 0);
   settle_.set("contact", 1);
+  settle_.set("blur", 2);
+  glActiveTexture(GL_TEXTURE2);
+  glBindTexture(GL_TEXTURE_2D, blur_.name());
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, contact_.texture());
   glActiveTexture(GL_TEXTURE0);

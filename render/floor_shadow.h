@@ -44,14 +44,16 @@ public:
   const Eigen::Matrix<double, 2, 3>& shade_of_floor() const { return shade_of_floor_; }
 
 private:
-  void settle(double penumbra, double contact_level, const Eigen::Matrix<double, 2, 3>& contact_of_floor);
+  void choose_blur(double penumbra);
+  void settle(double contact_level, const Eigen::Matrix<double, 2, 3>& contact_of_floor);
 
   GlProgram occluder_{"occluder.vert", "occluder.frag"};
   GlProgram halve_{"screen.vert", "halve.frag"};
   GlProgram settle_{"screen.vert", "settle.frag"};
   Pyramid key_{512, 5}, contact_{256, 5};
-  GlTexture shade_;
-  GlFramebuffer shade_target_;
+  GlProgram choose_{"screen.vert", "blur.frag"};
+  GlTexture blur_, shade_; // one channel: which level of key_ is the shadow; two: see shade()
+  GlFramebuffer blur_target_, shade_target_;
   Eigen::Matrix<double, 2, 3> shade_of_floor_;
 };
 

@@ -26,7 +26,7 @@ struct Corner {
   std::array<float, 3> position;      // [m]
   std::array<float, 3> normal;        // unit, or 0 for a flat triangle; the three of a triangle agree in sign
   std::array<std::uint8_t, 4> colour; // sRGB, alpha = 255
-  std::array<std::uint8_t, 4> line;   // [k]: Line along the side opposite to the triangle's corner k; [3]: 0
+  std::array<std::uint8_t, 4> line; // [k]: Line along the side opposite to corner k, alike in all three; [3]: 0
 };
 static_assert(sizeof(Corner) == 32);
 

@@ -1,11 +1,14 @@
 // The stage: draws a Frame into a picture.
 //
-// Passes: shadow map from the key light ─▶ floor's shadows ─▶ bodies (with samples) ─▶ resolve ─▶ floor and
-// backdrop. Bodies are drawn over nothing, and the studio is put behind them afterwards, once a pixel: it has
-// no edges that samples would smooth, and covers most of the picture. What is under the floor is clipped away.
-// Both sides of every triangle are lit. Lines along cells are worked out in the fragment shader, from
-// barycentric coordinates, so they cost no geometry and are smooth at any size. The picture is a pure function
-// of the frame, the size and the number of samples: the same on every run, for any number of threads.
+// Passes: shadow map from the key light ─▶ floor's shadows ─▶ bodies (with samples) ─▶ resolve ─▶ studio.
+//
+// Bodies are drawn over nothing, and the studio (floor and backdrop) is put behind them afterwards, once a
+// pixel: it has no edges that samples would smooth, and covers most of the picture. What is under the floor is
+// clipped away. Both sides of every triangle are lit. Lines along cells are worked out in the fragment shader,
+// from barycentric coordinates, so they cost no geometry and are smooth at any size.
+//
+// The picture is a pure function of the frame, the size and the number of samples: the same on every run, for
+// any number of threads.
 //
 // A Device must be current, from construction to destruction.
 #pragma once
@@ -47,7 +50,7 @@ private:
   void draw_shadow_map(const LightView& light);
   void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light);
   void resolve();
-  void draw_studio(const Frame& frame, const View& view);
+  void draw_studio(const Frame& frame, const View& view, const Eigen::Vector3f& background);
   void set_floor(const Frame& frame, const View& view);
 
   int width_, height_, samples_;

@@ -11,3 +11,11 @@ vec3 backdrop(vec2 place, vec3 background) {
   float fall = dot(from * from, vec2(0.11, 0.16));
   return background * (1.0 - fall);
 }
+
+// A level of a pyramid read smoothly: its texels are large, and plain interpolation would show them as
+// scallops.
+vec2 smoothly(sampler2D pyramid, vec2 at, float level) {
+  vec2 a = vec2(0.5, 0.5) * exp2(level) / vec2(textureSize(pyramid, 0)), b = vec2(-a.x, a.y);
+  return 0.25 * (textureLod(pyramid, at + a, level).xy + textureLod(pyramid, at - a, level).xy +
+                 textureLod(pyramid, at + b, level).xy + textureLod(pyramid, at - b, level).xy);
+}

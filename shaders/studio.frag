@@ -1,8 +1,8 @@
 // The studio floor, behind everything: it has the backdrop's own light, so that it has no end, less what the
 // bodies keep away from it.
 in vec2 place;
-uniform vec3 eye_height;            // xy: the eye relative to the middle of the floor, z: its height over it [reach]
-uniform vec3 ray, ray_x, ray_y;     // of the picture's middle, and per unit of place [reach]
+uniform vec3 eye;        // the eye relative to the middle of the floor [reach]
+uniform vec3 ray, ray_x, ray_y; // of the picture's middle, and per unit of place [reach]
 uniform vec2 shade_origin, shade_x, shade_y; // from the floor [reach] to the texture
 uniform sampler2D shade;
 uniform vec3 background; // sRGB
@@ -11,7 +11,7 @@ out vec4 pixel;
 void main() {
   vec3 along = ray + place.x * ray_x + place.y * ray_y;
   float down = max(-along.z, 1e-6);
-  vec2 at = eye_height.xy + along.xy * (eye_height.z / down);
+  vec2 at = eye.xy + along.xy * (eye.z / down);
   vec2 kept = texture(shade, shade_origin + at.x * shade_x + at.y * shade_y).xy;
 
   vec3 behind = backdrop(place, decode(background));

@@ -56,6 +56,7 @@ struct Scratch {
   std::vector<Slot> affected;  // slots that may have lost all their darts
   std::vector<Slot> old_slots; // of one fragment, each once, in the order of its darts
   IndexSet seen;               // darts that were collected
+  IndexSet met;                // old slots of one fragment
   IndexSet claimed;            // slots that live on
 };
 thread_local Scratch scratch;
@@ -109,18 +110,22 @@ void CellIndex::update(const GMap& map, const Journal& journal, SlotEvents& even
   }
 }
 
-// Gives a fragment its slot. Fragments come by increasing smallest dart, so that the first to ask keeps the slot.
+// Gives a fragment its slot. Fragments come by increasing smallest dart, so that the first to ask keeps the
+// slot.
 void CellIndex::settle(Fragment& fragment, SlotEvents& events) {
   Dart* const begin = scratch.darts.data() + fragment.begin;
   Dart* const end = scratch.darts.data() + fragment.end;
   Dart oldest; // the smallest dart that had a slot
+  Slot last = no_slot;
   scratch.old_slots.clear();
+  scratch.met.clear();
   for (Dart* d = begin; d != end; ++d) {
     const Slot old = slot_of_dart_[d->value];
     if (old == no_slot) continue;
     if (!oldest || *d < oldest) oldest = *d;
-    if (std::find(scratch.old_slots.begin(), scratch.old_slots.end(), old) == scratch.old_slots.end())
-      scratch.old_slots.push_back(old);
+    if (old == last) continue; // mostly
+    last = old;
+    if (scratch.met.insert(old)) scratch.old_slots.push_back(old);
   }
   scratch.affected.insert(scratch.affected.end(), scratch.old_slots.begin(), scratch.old_slots.end());
 

@@ -1,8 +1,9 @@
 // The slots of one kind of orbit: which slot each dart's orbit has, and what an edit does to them.
 //
-// Slots are truth: a slot never moves because of a change elsewhere. When an orbit falls apart, the fragment with
-// the smallest dart keeps the slot and the others take new ones; when orbits become one, it keeps the slot of its
-// smallest dart. Freed slots are reused, the last freed first. At a full build slots are numbered by smallest dart.
+// Slots are truth: a slot never moves because of a change elsewhere. When an orbit falls apart, the fragment
+// with the smallest dart keeps the slot and the others take new ones; when orbits become one, it keeps the slot
+// of its smallest dart. Freed slots are reused, the last freed first. At a full build slots are numbered by
+// smallest dart.
 #pragma once
 
 #include "sim/topology/gmap.h"

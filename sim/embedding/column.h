@@ -1,6 +1,7 @@
 // Embeddings: a value on every orbit of one kind, and what becomes of it when the orbit changes.
 //
-// An embedding is a small type that says where it lives and what its policies are; no operator ever updates one.
+// An embedding is a small type that says where it lives and what its policies are; no operator ever updates
+// one.
 //
 //   struct CornerMass {
 //     using Value = double;                                 // [kg]
@@ -12,9 +13,9 @@
 //     Value merge(const Value& kept, const Value& absorbed) const; // without one, what was merged is born again
 //   };
 //
-// `support` must contain `orbit`'s element: when any link of the support orbit changes, all values whose orbit holds
-// a dart of it are born again. A separation (α2 of a sheet, α3 of a solid) changes no element, so that a value with
-// support <0,1> (<0,1,2>) never notices one. support = orbit: only the orbit's own events count.
+// `support` must contain `orbit`'s element: when any link of the support orbit changes, all values whose orbit
+// holds a dart of it are born again. A separation (α2 of a sheet, α3 of a solid) changes no element, so that a
+// value with support <0,1> (<0,1,2>) never notices one. support = orbit: only the orbit's own events count.
 #pragma once
 
 #include "sim/base/record.h"

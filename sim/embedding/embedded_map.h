@@ -2,9 +2,9 @@
 //
 //   body.edit([&](Edit& edit) { unsew(edit, 2, dart); });
 //
-// While the scope is open the map changes and the journal grows; when it closes, the slots of every orbit in use are
-// brought up to date once, from the touched darts alone, and every column applies its policies. Only orbits that
-// somebody asked for have slots. What is built upon the map (rows, surfaces) subscribes to Changes.
+// While the scope is open the map changes and the journal grows; when it closes, the slots of every orbit in
+// use are brought up to date once, from the touched darts alone, and every column applies its policies. Only
+// orbits that somebody asked for have slots. What is built upon the map (rows, surfaces) subscribes to Changes.
 #pragma once
 
 #include "sim/embedding/column.h"
@@ -121,8 +121,9 @@ class Edit : public MapEdit {
 public:
   Edit(GMap& map, Journal& journal, EmbeddedMap& embedded) : MapEdit(map, &journal), embedded_(embedded) {}
 
-  // The point of the vertex of d, if it turns out to be a new vertex: one without a dart from before the edit. Where
-  // several darts of a new vertex are given points, that of the smallest dart counts; of two gifts to a dart, the last.
+  // The point of the vertex of d, if it turns out to be a new vertex: one without a dart from before the edit.
+  // Where several darts of a new vertex are given points, that of the smallest dart counts; of two gifts to a
+  // dart, the last.
   void give(Dart d, const Point& point) { give(d, add_point(point)); }
 
   // The same in two steps, for many darts of one point.
@@ -139,8 +140,8 @@ private:
   IndexMap given_; // dart → index in points_
 };
 
-// Every axiom of the map, and that every dart of an orbit has its slot and no other orbit has it. Names the first
-// fault.
+// Every axiom of the map, and that every dart of an orbit has its slot and no other orbit has it. Names the
+// first fault.
 std::optional<std::string> validate(const EmbeddedMap& embedded);
 
 } // namespace rend

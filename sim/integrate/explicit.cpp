@@ -10,9 +10,8 @@ class ExplicitEuler final : public Integrator {
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
     for (std::size_t i = 0; i < system.vertices(); ++i) {
-      const Vec3 v = now.velocity[i];
-      next.velocity[i] = Vec3(v + step * system.acceleration(i, force[i], v));
-      next.position[i] = Vec3(now.position[i].vec() + step * v);
+      const Double4 v = load(now.velocity[i]);
+      next.put(i, load(now.position[i]) + step * v, v + step * system.acceleration(i, load(force[i]), v));
     }
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }

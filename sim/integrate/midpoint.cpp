@@ -16,16 +16,16 @@ class Midpoint final : public Integrator {
     force_.resize(count);
     middle_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 v = now.velocity[i];
-      middle_.position[i] = Vec3(now.position[i].vec() + (0.5 * step) * v);
-      middle_.velocity[i] = Vec3(v + (0.5 * step) * system.acceleration(i, force[i], v));
+      const Double4 v = load(now.velocity[i]);
+      store(middle_.position[i], load(now.position[i]) + (0.5 * step) * v);
+      store(middle_.velocity[i], v + (0.5 * step) * system.acceleration(i, load(force[i]), v));
     }
     system.constrain(time + 0.5 * step, middle_.position.data(), middle_.velocity.data());
     system.forces(time + 0.5 * step, middle_.position.data(), middle_.velocity.data(), force_.data());
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 v = middle_.velocity[i];
-      next.position[i] = Vec3(now.position[i].vec() + step * v);
-      next.velocity[i] = Vec3(now.velocity[i].vec() + step * system.acceleration(i, force_[i], v));
+      const Double4 v = load(middle_.velocity[i]);
+      next.put(i, load(now.position[i]) + step * v,
+               load(now.velocity[i]) + step * system.acceleration(i, load(force_[i]), v));
     }
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }

@@ -20,14 +20,15 @@ class RungeKutta4 final : public Integrator {
   std::vector<Record> force_;                 // [N], of the stage
   std::vector<Record> velocities_, accelerations_; // weighted sums of those of the stages
 
-  // Adds the derivative at a stage, with its weight, and goes on to the next stage at `ahead` from the start.
-  void collect(System& system, std::size_t i, const Record& f, const Vec3& v, double weight, const StateView& now,
+  // Adds the derivative at a stage (its force f, its velocity v), with its weight, and goes on to the next stage, at
+  // `ahead` from the start.
+  void collect(const System& system, std::size_t i, Double4 f, Double4 v, double weight, const StateView& now,
                double ahead) {
-    const Vec3 a = system.acceleration(i, f, v);
-    velocities_[i] = Vec3(velocities_[i].vec() + weight * v);
-    accelerations_[i] = Vec3(accelerations_[i].vec() + weight * a);
-    stage_.position[i] = Vec3(now.position[i].vec() + ahead * v);
-    stage_.velocity[i] = Vec3(now.velocity[i].vec() + ahead * a);
+    const Double4 a = system.acceleration(i, f, v);
+    store(velocities_[i], load(velocities_[i]) + weight * v);
+    store(accelerations_[i], load(accelerations_[i]) + weight * a);
+    store(stage_.position[i], load(now.position[i]) + ahead * v);
+    store(stage_.velocity[i], load(now.velocity[i]) + ahead * a);
   }
 
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
@@ -37,18 +38,19 @@ class RungeKutta4 final : public Integrator {
     stage_.resize(count);
     velocities_.assign(count, {});
     accelerations_.assign(count, {});
-    for (std::size_t i = 0; i < count; ++i) collect(system, i, force[i], now.velocity[i], 1, now, 0.5 * step);
+    for (std::size_t i = 0; i < count; ++i)
+      collect(system, i, load(force[i]), load(now.velocity[i]), 1, now, 0.5 * step);
     for (int stage = 2; stage <= 3; ++stage) {
       evaluate(system, time + 0.5 * step);
       const double ahead = stage == 2 ? 0.5 * step : step;
       for (std::size_t i = 0; i < count; ++i)
-        collect(system, i, force_[i], stage_.velocity[i].vec(), 2, now, ahead);
+        collect(system, i, load(force_[i]), load(stage_.velocity[i]), 2, now, ahead);
     }
     evaluate(system, time + step);
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 v = stage_.velocity[i], a = system.acceleration(i, force_[i], v);
-      next.position[i] = Vec3(now.position[i].vec() + (step / 6) * (velocities_[i].vec() + v));
-      next.velocity[i] = Vec3(now.velocity[i].vec() + (step / 6) * (accelerations_[i].vec() + a));
+      const Double4 v = load(stage_.velocity[i]), a = system.acceleration(i, load(force_[i]), v);
+      next.put(i, load(now.position[i]) + (step / 6) * (load(velocities_[i]) + v),
+               load(now.velocity[i]) + (step / 6) * (load(accelerations_[i]) + a));
     }
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }

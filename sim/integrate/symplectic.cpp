@@ -12,10 +12,9 @@ class SymplecticEuler final : public Integrator {
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
     for (std::size_t i = 0; i < system.vertices(); ++i) {
-      const Vec3 v = now.velocity[i];
-      const Vec3 w = v + step * system.acceleration(i, force[i], v);
-      next.velocity[i] = w;
-      next.position[i] = Vec3(now.position[i].vec() + step * w);
+      const Double4 v = load(now.velocity[i]);
+      const Double4 w = v + step * system.acceleration(i, load(force[i]), v);
+      next.put(i, load(now.position[i]) + step * w, w);
     }
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }

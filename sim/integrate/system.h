@@ -1,7 +1,7 @@
 // What a time scheme may ask of a body: m dv/dt = f(x, v) + m g − γ v + loads, dx/dt = v, with some vertices prescribed.
 #pragma once
 
-#include "sim/base/record.h"
+#include "sim/base/simd.h"
 
 #include <cstddef>
 #include <vector>
@@ -15,6 +15,15 @@ struct State {
     position.resize(vertices);
     velocity.resize(vertices);
   }
+
+  // Writes the new state of a vertex, and looks on the way whether it is finite: 0 times what is not is not 0.
+  void put(std::size_t i, Double4 x, Double4 v) {
+    store(position[i], x);
+    store(velocity[i], v);
+    probe += 0.0 * (x + v);
+  }
+  bool finite() const { return probe[0] + probe[1] + probe[2] == 0; }
+  Double4 probe{};
 };
 
 // The same, to be read alone.
@@ -34,17 +43,17 @@ public:
   // Puts prescribed vertices where they are at `time`, and gives them their velocity there.
   virtual void constrain(double time, Record* position, Record* velocity) = 0;
 
-  // dv/dt of a free vertex under the internal force f.
-  Vec3 acceleration(std::size_t vertex, const Record& f, const Vec3& v) const {
+  // dv/dt [m/s²] of a free vertex under the internal force f.
+  Double4 acceleration(std::size_t vertex, Double4 f, Double4 v) const {
     double rate = uniform_drag;
     if (drag_rate) rate += drag_rate[vertex];
-    return f.vec() * inverse_mass[vertex] + gravity - rate * v;
+    return f * inverse_mass[vertex] + load(gravity) - rate * v;
   }
 
   const double* inverse_mass = nullptr; // [1/kg], one per vertex slot; 0: free slot
   const double* drag_rate = nullptr;    // γ/m [1/s], one per vertex slot, or null
   double uniform_drag = 0;              // γ/m [1/s], of all vertices
-  Vec3 gravity = Vec3::Zero();          // [m/s²]
+  Record gravity;                       // [m/s²]
 };
 
 } // namespace rend

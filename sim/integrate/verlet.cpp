@@ -14,16 +14,17 @@ class VelocityVerlet final : public Integrator {
     const std::size_t count = system.vertices();
     force_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 v = now.velocity[i], a = system.acceleration(i, force[i], v);
-      next.position[i] = Vec3(now.position[i].vec() + step * v + (0.5 * step * step) * a);
-      next.velocity[i] = Vec3(v + step * a);
+      const Double4 v = load(now.velocity[i]), a = system.acceleration(i, load(force[i]), v);
+      store(next.position[i], load(now.position[i]) + step * v + (0.5 * step * step) * a);
+      store(next.velocity[i], v + step * a);
     }
     system.constrain(time + step, next.position.data(), next.velocity.data());
     system.forces(time + step, next.position.data(), next.velocity.data(), force_.data());
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 v = now.velocity[i];
-      const Vec3 a = system.acceleration(i, force[i], v), b = system.acceleration(i, force_[i], next.velocity[i]);
-      next.velocity[i] = Vec3(v + (0.5 * step) * (a + b));
+      const Double4 v = load(now.velocity[i]);
+      const Double4 a = system.acceleration(i, load(force[i]), v);
+      const Double4 b = system.acceleration(i, load(force_[i]), load(next.velocity[i]));
+      next.put(i, load(next.position[i]), v + (0.5 * step) * (a + b));
     }
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }

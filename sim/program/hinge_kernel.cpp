@@ -23,7 +23,7 @@ void add(Record& to, const Vec3& force) { to = Record(to.vec() + force); }
 } // namespace
 
 void hinge_forces(const KernelArguments& a) {
-  for (std::size_t block = 0; block < a.rows.blocks(); ++block) {
+  for (std::size_t block = a.first; block < a.last; ++block) {
     const PackedRows::Range range = a.rows.range(block);
     if (range.low >= a.high || range.high < a.low) continue;
     each_hinge(a, block, [&](std::size_t at, const std::array<Vec3, 6>& force) {
@@ -36,7 +36,7 @@ void hinge_forces(const KernelArguments& a) {
 }
 
 void hinge_corner_forces(const KernelArguments& a) {
-  for (std::size_t block = 0; block < a.rows.blocks(); ++block)
+  for (std::size_t block = a.first; block < a.last; ++block)
     each_hinge(a, block, [&](std::size_t at, const std::array<Vec3, 6>& force) {
       for (int p = 0; p < 6; ++p) add(a.force[a.rows.index(6 + p)[at]], force[static_cast<std::size_t>(p)]);
     });

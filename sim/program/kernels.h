@@ -16,6 +16,7 @@ struct KernelArguments {
   const Record* velocity; // [m/s], one per vertex slot
   Record* force;          // [N], one per vertex slot; with corners: one per corner slot
   std::uint32_t low, high; // vertex slots to write; ignored with corners
+  std::size_t first, last; // blocks of rows to run: [first, last)
 };
 
 // Springs (spring_law.h), four rows at a time: 2.3 ns a spring where a plain loop over x, y, z takes 4.2 to 4.9.

@@ -41,7 +41,7 @@ void PackedRows::set(std::size_t key, const std::uint32_t* index, const double* 
   const std::size_t block = key / block_size, at = row(key);
   if (!live(key)) {
     shift(at, block * block_size + rows_in(block), 1);
-    mask_[block] |= std::uint64_t{1} << key % block_size;
+    mask_[block] |= std::uint64_t{1} << scattered(key % block_size);
   }
   for (std::size_t c = 0; c < index_.size(); ++c) index_[c][at] = index[c];
   for (std::size_t c = 0; c < value_.size(); ++c) value_[c][at] = value[c];
@@ -52,7 +52,7 @@ void PackedRows::erase(std::size_t key) {
   if (!live(key)) return;
   const std::size_t block = key / block_size, at = row(key);
   shift(at + 1, block * block_size + rows_in(block), -1);
-  mask_[block] &= ~(std::uint64_t{1} << key % block_size);
+  mask_[block] &= ~(std::uint64_t{1} << scattered(key % block_size));
   touch(block);
 }
 

@@ -29,7 +29,7 @@ public:
 
   void resize(std::size_t keys); // new keys are dead
   std::size_t keys() const { return keys_; }
-  bool live(std::size_t key) const { return (mask_[key / block_size] >> (key % block_size) & 1) != 0; }
+  bool live(std::size_t key) const { return (mask_[key / block_size] >> scattered(key % block_size) & 1) != 0; }
   std::size_t live_count() const;
 
   void set(std::size_t key, const std::uint32_t* index, const double* value);
@@ -38,7 +38,7 @@ public:
 
   // Where the row of a live key stands.
   std::size_t row(std::size_t key) const {
-    const std::uint64_t below = (std::uint64_t{1} << key % block_size) - 1;
+    const std::uint64_t below = (std::uint64_t{1} << scattered(key % block_size)) - 1;
     return key / block_size * block_size + std::popcount(mask_[key / block_size] & below);
   }
 
@@ -62,7 +62,7 @@ public:
     for (std::size_t block = 0; block < mask_.size(); ++block) {
       std::size_t at = block * block_size;
       for (std::uint64_t rest = mask_[block]; rest; rest &= rest - 1)
-        f(block * block_size + std::countr_zero(rest), at++);
+        f(block * block_size + scattered(std::countr_zero(rest)), at++);
     }
   }
 
@@ -70,6 +70,12 @@ public:
   bool same_as(const PackedRows& other) const { return mask_ == other.mask_ && index_ == other.index_ && value_ == other.value_; }
 
 private:
+  // The six bits of a place in a block, turned around; its own inverse.
+  static constexpr std::size_t scattered(std::size_t n) {
+    n = (n & 0x15) << 1 | (n & 0x2a) >> 1; // neighbours
+    return (n & 0x03) << 4 | (n & 0x0c) | (n & 0x30) >> 4;
+  }
+
   void shift(std::size_t from, std::size_t end, int by);
   void touch(std::size_t block);
 

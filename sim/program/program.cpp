@@ -60,15 +60,25 @@ void Program::rebind() {
   changes_.clear();
 }
 
+// Rows of all interactions are run tile by tile, so that the vertices of a tile are read from memory once and not once
+// per interaction: 8192 vertices with their forces take half a megabyte. Tiles depend on the number of slots alone.
+constexpr std::size_t tile_vertices = 8192;
+
 void Program::forces(const Record* position, const Record* velocity, Record* force) const {
   if (options_.walk) return walk_forces(position, velocity, nullptr, force);
+  const std::vector<Binder>& binders = folded_.empty() ? elementary_ : folded_;
+  const std::size_t tiles = vertices() / tile_vertices + 1;
   in_parts(parts(), vertices(), [&](std::size_t begin, std::size_t end) {
     std::memset(static_cast<void*>(force + begin), 0, (end - begin) * sizeof(Record));
-    for (const Binder& binder : folded_.empty() ? elementary_ : folded_) {
-      const KernelArguments arguments{binder.rows(), position, velocity, force, static_cast<std::uint32_t>(begin),
-                                      static_cast<std::uint32_t>(end)};
-      if (binder.interaction()->law == Law::Spring) spring_forces(arguments, binder.interaction()->damped);
-      else hinge_forces(arguments);
+    for (std::size_t tile = 0; tile < tiles; ++tile) {
+      for (const Binder& binder : binders) {
+        const std::size_t blocks = binder.rows().blocks();
+        const KernelArguments arguments{binder.rows(), position, velocity, force,
+                                        static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
+                                        blocks * tile / tiles, blocks * (tile + 1) / tiles};
+        if (binder.interaction()->law == Law::Spring) spring_forces(arguments, binder.interaction()->damped);
+        else hinge_forces(arguments);
+      }
     }
   });
 }
@@ -79,7 +89,7 @@ void Program::corner_forces(const Record* position, const Record* velocity, Reco
   std::memset(static_cast<void*>(corner), 0, corners.slots() * sizeof(Record));
   std::memset(static_cast<void*>(force), 0, vertices() * sizeof(Record));
   for (const Binder& binder : elementary_) {
-    const KernelArguments arguments{binder.rows(), position, velocity, corner, 0, 0};
+    const KernelArguments arguments{binder.rows(), position, velocity, corner, 0, 0, 0, binder.rows().blocks()};
     if (binder.interaction()->law == Law::Spring) spring_corner_forces(arguments, binder.interaction()->damped);
     else hinge_corner_forces(arguments);
   }

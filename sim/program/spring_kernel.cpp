@@ -1,5 +1,5 @@
 #include "sim/program/kernels.h"
-#include "sim/program/simd.h"
+#include "sim/base/simd.h"
 
 namespace rend {
 namespace {
@@ -44,7 +44,7 @@ REND_INLINE void run_block(const KernelArguments& a, std::size_t block) {
 
 template <bool damped>
 REND_INLINE void run(const KernelArguments& a) {
-  for (std::size_t block = 0; block < a.rows.blocks(); ++block) {
+  for (std::size_t block = a.first; block < a.last; ++block) {
     const PackedRows::Range range = a.rows.range(block);
     if (range.low >= a.high || range.high < a.low) continue;
     if (range.low >= a.low && range.high < a.high) run_block<damped, true>(a, block);
@@ -54,7 +54,7 @@ REND_INLINE void run(const KernelArguments& a) {
 
 template <bool damped>
 REND_INLINE void run_corners(const KernelArguments& a) {
-  for (std::size_t block = 0; block < a.rows.blocks(); ++block) {
+  for (std::size_t block = a.first; block < a.last; ++block) {
     const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
     for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
       const std::uint32_t *i = a.rows.index(0) + at, *j = a.rows.index(1) + at;

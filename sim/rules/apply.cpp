@@ -103,7 +103,8 @@ Point Rewriter::evaluate(const PointSource& source, std::size_t instance) const 
   return point;
 }
 
-// Says where every created dart is, those of kept vertices too: a later change in the same edit may cut them off.
+// Says where every created dart is, those of kept vertices too: a later change in the same edit may cut them
+// off.
 void Rewriter::place_vertices() {
   point_.assign(match_.instances * nodes_, no_point);
   for (int n = 0; n < rule_.right.size(); ++n) {

@@ -34,9 +34,9 @@ struct Applied {
   std::vector<Dart> all; // [instance][node of the right graph]
 };
 
-// In an edit that is open: so that many applications share one update of the columns. Expressions see the points
-// from before the edit, and those that it gave to new darts.
-// CHECK: as many hooks and arguments as the rule asks for.
+// In an edit that is open: so that many applications share one update of the columns. Expressions see the
+// points from before the edit, and those that it gave to new darts. CHECK: as many hooks and arguments as the
+// rule asks for.
 Applied apply(const Rule& rule, Edit& edit, const Hooks& hooks = {}, const Arguments& arguments = {});
 
 // In an edit of its own.

@@ -1,8 +1,8 @@
 // Where the left graph of a rule lies in a map.
 //
-// From the hooks the match is unique: the darts of the first hook's orbit are the instances, in the order of a walk,
-// and every node has one dart at each of them. It is a match if all that the graph says holds at every instance, and
-// no two nodes or instances meet the same dart (thesis 3.4.1, footnote 3: a match is injective).
+// From the hooks the match is unique: the darts of the first hook's orbit are the instances, in the order of a
+// walk, and every node has one dart at each of them. It is a match if all that the graph says holds at every
+// instance, and no two nodes or instances meet the same dart (thesis 3.4.1, footnote 3: a match is injective).
 #pragma once
 
 #include "sim/topology/rule.h"

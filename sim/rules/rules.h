@@ -1,6 +1,7 @@
 // All rules, each in a file of its own that draws it. One word in all_rules() (rules.cpp) adds another.
 //
-// Whether a hook has several darts to choose from does not matter: any dart of the orbit named here gives the same map.
+// Whether a hook has several darts to choose from does not matter: any dart of the orbit named here gives the
+// same map.
 #pragma once
 
 #include "sim/rules/apply.h"
@@ -10,34 +11,34 @@
 namespace rend {
 
 // clang-format off
-//                                            hooks                                              arguments      thesis
+//                                                hooks                                            arguments    thesis
 // Construction.
-extern const Rule create_vertex;              // none                                            a point        fig. 3.36
-extern const Rule create_edge;                // a vertex without edge                           a point        fig. 3.37
-extern const Rule extrude_edge;               // an edge without face                            a vector       fig. 3.39
-extern const Rule create_triangle;            // none                                            three points   fig. 3.46
-extern const Rule create_quad;                // none                                            four points    fig. 3.46
-extern const Rule sew_edges;                  // two edges of faces, α2-free: dart to dart                      fig. 3.20
-extern const Rule sew_faces;                  // two faces of volumes, α3-free: dart to dart
+extern const Rule create_vertex;               // none                                             a point      fig. 3.36
+extern const Rule create_edge;                 // a vertex without edge                            a point      fig. 3.37
+extern const Rule extrude_edge;                // an edge without face                             a vector     fig. 3.39
+extern const Rule create_triangle;             // none                                             three points fig. 3.46
+extern const Rule create_quad;                 // none                                             four points  fig. 3.46
+extern const Rule sew_edges;                   // two edges of faces, α2-free: dart to dart                     fig. 3.20
+extern const Rule sew_faces;                   // two faces of volumes, α3-free: dart to dart
 // Refinement.
-extern const Rule insert_vertex_border;       // an edge of one face                                            fig. 3.18
-extern const Rule insert_vertex;              // any edge
-extern const Rule triangulate_face;           // a face of a sheet, or of the hull of a solid                   fig. 3.29
+extern const Rule insert_vertex_border;        // an edge of one face                                           fig. 3.18
+extern const Rule insert_vertex;               // any edge
+extern const Rule triangulate_face;            // a face of a sheet, or of the hull of a solid                  fig. 3.29
 extern const Rule triangulate_face_both_sides; // any face
-extern const Rule subdivide;                  // a component of a sheet                                         fig. 3.44
+extern const Rule subdivide;                   // a component of a sheet                                        fig. 3.44
 // Separation.
-extern const Rule unsew_edge;                 // an edge between two faces                                      fig. 3.48
-extern const Rule unsew_face;                 // a face between two volumes                                     fig. 7.5
+extern const Rule unsew_edge;                  // an edge between two faces                                     fig. 3.48
+extern const Rule unsew_face;                  // a face between two volumes                                    fig. 7.5
 // Removal.
-extern const Rule remove_isolated_face;       // a face of a sheet without neighbours                           fig. 3.47
-extern const Rule remove_inner_face;          // a face of a sheet with other faces on all sides                fig. 3.50
-extern const Rule remove_isolated_volume;     // a volume without neighbours
+extern const Rule remove_isolated_face;        // a face of a sheet without neighbours                          fig. 3.47
+extern const Rule remove_inner_face;           // a face of a sheet with other faces on all sides               fig. 3.50
+extern const Rule remove_isolated_volume;      // a volume without neighbours
 // clang-format on
 
 const std::vector<const Rule*>& all_rules();
 
-// A face with as many sides as there are points (three at least), free on all sides; returns two darts per side, d and
-// α0(d), side after side: the first of a side stands at its point. As fig. 3.46, for any number.
+// A face with as many sides as there are points (three at least), free on all sides; returns two darts per
+// side, d and α0(d), side after side: the first of a side stands at its point. As fig. 3.46, for any number.
 std::vector<Dart> create_polygon(Edit& edit, std::span<const Point> points);
 
 // Takes a face out of a sheet, or a volume out of a solid, whatever it is sewn to: separations, then a removal.

@@ -78,14 +78,7 @@ void Body::rebind() {
 }
 
 bool Body::commit() {
-  // A number that is not finite times 0 is not 0.
-  double x = 0, y = 0, z = 0;
-  for (std::size_t i = 0; i < next.position.size(); ++i) {
-    x += 0 * (next.position[i].x + next.velocity[i].x);
-    y += 0 * (next.position[i].y + next.velocity[i].y);
-    z += 0 * (next.position[i].z + next.velocity[i].z);
-  }
-  if (!(x + y + z == 0)) return false;
+  if (!next.finite()) return false;
   map->position().values().swap(next.position);
   map->velocity().values().swap(next.velocity);
   return true;

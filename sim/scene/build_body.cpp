@@ -205,7 +205,7 @@ std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity) {
   auto body = std::make_unique<Body>();
   body->name = node.text("name");
   body->node = &node;
-  body->gravity = gravity;
+  body->gravity = Record(gravity);
   build_mesh(*body, node);
   build_mass(*body, *node.child("mass"));
   if (const Node* springs = node.child("springs")) build_springs(*body, *springs);

@@ -88,6 +88,7 @@ void Scene::step() {
   lap(&StageSeconds::criteria);
   for (auto& body : bodies_) {
     body->next.resize(body->vertices());
+    body->next.probe = Double4{};
     const StateView view{body->map->position().values().data(), body->map->velocity().values().data()};
     body->integrator->advance(*body, time(), step_, view, body->force.data(), body->next);
   }

@@ -1,7 +1,8 @@
-// The only writer of a GMap. It keeps the journal that everything built upon the map is brought up to date from.
+// The only writer of a GMap. It keeps the journal that everything built upon the map is brought up to date
+// from.
 //
-// The journal: for every i, the darts whose αi changed; the darts created; the darts removed. A dart may stand in
-// it more than once.
+// The journal: for every i, the darts whose αi changed; the darts created; the darts removed. A dart may stand
+// in it more than once.
 #pragma once
 
 #include "sim/topology/gmap.h"
@@ -37,8 +38,8 @@ private:
   Journal* journal_;
 };
 
-// Sews αi between d and e, and between all darts of <0..i-2, i+2..3>(d) and (e) that correspond. False, and nothing
-// changed: one of them is not αi-free, or the orbits are not isomorphic, or d and e overlap wrongly.
+// Sews αi between d and e, and between all darts of <0..i-2, i+2..3>(d) and (e) that correspond. False, and
+// nothing changed: one of them is not αi-free, or the orbits are not isomorphic, or d and e overlap wrongly.
 bool sew(MapEdit& edit, int i, Dart d, Dart e);
 
 // The opposite. False, and nothing changed: d is αi-free.

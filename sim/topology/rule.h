@@ -1,17 +1,19 @@
-// Rules: a change of the map as two graphs, in the way of Jerboa (thesis 3.4.1; Poudret 2009; Belhaouari et al. 2014).
+// Rules: a change of the map as two graphs, in the way of Jerboa (thesis 3.4.1; Poudret 2009; Belhaouari et al.
+// 2014).
 //
 //   Rule{"unsew edge",  left{hook('a', {0}), node('b', {0}), arc('a', 2, 'b')},          a ─2─ b
 //                       right{node('a', {0}), node('b', {0}), loop('a', 2), loop('b', 2)}}   →   a ↺2   b ↺2
 //
-// A node stands for every dart of an orbit at once. The label of a hook is that orbit: hook('a', {0, 1}) matches a
-// whole face, however many sides it has. Each dart of the hook's orbit is an *instance* of the rule: there, every
-// other node has one dart. Position k of any label speaks of the k-th link of the hook's: it is kept, renamed, or
-// dropped (`_`); {_, 2} on a <0,1> hook says "no link where the hook has α0; α2 where the hook has α1". Arcs join two
-// nodes at each instance; a loop says that a link is free. Nodes of both sides keep their darts, nodes of the left
-// alone lose them, nodes of the right alone are created.
+// A node stands for every dart of an orbit at once. The label of a hook is that orbit: hook('a', {0, 1})
+// matches a whole face, however many sides it has. Each dart of the hook's orbit is an *instance* of the rule:
+// there, every other node has one dart. Position k of any label speaks of the k-th link of the hook's: it is
+// kept, renamed, or dropped (`_`); {_, 2} on a <0,1> hook says "no link where the hook has α0; α2 where the
+// hook has α1". Arcs join two nodes at each instance; a loop says that a link is free. Nodes of both sides keep
+// their darts, nodes of the left alone lose them, nodes of the right alone are created.
 //
-// Every connected component of the left graph has one hook, so that the match is unique. New vertices say where they
-// are: point('d', mean('a', FaceOfVolume)). Whether a rule keeps the axioms is decided at compile time: rule_check.h.
+// Every connected component of the left graph has one hook, so that the match is unique. New vertices say where
+// they are: point('d', mean('a', FaceOfVolume)). Whether a rule keeps the axioms is decided at compile time:
+// rule_check.h.
 #pragma once
 
 #include "sim/topology/gmap.h"
@@ -139,7 +141,8 @@ constexpr RuleLink RuleGraph::link(int node, int i) const {
   return {};
 }
 
-// What else must hold for the rule to apply: null, or a sentence that says what does not. The match has been found.
+// What else must hold for the rule to apply: null, or a sentence that says what does not. The match has been
+// found.
 using Precondition = const char* (*)(const GMap& map, std::span<const Dart> hooks);
 
 // The words that rules are written in; for the files of sim/rules.

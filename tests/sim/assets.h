@@ -161,8 +161,9 @@ inline Body random_sewing(unsigned seed, int faces, int attempts) {
   return body;
 }
 
-// The hexahedron with a corner at x: six quads sewn along their edges. Returns the dart of each face, -x +x -y +y -z +z,
-// that stands at the face's lowest corner and whose edge runs along the first axis that the face holds.
+// The hexahedron with a corner at x: six quads sewn along their edges. Returns the dart of each face, -x +x -y
+// +y -z +z, that stands at the face's lowest corner and whose edge runs along the first axis that the face
+// holds.
 inline std::array<Dart, 6> add_cube(MapEdit& edit, std::vector<Vec3>& place, const Vec3& x) {
   std::vector<Dart> darts;
   std::array<Dart, 6> faces;

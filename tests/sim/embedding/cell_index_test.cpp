@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -108,6 +109,11 @@ TEST(CellIndex, stays_sound_in_a_storm_of_edits_for_every_orbit) {
         SCOPED_TRACE(std::string(name(cells.orbit())) + " in round " + std::to_string(round));
         expect_sound(storm.map, cells);
         EXPECT_EQ(cells.count() + events.deaths.size(), before + events.births.size() + events.splits.size());
+        for (auto [kept, absorbed] : events.merges) {
+          EXPECT_TRUE(std::count(events.deaths.begin(), events.deaths.end(), absorbed))
+              << "it lives on elsewhere";
+          EXPECT_TRUE(cells.alive(kept));
+        }
         if (testing::Test::HasFatalFailure()) return;
       }
     }
@@ -203,6 +209,39 @@ TEST(CellIndex, what_becomes_one_keeps_the_slot_of_its_smallest_dart) {
       }
     }
   }
+}
+
+// Three quads in a row, of which two are sewn. The edit lets go of the one and sews the middle one to the
+// other.
+void expect_that_the_middle_changes_sides(bool from_the_first) {
+  GMap map(2);
+  Journal journal;
+  MapEdit edit(map, &journal);
+  std::array<std::vector<Dart>, 3> quads;
+  for (auto& ring : quads) {
+    for (int n = 0; n < 8; ++n) ring.push_back(edit.add_dart());
+    for (std::size_t n = 0; n < 8; ++n) edit.link(n % 2 == 0 ? 0 : 1, ring[n], ring[(n + 1) % 8]);
+  }
+  const auto join_first = [&] { ASSERT_TRUE(sew(edit, 2, quads[0][2], quads[1][7])); };
+  const auto join_last = [&] { ASSERT_TRUE(sew(edit, 2, quads[1][2], quads[2][7])); };
+  from_the_first ? join_first() : join_last();
+  CellIndex cells(map, Component);
+  journal.clear();
+  ASSERT_TRUE(unsew(edit, 2, from_the_first ? quads[0][2] : quads[2][7]));
+  from_the_first ? join_last() : join_first();
+  SlotEvents events;
+  cells.update(map, journal, events);
+  expect_sound(map, cells);
+  EXPECT_TRUE(events.splits.empty() && events.merges.empty() && events.births.empty() && events.deaths.empty());
+  EXPECT_EQ(cells.slot(quads[0][0]), 0u);
+  EXPECT_EQ(cells.slot(quads[1][0]), from_the_first ? 1u : 0u);
+  EXPECT_EQ(cells.slot(quads[2][0]), 1u);
+  EXPECT_TRUE(std::is_permutation(events.moved.begin(), events.moved.end(), quads[1].begin(), quads[1].end()));
+}
+
+TEST(CellIndex, a_part_that_changes_sides_moves_and_both_slots_stay) {
+  expect_that_the_middle_changes_sides(true);
+  expect_that_the_middle_changes_sides(false);
 }
 
 TEST(CellIndex, freed_slots_are_used_again_the_last_first) {

@@ -1,0 +1,32 @@
+// Commands of the program: one file each, and one word in all_commands().
+#pragma once
+
+#include "sim/base/error.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace rend {
+
+struct Command {
+  std::string name, what;
+  // Declares the command's options, and returns what runs it once they are parsed.
+  std::function<Exit()> (*declare)(CLI::App& app);
+};
+
+const std::vector<Command>& all_commands();
+
+Command render_command();
+Command run_command();
+Command info_command();
+Command help_command();
+
+// Parses the command line, runs a command, prints what went wrong. The program's exit code.
+int run_program(int count, const char* const* arguments);
+
+} // namespace rend

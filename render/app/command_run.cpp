@@ -1,0 +1,75 @@
+// rend run: the simulation alone, with its figures.
+#include "render/app/command.h"
+#include "render/app/console.h"
+#include "render/app/figures.h"
+#include "render/app/progress.h"
+#include "render/app/records.h"
+#include "render/app/session.h"
+#include "render/app/signals.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace rend {
+namespace {
+
+struct RunOptions {
+  SessionOptions session;
+  bool json = false, profile = false;
+  std::string diagnostics, events; // files; empty: none
+};
+
+Stopped simulate(Session& session, const RunOptions& options) {
+  std::optional<Diagnostics> diagnostics;
+  std::optional<EventFile> events;
+  if (!options.diagnostics.empty()) diagnostics.emplace(options.diagnostics);
+  if (!options.events.empty()) events.emplace(options.events);
+  Progress progress(session.quiet(), session.clock().steps(), session.clock().duration(), 0);
+  Session::Calls calls;
+  calls.frame = [&](long frame) {
+    if (diagnostics) diagnostics->add(frame, session.scene());
+  };
+  calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
+  const Stopped stopped = session.run(session.clock().frames() - 1, calls);
+  if (diagnostics && stopped == Stopped::Unstable)
+    diagnostics->abandon();
+  else if (diagnostics)
+    diagnostics->finish();
+  if (events && (stopped != Stopped::Unstable || session.scene().tears() > 0)) events->write(session.scene());
+  return stopped;
+}
+
+Exit run(const RunOptions& options) {
+  const double start = wall_clock();
+  Session session(options.session);
+  const Stopped stopped = simulate(session, options);
+  Costs costs;
+  costs.total = wall_clock() - start;
+  const nlohmann::ordered_json figures = figures_of(session, stopped, costs);
+  if (options.json)
+    print_result(figures.dump(2) + "\n");
+  else
+    print_result(summary_of(figures) + (options.profile ? profile_of(figures) : ""));
+  return end_of(session, stopped);
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  add_run_options(app, options->session);
+  app.add_flag("--json", options->json, "the figures as one JSON object");
+  app.add_flag("--profile", options->profile, "the seconds of each stage as well");
+  app.add_option("--diagnostics", options->diagnostics, "energies, momenta and counts at every frame, as CSV")
+      ->type_name("FILE");
+  app.add_option("--events", options->events, "every topological change, one JSON object a line")
+      ->type_name("FILE");
+  return [options] { return run(*options); };
+}
+
+} // namespace
+
+Command run_command() {
+  return {"run", "simulate a preset and print its figures", declare};
+}
+
+} // namespace rend

@@ -1,0 +1,159 @@
+#include "render/app/figures.h"
+
+#include "render/app/console.h"
+#include "sim/topology/count.h"
+
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+
+namespace rend {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list_of(const Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+std::size_t elements_of(const Body& body) {
+  return count_cells(body.map->map(), body.map->dimension() == 2 ? FaceOfVolume : Volume);
+}
+
+Json seconds_json(const Session& session, const Costs& costs) {
+  const StageSeconds s = session.scene().seconds();
+  return {{"total", costs.total},
+          {"build", s.build},
+          {"bind", s.bind},
+          {"step", session.step_seconds()},
+          {"forces", s.forces},
+          {"criteria", s.criteria},
+          {"change", s.change},
+          {"rebind", s.rebind},
+          {"integrate", s.integrate},
+          {"surface", costs.surface},
+          {"draw", costs.pictures.draw},
+          {"png", costs.pictures.png},
+          {"video", costs.pictures.video}};
+}
+
+Json bytes_json(const Scene& scene, const Costs& costs) {
+  std::size_t map = 0, embeddings = 0, program = 0;
+  for (const auto& body : scene.bodies()) {
+    map += body->map->map().bytes();
+    embeddings += body->map->bytes();
+    program += body->program->bytes();
+    for (const TearLaw& law : body->laws) program += law.bytes();
+  }
+  return {{"map", map},
+          {"embeddings", embeddings},
+          {"program", program},
+          {"surface", costs.surface_bytes},
+          {"peak_rss", peak_memory()}};
+}
+
+// Live rows of what the integrator evaluates, by interaction.
+Json rows_json(const Scene& scene) {
+  Json rows = Json::object();
+  for (const auto& body : scene.bodies()) {
+    const Program& program = *body->program;
+    for (const Binder& binder : program.folded().empty() ? program.elementary() : program.folded()) {
+      Json& count = rows[binder.interaction()->name];
+      count = (count.is_null() ? std::size_t{0} : count.get<std::size_t>()) + binder.rows().live_count();
+    }
+  }
+  return rows;
+}
+
+} // namespace
+
+std::size_t fragments_of(const Scene& scene) {
+  std::size_t count = 0;
+  for (const auto& body : scene.bodies()) count += count_cells(body->map->map(), Component);
+  return count;
+}
+
+Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
+  const Scene& scene = session.scene();
+  std::size_t vertices = 0, elements = 0, darts = 0;
+  for (const auto& body : scene.bodies()) {
+    vertices += body->map->cells(Vertex).count();
+    elements += elements_of(*body);
+    darts += body->map->map().dart_count();
+  }
+  Json figures{{"preset", session.preset_path()},
+               {"name", scene.name()},
+               {"integrator", scene.scheme().name},
+               {"step", scene.step_size()},
+               {"steps", scene.steps_done()},
+               {"time", scene.time()},
+               {"vertices", vertices},
+               {"elements", elements},
+               {"darts", darts},
+               {"fragments", fragments_of(scene)},
+               {"tears", scene.tears()}};
+  figures["stopped"] = stopped == Stopped::Unstable      ? Json("unstable")
+                       : stopped == Stopped::Interrupted ? Json("interrupted")
+                                                         : Json(nullptr);
+  figures["seconds"] = seconds_json(session, costs);
+  figures["energy"] = {{"kinetic", scene.kinetic_energy()},
+                       {"elastic", scene.elastic_energy()},
+                       {"gravity", scene.gravity_energy()}};
+  figures["mass"] = scene.mass();
+  figures["momentum"] = list_of(scene.momentum());
+  figures["angular_momentum"] = list_of(scene.angular_momentum());
+  figures["probes"] = Json::object();
+  figures["bytes"] = bytes_json(scene, costs);
+  figures["rows"] = rows_json(scene);
+  figures["hash"] = fmt::format("{:016x}", scene.hash());
+  return figures;
+}
+
+std::string summary_of(const Json& f) {
+  const auto number = [&](const char* group, const char* name) { return f[group][name].get<double>(); };
+  const auto count = [&](const char* name) { return f[name].get<std::size_t>(); };
+  std::string out =
+      fmt::format("{}: {} steps of {:.6g} s by {}, {:.6g} s simulated in {}\n", f["name"].get<std::string>(),
+                  count("steps"), f["step"].get<double>(), f["integrator"].get<std::string>(),
+                  f["time"].get<double>(), seconds_in_words(number("seconds", "total")));
+  if (!f["stopped"].is_null()) out += fmt::format("  stopped    {}\n", f["stopped"].get<std::string>());
+  out += fmt::format("  cells      {} vertices, {} elements, {} darts\n", count("vertices"), count("elements"),
+                     count("darts"));
+  out += fmt::format("  tearing    {} tears, {} fragment{}\n", count("tears"), count("fragments"),
+                     count("fragments") == 1 ? "" : "s");
+  out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n",
+                     number("energy", "kinetic"), number("energy", "elastic"), number("energy", "gravity"));
+  out += "  rows       ";
+  for (const auto& [name, rows] : f["rows"].items())
+    out += fmt::format("{}{} {}", name == f["rows"].items().begin().key() ? "" : ", ", rows.get<std::size_t>(),
+                       name);
+  if (f["rows"].empty()) out += "none";
+  std::size_t bytes = 0;
+  for (const char* part : {"map", "embeddings", "program", "surface"})
+    bytes += f["bytes"][part].get<std::size_t>();
+  out += fmt::format("\n  memory     {} for the scene, {} at most in all\n", bytes_in_words(bytes),
+                     bytes_in_words(f["bytes"]["peak_rss"].get<std::size_t>()));
+  out += fmt::format("  state      {}\n", f["hash"].get<std::string>());
+  return out;
+}
+
+std::string profile_of(const Json& figures) {
+  std::string out = "  seconds    ";
+  const double total = figures["seconds"]["total"].get<double>();
+  bool first = true;
+  for (const auto& [stage, seconds] : figures["seconds"].items()) {
+    const double s = seconds.get<double>();
+    out += fmt::format("{}{:<10} {:>10.4f}  {:5.1f}%\n", first ? "" : "             ", stage, s,
+                       total > 0 ? 100 * s / total : 0);
+    first = false;
+  }
+  return out;
+}
+
+} // namespace rend

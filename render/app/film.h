@@ -1,0 +1,56 @@
+// Frames of a run on their way to files.
+//
+// A frame is held back until the simulation has gone on to a later frame, or has ended well: a simulation that
+// explodes at once leaves nothing behind, and no picture shows the state that was about to explode. OpenGL is started
+// and the folder made when the first frame is let go; a folder that was made here and stays empty is removed.
+#pragma once
+
+#include "render/app/picture.h"
+#include "render/app/session.h"
+#include "render/pipeline.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+class Film {
+public:
+  // Throws UserError (CannotCreate) where the folder could not be made.
+  Film(Session& session, const PipelineOptions& options, const FrameChoice& choice);
+  ~Film();
+  Film(const Film&) = delete;
+  Film& operator=(const Film&) = delete;
+
+  void take(long frame); // of the present state
+  void finish();  // the end was reached, or a signal came: what is held goes out too, and files are closed
+  void abandon(); // the state went wrong: what is held is dropped; frames before it stay, files are closed
+
+  long frames() const { return frames_; } // handed on
+  PipelineSeconds seconds() const;
+  double picture_seconds() const { return maker_.seconds(); }
+  std::size_t surface_bytes() const { return maker_.bytes(); }
+
+private:
+  void release();
+  void push(Frame&& frame);
+  void close();
+  void note_missing_folders();
+
+  Session& session_;
+  PipelineOptions options_;
+  FrameChoice choice_;
+  PictureMaker maker_;
+  std::unique_ptr<Pipeline> pipeline_;
+  PipelineSeconds seconds_; // once it is closed
+  std::optional<Frame> held_;
+  std::vector<long> numbers_; // of the frames that show the held state
+  long held_step_ = -1;
+  long frames_ = 0;
+  std::vector<std::filesystem::path> made_; // folders that were not there before, outermost first
+};
+
+} // namespace rend

@@ -1,0 +1,167 @@
+#include "render/app/picture.h"
+
+#include "render/app/preset_types.h"
+#include "sim/scene/measure.h"
+#include "sim/topology/count.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace rend {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+static_assert(static_cast<int>(Side::Inner) == static_cast<int>(Line::None) &&
+              static_cast<int>(Side::Cell) == static_cast<int>(Line::Cell) &&
+              static_cast<int>(Side::Border) == static_cast<int>(Line::Border) &&
+              static_cast<int>(Side::Torn) == static_cast<int>(Line::Torn));
+
+std::array<float, 3> as_floats(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+} // namespace
+
+bool is_orientable(const GMap& map) {
+  std::vector<std::uint8_t> side(map.capacity(), 0); // 0: not seen yet; 1, 2: its class
+  std::vector<Dart> stack;
+  bool orientable = true;
+  map.for_each_dart([&](Dart first) {
+    if (side[first.value] != 0) return;
+    side[first.value] = 1;
+    stack.assign(1, first);
+    while (!stack.empty()) {
+      const Dart d = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 4; ++i) {
+        const Dart next = map.alpha(i, d);
+        if (next == d) continue;
+        if (side[next.value] == side[d.value]) orientable = false;
+        if (side[next.value] != 0) continue;
+        side[next.value] = static_cast<std::uint8_t>(3 - side[d.value]);
+        stack.push_back(next);
+      }
+    }
+  });
+  return orientable;
+}
+
+BodyPicture::BodyPicture(Body& body)
+    : body_(&body), surface_(body), orientable_(is_orientable(body.map->map())) {
+  const ElementType& type = *std::find_if(body.node->type().children.begin(), body.node->type().children.end(),
+                                          [](const ChildType& child) { return child.type->name == "look"; })
+                                 ->type;
+  Node silent(type, body.node->place());
+  silent.fill_defaults();
+  const Node* given = body.node->child("look");
+  const Node& look = given ? *given : silent;
+  colour_ = colour_of(look, "colour");
+  edges_ = look.flag("edges");
+  const std::string& by = look.text("by");
+  by_ = by == "strain"     ? ShownBy::Strain
+        : by == "force"    ? ShownBy::Force
+        : by == "fragment" ? ShownBy::Fragment
+                           : ShownBy::Plain;
+}
+
+void BodyPicture::observe(std::size_t& fragments_seen) {
+  if (by_ == ShownBy::Fragment) label_fragments(fragments_seen);
+  if (by_ != ShownBy::Strain && by_ != ShownBy::Force) return;
+  values_ = by_ == ShownBy::Strain ? vertex_strain(*body_) : vertex_force(*body_);
+  double most = 0;
+  for (double value : values_) most = std::max(most, value);
+  scale_ = std::max(scale_, rounded_up(most));
+}
+
+void BodyPicture::label_fragments(std::size_t& fragments_seen) {
+  labels_ = rend::label_fragments(body_->map->map());
+  fragment_colours_.clear();
+  body_->map->map().for_each_dart([&](Dart d) { // the first dart of a label is its smallest
+    if (labels_[d.value] != fragment_colours_.size()) return;
+    const auto [at, added] = numbers_.try_emplace(d.value, fragments_seen);
+    if (added) ++fragments_seen;
+    fragment_colours_.push_back(colour_of_number(at->second));
+  });
+}
+
+void BodyPicture::colour_vertices() {
+  std::array<Colour, 256> table;
+  for (std::size_t n = 0; n < table.size(); ++n) table[n] = colour_of_share(static_cast<double>(n) / 255);
+  const double factor = scale_ > 0 ? 255 / scale_ : 0;
+  vertex_colours_.resize(values_.size());
+  for (std::size_t v = 0; v < values_.size(); ++v)
+    vertex_colours_[v] = table[static_cast<std::size_t>(std::min(255.0, values_[v] * factor + 0.5))];
+}
+
+FrameBody BodyPicture::draw() {
+  surface_.update();
+  surface_.normals(normals_);
+  const bool by_vertex = by_ == ShownBy::Strain || by_ == ShownBy::Force;
+  if (by_vertex) colour_vertices();
+  FrameBody out;
+  out.edges = edges_;
+  out.two_sided = body_->map->dimension() == 2;
+  out.sides = orientable_;
+  out.corners.reserve(3 * surface_.triangles());
+  const auto& x = body_->map->position().values();
+  surface_.for_each_triangle([&](const Surface::Triangle& triangle) {
+    const auto [a, b, c] = triangle.vertex;
+    const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
+    Colour colour = colour_;
+    if (by_ == ShownBy::Fragment)
+      colour = fragment_colours_[labels_[body_->map->cells(FaceOfVolume).first_dart(triangle.face).value]];
+    const auto line = [&](std::size_t k) { return static_cast<std::uint8_t>(triangle.side[k]); };
+    for (Slot v : triangle.vertex) {
+      // A vertex normal's sign is its own: within a triangle all are turned to the triangle's side.
+      Vec3 normal = normals_[v];
+      const double side = normal.dot(flat);
+      if (side < 0) normal = -normal;
+      if (side == 0 && normal.isZero(0) && !flat.isZero(0)) normal = flat.normalized();
+      if (by_vertex) colour = vertex_colours_[v];
+      out.corners.push_back({as_floats(x[v]),
+                             as_floats(normal),
+                             {colour[0], colour[1], colour[2], 255},
+                             {line(0), line(1), line(2), 0}});
+    }
+  });
+  return out;
+}
+
+PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, double duration)
+    : scene_(scene), viewpoint_(preset, scene, aspect, duration) {
+  const Colour background = image_settings(preset).background;
+  for (std::size_t c = 0; c < 3; ++c) background_[c] = static_cast<float>(background[c]) / 255;
+  const double start = now();
+  for (const auto& body : scene.bodies()) bodies_.push_back(std::make_unique<BodyPicture>(*body));
+  seconds_ = now() - start;
+}
+
+void PictureMaker::observe() {
+  const double start = now();
+  for (auto& body : bodies_) body->observe(fragments_seen_);
+  seconds_ += now() - start;
+}
+
+Frame PictureMaker::draw(long number, double time) {
+  const double start = now();
+  Frame frame;
+  frame.time = scene_.time();
+  frame.number = static_cast<int>(number);
+  for (auto& body : bodies_) frame.bodies.push_back(body->draw());
+  if (scene_.world().floor) frame.floor = FrameFloor{*scene_.world().floor};
+  frame.camera = viewpoint_.at(time);
+  frame.background = background_;
+  seconds_ += now() - start;
+  return frame;
+}
+
+std::size_t PictureMaker::bytes() const {
+  std::size_t total = 0;
+  for (const auto& body : bodies_) total += body->bytes();
+  return total;
+}
+
+} // namespace rend

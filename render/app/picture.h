@@ -1,0 +1,74 @@
+// From the state of a scene to a Frame: triangles with normals, colours and lines; the floor; the camera.
+//
+// Colours that depend on a scale or on an order of things must not flicker, and a frame drawn alone must be that of
+// the whole clip. So observe() is called for every frame of the clip, drawn or not: scales are the largest value seen
+// so far, rounded up to 1, 2 or 5 times a power of ten; and a fragment keeps the colour of its smallest dart, which
+// the largest share of nothing but a separation can take from it.
+#pragma once
+
+#include "render/app/colour.h"
+#include "render/app/viewpoint.h"
+#include "render/frame.h"
+#include "sim/surface/surface.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace rend {
+
+enum class ShownBy { Plain, Strain, Force, Fragment };
+
+// How one body is shown, and its surface.
+class BodyPicture {
+public:
+  explicit BodyPicture(Body& body);
+
+  void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that were given a colour
+  FrameBody draw();                          // of the state that was observed
+  std::size_t bytes() const { return surface_.bytes(); }
+  double scale() const { return scale_; } // of strain or force: what has the last colour
+
+private:
+  void label_fragments(std::size_t& fragments_seen);
+  void colour_vertices();
+
+  Body* body_;
+  Surface surface_;
+  ShownBy by_ = ShownBy::Plain;
+  Colour colour_{};
+  bool edges_ = true, orientable_ = true;
+  double scale_ = 0;
+  std::vector<Vec3> normals_;                    // unit or 0, one per vertex slot
+  std::vector<double> values_;                   // of strain or force, one per vertex slot
+  std::vector<Colour> vertex_colours_;           // one per vertex slot; empty unless by strain or force
+  std::vector<std::uint32_t> labels_;            // fragment of each dart; empty unless by fragment
+  std::vector<Colour> fragment_colours_;         // one per label
+  std::map<std::uint32_t, std::size_t> numbers_; // smallest dart of a fragment → number of its colour
+};
+
+class PictureMaker {
+public:
+  // aspect: width / height; duration [s] of the clip.
+  PictureMaker(const Node& preset, Scene& scene, double aspect, double duration);
+
+  void observe(); // the state is that of a frame
+  Frame draw(long number,
+             double time); // `time` [s] of the frame in the clip, for the camera; observe() came before
+  FrameCamera camera(double time) const { return viewpoint_.at(time); }
+  std::size_t bytes() const;                  // of surfaces
+  double seconds() const { return seconds_; } // spent in observe() and draw()
+
+private:
+  Scene& scene_;
+  Viewpoint viewpoint_;
+  std::array<float, 3> background_{};
+  std::vector<std::unique_ptr<BodyPicture>> bodies_;
+  std::size_t fragments_seen_ = 0;
+  double seconds_ = 0;
+};
+
+// Whether the darts can be told into two classes that every link leads between: a Möbius band's cannot.
+bool is_orientable(const GMap& map);
+
+} // namespace rend

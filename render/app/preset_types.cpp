@@ -1,0 +1,101 @@
+#include "render/app/preset_types.h"
+
+#include "render/app/colour.h"
+#include "sim/scene/scene_types.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+const ElementType& camera_type() {
+  static const ElementType type{
+      "camera",
+      "where the picture is taken from",
+      {numbers("eye", 3, "m", "where the camera stands"),
+       numbers("target", 3, "m", "what it looks at; default: the middle of the bodies at the start"),
+       numbers("up", 3, "", "what is up in the picture").otherwise("0 0 1"),
+       number("fov", "degrees", "the angle from bottom to top of the picture")
+           .at_least(1)
+           .at_most(170)
+           .otherwise("35"),
+       number("turn", "degrees", "how far it goes around the target over the clip").otherwise("0"),
+       word("frame", {"auto", "given"},
+            "auto: as near as the bodies allow, seen from the direction of the eye; default where there is no "
+            "eye")},
+      {}};
+  return type;
+}
+
+const ElementType& image_type() {
+  static const ElementType type{
+      "image",
+      "the pictures",
+      {integers("size", 2, "width and height in pixels").at_least(16).at_most(8192).otherwise("1280 720"),
+       number("fps", "1/s", "pictures a second of simulated time").above(0).at_most(1e6).otherwise("30"),
+       word("samples", {"1", "4"}, "samples a pixel: 4 smooths edges").otherwise("4"),
+       text("background", "#rrggbb").otherwise("#edeff3")},
+      {}};
+  return type;
+}
+
+// A name that is a path, or hides its file, would surprise.
+void check_name(const Node& scene) {
+  const std::string& name = scene.text("name");
+  const char* hint = "pictures and videos are called by it: letters, digits and - do";
+  if (name.find_first_not_of(" \t\r\n") == std::string::npos)
+    scene.fail("name", "the name of the scene is empty", hint);
+  if (name.front() == '.')
+    scene.fail("name", "the name of the scene begins with a dot: " + in_quotes(name), hint);
+  const auto unfit = [](unsigned char c) { return c == '/' || c == '\\' || c < 0x20 || c == 0x7f; };
+  if (std::any_of(name.begin(), name.end(), unfit))
+    scene.fail("name", "the name of the scene holds what no file name may: " + in_quotes(name), hint);
+  if (name.size() > 200) scene.fail("name", "the name of the scene is too long: " + in_quotes(name), hint);
+}
+
+std::unique_ptr<Node> checked(std::unique_ptr<Node> scene) {
+  check_name(*scene);
+  image_settings(*scene); // for its colour
+  return scene;
+}
+
+} // namespace
+
+const ElementType& scene_type() {
+  static const ElementType type{"scene",
+                                "a scene: bodies, what surrounds them, and how it is shown",
+                                {text("name", "of its pictures").is_required(),
+                                 text("thesis", "the figure or table of the thesis that it reproduces"),
+                                 word("version", {"1"}, "of this format").otherwise("1")},
+                                {{&body_type(), 1, -1},
+                                 {&world_type(), 0, 1},
+                                 {&time_type(), 1, 1},
+                                 {&camera_type(), 0, 1},
+                                 {&image_type(), 0, 1}}};
+  return type;
+}
+
+std::unique_ptr<Node> load_scene(const std::filesystem::path& path, std::span<const Override> overrides) {
+  return checked(read_preset(path, scene_type(), overrides));
+}
+
+std::unique_ptr<Node> load_scene_text(std::string_view text, const std::string& file,
+                                      std::span<const Override> overrides) {
+  return checked(read_preset_text(text, file, scene_type(), overrides));
+}
+
+ImageSettings image_settings(const Node& scene) {
+  Node silent(image_type(), scene.place());
+  silent.fill_defaults();
+  const Node* given = scene.child("image");
+  const Node& image = given ? *given : silent;
+  ImageSettings settings;
+  settings.width = static_cast<int>(image.integers("size")[0]);
+  settings.height = static_cast<int>(image.integers("size")[1]);
+  settings.fps = image.number("fps");
+  settings.samples = image.text("samples") == "1" ? 1 : 4;
+  settings.background = colour_of(image, "background");
+  return settings;
+}
+
+} // namespace rend

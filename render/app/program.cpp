@@ -1,0 +1,77 @@
+#include "render/app/command.h"
+#include "render/app/console.h"
+#include "render/app/signals.h"
+#include "sim/base/check.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <new>
+#include <sstream>
+
+namespace rend {
+
+const std::vector<Command>& all_commands() {
+  static const std::vector<Command> commands{render_command(), run_command(), info_command(), help_command()};
+  return commands;
+}
+
+namespace {
+
+std::unique_ptr<CLI::App> make_app(std::function<Exit()>& chosen) {
+  auto app = std::make_unique<CLI::App>("rend: pictures of things that tear and break.", "rend");
+  app->set_version_flag("--version", "rend " REND_VERSION);
+  app->set_help_flag("-h,--help", "print this page");
+  app->require_subcommand(1);
+  app->footer("rend COMMAND --help tells a command's options; rend help preset, what a preset may hold.");
+  app->get_formatter()->column_width(34);
+  for (const Command& command : all_commands()) {
+    CLI::App* sub = app->add_subcommand(command.name, command.what);
+    sub->callback([&chosen, run = command.declare(*sub)] { chosen = run; });
+  }
+  return app;
+}
+
+Exit run_command_line(int count, const char* const* arguments) {
+  std::function<Exit()> chosen;
+  const std::unique_ptr<CLI::App> app = make_app(chosen);
+  try {
+    app->parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out, err;
+    if (app->exit(error, out, err) == 0) { // --help, --version
+      print_result(out.str());
+      return Exit::Done;
+    }
+    const auto subs = app->get_subcommands();
+    const std::string which = subs.empty() ? "rend" : "rend " + subs.front()->get_name();
+    throw UserError(Exit::Usage, {}, error.what(), which + " --help tells what there is");
+  }
+  return chosen();
+}
+
+} // namespace
+
+int run_program(int count, const char* const* arguments) {
+  catch_signals();
+  const auto end = [](Exit code) { return static_cast<int>(code); };
+  try {
+    return end(run_command_line(count, arguments));
+  } catch (const UserError& error) {
+    print_error(error.what(), error.hint);
+    return end(error.code);
+  } catch (const std::bad_alloc&) {
+    print_error("there is not enough memory for this", "use fewer cells, or smaller pictures");
+    return end(Exit::OutOfBudget);
+  } catch (const std::exception& error) { // InternalError among them
+    print_error(fmt::format("this is a fault of rend itself: {}", error.what()),
+                "please report it, with the command line and the preset");
+  } catch (...) {
+    print_error("this is a fault of rend itself, of an unknown kind",
+                "please report it, with the command line and the preset");
+  }
+  return end(Exit::Bug);
+}
+
+} // namespace rend

@@ -1,0 +1,36 @@
+// How far a run is, on stderr: a bar on a terminal, a line every few seconds elsewhere, nothing if quiet.
+#pragma once
+
+#include <deque>
+#include <string>
+
+namespace rend {
+
+class Progress {
+public:
+  // `steps` in all, `duration` [s] simulated, `frames` in all; frames = 0: none are made.
+  Progress(bool quiet, long steps, double duration, long frames);
+  ~Progress(); // clears the bar
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // Cheap enough for every step: looks at a coarse clock, and prints seldom.
+  void update(long step, double time, long frame);
+  void clear(); // takes the bar off the screen, before something else is printed
+
+private:
+  struct Sample {
+    double at = 0; // wall clock [s]
+    long step = 0, frame = 0;
+  };
+  std::string line(const Sample& now, double time) const;
+
+  bool quiet_, terminal_, colour_;
+  long steps_, frames_;
+  double duration_;
+  double next_ = 0;          // when to print [s]
+  bool shown_ = false;       // a bar is on the screen
+  std::deque<Sample> trail_; // of the last seconds: how fast it goes now, not on average
+};
+
+} // namespace rend

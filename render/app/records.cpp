@@ -1,0 +1,85 @@
+#include "render/app/records.h"
+
+#include "render/app/figures.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace rend {
+namespace {
+
+void write_text(OutputFile& file, const std::string& text) {
+  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+} // namespace
+
+Diagnostics::Diagnostics(const std::filesystem::path& path) : file_(path) {
+  text_ = "frame,step,time,kinetic,elastic,gravity,momentum_x,momentum_y,momentum_z,"
+          "angular_momentum_x,angular_momentum_y,angular_momentum_z,tears,fragments\n";
+}
+
+void Diagnostics::add(long frame, const Scene& scene) {
+  flush();
+  const Vec3 p = scene.momentum(), l = scene.angular_momentum();
+  // {} of a double is the shortest text that reads back as the same number.
+  held_ = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame, scene.steps_done(), scene.time(),
+                      scene.kinetic_energy(), scene.elastic_energy(), scene.gravity_energy(), p.x(), p.y(),
+                      p.z(), l.x(), l.y(), l.z(), scene.tears(), fragments_of(scene));
+}
+
+void Diagnostics::flush() {
+  any_ = any_ || !held_.empty();
+  text_ += held_;
+  held_.clear();
+  constexpr std::size_t enough = 1 << 16;
+  if (text_.size() < enough) return;
+  write_text(file_, text_);
+  text_.clear();
+}
+
+void Diagnostics::finish() {
+  flush();
+  write_text(file_, text_);
+  file_.commit();
+}
+
+void Diagnostics::abandon() {
+  held_.clear();
+  if (any_) finish();
+}
+
+EventFile::EventFile(const std::filesystem::path& path) : file_(path) {}
+
+void EventFile::write(const Scene& scene) {
+  struct Entry {
+    const Body* body;
+    const TearEvent* event;
+  };
+  std::vector<Entry> entries;
+  for (const auto& body : scene.bodies())
+    for (const TearEvent& event : body->events) entries.push_back({body.get(), &event});
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return a.event->step < b.event->step; });
+  std::string text;
+  for (const auto& [body, event] : entries) {
+    const LawSettings& law = body->laws[static_cast<std::size_t>(event->law)].settings();
+    const nlohmann::ordered_json line{{"time", event->time},
+                                      {"step", event->step},
+                                      {"body", body->name},
+                                      {"criterion", law.criterion->name},
+                                      {"value", event->value},
+                                      {"threshold", law.threshold},
+                                      {"change", law.change->name},
+                                      {"cell", event->dart.value},
+                                      {"position", {event->place.x(), event->place.y(), event->place.z()}}};
+    text += line.dump() + "\n";
+  }
+  write_text(file_, text);
+  file_.commit();
+}
+
+} // namespace rend

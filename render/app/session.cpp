@@ -1,0 +1,116 @@
+#include "render/app/session.h"
+
+#include "render/app/console.h"
+#include "render/app/signals.h"
+#include "sim/program/threads.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <limits>
+
+namespace rend {
+
+double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void add_preset_options(CLI::App& app, SessionOptions& options) {
+  app.add_option("preset", options.preset, "the scene, an XML file")->required()->type_name("PRESET");
+  app.add_option("--set", options.sets, "replace an attribute, such as time.step=1e-4 (any number of times)")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_run_options(CLI::App& app, SessionOptions& options) {
+  add_preset_options(app, options);
+  app.add_option("--steps", options.steps, "so many steps instead of the duration")
+      ->type_name("N")
+      ->check(CLI::Range(0L, 1000000000000L));
+  app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the preset's")
+      ->type_name("N")
+      ->check(CLI::Range(1e-6, 1e6));
+  app.add_option("--threads", options.threads,
+                 "threads of the simulation (the result is the same for any number)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  app.add_option("--kernels", options.kernels,
+                 "flat; or walk: every force by walking the map (slow, for comparison)")
+      ->type_name("flat|walk")
+      ->check(CLI::IsMember({"flat", "walk"}));
+  app.add_flag("-q,--quiet", options.quiet, "no progress and no notes");
+}
+
+Session::Session(const SessionOptions& options) : options_(options) {
+  std::vector<Override> overrides;
+  for (const std::string& set : options.sets) overrides.push_back(parse_override(set));
+  preset_ = load_scene(options.preset, overrides);
+  image_ = image_settings(*preset_);
+  if (options.fps) image_.fps = *options.fps;
+  const int threads = options.threads > 0 ? options.threads : hardware_threads();
+  scene_ = std::make_unique<Scene>(*preset_, SceneOptions{options.kernels == "walk", threads});
+  check_counts();
+  const double step = scene_->step_size();
+  const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
+  clock_ = std::make_unique<FrameClock>(duration, step, image_.fps);
+  if (options.quiet) return;
+  for (const auto& body : scene_->bodies())
+    for (const std::string& note : body->notes) print_note(fmt::format("body '{}': {}", body->name, note));
+}
+
+void Session::check_counts() const {
+  constexpr double most = std::numeric_limits<int>::max() / 2;
+  const double step = scene_->step_size();
+  const double duration = options_.steps ? static_cast<double>(*options_.steps) * step : scene_->duration();
+  if (duration * image_.fps < most) return;
+  preset_->child("time")->fail(
+      "duration",
+      fmt::format("{:g} s at {:g} pictures a second are more than {:.0f} frames", duration, image_.fps, most));
+}
+
+Stopped Session::run(long last_frame, const Calls& calls) {
+  const double start = wall_clock();
+  double away = 0; // [s] in the calls at frames
+  Stopped stopped = Stopped::No;
+  try {
+    stopped = loop(last_frame, calls, away);
+  } catch (const Unstable& error) {
+    failure_ = error;
+    stopped = Stopped::Unstable;
+  }
+  step_seconds_ = wall_clock() - start - away;
+  return stopped;
+}
+
+Stopped Session::loop(long last_frame, const Calls& calls, double& away) {
+  const bool to_the_end = last_frame + 1 >= clock_->frames();
+  const long last_step = to_the_end ? clock_->steps() : clock_->step_of(last_frame);
+  long frame = 0, due = 0; // the next frame, and the step that it waits for
+  while (true) {
+    if (scene_->steps_done() >= due) {
+      const double since = wall_clock();
+      for (; frame <= last_frame && clock_->step_of(frame) <= scene_->steps_done(); ++frame) calls.frame(frame);
+      due = frame <= last_frame ? clock_->step_of(frame) : std::numeric_limits<long>::max();
+      away += wall_clock() - since;
+    }
+    if (scene_->steps_done() >= last_step) return Stopped::No;
+    if (stop_signal() != 0) return Stopped::Interrupted;
+    scene_->step();
+    if (calls.step) calls.step();
+  }
+}
+
+Exit end_of(const Session& session, Stopped stopped) {
+  if (stopped == Stopped::No) return Exit::Done;
+  if (stopped == Stopped::Unstable) {
+    print_error(session.failure()->what(), session.failure()->hint);
+    return Exit::Unstable;
+  }
+  print_error(fmt::format("stopped by a signal at {:.6g} s (step {} of {})", session.scene().time(),
+                          session.scene().steps_done(), session.clock().steps()));
+  return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+}
+
+} // namespace rend

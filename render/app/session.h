@@ -1,0 +1,78 @@
+// A run of a preset: what its options say, and the time loop that stops at every frame.
+#pragma once
+
+#include "render/app/clock.h"
+#include "render/app/preset_types.h"
+#include "sim/scene/scene.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace rend {
+
+// Options of the command line that all runs share.
+struct SessionOptions {
+  std::string preset;
+  std::vector<std::string> sets; // PATH=VALUE
+  std::optional<long> steps;     // instead of the duration
+  std::optional<double> fps;     // instead of the preset's
+  int threads = 0;               // 0: as many as the machine has
+  std::string kernels = "flat";  // or walk
+  bool quiet = false;
+};
+void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set
+void add_run_options(CLI::App& app, SessionOptions& options);    // those, and how it is run
+
+enum class Stopped { No, Interrupted, Unstable };
+
+class Session {
+public:
+  // Reads the preset and builds the scene. Throws UserError; nothing was written then. Prints the bodies' notes.
+  explicit Session(const SessionOptions& options);
+
+  const Node& preset() const { return *preset_; }
+  const std::string& preset_path() const { return options_.preset; }
+  Scene& scene() { return *scene_; }
+  const Scene& scene() const { return *scene_; }
+  const FrameClock& clock() const { return *clock_; }
+  const ImageSettings& image() const { return image_; }
+  bool quiet() const { return options_.quiet; }
+
+  // Called in the time loop.
+  struct Calls {
+    std::function<void(long frame)> frame; // the state of a frame is reached, from frame 0 on
+    std::function<void()> step;            // after each step; may be empty
+  };
+  // Steps until frame `last_frame`, or the end if it is the last of all; or until a signal or an instability.
+  // failure() then says what went wrong.
+  Stopped run(long last_frame, const Calls& calls);
+
+  const std::optional<Unstable>& failure() const { return failure_; }
+  double step_seconds() const { return step_seconds_; } // in the loop, without the calls at frames
+
+private:
+  Stopped loop(long last_frame, const Calls& calls, double& away);
+  void check_counts() const;
+
+  SessionOptions options_;
+  std::unique_ptr<Node> preset_;
+  std::unique_ptr<Scene> scene_; // reads from the preset for as long as it lives
+  std::unique_ptr<FrameClock> clock_;
+  ImageSettings image_;
+  std::optional<Unstable> failure_;
+  double step_seconds_ = 0;
+};
+
+// The exit code of a run; says what went wrong, if anything did.
+Exit end_of(const Session& session, Stopped stopped);
+
+double wall_clock(); // [s], since any moment
+
+} // namespace rend
