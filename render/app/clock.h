@@ -1,7 +1,7 @@
 // When pictures are taken, and which of them are wanted.
 //
-// Frame k shows the first state at or after k/fps. Frames never alter the steps: where no step falls on k/fps, the
-// picture is up to one step late.
+// Frame k shows the first state at or after k/fps. Frames never alter the steps: where no step falls on
+// k/fps, the picture is up to one step late.
 #pragma once
 
 #include <string>

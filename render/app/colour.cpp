@@ -25,6 +25,7 @@ constexpr std::array<Colour, 9> viridis{{{68, 1, 84},
                                          {170, 220, 50},
                                          {253, 231, 37}}};
 
+// pow may differ in its last bit between processors, which rounding to 8 bits hides.
 std::uint8_t encoded(double linear) {
   const double x = std::clamp(linear, 0.0, 1.0);
   const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
@@ -63,7 +64,7 @@ Colour colour_of_share(double share) {
 Colour colour_of_number(std::size_t number) {
   constexpr double turn = 360 * 0.6180339887498949; // [degrees]
   const double hue = 200 + turn * static_cast<double>(number % 100000);
-  const double light = number % 2 == 0 ? 0.70 : 0.60, chroma = 0.12;
+  const double light = number % 2 == 0 ? 0.70 : 0.60, chroma = 0.10;
   const double a = chroma * cosine_of_degrees(hue), b = chroma * sine_of_degrees(hue);
   const auto cube = [](double x) { return x * x * x; };
   const double l = cube(light + 0.3963377774 * a + 0.2158037573 * b);

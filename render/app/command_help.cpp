@@ -4,10 +4,12 @@
 #include "render/app/help.h"
 #include "render/app/preset_types.h"
 #include "render/app/schema.h"
+#include "sim/base/wording.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace rend {
@@ -28,7 +30,8 @@ Exit help(const CLI::App& root, const HelpOptions& options) {
   } else if (options.topic == "schema") {
     print_result(schema(scene_type()));
   } else if (options.topic.empty()) {
-    print_result(root.help("", CLI::AppFormatMode::Normal));
+    // App::help would print the page of the command that was parsed, which is this one.
+    print_result(root.get_formatter()->make_help(&root, root.get_name(), CLI::AppFormatMode::Normal));
   } else {
     std::vector<std::string> topics{"preset", "schema"};
     for (const Command& command : all_commands()) topics.push_back(command.name);

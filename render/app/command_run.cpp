@@ -5,11 +5,11 @@
 #include "render/app/progress.h"
 #include "render/app/records.h"
 #include "render/app/session.h"
-#include "render/app/signals.h"
 
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace rend {
 namespace {

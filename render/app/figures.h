@@ -1,5 +1,5 @@
-// The figures of a run: one object for `--json`, whose names are a contract with tests and benchmarks, and a summary
-// to read.
+// The figures of a run: one object for `--json`, whose names are a contract with tests and benchmarks, and a
+// summary to read.
 #pragma once
 
 #include "render/app/session.h"

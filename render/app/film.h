@@ -1,8 +1,9 @@
 // Frames of a run on their way to files.
 //
-// A frame is held back until the simulation has gone on to a later frame, or has ended well: a simulation that
-// explodes at once leaves nothing behind, and no picture shows the state that was about to explode. OpenGL is started
-// and the folder made when the first frame is let go; a folder that was made here and stays empty is removed.
+// A frame is held back until the simulation has gone on to a later frame, or has ended well: a simulation
+// that explodes at once leaves nothing behind, and no picture shows the state that was about to explode.
+// OpenGL is started and the folder made when the first frame is let go; a folder that was made here and stays
+// empty is removed.
 #pragma once
 
 #include "render/app/picture.h"

@@ -1,4 +1,5 @@
-// What a scene is made of: cells, arrays with their bytes, where the time step comes from, and what is not there.
+// What a scene is made of: cells, arrays with their bytes, where the time step comes from, and what is not
+// there.
 #pragma once
 
 #include "render/app/session.h"

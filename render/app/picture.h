@@ -1,9 +1,9 @@
 // From the state of a scene to a Frame: triangles with normals, colours and lines; the floor; the camera.
 //
-// Colours that depend on a scale or on an order of things must not flicker, and a frame drawn alone must be that of
-// the whole clip. So observe() is called for every frame of the clip, drawn or not: scales are the largest value seen
-// so far, rounded up to 1, 2 or 5 times a power of ten; and a fragment keeps the colour of its smallest dart, which
-// the largest share of nothing but a separation can take from it.
+// Colours that depend on a scale or on an order of things must not flicker, and a frame drawn alone must be
+// that of the whole clip. So observe() is called for every frame of the clip, drawn or not: a scale is the
+// largest value seen so far, rounded up to 1, 2 or 5 times a power of ten; and a fragment has the colour that
+// its smallest dart was given when it was first seen, so that of two parts one stays as it was.
 #pragma once
 
 #include "render/app/colour.h"
@@ -27,7 +27,6 @@ public:
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that were given a colour
   FrameBody draw();                          // of the state that was observed
   std::size_t bytes() const { return surface_.bytes(); }
-  double scale() const { return scale_; } // of strain or force: what has the last colour
 
 private:
   void label_fragments(std::size_t& fragments_seen);

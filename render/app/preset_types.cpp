@@ -53,9 +53,23 @@ void check_name(const Node& scene) {
   if (name.size() > 200) scene.fail("name", "the name of the scene is too long: " + in_quotes(name), hint);
 }
 
+void check_camera(const Node& camera) {
+  if (camera.vector("up").norm() == 0)
+    camera.fail("up", "the camera's up has no direction", "up=\"0 0 1\" is usual");
+  const bool eye = camera.given("eye"), target = camera.given("target");
+  if (!eye && camera.has("frame") && camera.text("frame") == "given")
+    camera.fail("frame", "a given frame needs an eye", "eye=\"0 -3 1\", or frame=\"auto\"");
+  if (eye && target && camera.vector("eye") == camera.vector("target"))
+    camera.fail("eye", "the camera's eye stands at its target", "move it away from there");
+}
+
+// What only pictures need is looked at as well, so that a preset is good or bad for all commands alike.
 std::unique_ptr<Node> checked(std::unique_ptr<Node> scene) {
   check_name(*scene);
-  image_settings(*scene); // for its colour
+  image_settings(*scene); // its colour
+  for (const Node* body : scene->all("body"))
+    if (const Node* look = body->child("look")) colour_of(*look, "colour");
+  if (const Node* camera = scene->child("camera")) check_camera(*camera);
   return scene;
 }
 

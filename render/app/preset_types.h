@@ -1,5 +1,5 @@
-// The whole parameter table: the root <scene>, with what the simulation reads (sim/scene/scene_types.h) and what
-// pictures are made by.
+// The whole parameter table: the root <scene>, with what the simulation reads (sim/scene/scene_types.h) and
+// what pictures are made by.
 #pragma once
 
 #include "render/app/preset_reader.h"

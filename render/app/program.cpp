@@ -2,10 +2,12 @@
 #include "render/app/console.h"
 #include "render/app/signals.h"
 #include "sim/base/check.h"
+#include "sim/base/wording.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -21,7 +23,7 @@ namespace {
 
 std::unique_ptr<CLI::App> make_app(std::function<Exit()>& chosen) {
   auto app = std::make_unique<CLI::App>("rend: pictures of things that tear and break.", "rend");
-  app->set_version_flag("--version", "rend " REND_VERSION);
+  app->set_version_flag("--version", "rend " REND_VERSION, "print the version");
   app->set_help_flag("-h,--help", "print this page");
   app->require_subcommand(1);
   app->footer("rend COMMAND --help tells a command's options; rend help preset, what a preset may hold.");
@@ -33,7 +35,21 @@ std::unique_ptr<CLI::App> make_app(std::function<Exit()>& chosen) {
   return app;
 }
 
+// What CLI11 would call a missing subcommand.
+void check_command(int count, const char* const* arguments) {
+  std::vector<std::string> names;
+  for (const Command& command : all_commands()) names.push_back(command.name);
+  const std::string first = count > 1 ? arguments[1] : "";
+  if (first.empty())
+    throw UserError(Exit::Usage, {}, "no command is given",
+                    "there are: " + listed(names) + "; rend --help says more");
+  if (first.front() != '-' && std::find(names.begin(), names.end(), first) == names.end())
+    throw UserError(Exit::Usage, {}, "there is no command " + in_quotes(first),
+                    suggestion(first, names, "there are"));
+}
+
 Exit run_command_line(int count, const char* const* arguments) {
+  check_command(count, arguments);
   std::function<Exit()> chosen;
   const std::unique_ptr<CLI::App> app = make_app(chosen);
   try {

@@ -1,5 +1,5 @@
-// Files that a run leaves beside its pictures: figures over time, and topological changes. Both appear whole or not
-// at all; numbers have as many digits as it takes to read them back unchanged.
+// Files that a run leaves beside its pictures: figures over time, and topological changes. Both appear whole
+// or not at all; numbers have as many digits as it takes to read them back unchanged.
 #pragma once
 
 #include "render/output.h"

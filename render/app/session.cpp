@@ -28,7 +28,7 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
   add_preset_options(app, options);
   app.add_option("--steps", options.steps, "so many steps instead of the duration")
       ->type_name("N")
-      ->check(CLI::Range(0L, 1000000000000L));
+      ->check(CLI::Range(0L, 1000000000L));
   app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the preset's")
       ->type_name("N")
       ->check(CLI::Range(1e-6, 1e6));

@@ -34,7 +34,8 @@ enum class Stopped { No, Interrupted, Unstable };
 
 class Session {
 public:
-  // Reads the preset and builds the scene. Throws UserError; nothing was written then. Prints the bodies' notes.
+  // Reads the preset and builds the scene. Throws UserError; nothing was written then. Prints the bodies'
+  // notes.
   explicit Session(const SessionOptions& options);
 
   const Node& preset() const { return *preset_; }

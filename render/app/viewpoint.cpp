@@ -42,8 +42,8 @@ Box room_of(const Body& body, double duration) {
   const double size = box.sizes().maxCoeff();
   const double hang = held_all_around(body, box, vertical) ? 0 : 0.9 * size - box.sizes()[vertical];
   const Vec3 down = gravity.normalized() * std::max(0.15 * size, hang);
-  for (int n = 0; n < 8; ++n) room.extend(corner_of(room, n) + down);
-  return room;
+  const Box below(room.min() + down, room.max() + down);
+  return room.merged(below);
 }
 
 // Towards the side that a flat thing shows: from the front, a little from the right and from above.
@@ -77,9 +77,6 @@ Viewpoint::Viewpoint(const Node& preset, const Scene& scene, double aspect, doub
     start_.up = camera->vector("up");
     start_.fov = camera->number("fov");
     turn_ = camera->number("turn");
-    if (start_.up.norm() == 0) camera->fail("up", "the camera's up has no direction", "up=\"0 0 1\"");
-    if (!has_eye && camera->has("frame") && camera->text("frame") == "given")
-      camera->fail("frame", "a given frame needs an eye", "eye=\"0 -3 1\", or frame=\"auto\"");
   }
   start_.target = camera && camera->given("target") ? camera->vector("target") : Vec3(start.center());
   Vec3 direction = best_direction(start);

@@ -1,5 +1,5 @@
-// Where a scene is seen from: what <camera> says, or what fits the bodies. One path for the whole clip, worked out
-// before the first step, so that a frame does not depend on the frames before it.
+// Where a scene is seen from: what <camera> says, or what fits the bodies. One path for the whole clip,
+// worked out before the first step, so that a frame does not depend on the frames before it.
 #pragma once
 
 #include "render/frame.h"
@@ -9,8 +9,9 @@
 
 namespace rend {
 
-// A box that the bodies hardly leave: where they are, where they are driven to by `duration`, and room below them to
-// hang or fall (as deep as they are wide where nothing holds them up on all sides, but not below the floor).
+// A box that the bodies hardly leave: where they are, where they are driven to by `duration`, and room below
+// them to hang or fall (as deep as they are wide where nothing holds them up on all sides, but not below the
+// floor).
 Eigen::AlignedBox3d room_of(const Scene& scene, double duration);
 
 class Viewpoint {

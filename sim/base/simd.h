@@ -7,6 +7,8 @@
 
 #include "sim/base/record.h"
 
+#include <immintrin.h>
+
 namespace rend {
 
 using Double4 = double __attribute__((vector_size(32)));
@@ -17,10 +19,14 @@ using Long4 = long long __attribute__((vector_size(32)));
 #else
 #define REND_CLONES
 #endif
-#define REND_INLINE [[gnu::always_inline]] inline
+#define REND_INLINE __attribute__((always_inline)) inline
 
 REND_INLINE Double4 load(const Record& r) { return *reinterpret_cast<const Double4*>(&r); }
 REND_INLINE void store(Record& r, Double4 v) { *reinterpret_cast<Double4*>(&r) = v; }
+REND_INLINE void stream(Record& r, Double4 v) {
+  _mm_stream_pd(&r.x, __m128d{v[0], v[1]});
+  _mm_stream_pd(&r.z, __m128d{v[2], v[3]});
+}
 REND_INLINE Double4 splat(double s) { return Double4{s, s, s, s}; }
 
 REND_INLINE Double4 square_root(Double4 v) {

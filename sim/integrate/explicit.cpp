@@ -6,13 +6,19 @@
 namespace rend {
 namespace {
 
+REND_CLONES void move(const System& system, std::size_t count, double step, const StateView& now,
+                      const Record* force, State& next) {
+  const Double4 h = splat(step);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double4 v = load(now.velocity[i]);
+    next.put(i, load(now.position[i]) + h * v, v + h * system.acceleration(i, load(force[i]), v));
+  }
+}
+
 class ExplicitEuler final : public Integrator {
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
-    for (std::size_t i = 0; i < system.vertices(); ++i) {
-      const Double4 v = load(now.velocity[i]);
-      next.put(i, load(now.position[i]) + step * v, v + step * system.acceleration(i, load(force[i]), v));
-    }
+    move(system, system.vertices(), step, now, force, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

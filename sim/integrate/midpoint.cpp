@@ -6,6 +6,26 @@
 namespace rend {
 namespace {
 
+REND_CLONES void halfway(const System& system, std::size_t count, double step, const StateView& now,
+                         const Record* force, State& middle) {
+  const Double4 half = splat(0.5 * step);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double4 v = load(now.velocity[i]);
+    store(middle.position[i], load(now.position[i]) + half * v);
+    store(middle.velocity[i], v + half * system.acceleration(i, load(force[i]), v));
+  }
+}
+
+REND_CLONES void across(const System& system, std::size_t count, double step, const StateView& now,
+                        const Record* force, const State& middle, State& next) {
+  const Double4 h = splat(step);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double4 v = load(middle.velocity[i]);
+    next.put(i, load(now.position[i]) + h * v,
+             load(now.velocity[i]) + h * system.acceleration(i, load(force[i]), v));
+  }
+}
+
 class Midpoint final : public Integrator {
   State middle_;
   std::vector<Record> force_; // [N], in the middle
@@ -15,18 +35,10 @@ class Midpoint final : public Integrator {
     const std::size_t count = system.vertices();
     force_.resize(count);
     middle_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Double4 v = load(now.velocity[i]);
-      store(middle_.position[i], load(now.position[i]) + (0.5 * step) * v);
-      store(middle_.velocity[i], v + (0.5 * step) * system.acceleration(i, load(force[i]), v));
-    }
+    halfway(system, count, step, now, force, middle_);
     system.constrain(time + 0.5 * step, middle_.position.data(), middle_.velocity.data());
     system.forces(time + 0.5 * step, middle_.position.data(), middle_.velocity.data(), force_.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      const Double4 v = load(middle_.velocity[i]);
-      next.put(i, load(now.position[i]) + step * v,
-               load(now.velocity[i]) + step * system.acceleration(i, load(force_[i]), v));
-    }
+    across(system, count, step, now, force_.data(), middle_, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

@@ -15,43 +15,62 @@
 namespace rend {
 namespace {
 
+// The weighted sums of the stages' velocities and accelerations, one per vertex slot.
+struct Sums {
+  std::vector<Record> velocity, acceleration; // [m/s], [m/s²]
+};
+
+// Adds the derivative at a stage (its forces, its velocities) with its weight; the first stage sets the sums. Then
+// goes on to the next stage, at `ahead` from the start; it may be the stage itself.
+template <bool first>
+REND_INLINE void collect(const System& system, std::size_t count, const Record* force, const Record* velocity,
+                         double weight, const StateView& now, double ahead, Sums& sums, State& stage) {
+  const Double4 w = splat(weight), h = splat(ahead);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double4 v = load(velocity[i]), a = system.acceleration(i, load(force[i]), v);
+    store(sums.velocity[i], first ? v : load(sums.velocity[i]) + w * v);
+    store(sums.acceleration[i], first ? a : load(sums.acceleration[i]) + w * a);
+    store(stage.position[i], load(now.position[i]) + h * v);
+    store(stage.velocity[i], load(now.velocity[i]) + h * a);
+  }
+}
+REND_CLONES void collect_first(const System& system, std::size_t count, const Record* force, const StateView& now,
+                               double ahead, Sums& sums, State& stage) {
+  collect<true>(system, count, force, now.velocity, 1, now, ahead, sums, stage);
+}
+REND_CLONES void collect_middle(const System& system, std::size_t count, const Record* force, const StateView& now,
+                                double ahead, Sums& sums, State& stage) {
+  collect<false>(system, count, force, stage.velocity.data(), 2, now, ahead, sums, stage);
+}
+REND_CLONES void finish(const System& system, std::size_t count, const Record* force, const StateView& now,
+                        double step, const Sums& sums, const State& stage, State& next) {
+  const Double4 sixth = splat(step / 6);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double4 v = load(stage.velocity[i]), a = system.acceleration(i, load(force[i]), v);
+    next.put(i, load(now.position[i]) + sixth * (load(sums.velocity[i]) + v),
+             load(now.velocity[i]) + sixth * (load(sums.acceleration[i]) + a));
+  }
+}
+
 class RungeKutta4 final : public Integrator {
   State stage_;
-  std::vector<Record> force_;                 // [N], of the stage
-  std::vector<Record> velocities_, accelerations_; // weighted sums of those of the stages
-
-  // Adds the derivative at a stage (its force f, its velocity v), with its weight, and goes on to the next stage, at
-  // `ahead` from the start.
-  void collect(const System& system, std::size_t i, Double4 f, Double4 v, double weight, const StateView& now,
-               double ahead) {
-    const Double4 a = system.acceleration(i, f, v);
-    store(velocities_[i], load(velocities_[i]) + weight * v);
-    store(accelerations_[i], load(accelerations_[i]) + weight * a);
-    store(stage_.position[i], load(now.position[i]) + ahead * v);
-    store(stage_.velocity[i], load(now.velocity[i]) + ahead * a);
-  }
+  std::vector<Record> force_; // [N], of the stage
+  Sums sums_;
 
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
     const std::size_t count = system.vertices();
     force_.resize(count);
     stage_.resize(count);
-    velocities_.assign(count, {});
-    accelerations_.assign(count, {});
-    for (std::size_t i = 0; i < count; ++i)
-      collect(system, i, load(force[i]), load(now.velocity[i]), 1, now, 0.5 * step);
-    for (int stage = 2; stage <= 3; ++stage) {
-      evaluate(system, time + 0.5 * step);
-      const double ahead = stage == 2 ? 0.5 * step : step;
-      for (std::size_t i = 0; i < count; ++i)
-        collect(system, i, load(force_[i]), load(stage_.velocity[i]), 2, now, ahead);
-    }
+    sums_.velocity.resize(count);
+    sums_.acceleration.resize(count);
+    collect_first(system, count, force, now, 0.5 * step, sums_, stage_);
+    evaluate(system, time + 0.5 * step);
+    collect_middle(system, count, force_.data(), now, 0.5 * step, sums_, stage_);
+    evaluate(system, time + 0.5 * step);
+    collect_middle(system, count, force_.data(), now, step, sums_, stage_);
     evaluate(system, time + step);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Double4 v = load(stage_.velocity[i]), a = system.acceleration(i, load(force_[i]), v);
-      next.put(i, load(now.position[i]) + (step / 6) * (load(velocities_[i]) + v),
-               load(now.velocity[i]) + (step / 6) * (load(accelerations_[i]) + a));
-    }
+    finish(system, count, force_.data(), now, step, sums_, stage_, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 

@@ -8,14 +8,20 @@
 namespace rend {
 namespace {
 
+REND_CLONES void move(const System& system, std::size_t count, double step, const StateView& now,
+                      const Record* force, State& next) {
+  const Double4 h = splat(step);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double4 v = load(now.velocity[i]);
+    const Double4 w = v + h * system.acceleration(i, load(force[i]), v);
+    next.put(i, load(now.position[i]) + h * w, w);
+  }
+}
+
 class SymplecticEuler final : public Integrator {
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
-    for (std::size_t i = 0; i < system.vertices(); ++i) {
-      const Double4 v = load(now.velocity[i]);
-      const Double4 w = v + step * system.acceleration(i, load(force[i]), v);
-      next.put(i, load(now.position[i]) + step * w, w);
-    }
+    move(system, system.vertices(), step, now, force, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

@@ -12,18 +12,25 @@ namespace rend {
 struct State {
   std::vector<Record> position, velocity;
   void resize(std::size_t vertices) {
+    large = vertices > 200000;
     position.resize(vertices);
     velocity.resize(vertices);
   }
 
   // Writes the new state of a vertex, and looks on the way whether it is finite: 0 times what is not is not 0.
-  void put(std::size_t i, Double4 x, Double4 v) {
-    store(position[i], x);
-    store(velocity[i], v);
+  REND_INLINE void put(std::size_t i, Double4 x, Double4 v) {
+    if (large) {
+      stream(position[i], x);
+      stream(velocity[i], v);
+    } else {
+      store(position[i], x);
+      store(velocity[i], v);
+    }
     probe += 0.0 * (x + v);
   }
   bool finite() const { return probe[0] + probe[1] + probe[2] == 0; }
   Double4 probe{};
+  bool large = false;
 };
 
 // The same, to be read alone.
@@ -44,10 +51,10 @@ public:
   virtual void constrain(double time, Record* position, Record* velocity) = 0;
 
   // dv/dt [m/s²] of a free vertex under the internal force f.
-  Double4 acceleration(std::size_t vertex, Double4 f, Double4 v) const {
+  REND_INLINE Double4 acceleration(std::size_t vertex, Double4 f, Double4 v) const {
     double rate = uniform_drag;
     if (drag_rate) rate += drag_rate[vertex];
-    return f * inverse_mass[vertex] + load(gravity) - rate * v;
+    return f * splat(inverse_mass[vertex]) + load(gravity) - splat(rate) * v;
   }
 
   const double* inverse_mass = nullptr; // [1/kg], one per vertex slot; 0: free slot

@@ -6,6 +6,27 @@
 namespace rend {
 namespace {
 
+REND_CLONES void predict(const System& system, std::size_t count, double step, const StateView& now,
+                         const Record* force, State& next) {
+  const Double4 h = splat(step), half_square = splat(0.5 * step * step);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double4 v = load(now.velocity[i]), a = system.acceleration(i, load(force[i]), v);
+    store(next.position[i], load(now.position[i]) + h * v + half_square * a);
+    store(next.velocity[i], v + h * a);
+  }
+}
+
+REND_CLONES void correct(const System& system, std::size_t count, double step, const StateView& now,
+                         const Record* force, const Record* force_there, State& next) {
+  const Double4 half = splat(0.5 * step);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Double4 v = load(now.velocity[i]);
+    const Double4 a = system.acceleration(i, load(force[i]), v);
+    const Double4 b = system.acceleration(i, load(force_there[i]), load(next.velocity[i]));
+    next.put(i, load(next.position[i]), v + half * (a + b));
+  }
+}
+
 class VelocityVerlet final : public Integrator {
   std::vector<Record> force_; // [N], at the new positions
 
@@ -13,19 +34,10 @@ class VelocityVerlet final : public Integrator {
                State& next) override {
     const std::size_t count = system.vertices();
     force_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Double4 v = load(now.velocity[i]), a = system.acceleration(i, load(force[i]), v);
-      store(next.position[i], load(now.position[i]) + step * v + (0.5 * step * step) * a);
-      store(next.velocity[i], v + step * a);
-    }
+    predict(system, count, step, now, force, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
     system.forces(time + step, next.position.data(), next.velocity.data(), force_.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      const Double4 v = load(now.velocity[i]);
-      const Double4 a = system.acceleration(i, load(force[i]), v);
-      const Double4 b = system.acceleration(i, load(force_[i]), load(next.velocity[i]));
-      next.put(i, load(next.position[i]), v + (0.5 * step) * (a + b));
-    }
+    correct(system, count, step, now, force, force_.data(), next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

@@ -69,8 +69,18 @@ void Program::forces(const Record* position, const Record* velocity, Record* for
   const std::vector<Binder>& binders = folded_.empty() ? elementary_ : folded_;
   const std::size_t tiles = vertices() / tile_vertices + 1;
   in_parts(parts(), vertices(), [&](std::size_t begin, std::size_t end) {
-    std::memset(static_cast<void*>(force + begin), 0, (end - begin) * sizeof(Record));
+    std::size_t cleared = begin; // forces are set to 0 just before the first tile that adds to them
+    const auto clear_to = [&](std::size_t to) {
+      if (to <= cleared) return;
+      std::memset(static_cast<void*>(force + cleared), 0, (to - cleared) * sizeof(Record));
+      cleared = to;
+    };
     for (std::size_t tile = 0; tile < tiles; ++tile) {
+      for (const Binder& binder : binders) {
+        const std::size_t blocks = binder.rows().blocks();
+        for (std::size_t block = blocks * tile / tiles; block < blocks * (tile + 1) / tiles; ++block)
+          clear_to(std::min<std::size_t>(end, binder.rows().range(block).high + std::size_t{1}));
+      }
       for (const Binder& binder : binders) {
         const std::size_t blocks = binder.rows().blocks();
         const KernelArguments arguments{binder.rows(), position, velocity, force,
@@ -80,6 +90,7 @@ void Program::forces(const Record* position, const Record* velocity, Record* for
         else hinge_forces(arguments);
       }
     }
+    clear_to(end);
   });
 }
 

@@ -92,19 +92,20 @@ void Scene::step() {
     const StateView view{body->map->position().values().data(), body->map->velocity().values().data()};
     body->integrator->advance(*body, time(), step_, view, body->force.data(), body->next);
   }
+  // All bodies are looked at before one of them moves on: the state stays whole.
   for (auto& body : bodies_)
-    if (!body->commit()) stop(*body, "a number of its state is not finite");
+    if (!body->next.finite()) stop(*body, "a number of its state is not finite");
+  if (steps_done_ % checked == 0 || steps_done_ < checked) check_resolved();
+  for (auto& body : bodies_) body->commit();
   lap(&StageSeconds::integrate);
   ++steps_done_;
-  if (steps_done_ % checked == 0 || steps_done_ < checked) check_resolved();
 }
 
 // A spring whose ends move by more than twice its length in one step, against each other, is not resolved by it.
 void Scene::check_resolved() const {
   for (const auto& body : bodies_) {
     const Program& program = *body->program;
-    const Record* x = body->map->position().values().data();
-    const Record* v = body->map->velocity().values().data();
+    const Record *x = body->next.position.data(), *v = body->next.velocity.data();
     for (const Binder& binder : program.folded().empty() ? program.elementary() : program.folded()) {
       if (binder.interaction()->law != Law::Spring) continue;
       const PackedRows& rows = binder.rows();

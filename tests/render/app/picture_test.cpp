@@ -1,0 +1,174 @@
+#include "render/app/picture.h"
+
+#include "render/app/preset_types.h"
+#include "render/app/viewpoint.h"
+#include "render/camera.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <set>
+
+namespace rend {
+namespace {
+
+using Eigen::Vector3f;
+
+// A cloth that is pulled apart, with `sheet`, `look` and more elements of the scene.
+struct Shown {
+  std::unique_ptr<Node> preset;
+  std::unique_ptr<Scene> scene;
+  std::unique_ptr<PictureMaker> maker;
+
+  explicit Shown(const std::string& sheet, const std::string& look = "", const std::string& more = "",
+                 const std::string& moves = R"(<fix side="-x"/><drive side="+x" velocity="4 0 0"/>)") {
+    preset =
+        load_scene_text(R"(<scene name="shown"><body>)" + sheet +
+                            R"(<place rotate="90 0 0"/><mass total="0.1"/><springs><stretch k="60"/>)"
+                            R"(<shear kind="isotropic" k="43"/></springs>)" +
+                            moves + R"(<tear criterion="global-border" threshold="2"/>)" + look + "</body>" +
+                            R"(<time step="1e-3" integrator="rk4" duration="1"/>)" + more + "</scene>",
+                        "shown.xml");
+    scene = std::make_unique<Scene>(*preset, SceneOptions{});
+    maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0);
+  }
+  void steps(int count) {
+    for (int n = 0; n < count; ++n) scene->step();
+  }
+  Frame frame() {
+    maker->observe();
+    return maker->draw(0, 0);
+  }
+};
+
+constexpr const char* quads = R"(<sheet cells="6 6" size="1 1"/>)";
+constexpr const char* moebius = R"(<sheet cells="24 3" size="3 0.4" close="twist"/>)";
+
+Vector3f position(const Corner& c) {
+  return Vector3f(c.position.data());
+}
+Vector3f normal(const Corner& c) {
+  return Vector3f(c.normal.data());
+}
+
+std::array<int, 4> count_lines(const FrameBody& body) {
+  std::array<int, 4> count{};
+  for (std::size_t n = 0; n < body.corners.size(); n += 3)
+    for (std::size_t k = 0; k < 3; ++k) ++count[body.corners[n].line[k]];
+  return count;
+}
+
+std::set<std::array<std::uint8_t, 4>> colours(const FrameBody& body) {
+  std::set<std::array<std::uint8_t, 4>> all;
+  for (const Corner& corner : body.corners) all.insert(corner.colour);
+  return all;
+}
+
+TEST(Picture, ShowsAQuadAsTwoTrianglesWithoutTheirDiagonal) {
+  Shown shown(quads);
+  const FrameBody body = shown.frame().bodies.at(0);
+  ASSERT_EQ(body.corners.size(), 2 * 36 * 3);
+  const auto [none, cell, border, torn] = count_lines(body);
+  EXPECT_EQ(none, 2 * 36);      // the diagonal, from both sides
+  EXPECT_EQ(cell, 4 * 36 - 24); // inner edges, from both sides
+  EXPECT_EQ(border, 24);
+  EXPECT_EQ(torn, 0);
+}
+
+TEST(Picture, MarksWhatTearingLaidBare) {
+  Shown shown(quads);
+  shown.steps(300);
+  ASSERT_GT(shown.scene->tears(), 0U);
+  const auto [none, cell, border, torn] = count_lines(shown.frame().bodies.at(0));
+  EXPECT_EQ(torn, 2 * static_cast<int>(shown.scene->tears()));
+  EXPECT_EQ(border, 24);
+  EXPECT_EQ(none + cell + border + torn, 2 * 36 * 3);
+}
+
+TEST(Picture, TurnsNormalsToTheSideOfTheirTriangle) {
+  for (const char* sheet : {quads, moebius}) {
+    Shown shown(sheet);
+    shown.steps(100);
+    const FrameBody body = shown.frame().bodies.at(0);
+    for (std::size_t n = 0; n < body.corners.size(); n += 3) {
+      const Corner* c = &body.corners[n];
+      const Vector3f flat =
+          (position(c[1]) - position(c[0])).cross(position(c[2]) - position(c[0])).normalized();
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(normal(c[k]).norm(), 1, 1e-5);
+        EXPECT_GT(normal(c[k]).dot(flat), 0) << n;
+      }
+    }
+  }
+}
+
+TEST(Picture, GivesAMoebiusBandOneSide) {
+  EXPECT_FALSE(Shown(moebius).frame().bodies.at(0).sides);
+  EXPECT_TRUE(Shown(quads).frame().bodies.at(0).sides);
+  EXPECT_TRUE(Shown(R"(<sheet cells="8 2" size="1 0.3" close="loop"/>)").frame().bodies.at(0).sides);
+}
+
+TEST(Picture, KeepsTheColourOfWhatStays) {
+  Shown shown(quads, R"(<look by="fragment"/>)");
+  const auto before = colours(shown.frame().bodies.at(0));
+  EXPECT_EQ(before.size(), 1U);
+  std::set<std::array<std::uint8_t, 4>> last = before;
+  for (int n = 0; n < 10; ++n) {
+    shown.steps(30);
+    const auto now = colours(shown.frame().bodies.at(0));
+    EXPECT_TRUE(std::includes(now.begin(), now.end(), last.begin(), last.end()));
+    last = now;
+  }
+  EXPECT_GT(last.size(), 1U);
+}
+
+TEST(Picture, ScalesColoursToTheLargestSoFar) {
+  Shown shown(quads, R"(<look by="strain"/>)");
+  EXPECT_EQ(colours(shown.frame().bodies.at(0)).size(), 1U);
+  shown.steps(50);
+  EXPECT_GT(colours(shown.frame().bodies.at(0)).size(), 3U);
+}
+
+TEST(Picture, TakesColourAndSceneFromThePreset) {
+  Shown shown(
+      quads, R"(<look colour="#102030" edges="no"/>)",
+      R"(<world><floor z="-2"/></world><image background="#ff0000"/><camera eye="0 -5 0" target="0 0 0"/>)");
+  const Frame frame = shown.frame();
+  EXPECT_EQ(frame.bodies.at(0).corners.at(0).colour, (std::array<std::uint8_t, 4>{16, 32, 48, 255}));
+  EXPECT_FALSE(frame.bodies.at(0).edges);
+  EXPECT_EQ(frame.floor->z, -2);
+  EXPECT_EQ(frame.background, (std::array<float, 3>{1, 0, 0}));
+  EXPECT_EQ(frame.camera.eye, Eigen::Vector3d(0, -5, 0));
+}
+
+TEST(Viewpoint, TurnsAroundItsTarget) {
+  Shown shown(quads, "", R"(<camera eye="0 -5 1" target="0 0 1" turn="90"/>)");
+  EXPECT_TRUE(shown.maker->camera(0).eye.isApprox(Eigen::Vector3d(0, -5, 1)));
+  EXPECT_TRUE(shown.maker->camera(1).eye.isApprox(Eigen::Vector3d(5, 0, 1)));
+  EXPECT_TRUE(shown.maker->camera(1).target.isApprox(Eigen::Vector3d(0, 0, 1)));
+}
+
+TEST(Viewpoint, KeepsTheBodiesInSight) {
+  Shown shown(quads);
+  for (int n = 0; n < 10; ++n) {
+    const Eigen::Matrix4d clip = view_of(shown.maker->camera(0.1 * n), {}, 1.5).world_to_clip();
+    const FrameBody body = shown.frame().bodies.at(0);
+    for (const Corner& corner : body.corners) {
+      const Eigen::Vector4d at = clip * position(corner).cast<double>().homogeneous();
+      EXPECT_LT(std::max(std::abs(at.x()), std::abs(at.y())), at.w());
+    }
+    shown.steps(100);
+  }
+}
+
+TEST(Viewpoint, LeavesRoomToFallOrSwingButNotBelowTheFloor) {
+  const std::string one_side = R"(<fix near="0 0 1"/>)";
+  EXPECT_NEAR(room_of(*Shown(quads, "", "", R"(<fix near="0 0 1"/><fix near="1 0 1"/>)").scene, 1).min().z(),
+              -0.15, 1e-9);
+  const Shown flat(quads, "", R"(<world gravity="0 -9.81 0"/>)", one_side);
+  EXPECT_NEAR(room_of(*flat.scene, 1).min().y(), -0.9, 1e-9);
+  const Shown floor(quads, "", R"(<world><floor z="-0.1"/></world>)", one_side);
+  EXPECT_NEAR(room_of(*floor.scene, 1).min().z(), -0.1, 1e-9);
+}
+
+} // namespace
+} // namespace rend
