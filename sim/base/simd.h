@@ -7,7 +7,9 @@
 
 #include "sim/base/record.h"
 
-#include <immintrin.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace rend {
 
@@ -23,10 +25,16 @@ using Long4 = long long __attribute__((vector_size(32)));
 
 REND_INLINE Double4 load(const Record& r) { return *reinterpret_cast<const Double4*>(&r); }
 REND_INLINE void store(Record& r, Double4 v) { *reinterpret_cast<Double4*>(&r) = v; }
+// Past the caches, for large arrays that are not read again soon: spares reading what is overwritten.
 REND_INLINE void stream(Record& r, Double4 v) {
+#ifdef __SSE2__
   _mm_stream_pd(&r.x, __m128d{v[0], v[1]});
   _mm_stream_pd(&r.z, __m128d{v[2], v[3]});
+#else
+  store(r, v);
+#endif
 }
+
 REND_INLINE Double4 splat(double s) { return Double4{s, s, s, s}; }
 
 REND_INLINE Double4 square_root(Double4 v) {

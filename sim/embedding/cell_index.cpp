@@ -29,7 +29,7 @@ CellIndex::CellIndex(const GMap& map, Orbit orbit) : orbit_(orbit), slot_of_dart
 }
 
 std::size_t CellIndex::bytes() const {
-  return (slot_of_dart_.capacity() + first_dart_.capacity() + free_.capacity()) * sizeof(Slot);
+  return (slot_of_dart_.size() + first_dart_.size() + free_.size()) * sizeof(Slot);
 }
 
 Slot CellIndex::new_slot() {

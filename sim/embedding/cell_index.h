@@ -43,6 +43,7 @@ public:
   std::size_t slots() const { return first_dart_.size(); } // free ones included
   std::size_t count() const { return first_dart_.size() - free_.size(); }
   std::size_t bytes() const;
+  void reserve(std::size_t slots) { first_dart_.reserve(slots); }
 
   // Brings the slots up to date after the changes of `journal`, from the darts that it names alone.
   void update(const GMap& map, const Journal& journal, SlotEvents& events);

@@ -38,6 +38,7 @@ public:
 
   // For EmbeddedMap alone.
   virtual void resize(std::size_t slots) = 0;
+  virtual void reserve(std::size_t slots) = 0;
   virtual void apply(const EmbeddedMap& map, const CellIndex& cells, const SlotEvents& events) = 0;
   virtual void bear(const EmbeddedMap& map, const CellIndex& cells, Slot slot) = 0;
 };
@@ -52,7 +53,7 @@ public:
   const std::string& name() const override { return embedding_.name; }
   Orbit orbit() const override { return embedding_.orbit; }
   Orbit support() const override { return embedding_.support; }
-  std::size_t bytes() const override { return values_.capacity() * sizeof(Value); }
+  std::size_t bytes() const override { return values_.size() * sizeof(Value); }
 
   // One per slot of the orbit; what free slots hold is not defined.
   Value& operator[](Slot slot) { return values_[slot]; }
@@ -61,6 +62,7 @@ public:
   const std::vector<Value>& values() const { return values_; }
 
   void resize(std::size_t slots) override { values_.resize(slots); }
+  void reserve(std::size_t slots) override { values_.reserve(slots); }
 
   void apply(const EmbeddedMap& map, const CellIndex& cells, const SlotEvents& events) override {
     resize(cells.slots());

@@ -141,6 +141,21 @@ void EmbeddedMap::publish() {
   }
 }
 
+std::size_t EmbeddedMap::slots_when_separated(Orbit orbit) const {
+  if (!orbit.has(map_.dimension())) return cells(orbit).slots();
+  Orbit inside = orbit; // of one element
+  inside.mask = static_cast<std::uint8_t>(inside.mask & ((1 << map_.dimension()) - 1));
+  std::size_t darts = 2; // the least that a corner or an edge of an element has
+  if (inside == SingleDart) darts = 1;
+  return std::max(cells(orbit).slots(), map_.dart_count() / darts);
+}
+
+void EmbeddedMap::reserve_for_separations() {
+  for (auto& index : cells_)
+    if (index) index->reserve(slots_when_separated(index->orbit()));
+  for (auto& column : columns_) column->reserve(slots_when_separated(column->orbit()));
+}
+
 std::size_t EmbeddedMap::bytes() const {
   std::size_t total = 0;
   for (const auto& index : cells_)

@@ -97,6 +97,11 @@ public:
   void subscribe(Changes& changes) { readers_.push_back(&changes); }
   void unsubscribe(Changes& changes) { std::erase(readers_, &changes); }
 
+  // Room for as many slots as separations of elements can ever make, so that none of them moves an array. Memory that
+  // is not written to costs nothing but addresses.
+  void reserve_for_separations();
+  std::size_t slots_when_separated(Orbit orbit) const; // with every element by itself
+
   std::size_t bytes() const; // of slots and columns; the map has its own
 
 private:

@@ -32,6 +32,7 @@ public:
   virtual ~Criterion() = default;
   virtual void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) = 0;
   virtual void rebind(const Changes& changes) = 0;
+  virtual void reserve_for_separations() = 0; // see EmbeddedMap
   virtual std::size_t bytes() const = 0;
 };
 

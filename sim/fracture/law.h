@@ -43,6 +43,7 @@ public:
   int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events);
 
   void rebind(const Changes& changes) { criterion_->rebind(changes); }
+  void reserve_for_separations() { criterion_->reserve_for_separations(); }
   std::size_t bytes() const { return criterion_->bytes() + candidates_.capacity() * sizeof(Candidate); }
 
 private:

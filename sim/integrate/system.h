@@ -30,7 +30,7 @@ struct State {
   }
   bool finite() const { return probe[0] + probe[1] + probe[2] == 0; }
   Double4 probe{};
-  bool large = false;
+  bool large = false; // more than the caches hold
 };
 
 // The same, to be read alone.

@@ -124,6 +124,10 @@ void Binder::bind() {
   rows_.seal();
 }
 
+void Binder::reserve_for_separations() {
+  rows_.reserve(map_->slots_when_separated(pattern_.owner) * pattern_.units.size());
+}
+
 namespace {
 thread_local IndexSet owners_seen;
 }

@@ -38,6 +38,7 @@ public:
 
   void bind();                          // all owners
   void rebind(const Changes& changes);  // those that the changes concern
+  void reserve_for_separations();       // see EmbeddedMap
 
 private:
   struct Row {

@@ -18,6 +18,14 @@ void PackedRows::resize(std::size_t keys) {
   for (auto& column : value_) column.resize(blocks * block_size, 0);
 }
 
+void PackedRows::reserve(std::size_t keys) {
+  const std::size_t blocks = (keys + block_size - 1) / block_size;
+  mask_.reserve(blocks);
+  range_.reserve(blocks);
+  for (auto& column : index_) column.reserve(blocks * block_size);
+  for (auto& column : value_) column.reserve(blocks * block_size);
+}
+
 std::size_t PackedRows::live_count() const {
   std::size_t count = 0;
   for (std::uint64_t mask : mask_) count += std::popcount(mask);
@@ -77,9 +85,9 @@ void PackedRows::seal() {
 }
 
 std::size_t PackedRows::bytes() const {
-  std::size_t total = mask_.capacity() * sizeof(std::uint64_t) + range_.capacity() * sizeof(Range);
-  for (const auto& column : index_) total += column.capacity() * sizeof(std::uint32_t);
-  for (const auto& column : value_) total += column.capacity() * sizeof(double);
+  std::size_t total = mask_.size() * sizeof(std::uint64_t) + range_.size() * sizeof(Range);
+  for (const auto& column : index_) total += column.size() * sizeof(std::uint32_t);
+  for (const auto& column : value_) total += column.size() * sizeof(double);
   return total;
 }
 

@@ -28,6 +28,7 @@ public:
   PackedRows(int indices, int places, int values);
 
   void resize(std::size_t keys); // new keys are dead
+  void reserve(std::size_t keys);
   std::size_t keys() const { return keys_; }
   bool live(std::size_t key) const { return (mask_[key / block_size] >> scattered(key % block_size) & 1) != 0; }
   std::size_t live_count() const;

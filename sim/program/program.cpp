@@ -1,5 +1,6 @@
 #include "sim/program/program.h"
 
+#include "sim/base/simd.h"
 #include "sim/mechanics/hinge_law.h"
 #include "sim/mechanics/spring_law.h"
 #include "sim/program/kernels.h"
@@ -21,6 +22,7 @@ Program::Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction
   for (Binder& binder : folded_) binder.bind();
   for (Binder& binder : elementary_) binder.bind();
   weigh_all();
+  if (options.elementary) place_corners();
   map.subscribe(changes_);
 }
 
@@ -47,6 +49,21 @@ void Program::weigh_all() {
   for (Slot v = 0; v < slots; ++v) weigh(v);
 }
 
+void Program::reserve_for_separations() {
+  for (Binder& binder : folded_) binder.reserve_for_separations();
+  for (Binder& binder : elementary_) binder.reserve_for_separations();
+  const std::size_t vertices = map_->slots_when_separated(Vertex);
+  inverse_mass_.reserve(vertices);
+  if (drag_) drag_rate_.reserve(vertices);
+}
+
+void Program::place_corners() {
+  const CellIndex& corners = map_->cells(mass_->orbit());
+  corner_vertex_.assign(corners.slots(), no_slot);
+  for (Slot c = 0; c < corners.slots(); ++c)
+    if (corners.alive(c)) corner_vertex_[c] = map_->vertex(corners.first_dart(c));
+}
+
 void Program::rebind() {
   if (!changes_.any) return;
   for (Binder& binder : folded_) binder.rebind(changes_);
@@ -57,6 +74,13 @@ void Program::rebind() {
   const CellIndex& corners = map_->cells(mass_->orbit());
   for (Slot c : changes_.slots[mass_->orbit().mask])
     if (corners.alive(c)) weigh(map_->vertex(corners.first_dart(c)));
+  if (options_.elementary) {
+    corner_vertex_.resize(corners.slots(), no_slot);
+    for (Slot c : changes_.slots[mass_->orbit().mask])
+      corner_vertex_[c] = corners.alive(c) ? map_->vertex(corners.first_dart(c)) : no_slot;
+    for (Dart d : changes_.moved[Vertex.mask])
+      if (map_->map().alive(d)) corner_vertex_[corners.slot(d)] = map_->vertex(d);
+  }
   changes_.clear();
 }
 
@@ -96,18 +120,17 @@ void Program::forces(const Record* position, const Record* velocity, Record* for
 
 void Program::corner_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const {
   if (options_.walk) return walk_forces(position, velocity, corner, force);
-  const CellIndex& corners = map_->cells(mass_->orbit());
-  std::memset(static_cast<void*>(corner), 0, corners.slots() * sizeof(Record));
+  std::memset(static_cast<void*>(corner), 0, corner_vertex_.size() * sizeof(Record));
   std::memset(static_cast<void*>(force), 0, vertices() * sizeof(Record));
   for (const Binder& binder : elementary_) {
     const KernelArguments arguments{binder.rows(), position, velocity, corner, 0, 0, 0, binder.rows().blocks()};
     if (binder.interaction()->law == Law::Spring) spring_corner_forces(arguments, binder.interaction()->damped);
     else hinge_corner_forces(arguments);
   }
-  for (Slot c = 0; c < corners.slots(); ++c) {
-    if (!corners.alive(c)) continue;
-    Record& sum = force[map_->vertex(corners.first_dart(c))];
-    sum = Record(sum.vec() + corner[c].vec());
+  for (Slot c = 0; c < corner_vertex_.size(); ++c) {
+    if (corner_vertex_[c] == no_slot) continue;
+    Record& sum = force[corner_vertex_[c]];
+    store(sum, load(sum) + load(corner[c]));
   }
 }
 
@@ -228,7 +251,8 @@ Program::Bounds Program::frequency_bounds() const {
 }
 
 std::size_t Program::bytes() const {
-  std::size_t total = (inverse_mass_.capacity() + drag_rate_.capacity()) * sizeof(double);
+  std::size_t total = (inverse_mass_.size() + drag_rate_.size()) * sizeof(double) +
+                      corner_vertex_.size() * sizeof(Slot);
   for (const Binder& binder : folded_) total += binder.rows().bytes();
   for (const Binder& binder : elementary_) total += binder.rows().bytes();
   return total;
@@ -243,7 +267,7 @@ bool Program::same_as(const Program& other) const {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
   };
   return same(folded_, other.folded_) && same(elementary_, other.elementary_) &&
-         same_bytes(inverse_mass_, other.inverse_mass_) && same_bytes(drag_rate_, other.drag_rate_);
+         corner_vertex_ == other.corner_vertex_ && same_bytes(inverse_mass_, other.inverse_mass_) && same_bytes(drag_rate_, other.drag_rate_);
 }
 
 } // namespace rend

@@ -43,6 +43,7 @@ public:
   void walk_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
 
   void rebind(); // after edits; does nothing where there were none
+  void reserve_for_separations();
 
   std::size_t vertices() const { return inverse_mass_.size(); }            // slots
   const double* inverse_mass() const { return inverse_mass_.data(); }      // [1/kg], 0: free slot
@@ -67,6 +68,7 @@ public:
 private:
   void weigh_all();
   void weigh(Slot vertex);
+  void place_corners();
 
   EmbeddedMap* map_;
   const std::vector<std::unique_ptr<Interaction>>* interactions_;
@@ -76,6 +78,7 @@ private:
   Changes changes_;
   std::vector<Binder> folded_, elementary_;
   std::vector<double> inverse_mass_; // [1/kg], one per vertex slot
+  std::vector<Slot> corner_vertex_;  // of every element corner slot; no_slot: free; empty without elementary rows
   std::vector<double> drag_rate_;    // γ/m [1/s], one per vertex slot; empty without drag
 };
 

@@ -21,10 +21,16 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads) {
   options.threads = threads;
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   integrator = scheme.make();
-  inverse_mass = program->inverse_mass();
-  drag_rate = program->drag_rate();
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
-  if (tears()) map->subscribe(changes);
+  if (tears()) {
+    map->subscribe(changes);
+    map->reserve_for_separations();
+    program->reserve_for_separations();
+    for (TearLaw& law : laws) law.reserve_for_separations();
+    force.reserve(map->slots_when_separated(Vertex));
+    next.position.reserve(map->slots_when_separated(Vertex));
+    next.velocity.reserve(map->slots_when_separated(Vertex));
+  }
   constrain(0, map->position().values().data(), map->velocity().values().data());
 }
 
@@ -37,6 +43,8 @@ void Body::constrain(double time, Record* position, Record* velocity) {
 }
 
 void Body::evaluate(double) {
+  inverse_mass = program->inverse_mass(); // rebinding may have moved them
+  drag_rate = program->drag_rate();
   force.resize(vertices());
   const Record *x = map->position().values().data(), *v = map->velocity().values().data();
   if (corner_force.empty()) program->forces(x, v, force.data());
@@ -69,8 +77,6 @@ int Body::tear(double time, double, long number) {
 void Body::rebind() {
   if (!changes.any) return;
   program->rebind();
-  inverse_mass = program->inverse_mass();
-  drag_rate = program->drag_rate();
   if (!corner_force.empty()) corner_force.resize(map->cells(mass->orbit()).slots());
   constraints.rebind(*map, changes);
   for (TearLaw& law : laws) law.rebind(changes);

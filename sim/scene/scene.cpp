@@ -18,7 +18,7 @@ double now() {
 
 // Reading the clock costs more than the step of a small body: one step in so many is timed, and counted so often.
 constexpr long sampled = 16;
-constexpr long checked = 8; // every so many steps one looks whether the motion is resolved
+constexpr long checked = 32; // every so many steps one looks whether the motion is resolved
 
 } // namespace
 
