@@ -5,8 +5,10 @@
 #include "sim/integrate/integrator.h"
 #include "sim/program/program.h"
 #include "sim/scene/constraint.h"
+#include "sim/scene/contact.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,7 @@ struct Body final : System {
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
   std::vector<TearLaw> laws;
+  std::optional<FloorContact> floor_contact;
   std::vector<std::string> notes;   // what the preset's author should know
   std::vector<std::string> left_out; // what this body does without, and why
 

@@ -199,9 +199,21 @@ void build_laws(Body& body, const Node& node) {
   }
 }
 
+void build_contact(Body& body, const Node& node, std::optional<double> floor) {
+  const Node* contact = node.child("contact");
+  if (!contact) {
+    if (floor) body.left_out.push_back("contact: the floor is drawn, and this body falls through it (no <contact>)");
+    return;
+  }
+  if (!floor)
+    throw UserError(Exit::BadInput, contact->place(), "there is no floor to be in contact with",
+                    "add <world><floor z=\"0\"/></world>");
+  body.floor_contact = FloorContact{*floor + contact->number("thickness"), contact->number("friction")};
+}
+
 } // namespace
 
-std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity) {
+std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity, std::optional<double> floor) {
   auto body = std::make_unique<Body>();
   body->name = node.text("name");
   body->node = &node;
@@ -214,6 +226,7 @@ std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity) {
   build_constraints(*body, node);
   if (body->constraints.motions().empty()) body->left_out.push_back("prescribed motions: no fix and no drive");
   build_laws(*body, node);
+  build_contact(*body, node, floor);
   return body;
 }
 

@@ -6,6 +6,6 @@
 namespace rend {
 
 // UserError, with its place, for what cannot be built. The body is not prepared yet.
-std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity);
+std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity, std::optional<double> floor);
 
 } // namespace rend

@@ -34,7 +34,7 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
     if (!names.insert(node->text("name")).second)
       throw UserError(Exit::BadInput, node->place(), fmt::format("two bodies are called '{}'", node->text("name")),
                       "give each a name of its own");
-    bodies_.push_back(build_body(*node, world_.gravity));
+    bodies_.push_back(build_body(*node, world_.gravity, world_.floor));
   }
   const Node& time = *preset.child("time");
   scheme_ = find_scheme(time.text("integrator"));
@@ -91,6 +91,7 @@ void Scene::step() {
     body->next.probe = Double4{};
     const StateView view{body->map->position().values().data(), body->map->velocity().values().data()};
     body->integrator->advance(*body, time(), step_, view, body->force.data(), body->next);
+    if (body->floor_contact) body->floor_contact->apply(body->next);
   }
   // All bodies are looked at before one of them moves on: the state stays whole.
   for (auto& body : bodies_)

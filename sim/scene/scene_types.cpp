@@ -137,6 +137,16 @@ const ElementType& tear_type() {
   return type;
 }
 
+const ElementType& contact_type() {
+  static const ElementType type{"contact",
+                                "what the body does not pass through",
+                                {word("with", {"floor"}, "").otherwise("floor"),
+                                 number("thickness", "m", "kept from it").at_least(0).otherwise("0.002"),
+                                 number("friction", "", "Coulomb's coefficient").at_least(0).otherwise("0.5")},
+                                {}};
+  return type;
+}
+
 const ElementType& look_type() {
   static const ElementType type{"look",
                                 "how the body is drawn",
@@ -162,6 +172,7 @@ const ElementType& body_type() {
                                  {&fix_type(), 0, -1},
                                  {&drive_type(), 0, -1},
                                  {&tear_type(), 0, -1},
+                                 {&contact_type(), 0, 1},
                                  {&look_type(), 0, 1}}};
   return type;
 }
