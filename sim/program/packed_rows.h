@@ -54,6 +54,7 @@ public:
   // Smallest and largest vertex slot that rows of the block write to.
   struct Range {
     std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
+    bool operator==(const Range&) const = default;
   };
   Range range(std::size_t block) const { return range_[block]; }
 
@@ -68,7 +69,10 @@ public:
   }
 
   std::size_t bytes() const;
-  bool same_as(const PackedRows& other) const { return mask_ == other.mask_ && index_ == other.index_ && value_ == other.value_; }
+  bool same_as(const PackedRows& other) const {
+    return keys_ == other.keys_ && mask_ == other.mask_ && range_ == other.range_ && index_ == other.index_ &&
+           value_ == other.value_;
+  }
 
 private:
   // The six bits of a place in a block, turned around; its own inverse.

@@ -27,6 +27,7 @@ std::size_t Surface::most_sides() const {
 void Surface::rebuild() {
   const EmbeddedMap& map = *body_.map;
   fan_ = most_sides() - 2;
+  full_ = 0;
   triangles_ = PackedRows(5, 0, 0);
   corners_ = PackedRows(3, 0, 0);
   triangles_.resize(map.cells(FaceOfVolume).slots() * fan_);
@@ -51,6 +52,8 @@ void Surface::write_face(Slot face) {
   const bool seen = faces.alive(face) && map.map().is_free(3, first);
   const int sides = seen ? sides_of_face(map.map(), first) : 0;
   Dart at = seen ? map.map().alpha(1, map.map().alpha(0, first)) : first; // starts the side after the first
+  if (triangles_.live(face * fan_ + fan_ - 1)) --full_;
+  if (sides == static_cast<int>(fan_) + 2) ++full_;
   for (std::size_t n = 0; n < fan_; ++n) {
     const std::size_t key = face * fan_ + n;
     if (static_cast<int>(n) + 2 >= sides) {
@@ -85,7 +88,8 @@ void Surface::write_corners(Slot vertex) {
   for (Dart even = first;;) { // even dart, its corner, the odd one, over the edge to the next even one
     write(even);
     const Dart odd = map.map().alpha(1, even), next = map.map().alpha(2, odd);
-    if (odd == even || next == odd || next == first) break;
+    if (next == first) return; // once around
+    if (odd == even || next == odd) break;
     even = next;
   }
   for (Dart odd = map.map().alpha(2, first); odd != first;) { // the other way, where the vertex is on a border
@@ -132,9 +136,10 @@ void Surface::update() {
     face(map.slot(FaceOfVolume, d));
     vertex(map.vertex(map.map().alpha(0, d)));
   }
+  changes_.clear();
+  if (full_ == 0 && fan_ > 1) return rebuild(); // the last face with so many sides is gone
   triangles_.seal();
   corners_.seal();
-  changes_.clear();
 }
 
 void Surface::normals(std::vector<Vec3>& out) const {

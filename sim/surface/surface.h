@@ -62,7 +62,8 @@ private:
   std::size_t most_sides() const;
 
   Body& body_;
-  std::size_t fan_ = 0;  // triangles reserved per face
+  std::size_t fan_ = 0;  // triangles reserved per face: what the face with the most sides takes
+  std::size_t full_ = 0; // faces that take all of them
   PackedRows triangles_; // key: face slot × fan_ + n; vertices, sides, face
   PackedRows corners_;   // key: corner slot; vertex, even end, odd end
   Changes changes_;
