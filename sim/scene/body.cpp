@@ -1,9 +1,16 @@
 #include "sim/scene/body.h"
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 
 namespace rend {
+namespace {
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
 
 Body::~Body() {
   program.reset(); // lets go of the map
@@ -42,7 +49,7 @@ void Body::constrain(double time, Record* position, Record* velocity) {
   if (!constraints.vertices().empty()) constraints.apply(*map, time, position, velocity);
 }
 
-void Body::evaluate(double) {
+void Body::evaluate() {
   inverse_mass = program->inverse_mass(); // rebinding may have moved them
   drag_rate = program->drag_rate();
   force.resize(vertices());
@@ -51,7 +58,7 @@ void Body::evaluate(double) {
   else program->corner_forces(x, v, corner_force.data(), force.data());
 }
 
-int Body::tear(double time, double, long number) {
+int Body::tear(double time, long number) {
   int made = 0;
   for (std::size_t n = 0; n < laws.size(); ++n) {
     TearLaw& law = laws[n];
@@ -59,6 +66,7 @@ int Body::tear(double time, double, long number) {
     const ForceView view{*map, map->position().values().data(), force.data(),
                          corner_force.empty() ? nullptr : corner_force.data()};
     if (law.find(view).empty()) continue;
+    const double start = seconds_now();
     const std::size_t before = events.size();
     const int changed = law.apply(*map, view, events);
     for (std::size_t e = before; e < events.size(); ++e) {
@@ -67,11 +75,25 @@ int Body::tear(double time, double, long number) {
       events[e].law = static_cast<int>(n);
     }
     made += changed;
-    if (changed == 0) continue;
-    rebind();
-    evaluate(time);
+    change_seconds += seconds_now() - start;
+    if (changed > 0) follow_changes();
   }
   return made;
+}
+
+void Body::follow_changes() {
+  const double start = seconds_now();
+  rebind();
+  evaluate();
+  rebind_seconds += seconds_now() - start;
+}
+
+void Body::advance(double time, double step) {
+  next.resize(vertices());
+  next.probe = Double4{};
+  const StateView now{map->position().values().data(), map->velocity().values().data()};
+  integrator->advance(*this, time, step, now, force.data(), next);
+  if (floor_contact) floor_contact->apply(next);
 }
 
 void Body::rebind() {
@@ -83,11 +105,9 @@ void Body::rebind() {
   changes.clear();
 }
 
-bool Body::commit() {
-  if (!next.finite()) return false;
+void Body::commit() {
   map->position().values().swap(next.position);
   map->velocity().values().swap(next.velocity);
-  return true;
 }
 
 } // namespace rend

@@ -62,10 +62,16 @@ struct Body final : System {
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
   void constrain(double time, Record* position, Record* velocity) override;
 
-  void evaluate(double time);                     // force and corner_force of the current state
-  int tear(double time, double step, long number); // criteria, changes, rebinding; returns how many changes
+  void evaluate();                                // force and corner_force of the current state
+  int tear(double time, long number);             // criteria, changes, rebinding; returns how many changes
+  void advance(double time, double step);         // the current state to `next`
   void rebind();                                  // program, constraints, laws
-  bool commit();                                  // takes `next`; false (nothing taken): a number is not finite
+  void commit();                                  // takes `next`
+
+  double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
+
+private:
+  void follow_changes();
 };
 
 } // namespace rend

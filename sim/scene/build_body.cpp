@@ -24,6 +24,8 @@ SheetShape sheet_shape(const Node& node) {
                                     : SheetClosure::Twist;
   shape.nx = static_cast<int>(node.integers("cells")[0]);
   shape.ny = static_cast<int>(node.integers("cells")[1]);
+  if (24.0 * shape.nx * shape.ny >= Dart::none_value) // the most darts that a cell can have
+    node.fail("cells", fmt::format("{} x {} cells are more than a map of 2^32 darts holds", shape.nx, shape.ny));
   const bool size = node.given("size"), corners = node.given("corners");
   if (size == corners)
     throw UserError(Exit::BadInput, node.place(),
@@ -114,8 +116,9 @@ void build_springs(Body& body, const Node& node) {
   for (const auto& child : node.children()) {
     for (const InteractionType& type : all_interactions()) {
       if (type.element != child->name() || (!type.kind.empty() && child->text("kind") != type.kind)) continue;
-      if (auto made = type.make(*body.map, {*child, material, body.left_out}))
-        body.interactions.push_back(std::move(made));
+      std::vector<std::string> why_not;
+      if (auto made = type.make(*body.map, {*child, material, why_not})) body.interactions.push_back(std::move(made));
+      for (auto* list : {&body.left_out, &body.notes}) list->insert(list->end(), why_not.begin(), why_not.end());
     }
   }
 }

@@ -53,13 +53,18 @@ void Scene::build_time(const Node& time, const SceneOptions&) {
     time.fail("step", fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration_, step_));
 }
 
-double Scene::stable_step(const Node& time) const {
+double Scene::stability_limit() const {
   double limit = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies_) {
     const Program::Bounds b = body->program->frequency_bounds();
     limit = std::min(limit, scheme_->limit({b.omega_squared, b.damping_rate + body->uniform_drag,
                                             b.least_drag_rate + body->uniform_drag}));
   }
+  return limit;
+}
+
+double Scene::stable_step(const Node& time) const {
+  const double limit = stability_limit();
   if (limit <= 0)
     time.fail("step", fmt::format("no step is stable with the integrator '{}' here: nothing damps", scheme_->name),
               "use symplectic, verlet or rk4, or add viscosity");
@@ -81,25 +86,30 @@ void Scene::step() {
     seconds_.*stage += sampled * (at - last);
     last = at;
   };
-  for (auto& body : bodies_) body->evaluate(time());
+  for (auto& body : bodies_) body->evaluate();
   lap(&StageSeconds::forces);
-  for (auto& body : bodies_)
-    if (body->tears()) body->tear(time(), step_, steps_done_);
+  for (auto& body : bodies_) body->tear(time(), steps_done_);
   lap(&StageSeconds::criteria);
-  for (auto& body : bodies_) {
-    body->next.resize(body->vertices());
-    body->next.probe = Double4{};
-    const StateView view{body->map->position().values().data(), body->map->velocity().values().data()};
-    body->integrator->advance(*body, time(), step_, view, body->force.data(), body->next);
-    if (body->floor_contact) body->floor_contact->apply(body->next);
-  }
-  // All bodies are looked at before one of them moves on: the state stays whole.
-  for (auto& body : bodies_)
-    if (!body->next.finite()) stop(*body, "a number of its state is not finite");
-  if (steps_done_ % checked == 0 || steps_done_ < checked) check_resolved();
+  for (auto& body : bodies_) body->advance(time(), step_);
+  check(); // all bodies, before one of them moves on: the state stays whole
   for (auto& body : bodies_) body->commit();
   lap(&StageSeconds::integrate);
   ++steps_done_;
+}
+
+void Scene::check() const {
+  for (const auto& body : bodies_)
+    if (!body->next.finite()) stop(*body, "a number of its state is not finite");
+  if (steps_done_ % checked == 0 || steps_done_ < checked) check_resolved();
+}
+
+StageSeconds Scene::seconds() const {
+  StageSeconds all = seconds_;
+  for (const auto& body : bodies_) {
+    all.change += body->change_seconds;
+    all.rebind += body->rebind_seconds;
+  }
+  return all;
 }
 
 // A spring whose ends move by more than twice its length in one step, against each other, is not resolved by it.
@@ -123,12 +133,7 @@ void Scene::check_resolved() const {
 }
 
 void Scene::stop(const Body& body, const std::string& what) const {
-  double limit = std::numeric_limits<double>::infinity();
-  for (const auto& each : bodies_) {
-    const Program::Bounds b = each->program->frequency_bounds();
-    limit = std::min(limit, scheme_->limit({b.omega_squared, b.damping_rate + each->uniform_drag,
-                                            b.least_drag_rate + each->uniform_drag}));
-  }
+  const double limit = stability_limit();
   const std::string hint =
       limit > 0 ? fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)", limit,
                               scheme_->name)

@@ -54,11 +54,13 @@ public:
   Vec3 momentum() const;
   Vec3 angular_momentum() const;
   std::uint64_t hash() const;       // of positions, velocities and topology
-  StageSeconds seconds() const { return seconds_; }
+  StageSeconds seconds() const;
 
 private:
   void build_time(const Node& time, const SceneOptions& options);
   double stable_step(const Node& time) const;
+  double stability_limit() const; // [s]
+  void check() const;
   void check_resolved() const;
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
 

@@ -158,7 +158,7 @@ void forces(benchmark::State& state) {
   presets::Loaded scene = presets::load(presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps));
   Body& body = scene.body();
   scene->step();
-  for (auto _ : state) body.evaluate(0);
+  for (auto _ : state) body.evaluate();
 }
 BENCHMARK(forces)->Arg(10)->Arg(64)->Arg(1000);
 } // namespace

@@ -44,7 +44,7 @@ std::string stale(Body& body, const Surface* surface) {
   if (!body.program->same_as(fresh)) return "masses, drag or corners";
   if (surface && !surface->same_as(Surface(body))) return "surface";
   if (!body.constraints.motions().empty() && body.constraints.vertices() != prescribed(body)) return "constraints";
-  body.evaluate(0);
+  body.evaluate();
   const ForceView view{*body.map, positions(body), body.force.data(),
                        body.corner_force.empty() ? nullptr : body.corner_force.data()};
   for (TearLaw& law : body.laws) {
@@ -87,6 +87,7 @@ public:
   }
 
   Body& operator*() { return *body_; }
+  std::size_t fewest_darts() const { return fewest_; }
 
   void blow() {
     const std::size_t edits = 1 + (noise_.below(4) == 0); // sometimes two before anybody looks
@@ -108,17 +109,17 @@ private:
 
   void change(Edit& edit) {
     const GMap& map = edit.map();
-    if (map.dart_count() < 40) return;
     const Dart d = any(map);
     const std::size_t what = noise_.below(100);
     const bool room = map.dart_count() < darts_at_most_;
+    fewest_ = std::min(fewest_, map.dart_count());
     if (what < 40) separate(edit, d);
     else if (what < 75) sew_back(edit);
     else if (what < 82) sew(edit, 2, d, any(map));
     else if (what < 87 && room && sides_of_face(map, d) < 7) apply(insert_vertex, edit, d);
     else if (what < 92 && room) apply(triangulate_face, edit, d);
-    else if (what < 98) remove_element(edit, d);
-    else if (darts_of(map, Component, d).size() < 40) apply(subdivide, edit, d);
+    else if (room && (map.dart_count() < 150 || darts_of(map, Component, d).size() < 40)) apply(subdivide, edit, d);
+    else remove_element(edit, d);
   }
 
   void separate(Edit& edit, Dart d) {
@@ -137,19 +138,22 @@ private:
 
   std::unique_ptr<Body> body_;
   Noise noise_;
-  std::size_t darts_at_most_;
+  std::size_t darts_at_most_ = 0, fewest_ = 1000000;
   std::vector<std::pair<Dart, Dart>> opened_;
 };
 
 void expect_storm_survived(const PolygonMesh& mesh, const Recipe& recipe, int edits, unsigned seed) {
   Storm storm(mesh, recipe, seed);
   Surface surface(*storm);
+  ASSERT_GT((*storm).program->folded().size(), 2u);
+  ASSERT_EQ((*storm).program->elementary().size(), (*storm).program->folded().size());
   for (int n = 0; n < edits; ++n) {
     storm.blow();
     surface.update();
     ASSERT_EQ(stale(*storm, &surface), "") << "after edit " << n;
     ASSERT_EQ(validate(*(*storm).map), std::nullopt) << "after edit " << n;
   }
+  EXPECT_GT(storm.fewest_darts(), 60u) << "the storm blew itself out";
 }
 
 Recipe everything() {
