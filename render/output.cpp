@@ -18,10 +18,16 @@ std::string reason() {
 
 } // namespace
 
-OutputFile::OutputFile(const std::filesystem::path& path) : path_(path), temporary_(path.string() + ".part") {
+// A link is followed: what it points at is replaced, not the link.
+OutputFile::OutputFile(const std::filesystem::path& path)
+    : path_(std::filesystem::is_symlink(path) ? std::filesystem::weakly_canonical(path) : path),
+      temporary_(path_.string() + ".part") {
   if (std::filesystem::is_directory(path_))
     throw UserError(Exit::CannotCreate, {path_.string()}, "a folder of this name is in the way.",
                     "Choose another name for the output.");
+  if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_))
+    throw UserError(Exit::CannotCreate, {path_.string()}, "this is no ordinary file, and would be replaced by one.",
+                    "Name a file; what is written appears whole or not at all, which a pipe or device cannot do.");
   file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file_ < 0)
     throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",
@@ -59,7 +65,7 @@ void OutputFile::commit() {
   file_ = -1;
   if (!kept)
     throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why + ".",
-                    "Free some space on the disk, or write elsewhere.");
+                    "Check that the folder is still there and has room.");
 }
 
 } // namespace rend

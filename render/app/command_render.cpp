@@ -62,7 +62,7 @@ std::string closing_words(const Film& film, const PipelineOptions& files, double
 }
 
 Stopped shoot(Session& session, Film& film, long last) {
-  Progress progress(session.quiet(), session.clock().step_of(last), session.clock().time_of(last), last + 1);
+  Progress progress(session.quiet(), session.last_step(last), session.clock().time_of(last), last + 1);
   long frame = 0;
   Session::Calls calls;
   const auto tell = [&] { progress.update(session.scene().steps_done(), session.scene().time(), frame); };

@@ -55,7 +55,7 @@ void Progress::update(long step, double time, long frame) {
 }
 
 std::string Progress::line(const Sample& now, double time) const {
-  const double share = steps_ > 0 ? static_cast<double>(now.step) / static_cast<double>(steps_) : 1;
+  const double share = steps_ > 0 ? std::min(1.0, static_cast<double>(now.step) / static_cast<double>(steps_)) : 1;
   std::string text;
   if (terminal_) {
     constexpr int width = 24;
@@ -71,7 +71,7 @@ std::string Progress::line(const Sample& now, double time) const {
     text += fmt::format("  {:.0f} ms/frame", 1e3 * wall / static_cast<double>(now.frame - then.frame));
   if (now.step > then.step) {
     const double left =
-        wall / static_cast<double>(now.step - then.step) * static_cast<double>(steps_ - now.step);
+        wall / static_cast<double>(now.step - then.step) * static_cast<double>(std::max(0L, steps_ - now.step));
     text += "  " + seconds_in_words(std::ceil(left)) + " left";
   }
   return text;

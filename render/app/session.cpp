@@ -56,6 +56,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
   clock_ = std::make_unique<FrameClock>(duration, step, image_.fps);
   if (options.quiet) return;
+  for (const std::string& note : scene_->notes()) print_note(note);
   for (const auto& body : scene_->bodies())
     for (const std::string& note : body->notes) print_note(fmt::format("body '{}': {}", body->name, note));
 }
@@ -84,9 +85,13 @@ Stopped Session::run(long last_frame, const Calls& calls) {
   return stopped;
 }
 
-Stopped Session::loop(long last_frame, const Calls& calls, double& away) {
+long Session::last_step(long last_frame) const {
   const bool to_the_end = last_frame + 1 >= clock_->frames();
-  const long last_step = to_the_end ? clock_->steps() : clock_->step_of(last_frame);
+  return to_the_end ? clock_->steps() : clock_->step_of(last_frame);
+}
+
+Stopped Session::loop(long last_frame, const Calls& calls, double& away) {
+  const long last_step = this->last_step(last_frame);
   long frame = 0, due = 0; // the next frame, and the step that it waits for
   while (true) {
     if (scene_->steps_done() >= due) {

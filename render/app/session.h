@@ -51,6 +51,8 @@ public:
     std::function<void(long frame)> frame; // the state of a frame is reached, from frame 0 on
     std::function<void()> step;            // after each step; may be empty
   };
+  // How many steps run() does for this last frame.
+  long last_step(long last_frame) const;
   // Steps until frame `last_frame`, or the end if it is the last of all; or until a signal or an instability.
   // failure() then says what went wrong.
   Stopped run(long last_frame, const Calls& calls);

@@ -1,6 +1,7 @@
 #include "sim/base/math.h"
 
 #include <cmath>
+#include <limits>
 
 namespace rend {
 namespace {
@@ -16,7 +17,8 @@ double arc_tangent_of_ratio(double t) {
   const double s = r * r;
   const double series =
       1 - s * (1.0 / 3 -
-               s * (1.0 / 5 - s * (1.0 / 7 - s * (1.0 / 9 - s * (1.0 / 11 - s * (1.0 / 13 - s * (1.0 / 15)))))));
+               s * (1.0 / 5 -
+                    s * (1.0 / 7 - s * (1.0 / 9 - s * (1.0 / 11 - s * (1.0 / 13 - s * (1.0 / 15 - s / 17)))))));
   return table[quarter] + r * series;
 }
 
@@ -34,28 +36,40 @@ double small_cosine(double degrees) {
   return 1 + sum;
 }
 
+// The sine of an angle that is `quarters` right angles further. They are counted rather than added to the angle, which
+// would round it.
+double sine_of_turned(double angle, int quarters) {
+  const double turn = std::remainder(angle, 360.0); // exact
+  const double quadrant = std::nearbyint(turn / 90);
+  const double rest = turn - 90 * quadrant;
+  switch ((static_cast<int>(quadrant) + quarters) & 3) {
+  case 0:
+    return small_sine(rest);
+  case 1:
+    return small_cosine(rest);
+  case 2:
+    return -small_sine(rest);
+  default:
+    return -small_cosine(rest);
+  }
+}
+
 } // namespace
 
 double arc_tangent(double y, double x) {
   const double a = std::abs(x), b = std::abs(y);
   if (a == 0 && b == 0) return 0;
+  if (!(a + b <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::quiet_NaN();
   double angle = b <= a ? arc_tangent_of_ratio(b / a) : pi / 2 - arc_tangent_of_ratio(a / b);
   if (x < 0) angle = pi - angle;
   return y < 0 ? -angle : angle;
 }
 
 double sine_of_degrees(double angle) {
-  const double turn = std::remainder(angle, 360.0); // exact
-  const double quadrant = std::nearbyint(turn / 90);
-  const double rest = turn - 90 * quadrant;
-  switch (static_cast<int>(quadrant) & 3) {
-  case 0: return small_sine(rest);
-  case 1: return small_cosine(rest);
-  case 2: return -small_sine(rest);
-  default: return -small_cosine(rest);
-  }
+  return sine_of_turned(angle, 0);
 }
-
-double cosine_of_degrees(double angle) { return sine_of_degrees(angle + 90); }
+double cosine_of_degrees(double angle) {
+  return sine_of_turned(angle, 1);
+}
 
 } // namespace rend

@@ -8,8 +8,8 @@ namespace rend {
 
 constexpr double pi = 3.14159265358979323846;
 
-double arc_tangent(double y, double x); // the angle of (x, y) in (−π, π]; 0 for (0, 0); to 2e-16
-double sine_of_degrees(double angle);   // exact at multiples of 90
+double arc_tangent(double y, double x); // the angle of (x, y) in (−π, π]; 0 for (0, 0), NaN where one is not finite; to 4.5e-16
+double sine_of_degrees(double angle);   // to 2e-16 however many turns, exact at multiples of 90
 double cosine_of_degrees(double angle);
 
 } // namespace rend

@@ -48,4 +48,11 @@ REND_INLINE Double4 sums_of(Double4 a, Double4 b, Double4 c, Double4 d) {
   return __builtin_shuffle(ab, cd, Long4{0, 1, 4, 5}) + __builtin_shuffle(ab, cd, Long4{2, 3, 6, 7});
 }
 
+// Until all streamed records are to be seen by other threads.
+inline void finish_streams() {
+#ifdef __SSE2__
+  _mm_sfence();
+#endif
+}
+
 } // namespace rend

@@ -15,7 +15,8 @@
 //
 // `support` must contain `orbit`'s element: when any link of the support orbit changes, all values whose orbit
 // holds a dart of it are born again. A separation (α2 of a sheet, α3 of a solid) changes no element, so that a
-// value with support <0,1> (<0,1,2>) never notices one. support = orbit: only the orbit's own events count.
+// value with support <0,1> (<0,1,2>) never notices one. support = SingleDart, which has no links: only the orbit's own
+// events count, whatever its shape becomes.
 #pragma once
 
 #include "sim/base/record.h"

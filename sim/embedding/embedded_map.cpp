@@ -8,8 +8,6 @@
 
 #include <algorithm>
 
-#include <algorithm>
-
 namespace rend {
 
 void Changes::clear() {
@@ -55,11 +53,13 @@ void EmbeddedMap::adopt(std::unique_ptr<ColumnBase> column) {
 }
 
 void EmbeddedMap::edit(const std::function<void(Edit&)>& change) {
+  CHECK_NOTE(whole_, "an earlier edit was left by an exception");
   journal_.clear();
   Edit edit(map_, journal_, *this);
+  whole_ = false;
   change(edit);
-  if (journal_.empty()) return;
-  close(edit);
+  if (!journal_.empty()) close(edit);
+  whole_ = true;
 #ifdef REND_VALIDATE
   if (const auto fault = validate(*this)) CHECK_NOTE(!fault, *fault);
 #endif
@@ -74,7 +74,7 @@ void EmbeddedMap::close(const Edit& edit) {
     const std::size_t mask = column->orbit().mask;
     column->apply(*this, *cells_[mask], events_[mask]);
     if (column.get() == velocity_) give_points(edit); // what follows is born from rest positions
-    if (column->support() != column->orbit()) bear_reshaped(*column);
+    bear_reshaped(*column);
   }
   publish();
 }

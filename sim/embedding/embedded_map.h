@@ -33,7 +33,7 @@ struct VertexRecord {
   using Value = Record;
   std::string name;
   Orbit orbit = Vertex;
-  Orbit support = Vertex;
+  Orbit support = SingleDart;
   Value birth(const EmbeddedMap&, Dart) const { return {}; } // Edit::give fills it in
   Value split(const Value& whole) const { return whole; }
   Value merge(const Value& kept, const Value&) const { return kept; }
@@ -91,7 +91,8 @@ public:
   Vec3 rest_of(Dart d) const { return (*rest_)[vertex(d)]; }
   Vec3 position_of(Dart d) const { return (*position_)[vertex(d)]; }
 
-  // Runs `change` and brings the columns up to date. CHECK (with REND_VALIDATE): the map and slots are valid.
+  // Runs `change` and brings the columns up to date. An exception out of `change` or of a birth leaves a map that takes
+  // no further edit (CHECK). CHECK (with REND_VALIDATE): the map and slots are valid.
   void edit(const std::function<void(Edit&)>& change);
 
   void subscribe(Changes& changes) { readers_.push_back(&changes); }
@@ -119,6 +120,7 @@ private:
   VertexColumn *position_ = nullptr, *rest_ = nullptr, *velocity_ = nullptr;
   std::vector<Changes*> readers_;
   Journal journal_;
+  bool whole_ = true; // no edit is open, and none was left by an exception
 };
 
 // The open scope.

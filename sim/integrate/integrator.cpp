@@ -28,7 +28,7 @@ double limit_by_drag(const StabilityBounds& b) {
   if (b.omega_squared == 0 && b.damping_rate == 0) return std::numeric_limits<double>::infinity();
   if (b.omega_squared == 0) return 2 / b.damping_rate;
   const double by_drag = b.least_drag_rate / b.omega_squared;
-  return std::min(by_drag, b.damping_rate > 0 ? 1 / b.damping_rate : by_drag);
+  return std::min(by_drag, b.damping_rate > 0 ? 2 / b.damping_rate : by_drag);
 }
 
 } // namespace rend

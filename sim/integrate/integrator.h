@@ -23,7 +23,7 @@ public:
 struct StabilityBounds {
   double omega_squared = 0;   // [1/s²]
   double damping_rate = 0;    // the largest 2ξω [1/s]
-  double least_drag_rate = 0; // the smallest [1/s]
+  double least_drag_rate = 0; // the smallest [1/s], of ambient viscosity alone
 };
 
 struct Scheme {
@@ -45,6 +45,6 @@ Scheme runge_kutta_4();
 
 // Limits that schemes share. With ω and d = ξω bounded separately, since they belong to different modes:
 double limit_symplectic(const StabilityBounds& bounds);  // 2/(√(ω²+d²) + d)
-double limit_by_drag(const StabilityBounds& bounds);     // 2d/ω² with the least d: stable through damping alone
+double limit_by_drag(const StabilityBounds& bounds);     // 2d/ω² with the least d, and 1/d with the largest
 
 } // namespace rend

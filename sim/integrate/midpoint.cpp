@@ -1,7 +1,10 @@
 // Midpoint (RK2), thesis 2.38: the derivative at the middle of the step, reached by half an explicit step.
 //
-// Order 2. Without damping it gains energy, though slowly (z⁴/4 of the amplitude squared a step, z = ω dt).
+// Order 2. Without damping it gains energy, though slowly (z⁴/4 of the amplitude squared a step, z = ω dt). With d = ξω it
+// is stable where dt d ≤ 1 and (ω dt)² ≤ 2a + 2√(a(2−a)), a = dt d: for little damping up to 2 ξ^⅓/ω.
 #include "sim/integrate/integrator.h"
+
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -43,10 +46,21 @@ class Midpoint final : public Integrator {
   }
 };
 
+// The right-hand side grows with d as far as dt d = 1, so that the least d rules, and the largest ends the search.
+double limit(const StabilityBounds& b) {
+  if (b.omega_squared == 0 || b.least_drag_rate <= 0) return limit_by_drag(b);
+  double low = 0, high = 2 / b.damping_rate;
+  for (int n = 0; n < 60; ++n) {
+    const double h = 0.5 * (low + high), a = 0.5 * h * b.least_drag_rate;
+    (h * h * b.omega_squared <= 2 * a + 2 * std::sqrt(a * (2 - a)) ? low : high) = h;
+  }
+  return low;
+}
+
 } // namespace
 
 Scheme midpoint() {
-  return {"midpoint", "midpoint rule (RK2)", 2, 2, &limit_by_drag,
+  return {"midpoint", "midpoint rule (RK2)", 2, 2, &limit,
           []() -> std::unique_ptr<Integrator> { return std::make_unique<Midpoint>(); }};
 }
 

@@ -3,10 +3,12 @@
 #include "sim/mechanics/hinge_law.h"
 #include "sim/mechanics/young.h"
 
+#include <algorithm>
+
 namespace rend {
 namespace {
 
-const std::vector<Word> hinge{"", "0", "10", "010", "210", "2010"};
+const std::vector<Word> hinge{"", "0", "10", "010", "2", "20", "210", "2010"};
 
 bool present(const GMap& map, Dart d) {
   if (map.is_free(2, d)) return false;
@@ -29,9 +31,10 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
   return make_interaction<1>(map, "bend angular", Law::Hinge, pattern, damping,
                              [=](const EmbeddedMap& body, Dart d, int) {
                                if (!present(body.map(), d)) return UnitParameters{};
-                               const std::vector<Vec3> x = rest_positions(body, d, hinge);
-                               return UnitParameters{k(body, d), damping,
-                                                     hinge_angle({x[0], x[1], x[2], x[3], x[4], x[5]})};
+                               const std::vector<Vec3> rest = rest_positions(body, d, hinge);
+                               HingePoints x;
+                               std::copy(rest.begin(), rest.end(), x.begin());
+                               return UnitParameters{k(body, d), damping, hinge_angle(x)};
                              });
 }
 

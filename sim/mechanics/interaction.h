@@ -39,7 +39,7 @@ struct UnitParameters {
 };
 
 enum class Law { Spring, Hinge };
-constexpr int particles_of(Law law) { return law == Law::Spring ? 2 : 6; }
+constexpr int particles_of(Law law) { return law == Law::Spring ? 2 : 8; }
 
 class Interaction {
 public:

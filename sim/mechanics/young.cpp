@@ -19,6 +19,11 @@ std::vector<double> side_lengths(const EmbeddedMap& map, Dart d) {
   return lengths;
 }
 
+// Of a quad: the means of its opposite sides, so that it does not matter from which corner one looks.
+std::pair<double, double> sides_of(const std::vector<double>& side) {
+  return {0.5 * (side[0] + side[2]), 0.5 * (side[1] + side[3])};
+}
+
 std::string place_of(const EmbeddedMap& map, Dart d) {
   const Vec3 x = 0.5 * (map.rest_of(d) + map.rest_of(map.map().alpha(0, d)));
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z());
@@ -36,7 +41,7 @@ double edge_stiffness(const SpringMaterial& m, const EmbeddedMap& map, Dart d) {
     if (area > 0)
       k = h * (E / (1 + nu) * area / (c * c) + E * nu / (1 - nu * nu) * (a * a + b * b - c * c) / (8 * area));
   } else {
-    const double l = side[0], w = side[1];
+    const auto [l, w] = sides_of(side);
     k = h * E * (w * w * (3 * nu + 2) - l * l) / (4 * l * w * (1 + nu));
   }
   if (!(k > 0))
@@ -47,7 +52,7 @@ double edge_stiffness(const SpringMaterial& m, const EmbeddedMap& map, Dart d) {
 
 double diagonal_stiffness(const SpringMaterial& m, const EmbeddedMap& map, Dart d) {
   const std::vector<double> side = side_lengths(map, d);
-  const double l = side[0], w = side[1];
+  const auto [l, w] = sides_of(side);
   return m.thickness * m.young * (l * l + w * w) / (4 * l * w * (1 + m.poisson));
 }
 

@@ -42,7 +42,7 @@ public:
 
 private:
   struct Row {
-    std::array<std::uint32_t, 12> index; // fields
+    std::array<std::uint32_t, 16> index; // fields
     std::array<double, 3> value;         // k, damping, rest
   };
   bool present(Slot owner) const;

@@ -25,6 +25,6 @@ void spring_corner_forces(const KernelArguments& a, bool damped); // index colum
 
 // Hinges (hinge_law.h).
 void hinge_forces(const KernelArguments& a);
-void hinge_corner_forces(const KernelArguments& a); // index columns 6..11: corners
+void hinge_corner_forces(const KernelArguments& a); // index columns 8..15: corners
 
 } // namespace rend

@@ -1,14 +1,17 @@
 // Rows of one interaction, packed for the kernel, and changed one at a time.
 //
 // A row's key is fixed by the map: owner slot × units + unit. Keys come in blocks of 64, each with a mask of its live
-// keys; the live rows of a block stand packed at its beginning, in the order of their keys:
+// keys; the live rows of a block stand packed at its beginning, in the order of their keys with the six low bits turned
+// around:
 //
-//   block b   keys   64b ... 64b+63         mask   1 0 1 1 0 ...
-//             rows   [64b] = key 64b, [64b+1] = key 64b+2, [64b+2] = key 64b+3, padding to a multiple of four, ...
+//   block b   keys   64b, 64b+32, 64b+16, 64b+48, 64b+8 ...      mask   1 0 1 1 0 ...
+//             rows   [64b] = key 64b, [64b+1] = key 64b+16, [64b+2] = key 64b+48, padding to a multiple of four, ...
 //
 // so that dead rows cost no time, the layout is a pure function of what lives (incremental = from scratch, byte for
-// byte), and an insertion moves at most 63 rows. Padding repeats the last row's indices with values 0: the kernel
-// takes four rows at a time and needs no remainder loop.
+// byte), and an insertion moves at most 63 rows. Neighbouring keys are sides of one face and share vertices: turned
+// around, rows that follow each other seldom add to the same vertex, and none waits for the sum before it (2.3 against
+// 1.9 µs a step at 10 × 10 quads). Padding repeats the last row's indices with values 0: the kernel takes four rows at a
+// time and needs no remainder loop.
 #pragma once
 
 #include <bit>
@@ -58,7 +61,7 @@ public:
   };
   Range range(std::size_t block) const { return range_[block]; }
 
-  // Calls f(key, row) for every live row in the order of keys.
+  // Calls f(key, row) for every live row in the order of rows.
   template <class F>
   void for_each(F&& f) const {
     for (std::size_t block = 0; block < mask_.size(); ++block) {

@@ -137,14 +137,14 @@ void Program::corner_forces(const Record* position, const Record* velocity, Reco
 namespace {
 
 // The forces of one unit on its particles.
-std::array<Vec3, 6> unit_forces(const Interaction& interaction, const UnitParameters& p,
-                                const std::array<Slot, 6>& at, const Record* x, const Record* v) {
+std::array<Vec3, 8> unit_forces(const Interaction& interaction, const UnitParameters& p,
+                                const std::array<Slot, 8>& at, const Record* x, const Record* v) {
   if (interaction.law == Law::Spring) {
     const Vec3 f = spring_force(p, x[at[0]], x[at[1]], v[at[0]], v[at[1]]);
     return {f, -f};
   }
   HingePoints positions, velocities;
-  for (std::size_t n = 0; n < 6; ++n) {
+  for (std::size_t n = 0; n < positions.size(); ++n) {
     positions[n] = x[at[n]];
     velocities[n] = v[at[n]];
   }
@@ -167,14 +167,14 @@ void Program::walk_forces(const Record* position, const Record* velocity, Record
       if (!pattern.present(map, d)) continue;
       for (std::size_t unit = 0; unit < pattern.units.size(); ++unit) {
         const UnitParameters p = interaction->parameters(owner, static_cast<int>(unit));
-        std::array<Slot, 6> at{};
-        std::array<Dart, 6> end{};
+        std::array<Slot, 8> at{};
+        std::array<Dart, 8> end{};
         const std::size_t particles = pattern.units[unit].size();
         for (std::size_t n = 0; n < particles; ++n) {
           end[n] = map.follow(d, pattern.units[unit][n]);
           at[n] = map_->vertex(end[n]);
         }
-        const std::array<Vec3, 6> f = unit_forces(*interaction, p, at, position, velocity);
+        const std::array<Vec3, 8> f = unit_forces(*interaction, p, at, position, velocity);
         for (std::size_t n = 0; n < particles; ++n) {
           force[at[n]] = Record(force[at[n]].vec() + f[n]);
           if (corner) corner[corners.slot(end[n])] = Record(corner[corners.slot(end[n])].vec() + f[n]);
@@ -194,7 +194,7 @@ double Program::elastic_energy(const Record* x) const {
         sum += spring_energy(p, x[rows.index(0)[row]], x[rows.index(1)[row]]);
       } else {
         HingePoints points;
-        for (int n = 0; n < 6; ++n) points[static_cast<std::size_t>(n)] = x[rows.index(n)[row]];
+        for (int n = 0; n < particles_of(Law::Hinge); ++n) points[static_cast<std::size_t>(n)] = x[rows.index(n)[row]];
         sum += hinge_energy(p, points);
       }
     });
@@ -205,15 +205,17 @@ double Program::elastic_energy(const Record* x) const {
 namespace {
 
 // What a unit adds to the discs of its particles' corners, per k: |g_n| Σ|g_m|, g the gradient of its one measure.
-std::array<double, 6> disc_weights(const EmbeddedMap& map, const Interaction& interaction, Dart d,
+std::array<double, 8> disc_weights(const EmbeddedMap& map, const Interaction& interaction, Dart d,
                                    std::size_t unit) {
   if (interaction.law == Law::Spring) return {2, 2};
-  const std::vector<Vec3> x = rest_positions(map, d, interaction.pattern.units[unit]);
-  const std::array<Vec3, 6> g = hinge_gradient({x[0], x[1], x[2], x[3], x[4], x[5]});
+  const std::vector<Vec3> rest = rest_positions(map, d, interaction.pattern.units[unit]);
+  HingePoints x;
+  std::copy(rest.begin(), rest.end(), x.begin());
+  const HingePoints g = hinge_gradient(x);
   double sum = 0;
   for (const Vec3& v : g) sum += v.norm();
-  std::array<double, 6> weights{};
-  for (std::size_t n = 0; n < 6; ++n) weights[n] = g[n].norm() * sum;
+  std::array<double, 8> weights{};
+  for (std::size_t n = 0; n < weights.size(); ++n) weights[n] = g[n].norm() * sum;
   return weights;
 }
 
@@ -230,7 +232,7 @@ Program::Bounds Program::frequency_bounds() const {
       if (!interaction->pattern.present(map_->map(), d)) continue;
       for (std::size_t unit = 0; unit < interaction->pattern.units.size(); ++unit) {
         const UnitParameters p = interaction->parameters(owner, static_cast<int>(unit));
-        const std::array<double, 6> weight = disc_weights(*map_, *interaction, d, unit);
+        const std::array<double, 8> weight = disc_weights(*map_, *interaction, d, unit);
         for (std::size_t n = 0; n < interaction->pattern.units[unit].size(); ++n) {
           const Slot c = corners.slot(map_->map().follow(d, interaction->pattern.units[unit][n]));
           stiffness[c] += p.k * weight[n];

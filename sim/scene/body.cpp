@@ -29,8 +29,8 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads) {
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   integrator = scheme.make();
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
+  map->subscribe(changes);
   if (tears()) {
-    map->subscribe(changes);
     map->reserve_for_separations();
     program->reserve_for_separations();
     for (TearLaw& law : laws) law.reserve_for_separations();
@@ -58,7 +58,7 @@ void Body::evaluate() {
   else program->corner_forces(x, v, corner_force.data(), force.data());
 }
 
-int Body::tear(double time, long number) {
+int Body::tear(double time, long number, const std::function<void()>& sound) {
   int made = 0;
   for (std::size_t n = 0; n < laws.size(); ++n) {
     TearLaw& law = laws[n];
@@ -66,6 +66,7 @@ int Body::tear(double time, long number) {
     const ForceView view{*map, map->position().values().data(), force.data(),
                          corner_force.empty() ? nullptr : corner_force.data()};
     if (law.find(view).empty()) continue;
+    sound();
     const double start = seconds_now();
     const std::size_t before = events.size();
     const int changed = law.apply(*map, view, events);
@@ -93,7 +94,10 @@ void Body::advance(double time, double step) {
   next.probe = Double4{};
   const StateView now{map->position().values().data(), map->velocity().values().data()};
   integrator->advance(*this, time, step, now, force.data(), next);
-  if (floor_contact) floor_contact->apply(next);
+  if (next.large) finish_streams(); // other threads are going to read them
+  if (!floor_contact) return;
+  floor_contact->apply(next);
+  constrain(time + step, next.position.data(), next.velocity.data()); // what is prescribed yields to no floor
 }
 
 void Body::rebind() {

@@ -19,7 +19,7 @@ struct BornBorder {
   using Value = std::uint8_t;
   std::string name = "born border";
   Orbit orbit = EdgeOfFace;
-  Orbit support = EdgeOfFace;
+  Orbit support = SingleDart;
   Value birth(const EmbeddedMap& map, Dart d) const { return map.map().is_free(2, d) ? 1 : 0; }
   Value split(const Value& whole) const { return whole; }
   Value merge(const Value& kept, const Value&) const { return kept; }
@@ -63,7 +63,9 @@ struct Body final : System {
   void constrain(double time, Record* position, Record* velocity) override;
 
   void evaluate();                                // force and corner_force of the current state
-  int tear(double time, long number);             // criteria, changes, rebinding; returns how many changes
+
+  // Criteria, changes, rebinding; returns how many changes. Before anything is changed, `sound` may throw.
+  int tear(double time, long number, const std::function<void()>& sound);
   void advance(double time, double step);         // the current state to `next`
   void rebind();                                  // program, constraints, laws
   void commit();                                  // takes `next`

@@ -87,6 +87,8 @@ void build_mass(Body& body, const Node& node) {
                     "total=\"0.1\", or density=\"300\" with thickness=\"0.001\"");
   if (density && !node.given("thickness"))
     throw UserError(Exit::BadInput, node.place(), "the density of a sheet needs its thickness", "thickness=\"0.001\"");
+  if (total && node.given("thickness"))
+    node.fail("thickness", "has no use where the total mass is given", "leave it out, or give the density");
   CornerMass embedding;
   if (density) {
     embedding.density = node.number("density") * node.number("thickness");
@@ -98,19 +100,36 @@ void build_mass(Body& body, const Node& node) {
   body.mass = &body.map->add(embedding);
 }
 
+// How far a material's formulas can be trusted on the cells that there are.
+void note_exactness(Body& body, const SpringMaterial& material) {
+  bool triangles = false, quads = false;
+  for_each_face(*body.map, [&](Dart d) {
+    const int sides = sides_of_face(body.map->map(), d);
+    triangles = triangles || sides == 3;
+    quads = quads || sides == 4;
+  });
+  const double nu = material.poisson;
+  if (quads && std::abs(nu - 1.0 / 3) > 1e-3)
+    body.notes.push_back(fmt::format(
+        "springs on rectangles keep the shear modulus, but behave as with poisson {:.4g} and young {:.4g} "
+        "(exact at poisson 1/3 alone)",
+        1 / (3 * nu + 2), 3 * material.young * (1 + 3 * nu) / (2 * (2 + 3 * nu))));
+  if (triangles)
+    body.notes.push_back(
+        "springs on triangles give young and poisson back for equilateral ones at poisson 1/3 alone: squares halved "
+        "along one diagonal then behave, along their sides, as with poisson 0 and 1.125 times young");
+}
+
 void build_springs(Body& body, const Node& node) {
   std::optional<SpringMaterial> material;
   if (node.given("young")) {
     if (!node.given("thickness"))
       node.fail("young", "stiffness from young needs the thickness of the sheet", "thickness=\"0.001\"");
     material = SpringMaterial{node.number("young"), node.number("poisson"), node.number("thickness")};
-    const double nu = material->poisson;
-    if (std::abs(nu - 1.0 / 3) > 1e-3)
-      body.notes.push_back(fmt::format(
-          "springs on rectangles keep the shear modulus, but behave as with poisson {:.4g} and young {:.4g} "
-          "(exact at poisson 1/3 alone)",
-          1 / (3 * nu + 2), 3 * material->young * (1 + 3 * nu) / (2 * (2 + 3 * nu))));
+    note_exactness(body, *material);
   }
+  for (const char* name : {"poisson", "thickness"})
+    if (!material && node.given(name)) node.fail(name, "has no use without young", "give young, or leave it out");
   const std::string& fold = node.text("cumulated");
   body.cumulated = fold == "auto" ? Cumulated::Auto : fold == "yes" ? Cumulated::Yes : Cumulated::No;
   for (const auto& child : node.children()) {
@@ -205,7 +224,9 @@ void build_laws(Body& body, const Node& node) {
 void build_contact(Body& body, const Node& node, std::optional<double> floor) {
   const Node* contact = node.child("contact");
   if (!contact) {
-    if (floor) body.left_out.push_back("contact: the floor is drawn, and this body falls through it (no <contact>)");
+    if (!floor) return;
+    body.left_out.push_back("contact: the floor is drawn, and this body falls through it (no <contact>)");
+    body.notes.push_back(body.left_out.back());
     return;
   }
   if (!floor)

@@ -9,12 +9,13 @@ namespace rend {
 
 Vec3 Motion::offset(const Vec3& rest, double time) const {
   const double s = std::clamp(time, from, std::max(from, until)) - from;
-  const double share = std::isinf(until) ? (time >= from ? 1.0 : 0.0) : (until > from ? s / (until - from) : 1.0);
+  const double share = std::isfinite(until) && until > from ? s / (until - from) : (time >= from ? 1.0 : 0.0);
   return s * velocity + share * (displacement + gradient * rest);
 }
 
 Vec3 Motion::velocity_at(const Vec3& rest, double time) const {
-  if (time < from || time >= until) return Vec3::Zero();
+  const bool over = then_free ? time > until : time >= until; // who is let go at `until` leaves with the drive's speed
+  if (time < from || over) return Vec3::Zero();
   Vec3 v = velocity;
   if (!std::isinf(until) && until > from) v += (displacement + gradient * rest) / (until - from);
   return v;

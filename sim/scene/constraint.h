@@ -5,8 +5,8 @@
 //   velocity V    x = X + V s             s = clamp(t, from, until) − from
 //   displacement  x = X + D s/(until − from)
 //   gradient G    x = X + G X s/(until − from)
-// With until infinite, displacement and gradient are reached at `from`. Before `from` a driven vertex is held at X;
-// after `until` it is held where it is, or let go (then = free). Which motions a vertex obeys is embedded on it, and
+// With until infinite, or equal to from, displacement and gradient are reached at `from`. Before `from` a driven vertex
+// is held at X; after `until` it is held where it is, or let go with the speed it has (then = free). Which motions a vertex obeys is embedded on it, and
 // every fragment of a split vertex obeys them too.
 #pragma once
 
@@ -35,7 +35,7 @@ struct Obedience {
   using Value = std::uint64_t;
   std::string name = "prescribed motions";
   Orbit orbit = Vertex;
-  Orbit support = Vertex;
+  Orbit support = SingleDart;
   Value birth(const EmbeddedMap&, Dart) const { return 0; }
   Value split(const Value& whole) const { return whole; }
   Value merge(const Value& kept, const Value& absorbed) const { return kept | absorbed; }

@@ -18,7 +18,8 @@ double now() {
 
 // Reading the clock costs more than the step of a small body: one step in so many is timed, and counted so often.
 constexpr long sampled = 16;
-constexpr long checked = 32; // every so many steps one looks whether the motion is resolved
+// One looks every so many steps whether the motion is resolved, and never in a step that is timed.
+constexpr long checked = 32, checked_at = 7;
 
 } // namespace
 
@@ -40,15 +41,19 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
   scheme_ = find_scheme(time.text("integrator"));
   seconds_.build = now() - start;
   for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads);
-  build_time(time, options);
+  build_time(time);
   seconds_.bind = now() - start - seconds_.build;
 }
 
-void Scene::build_time(const Node& time, const SceneOptions&) {
+void Scene::build_time(const Node& time) {
   duration_ = time.number("duration");
   step_place_ = time.place("step");
   automatic_ = time.is_word("step");
   step_ = automatic_ ? stable_step(time) : time.number("step");
+  if (automatic_ && duration_ > 0) step_ = duration_ / std::ceil(duration_ / step_); // ends where the clip does
+  if (const double limit = stability_limit(); !automatic_ && step_ > limit)
+    notes_.push_back(fmt::format("the step of {:.3g} s is above {:.3g} s, up to which '{}' is surely stable here", step_,
+                                 limit, scheme_->name));
   if (duration_ / step_ > 1e12)
     time.fail("step", fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration_, step_));
 }
@@ -66,7 +71,7 @@ double Scene::stability_limit() const {
 double Scene::stable_step(const Node& time) const {
   const double limit = stability_limit();
   if (limit <= 0)
-    time.fail("step", fmt::format("no step is stable with the integrator '{}' here: nothing damps", scheme_->name),
+    time.fail("step", fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the surroundings damps every motion", scheme_->name),
               "use symplectic, verlet or rk4, or add viscosity");
   if (std::isinf(limit))
     time.fail("step", "nothing in the scene limits the step", "give a step in seconds");
@@ -75,36 +80,50 @@ double Scene::stable_step(const Node& time) const {
 
 double Scene::time() const { return static_cast<double>(steps_done_) * step_; }
 
-long Scene::steps_planned() const { return static_cast<long>(std::ceil(duration_ / step_ * (1 - 1e-12))); }
-
 void Scene::step() {
-  const bool timed = steps_done_ % sampled == 0;
+  const bool timed = steps_done_ % sampled == sampled - 1; // not the first, whose caches are cold
   double last = timed ? now() : 0;
   const auto lap = [&](double StageSeconds::*stage) {
     if (!timed) return;
     const double at = now();
-    seconds_.*stage += sampled * (at - last);
+    seconds_.*stage += at - last;
     last = at;
   };
   for (auto& body : bodies_) body->evaluate();
   lap(&StageSeconds::forces);
-  for (auto& body : bodies_) body->tear(time(), steps_done_);
+  const double tearing = tearing_seconds();
+  for (auto& body : bodies_) {
+    const auto sound = [&] { check_resolved(*body, body->map->velocity().values().data()); };
+    body->tear(time(), steps_done_, sound);
+  }
+  if (timed) last += tearing_seconds() - tearing; // timed by itself, in every step
   lap(&StageSeconds::criteria);
   for (auto& body : bodies_) body->advance(time(), step_);
-  check(); // all bodies, before one of them moves on: the state stays whole
+  check(); // all bodies, before one of them moves on: positions and velocities stay whole
   for (auto& body : bodies_) body->commit();
   lap(&StageSeconds::integrate);
+  timed_steps_ += timed;
   ++steps_done_;
 }
 
 void Scene::check() const {
   for (const auto& body : bodies_)
     if (!body->next.finite()) stop(*body, "a number of its state is not finite");
-  if (steps_done_ % checked == 0 || steps_done_ < checked) check_resolved();
+  if (steps_done_ % checked != checked_at && steps_done_ >= checked_at) return;
+  for (const auto& body : bodies_) check_resolved(*body, body->next.velocity.data());
+}
+
+double Scene::tearing_seconds() const {
+  double sum = 0;
+  for (const auto& body : bodies_) sum += body->change_seconds + body->rebind_seconds;
+  return sum;
 }
 
 StageSeconds Scene::seconds() const {
   StageSeconds all = seconds_;
+  const double scale = timed_steps_ > 0 ? static_cast<double>(steps_done_) / static_cast<double>(timed_steps_) : 0;
+  for (double StageSeconds::*stage : {&StageSeconds::forces, &StageSeconds::criteria, &StageSeconds::integrate})
+    all.*stage *= scale;
   for (const auto& body : bodies_) {
     all.change += body->change_seconds;
     all.rebind += body->rebind_seconds;
@@ -112,30 +131,30 @@ StageSeconds Scene::seconds() const {
   return all;
 }
 
-// A spring whose ends move by more than twice its length in one step, against each other, is not resolved by it.
-void Scene::check_resolved() const {
-  for (const auto& body : bodies_) {
-    const Program& program = *body->program;
-    const Record *x = body->next.position.data(), *v = body->next.velocity.data();
-    for (const Binder& binder : program.folded().empty() ? program.elementary() : program.folded()) {
-      if (binder.interaction()->law != Law::Spring) continue;
-      const PackedRows& rows = binder.rows();
-      bool resolved = true;
-      rows.for_each([&](std::size_t, std::size_t row) {
-        const std::uint32_t i = rows.index(0)[row], j = rows.index(1)[row];
-        const double length = std::max(rows.value(2)[row], (x[j].vec() - x[i].vec()).norm());
-        resolved = resolved && (v[j].vec() - v[i].vec()).norm() * step_ <= 2 * length;
-      });
-      if (!resolved) stop(*body, "ends of a " + binder.interaction()->name + " spring pass each other within a step");
-      break; // the first kind will do: neighbours are neighbours
-    }
+// Ends of a spring that move against each other by many times its rest length in one step are not resolved by it: what
+// explodes passes this bound long before its numbers overflow.
+void Scene::check_resolved(const Body& body, const Record* velocity) const {
+  constexpr double rest_lengths = 64;
+  const Program& program = *body.program;
+  for (const Binder& binder : program.folded().empty() ? program.elementary() : program.folded()) {
+    if (binder.interaction()->law != Law::Spring) continue;
+    const PackedRows& rows = binder.rows();
+    bool resolved = true;
+    rows.for_each([&](std::size_t, std::size_t row) {
+      const double rest = rows.value(2)[row];
+      const Vec3 apart = velocity[rows.index(1)[row]].vec() - velocity[rows.index(0)[row]].vec();
+      resolved = resolved && (rest == 0 || apart.norm() * step_ <= rest_lengths * rest);
+    });
+    if (!resolved) stop(body, "ends of a " + binder.interaction()->name + " spring pass each other within a step");
+    break; // the first kind will do: neighbours are neighbours
   }
 }
 
 void Scene::stop(const Body& body, const std::string& what) const {
   const double limit = stability_limit();
   const std::string hint =
-      limit > 0 ? fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)", limit,
+      std::isinf(limit) ? std::string{}
+      : limit > 0 ? fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)", limit,
                               scheme_->name)
                 : fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme_->name);
   throw Unstable(Exit::Unstable, step_place_,

@@ -39,11 +39,12 @@ public:
   long steps_done() const { return steps_done_; }
   double step_size() const { return step_; } // [s]
   double duration() const { return duration_; }
-  long steps_planned() const;       // until `duration`
   const Scheme& scheme() const { return *scheme_; }
+  const std::vector<std::string>& notes() const { return notes_; } // besides those of bodies
   bool automatic_step() const { return automatic_; }
 
-  // One step. Throws Unstable (exit 76) with the state before the step still whole.
+  // One step. Throws Unstable (exit 76) with the positions and velocities before the step still whole; what tore at
+  // its start stays torn.
   void step();
 
   std::size_t tears() const;
@@ -57,11 +58,12 @@ public:
   StageSeconds seconds() const;
 
 private:
-  void build_time(const Node& time, const SceneOptions& options);
+  void build_time(const Node& time);
   double stable_step(const Node& time) const;
   double stability_limit() const; // [s]
   void check() const;
-  void check_resolved() const;
+  double tearing_seconds() const;
+  void check_resolved(const Body& body, const Record* velocity) const; // [m/s], one per vertex slot
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
 
   std::string name_;
@@ -70,7 +72,8 @@ private:
   const Scheme* scheme_ = nullptr;
   double step_ = 0, duration_ = 0;
   bool automatic_ = false;
-  long steps_done_ = 0;
+  long steps_done_ = 0, timed_steps_ = 0;
+  std::vector<std::string> notes_;
   Place step_place_;    // of time.step in the preset
   StageSeconds seconds_;
 };

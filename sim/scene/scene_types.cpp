@@ -29,7 +29,7 @@ const ElementType& place_type() {
                                 "where the body is at rest: scaled, then rotated, then moved",
                                 {number("scale", "", "factor").above(0).otherwise("1"),
                                  numbers("rotate", 3, "degrees", "about x, then y, then z").otherwise("0 0 0"),
-                                 numbers("translate", 3, "m", "").otherwise("0 0 0")},
+                                 numbers("translate", 3, "m", "moved by, last").otherwise("0 0 0")},
                                 {}};
   return type;
 }
@@ -73,7 +73,7 @@ const ElementType& springs_type() {
       "springs",
       "masses and springs",
       {number("young", "Pa", "stiffness of stretch and shear by formula instead of k").above(0),
-       number("poisson", "", "").at_least(0).at_most(0.5).otherwise("0.3333333333333333"),
+       number("poisson", "", "Poisson's ratio, for young").at_least(0).at_most(0.5).otherwise("0.3333333333333333"),
        number("thickness", "m", "for young").above(0),
        word("cumulated", {"auto", "yes", "no"},
             "fold springs between the same particles into one: auto folds unless a law looks at each by itself")
@@ -85,7 +85,7 @@ const ElementType& springs_type() {
 const ElementType& viscosity_type() {
   static const ElementType type{"viscosity",
                                 "ambient viscosity: a force -value v",
-                                {number("value", "N.s/m", "").at_least(0).is_required(),
+                                {number("value", "N.s/m", "the coefficient").at_least(0).is_required(),
                                  word("per", {"particle", "body"}, "each particle's, or shared by the body as its mass is")
                                      .otherwise("particle")},
                                 {}};
@@ -107,7 +107,7 @@ const ElementType& drive_type() {
     ElementType t{"drive", "vertices that move as prescribed", {}, {}};
     add_selector(t.attributes);
     t.attributes.push_back(numbers("velocity", 3, "m/s", "constant velocity"));
-    t.attributes.push_back(numbers("displacement", 3, "m", "moved by so much between from and until"));
+    t.attributes.push_back(numbers("displacement", 3, "m", "moved by so much between from and until (at once, if until is absent)"));
     t.attributes.push_back(numbers("gradient", 9, "", "u = G X, row after row, reached between from and until"));
     t.attributes.push_back(number("from", "s", "held before").at_least(0).otherwise("0"));
     t.attributes.push_back(number("until", "s", "for ever, if absent").at_least(0));
@@ -121,13 +121,16 @@ const ElementType& drive_type() {
 const ElementType& tear_type() {
   static const ElementType type = [] {
     std::vector<std::string> criteria, changes;
-    std::string what, unit;
-    for (const CriterionType& c : all_criteria()) criteria.push_back(c.name);
+    std::string what;
+    for (const CriterionType& c : all_criteria()) {
+      criteria.push_back(c.name);
+      what += (what.empty() ? "" : "; ") + c.name + ": " + c.what;
+    }
     for (const ChangeType& c : all_changes()) changes.push_back(c.name);
     return ElementType{"tear",
                        "a law: where the criterion exceeds the threshold, the change is made",
-                       {word("criterion", criteria, "what is measured").is_required(),
-                        number("threshold", "N", "").above(0).is_required(),
+                       {word("criterion", criteria, what).is_required(),
+                        number("threshold", "N", "the value above which it tears; rend run --events tells what was reached").above(0).is_required(),
                         word("change", changes, "what is done; default: that of the criterion"),
                         number("from", "s", "not before").at_least(0).otherwise("0"),
                         number("until", "s", "not after").at_least(0),
@@ -140,7 +143,7 @@ const ElementType& tear_type() {
 const ElementType& contact_type() {
   static const ElementType type{"contact",
                                 "what the body does not pass through",
-                                {word("with", {"floor"}, "").otherwise("floor"),
+                                {word("with", {"floor"}, "what it meets").otherwise("floor"),
                                  number("thickness", "m", "kept from it").at_least(0).otherwise("0.002"),
                                  number("friction", "", "Coulomb's coefficient").at_least(0).otherwise("0.5")},
                                 {}};
@@ -181,7 +184,7 @@ const ElementType& world_type() {
   static const ElementType floor{"floor", "a floor, drawn below the bodies", {number("z", "m", "its height").otherwise("0")}, {}};
   static const ElementType type{"world",
                                 "what surrounds the bodies",
-                                {numbers("gravity", 3, "m/s2", "").otherwise("0 0 -9.81")},
+                                {numbers("gravity", 3, "m/s2", "its acceleration").otherwise("0 0 -9.81")},
                                 {{&floor, 0, 1}}};
   return type;
 }

@@ -65,6 +65,7 @@ std::vector<Slot> select_vertices(const EmbeddedMap& map, const Node& node) {
                     "give one of near, box, side, all");
   const std::string& how = given.front();
   const Bounds b = bounds_of(map);
+  const double slack = 1e-9 * (b.high - b.low).maxCoeff();
   std::vector<Slot> chosen;
   if (how == "near") {
     chosen = nearest_vertex(map, node.vector("near"));
@@ -73,12 +74,11 @@ std::vector<Slot> select_vertices(const EmbeddedMap& map, const Node& node) {
     const Vec3 low = Vec3(v[0], v[1], v[2]).cwiseMin(Vec3(v[3], v[4], v[5]));
     const Vec3 high = Vec3(v[0], v[1], v[2]).cwiseMax(Vec3(v[3], v[4], v[5]));
     chosen = vertices_where(map, [&](const Vec3& x) {
-      return (x.array() >= low.array()).all() && (x.array() <= high.array()).all();
+      return (x.array() >= low.array() - slack).all() && (x.array() <= high.array() + slack).all();
     });
   } else if (how == "side") {
     const std::string& side = node.text("side");
     const int axis = side[1] - 'x';
-    const double slack = 1e-9 * (b.high - b.low).maxCoeff();
     chosen = vertices_where(map, [&](const Vec3& x) {
       return side[0] == '-' ? x[axis] <= b.low[axis] + slack : x[axis] >= b.high[axis] - slack;
     });

@@ -1,7 +1,7 @@
 // Selectors: which vertices an element of a preset is about, by their rest positions after `place`.
 //
 //   near="x y z"                 the closest vertex
-//   box="x0 y0 z0 x1 y1 z1"      those within
+//   box="x0 y0 z0 x1 y1 z1"      those within, or within 1e-9 of the body's size of it: grid lines are rounded
 //   side="-x" ... "+z"           those at that end of the body, within 1e-9 of its size
 //   all="yes"
 #pragma once

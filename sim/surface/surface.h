@@ -34,7 +34,7 @@ public:
   };
   std::size_t triangles() const { return triangles_.live_count(); }
 
-  // Calls f(Triangle) in the order of face slots.
+  // Calls f(Triangle) in the order of rows.
   template <class F>
   void for_each_triangle(F&& f) const {
     triangles_.for_each([&](std::size_t, std::size_t row) {

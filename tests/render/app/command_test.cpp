@@ -84,7 +84,7 @@ TEST_F(Program, SurvivesAClosedPipe) {
 }
 
 TEST_F(Program, LeavesNothingBehindWhereItExplodesAtOnce) {
-  for (const char* step : {"1", "0.1", "0.02"}) {
+  for (const char* step : {"1", "0.1", "0.05"}) {
     const std::string set = std::string(" --set time.step=") + step;
     const Outcome render = place.rend("render pulled.xml -o deep/in/frames --video mp4" + set);
     EXPECT_EQ(render.code, 76);

@@ -21,7 +21,7 @@ struct Counting {
   using Value = double;
   std::string name = "counting";
   Orbit orbit = Vertex;
-  Orbit support = Vertex;
+  Orbit support = SingleDart;
   Calls* calls = nullptr;
   Value birth(const EmbeddedMap&, Dart) const {
     ++calls->births;

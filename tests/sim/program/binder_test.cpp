@@ -185,5 +185,34 @@ TEST(Rebinding, of_unfolded_rows_equals_binding_from_scratch) {
   expect_storm_survived(sheet(SheetPattern::Quads, 5, 5), recipe, 300, 40);
 }
 
+// No interaction of today reaches so far that its rows depend on links beyond its own faces; a binder must know anyway.
+TEST(Rebinding, of_words_that_reach_over_several_faces_equals_binding_from_scratch) {
+  const Pattern pattern{.owner = EdgeOfFace,
+                        .support = EdgeOfFace,
+                        .units = {{"", "0121210"}, {"", "1210121"}},
+                        .fold = {},
+                        .present = [](const GMap&, Dart) { return true; }};
+  const std::vector<Field> fields{{{"", ""}, Vertex},
+                                  {{"0121210", "1210121"}, Vertex},
+                                  {{"01210", "12101"}, FaceOfVolume},
+                                  {{"0121", "121012"}, EdgeOfVolume}};
+  Storm storm(sheet(SheetPattern::Mixed, 6, 5), everything(), 50);
+  EmbeddedMap& map = *(*storm).map;
+  map.use(FaceOfVolume);
+  Binder binder(map, pattern, fields, 2);
+  binder.bind();
+  Changes changes;
+  map.subscribe(changes);
+  for (int n = 0; n < 600; ++n) {
+    storm.blow();
+    binder.rebind(changes);
+    changes.clear();
+    Binder anew(map, pattern, fields, 2);
+    anew.bind();
+    ASSERT_TRUE(binder.rows().same_as(anew.rows())) << "after edit " << n;
+  }
+  map.unsubscribe(changes);
+}
+
 } // namespace
 } // namespace rend

@@ -1,0 +1,236 @@
+// Forces and criteria computed from lists of polygons alone: no darts, no patterns, no folding. Slow and plain, to
+// compare the program with.
+#pragma once
+
+#include "sim/random_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace rend::meshes {
+
+class BruteForce {
+public:
+  explicit BruteForce(const PolygonMesh& mesh) : mesh_(mesh), open_(mesh.corners.size(), false) {
+    for (std::size_t s = 0; s < mesh.corners.size(); ++s) dart_.push_back(Dart{2 * s});
+    find_edges();
+  }
+
+  // The polygons of a body that may be torn: points are vertex slots; sides that are open are no one's neighbours.
+  explicit BruteForce(const EmbeddedMap& map) {
+    for (const Record& rest : map.rest().values()) mesh_.points.push_back(rest.vec());
+    mesh_.first.push_back(0);
+    for_each_face(map, [&](Dart first) {
+      Dart d = first;
+      do {
+        mesh_.corners.push_back(map.vertex(d));
+        dart_.push_back(d);
+        open_.push_back(map.map().is_free(2, d));
+        d = map.map().alpha(1, map.map().alpha(0, d));
+      } while (d != first);
+      mesh_.first.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
+    });
+    find_edges();
+  }
+
+  // Positions and velocities by point, from a body's state.
+  void look_at(const Body& body) {
+    x_.assign(mesh_.points.size(), Vec3::Zero());
+    v_ = x_;
+    for (std::size_t s = 0; s < dart_.size(); ++s) {
+      x_[mesh_.corners[s]] = body.map->position_of(dart_[s]);
+      v_[mesh_.corners[s]] = body.map->velocity()[body.map->vertex(dart_[s])].vec();
+    }
+    force_.assign(mesh_.points.size(), Vec3::Zero());
+    corner_.assign(dart_.size(), Vec3::Zero());
+  }
+
+  // Adds the forces of an interaction, and counts: its units, and the pairs of particles that they act between.
+  void add(const Spring& spring) {
+    units_ = 0;
+    pairs_.clear();
+    if (spring.element == "stretch") stretch(spring);
+    else if (spring.kind == "isotropic" || spring.kind == "anisotropic") shear(spring);
+    else if (spring.kind == "provot") provot(spring);
+    else angular(spring);
+  }
+  std::size_t units() const { return units_; }
+  std::size_t pairs() const { return pairs_.size(); }
+
+  // In the order of the body's slots.
+  std::vector<Record> forces(const Body& body) const {
+    std::vector<Record> out(body.program->vertices());
+    for (std::size_t s = 0; s < dart_.size(); ++s) out[body.map->vertex(dart_[s])] = Record(force_[mesh_.corners[s]]);
+    return out;
+  }
+  std::vector<Record> corner_forces(const Body& body) const {
+    const CellIndex& corners = body.map->cells(VertexOfFace);
+    std::vector<Record> out(corners.slots());
+    for (std::size_t s = 0; s < dart_.size(); ++s) out[corners.slot(dart_[s])] = Record(corner_[s]);
+    return out;
+  }
+
+  // Values of the criteria at every edge between two polygons, by the smallest dart of the edge (design: mechanics,
+  // section 4).
+  std::map<Dart, double> border_values(const EmbeddedMap& map, bool atomic) const {
+    std::map<Dart, double> values;
+    for (const Edge& e : edges_) {
+      const Vec3 f = atomic ? Vec3((corner_[e.p.a] + corner_[e.p.b]) - (corner_[e.q.a] + corner_[e.q.b]))
+                            : Vec3(force_[e.a] + force_[e.b]);
+      Vec3 n1 = normal(e.p.polygon), n2 = normal(e.q.polygon);
+      if (e.p.forward == e.q.forward) n2 = -n2; // both walk their common edge the same way: turned over
+      const Vec3 sum = (n1 + n2).norm() < 1e-12 ? n1 : Vec3(n1 + n2);
+      const Vec3 across = (x_[e.b] - x_[e.a]).cross(sum);
+      const Dart d = dart_[e.p.forward ? e.p.a : e.p.b];
+      const std::vector<Dart> darts{d, map.map().alpha(0, d), map.map().alpha(2, d), map.map().follow(d, Word("02"))};
+      values[*std::min_element(darts.begin(), darts.end())] = std::abs(f.dot(across.normalized()));
+    }
+    return values;
+  }
+
+private:
+  struct Flank {             // an edge as one of its polygons has it; corners are indices into the list of all
+    std::size_t polygon = 0;
+    std::size_t a = 0, b = 0;           // at the edge's ends
+    std::size_t near_a = 0, near_b = 0; // the neighbours of these in the polygon, off the edge
+    bool forward = true;                // walked from a to b
+  };
+  struct Edge {
+    std::uint32_t a, b; // points
+    Flank p, q;
+  };
+
+  std::size_t sides(std::size_t polygon) const { return mesh_.first[polygon + 1] - mesh_.first[polygon]; }
+  std::size_t corner(std::size_t polygon, std::size_t n) const { return mesh_.first[polygon] + n % sides(polygon); }
+
+  void find_edges() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Flank>> flanks;
+    for (std::size_t p = 0; p < mesh_.polygons(); ++p) {
+      const std::size_t n = sides(p);
+      for (std::size_t i = 0; i < n; ++i) {
+        if (open_[corner(p, i)]) continue;
+        Flank f{p, corner(p, i), corner(p, i + 1), corner(p, i + n - 1), corner(p, i + 2), true};
+        std::uint32_t a = mesh_.corners[f.a], b = mesh_.corners[f.b];
+        if (a > b) {
+          std::swap(a, b);
+          std::swap(f.a, f.b);
+          std::swap(f.near_a, f.near_b);
+          f.forward = false;
+        }
+        flanks[{a, b}].push_back(f);
+      }
+    }
+    for (const auto& [ends, list] : flanks)
+      if (list.size() == 2) edges_.push_back({ends.first, ends.second, list[0], list[1]});
+  }
+
+  Vec3 at(std::size_t corner) const { return x_[mesh_.corners[corner]]; }
+  Vec3 speed(std::size_t corner) const { return v_[mesh_.corners[corner]]; }
+  Vec3 rest(std::size_t corner) const { return mesh_.points[mesh_.corners[corner]]; }
+
+  void push(std::size_t corner, const Vec3& f) {
+    force_[mesh_.corners[corner]] += f;
+    corner_[corner] += f;
+  }
+
+  void spring(std::size_t i, std::size_t j, const Spring& s) {
+    const Vec3 d = at(j) - at(i);
+    const double length = d.norm(), rest_length = (rest(j) - rest(i)).norm();
+    const double tension = s.k * (length - rest_length) + s.damping * (speed(j) - speed(i)).dot(d) / length;
+    push(i, tension / length * d);
+    push(j, -tension / length * d);
+    ++units_;
+    pairs_.insert(std::minmax(mesh_.corners[i], mesh_.corners[j]));
+  }
+
+  void stretch(const Spring& s) {
+    for (std::size_t p = 0; p < mesh_.polygons(); ++p)
+      for (std::size_t i = 0; i < sides(p); ++i) spring(corner(p, i), corner(p, i + 1), s);
+  }
+
+  void shear(const Spring& s) {
+    for (std::size_t p = 0; p < mesh_.polygons(); ++p) {
+      const std::size_t n = sides(p);
+      if (n == 4) {
+        spring(corner(p, 0), corner(p, 2), s);
+        spring(corner(p, 1), corner(p, 3), s);
+      } else if (n > 4 && s.kind == "anisotropic") {
+        for (std::size_t i = 0; i < n; ++i) spring(corner(p, i + n - 1), corner(p, i + 1), s);
+      }
+    }
+  }
+
+  void provot(const Spring& s) {
+    for (const Edge& e : edges_) {
+      spring(e.p.near_a, e.q.near_a, s);
+      spring(e.p.near_b, e.q.near_b, s);
+    }
+  }
+
+  template <class Place> Vec3 centre(const Flank& f, Place&& place) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t n = 0; n < sides(f.polygon); ++n) sum += place(corner(f.polygon, n));
+    return sum / static_cast<double>(sides(f.polygon));
+  }
+
+  // The dihedral angle from the directions that lead from the hinge into the two faces: π less the angle between them.
+  template <class Place> double dihedral(const Edge& e, Place&& place) const {
+    const Vec3 a = place(e.p.a), u = (place(e.p.b) - a).normalized();
+    const auto into = [&](const Flank& f) {
+      const Vec3 arm = centre(f, place) - a;
+      return Vec3(arm - arm.dot(u) * u).normalized();
+    };
+    const Vec3 p = into(e.p), q = into(e.q);
+    const double between = 2 * std::atan2((p - q).norm(), (p + q).norm());
+    return (q.dot(u.cross(p)) > 0 ? -1 : 1) * (pi_ - between);
+  }
+
+  void angular(const Spring& s) {
+    for (const Edge& e : edges_) {
+      if (sides(e.p.polygon) > 4 || sides(e.q.polygon) > 4) continue;
+      ++units_;
+      double turn = dihedral(e, [&](std::size_t c) { return at(c); }) -
+                    dihedral(e, [&](std::size_t c) { return rest(c); });
+      turn -= 2 * pi_ * std::round(turn / (2 * pi_));
+      const Vec3 a = at(e.p.a), ab = at(e.p.b) - a, u = ab.normalized();
+      std::vector<std::pair<std::size_t, Vec3>> pulls; // corner, ∂θ/∂x
+      for (const Flank& f : {e.p, e.q}) {
+        // The two outer vertices turn about the hinge as the point between them does.
+        const Vec3 between = 0.5 * (at(f.near_a) + at(f.near_b)) - a, across = u.cross(between);
+        const Vec3 g = (f.polygon == e.p.polygon ? -1 : 1) / across.norm() * across.normalized();
+        const double t = between.dot(u) / ab.norm();
+        pulls.push_back({f.near_a, 0.5 * g});
+        pulls.push_back({f.near_b, 0.5 * g});
+        pulls.push_back({f.a, -(1 - t) * g});
+        pulls.push_back({f.b, -t * g});
+      }
+      double moment = s.k * turn;
+      for (const auto& [c, g] : pulls) moment += s.damping * g.dot(speed(c));
+      for (const auto& [c, g] : pulls) push(c, -moment * g);
+    }
+  }
+
+  Vec3 normal(std::size_t polygon) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t n = 0; n < sides(polygon); ++n) sum += at(corner(polygon, n)).cross(at(corner(polygon, n + 1)));
+    return sum.normalized();
+  }
+
+  static constexpr double pi_ = 3.14159265358979323846;
+
+  PolygonMesh mesh_; // points at rest
+  std::vector<Dart> dart_;    // of each corner, along the side that starts there
+  std::vector<bool> open_;    // that side
+  std::vector<Edge> edges_;
+  std::vector<Vec3> x_, v_, force_; // by point
+  std::vector<Vec3> corner_;        // force, by corner
+  std::size_t units_ = 0;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+};
+
+} // namespace rend::meshes

@@ -1,0 +1,184 @@
+#include "sim/mechanics/hinge_law.h"
+
+#include "sim/base/math.h"
+#include "sim/random_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rend {
+namespace {
+
+using meshes::Noise;
+
+constexpr UnitParameters stiff{2.0, 0, 0};
+
+// Two triangles on the hinge (0,0,0)-(1,0,0): M1 in the xy plane at y < 0, M2 turned up by `angle` from flat.
+HingePoints folded(double angle) {
+  const Vec3 a(0, 0, 0), b(1, 0, 0), m1(0.3, -0.8, 0), m2(0.6, 0.9 * std::cos(angle), 0.9 * std::sin(angle));
+  return {a, b, m1, m1, a, b, m2, m2};
+}
+
+// Random hinges; the outer vertices of each side are one (triangles) or two (warped quads).
+HingePoints random_hinge(Noise& noise, bool triangles) {
+  const Vec3 a = noise.vector(), b = a + Vec3(1, 0, 0) + 0.3 * noise.vector();
+  const auto outer = [&](double y) { return Vec3(a + Vec3(0.5, y, 0) + 0.4 * noise.vector()); };
+  const Vec3 m1 = outer(-1), m2 = triangles ? m1 : outer(-1), m3 = outer(1), m4 = triangles ? m3 : outer(1);
+  return {a, b, m1, m2, a, b, m3, m4};
+}
+HingePoints random_velocities(Noise& noise, bool triangles) {
+  const Vec3 a = noise.vector(), b = noise.vector(), m1 = noise.vector(), m3 = noise.vector();
+  const Vec3 m2 = triangles ? m1 : noise.vector(), m4 = triangles ? m3 : noise.vector();
+  return {a, b, m1, m2, a, b, m3, m4};
+}
+const HingePoints still = [] {
+  HingePoints v;
+  v.fill(Vec3::Zero());
+  return v;
+}();
+
+// Moves one of the four vertices of a pair of triangles, wherever it stands among the eight.
+HingePoints moved(HingePoints x, std::size_t vertex, const Vec3& by) {
+  static constexpr std::array<std::array<std::size_t, 2>, 4> places{{{0, 4}, {1, 5}, {2, 3}, {6, 7}}};
+  for (std::size_t place : places[vertex]) x[place] += by;
+  return x;
+}
+Vec3 at_vertex(const HingePoints& f, std::size_t vertex) {
+  static constexpr std::array<std::array<std::size_t, 2>, 4> places{{{0, 4}, {1, 5}, {2, 3}, {6, 7}}};
+  return f[places[vertex][0]] + f[places[vertex][1]];
+}
+
+TEST(Hinge, angle_is_that_between_the_faces_with_its_sign) {
+  EXPECT_EQ(hinge_angle(folded(0)), 0);
+  for (int n = -179; n <= 180; ++n) {
+    const double angle = n * (pi / 180);
+    EXPECT_NEAR(std::abs(hinge_angle(folded(angle))), std::abs(angle), 1e-14);
+    if (n == 0 || n == 180) continue;
+    EXPECT_GT(hinge_angle(folded(angle)) * hinge_angle(folded(0.1)) * angle, 0) << n;
+  }
+}
+
+TEST(Hinge, angle_changes_sign_with_the_sides_and_with_the_direction) {
+  Noise noise(1);
+  for (int n = 0; n < 100; ++n) {
+    const HingePoints x = random_hinge(noise, false);
+    EXPECT_NEAR(hinge_angle({x[4], x[5], x[6], x[7], x[0], x[1], x[2], x[3]}), -hinge_angle(x), 1e-14);
+    EXPECT_NEAR(hinge_angle({x[1], x[0], x[3], x[2], x[5], x[4], x[7], x[6]}), -hinge_angle(x), 1e-14);
+  }
+}
+
+// At the angle and rest angle given, for two triangles: force against the difference of energies.
+void expect_gradient(const HingePoints& x, double rest) {
+  UnitParameters p = stiff;
+  p.rest = rest;
+  const HingePoints f = hinge_forces(p, x, still);
+  constexpr double h = 1e-5;
+  double scale = 1e-3;
+  for (const Vec3& force : f) scale = std::max(scale, force.norm());
+  for (std::size_t vertex = 0; vertex < 4; ++vertex) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 by = h * Vec3::Unit(axis);
+      const double slope =
+          (hinge_energy(p, moved(x, vertex, by)) - hinge_energy(p, moved(x, vertex, -by))) / (2 * h);
+      EXPECT_NEAR(at_vertex(f, vertex)[axis], -slope, 1e-7 * scale) << vertex << " " << axis;
+    }
+  }
+}
+
+TEST(Hinge, force_is_minus_the_gradient_of_the_energy_on_triangles) {
+  Noise noise(2);
+  for (int n = 0; n < 100; ++n) expect_gradient(random_hinge(noise, true), 0.4 * noise());
+  for (double angle : {-3.1, -2.0, -1.0, -0.1, 0.0, 0.3, 1.5, 2.5, 3.1}) {
+    for (double rest : {0.0, 0.7, -1.2}) expect_gradient(folded(angle), rest);
+  }
+}
+
+TEST(Hinge, force_is_minus_the_gradient_across_the_fold_back) {
+  // From a rest of 2.9, angles beyond π come out negative: their difference from rest is still small.
+  for (double angle : {3.0, pi + 0.2, pi + 0.5}) {
+    const double sign = hinge_angle(folded(0.1)) > 0 ? 1 : -1;
+    expect_gradient(folded(angle), sign * 2.9);
+    UnitParameters p = stiff;
+    p.rest = sign * 2.9;
+    EXPECT_NEAR(hinge_energy(p, folded(angle)), 0.5 * p.k * (angle - 2.9) * (angle - 2.9), 1e-12);
+  }
+}
+
+TEST(Hinge, turns_back_towards_rest) {
+  const HingePoints f = hinge_forces(stiff, folded(0.3), still);
+  EXPECT_LT(at_vertex(f, 3).z(), 0); // M2 was turned up
+  EXPECT_GT(hinge_forces(stiff, folded(-0.3), still)[6].z(), 0);
+}
+
+TEST(Hinge, conserves_linear_and_angular_momentum_on_warped_quads) {
+  Noise noise(3);
+  for (int n = 0; n < 400; ++n) {
+    const bool triangles = n % 2 == 0;
+    const HingePoints x = random_hinge(noise, triangles), v = random_velocities(noise, triangles);
+    const HingePoints f = hinge_forces({2, 0.5, 0.3}, x, v);
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    double all = 0, all_moments = 0;
+    for (std::size_t p = 0; p < 8; ++p) {
+      force += f[p];
+      moment += x[p].cross(f[p]);
+      all += f[p].norm();
+      all_moments += x[p].norm() * f[p].norm();
+    }
+    EXPECT_LT(force.norm(), 1e-14 * all);
+    EXPECT_LT(moment.norm(), 1e-14 * all_moments);
+  }
+}
+
+TEST(Hinge, conserves_momentum_with_an_outer_vertex_on_the_hinge_line) {
+  HingePoints x = folded(0.5);
+  x[2] = Vec3(-0.5, 0, 0); // one of side one's two outer vertices
+  const HingePoints f = hinge_forces(stiff, x, still);
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t p = 0; p < 8; ++p) moment += x[p].cross(f[p]);
+  EXPECT_GT(f[6].norm(), 0.1);
+  EXPECT_LT(moment.norm(), 1e-14);
+  x[3] = Vec3(1.5, 0, 0); // and the other: the side has no area
+  for (const Vec3& force : hinge_forces(stiff, x, still)) EXPECT_EQ(force, Vec3(0, 0, 0));
+}
+
+TEST(Hinge, without_length_or_area_gives_no_force) {
+  HingePoints x = folded(0.4);
+  x[1] = x[5] = x[0];
+  for (const Vec3& force : hinge_forces({2, 1, 0.1}, x, x)) EXPECT_EQ(force, Vec3(0, 0, 0));
+  HingePoints point;
+  point.fill(Vec3(1, 2, 3));
+  for (const Vec3& force : hinge_forces({2, 1, 0.1}, point, point)) EXPECT_EQ(force, Vec3(0, 0, 0));
+}
+
+TEST(Hinge, damping_dissipates) {
+  Noise noise(4);
+  for (int n = 0; n < 400; ++n) {
+    const HingePoints x = random_hinge(noise, n % 2 == 0), v = random_velocities(noise, n % 2 == 0);
+    const HingePoints f = hinge_forces({0, 0.7, 0}, x, v);
+    double power = 0;
+    for (std::size_t p = 0; p < 8; ++p) power += f[p].dot(v[p]);
+    EXPECT_LE(power, 0);
+  }
+}
+
+TEST(Hinge, damping_rate_is_that_of_the_angle_on_triangles) {
+  Noise noise(5);
+  for (int n = 0; n < 100; ++n) {
+    const HingePoints x = random_hinge(noise, true), v = random_velocities(noise, true);
+    HingePoints ahead = x, behind = x;
+    constexpr double h = 1e-6;
+    for (std::size_t p = 0; p < 8; ++p) {
+      ahead[p] += h * v[p];
+      behind[p] -= h * v[p];
+    }
+    const double rate = (hinge_angle(ahead) - hinge_angle(behind)) / (2 * h);
+    const HingePoints g = hinge_gradient(x);
+    double from_gradient = 0;
+    for (std::size_t p = 0; p < 8; ++p) from_gradient += g[p].dot(v[p]);
+    EXPECT_NEAR(from_gradient, rate, 1e-6 * std::max(1.0, std::abs(rate)));
+  }
+}
+
+} // namespace
+} // namespace rend

@@ -1,0 +1,94 @@
+// The kernels against the laws that they compute, row by row.
+#include "sim/program/kernels.h"
+
+#include "sim/mechanics/spring_law.h"
+#include "sim/random_meshes.h"
+
+#include <gtest/gtest.h>
+
+namespace rend {
+namespace {
+
+using namespace meshes;
+
+struct Springs {
+  PackedRows rows{4, 2, 3};
+  std::vector<Record> x, v;
+  std::vector<std::array<std::uint32_t, 4>> index;
+  std::vector<UnitParameters> parameters;
+};
+
+Springs random_springs(std::size_t count, std::uint32_t vertices, unsigned seed) {
+  Noise noise(seed);
+  Springs s;
+  for (std::uint32_t n = 0; n < vertices; ++n) {
+    s.x.push_back(Record(noise.vector()));
+    s.v.push_back(Record(noise.vector()));
+  }
+  s.x[3] = s.x[4]; // a spring without length
+  s.rows.resize(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto i = static_cast<std::uint32_t>(noise.below(vertices - 1));
+    const auto j = static_cast<std::uint32_t>(n == 0 ? 4 : i + 1 + noise.below(vertices - 1 - i));
+    s.index.push_back({n == 0 ? 3 : i, j, static_cast<std::uint32_t>(2 * n), static_cast<std::uint32_t>(2 * n + 1)});
+    s.parameters.push_back({5 + noise(), 0.5 + 0.3 * noise(), 1 + 0.5 * noise()});
+    const double values[] = {s.parameters[n].k, s.parameters[n].damping, s.parameters[n].rest};
+    s.rows.set(n, s.index[n].data(), values);
+  }
+  s.rows.seal();
+  return s;
+}
+
+TEST(SpringKernel, adds_what_the_law_says) {
+  for (const bool damped : {false, true}) {
+    for (const std::size_t count : {1u, 3u, 64u, 65u, 301u}) {
+      const Springs s = random_springs(count, 40, 5);
+      std::vector<Record> force(40), corner(2 * count), expected(40), expected_corner(2 * count);
+      for (std::size_t n = 0; n < count; ++n) {
+        UnitParameters p = s.parameters[n];
+        if (!damped) p.damping = 0;
+        const auto [i, j, ci, cj] = s.index[n];
+        const Vec3 f = spring_force(p, s.x[i], s.x[j], s.v[i], s.v[j]);
+        expected[i] = Record(expected[i].vec() + f);
+        expected[j] = Record(expected[j].vec() - f);
+        expected_corner[ci] = Record(f);
+        expected_corner[cj] = Record(-f);
+      }
+      const std::size_t blocks = s.rows.blocks();
+      spring_forces({s.rows, s.x.data(), s.v.data(), force.data(), 0, 40, 0, blocks}, damped);
+      spring_corner_forces({s.rows, s.x.data(), s.v.data(), corner.data(), 0, 0, 0, blocks}, damped);
+      EXPECT_LT(difference(force, expected), 1e-14);
+      EXPECT_LT(difference(corner, expected_corner), 1e-14);
+      for (const Record& f : force) EXPECT_EQ(f.w, 0); // four lanes, three of them used
+      EXPECT_EQ(corner[0].vec(), Vec3(0, 0, 0));
+    }
+  }
+}
+
+TEST(SpringKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
+  const Springs s = random_springs(500, 100, 6);
+  const std::size_t blocks = s.rows.blocks();
+  std::vector<Record> whole(100), parts(100);
+  spring_forces({s.rows, s.x.data(), s.v.data(), whole.data(), 0, 100, 0, blocks}, true);
+  for (const auto& [low, high] : {std::pair{0u, 13u}, {13u, 14u}, {14u, 77u}, {77u, 100u}})
+    spring_forces({s.rows, s.x.data(), s.v.data(), parts.data(), low, high, 0, blocks}, true);
+  for (std::size_t n = 0; n < whole.size(); ++n) EXPECT_EQ(whole[n].vec(), parts[n].vec());
+}
+
+TEST(HingeKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
+  Recipe recipe;
+  recipe.springs = {{"bend", "angular", 2, 0.3}};
+  const auto sheet = body(warped(meshes::sheet(SheetPattern::Mixed, 6, 6), 0.2, 7), recipe);
+  shake(*sheet, 0.2, 8);
+  const PackedRows& rows = sheet->program->folded()[0].rows();
+  const auto count = static_cast<std::uint32_t>(sheet->program->vertices());
+  std::vector<Record> whole(count), parts(count);
+  hinge_forces({rows, positions(*sheet), velocities(*sheet), whole.data(), 0, count, 0, rows.blocks()});
+  for (const auto& [low, high] : {std::pair{0u, 13u}, {13u, 14u}, {14u, 40u}, {40u, count}})
+    hinge_forces({rows, positions(*sheet), velocities(*sheet), parts.data(), low, high, 0, rows.blocks()});
+  EXPECT_GT(largest(whole), 0.01);
+  for (std::size_t n = 0; n < count; ++n) EXPECT_EQ(whole[n].vec(), parts[n].vec());
+}
+
+} // namespace
+} // namespace rend
