@@ -26,8 +26,9 @@ OutputFile::OutputFile(const std::filesystem::path& path)
     throw UserError(Exit::CannotCreate, {path_.string()}, "a folder of this name is in the way.",
                     "Choose another name for the output.");
   if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_))
-    throw UserError(Exit::CannotCreate, {path_.string()}, "this is no ordinary file, and would be replaced by one.",
-                    "Name a file; what is written appears whole or not at all, which a pipe or device cannot do.");
+    throw UserError(
+        Exit::CannotCreate, {path_.string()}, "this is no ordinary file, and would be replaced by one.",
+        "Name a file; what is written appears whole or not at all, which a pipe or device cannot do.");
   file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file_ < 0)
     throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",

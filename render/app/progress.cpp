@@ -55,7 +55,8 @@ void Progress::update(long step, double time, long frame) {
 }
 
 std::string Progress::line(const Sample& now, double time) const {
-  const double share = steps_ > 0 ? std::min(1.0, static_cast<double>(now.step) / static_cast<double>(steps_)) : 1;
+  const double share =
+      steps_ > 0 ? std::min(1.0, static_cast<double>(now.step) / static_cast<double>(steps_)) : 1;
   std::string text;
   if (terminal_) {
     constexpr int width = 24;

@@ -15,12 +15,12 @@ struct InternalError : std::logic_error {
 
 } // namespace rend
 
-#define CHECK(condition)                                                                                     \
-  do {                                                                                                       \
-    if (!(condition)) ::rend::check_failed(#condition, __FILE__, __LINE__);                                  \
+#define CHECK(condition)                                                                                       \
+  do {                                                                                                         \
+    if (!(condition)) ::rend::check_failed(#condition, __FILE__, __LINE__);                                    \
   } while (false)
 
-#define CHECK_NOTE(condition, note)                                                                          \
-  do {                                                                                                       \
-    if (!(condition)) ::rend::check_failed(#condition, __FILE__, __LINE__, (note));                          \
+#define CHECK_NOTE(condition, note)                                                                            \
+  do {                                                                                                         \
+    if (!(condition)) ::rend::check_failed(#condition, __FILE__, __LINE__, (note));                            \
   } while (false)

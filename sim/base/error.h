@@ -11,16 +11,16 @@ namespace rend {
 
 enum class Exit : int {
   Done = 0,
-  No = 1,             // the answer is no: pictures differ, a check failed
-  Trouble = 2,        // `diff` only
-  Usage = 64,         // the command line
-  BadInput = 65,      // a preset or mesh
-  NoInput = 66,       // no such file
-  Bug = 70,           // ours
-  CannotCreate = 73,  // the output
-  ReadWrite = 74,     // failed, such as a full disk
-  OutOfBudget = 75,   // --max-time, --max-memory: resume can finish it
-  Unstable = 76,      // the simulation was stopped
+  No = 1,            // the answer is no: pictures differ, a check failed
+  Trouble = 2,       // `diff` only
+  Usage = 64,        // the command line
+  BadInput = 65,     // a preset or mesh
+  NoInput = 66,      // no such file
+  Bug = 70,          // ours
+  CannotCreate = 73, // the output
+  ReadWrite = 74,    // failed, such as a full disk
+  OutOfBudget = 75,  // --max-time, --max-memory: resume can finish it
+  Unstable = 76,     // the simulation was stopped
   Interrupted = 130,
   Terminated = 143,
 };
@@ -28,8 +28,8 @@ enum class Exit : int {
 // Where in a user's file something stands. A line of 0 means the file as a whole (or the command line).
 struct Place {
   std::string file;
-  int line = 0;   // from 1
-  int column = 0; // from 1
+  int line = 0;             // from 1
+  int column = 0;           // from 1
   std::string text() const; // "file:3:14", "file" or ""
 };
 

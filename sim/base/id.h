@@ -7,8 +7,7 @@
 namespace rend {
 
 // A 32-bit index of one kind of thing. `none` stands for "no such thing".
-template <class Tag>
-struct Id {
+template <class Tag> struct Id {
   static constexpr std::uint32_t none_value = 0xffffffffu;
 
   std::uint32_t value = none_value;

@@ -36,8 +36,8 @@ double small_cosine(double degrees) {
   return 1 + sum;
 }
 
-// The sine of an angle that is `quarters` right angles further. They are counted rather than added to the angle, which
-// would round it.
+// The sine of an angle that is `quarters` right angles further. They are counted rather than added to the
+// angle, which would round it.
 double sine_of_turned(double angle, int quarters) {
   const double turn = std::remainder(angle, 360.0); // exact
   const double quadrant = std::nearbyint(turn / 90);

@@ -23,8 +23,12 @@ using Long4 = long long __attribute__((vector_size(32)));
 #endif
 #define REND_INLINE __attribute__((always_inline)) inline
 
-REND_INLINE Double4 load(const Record& r) { return *reinterpret_cast<const Double4*>(&r); }
-REND_INLINE void store(Record& r, Double4 v) { *reinterpret_cast<Double4*>(&r) = v; }
+REND_INLINE Double4 load(const Record& r) {
+  return *reinterpret_cast<const Double4*>(&r);
+}
+REND_INLINE void store(Record& r, Double4 v) {
+  *reinterpret_cast<Double4*>(&r) = v;
+}
 // Past the caches, for large arrays that are not read again soon: spares reading what is overwritten.
 REND_INLINE void stream(Record& r, Double4 v) {
 #ifdef __SSE2__
@@ -35,7 +39,9 @@ REND_INLINE void stream(Record& r, Double4 v) {
 #endif
 }
 
-REND_INLINE Double4 splat(double s) { return Double4{s, s, s, s}; }
+REND_INLINE Double4 splat(double s) {
+  return Double4{s, s, s, s};
+}
 
 REND_INLINE Double4 square_root(Double4 v) {
   return Double4{__builtin_sqrt(v[0]), __builtin_sqrt(v[1]), __builtin_sqrt(v[2]), __builtin_sqrt(v[3])};

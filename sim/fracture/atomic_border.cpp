@@ -40,8 +40,12 @@ private:
 } // namespace
 
 CriterionType atomic_border() {
-  return {"atomic-border", "|difference of the forces that the two elements apply, across the border|", "N",
-          Cell::Borders, true, "separate",
+  return {"atomic-border",
+          "|difference of the forces that the two elements apply, across the border|",
+          "N",
+          Cell::Borders,
+          true,
+          "separate",
           [](EmbeddedMap& map) -> std::unique_ptr<Criterion> { return std::make_unique<AtomicBorder>(map); }};
 }
 

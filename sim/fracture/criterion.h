@@ -42,7 +42,7 @@ enum class Cell { Borders, Vertices, Elements, Springs };
 struct CriterionType {
   std::string name, what, unit;
   Cell cell;
-  bool elementary;            // needs the forces of each element by itself
+  bool elementary; // needs the forces of each element by itself
   std::string default_change;
   std::unique_ptr<Criterion> (*make)(EmbeddedMap&);
 };

@@ -36,7 +36,8 @@ public:
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     const std::size_t vertices = view.map.cells(Vertex).slots();
     norm_.resize(vertices);
-    if (2 * norms(view.force, vertices, norm_.data()) <= threshold) return; // an edge needs one end above half of it
+    if (2 * norms(view.force, vertices, norm_.data()) <= threshold)
+      return; // an edge needs one end above half of it
     const PackedRows& rows = borders_.rows();
     const std::uint32_t *a = rows.index(0), *b = rows.index(1);
     rows.for_each([&](std::size_t key, std::size_t row) {
@@ -60,8 +61,12 @@ private:
 } // namespace
 
 CriterionType global_border() {
-  return {"global-border", "|sum of the internal forces of the shared vertices, across the border|", "N", Cell::Borders,
-          false, "separate",
+  return {"global-border",
+          "|sum of the internal forces of the shared vertices, across the border|",
+          "N",
+          Cell::Borders,
+          false,
+          "separate",
           [](EmbeddedMap& map) -> std::unique_ptr<Criterion> { return std::make_unique<GlobalBorder>(map); }};
 }
 

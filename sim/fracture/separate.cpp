@@ -5,7 +5,9 @@
 namespace rend {
 
 ChangeType separate() {
-  return {"separate", "the two elements at the border let go of each other", {Cell::Borders},
+  return {"separate",
+          "the two elements at the border let go of each other",
+          {Cell::Borders},
           [](Edit& edit, const ForceView&, const Candidate& candidate) {
             return unsew(edit, edit.map().dimension(), candidate.dart);
           }};

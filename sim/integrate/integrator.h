@@ -13,8 +13,8 @@ class Integrator {
 public:
   virtual ~Integrator() = default;
 
-  // One step from `now` at `time` over `step` into `next` (resized by the caller). `force` holds the internal forces
-  // of `now`, which the laws have looked at already: no scheme pays an evaluation for them.
+  // One step from `now` at `time` over `step` into `next` (resized by the caller). `force` holds the internal
+  // forces of `now`, which the laws have looked at already: no scheme pays an evaluation for them.
   virtual void advance(System& system, double time, double step, const StateView& now, const Record* force,
                        State& next) = 0;
 };
@@ -29,8 +29,8 @@ struct StabilityBounds {
 struct Scheme {
   std::string name, what;
   int order = 1;
-  int evaluations = 1;                       // of the forces, a step
-  double (*limit)(const StabilityBounds&);   // a stable step [s]; 0: there is none; infinity: all are
+  int evaluations = 1;                     // of the forces, a step
+  double (*limit)(const StabilityBounds&); // a stable step [s]; 0: there is none; infinity: all are
   std::unique_ptr<Integrator> (*make)();
 };
 
@@ -44,7 +44,7 @@ Scheme midpoint();
 Scheme runge_kutta_4();
 
 // Limits that schemes share. With ω and d = ξω bounded separately, since they belong to different modes:
-double limit_symplectic(const StabilityBounds& bounds);  // 2/(√(ω²+d²) + d)
-double limit_by_drag(const StabilityBounds& bounds);     // 2d/ω² with the least d, and 1/d with the largest
+double limit_symplectic(const StabilityBounds& bounds); // 2/(√(ω²+d²) + d)
+double limit_by_drag(const StabilityBounds& bounds);    // 2d/ω² with the least d, and 1/d with the largest
 
 } // namespace rend

@@ -20,8 +20,8 @@ struct Sums {
   std::vector<Record> velocity, acceleration; // [m/s], [m/s²]
 };
 
-// Adds the derivative at a stage (its forces, its velocities) with its weight; the first stage sets the sums. Then
-// goes on to the next stage, at `ahead` from the start; it may be the stage itself.
+// Adds the derivative at a stage (its forces, its velocities) with its weight; the first stage sets the sums.
+// Then goes on to the next stage, at `ahead` from the start; it may be the stage itself.
 template <bool first>
 REND_INLINE void collect(const System& system, std::size_t count, const Record* force, const Record* velocity,
                          double weight, const StateView& now, double ahead, Sums& sums, State& stage) {
@@ -34,12 +34,12 @@ REND_INLINE void collect(const System& system, std::size_t count, const Record* 
     store(stage.velocity[i], load(now.velocity[i]) + h * a);
   }
 }
-REND_CLONES void collect_first(const System& system, std::size_t count, const Record* force, const StateView& now,
-                               double ahead, Sums& sums, State& stage) {
+REND_CLONES void collect_first(const System& system, std::size_t count, const Record* force,
+                               const StateView& now, double ahead, Sums& sums, State& stage) {
   collect<true>(system, count, force, now.velocity, 1, now, ahead, sums, stage);
 }
-REND_CLONES void collect_middle(const System& system, std::size_t count, const Record* force, const StateView& now,
-                                double ahead, Sums& sums, State& stage) {
+REND_CLONES void collect_middle(const System& system, std::size_t count, const Record* force,
+                                const StateView& now, double ahead, Sums& sums, State& stage) {
   collect<false>(system, count, force, stage.velocity.data(), 2, now, ahead, sums, stage);
 }
 REND_CLONES void finish(const System& system, std::size_t count, const Record* force, const StateView& now,
@@ -89,8 +89,9 @@ double limit(const StabilityBounds& b) {
 } // namespace
 
 Scheme runge_kutta_4() {
-  return {"rk4", "the classical Runge-Kutta scheme", 4, 4, &limit,
-          []() -> std::unique_ptr<Integrator> { return std::make_unique<RungeKutta4>(); }};
+  return {"rk4",  "the classical Runge-Kutta scheme",
+          4,      4,
+          &limit, []() -> std::unique_ptr<Integrator> { return std::make_unique<RungeKutta4>(); }};
 }
 
 } // namespace rend

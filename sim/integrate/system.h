@@ -1,4 +1,5 @@
-// What a time scheme may ask of a body: m dv/dt = f(x, v) + m g − γ v + loads, dx/dt = v, with some vertices prescribed.
+// What a time scheme may ask of a body: m dv/dt = f(x, v) + m g − γ v + loads, dx/dt = v, with some vertices
+// prescribed.
 #pragma once
 
 #include "sim/base/simd.h"

@@ -45,7 +45,11 @@ class VelocityVerlet final : public Integrator {
 } // namespace
 
 Scheme velocity_verlet() {
-  return {"verlet", "velocity Verlet, damping at the predicted velocity", 2, 2, &limit_symplectic,
+  return {"verlet",
+          "velocity Verlet, damping at the predicted velocity",
+          2,
+          2,
+          &limit_symplectic,
           []() -> std::unique_ptr<Integrator> { return std::make_unique<VelocityVerlet>(); }};
 }
 

@@ -21,11 +21,8 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
     request.notes.push_back("bend was left out: no edge lies between two faces");
     return nullptr;
   }
-  const Pattern pattern{.owner = EdgeOfVolume,
-                        .support = FaceOfVolume,
-                        .units = {hinge},
-                        .fold = {},
-                        .present = &present};
+  const Pattern pattern{
+      .owner = EdgeOfVolume, .support = FaceOfVolume, .units = {hinge}, .fold = {}, .present = &present};
   const StiffnessOf k = stiffness_of(request, nullptr);
   const double damping = request.node.number("damping");
   return make_interaction<1>(map, "bend angular", Law::Hinge, pattern, damping,

@@ -35,7 +35,8 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
 } // namespace
 
 InteractionType bend_provot() {
-  return {"bend", "provot", "springs between the far ends of the edges that continue across an edge", "N/m", make};
+  return {"bend", "provot", "springs between the far ends of the edges that continue across an edge", "N/m",
+          make};
 }
 
 } // namespace rend

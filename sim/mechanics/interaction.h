@@ -28,7 +28,7 @@ struct Pattern {
   // Owners whose units may act between the same particles: their rows fold into one, that of the smallest slot.
   // Each word is a palindrome or a single link, so that the relation goes both ways.
   std::vector<Word> fold;
-  bool (*present)(const GMap&, Dart);   // is the pattern there? (an injective match; else the owner is silent)
+  bool (*present)(const GMap&, Dart); // is the pattern there? (an injective match; else the owner is silent)
 };
 
 // Of one unit, or of several folded into one (k and damping summed, the rest state is common).
@@ -39,7 +39,9 @@ struct UnitParameters {
 };
 
 enum class Law { Spring, Hinge };
-constexpr int particles_of(Law law) { return law == Law::Spring ? 2 : 8; }
+constexpr int particles_of(Law law) {
+  return law == Law::Spring ? 2 : 8;
+}
 
 class Interaction {
 public:
@@ -86,8 +88,7 @@ void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f);
 std::vector<Vec3> rest_positions(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit);
 
 // The embedding of an interaction's parameters: born from rest positions and stiffness; a fragment keeps them.
-template <int Units>
-struct UnitEmbedding {
+template <int Units> struct UnitEmbedding {
   using Value = std::array<UnitParameters, Units>;
   std::string name;
   Orbit orbit, support;
@@ -102,9 +103,9 @@ struct UnitEmbedding {
 
 // Puts an interaction together from its parts.
 template <int Units>
-std::unique_ptr<Interaction> make_interaction(EmbeddedMap& map, std::string name, Law law, Pattern pattern,
-                                              double damping,
-                                              std::function<UnitParameters(const EmbeddedMap&, Dart, int)> bear) {
+std::unique_ptr<Interaction>
+make_interaction(EmbeddedMap& map, std::string name, Law law, Pattern pattern, double damping,
+                 std::function<UnitParameters(const EmbeddedMap&, Dart, int)> bear) {
   struct Carried final : Interaction {
     const Column<UnitEmbedding<Units>>* column = nullptr;
     UnitParameters parameters(Slot owner, int unit) const override {

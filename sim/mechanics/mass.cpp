@@ -38,8 +38,7 @@ double CornerDrag::birth(const EmbeddedMap& map, Dart d) const {
 namespace {
 
 // Calls f(corner slot, dart) for every corner in the order of smallest darts.
-template <class F>
-void each_corner(const EmbeddedMap& map, Orbit corner, F&& f) {
+template <class F> void each_corner(const EmbeddedMap& map, Orbit corner, F&& f) {
   const CellIndex& cells = map.cells(corner);
   map.map().for_each_dart([&](Dart d) {
     const Slot slot = cells.slot(d);
@@ -72,8 +71,9 @@ Vec3 total_angular_momentum(const EmbeddedMap& map, const MassColumn& mass) {
 
 double kinetic_energy(const EmbeddedMap& map, const MassColumn& mass) {
   double sum = 0;
-  each_corner(map, mass.orbit(),
-              [&](Slot c, Dart d) { sum += 0.5 * mass[c] * map.velocity()[map.vertex(d)].vec().squaredNorm(); });
+  each_corner(map, mass.orbit(), [&](Slot c, Dart d) {
+    sum += 0.5 * mass[c] * map.velocity()[map.vertex(d)].vec().squaredNorm();
+  });
   return sum;
 }
 

@@ -9,10 +9,15 @@
 namespace rend {
 
 // Where an element's corner is: <1> on a sheet, <1,2> in a solid; and the element itself.
-constexpr Orbit corner_orbit(int dimension) { return dimension == 2 ? VertexOfFace : VertexOfVolume; }
-constexpr Orbit element_orbit(int dimension) { return dimension == 2 ? FaceOfVolume : Volume; }
+constexpr Orbit corner_orbit(int dimension) {
+  return dimension == 2 ? VertexOfFace : VertexOfVolume;
+}
+constexpr Orbit element_orbit(int dimension) {
+  return dimension == 2 ? FaceOfVolume : Volume;
+}
 
-double rest_area(const EmbeddedMap& map, Dart d); // [m²], of the face of d (a warped one: of its fan from the centre)
+double rest_area(const EmbeddedMap& map,
+                 Dart d); // [m²], of the face of d (a warped one: of its fan from the centre)
 
 // Element mass / number of corners [kg].
 struct CornerMass {
@@ -40,9 +45,10 @@ using DragColumn = Column<CornerDrag>;
 
 // Sums over corners in the order of their smallest darts.
 double total_mass(const EmbeddedMap& map, const MassColumn& mass);
-Vec3 total_momentum(const EmbeddedMap& map, const MassColumn& mass);          // Σ m v [kg·m/s]
-Vec3 total_angular_momentum(const EmbeddedMap& map, const MassColumn& mass);  // Σ m x × v [kg·m²/s], about the origin
-double kinetic_energy(const EmbeddedMap& map, const MassColumn& mass);        // [J]
+Vec3 total_momentum(const EmbeddedMap& map, const MassColumn& mass); // Σ m v [kg·m/s]
+Vec3 total_angular_momentum(const EmbeddedMap& map,
+                            const MassColumn& mass); // Σ m x × v [kg·m²/s], about the origin
+double kinetic_energy(const EmbeddedMap& map, const MassColumn& mass);                      // [J]
 double gravity_energy(const EmbeddedMap& map, const MassColumn& mass, const Vec3& gravity); // [J]
 
 // The sum of a corner column over the corners of a vertex, in the order of their smallest darts.

@@ -25,7 +25,8 @@ const std::vector<Word> across_corner{"0", "10"};
 
 std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionRequest& request) {
   if (!has_face(map, 4, 4)) {
-    request.notes.push_back("shear was left out: no face is a quad, and a triangle keeps its angles by its sides");
+    request.notes.push_back(
+        "shear was left out: no face is a quad, and a triangle keeps its angles by its sides");
     return nullptr;
   }
   Pattern pattern{.owner = FaceOfVolume,
@@ -36,11 +37,11 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
   if (map.dimension() == 3) pattern.fold.push_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.node.number("damping");
-  return make_interaction<2>(map, "shear isotropic", Law::Spring, pattern, damping,
-                             [=](const EmbeddedMap& body, Dart d, int unit) {
-                               if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
-                               return along(body, d, diagonals[static_cast<std::size_t>(unit)], k(body, d), damping);
-                             });
+  return make_interaction<2>(
+      map, "shear isotropic", Law::Spring, pattern, damping, [=](const EmbeddedMap& body, Dart d, int unit) {
+        if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
+        return along(body, d, diagonals[static_cast<std::size_t>(unit)], k(body, d), damping);
+      });
 }
 
 // Whether the corner of d carries a spring: every corner of a pentagon and more, of a quad the corner of its
@@ -76,7 +77,8 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
 } // namespace
 
 InteractionType shear_face_isotropic() {
-  return {"shear", "isotropic", "springs along both diagonals of each quad, one stiffness", "N/m", make_isotropic};
+  return {"shear", "isotropic", "springs along both diagonals of each quad, one stiffness", "N/m",
+          make_isotropic};
 }
 InteractionType shear_face_anisotropic() {
   return {"shear", "anisotropic", "a spring across each corner, each with its own stiffness", "N/m",

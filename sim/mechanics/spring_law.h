@@ -12,7 +12,8 @@
 
 namespace rend {
 
-inline Vec3 spring_force(const UnitParameters& p, const Vec3& xi, const Vec3& xj, const Vec3& vi, const Vec3& vj) {
+inline Vec3 spring_force(const UnitParameters& p, const Vec3& xi, const Vec3& xj, const Vec3& vi,
+                         const Vec3& vj) {
   const Vec3 d = xj - xi;
   const double length = std::sqrt(d.x() * d.x() + d.y() * d.y() + d.z() * d.z());
   if (length == 0) return Vec3::Zero();

@@ -14,17 +14,18 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
   if (map.dimension() == 3) pattern.fold.push_back("3");
   const StiffnessOf k = stiffness_of(request, &edge_stiffness);
   const double damping = request.node.number("damping");
-  return make_interaction<1>(map, "stretch", Law::Spring, pattern, damping,
-                             [=](const EmbeddedMap& body, Dart d, int) {
-                               const Dart e = body.map().alpha(0, d);
-                               return UnitParameters{k(body, d), damping, (body.rest_of(e) - body.rest_of(d)).norm()};
-                             });
+  return make_interaction<1>(
+      map, "stretch", Law::Spring, pattern, damping, [=](const EmbeddedMap& body, Dart d, int) {
+        const Dart e = body.map().alpha(0, d);
+        return UnitParameters{k(body, d), damping, (body.rest_of(e) - body.rest_of(d)).norm()};
+      });
 }
 
 } // namespace
 
 InteractionType stretch() {
-  return {"stretch", "", "a spring along each side of each face; an edge between two faces carries two", "N/m", make};
+  return {"stretch", "", "a spring along each side of each face; an edge between two faces carries two", "N/m",
+          make};
 }
 
 } // namespace rend

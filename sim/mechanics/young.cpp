@@ -78,9 +78,10 @@ StiffnessOf stiffness_of(const InteractionRequest& request, StiffnessFormula for
     try {
       return formula(material, map, d);
     } catch (const std::domain_error& error) {
-      throw UserError(Exit::BadInput, place, error.what(),
-                      "a quad's edge may be at most w·sqrt(3·poisson + 2) long, a triangle must not be too obtuse: "
-                      "use other cells, or give k");
+      throw UserError(
+          Exit::BadInput, place, error.what(),
+          "a quad's edge may be at most w·sqrt(3·poisson + 2) long, a triangle must not be too obtuse: "
+          "use other cells, or give k");
     }
   };
 }

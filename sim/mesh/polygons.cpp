@@ -24,7 +24,8 @@ void check(const PolygonMesh& mesh) {
     const auto begin = mesh.corners.begin() + mesh.first[p], end = mesh.corners.begin() + mesh.first[p + 1];
     if (end - begin < 3) refuse(p, "has fewer than three corners");
     for (auto c = begin; c != end; ++c) {
-      if (*c >= mesh.points.size()) refuse(p, fmt::format("has a corner {}, and there are {} points", *c, mesh.points.size()));
+      if (*c >= mesh.points.size())
+        refuse(p, fmt::format("has a corner {}, and there are {} points", *c, mesh.points.size()));
       if (std::find(begin, c, *c) != c) refuse(p, fmt::format("meets point {} twice", *c));
     }
   }
@@ -71,8 +72,9 @@ void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const Sides& sides) {
       const bool turned = mesh.corners[s] != mesh.corners[t];
       const Dart mine{2 * s}, theirs{2 * t + (turned ? 1u : 0u)};
       if (!edit.map().is_free(2, mine) || !edit.map().is_free(2, theirs))
-        refuse(sides.polygon[s], fmt::format("shares the edge between points {} and {} with more than one other",
-                                             mesh.corners[s], sides.end[s]));
+        refuse(sides.polygon[s],
+               fmt::format("shares the edge between points {} and {} with more than one other", mesh.corners[s],
+                           sides.end[s]));
       edit.link(2, mine, theirs);
       edit.link(2, edit.map().alpha(0, mine), edit.map().alpha(0, theirs));
     }

@@ -21,7 +21,8 @@ Vec3 point_at(const SheetShape& shape, double s, double t) {
   const double across = (t - 0.5) * shape.ly; // from the middle of the band
   if (shape.closure == SheetClosure::Loop) return radius * outwards + Vec3(0, across, 0);
   const double half = 180 * s; // the strip makes half a turn about its middle line on the way around
-  return radius * outwards + across * (cosine_of_degrees(half) * Vec3(0, 1, 0) + sine_of_degrees(half) * outwards);
+  return radius * outwards +
+         across * (cosine_of_degrees(half) * Vec3(0, 1, 0) + sine_of_degrees(half) * outwards);
 }
 
 class Grid {
@@ -55,8 +56,8 @@ PolygonMesh sheet_polygons(const SheetShape& shape) {
   for (int y = 0; y < shape.ny; ++y) {
     for (int x = 0; x < shape.nx; ++x) {
       const std::uint32_t a = grid(x, y), b = grid(x + 1, y), c = grid(x + 1, y + 1), d = grid(x, y + 1);
-      const bool crossed = shape.pattern == SheetPattern::Crossed ||
-                           (shape.pattern == SheetPattern::Mixed && (x + y) % 2 == 1);
+      const bool crossed =
+          shape.pattern == SheetPattern::Crossed || (shape.pattern == SheetPattern::Mixed && (x + y) % 2 == 1);
       if (crossed) {
         const auto centre = static_cast<std::uint32_t>(mesh.points.size());
         mesh.points.push_back(0.25 * (mesh.points[a] + mesh.points[b] + mesh.points[c] + mesh.points[d]));

@@ -24,7 +24,8 @@ Dart follow_back(const GMap& map, Dart d, const Word& word, std::size_t length) 
 
 } // namespace
 
-Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, bool fold, std::optional<Orbit> corners) {
+Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, bool fold,
+                  std::optional<Orbit> corners) {
   std::vector<Field> fields = particle_fields(interaction.pattern, Vertex);
   const int places = static_cast<int>(fields.size());
   if (corners) {
@@ -112,8 +113,10 @@ void Binder::write(Slot owner) {
         }
       }
     }
-    if (live) rows_.set(key, row.index.data(), row.value.data());
-    else rows_.erase(key);
+    if (live)
+      rows_.set(key, row.index.data(), row.value.data());
+    else
+      rows_.erase(key);
   }
 }
 

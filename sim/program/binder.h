@@ -25,7 +25,8 @@ class Binder {
 public:
   // Rows of an interaction: its particles' vertices, and with `corners` also the element corners that take the
   // forces. With `fold`, units between the same particles share one row.
-  static Binder of(const EmbeddedMap& map, const Interaction& interaction, bool fold, std::optional<Orbit> corners);
+  static Binder of(const EmbeddedMap& map, const Interaction& interaction, bool fold,
+                   std::optional<Orbit> corners);
 
   // Rows of a pattern without parameters (criteria).
   Binder(const EmbeddedMap& map, Pattern pattern, std::vector<Field> fields, int places);
@@ -36,9 +37,9 @@ public:
   int units() const { return static_cast<int>(pattern_.units.size()); }
   Slot owner_of(std::size_t key) const { return static_cast<Slot>(key / pattern_.units.size()); }
 
-  void bind();                          // all owners
-  void rebind(const Changes& changes);  // those that the changes concern
-  void reserve_for_separations();       // see EmbeddedMap
+  void bind();                         // all owners
+  void rebind(const Changes& changes); // those that the changes concern
+  void reserve_for_separations();      // see EmbeddedMap
 
 private:
   struct Row {
@@ -46,7 +47,7 @@ private:
     std::array<double, 3> value;         // k, damping, rest
   };
   bool present(Slot owner) const;
-  bool fill(Slot owner, int unit, Row& row) const;          // indices; false: silent
+  bool fill(Slot owner, int unit, Row& row) const; // indices; false: silent
   bool same_particles(const Row& a, const Row& b) const;
   void find_class(Slot owner, int unit, const Row& row, std::vector<std::size_t>& keys) const;
   void write(Slot owner);

@@ -7,8 +7,7 @@ namespace {
 constexpr int particles = particles_of(Law::Hinge);
 
 // Calls f(row, forces of the eight) for the rows of a block.
-template <class F>
-void each_hinge(const KernelArguments& a, std::size_t block, F&& f) {
+template <class F> void each_hinge(const KernelArguments& a, std::size_t block, F&& f) {
   const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.rows_in(block);
   for (std::size_t at = begin; at < end; ++at) {
     HingePoints x, v;
@@ -20,7 +19,9 @@ void each_hinge(const KernelArguments& a, std::size_t block, F&& f) {
   }
 }
 
-void add(Record& to, const Vec3& force) { to = Record(to.vec() + force); }
+void add(Record& to, const Vec3& force) {
+  to = Record(to.vec() + force);
+}
 
 } // namespace
 
@@ -40,7 +41,8 @@ void hinge_forces(const KernelArguments& a) {
 void hinge_corner_forces(const KernelArguments& a) {
   for (std::size_t block = a.first; block < a.last; ++block)
     each_hinge(a, block, [&](std::size_t at, const HingePoints& force) {
-      for (int p = 0; p < particles; ++p) add(a.force[a.rows.index(particles + p)[at]], force[static_cast<std::size_t>(p)]);
+      for (int p = 0; p < particles; ++p)
+        add(a.force[a.rows.index(particles + p)[at]], force[static_cast<std::size_t>(p)]);
     });
 }
 

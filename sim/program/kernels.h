@@ -12,9 +12,9 @@ namespace rend {
 
 struct KernelArguments {
   const PackedRows& rows;
-  const Record* position; // [m], one per vertex slot
-  const Record* velocity; // [m/s], one per vertex slot
-  Record* force;          // [N], one per vertex slot; with corners: one per corner slot
+  const Record* position;  // [m], one per vertex slot
+  const Record* velocity;  // [m/s], one per vertex slot
+  Record* force;           // [N], one per vertex slot; with corners: one per corner slot
   std::uint32_t low, high; // vertex slots to write; ignored with corners
   std::size_t first, last; // blocks of rows to run: [first, last)
 };

@@ -51,7 +51,9 @@ public:
   std::size_t rows_in(std::size_t block) const { return std::popcount(mask_[block]); }
   std::size_t padded_in(std::size_t block) const { return (rows_in(block) + lanes - 1) / lanes * lanes; }
 
-  const std::uint32_t* index(int column) const { return index_[column].data(); } // one per row, gaps between blocks
+  const std::uint32_t* index(int column) const {
+    return index_[column].data();
+  } // one per row, gaps between blocks
   const double* value(int column) const { return value_[column].data(); }
 
   // Smallest and largest vertex slot that rows of the block write to.
@@ -62,8 +64,7 @@ public:
   Range range(std::size_t block) const { return range_[block]; }
 
   // Calls f(key, row) for every live row in the order of rows.
-  template <class F>
-  void for_each(F&& f) const {
+  template <class F> void for_each(F&& f) const {
     for (std::size_t block = 0; block < mask_.size(); ++block) {
       std::size_t at = block * block_size;
       for (std::uint64_t rest = mask_[block]; rest; rest &= rest - 1)
@@ -89,11 +90,11 @@ private:
 
   int places_;
   std::size_t keys_ = 0;
-  std::vector<std::uint64_t> mask_;                // one per block
-  std::vector<Range> range_;                       // one per block
-  std::vector<std::vector<std::uint32_t>> index_;  // [column][row]
-  std::vector<std::vector<double>> value_;         // [column][row]
-  std::vector<std::size_t> dirty_;                 // blocks to be sealed
+  std::vector<std::uint64_t> mask_;               // one per block
+  std::vector<Range> range_;                      // one per block
+  std::vector<std::vector<std::uint32_t>> index_; // [column][row]
+  std::vector<std::vector<double>> value_;        // [column][row]
+  std::vector<std::size_t> dirty_;                // blocks to be sealed
 };
 
 } // namespace rend

@@ -26,9 +26,13 @@ Program::Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction
   map.subscribe(changes_);
 }
 
-Program::~Program() { map_->unsubscribe(changes_); }
+Program::~Program() {
+  map_->unsubscribe(changes_);
+}
 
-int Program::parts() const { return vertices() < 4096 ? 1 : options_.threads; }
+int Program::parts() const {
+  return vertices() < 4096 ? 1 : options_.threads;
+}
 
 void Program::weigh(Slot vertex) {
   const CellIndex& vertices = map_->cells(Vertex);
@@ -36,7 +40,8 @@ void Program::weigh(Slot vertex) {
   if (vertices.alive(vertex)) {
     const double m = sum_at_vertex(*map_, mass_->orbit(), mass_->values(), vertices.first_dart(vertex));
     if (m > 0) inverse = 1 / m;
-    if (drag_) rate = inverse * sum_at_vertex(*map_, drag_->orbit(), drag_->values(), vertices.first_dart(vertex));
+    if (drag_)
+      rate = inverse * sum_at_vertex(*map_, drag_->orbit(), drag_->values(), vertices.first_dart(vertex));
   }
   inverse_mass_[vertex] = inverse;
   if (drag_) drag_rate_[vertex] = rate;
@@ -107,25 +112,35 @@ void Program::forces(const Record* position, const Record* velocity, Record* for
       }
       for (const Binder& binder : binders) {
         const std::size_t blocks = binder.rows().blocks();
-        const KernelArguments arguments{binder.rows(), position, velocity, force,
-                                        static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
-                                        blocks * tile / tiles, blocks * (tile + 1) / tiles};
-        if (binder.interaction()->law == Law::Spring) spring_forces(arguments, binder.interaction()->damped);
-        else hinge_forces(arguments);
+        const KernelArguments arguments{binder.rows(),
+                                        position,
+                                        velocity,
+                                        force,
+                                        static_cast<std::uint32_t>(begin),
+                                        static_cast<std::uint32_t>(end),
+                                        blocks * tile / tiles,
+                                        blocks * (tile + 1) / tiles};
+        if (binder.interaction()->law == Law::Spring)
+          spring_forces(arguments, binder.interaction()->damped);
+        else
+          hinge_forces(arguments);
       }
     }
     clear_to(end);
   });
 }
 
-void Program::corner_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const {
+void Program::corner_forces(const Record* position, const Record* velocity, Record* corner,
+                            Record* force) const {
   if (options_.walk) return walk_forces(position, velocity, corner, force);
   std::memset(static_cast<void*>(corner), 0, corner_vertex_.size() * sizeof(Record));
   std::memset(static_cast<void*>(force), 0, vertices() * sizeof(Record));
   for (const Binder& binder : elementary_) {
     const KernelArguments arguments{binder.rows(), position, velocity, corner, 0, 0, 0, binder.rows().blocks()};
-    if (binder.interaction()->law == Law::Spring) spring_corner_forces(arguments, binder.interaction()->damped);
-    else hinge_corner_forces(arguments);
+    if (binder.interaction()->law == Law::Spring)
+      spring_corner_forces(arguments, binder.interaction()->damped);
+    else
+      hinge_corner_forces(arguments);
   }
   for (Slot c = 0; c < corner_vertex_.size(); ++c) {
     if (corner_vertex_[c] == no_slot) continue;
@@ -194,7 +209,8 @@ double Program::elastic_energy(const Record* x) const {
         sum += spring_energy(p, x[rows.index(0)[row]], x[rows.index(1)[row]]);
       } else {
         HingePoints points;
-        for (int n = 0; n < particles_of(Law::Hinge); ++n) points[static_cast<std::size_t>(n)] = x[rows.index(n)[row]];
+        for (int n = 0; n < particles_of(Law::Hinge); ++n)
+          points[static_cast<std::size_t>(n)] = x[rows.index(n)[row]];
         sum += hinge_energy(p, points);
       }
     });
@@ -253,8 +269,8 @@ Program::Bounds Program::frequency_bounds() const {
 }
 
 std::size_t Program::bytes() const {
-  std::size_t total = (inverse_mass_.size() + drag_rate_.size()) * sizeof(double) +
-                      corner_vertex_.size() * sizeof(Slot);
+  std::size_t total =
+      (inverse_mass_.size() + drag_rate_.size()) * sizeof(double) + corner_vertex_.size() * sizeof(Slot);
   for (const Binder& binder : folded_) total += binder.rows().bytes();
   for (const Binder& binder : elementary_) total += binder.rows().bytes();
   return total;
@@ -269,7 +285,8 @@ bool Program::same_as(const Program& other) const {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
   };
   return same(folded_, other.folded_) && same(elementary_, other.elementary_) &&
-         corner_vertex_ == other.corner_vertex_ && same_bytes(inverse_mass_, other.inverse_mass_) && same_bytes(drag_rate_, other.drag_rate_);
+         corner_vertex_ == other.corner_vertex_ && same_bytes(inverse_mass_, other.inverse_mass_) &&
+         same_bytes(drag_rate_, other.drag_rate_);
 }
 
 } // namespace rend

@@ -27,8 +27,8 @@ struct ProgramOptions {
 
 class Program {
 public:
-  Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction>>& interactions, const MassColumn& mass,
-          const DragColumn* drag, const ProgramOptions& options);
+  Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction>>& interactions,
+          const MassColumn& mass, const DragColumn* drag, const ProgramOptions& options);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -45,8 +45,8 @@ public:
   void rebind(); // after edits; does nothing where there were none
   void reserve_for_separations();
 
-  std::size_t vertices() const { return inverse_mass_.size(); }            // slots
-  const double* inverse_mass() const { return inverse_mass_.data(); }      // [1/kg], 0: free slot
+  std::size_t vertices() const { return inverse_mass_.size(); }                   // slots
+  const double* inverse_mass() const { return inverse_mass_.data(); }             // [1/kg], 0: free slot
   const double* drag_rate() const { return drag_ ? drag_rate_.data() : nullptr; } // [1/s], or null
 
   double elastic_energy(const Record* position) const; // [J], where the interactions have one
@@ -78,8 +78,9 @@ private:
   Changes changes_;
   std::vector<Binder> folded_, elementary_;
   std::vector<double> inverse_mass_; // [1/kg], one per vertex slot
-  std::vector<Slot> corner_vertex_;  // of every element corner slot; no_slot: free; empty without elementary rows
-  std::vector<double> drag_rate_;    // γ/m [1/s], one per vertex slot; empty without drag
+  std::vector<Slot>
+      corner_vertex_;             // of every element corner slot; no_slot: free; empty without elementary rows
+  std::vector<double> drag_rate_; // γ/m [1/s], one per vertex slot; empty without drag
 };
 
 } // namespace rend

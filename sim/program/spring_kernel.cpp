@@ -1,5 +1,5 @@
-#include "sim/program/kernels.h"
 #include "sim/base/simd.h"
+#include "sim/program/kernels.h"
 
 namespace rend {
 namespace {
@@ -25,8 +25,7 @@ REND_INLINE Double4 spring_factor(const Double4* d, const KernelArguments& a, co
   return square > 0.0 ? s : Double4{}; // no direction, no force
 }
 
-template <bool damped, bool whole>
-REND_INLINE void run_block(const KernelArguments& a, std::size_t block) {
+template <bool damped, bool whole> REND_INLINE void run_block(const KernelArguments& a, std::size_t block) {
   const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
   const Record* x = a.position;
   for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
@@ -57,19 +56,19 @@ REND_INLINE void fetch_ahead(const PackedRows& rows, std::size_t block) {
   }
 }
 
-template <bool damped>
-REND_INLINE void run(const KernelArguments& a) {
+template <bool damped> REND_INLINE void run(const KernelArguments& a) {
   for (std::size_t block = a.first; block < a.last; ++block) {
     fetch_ahead(a.rows, block);
     const PackedRows::Range range = a.rows.range(block);
     if (range.low >= a.high || range.high < a.low) continue;
-    if (range.low >= a.low && range.high < a.high) run_block<damped, true>(a, block);
-    else run_block<damped, false>(a, block);
+    if (range.low >= a.low && range.high < a.high)
+      run_block<damped, true>(a, block);
+    else
+      run_block<damped, false>(a, block);
   }
 }
 
-template <bool damped>
-REND_INLINE void run_corners(const KernelArguments& a) {
+template <bool damped> REND_INLINE void run_corners(const KernelArguments& a) {
   for (std::size_t block = a.first; block < a.last; ++block) {
     const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
     for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
@@ -87,14 +86,24 @@ REND_INLINE void run_corners(const KernelArguments& a) {
   }
 }
 
-REND_CLONES void run_undamped(const KernelArguments& a) { run<false>(a); }
-REND_CLONES void run_damped(const KernelArguments& a) { run<true>(a); }
-REND_CLONES void run_corners_undamped(const KernelArguments& a) { run_corners<false>(a); }
-REND_CLONES void run_corners_damped(const KernelArguments& a) { run_corners<true>(a); }
+REND_CLONES void run_undamped(const KernelArguments& a) {
+  run<false>(a);
+}
+REND_CLONES void run_damped(const KernelArguments& a) {
+  run<true>(a);
+}
+REND_CLONES void run_corners_undamped(const KernelArguments& a) {
+  run_corners<false>(a);
+}
+REND_CLONES void run_corners_damped(const KernelArguments& a) {
+  run_corners<true>(a);
+}
 
 } // namespace
 
-void spring_forces(const KernelArguments& a, bool damped) { damped ? run_damped(a) : run_undamped(a); }
+void spring_forces(const KernelArguments& a, bool damped) {
+  damped ? run_damped(a) : run_undamped(a);
+}
 void spring_corner_forces(const KernelArguments& a, bool damped) {
   damped ? run_corners_damped(a) : run_corners_undamped(a);
 }

@@ -20,6 +20,8 @@ void in_parts(int parts, std::size_t count, const std::function<void(std::size_t
   });
 }
 
-int hardware_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int hardware_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 } // namespace rend

@@ -54,8 +54,10 @@ void Body::evaluate() {
   drag_rate = program->drag_rate();
   force.resize(vertices());
   const Record *x = map->position().values().data(), *v = map->velocity().values().data();
-  if (corner_force.empty()) program->forces(x, v, force.data());
-  else program->corner_forces(x, v, corner_force.data(), force.data());
+  if (corner_force.empty())
+    program->forces(x, v, force.data());
+  else
+    program->corner_forces(x, v, corner_force.data(), force.data());
 }
 
 int Body::tear(double time, long number, const std::function<void()>& sound) {

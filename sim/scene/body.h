@@ -33,22 +33,22 @@ struct Body final : System {
   const Node* node = nullptr; // of the preset, for those who read more of it (look)
   std::unique_ptr<EmbeddedMap> map;
   MassColumn* mass = nullptr;
-  DragColumn* drag = nullptr;       // null: no viscosity per particle
-  BorderColumn* border = nullptr;   // null: nothing tears
+  DragColumn* drag = nullptr;     // null: no viscosity per particle
+  BorderColumn* border = nullptr; // null: nothing tears
   std::vector<std::unique_ptr<Interaction>> interactions;
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
   std::vector<TearLaw> laws;
   std::optional<FloorContact> floor_contact;
-  std::vector<std::string> notes;   // what the preset's author should know
+  std::vector<std::string> notes;    // what the preset's author should know
   std::vector<std::string> left_out; // what this body does without, and why
 
   std::unique_ptr<Program> program;
   std::unique_ptr<Integrator> integrator;
   std::vector<Record> force;        // internal [N] at the start of the step, one per vertex slot
   std::vector<Record> corner_force; // [N], one per corner slot; empty unless a law looks at elements
-  State next;                       // where the integrator writes: the old state stays whole until the step is kept
-  Changes changes;                  // since constraints and laws were last bound
+  State next;      // where the integrator writes: the old state stays whole until the step is kept
+  Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
 
   ~Body() override;
@@ -62,13 +62,13 @@ struct Body final : System {
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
   void constrain(double time, Record* position, Record* velocity) override;
 
-  void evaluate();                                // force and corner_force of the current state
+  void evaluate(); // force and corner_force of the current state
 
   // Criteria, changes, rebinding; returns how many changes. Before anything is changed, `sound` may throw.
   int tear(double time, long number, const std::function<void()>& sound);
-  void advance(double time, double step);         // the current state to `next`
-  void rebind();                                  // program, constraints, laws
-  void commit();                                  // takes `next`
+  void advance(double time, double step); // the current state to `next`
+  void rebind();                          // program, constraints, laws
+  void commit();                          // takes `next`
 
   double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
 

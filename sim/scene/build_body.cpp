@@ -25,7 +25,8 @@ SheetShape sheet_shape(const Node& node) {
   shape.nx = static_cast<int>(node.integers("cells")[0]);
   shape.ny = static_cast<int>(node.integers("cells")[1]);
   if (24.0 * shape.nx * shape.ny >= Dart::none_value) // the most darts that a cell can have
-    node.fail("cells", fmt::format("{} x {} cells are more than a map of 2^32 darts holds", shape.nx, shape.ny));
+    node.fail("cells",
+              fmt::format("{} x {} cells are more than a map of 2^32 darts holds", shape.nx, shape.ny));
   const bool size = node.given("size"), corners = node.given("corners");
   if (size == corners)
     throw UserError(Exit::BadInput, node.place(),
@@ -61,8 +62,8 @@ Eigen::Matrix3d rotation_about(int axis, double degrees) {
 void place(PolygonMesh& mesh, const Node* node) {
   if (!node) return;
   const Vec3 angles = node->vector("rotate"), shift = node->vector("translate");
-  const Eigen::Matrix3d turn =
-      node->number("scale") * rotation_about(2, angles.z()) * rotation_about(1, angles.y()) * rotation_about(0, angles.x());
+  const Eigen::Matrix3d turn = node->number("scale") * rotation_about(2, angles.z()) *
+                               rotation_about(1, angles.y()) * rotation_about(0, angles.x());
   for (Vec3& x : mesh.points) x = (turn * x).eval() + shift;
 }
 
@@ -74,9 +75,10 @@ void build_mesh(Body& body, const Node& node) {
   for_each_face(*body.map, [&](Dart d) {
     if (rest_area(*body.map, d) > 0) return;
     const Vec3 x = body.map->rest_of(d);
-    throw UserError(Exit::BadInput, sheet.place(),
-                    fmt::format("a cell of the sheet at ({:.4g}, {:.4g}, {:.4g}) has no area", x.x(), x.y(), x.z()),
-                    "move the corners apart");
+    throw UserError(
+        Exit::BadInput, sheet.place(),
+        fmt::format("a cell of the sheet at ({:.4g}, {:.4g}, {:.4g}) has no area", x.x(), x.y(), x.z()),
+        "move the corners apart");
   });
 }
 
@@ -86,7 +88,8 @@ void build_mass(Body& body, const Node& node) {
     throw UserError(Exit::BadInput, node.place(), "<mass> needs either total or density",
                     "total=\"0.1\", or density=\"300\" with thickness=\"0.001\"");
   if (density && !node.given("thickness"))
-    throw UserError(Exit::BadInput, node.place(), "the density of a sheet needs its thickness", "thickness=\"0.001\"");
+    throw UserError(Exit::BadInput, node.place(), "the density of a sheet needs its thickness",
+                    "thickness=\"0.001\"");
   if (total && node.given("thickness"))
     node.fail("thickness", "has no use where the total mass is given", "leave it out, or give the density");
   CornerMass embedding;
@@ -116,7 +119,8 @@ void note_exactness(Body& body, const SpringMaterial& material) {
         1 / (3 * nu + 2), 3 * material.young * (1 + 3 * nu) / (2 * (2 + 3 * nu))));
   if (triangles)
     body.notes.push_back(
-        "springs on triangles give young and poisson back for equilateral ones at poisson 1/3 alone: squares halved "
+        "springs on triangles give young and poisson back for equilateral ones at poisson 1/3 alone: squares "
+        "halved "
         "along one diagonal then behave, along their sides, as with poisson 0 and 1.125 times young");
 }
 
@@ -129,15 +133,18 @@ void build_springs(Body& body, const Node& node) {
     note_exactness(body, *material);
   }
   for (const char* name : {"poisson", "thickness"})
-    if (!material && node.given(name)) node.fail(name, "has no use without young", "give young, or leave it out");
+    if (!material && node.given(name))
+      node.fail(name, "has no use without young", "give young, or leave it out");
   const std::string& fold = node.text("cumulated");
   body.cumulated = fold == "auto" ? Cumulated::Auto : fold == "yes" ? Cumulated::Yes : Cumulated::No;
   for (const auto& child : node.children()) {
     for (const InteractionType& type : all_interactions()) {
       if (type.element != child->name() || (!type.kind.empty() && child->text("kind") != type.kind)) continue;
       std::vector<std::string> why_not;
-      if (auto made = type.make(*body.map, {*child, material, why_not})) body.interactions.push_back(std::move(made));
-      for (auto* list : {&body.left_out, &body.notes}) list->insert(list->end(), why_not.begin(), why_not.end());
+      if (auto made = type.make(*body.map, {*child, material, why_not}))
+        body.interactions.push_back(std::move(made));
+      for (auto* list : {&body.left_out, &body.notes})
+        list->insert(list->end(), why_not.begin(), why_not.end());
     }
   }
 }
@@ -167,7 +174,8 @@ Motion motion_of(const Node& node) {
   if (node.given("velocity")) motion.velocity = node.vector("velocity");
   if (node.given("displacement")) motion.displacement = node.vector("displacement");
   if (node.given("gradient"))
-    motion.gradient = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(node.numbers("gradient").data());
+    motion.gradient =
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(node.numbers("gradient").data());
   motion.from = node.number("from");
   if (node.given("until")) motion.until = node.number("until");
   if (motion.until < motion.from) node.fail("until", "the drive ends before it starts");

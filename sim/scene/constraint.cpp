@@ -14,7 +14,8 @@ Vec3 Motion::offset(const Vec3& rest, double time) const {
 }
 
 Vec3 Motion::velocity_at(const Vec3& rest, double time) const {
-  const bool over = then_free ? time > until : time >= until; // who is let go at `until` leaves with the drive's speed
+  const bool over =
+      then_free ? time > until : time >= until; // who is let go at `until` leaves with the drive's speed
   if (time < from || over) return Vec3::Zero();
   Vec3 v = velocity;
   if (!std::isinf(until) && until > from) v += (displacement + gradient * rest) / (until - from);

@@ -5,9 +5,9 @@
 //   velocity V    x = X + V s             s = clamp(t, from, until) − from
 //   displacement  x = X + D s/(until − from)
 //   gradient G    x = X + G X s/(until − from)
-// With until infinite, or equal to from, displacement and gradient are reached at `from`. Before `from` a driven vertex
-// is held at X; after `until` it is held where it is, or let go with the speed it has (then = free). Which motions a vertex obeys is embedded on it, and
-// every fragment of a split vertex obeys them too.
+// With until infinite, or equal to from, displacement and gradient are reached at `from`. Before `from` a
+// driven vertex is held at X; after `until` it is held where it is, or let go with the speed it has (then =
+// free). Which motions a vertex obeys is embedded on it, and every fragment of a split vertex obeys them too.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -19,14 +19,14 @@ namespace rend {
 
 struct Motion {
   std::array<bool, 3> axes{true, true, true};
-  Vec3 velocity = Vec3::Zero();                      // [m/s]
-  Vec3 displacement = Vec3::Zero();                  // [m]
+  Vec3 velocity = Vec3::Zero();     // [m/s]
+  Vec3 displacement = Vec3::Zero(); // [m]
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   bool then_free = false;
 
   bool acts(double time) const { return !then_free || time <= until; }
-  Vec3 offset(const Vec3& rest, double time) const;   // x − X
+  Vec3 offset(const Vec3& rest, double time) const; // x − X
   Vec3 velocity_at(const Vec3& rest, double time) const;
 };
 

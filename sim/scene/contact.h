@@ -1,6 +1,6 @@
-// Contact with the floor: a vertex that would pass it is put on it, loses what speed it has towards it, and is slowed
-// along it by at most friction × that loss (Coulomb, as an impulse, at the end of the step). Vertices whose motion is
-// prescribed pass it.
+// Contact with the floor: a vertex that would pass it is put on it, loses what speed it has towards it, and is
+// slowed along it by at most friction × that loss (Coulomb, as an impulse, at the end of the step). Vertices
+// whose motion is prescribed pass it.
 #pragma once
 
 #include "sim/integrate/system.h"

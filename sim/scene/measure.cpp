@@ -6,11 +6,11 @@ namespace rend {
 namespace {
 
 // The largest of value(k, rest length, length) over the springs at each vertex.
-template <class F>
-std::vector<double> largest(const Body& body, F&& value) {
+template <class F> std::vector<double> largest(const Body& body, F&& value) {
   std::vector<double> out(body.program->vertices(), 0);
   const auto& x = body.map->position().values();
-  for (const Binder& binder : body.program->folded().empty() ? body.program->elementary() : body.program->folded()) {
+  for (const Binder& binder :
+       body.program->folded().empty() ? body.program->elementary() : body.program->folded()) {
     if (binder.interaction()->law != Law::Spring) continue;
     const PackedRows& rows = binder.rows();
     rows.for_each([&](std::size_t, std::size_t row) {
@@ -26,7 +26,8 @@ std::vector<double> largest(const Body& body, F&& value) {
 } // namespace
 
 std::vector<double> vertex_strain(const Body& body) {
-  return largest(body, [](double, double rest, double length) { return rest > 0 ? std::abs(length / rest - 1) : 0; });
+  return largest(body,
+                 [](double, double rest, double length) { return rest > 0 ? std::abs(length / rest - 1) : 0; });
 }
 
 std::vector<double> vertex_force(const Body& body) {

@@ -33,7 +33,8 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
   std::set<std::string> names;
   for (const Node* node : preset.all("body")) {
     if (!names.insert(node->text("name")).second)
-      throw UserError(Exit::BadInput, node->place(), fmt::format("two bodies are called '{}'", node->text("name")),
+      throw UserError(Exit::BadInput, node->place(),
+                      fmt::format("two bodies are called '{}'", node->text("name")),
                       "give each a name of its own");
     bodies_.push_back(build_body(*node, world_.gravity, world_.floor));
   }
@@ -52,8 +53,9 @@ void Scene::build_time(const Node& time) {
   step_ = automatic_ ? stable_step(time) : time.number("step");
   if (automatic_ && duration_ > 0) step_ = duration_ / std::ceil(duration_ / step_); // ends where the clip does
   if (const double limit = stability_limit(); !automatic_ && step_ > limit)
-    notes_.push_back(fmt::format("the step of {:.3g} s is above {:.3g} s, up to which '{}' is surely stable here", step_,
-                                 limit, scheme_->name));
+    notes_.push_back(
+        fmt::format("the step of {:.3g} s is above {:.3g} s, up to which '{}' is surely stable here", step_,
+                    limit, scheme_->name));
   if (duration_ / step_ > 1e12)
     time.fail("step", fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration_, step_));
 }
@@ -71,14 +73,18 @@ double Scene::stability_limit() const {
 double Scene::stable_step(const Node& time) const {
   const double limit = stability_limit();
   if (limit <= 0)
-    time.fail("step", fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the surroundings damps every motion", scheme_->name),
+    time.fail("step",
+              fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the "
+                          "surroundings damps every motion",
+                          scheme_->name),
               "use symplectic, verlet or rk4, or add viscosity");
-  if (std::isinf(limit))
-    time.fail("step", "nothing in the scene limits the step", "give a step in seconds");
+  if (std::isinf(limit)) time.fail("step", "nothing in the scene limits the step", "give a step in seconds");
   return 0.9 * limit;
 }
 
-double Scene::time() const { return static_cast<double>(steps_done_) * step_; }
+double Scene::time() const {
+  return static_cast<double>(steps_done_) * step_;
+}
 
 void Scene::step() {
   const bool timed = steps_done_ % sampled == sampled - 1; // not the first, whose caches are cold
@@ -121,7 +127,8 @@ double Scene::tearing_seconds() const {
 
 StageSeconds Scene::seconds() const {
   StageSeconds all = seconds_;
-  const double scale = timed_steps_ > 0 ? static_cast<double>(steps_done_) / static_cast<double>(timed_steps_) : 0;
+  const double scale =
+      timed_steps_ > 0 ? static_cast<double>(steps_done_) / static_cast<double>(timed_steps_) : 0;
   for (double StageSeconds::*stage : {&StageSeconds::forces, &StageSeconds::criteria, &StageSeconds::integrate})
     all.*stage *= scale;
   for (const auto& body : bodies_) {
@@ -145,7 +152,8 @@ void Scene::check_resolved(const Body& body, const Record* velocity) const {
       const Vec3 apart = velocity[rows.index(1)[row]].vec() - velocity[rows.index(0)[row]].vec();
       resolved = resolved && (rest == 0 || apart.norm() * step_ <= rest_lengths * rest);
     });
-    if (!resolved) stop(body, "ends of a " + binder.interaction()->name + " spring pass each other within a step");
+    if (!resolved)
+      stop(body, "ends of a " + binder.interaction()->name + " spring pass each other within a step");
     break; // the first kind will do: neighbours are neighbours
   }
 }
@@ -154,13 +162,15 @@ void Scene::stop(const Body& body, const std::string& what) const {
   const double limit = stability_limit();
   const std::string hint =
       std::isinf(limit) ? std::string{}
-      : limit > 0 ? fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)", limit,
-                              scheme_->name)
-                : fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme_->name);
-  throw Unstable(Exit::Unstable, step_place_,
-                 fmt::format("the simulation was stopped as unstable at {:.6g} s (step {} of {:.3g} s) in body '{}': {}",
-                             time(), steps_done_, step_, body.name, what),
-                 hint);
+      : limit > 0
+          ? fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)",
+                        limit, scheme_->name)
+          : fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme_->name);
+  throw Unstable(
+      Exit::Unstable, step_place_,
+      fmt::format("the simulation was stopped as unstable at {:.6g} s (step {} of {:.3g} s) in body '{}': {}",
+                  time(), steps_done_, step_, body.name, what),
+      hint);
 }
 
 std::size_t Scene::tears() const {

@@ -35,7 +35,7 @@ public:
   const World& world() const { return world_; }
   const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
 
-  double time() const;              // [s]
+  double time() const; // [s]
   long steps_done() const { return steps_done_; }
   double step_size() const { return step_; } // [s]
   double duration() const { return duration_; }
@@ -54,7 +54,7 @@ public:
   double mass() const;
   Vec3 momentum() const;
   Vec3 angular_momentum() const;
-  std::uint64_t hash() const;       // of positions, velocities and topology
+  std::uint64_t hash() const; // of positions, velocities and topology
   StageSeconds seconds() const;
 
 private:
@@ -74,7 +74,7 @@ private:
   bool automatic_ = false;
   long steps_done_ = 0, timed_steps_ = 0;
   std::vector<std::string> notes_;
-  Place step_place_;    // of time.step in the preset
+  Place step_place_; // of time.step in the preset
   StageSeconds seconds_;
 };
 

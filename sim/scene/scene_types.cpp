@@ -54,14 +54,17 @@ ElementType spring_element(const std::string& name) {
     type.what += (type.what.empty() ? "" : "; ") + (interaction.kind.empty() ? "" : interaction.kind + ": ") +
                  interaction.what;
     if (!interaction.kind.empty()) kinds.push_back(interaction.kind);
-    if (unit.find(interaction.k_unit) == std::string::npos) unit += (unit.empty() ? "" : " or ") + interaction.k_unit;
+    if (unit.find(interaction.k_unit) == std::string::npos)
+      unit += (unit.empty() ? "" : " or ") + interaction.k_unit;
   }
   if (!kinds.empty()) {
     const std::string first = kinds.front();
     type.attributes.push_back(word("kind", kinds, "which one").otherwise(first));
   }
-  type.attributes.push_back(number("k", unit, "stiffness of each elementary spring; or by formula from young").above(0));
-  type.attributes.push_back(number("damping", "N.s/m", "along the spring (N.m.s/rad about a hinge)").at_least(0).otherwise("0"));
+  type.attributes.push_back(
+      number("k", unit, "stiffness of each elementary spring; or by formula from young").above(0));
+  type.attributes.push_back(
+      number("damping", "N.s/m", "along the spring (N.m.s/rad about a hinge)").at_least(0).otherwise("0"));
   return type;
 }
 
@@ -73,7 +76,10 @@ const ElementType& springs_type() {
       "springs",
       "masses and springs",
       {number("young", "Pa", "stiffness of stretch and shear by formula instead of k").above(0),
-       number("poisson", "", "Poisson's ratio, for young").at_least(0).at_most(0.5).otherwise("0.3333333333333333"),
+       number("poisson", "", "Poisson's ratio, for young")
+           .at_least(0)
+           .at_most(0.5)
+           .otherwise("0.3333333333333333"),
        number("thickness", "m", "for young").above(0),
        word("cumulated", {"auto", "yes", "no"},
             "fold springs between the same particles into one: auto folds unless a law looks at each by itself")
@@ -83,12 +89,13 @@ const ElementType& springs_type() {
 }
 
 const ElementType& viscosity_type() {
-  static const ElementType type{"viscosity",
-                                "ambient viscosity: a force -value v",
-                                {number("value", "N.s/m", "the coefficient").at_least(0).is_required(),
-                                 word("per", {"particle", "body"}, "each particle's, or shared by the body as its mass is")
-                                     .otherwise("particle")},
-                                {}};
+  static const ElementType type{
+      "viscosity",
+      "ambient viscosity: a force -value v",
+      {number("value", "N.s/m", "the coefficient").at_least(0).is_required(),
+       word("per", {"particle", "body"}, "each particle's, or shared by the body as its mass is")
+           .otherwise("particle")},
+      {}};
   return type;
 }
 
@@ -96,7 +103,8 @@ const ElementType& fix_type() {
   static const ElementType type = [] {
     ElementType t{"fix", "vertices that stay where they are at rest", {}, {}};
     add_selector(t.attributes);
-    t.attributes.push_back(word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates").otherwise("xyz"));
+    t.attributes.push_back(
+        word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates").otherwise("xyz"));
     return t;
   }();
   return type;
@@ -107,12 +115,15 @@ const ElementType& drive_type() {
     ElementType t{"drive", "vertices that move as prescribed", {}, {}};
     add_selector(t.attributes);
     t.attributes.push_back(numbers("velocity", 3, "m/s", "constant velocity"));
-    t.attributes.push_back(numbers("displacement", 3, "m", "moved by so much between from and until (at once, if until is absent)"));
-    t.attributes.push_back(numbers("gradient", 9, "", "u = G X, row after row, reached between from and until"));
+    t.attributes.push_back(numbers("displacement", 3, "m",
+                                   "moved by so much between from and until (at once, if until is absent)"));
+    t.attributes.push_back(
+        numbers("gradient", 9, "", "u = G X, row after row, reached between from and until"));
     t.attributes.push_back(number("from", "s", "held before").at_least(0).otherwise("0"));
     t.attributes.push_back(number("until", "s", "for ever, if absent").at_least(0));
     t.attributes.push_back(word("then", {"hold", "free"}, "after until").otherwise("hold"));
-    t.attributes.push_back(word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates").otherwise("xyz"));
+    t.attributes.push_back(
+        word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates").otherwise("xyz"));
     return t;
   }();
   return type;
@@ -127,15 +138,18 @@ const ElementType& tear_type() {
       what += (what.empty() ? "" : "; ") + c.name + ": " + c.what;
     }
     for (const ChangeType& c : all_changes()) changes.push_back(c.name);
-    return ElementType{"tear",
-                       "a law: where the criterion exceeds the threshold, the change is made",
-                       {word("criterion", criteria, what).is_required(),
-                        number("threshold", "N", "the value above which it tears; rend run --events tells what was reached").above(0).is_required(),
-                        word("change", changes, "what is done; default: that of the criterion"),
-                        number("from", "s", "not before").at_least(0).otherwise("0"),
-                        number("until", "s", "not after").at_least(0),
-                        integer("max-per-step", "the worst so many a step; 0: all").at_least(0).otherwise("0")},
-                       {}};
+    return ElementType{
+        "tear",
+        "a law: where the criterion exceeds the threshold, the change is made",
+        {word("criterion", criteria, what).is_required(),
+         number("threshold", "N", "the value above which it tears; rend run --events tells what was reached")
+             .above(0)
+             .is_required(),
+         word("change", changes, "what is done; default: that of the criterion"),
+         number("from", "s", "not before").at_least(0).otherwise("0"),
+         number("until", "s", "not after").at_least(0),
+         integer("max-per-step", "the worst so many a step; 0: all").at_least(0).otherwise("0")},
+        {}};
   }();
   return type;
 }
@@ -151,13 +165,13 @@ const ElementType& contact_type() {
 }
 
 const ElementType& look_type() {
-  static const ElementType type{"look",
-                                "how the body is drawn",
-                                {text("colour", "#rrggbb").otherwise("#2a7f8e"),
-                                 word("by", {"plain", "strain", "force", "fragment"}, "what the colour shows")
-                                     .otherwise("plain"),
-                                 flag("edges", "draw the edges of cells").otherwise("yes")},
-                                {}};
+  static const ElementType type{
+      "look",
+      "how the body is drawn",
+      {text("colour", "#rrggbb").otherwise("#2a7f8e"),
+       word("by", {"plain", "strain", "force", "fragment"}, "what the colour shows").otherwise("plain"),
+       flag("edges", "draw the edges of cells").otherwise("yes")},
+      {}};
   return type;
 }
 
@@ -181,7 +195,8 @@ const ElementType& body_type() {
 }
 
 const ElementType& world_type() {
-  static const ElementType floor{"floor", "a floor, drawn below the bodies", {number("z", "m", "its height").otherwise("0")}, {}};
+  static const ElementType floor{
+      "floor", "a floor, drawn below the bodies", {number("z", "m", "its height").otherwise("0")}, {}};
   static const ElementType type{"world",
                                 "what surrounds the bodies",
                                 {numbers("gravity", 3, "m/s2", "its acceleration").otherwise("0 0 -9.81")},
@@ -193,12 +208,13 @@ const ElementType& time_type() {
   static const ElementType type = [] {
     std::vector<std::string> names;
     for (const Scheme& scheme : all_schemes()) names.push_back(scheme.name);
-    return ElementType{"time",
-                       "how time goes",
-                       {number_or("step", {"auto"}, "s", "auto: 0.9 of what is stable").above(0).otherwise("auto"),
-                        word("integrator", names, "the scheme").otherwise("symplectic"),
-                        number("duration", "s", "of the clip").at_least(0).is_required()},
-                       {}};
+    return ElementType{
+        "time",
+        "how time goes",
+        {number_or("step", {"auto"}, "s", "auto: 0.9 of what is stable").above(0).otherwise("auto"),
+         word("integrator", names, "the scheme").otherwise("symplectic"),
+         number("duration", "s", "of the clip").at_least(0).is_required()},
+        {}};
   }();
   return type;
 }

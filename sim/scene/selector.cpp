@@ -7,7 +7,8 @@ namespace rend {
 void add_selector(std::vector<AttributeType>& attributes) {
   attributes.push_back(numbers("near", 3, "m", "select the vertex closest to this point"));
   attributes.push_back(numbers("box", 6, "m", "select the vertices in the box x0 y0 z0 x1 y1 z1"));
-  attributes.push_back(word("side", {"-x", "+x", "-y", "+y", "-z", "+z"}, "select the vertices at that end of the body"));
+  attributes.push_back(
+      word("side", {"-x", "+x", "-y", "+y", "-z", "+z"}, "select the vertices at that end of the body"));
   attributes.push_back(flag("all", "select every vertex"));
 }
 
@@ -28,8 +29,7 @@ Bounds bounds_of(const EmbeddedMap& map) {
   return b;
 }
 
-template <class F>
-std::vector<Slot> vertices_where(const EmbeddedMap& map, F&& inside) {
+template <class F> std::vector<Slot> vertices_where(const EmbeddedMap& map, F&& inside) {
   std::vector<Slot> chosen;
   const CellIndex& cells = map.cells(Vertex);
   for (Slot v = 0; v < cells.slots(); ++v)

@@ -13,7 +13,9 @@ Surface::Surface(Body& body) : body_(body), triangles_(5, 0, 0), corners_(3, 0, 
   body.map->subscribe(changes_);
 }
 
-Surface::~Surface() { body_.map->unsubscribe(changes_); }
+Surface::~Surface() {
+  body_.map->unsubscribe(changes_);
+}
 
 std::size_t Surface::most_sides() const {
   const EmbeddedMap& map = *body_.map;
@@ -65,7 +67,8 @@ void Surface::write_face(Slot face) {
     const Side last = static_cast<int>(n) + 3 == sides ? side_of(next) : Side::Inner;
     const Side lead = n == 0 ? side_of(first) : Side::Inner;
     const std::array<std::uint32_t, 5> row{map.vertex(first), map.vertex(at), map.vertex(next),
-                                           static_cast<std::uint32_t>(opposite) | static_cast<std::uint32_t>(last) << 2 |
+                                           static_cast<std::uint32_t>(opposite) |
+                                               static_cast<std::uint32_t>(last) << 2 |
                                                static_cast<std::uint32_t>(lead) << 4,
                                            face};
     triangles_.set(key, row.data(), nullptr);
@@ -147,7 +150,8 @@ void Surface::normals(std::vector<Vec3>& out) const {
   out.assign(x.size(), Vec3::Zero());
   corners_.for_each([&](std::size_t, std::size_t row) {
     const Slot v = corners_.index(0)[row];
-    const Vec3 even = x[corners_.index(1)[row]].vec() - x[v].vec(), odd = x[corners_.index(2)[row]].vec() - x[v].vec();
+    const Vec3 even = x[corners_.index(1)[row]].vec() - x[v].vec(),
+               odd = x[corners_.index(2)[row]].vec() - x[v].vec();
     out[v] += even.cross(odd);
   });
   for (Vec3& normal : out) {

@@ -35,13 +35,13 @@ public:
   std::size_t triangles() const { return triangles_.live_count(); }
 
   // Calls f(Triangle) in the order of rows.
-  template <class F>
-  void for_each_triangle(F&& f) const {
+  template <class F> void for_each_triangle(F&& f) const {
     triangles_.for_each([&](std::size_t, std::size_t row) {
       const std::uint32_t sides = triangles_.index(3)[row];
-      f(Triangle{{triangles_.index(0)[row], triangles_.index(1)[row], triangles_.index(2)[row]},
-                 {static_cast<Side>(sides & 3), static_cast<Side>(sides >> 2 & 3), static_cast<Side>(sides >> 4 & 3)},
-                 triangles_.index(4)[row]});
+      f(Triangle{
+          {triangles_.index(0)[row], triangles_.index(1)[row], triangles_.index(2)[row]},
+          {static_cast<Side>(sides & 3), static_cast<Side>(sides >> 2 & 3), static_cast<Side>(sides >> 4 & 3)},
+          triangles_.index(4)[row]});
     });
   }
 

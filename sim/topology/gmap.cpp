@@ -4,7 +4,9 @@
 
 namespace rend {
 
-GMap::GMap(int dimension) : dimension_(dimension) { CHECK(dimension == 2 || dimension == 3); }
+GMap::GMap(int dimension) : dimension_(dimension) {
+  CHECK(dimension == 2 || dimension == 3);
+}
 
 std::size_t GMap::bytes() const {
   return links_.capacity() * sizeof(Links) + free_.capacity() * sizeof(std::uint32_t);

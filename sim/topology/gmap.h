@@ -29,8 +29,7 @@ public:
   bool alive(Dart d) const { return d.value < links_.size() && links_[d.value][0] != Dart::none_value; }
 
   // Where one gets from d by following `word`, whose letters are '0'..'3', from left to right.
-  template <class Word>
-  Dart follow(Dart d, const Word& word) const {
+  template <class Word> Dart follow(Dart d, const Word& word) const {
     for (auto letter : word) d = alpha(letter - '0', d);
     return d;
   }
@@ -40,8 +39,7 @@ public:
   std::size_t bytes() const;
 
   // Calls f(d) for every dart that is alive, in increasing order.
-  template <class F>
-  void for_each_dart(F&& f) const {
+  template <class F> void for_each_dart(F&& f) const {
     for (std::uint32_t i = 0; i < links_.size(); ++i)
       if (links_[i][0] != Dart::none_value) f(Dart{i});
   }

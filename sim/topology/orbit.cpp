@@ -15,10 +15,22 @@ std::string to_string(Orbit orbit) {
 }
 
 const char* name(Orbit orbit) {
-  static constexpr std::array<const char*, orbit_kinds> names{
-      "SingleDart",      "EdgeOfFace",   "VertexOfFace",   "FaceOfVolume",  "EdgeEndOfVolume", "EdgeOfVolume",
-      "VertexOfVolume",  "Volume",       "DartBothSides",  "EdgeOfFaceBothSides",
-      "VertexOfFaceBothSides", "Face",   "EdgeEnd",        "Edge",          "Vertex",          "Component"};
+  static constexpr std::array<const char*, orbit_kinds> names{"SingleDart",
+                                                              "EdgeOfFace",
+                                                              "VertexOfFace",
+                                                              "FaceOfVolume",
+                                                              "EdgeEndOfVolume",
+                                                              "EdgeOfVolume",
+                                                              "VertexOfVolume",
+                                                              "Volume",
+                                                              "DartBothSides",
+                                                              "EdgeOfFaceBothSides",
+                                                              "VertexOfFaceBothSides",
+                                                              "Face",
+                                                              "EdgeEnd",
+                                                              "Edge",
+                                                              "Vertex",
+                                                              "Component"};
   return names[orbit.mask & 15];
 }
 

@@ -8,7 +8,8 @@ namespace {
 std::optional<Fault> fault_of_links(const GMap& map, Dart d) {
   for (int i = 0; i < 4; ++i) {
     const Dart e = map.alpha(i, d);
-    if (!map.alive(e)) return Fault{d, fmt::format("every link leads to a dart: α{}({}) was removed", i, d.value)};
+    if (!map.alive(e))
+      return Fault{d, fmt::format("every link leads to a dart: α{}({}) was removed", i, d.value)};
     const Dart back = map.alpha(i, e);
     if (back != d)
       return Fault{d, fmt::format("α{0} is an involution: α{0}(α{0}({1})) = {2}", i, d.value, back.value)};
@@ -33,7 +34,9 @@ std::optional<Fault> fault_of_cycles(const GMap& map, Dart d) {
 
 } // namespace
 
-std::string Fault::text() const { return fmt::format("dart {}: {}", dart.value, axiom); }
+std::string Fault::text() const {
+  return fmt::format("dart {}: {}", dart.value, axiom);
+}
 
 std::optional<Fault> validate(const GMap& map) {
   std::optional<Fault> fault;

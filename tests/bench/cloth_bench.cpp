@@ -43,7 +43,8 @@ void flat(benchmark::State& state) {
 BENCHMARK(flat)->Arg(10)->Arg(64)->Arg(100)->Arg(1000);
 
 void walk(benchmark::State& state) {
-  steps(state, presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps), {.walk = true, .threads = 1});
+  steps(state, presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps),
+        {.walk = true, .threads = 1});
 }
 BENCHMARK(walk)->Arg(10)->Arg(100);
 
@@ -132,7 +133,8 @@ void one_separation(benchmark::State& state) {
   std::vector<Dart> edges; // between rows of faces, from the border inwards
   for (int row = cells / 8; row + 1 < cells; row += 3)
     for (int column = 0; column + 3 < cells; ++column)
-      edges.push_back(Dart{static_cast<std::uint32_t>(8 * (row * cells + column) + 4)}); // the upper side of the quad
+      edges.push_back(
+          Dart{static_cast<std::uint32_t>(8 * (row * cells + column) + 4)}); // the upper side of the quad
   std::size_t at = 0;
   for (auto _ : state) {
     if (at == edges.size()) {
@@ -155,7 +157,8 @@ namespace rend {
 namespace {
 // The forces alone, without the rest of the step.
 void forces(benchmark::State& state) {
-  presets::Loaded scene = presets::load(presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps));
+  presets::Loaded scene =
+      presets::load(presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps));
   Body& body = scene.body();
   scene->step();
   for (auto _ : state) body.evaluate();

@@ -54,10 +54,14 @@ public:
   void add(const Spring& spring) {
     units_ = 0;
     pairs_.clear();
-    if (spring.element == "stretch") stretch(spring);
-    else if (spring.kind == "isotropic" || spring.kind == "anisotropic") shear(spring);
-    else if (spring.kind == "provot") provot(spring);
-    else angular(spring);
+    if (spring.element == "stretch")
+      stretch(spring);
+    else if (spring.kind == "isotropic" || spring.kind == "anisotropic")
+      shear(spring);
+    else if (spring.kind == "provot")
+      provot(spring);
+    else
+      angular(spring);
   }
   std::size_t units() const { return units_; }
   std::size_t pairs() const { return pairs_.size(); }
@@ -65,7 +69,8 @@ public:
   // In the order of the body's slots.
   std::vector<Record> forces(const Body& body) const {
     std::vector<Record> out(body.program->vertices());
-    for (std::size_t s = 0; s < dart_.size(); ++s) out[body.map->vertex(dart_[s])] = Record(force_[mesh_.corners[s]]);
+    for (std::size_t s = 0; s < dart_.size(); ++s)
+      out[body.map->vertex(dart_[s])] = Record(force_[mesh_.corners[s]]);
     return out;
   }
   std::vector<Record> corner_forces(const Body& body) const {
@@ -87,14 +92,15 @@ public:
       const Vec3 sum = (n1 + n2).norm() < 1e-12 ? n1 : Vec3(n1 + n2);
       const Vec3 across = (x_[e.b] - x_[e.a]).cross(sum);
       const Dart d = dart_[e.p.forward ? e.p.a : e.p.b];
-      const std::vector<Dart> darts{d, map.map().alpha(0, d), map.map().alpha(2, d), map.map().follow(d, Word("02"))};
+      const std::vector<Dart> darts{d, map.map().alpha(0, d), map.map().alpha(2, d),
+                                    map.map().follow(d, Word("02"))};
       values[*std::min_element(darts.begin(), darts.end())] = std::abs(f.dot(across.normalized()));
     }
     return values;
   }
 
 private:
-  struct Flank {             // an edge as one of its polygons has it; corners are indices into the list of all
+  struct Flank { // an edge as one of its polygons has it; corners are indices into the list of all
     std::size_t polygon = 0;
     std::size_t a = 0, b = 0;           // at the edge's ends
     std::size_t near_a = 0, near_b = 0; // the neighbours of these in the polygon, off the edge
@@ -106,7 +112,9 @@ private:
   };
 
   std::size_t sides(std::size_t polygon) const { return mesh_.first[polygon + 1] - mesh_.first[polygon]; }
-  std::size_t corner(std::size_t polygon, std::size_t n) const { return mesh_.first[polygon] + n % sides(polygon); }
+  std::size_t corner(std::size_t polygon, std::size_t n) const {
+    return mesh_.first[polygon] + n % sides(polygon);
+  }
 
   void find_edges() {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Flank>> flanks;
@@ -217,15 +225,16 @@ private:
 
   Vec3 normal(std::size_t polygon) const {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t n = 0; n < sides(polygon); ++n) sum += at(corner(polygon, n)).cross(at(corner(polygon, n + 1)));
+    for (std::size_t n = 0; n < sides(polygon); ++n)
+      sum += at(corner(polygon, n)).cross(at(corner(polygon, n + 1)));
     return sum.normalized();
   }
 
   static constexpr double pi_ = 3.14159265358979323846;
 
-  PolygonMesh mesh_; // points at rest
-  std::vector<Dart> dart_;    // of each corner, along the side that starts there
-  std::vector<bool> open_;    // that side
+  PolygonMesh mesh_;       // points at rest
+  std::vector<Dart> dart_; // of each corner, along the side that starts there
+  std::vector<bool> open_; // that side
   std::vector<Edge> edges_;
   std::vector<Vec3> x_, v_, force_; // by point
   std::vector<Vec3> corner_;        // force, by corner

@@ -114,8 +114,8 @@ struct Recipe {
   Cumulated cumulated = Cumulated::Auto;
   std::vector<std::string> criteria; // laws that never apply by themselves
   double threshold = 1e30;
-  double drag = 0;     // per particle
-  bool fixed = false;  // the vertex of dart 0 is held
+  double drag = 0;    // per particle
+  bool fixed = false; // the vertex of dart 0 is held
   std::string scheme = "symplectic";
   int threads = 1;
 };
@@ -136,7 +136,8 @@ inline std::unique_ptr<Interaction> interaction(EmbeddedMap& map, const Spring& 
   node.fill_defaults();
   std::vector<std::string> notes;
   for (const InteractionType& each : all_interactions())
-    if (each.element == spring.element && each.kind == spring.kind) return each.make(map, {node, material, notes});
+    if (each.element == spring.element && each.kind == spring.kind)
+      return each.make(map, {node, material, notes});
   throw std::invalid_argument(spring.kind);
 }
 
@@ -165,7 +166,8 @@ inline std::unique_ptr<Body> body(const PolygonMesh& mesh, const Recipe& recipe 
   if (recipe.fixed) made->constraints.add(*made->map, Motion{}, {made->map->vertex(Dart{0u})});
   made->cumulated = recipe.cumulated;
   if (!recipe.criteria.empty()) made->border = &made->map->add(BornBorder{});
-  for (const std::string& name : recipe.criteria) made->laws.emplace_back(*made->map, law(name, recipe.threshold));
+  for (const std::string& name : recipe.criteria)
+    made->laws.emplace_back(*made->map, law(name, recipe.threshold));
   made->prepare(*find_scheme(recipe.scheme), false, recipe.threads);
   return made;
 }
@@ -181,8 +183,12 @@ inline void shake(Body& body, double amount, unsigned seed) {
   }
 }
 
-inline const Record* positions(const Body& body) { return body.map->position().values().data(); }
-inline const Record* velocities(const Body& body) { return body.map->velocity().values().data(); }
+inline const Record* positions(const Body& body) {
+  return body.map->position().values().data();
+}
+inline const Record* velocities(const Body& body) {
+  return body.map->velocity().values().data();
+}
 
 inline double largest(const std::vector<Record>& forces) {
   double most = 0;

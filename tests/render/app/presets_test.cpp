@@ -1,4 +1,5 @@
-// Every preset of the house: it loads, runs, tears if it has a law, is known to somebody, and gives the same bytes.
+// Every preset of the house: it loads, runs, tears if it has a law, is known to somebody, and gives the same
+// bytes.
 #include "render/app/preset_types.h"
 #include "tests/render/app/program_run.h"
 
@@ -54,8 +55,8 @@ protected:
 
 TEST_P(EveryPreset, is_valid_by_the_schema_that_stands_beside_it) {
   if (place.shell("command -v xmllint").code != 0) GTEST_SKIP() << "xmllint is not installed";
-  const Outcome outcome =
-      place.shell("xmllint --noout --schema '" + (root / "presets/scene.xsd").string() + "' '" + path.string() + "'");
+  const Outcome outcome = place.shell("xmllint --noout --schema '" + (root / "presets/scene.xsd").string() +
+                                      "' '" + path.string() + "'");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
@@ -67,7 +68,8 @@ TEST_P(EveryPreset, is_called_as_its_file) {
 
 TEST_P(EveryPreset, runs_and_gives_the_same_state_again_and_on_two_threads) {
   const std::string part = tenth();
-  const auto once = run(part + " --threads 1"), again = run(part + " --threads 1"), two = run(part + " --threads 2");
+  const auto once = run(part + " --threads 1"), again = run(part + " --threads 1"),
+             two = run(part + " --threads 2");
   EXPECT_TRUE(once["stopped"].is_null());
   EXPECT_GT(once["steps"], 0);
   EXPECT_EQ(once["hash"], again["hash"]);
@@ -79,7 +81,8 @@ TEST_P(EveryPreset, runs_and_gives_the_same_state_again_and_on_two_threads) {
 TEST_P(EveryPreset, is_used_by_somebody) {
   std::string texts = content(root / "README.md") + content(root / "presets/demo");
   for (const auto& entry : fs::recursive_directory_iterator(root / "tests"))
-    if (entry.is_regular_file() && entry.path().filename() != "presets_test.cpp") texts += content(entry.path());
+    if (entry.is_regular_file() && entry.path().filename() != "presets_test.cpp")
+      texts += content(entry.path());
   std::string name = GetParam();
   for (const std::string cells : {"quads", "triangles", "mixed"}) // as tests/bench/table-7.1 spells its nine
     if (name.starts_with("tear/table-7.1-" + cells + "-"))
@@ -119,7 +122,8 @@ TEST(Schema, beside_the_presets_is_what_the_program_prints) {
 // Frame 0, one with the cloth whipping, and the last.
 TEST(Pictures, of_the_torn_cloth_are_the_same_bytes_twice_and_show_something) {
   const Place place;
-  const std::string render = "render '" + (root / "presets/tear/cloth-global-border.xml").string() + "' --size 160x90 --quiet";
+  const std::string render =
+      "render '" + (root / "presets/tear/cloth-global-border.xml").string() + "' --size 160x90 --quiet";
   for (const char* frame : {"0", "15", "119"}) {
     for (const char* folder : {"one", "two"}) {
       const Outcome outcome = place.rend(render + " --frames " + frame + " -o " + folder);

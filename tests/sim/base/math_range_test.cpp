@@ -14,10 +14,12 @@ long double turns_removed(double degrees) { // exact
 }
 
 TEST(SineAndCosine, agree_with_the_library_for_huge_and_tiny_angles) {
-  for (const double size : {1e-300, 1e-20, 1e-9, 89.99999999999999, 1e9 + 0.3, 1e15 + 0.5, 1e17, 123456789e12, 1e300}) {
+  for (const double size :
+       {1e-300, 1e-20, 1e-9, 89.99999999999999, 1e9 + 0.3, 1e15 + 0.5, 1e17, 123456789e12, 1e300}) {
     for (const double angle : {size, -size}) {
       EXPECT_NEAR(sine_of_degrees(angle), static_cast<double>(std::sin(turns_removed(angle))), 2e-16) << angle;
-      EXPECT_NEAR(cosine_of_degrees(angle), static_cast<double>(std::cos(turns_removed(angle))), 2e-16) << angle;
+      EXPECT_NEAR(cosine_of_degrees(angle), static_cast<double>(std::cos(turns_removed(angle))), 2e-16)
+          << angle;
     }
   }
 }
@@ -39,7 +41,8 @@ TEST(ArcTangent, has_no_step_where_its_table_changes) {
     for (int n = 0; n < 20; ++n) {
       for (const double t : {below, above})
         for (const auto& [y, x] : {std::pair{t, 1.0}, {1.0, t}, {-1.0, -t}, {t + 1e-30, -1.0}})
-          EXPECT_NEAR(arc_tangent(y, x), static_cast<double>(std::atan2(static_cast<long double>(y), x)), 4.5e-16);
+          EXPECT_NEAR(arc_tangent(y, x), static_cast<double>(std::atan2(static_cast<long double>(y), x)),
+                      4.5e-16);
       below = std::nextafter(below, 0.0);
       above = std::nextafter(above, 2.0);
     }

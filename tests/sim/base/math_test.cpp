@@ -51,7 +51,8 @@ TEST(ArcTangent, is_odd_in_y) {
 TEST(SineAndCosine, agree_with_the_library_for_all_angles) {
   for (int n = -80000; n <= 80000; ++n) {
     const double degrees = n / 100.0;
-    const long double radians = static_cast<long double>(degrees) * 3.14159265358979323846264338327950288L / 180;
+    const long double radians =
+        static_cast<long double>(degrees) * 3.14159265358979323846264338327950288L / 180;
     ASSERT_NEAR(sine_of_degrees(degrees), static_cast<double>(std::sin(radians)), 4e-16) << degrees;
     ASSERT_NEAR(cosine_of_degrees(degrees), static_cast<double>(std::cos(radians)), 4e-16) << degrees;
   }

@@ -12,8 +12,9 @@ namespace {
 std::string pulled(const std::string& sheet, const std::string& laws, const std::string& speed = "0.5") {
   return R"(<scene name="pulled"><body name="sheet">)" + sheet + R"(<mass total="0.1"/>
          <springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>
-         <fix side="-x"/><drive side="+x" velocity=")" + speed + R"( 0 0"/>)" +
-         laws + "</body>" + R"(<world gravity="0 0 0"/><time step="5e-4" integrator="verlet" duration="1"/></scene>)";
+         <fix side="-x"/><drive side="+x" velocity=")" +
+         speed + R"( 0 0"/>)" + laws + "</body>" +
+         R"(<world gravity="0 0 0"/><time step="5e-4" integrator="verlet" duration="1"/></scene>)";
 }
 const std::string strip = R"(<sheet pattern="quads" cells="8 4" size="2 1"/>)";
 
@@ -23,7 +24,8 @@ void run(Scene& scene, int steps) {
 
 TEST(Law, tears_a_sheet_pulled_apart_across_the_pull) {
   // Quasi-static, forces at a vertex cancel: the global criterion sees a quick pull alone.
-  const std::array<std::array<std::string, 3>, 2> pulls{{{"global-border", "1", "8"}, {"atomic-border", "1", "0.5"}}};
+  const std::array<std::array<std::string, 3>, 2> pulls{
+      {{"global-border", "1", "8"}, {"atomic-border", "1", "0.5"}}};
   for (const auto& [criterion, threshold, speed] : pulls) {
     presets::Loaded scene = presets::load(
         pulled(strip, R"(<tear criterion=")" + criterion + R"(" threshold=")" + threshold + R"("/>)", speed));
@@ -99,9 +101,9 @@ TEST(Law, tells_where_it_tore) {
 
 TEST(Law, tears_a_moebius_band) {
   for (const std::string criterion : {"global-border", "atomic-border"}) {
-    presets::Loaded scene = presets::load(
-        pulled(R"(<sheet pattern="mixed" cells="12 3" size="2 0.4" close="twist"/>)",
-               R"(<tear criterion=")" + criterion + R"(" threshold="0.4"/>)"));
+    presets::Loaded scene =
+        presets::load(pulled(R"(<sheet pattern="mixed" cells="12 3" size="2 0.4" close="twist"/>)",
+                             R"(<tear criterion=")" + criterion + R"(" threshold="0.4"/>)"));
     run(*scene.scene, 1500);
     EXPECT_GT(scene->tears(), 3u) << criterion;
     for (const Record& x : scene.body().map->position().values()) EXPECT_TRUE(x.vec().allFinite());
@@ -122,8 +124,9 @@ TEST(Law, refuses_what_does_not_fit) {
   EXPECT_NE(refused(R"(<tear criterion="sideways" threshold="1"/>)").find("global-border"), std::string::npos);
   EXPECT_NE(refused(R"(<tear criterion="global-border" threshold="1" change="melt"/>)").find("separate"),
             std::string::npos);
-  EXPECT_NE(refused(R"(<tear criterion="global-border" threshold="1" from="2" until="1"/>)").find("ends before"),
-            std::string::npos);
+  EXPECT_NE(
+      refused(R"(<tear criterion="global-border" threshold="1" from="2" until="1"/>)").find("ends before"),
+      std::string::npos);
   EXPECT_NE(refused(R"(<tear criterion="atomic-border" threshold="1"/>)", R"(<springs cumulated="yes">)")
                 .find("cumulated"),
             std::string::npos);

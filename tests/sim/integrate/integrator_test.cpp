@@ -117,7 +117,9 @@ StabilityBounds bounds_of(const Oscillators::Mode& mode) {
   return {mode.omega * mode.omega, 2 * (mode.d + mode.drag), 2 * mode.drag};
 }
 
-const Scheme& scheme(const std::string& name) { return *find_scheme(name); }
+const Scheme& scheme(const std::string& name) {
+  return *find_scheme(name);
+}
 
 constexpr double omega = 17;
 
@@ -148,19 +150,22 @@ TEST(Schemes, of_order_two_and_more_fall_exactly) {
 }
 
 TEST(Schemes, reach_their_order) {
-  for (const Scheme& each : all_schemes()) EXPECT_NEAR(observed_order(each, {omega, 0, 0}), each.order, 0.1) << each.name;
+  for (const Scheme& each : all_schemes())
+    EXPECT_NEAR(observed_order(each, {omega, 0, 0}), each.order, 0.1) << each.name;
 }
 
 TEST(Schemes, keep_their_order_with_damping) {
   for (const Scheme& each : all_schemes()) {
-    EXPECT_NEAR(observed_order(each, {omega, 0.2 * omega, 0}), each.order, 0.1) << each.name << ", damped springs";
+    EXPECT_NEAR(observed_order(each, {omega, 0.2 * omega, 0}), each.order, 0.1)
+        << each.name << ", damped springs";
     EXPECT_NEAR(observed_order(each, {omega, 0, 0.2 * omega}), each.order, 0.1) << each.name << ", viscosity";
   }
 }
 
 TEST(Schemes, take_damping_of_springs_and_viscosity_for_the_same) {
   for (const Scheme& each : all_schemes())
-    EXPECT_NEAR(reached(each, {omega, 3, 0}, 1, 400).x, reached(each, {omega, 1, 2}, 1, 400).x, 1e-12) << each.name;
+    EXPECT_NEAR(reached(each, {omega, 3, 0}, 1, 400).x, reached(each, {omega, 1, 2}, 1, 400).x, 1e-12)
+        << each.name;
 }
 
 TEST(Schemes, evaluate_forces_as_often_as_they_say) {
@@ -250,8 +255,10 @@ TEST(Stability, ends_where_theory_has_it_with_damping) {
   EXPECT_NEAR(bisected_limit(scheme("rk4"), {omega, 0.5 * omega, 0}), 2.62 / omega, 0.01 * 2.62 / omega);
 }
 
-// What step="auto" relies on: the limit never exceeds the true one, and does not fall far below. RK4's is the farthest:
-// it takes the shape of the symplectic limit, and is 0.39 of the true one at ξ = 1 (0.92 at ξ = 0, 0.93 at large ξ).
+// What step="auto" relies on: the limit never exceeds the true one, and does not fall far below. RK4's is the
+// farthest:
+// it takes the shape of the symplectic limit, and is 0.39 of the true one at ξ = 1 (0.92 at ξ = 0, 0.93 at
+// large ξ).
 TEST(Stability, limits_are_safe_and_not_far_below_the_true_ones) {
   for (const Scheme& each : all_schemes()) {
     double worst = 1;
@@ -277,8 +284,8 @@ TEST(Stability, holds_for_all_modes_within_the_bounds) {
           for (int j = 0; j <= 20; ++j) {
             const Oscillators::Mode mode{omega * i / 20, (most - least) * j / 20, least};
             EXPECT_LE(growth(each, mode, limit * (1 - 1e-9)), 1 + 1e-9)
-                << each.name << ", omega " << mode.omega << ", d " << mode.d + mode.drag << " of " << least << " to "
-                << most;
+                << each.name << ", omega " << mode.omega << ", d " << mode.d + mode.drag << " of " << least
+                << " to " << most;
           }
       }
     }

@@ -12,7 +12,8 @@ using namespace meshes;
 constexpr double damping = 0.8;
 
 // A body with one interaction; null where the sheet has none of it.
-std::unique_ptr<Body> body_with(const Spring& spring, const PolygonMesh& mesh, Cumulated cumulated = Cumulated::Auto) {
+std::unique_ptr<Body> body_with(const Spring& spring, const PolygonMesh& mesh,
+                                Cumulated cumulated = Cumulated::Auto) {
   Recipe recipe;
   recipe.springs = {spring};
   recipe.cumulated = cumulated;

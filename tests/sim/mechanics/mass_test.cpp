@@ -31,7 +31,8 @@ PolygonMesh flat(SheetPattern pattern, unsigned seed) {
 }
 
 TEST(Mass, of_all_corners_is_the_density_times_the_area) {
-  for (auto pattern : {SheetPattern::Quads, SheetPattern::Triangles, SheetPattern::Crossed, SheetPattern::Mixed}) {
+  for (auto pattern :
+       {SheetPattern::Quads, SheetPattern::Triangles, SheetPattern::Crossed, SheetPattern::Mixed}) {
     const PolygonMesh mesh = flat(pattern, 3);
     const auto body = meshes::body(mesh);
     EXPECT_NEAR(total_mass(*body->map, *body->mass), 0.1 * area_of(mesh), 1e-14);
@@ -43,7 +44,8 @@ TEST(Mass, of_a_vertex_is_the_sum_of_its_corners) {
     const auto body = meshes::body(each.mesh);
     std::vector<double> sum(body->program->vertices(), 0);
     const CellIndex& corners = body->map->cells(VertexOfFace);
-    for (Slot c = 0; c < corners.slots(); ++c) sum[body->map->vertex(corners.first_dart(c))] += (*body->mass)[c];
+    for (Slot c = 0; c < corners.slots(); ++c)
+      sum[body->map->vertex(corners.first_dart(c))] += (*body->mass)[c];
     double total = 0;
     for (Slot v = 0; v < sum.size(); ++v) {
       EXPECT_NEAR(1 / body->program->inverse_mass()[v], sum[v], 1e-15 * sum[v] * 10);
@@ -74,7 +76,8 @@ TEST(Mass, momenta_and_energy_are_those_of_the_particles) {
 }
 
 TEST(Mass, of_flat_irregular_sheets_is_conserved_by_subdivision) {
-  for (auto pattern : {SheetPattern::Quads, SheetPattern::Triangles, SheetPattern::Crossed, SheetPattern::Mixed}) {
+  for (auto pattern :
+       {SheetPattern::Quads, SheetPattern::Triangles, SheetPattern::Crossed, SheetPattern::Mixed}) {
     const auto body = meshes::body(flat(pattern, 6));
     const double before = total_mass(*body->map, *body->mass);
     for (int times = 0; times < 2; ++times) {

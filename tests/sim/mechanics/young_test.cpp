@@ -43,7 +43,8 @@ Eigen::Matrix3d membrane(const PolygonMesh& mesh, double nu, int depth) {
     area += rest_area(*map, d);
     const auto add = [&](const Interaction& kind, Slot owner, int unit, Dart from) {
       const auto& words = kind.pattern.units[static_cast<std::size_t>(unit)];
-      const Vec3 along = map->rest_of(map->map().follow(from, words[1])) - map->rest_of(map->map().follow(from, words[0]));
+      const Vec3 along =
+          map->rest_of(map->map().follow(from, words[1])) - map->rest_of(map->map().follow(from, words[0]));
       const double l = along.norm(), x = along.x() / l, y = along.y() / l;
       const Eigen::Vector3d strain(x * x, y * y, x * y); // of the spring, per εx, εy, γ
       c += kind.parameters(owner, unit).k * l * l * strain * strain.transpose();
@@ -120,7 +121,8 @@ TEST(Young, of_right_isosceles_triangles_is_what_the_design_says) {
 
 // The same from motion: a strip of one cell's material, pulled by forces, settles at the extension that E says.
 TEST(Young, is_found_by_pulling_a_sheet_in_a_scene) {
-  presets::Loaded scene = presets::load(R"(<scene name="pull"><body><sheet cells="8 8" size="1 1"/><mass total="1"/>
+  presets::Loaded scene =
+      presets::load(R"(<scene name="pull"><body><sheet cells="8 8" size="1 1"/><mass total="1"/>
     <springs young="1000" poisson="0.3333333333333333" thickness="0.01"><stretch/><shear/></springs>
     <viscosity value="10" per="body"/>
     <fix side="-x" axes="x"/><fix near="0 0.5 0"/><fix all="yes" axes="z"/>
@@ -165,7 +167,8 @@ TEST(Young, refuses_cells_that_would_be_pushed_apart) {
 }
 
 TEST(Young, refuses_no_stiffness_two_stiffnesses_and_no_formula) {
-  const std::string sheet = R"(<sheet cells="2 2" size="1 1"/>)", with = R"(<springs young="10" thickness="0.1">)";
+  const std::string sheet = R"(<sheet cells="2 2" size="1 1"/>)",
+                    with = R"(<springs young="10" thickness="0.1">)";
   EXPECT_NE(refusal(sheet, "<springs><stretch/></springs>").find("needs its stiffness"), std::string::npos);
   EXPECT_NE(refusal(sheet, with + R"(<stretch k="3"/></springs>)").find("as well"), std::string::npos);
   EXPECT_NE(refusal(sheet, with + "<bend/></springs>").find("needs its stiffness"), std::string::npos);
@@ -187,8 +190,10 @@ TEST(Young, formula_gives_van_gelders_and_baudets_values) {
   PolygonMesh rectangle = sheet(SheetPattern::Quads, 1, 1);
   for (Vec3& x : rectangle.points) x.y() *= 1.5;
   const auto quad = sheet_from(rectangle); // l = 1 along x, w = 1.5
-  EXPECT_NEAR(edge_stiffness(m, *quad, Dart{0u}), h * E * (2.25 * (3 * nu + 2) - 1) / (4 * 1.5 * (1 + nu)), 1e-12 * E);
-  EXPECT_NEAR(edge_stiffness(m, *quad, Dart{2u}), h * E * ((3 * nu + 2) - 2.25) / (4 * 1.5 * (1 + nu)), 1e-12 * E);
+  EXPECT_NEAR(edge_stiffness(m, *quad, Dart{0u}), h * E * (2.25 * (3 * nu + 2) - 1) / (4 * 1.5 * (1 + nu)),
+              1e-12 * E);
+  EXPECT_NEAR(edge_stiffness(m, *quad, Dart{2u}), h * E * ((3 * nu + 2) - 2.25) / (4 * 1.5 * (1 + nu)),
+              1e-12 * E);
   EXPECT_NEAR(diagonal_stiffness(m, *quad, Dart{0u}), h * E * 3.25 / (4 * 1.5 * (1 + nu)), 1e-12 * E);
 }
 

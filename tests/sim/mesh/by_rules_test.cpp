@@ -1,5 +1,5 @@
-// Sheets that are built by rules, as in the thesis (3.4.2), against those of the generator, and what subdivision does
-// to a body that already carries masses and springs (thesis figs. 6.13 to 6.15).
+// Sheets that are built by rules, as in the thesis (3.4.2), against those of the generator, and what
+// subdivision does to a body that already carries masses and springs (thesis figs. 6.13 to 6.15).
 #include "sim/mesh/sheet.h"
 #include "sim/program/program.h"
 #include "sim/rules/rules.h"
@@ -29,7 +29,8 @@ Owned by_generator(SheetPattern pattern, int cells) {
 // A square, subdivided: 2^times cells on a side.
 Owned subdivided(int times) {
   auto map = std::make_unique<EmbeddedMap>(2);
-  const Dart d = apply(create_quad, *map, {}, {{assets::at(0, 0), assets::at(1, 0), assets::at(1, 1), assets::at(0, 1)}, {}})
+  const Dart d = apply(create_quad, *map, {},
+                       {{assets::at(0, 0), assets::at(1, 0), assets::at(1, 1), assets::at(0, 1)}, {}})
                      .dart('a');
   for (int n = 0; n < times; ++n) EXPECT_TRUE(apply(subdivide, *map, d).ok);
   return map;
@@ -43,8 +44,7 @@ Vec3 centre_of(const EmbeddedMap& map, Dart d) {
 }
 
 // Crosses the faces of a square of n × n cells that `chosen` says, given the place of their cell.
-template <class F>
-void cross(EmbeddedMap& map, int n, F&& chosen) {
+template <class F> void cross(EmbeddedMap& map, int n, F&& chosen) {
   std::vector<Dart> faces;
   for_each_face(map, [&](Dart d) { faces.push_back(d); });
   for (Dart d : faces) {
@@ -90,9 +90,11 @@ std::vector<Pair> pairs() {
   std::vector<Pair> all;
   for (const SheetPattern pattern : {SheetPattern::Quads, SheetPattern::Crossed, SheetPattern::Mixed})
     for (int times = 1; times <= 4; ++times)
-      all.push_back({"pattern " + std::to_string(static_cast<int>(pattern)) + ", times " + std::to_string(times),
-                     [=] { return by_rules(pattern, times); }, [=] { return by_generator(pattern, 1 << times); }});
-  all.push_back({"triangles", [] { return halved_by_rules(4); }, [] { return by_generator(SheetPattern::Triangles, 4); }});
+      all.push_back(
+          {"pattern " + std::to_string(static_cast<int>(pattern)) + ", times " + std::to_string(times),
+           [=] { return by_rules(pattern, times); }, [=] { return by_generator(pattern, 1 << times); }});
+  all.push_back({"triangles", [] { return halved_by_rules(4); },
+                 [] { return by_generator(SheetPattern::Triangles, 4); }});
   return all;
 }
 
@@ -150,12 +152,16 @@ void expect_same_load(const Laden& a, const Laden& b, const std::vector<Dart>& i
   });
 }
 
-// The same state for both, told by rest positions, and the largest difference of the forces over the largest force.
+// The same state for both, told by rest positions, and the largest difference of the forces over the largest
+// force.
 double difference_of_forces(Laden& a, Laden& b, const std::vector<Dart>& image) {
   const auto moved = [](const Vec3& x) {
-    return Vec3(x + 0.05 * Vec3(std::sin(7 * x.y() + x.x()), std::cos(5 * x.x()), std::sin(9 * x.x() + 4 * x.y())));
+    return Vec3(x +
+                0.05 * Vec3(std::sin(7 * x.y() + x.x()), std::cos(5 * x.x()), std::sin(9 * x.x() + 4 * x.y())));
   };
-  const auto speed = [](const Vec3& x) { return Vec3(std::sin(11 * x.x()), std::sin(3 * x.y()), std::cos(8 * x.y())); };
+  const auto speed = [](const Vec3& x) {
+    return Vec3(std::sin(11 * x.x()), std::sin(3 * x.y()), std::cos(8 * x.y()));
+  };
   const auto forces_of = [&](Laden& each) {
     std::vector<Record> x(each.map.position().values().size()), v(x.size()), f(x.size());
     for (std::size_t n = 0; n < x.size(); ++n) {
@@ -205,13 +211,14 @@ TEST(SheetByRules, carries_the_same_where_the_load_was_there_before_the_rules) {
       Laden a(*rules, meshes::all_springs(0.1)), b(*generator, meshes::all_springs(0.1));
       for (int n = 1; n < times; ++n) ASSERT_TRUE(apply(subdivide, *rules, Dart{0u}).ok);
       if (pattern == SheetPattern::Crossed) cross(*rules, 1 << times, [](int, int) { return true; });
-      if (pattern == SheetPattern::Mixed) cross(*rules, 1 << times, [](int x, int y) { return (x + y) % 2 == 1; });
+      if (pattern == SheetPattern::Mixed)
+        cross(*rules, 1 << times, [](int x, int y) { return (x + y) % 2 == 1; });
       const std::vector<Dart> image = images(*rules, *generator);
       ASSERT_FALSE(image.empty());
       if (pattern == SheetPattern::Crossed) // the generator leaves out the shear that finds no quad
         std::erase_if(a.interactions, [](const auto& each) { return each->name.starts_with("shear"); });
-      // A corner's share of viscosity counts the corners that its vertex has when its face is made: one that gets more
-      // when a neighbour is crossed is not asked.
+      // A corner's share of viscosity counts the corners that its vertex has when its face is made: one that
+      // gets more when a neighbour is crossed is not asked.
       expect_same_load(a, b, image, pattern == SheetPattern::Quads);
       EXPECT_LT(difference_of_forces(a, b, image), 1e-13);
     }
@@ -230,8 +237,11 @@ TEST(Subdivision, quarters_corner_masses_keeps_stiffnesses_and_halves_rest_lengt
     faces *= 4;
     EXPECT_EQ(static_cast<double>(count_cells(map->map()).faces), faces);
     EXPECT_NEAR(exact_mass(body), mass, 1e-14 * mass);
-    const std::map<std::string, std::pair<double, double>> known{ // k and damping stay; rest
-        {"stretch", {60, side}}, {"shear isotropic", {43, std::sqrt(2.0) * side}}, {"bend provot", {10, 2 * side}}};
+    const std::map<std::string, std::pair<double, double>> known{
+        // k and damping stay; rest
+        {"stretch", {60, side}},
+        {"shear isotropic", {43, std::sqrt(2.0) * side}},
+        {"bend provot", {10, 2 * side}}};
     map->map().for_each_dart([&](Dart d) {
       EXPECT_NEAR(body.mass[map->slot(VertexOfFace, d)], corner, 1e-14 * corner);
       for (const auto& each : body.interactions) {
@@ -268,7 +278,9 @@ TEST(Subdivision, keeps_the_mass_of_irregular_cells) {
 TEST(Subdivision, of_a_deformed_body_puts_points_in_the_middle_and_looks_at_the_rest_alone) {
   const Owned map = by_generator(SheetPattern::Quads, 4), calm = by_generator(SheetPattern::Quads, 4);
   Laden body(*map, meshes::all_springs()), other(*calm, meshes::all_springs());
-  const auto deformed = [](const Vec3& x) { return Vec3(2 * x.x() + 0.3 * x.y(), x.y() - x.x(), 3 * x.x() + 1); };
+  const auto deformed = [](const Vec3& x) {
+    return Vec3(2 * x.x() + 0.3 * x.y(), x.y() - x.x(), 3 * x.x() + 1);
+  };
   for (std::size_t n = 0; n < map->position().values().size(); ++n) {
     map->position().values()[n] = Record(deformed(map->rest().values()[n].vec()));
     map->velocity().values()[n] = Record(deformed(map->rest().values()[n].vec()) * 7);

@@ -18,7 +18,8 @@ using testing::HasSubstr;
 
 PolygonMesh points_of(std::size_t count) {
   PolygonMesh mesh;
-  for (std::size_t n = 0; n < count; ++n) mesh.points.push_back(Vec3(double(n), double(n * n % 7), double(n % 3)));
+  for (std::size_t n = 0; n < count; ++n)
+    mesh.points.push_back(Vec3(double(n), double(n * n % 7), double(n % 3)));
   return mesh;
 }
 

@@ -42,7 +42,8 @@ SheetShape shape_of(const Case& c) {
 
 std::string name_of(const Case& c) {
   return "pattern " + std::to_string(static_cast<int>(c.pattern)) + ", closure " +
-         std::to_string(static_cast<int>(c.closure)) + ", " + std::to_string(c.nx) + " x " + std::to_string(c.ny);
+         std::to_string(static_cast<int>(c.closure)) + ", " + std::to_string(c.nx) + " x " +
+         std::to_string(c.ny);
 }
 
 // How many closed lines the border of a sheet consists of.
@@ -141,7 +142,8 @@ TEST(SheetGenerator, puts_points_bilinearly_between_given_corners) {
       const double s = x / 4.0, t = y / 3.0;
       const Vec3 low = shape.corners[0] + s * (shape.corners[1] - shape.corners[0]);
       const Vec3 high = shape.corners[3] + s * (shape.corners[2] - shape.corners[3]);
-      EXPECT_NEAR((mesh.points[static_cast<std::size_t>(5 * y + x)] - (low + t * (high - low))).norm(), 0, 1e-15);
+      EXPECT_NEAR((mesh.points[static_cast<std::size_t>(5 * y + x)] - (low + t * (high - low))).norm(), 0,
+                  1e-15);
     }
 }
 
@@ -157,8 +159,8 @@ TEST(SheetGenerator, lays_a_loop_on_a_cylinder_of_its_circumference) {
   EXPECT_EQ(high, 0.25);
 }
 
-// The sides of the quads of a band: around it none is longer than on the strip's outer circle, and across it all are
-// as long as the width says. So the seam closes without a jump.
+// The sides of the quads of a band: around it none is longer than on the strip's outer circle, and across it
+// all are as long as the width says. So the seam closes without a jump.
 TEST(SheetGenerator, closes_a_band_without_a_jump) {
   for (SheetClosure closure : {Loop, Twist}) {
     const int nx = 60, ny = 4;
@@ -188,7 +190,7 @@ TEST(SheetGenerator, turns_a_moebius_band_by_half_a_turn_on_the_way_around) {
     const Vec3 a = across(x), b = across(x + 1);
     turned += std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * 180 / pi;
   }
-  EXPECT_GT(turned, 180);      // it also goes around the circle
+  EXPECT_GT(turned, 180); // it also goes around the circle
   EXPECT_LT(turned, 180 + 360);
   EXPECT_NEAR((mesh.points[0] - mesh.points[nx]).norm(), 0.5, 1e-15);
 }

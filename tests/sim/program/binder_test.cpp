@@ -28,8 +28,9 @@ std::vector<Slot> prescribed(const Body& body) {
 }
 
 bool same_candidates(const std::vector<Candidate>& a, const std::vector<Candidate>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Candidate& p, const Candidate& q) { return p.value == q.value && p.dart == q.dart; });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Candidate& p, const Candidate& q) {
+    return p.value == q.value && p.dart == q.dart;
+  });
 }
 
 // What differs from a build from scratch; empty: nothing.
@@ -43,7 +44,8 @@ std::string stale(Body& body, const Surface* surface) {
       return "elementary rows of " + body.interactions[n]->name;
   if (!body.program->same_as(fresh)) return "masses, drag or corners";
   if (surface && !surface->same_as(Surface(body))) return "surface";
-  if (!body.constraints.motions().empty() && body.constraints.vertices() != prescribed(body)) return "constraints";
+  if (!body.constraints.motions().empty() && body.constraints.vertices() != prescribed(body))
+    return "constraints";
   body.evaluate();
   const ForceView view{*body.map, positions(body), body.force.data(),
                        body.corner_force.empty() ? nullptr : body.corner_force.data()};
@@ -61,8 +63,8 @@ TEST(Rebinding, equals_binding_from_scratch_after_every_step_that_tears) {
   for (const char* pattern : {"quads", "crossed", "mixed", "triangles"}) {
     for (const char* bend : {R"(<bend kind="provot" k="10"/>)", R"(<bend kind="angular" k="0.01"/>)"}) {
       SCOPED_TRACE(std::string(pattern) + bend);
-      presets::Loaded scene = presets::load(presets::cloth(
-          pattern, 8, laws, R"(<time step="5e-4" integrator="verlet" duration="1"/>)", bend));
+      presets::Loaded scene = presets::load(
+          presets::cloth(pattern, 8, laws, R"(<time step="5e-4" integrator="verlet" duration="1"/>)", bend));
       Body& body = scene.body();
       Surface surface(body);
       std::size_t torn = 0;
@@ -81,7 +83,8 @@ TEST(Rebinding, equals_binding_from_scratch_after_every_step_that_tears) {
 // Random edits, most of them separations, with rules that reshape faces among them.
 class Storm {
 public:
-  Storm(const PolygonMesh& mesh, const Recipe& recipe, unsigned seed) : body_(body(mesh, recipe)), noise_(seed) {
+  Storm(const PolygonMesh& mesh, const Recipe& recipe, unsigned seed)
+      : body_(body(mesh, recipe)), noise_(seed) {
     shake(*body_, 0.1, seed);
     darts_at_most_ = 2 * body_->map->map().dart_count() + 100;
   }
@@ -113,13 +116,20 @@ private:
     const std::size_t what = noise_.below(100);
     const bool room = map.dart_count() < darts_at_most_;
     fewest_ = std::min(fewest_, map.dart_count());
-    if (what < 40) separate(edit, d);
-    else if (what < 75) sew_back(edit);
-    else if (what < 82) sew(edit, 2, d, any(map));
-    else if (what < 87 && room && sides_of_face(map, d) < 7) apply(insert_vertex, edit, d);
-    else if (what < 92 && room) apply(triangulate_face, edit, d);
-    else if (room && (map.dart_count() < 150 || darts_of(map, Component, d).size() < 40)) apply(subdivide, edit, d);
-    else remove_element(edit, d);
+    if (what < 40)
+      separate(edit, d);
+    else if (what < 75)
+      sew_back(edit);
+    else if (what < 82)
+      sew(edit, 2, d, any(map));
+    else if (what < 87 && room && sides_of_face(map, d) < 7)
+      apply(insert_vertex, edit, d);
+    else if (what < 92 && room)
+      apply(triangulate_face, edit, d);
+    else if (room && (map.dart_count() < 150 || darts_of(map, Component, d).size() < 40))
+      apply(subdivide, edit, d);
+    else
+      remove_element(edit, d);
   }
 
   void separate(Edit& edit, Dart d) {

@@ -30,7 +30,8 @@ Springs random_springs(std::size_t count, std::uint32_t vertices, unsigned seed)
   for (std::size_t n = 0; n < count; ++n) {
     const auto i = static_cast<std::uint32_t>(noise.below(vertices - 1));
     const auto j = static_cast<std::uint32_t>(n == 0 ? 4 : i + 1 + noise.below(vertices - 1 - i));
-    s.index.push_back({n == 0 ? 3 : i, j, static_cast<std::uint32_t>(2 * n), static_cast<std::uint32_t>(2 * n + 1)});
+    s.index.push_back(
+        {n == 0 ? 3 : i, j, static_cast<std::uint32_t>(2 * n), static_cast<std::uint32_t>(2 * n + 1)});
     s.parameters.push_back({5 + noise(), 0.5 + 0.3 * noise(), 1 + 0.5 * noise()});
     const double values[] = {s.parameters[n].k, s.parameters[n].damping, s.parameters[n].rest};
     s.rows.set(n, s.index[n].data(), values);

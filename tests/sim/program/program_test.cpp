@@ -112,7 +112,8 @@ TEST(Program, gives_the_same_bytes_on_one_two_and_four_threads_while_it_tears) {
 }
 
 TEST(Program, runs_small_bodies_on_one_thread) {
-  EXPECT_EQ(presets::load(presets::cloth("quads", 10), {.walk = false, .threads = 4}).body().program->parts(), 1);
+  EXPECT_EQ(presets::load(presets::cloth("quads", 10), {.walk = false, .threads = 4}).body().program->parts(),
+            1);
 }
 
 // ---- what a separation leaves alone
@@ -163,7 +164,8 @@ TEST(Separation, shares_the_drag_of_a_vertex_among_its_fragments) {
   const auto all_drag = [&] {
     double sum = 0;
     for (Slot v = 0; v < body->program->vertices(); ++v)
-      if (body->program->inverse_mass()[v] > 0) sum += body->program->drag_rate()[v] / body->program->inverse_mass()[v];
+      if (body->program->inverse_mass()[v] > 0)
+        sum += body->program->drag_rate()[v] / body->program->inverse_mass()[v];
     return sum;
   };
   EXPECT_NEAR(all_drag(), 25 * 0.2, 1e-12);

@@ -21,8 +21,7 @@ presets::Loaded cloth(const std::string& prescribed, const std::string& integrat
 }
 
 // Slots of the vertices whose rest position passes.
-template <class F>
-std::vector<Slot> vertices_where(const Body& body, F&& passes) {
+template <class F> std::vector<Slot> vertices_where(const Body& body, F&& passes) {
   std::vector<Slot> all;
   for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)
     if (passes(body.map->rest()[v].vec())) all.push_back(v);
@@ -30,9 +29,15 @@ std::vector<Slot> vertices_where(const Body& body, F&& passes) {
 }
 const auto at_right = [](const Vec3& x) { return x.x() == 1; };
 
-Vec3 position(const Body& body, Slot v) { return body.map->position()[v]; }
-Vec3 velocity(const Body& body, Slot v) { return body.map->velocity()[v]; }
-Vec3 rest(const Body& body, Slot v) { return body.map->rest()[v]; }
+Vec3 position(const Body& body, Slot v) {
+  return body.map->position()[v];
+}
+Vec3 velocity(const Body& body, Slot v) {
+  return body.map->velocity()[v];
+}
+Vec3 rest(const Body& body, Slot v) {
+  return body.map->rest()[v];
+}
 
 const std::vector<std::string> every_scheme{"symplectic", "explicit", "verlet", "midpoint", "rk4"};
 
@@ -46,7 +51,8 @@ TEST(Drive, moves_with_its_velocity_then_holds) {
       scene->step();
       const double t = scene->time(), moving = std::min(std::max(t - 0.02, 0.0), 0.08);
       for (Slot v : driven) {
-        EXPECT_NEAR((position(scene.body(), v) - rest(scene.body(), v) - moving * Vec3(0.3, -0.1, 0.2)).norm(), 0, 1e-15);
+        EXPECT_NEAR((position(scene.body(), v) - rest(scene.body(), v) - moving * Vec3(0.3, -0.1, 0.2)).norm(),
+                    0, 1e-15);
         const bool moves = t > 0.0205 && t < 0.0995;
         const Vec3 speed = moves ? Vec3(0.3, -0.1, 0.2) : Vec3(0, 0, 0);
         if (t < 0.0195 || moves || t > 0.1005) { // not asked at the ends themselves, which are rounded
@@ -59,20 +65,23 @@ TEST(Drive, moves_with_its_velocity_then_holds) {
 
 TEST(Drive, reaches_its_displacement_at_the_end) {
   for (const std::string& scheme : every_scheme) {
-    const auto scene = cloth(R"(<drive side="+x" displacement="0.1 0 -0.2" from="0.01" until="0.06"/>)", scheme);
+    const auto scene =
+        cloth(R"(<drive side="+x" displacement="0.1 0 -0.2" from="0.01" until="0.06"/>)", scheme);
     const std::vector<Slot> driven = vertices_where(scene.body(), at_right);
     for (int n = 1; n <= 100; ++n) {
       scene->step();
       const double share = std::min(std::max((scene->time() - 0.01) / 0.05, 0.0), 1.0);
       for (Slot v : driven)
-        EXPECT_NEAR((position(scene.body(), v) - rest(scene.body(), v) - share * Vec3(0.1, 0, -0.2)).norm(), 0, 1e-15)
+        EXPECT_NEAR((position(scene.body(), v) - rest(scene.body(), v) - share * Vec3(0.1, 0, -0.2)).norm(), 0,
+                    1e-15)
             << scheme;
     }
   }
 }
 
 TEST(Drive, imposes_a_gradient) {
-  const auto scene = cloth(R"(<drive all="yes" gradient="0.1 0.2 0.3 -0.4 0.5 0.6 0.7 -0.8 0.9" until="0.05"/>)");
+  const auto scene =
+      cloth(R"(<drive all="yes" gradient="0.1 0.2 0.3 -0.4 0.5 0.6 0.7 -0.8 0.9" until="0.05"/>)");
   Eigen::Matrix3d g;
   g << 0.1, 0.2, 0.3, -0.4, 0.5, 0.6, 0.7, -0.8, 0.9;
   for (int n = 1; n <= 80; ++n) {
@@ -112,9 +121,10 @@ TEST(Drive, that_ends_where_it_starts_waits_until_then) {
 // Whether a step ends exactly at `until` must not matter.
 TEST(Drive, lets_go_with_the_speed_it_has) {
   for (const char* until : {"0.1", "0.1004", "0.09999999999", "0.10000000001"}) {
-    const auto scene = presets::load(std::string(R"(<scene><body><sheet cells="2 2" size="1 1"/><mass total="0.1"/>
+    const auto scene =
+        presets::load(std::string(R"(<scene><body><sheet cells="2 2" size="1 1"/><mass total="0.1"/>
         <drive all="yes" velocity="0 0 2" then="free" until=")") +
-                                     until + R"("/></body><time step="1e-3" duration="1"/></scene>)");
+                      until + R"("/></body><time step="1e-3" duration="1"/></scene>)");
     for (int n = 0; n < 200; ++n) scene->step();
     const double free = 0.2 - std::stod(until);
     for (Slot v = 0; v < 9; ++v) {
@@ -138,9 +148,8 @@ TEST(Drive, holds_for_ever_unless_it_lets_go) {
 
 TEST(Fix, keeps_vertices_where_they_are_at_rest) {
   const auto scene = cloth(R"(<fix near="0.1 0.9 3"/><fix box="0.6 -1 -1 2 0.1 1"/>)", "verlet", "");
-  const std::vector<Slot> fixed = vertices_where(scene.body(), [](const Vec3& x) {
-    return x == Vec3(0, 1, 0) || (x.x() >= 0.6 && x.y() == 0);
-  });
+  const std::vector<Slot> fixed = vertices_where(
+      scene.body(), [](const Vec3& x) { return x == Vec3(0, 1, 0) || (x.x() >= 0.6 && x.y() == 0); });
   ASSERT_EQ(scene.body().constraints.vertices(), fixed);
   EXPECT_FALSE(scene.body().constraints.drives());
   for (int n = 0; n < 300; ++n) scene->step();
@@ -208,9 +217,11 @@ std::string refusal_of(const std::string& prescribed) {
 }
 
 TEST(Constraints, are_refused_where_they_mean_nothing) {
-  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" displacement="1 0 0"/>)"), HasSubstr("one of velocity"));
+  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" displacement="1 0 0"/>)"),
+              HasSubstr("one of velocity"));
   EXPECT_THAT(refusal_of(R"(<drive side="+x"/>)"), HasSubstr("one of velocity"));
-  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" from="2" until="1"/>)"), HasSubstr("ends before"));
+  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" from="2" until="1"/>)"),
+              HasSubstr("ends before"));
   EXPECT_THAT(refusal_of(R"(<fix side="+x" near="0 0 0"/>)"), HasSubstr("has 2 selectors"));
   EXPECT_THAT(refusal_of(R"(<fix/>)"), HasSubstr("give one of near, box, side, all"));
   EXPECT_THAT(refusal_of(R"(<fix box="2 2 2 3 3 3"/>)"), HasSubstr("from (0, 0, 0) to (1, 1, 0)"));

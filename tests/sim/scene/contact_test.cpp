@@ -13,13 +13,18 @@ constexpr double thickness = 0.002;
 
 // A sheet that lies on the floor and was given a speed along it.
 presets::Loaded sliding(const std::string& friction, const std::string& integrator) {
-  return presets::load(R"(<scene><body><sheet cells="3 3" size="1 1"/><place translate="0 0 0.002"/><mass total="0.1"/>
+  return presets::load(
+      R"(<scene><body><sheet cells="3 3" size="1 1"/><place translate="0 0 0.002"/><mass total="0.1"/>
       <springs><stretch k="60"/></springs><drive all="yes" velocity="1 0.5 0" until="0.0105" then="free"/>
-      <contact friction=")" + friction + R"("/></body><world><floor z="0"/></world>
-      <time step="1e-3" integrator=")" + integrator + R"(" duration="1"/></scene>)");
+      <contact friction=")" +
+      friction + R"("/></body><world><floor z="0"/></world>
+      <time step="1e-3" integrator=")" +
+      integrator + R"(" duration="1"/></scene>)");
 }
 
-Vec3 velocity(const presets::Loaded& scene, Slot v) { return scene.body().map->velocity()[v]; }
+Vec3 velocity(const presets::Loaded& scene, Slot v) {
+  return scene.body().map->velocity()[v];
+}
 
 TEST(FloorContact, slows_a_sliding_sheet_by_friction_times_its_weight) {
   for (const char* integrator : {"symplectic", "verlet", "midpoint", "rk4", "explicit"}) {
@@ -51,7 +56,8 @@ TEST(FloorContact, keeps_a_falling_cloth_above_the_floor) {
         <place rotate="60 20 0" translate="0 0 0.3"/><mass total="0.1"/>
         <springs><stretch k="60" damping="0.01"/><shear k="40"/><bend kind="provot" k="5"/></springs>
         <viscosity value="0.1" per="body"/><contact/></body><world><floor z="0.1"/></world>
-        <time step="auto" integrator=")") + integrator + R"(" duration="2"/></scene>)");
+        <time step="auto" integrator=")") +
+                                     integrator + R"(" duration="2"/></scene>)");
     bool touched = false;
     while (scene->time() < 1.5) {
       scene->step();
@@ -83,8 +89,10 @@ TEST(FloorContact, lets_prescribed_vertices_pass) {
 }
 
 TEST(FloorContact, is_left_out_where_nobody_asked_for_it) {
-  const std::string sheet = R"(<sheet cells="1 1" size="1 1"/><mass total="1"/>)", time = R"(<time step="0.01" duration="1"/>)";
-  const auto falls = presets::load("<scene><body>" + sheet + R"(</body><world><floor z="-0.1"/></world>)" + time + "</scene>");
+  const std::string sheet = R"(<sheet cells="1 1" size="1 1"/><mass total="1"/>)",
+                    time = R"(<time step="0.01" duration="1"/>)";
+  const auto falls =
+      presets::load("<scene><body>" + sheet + R"(</body><world><floor z="-0.1"/></world>)" + time + "</scene>");
   for (int n = 0; n < 100; ++n) falls->step();
   EXPECT_LT(falls.body().map->position()[0].z, -4);
   EXPECT_FALSE(falls.body().floor_contact);

@@ -14,7 +14,9 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string with_hint(const UserError& error) { return std::string(error.what()) + " | " + error.hint; }
+std::string with_hint(const UserError& error) {
+  return std::string(error.what()) + " | " + error.hint;
+}
 
 std::string refusal_of(const std::string& xml) {
   try {
@@ -68,8 +70,8 @@ TEST(AutomaticStep, stays_stable_on_every_cloth) {
     for (const Cloth& cloth : cloths(damped)) {
       for (const char* scheme : {"symplectic", "verlet", "rk4"}) {
         SCOPED_TRACE(cloth.name + (damped ? ", damped, " : ", ") + scheme);
-        const auto scene = presets::load(preset_of(
-            cloth, std::string(R"(<time step="auto" integrator=")") + scheme + R"(" duration="9"/>)"));
+        const auto scene = presets::load(preset_of(cloth, std::string(R"(<time step="auto" integrator=")") +
+                                                              scheme + R"(" duration="9"/>)"));
         EXPECT_TRUE(scene->automatic_step());
         EXPECT_LT(largest_gain(scene, 2000), 0.01);
         EXPECT_GT(scene->kinetic_energy(), 0);
@@ -81,7 +83,8 @@ TEST(AutomaticStep, stays_stable_on_every_cloth) {
 TEST(AutomaticStep, is_close_to_where_the_scene_becomes_unstable) {
   for (const char* scheme : {"symplectic", "verlet", "rk4"}) {
     const Cloth cloth = cloths(false).front();
-    const auto scene = presets::load(preset_of(cloth, std::string(R"(<time integrator=")") + scheme + R"(" duration="1"/>)"));
+    const auto scene =
+        presets::load(preset_of(cloth, std::string(R"(<time integrator=")") + scheme + R"(" duration="1"/>)"));
     const std::string four = std::to_string(4 * scene->step_size());
     const auto fast = presets::load(
         preset_of(cloth, R"(<time step=")" + four + R"(" integrator=")" + scheme + R"(" duration="1"/>)"));
@@ -92,8 +95,9 @@ TEST(AutomaticStep, is_close_to_where_the_scene_becomes_unstable) {
 TEST(AutomaticStep, is_refused_with_a_hint_where_no_step_is_stable) {
   for (const char* scheme : {"explicit", "midpoint"}) {
     for (const bool damped : {false, true}) { // springs do not damp what turns as a whole
-      const std::string refusal = refusal_of(preset_of(
-          cloths(damped).front(), std::string(R"(<time step="auto" integrator=")") + scheme + R"(" duration="1"/>)"));
+      const std::string refusal =
+          refusal_of(preset_of(cloths(damped).front(), std::string(R"(<time step="auto" integrator=")") +
+                                                           scheme + R"(" duration="1"/>)"));
       EXPECT_THAT(refusal, HasSubstr(std::string("no step is stable with the integrator '") + scheme));
       EXPECT_THAT(refusal, HasSubstr("| use symplectic, verlet or rk4, or add viscosity"));
     }
@@ -107,7 +111,8 @@ TEST(AutomaticStep, of_schemes_that_need_viscosity_is_stable_with_it) {
   for (const char* scheme : {"explicit", "midpoint"}) {
     for (const char* viscosity : {R"(<viscosity value="15" per="body"/>)", R"(<viscosity value="0.1"/>)"}) {
       const auto scene = presets::load(preset_of(
-          cloths(true).front(), std::string(R"(<time step="auto" integrator=")") + scheme + R"(" duration="1"/>)", viscosity));
+          cloths(true).front(),
+          std::string(R"(<time step="auto" integrator=")") + scheme + R"(" duration="1"/>)", viscosity));
       EXPECT_GT(scene->step_size(), 1e-5) << scheme;
       EXPECT_LT(largest_gain(scene, 2000), 0.01) << scheme;
     }
@@ -176,7 +181,8 @@ TEST(Energy, of_free_fall_is_kept_and_viscosity_takes_what_it_should) {
   EXPECT_NEAR(slowed->momentum().z(), -0.15 * 9.81 / rate * (1 - std::exp(-rate)), 1e-12);
   const auto each = falling(R"(<viscosity value="0.025"/>)"); // 12 particles of 0.025 each: 0.3 in all
   for (int n = 0; n < 1000; ++n) each->step();
-  EXPECT_LT(each->momentum().z(), slowed->momentum().z() * 0.9); // but lighter ones along the border are slowed more
+  EXPECT_LT(each->momentum().z(),
+            slowed->momentum().z() * 0.9); // but lighter ones along the border are slowed more
   EXPECT_GT(each->momentum().z(), -0.15 * 9.81);
 }
 
@@ -193,8 +199,9 @@ TEST(Explosion, is_stopped_and_leaves_the_state_before_it) {
   for (const char* scheme : {"symplectic", "explicit", "verlet", "midpoint", "rk4"}) {
     for (const char* step : {"0.02", "0.1", "10"}) {
       SCOPED_TRACE(std::string(scheme) + ", " + step);
-      const auto scene = presets::load(preset_of(
-          cloths(true)[2], std::string(R"(<time step=")") + step + R"(" integrator=")" + scheme + R"(" duration="1e5"/>)"));
+      const auto scene =
+          presets::load(preset_of(cloths(true)[2], std::string(R"(<time step=")") + step + R"(" integrator=")" +
+                                                       scheme + R"(" duration="1e5"/>)"));
       std::uint64_t before = 0;
       long done = 0;
       try {
@@ -220,10 +227,12 @@ TEST(Explosion, is_stopped_and_leaves_the_state_before_it) {
 
 TEST(Explosion, of_one_body_moves_none_of_the_others) {
   const auto body = [](const std::string& name, const std::string& k) {
-    return R"(<body name=")" + name + R"("><sheet cells="4 4" size="1 1"/><mass total="0.1"/><springs><stretch k=")" + k +
+    return R"(<body name=")" + name +
+           R"("><sheet cells="4 4" size="1 1"/><mass total="0.1"/><springs><stretch k=")" + k +
            R"("/></springs><fix near="0 0 0"/></body>)";
   };
-  const auto scene = presets::load("<scene>" + body("calm", "1") + body("wild", "1e9") + R"(<time step="1e-3" duration="1"/></scene>)");
+  const auto scene = presets::load("<scene>" + body("calm", "1") + body("wild", "1e9") +
+                                   R"(<time step="1e-3" duration="1"/></scene>)");
   std::uint64_t before = 0;
   const auto run = [&] {
     for (int n = 0; n < 1000; ++n) {
@@ -262,11 +271,14 @@ TEST(LeftOut, is_all_that_tearing_needs_where_nothing_tears) {
   const auto angular = presets::load(presets::cloth("triangles", 3, "", R"(<time step="1e-3" duration="1"/>)",
                                                     R"(<bend kind="angular" k="1e-4"/>)"));
   EXPECT_TRUE(angular.body().map->uses(EdgeOfVolume));
-  const auto tears = presets::load(presets::cloth("quads", 3, R"(<tear criterion="global-border" threshold="1"/>)"));
+  const auto tears =
+      presets::load(presets::cloth("quads", 3, R"(<tear criterion="global-border" threshold="1"/>)"));
   EXPECT_TRUE(has_column(tears.body(), "born border"));
-  EXPECT_TRUE(tears.body().program->elementary().empty()); // the global criterion needs no forces of single springs
+  EXPECT_TRUE(
+      tears.body().program->elementary().empty()); // the global criterion needs no forces of single springs
   EXPECT_TRUE(tears.body().corner_force.empty());
-  const auto atomic = presets::load(presets::cloth("quads", 3, R"(<tear criterion="atomic-border" threshold="1"/>)"));
+  const auto atomic =
+      presets::load(presets::cloth("quads", 3, R"(<tear criterion="atomic-border" threshold="1"/>)"));
   EXPECT_FALSE(atomic.body().program->elementary().empty());
 }
 
@@ -276,10 +288,12 @@ TEST(LeftOut, is_the_array_of_drags_where_the_body_shares_one) {
   EXPECT_FALSE(has_column(shared.body(), "corner viscosity"));
   EXPECT_EQ(shared.body().program->drag_rate(), nullptr);
   EXPECT_NEAR(shared.body().uniform_drag, 1, 1e-14); // 0.1 N·s/m over 0.1 kg
-  const auto none = presets::load(preset_of(cloths(true)[0], R"(<time duration="1"/>)", R"(<viscosity value="0"/>)"));
+  const auto none =
+      presets::load(preset_of(cloths(true)[0], R"(<time duration="1"/>)", R"(<viscosity value="0"/>)"));
   EXPECT_EQ(none.body().drag, nullptr);
   EXPECT_EQ(none.body().uniform_drag, 0);
-  const auto each = presets::load(preset_of(cloths(true)[0], R"(<time duration="1"/>)", R"(<viscosity value="0.1"/>)"));
+  const auto each =
+      presets::load(preset_of(cloths(true)[0], R"(<time duration="1"/>)", R"(<viscosity value="0.1"/>)"));
   EXPECT_TRUE(has_column(each.body(), "corner viscosity"));
   EXPECT_NE(each.body().program->drag_rate(), nullptr);
 }
@@ -292,8 +306,9 @@ TEST(LeftOut, are_prescribed_motions_where_there_are_none) {
 }
 
 std::string springs_of(const std::string& pattern, const std::string& poisson) {
-  return R"(<scene><body><sheet pattern=")" + pattern + R"(" cells="2 2" size="1 1"/><mass total="1"/><springs young="1e5" poisson=")" +
-         poisson + R"(" thickness="1e-3"><stretch/></springs></body><time duration="1"/></scene>)";
+  return R"(<scene><body><sheet pattern=")" + pattern +
+         R"(" cells="2 2" size="1 1"/><mass total="1"/><springs young="1e5" poisson=")" + poisson +
+         R"(" thickness="1e-3"><stretch/></springs></body><time duration="1"/></scene>)";
 }
 
 TEST(Notes, say_how_far_stiffness_by_formula_goes_on_the_cells_there_are) {
@@ -312,17 +327,25 @@ TEST(Notes, say_how_far_stiffness_by_formula_goes_on_the_cells_there_are) {
 
 TEST(Scene, is_refused_where_it_cannot_be_built) {
   const std::string mass = R"(<mass total="1"/>)", time = R"(<time step="1" duration="1"/>)";
-  const auto scene = [&](const std::string& body) { return "<scene><body>" + body + "</body>" + time + "</scene>"; };
+  const auto scene = [&](const std::string& body) {
+    return "<scene><body>" + body + "</body>" + time + "</scene>";
+  };
   EXPECT_THAT(refusal_of(scene(R"(<sheet cells="20000 20000" size="1 1"/>)" + mass)), HasSubstr("2^32 darts"));
-  EXPECT_THAT(refusal_of(scene(R"(<sheet cells="1 1" corners="0 0 0 0 0 0 0 0 0 0 0 0"/>)" + mass)), HasSubstr("no area"));
+  EXPECT_THAT(refusal_of(scene(R"(<sheet cells="1 1" corners="0 0 0 0 0 0 0 0 0 0 0 0"/>)" + mass)),
+              HasSubstr("no area"));
   EXPECT_THAT(refusal_of(scene(R"(<sheet cells="1 1"/>)" + mass)), HasSubstr("neither a size nor corners"));
-  EXPECT_THAT(refusal_of(scene(R"(<sheet cells="2 1" size="1 1" close="loop"/>)" + mass)), HasSubstr("at least 3 cells"));
-  EXPECT_THAT(refusal_of(scene(R"(<sheet cells="1 1" size="1 1"/><mass density="2"/>)")), HasSubstr("thickness"));
+  EXPECT_THAT(refusal_of(scene(R"(<sheet cells="2 1" size="1 1" close="loop"/>)" + mass)),
+              HasSubstr("at least 3 cells"));
+  EXPECT_THAT(refusal_of(scene(R"(<sheet cells="1 1" size="1 1"/><mass density="2"/>)")),
+              HasSubstr("thickness"));
   const std::string body = R"(<body><sheet cells="1 1" size="1 1"/>)" + mass + "</body>";
-  EXPECT_THAT(refusal_of("<scene>" + body + body + time + "</scene>"), HasSubstr("two bodies are called 'body'"));
-  EXPECT_THAT(refusal_of(scene(R"(<sheet cells="1 1" size="1 1"/>)" + mass +
-                               R"(<springs cumulated="yes"><stretch k="1"/></springs><tear criterion="atomic-border" threshold="1"/>)")),
-              HasSubstr("folds them"));
+  EXPECT_THAT(refusal_of("<scene>" + body + body + time + "</scene>"),
+              HasSubstr("two bodies are called 'body'"));
+  EXPECT_THAT(
+      refusal_of(scene(
+          R"(<sheet cells="1 1" size="1 1"/>)" + mass +
+          R"(<springs cumulated="yes"><stretch k="1"/></springs><tear criterion="atomic-border" threshold="1"/>)")),
+      HasSubstr("folds them"));
 }
 
 TEST(Mass, is_what_the_preset_says) {

@@ -41,7 +41,8 @@ TEST(Selector, all_takes_all) {
   EXPECT_EQ(selected(R"(all="yes")").size(), 121u);
 }
 
-// Grid lines are rounded: 0.3 of a row may be 0.30000000000000004. A box that ends on a line takes the whole line.
+// Grid lines are rounded: 0.3 of a row may be 0.30000000000000004. A box that ends on a line takes the whole
+// line.
 TEST(Selector, box_takes_whole_grid_lines_where_it_ends_on_them) {
   for (int n = 0; n <= 10; ++n) {
     const std::string to = std::to_string(n / 10.0).substr(0, 3);

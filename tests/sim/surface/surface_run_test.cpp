@@ -11,7 +11,8 @@ namespace {
 
 TEST(SurfaceOfARun, equals_a_new_one_after_every_step_that_tears) {
   for (const char* pattern : {"quads", "triangles", "crossed", "mixed"}) {
-    const auto scene = presets::load(presets::cloth(pattern, 8, R"(<tear criterion="global-border" threshold="0.03" max-per-step="2"/>)"));
+    const auto scene = presets::load(
+        presets::cloth(pattern, 8, R"(<tear criterion="global-border" threshold="0.03" max-per-step="2"/>)"));
     Surface surface(scene.body());
     std::size_t tears = 0;
     int changes = 0;
@@ -28,7 +29,8 @@ TEST(SurfaceOfARun, equals_a_new_one_after_every_step_that_tears) {
 }
 
 TEST(SurfaceOfARun, keeps_its_triangles_and_shows_two_torn_sides_a_tear) {
-  const auto scene = presets::load(presets::cloth("mixed", 8, R"(<tear criterion="global-border" threshold="0.05"/>)"));
+  const auto scene =
+      presets::load(presets::cloth("mixed", 8, R"(<tear criterion="global-border" threshold="0.05"/>)"));
   Surface surface(scene.body());
   const std::size_t triangles = surface.triangles();
   EXPECT_EQ(triangles, 32u * 2 + 32u * 4);
@@ -58,7 +60,8 @@ TEST(SurfaceOfAMoebiusBand, has_normals_that_are_continuous_up_to_their_sign) {
     for (const Vec3& n : normals) ASSERT_NEAR(n.norm(), 1, 1e-12);
     const GMap& map = scene.body().map->map();
     map.for_each_dart([&](Dart d) {
-      const Vec3 &a = normals[scene.body().map->vertex(d)], &b = normals[scene.body().map->vertex(map.alpha(0, d))];
+      const Vec3 &a = normals[scene.body().map->vertex(d)],
+                 &b = normals[scene.body().map->vertex(map.alpha(0, d))];
       EXPECT_GT(std::abs(a.dot(b)), 0.97) << pattern;
     });
   }

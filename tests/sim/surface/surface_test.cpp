@@ -151,7 +151,8 @@ TEST(Surface, marks_no_tear_where_nothing_may_tear) {
 }
 
 TEST(Surface, normals_of_a_flat_sheet_are_across_it) {
-  for (auto pattern : {SheetPattern::Quads, SheetPattern::Triangles, SheetPattern::Crossed, SheetPattern::Mixed}) {
+  for (auto pattern :
+       {SheetPattern::Quads, SheetPattern::Triangles, SheetPattern::Crossed, SheetPattern::Mixed}) {
     const auto body = tearing(sheet(pattern, 4, 3));
     const Surface surface(*body);
     std::vector<Vec3> normals;
@@ -197,7 +198,8 @@ TEST(Surface, normals_are_the_sums_over_corners_up_to_their_sign) {
         for (std::uint32_t k = 0; k < n; ++k) {
           if (sheet.mesh.corners[begin + k] != p) continue;
           vertex = body->map->vertex(Dart{2 * (begin + k)});
-          const std::uint32_t a = sheet.mesh.corners[begin + (k + n - 1) % n], b = sheet.mesh.corners[begin + (k + 1) % n];
+          const std::uint32_t a = sheet.mesh.corners[begin + (k + n - 1) % n],
+                              b = sheet.mesh.corners[begin + (k + 1) % n];
           const Vec3 x = sheet.mesh.points[p];
           corners.push_back({a, b, (sheet.mesh.points[b] - x).cross(sheet.mesh.points[a] - x)});
         }
