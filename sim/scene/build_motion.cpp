@@ -1,0 +1,80 @@
+#include "sim/scene/build_motion.h"
+
+#include "sim/scene/selector.h"
+
+namespace rend {
+namespace {
+
+const ElementType& fix_type() {
+  static const ElementType type = [] {
+    ElementType t{"fix", "vertices that stay where they are at rest", {}, {}};
+    add_selector(t.attributes);
+    t.attributes.push_back(
+        word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates").otherwise("xyz"));
+    return t;
+  }();
+  return type;
+}
+
+const ElementType& drive_type() {
+  static const ElementType type = [] {
+    ElementType t{"drive", "vertices that move as prescribed", {}, {}};
+    add_selector(t.attributes);
+    t.attributes.push_back(numbers("velocity", 3, "m/s", "constant velocity"));
+    t.attributes.push_back(numbers("displacement", 3, "m",
+                                   "moved by so much between from and until (at once, if until is absent)"));
+    t.attributes.push_back(
+        numbers("gradient", 9, "", "u = G X, row after row, reached between from and until"));
+    t.attributes.push_back(number("from", "s", "held before").at_least(0).otherwise("0"));
+    t.attributes.push_back(number("until", "s", "for ever, if absent").at_least(0));
+    t.attributes.push_back(word("then", {"hold", "free"}, "after until").otherwise("hold"));
+    t.attributes.push_back(
+        word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates").otherwise("xyz"));
+    return t;
+  }();
+  return type;
+}
+
+Motion motion_of(const Node& node) {
+  Motion motion;
+  const std::string& axes = node.text("axes");
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    motion.axes[axis] = axes.find(static_cast<char>('x' + axis)) != std::string::npos;
+  if (node.name() == "fix") return motion;
+  int given = 0;
+  for (const char* name : {"velocity", "displacement", "gradient"}) given += node.given(name);
+  if (given != 1)
+    throw UserError(Exit::BadInput, node.place(), "<drive> needs one of velocity, displacement, gradient");
+  if (node.given("velocity")) motion.velocity = node.vector("velocity");
+  if (node.given("displacement")) motion.displacement = node.vector("displacement");
+  if (node.given("gradient"))
+    motion.gradient =
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(node.numbers("gradient").data());
+  motion.from = node.number("from");
+  if (node.given("until")) motion.until = node.number("until");
+  if (motion.until < motion.from) node.fail("until", "the drive ends before it starts");
+  motion.then_free = node.text("then") == "free";
+  return motion;
+}
+
+void build_constraints(Body& body, const Node& node) {
+  for (const auto& child : node.children()) {
+    if (child->name() != "fix" && child->name() != "drive") continue;
+    if (body.constraints.motions().size() == 64)
+      throw UserError(Exit::BadInput, child->place(), "a body takes at most 64 <fix> and <drive>");
+    body.constraints.add(*body.map, motion_of(*child), select_vertices(*body.map, *child));
+  }
+}
+
+} // namespace
+
+std::vector<ChildType> motion_types() {
+  return {{&fix_type(), 0, -1}, {&drive_type(), 0, -1}};
+}
+
+void build_motion(Body& body, const Node& node) {
+  build_constraints(body, node);
+  if (body.constraints.motions().empty()) body.left_out.push_back("prescribed motions: no fix and no drive");
+}
+
+} // namespace rend
