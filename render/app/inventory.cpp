@@ -1,6 +1,7 @@
 #include "render/app/inventory.h"
 
 #include "render/app/console.h"
+#include "sim/program/frequency.h"
 #include "sim/topology/count.h"
 
 #include <fmt/format.h>
@@ -17,9 +18,9 @@ using Json = nlohmann::ordered_json;
 Json time_json(const Session& session) {
   const Scene& scene = session.scene();
   double limit = std::numeric_limits<double>::infinity();
-  Program::Bounds all{0, 0, std::numeric_limits<double>::infinity()};
+  FrequencyBounds all{0, 0, std::numeric_limits<double>::infinity()};
   for (const auto& body : scene.bodies()) {
-    const Program::Bounds b = body->program->frequency_bounds();
+    const FrequencyBounds b = frequency_bounds(*body->map, body->interactions, *body->mass, body->drag);
     all.omega_squared = std::max(all.omega_squared, b.omega_squared);
     all.damping_rate = std::max(all.damping_rate, b.damping_rate + body->uniform_drag);
     all.least_drag_rate = std::min(all.least_drag_rate, b.least_drag_rate + body->uniform_drag);

@@ -27,7 +27,7 @@ Binder bind_borders(EmbeddedMap& map, bool corners) {
                         .support = EdgeOfVolume,
                         .units = {{"", "0"}},
                         .fold = {},
-                        .present = [](const GMap& m, Dart d) { return !m.is_free(2, d) && !m.is_free(0, d); }};
+                        .present = [](const GMap& m, Dart d, std::size_t) { return !m.is_free(2, d) && !m.is_free(0, d); }};
   std::vector<Field> fields{{{""}, Vertex}, {{"0"}, Vertex}};
   if (corners) {
     const Orbit corner = corner_orbit(map.dimension());

@@ -19,7 +19,7 @@ public:
                        State& next) = 0;
 };
 
-// ω² and damping rates that bound those of every mode; see Program::Bounds.
+// ω² and damping rates that bound those of every mode; see frequency_bounds().
 struct StabilityBounds {
   double omega_squared = 0;   // [1/s²]
   double damping_rate = 0;    // the largest 2ξω [1/s]

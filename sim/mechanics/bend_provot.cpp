@@ -1,5 +1,6 @@
 #include "sim/mechanics/bend_provot.h"
 
+#include "sim/mechanics/spring_law.h"
 #include "sim/mechanics/young.h"
 
 namespace rend {
@@ -7,7 +8,7 @@ namespace {
 
 const std::vector<Word> across{"10", "210"};
 
-bool present(const GMap& map, Dart d) {
+bool present(const GMap& map, Dart d, std::size_t = 0) {
   if (map.is_free(2, d)) return false;
   const Dart left = map.alpha(1, d), right = map.alpha(1, map.alpha(2, d));
   return !map.is_free(0, left) && !map.is_free(0, right) && left != d && right != map.alpha(2, d);
@@ -25,7 +26,7 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
                   .present = &present};
   const StiffnessOf k = stiffness_of(request, nullptr);
   const double damping = request.node.number("damping");
-  return make_interaction<1>(map, "bend provot", Law::Spring, pattern, damping,
+  return make_interaction<1>(map, "bend provot", spring_law(), pattern, damping,
                              [=](const EmbeddedMap& body, Dart d, int) {
                                const std::vector<Vec3> x = rest_positions(body, d, across);
                                return UnitParameters{k(body, d), damping, (x[1] - x[0]).norm()};

@@ -2,6 +2,7 @@
 
 #include "sim/base/math.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rend {
@@ -61,6 +62,73 @@ HingePoints hinge_forces(const UnitParameters& p, const HingePoints& x, const Hi
 double hinge_energy(const UnitParameters& p, const HingePoints& x) {
   const double angle = wrapped(hinge_angle(x) - p.rest);
   return 0.5 * p.k * angle * angle;
+}
+
+namespace {
+
+HingePoints points_of(const Vec3* x) {
+  HingePoints points;
+  std::copy(x, x + points.size(), points.begin());
+  return points;
+}
+
+class HingeLaw final : public Law {
+public:
+  HingeLaw() : Law("hinge", 8, 3) {}
+
+  void forces(const double* unit, const UnitState& s, Vec3* force) const override {
+    const HingePoints f = hinge_forces(UnitParameters::of(unit), points_of(s.position), points_of(s.velocity));
+    std::copy(f.begin(), f.end(), force);
+  }
+
+  double energy(const double* unit, const UnitState& s) const override {
+    return hinge_energy(UnitParameters::of(unit), points_of(s.position));
+  }
+
+  // k g gᵀ and λ g gᵀ with g = ∂θ/∂x, which are definite; exact, for the position also −moment ∂²θ/∂x², by central
+  // differences of the force.
+  void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
+                 UnitMatrix& by_velocity) const override {
+    const UnitParameters p = UnitParameters::of(unit);
+    const HingePoints x = points_of(s.position), g = hinge_gradient(x);
+    Eigen::Matrix<double, 24, 1> gradient;
+    for (int n = 0; n < 8; ++n) gradient.segment<3>(3 * n) = g[static_cast<std::size_t>(n)];
+    by_position = p.k * gradient * gradient.transpose();
+    by_velocity = p.damping * gradient * gradient.transpose();
+    if (tangent == Tangent::Definite) return;
+    const double h = 1e-6 * (x[1] - x[0]).norm();
+    if (!(h > 0)) return;
+    const HingePoints v = points_of(s.velocity);
+    for (int column = 0; column < 24; ++column) {
+      HingePoints ahead = x, behind = x;
+      ahead[static_cast<std::size_t>(column / 3)][column % 3] += h;
+      behind[static_cast<std::size_t>(column / 3)][column % 3] -= h;
+      const HingePoints fa = hinge_forces(p, ahead, v), fb = hinge_forces(p, behind, v);
+      for (int n = 0; n < 8; ++n)
+        by_position.block<3, 1>(3 * n, column) =
+            (fb[static_cast<std::size_t>(n)] - fa[static_cast<std::size_t>(n)]) / (2 * h);
+    }
+  }
+
+  void bound(const double* unit, const Vec3* rest, const double*, double* stiffness,
+             double* damping) const override { // discs of k g gᵀ: |g_n| Σ|g_m|
+    const HingePoints g = hinge_gradient(points_of(rest));
+    double sum = 0;
+    for (const Vec3& v : g) sum += v.norm();
+    for (std::size_t n = 0; n < g.size(); ++n) {
+      stiffness[n] = unit[0] * g[n].norm() * sum;
+      damping[n] = unit[1] * g[n].norm() * sum;
+    }
+  }
+
+  bool acts(const double* unit, const std::uint32_t*) const override { return unit[0] != 0 || unit[1] != 0; }
+};
+
+} // namespace
+
+const std::shared_ptr<const Law>& hinge_law() {
+  static const std::shared_ptr<const Law> law = std::make_shared<HingeLaw>();
+  return law;
 }
 
 } // namespace rend

@@ -14,9 +14,10 @@
 // sign follows from normals that agree across the hinge, and its difference from rest lies in (−π, π].
 #pragma once
 
-#include "sim/mechanics/interaction.h"
+#include "sim/mechanics/law.h"
 
 #include <array>
+#include <memory>
 
 namespace rend {
 
@@ -32,5 +33,7 @@ HingePoints hinge_gradient(const HingePoints& x);
 
 HingePoints hinge_forces(const UnitParameters& p, const HingePoints& x, const HingePoints& v);
 double hinge_energy(const UnitParameters& p, const HingePoints& x); // [J], the potential of the force
+
+const std::shared_ptr<const Law>& hinge_law(); // 8 particles; k, damping, rest angle
 
 } // namespace rend

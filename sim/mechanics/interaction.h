@@ -10,7 +10,9 @@
 
 #include "sim/base/parameters.h"
 #include "sim/embedding/embedded_map.h"
+#include "sim/mechanics/law.h"
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -28,29 +30,21 @@ struct Pattern {
   // Owners whose units may act between the same particles: their rows fold into one, that of the smallest slot.
   // Each word is a palindrome or a single link, so that the relation goes both ways.
   std::vector<Word> fold;
-  bool (*present)(const GMap&, Dart); // is the pattern there? (an injective match; else the owner is silent)
+  // Is this unit there? (an injective match; else it is silent.) Units may exclude each other: a prism's words differ
+  // with the side on which its first dart lies.
+  bool (*present)(const GMap&, Dart, std::size_t unit);
 };
-
-// Of one unit, or of several folded into one (k and damping summed, the rest state is common).
-struct UnitParameters {
-  double k = 0;       // [N/m] (spring), [N·m/rad] (hinge)
-  double damping = 0; // [N·s/m], [N·m·s/rad]
-  double rest = 0;    // length [m], angle [rad]
-};
-
-enum class Law { Spring, Hinge };
-constexpr int particles_of(Law law) {
-  return law == Law::Spring ? 2 : 8;
-}
 
 class Interaction {
 public:
   virtual ~Interaction() = default;
   std::string name; // "stretch", "shear isotropic", ...
-  Law law = Law::Spring;
+  std::shared_ptr<const Law> law;
   Pattern pattern;
   bool damped = false; // some unit has damping
-  virtual UnitParameters parameters(Slot owner, int unit) const = 0;
+
+  // The numbers of a unit, law->values() of them.
+  virtual const double* unit(Slot owner, std::size_t unit) const = 0;
 };
 
 // The material of springs whose stiffness comes from a formula.
@@ -84,6 +78,22 @@ int sides_of_face(const GMap& map, Dart d);
 // Calls f(first dart) for every face (<0,1>), in the order of their smallest darts.
 void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f);
 
+// Calls f(interaction, first dart of the owner, unit) for every unit that is there, in the order of slots.
+template <class F>
+void for_each_unit(const EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction>>& interactions,
+                   F&& f) {
+  for (const auto& interaction : interactions) {
+    const Pattern& pattern = interaction->pattern;
+    const CellIndex& owners = map.cells(pattern.owner);
+    for (Slot owner = 0; owner < owners.slots(); ++owner) {
+      if (!owners.alive(owner)) continue;
+      const Dart d = owners.first_dart(owner);
+      for (std::size_t unit = 0; unit < pattern.units.size(); ++unit)
+        if (pattern.present(map.map(), d, unit)) f(*interaction, d, unit);
+    }
+  }
+}
+
 // Rest positions of the particles of a unit.
 std::vector<Vec3> rest_positions(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit);
 
@@ -101,21 +111,19 @@ template <int Units> struct UnitEmbedding {
   Value split(const Value& whole) const { return whole; }
 };
 
-// Puts an interaction together from its parts.
+// Puts an interaction of springs or hinges together from its parts.
 template <int Units>
 std::unique_ptr<Interaction>
-make_interaction(EmbeddedMap& map, std::string name, Law law, Pattern pattern, double damping,
-                 std::function<UnitParameters(const EmbeddedMap&, Dart, int)> bear) {
+make_interaction(EmbeddedMap& map, std::string name, std::shared_ptr<const Law> law, Pattern pattern,
+                 double damping, std::function<UnitParameters(const EmbeddedMap&, Dart, int)> bear) {
   struct Carried final : Interaction {
     const Column<UnitEmbedding<Units>>* column = nullptr;
-    UnitParameters parameters(Slot owner, int unit) const override {
-      return (*column)[owner][static_cast<std::size_t>(unit)];
-    }
+    const double* unit(Slot owner, std::size_t unit) const override { return &(*column)[owner][unit].k; }
   };
   auto made = std::make_unique<Carried>();
   made->column = &map.add(UnitEmbedding<Units>{name, pattern.owner, pattern.support, std::move(bear)});
   made->name = std::move(name);
-  made->law = law;
+  made->law = std::move(law);
   made->pattern = std::move(pattern);
   made->damped = damping > 0;
   return made;

@@ -1,5 +1,6 @@
 #include "sim/mechanics/shear_face.h"
 
+#include "sim/mechanics/spring_law.h"
 #include "sim/mechanics/young.h"
 #include "sim/topology/walk.h"
 
@@ -33,12 +34,12 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
                   .support = FaceOfVolume,
                   .units = diagonals,
                   .fold = {},
-                  .present = [](const GMap& m, Dart d) { return sides_of_face(m, d) == 4; }};
+                  .present = [](const GMap& m, Dart d, std::size_t) { return sides_of_face(m, d) == 4; }};
   if (map.dimension() == 3) pattern.fold.push_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.node.number("damping");
   return make_interaction<2>(
-      map, "shear isotropic", Law::Spring, pattern, damping, [=](const EmbeddedMap& body, Dart d, int unit) {
+      map, "shear isotropic", spring_law(), pattern, damping, [=](const EmbeddedMap& body, Dart d, int unit) {
         if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
         return along(body, d, diagonals[static_cast<std::size_t>(unit)], k(body, d), damping);
       });
@@ -63,11 +64,11 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
                   .support = FaceOfVolume,
                   .units = {across_corner},
                   .fold = {},
-                  .present = [](const GMap& m, Dart d) { return sides_of_face(m, d) >= 4; }};
+                  .present = [](const GMap& m, Dart d, std::size_t) { return sides_of_face(m, d) >= 4; }};
   if (map.dimension() == 3) pattern.fold.push_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.node.number("damping");
-  return make_interaction<1>(map, "shear anisotropic", Law::Spring, pattern, damping,
+  return make_interaction<1>(map, "shear anisotropic", spring_law(), pattern, damping,
                              [=](const EmbeddedMap& body, Dart d, int) {
                                if (!carries(body.map(), d)) return UnitParameters{};
                                return along(body, d, across_corner, k(body, d), damping);

@@ -3,27 +3,21 @@
 //   u = (xj − xi)/|xj − xi|,   f_i = (k(|xj − xi| − l0) + λ (vj − vi)·u) u,   f_j = −f_i
 //
 // The sign of the damping is corrected against the thesis's print, so that it dissipates. At |xj − xi| = 0 there is
-// no direction, and no force. This is the reference; the program's kernel computes four at a time.
+// no direction, and no force. Its derivative, with s = 1 − l0/|xj − xi| (0 instead of what is negative, where it must
+// be definite):
+//
+//   −∂f_i/∂x_i = k (s (I − u uᵀ) + u uᵀ),   −∂f_i/∂v_i = λ u uᵀ,   and the opposite for j
 #pragma once
 
-#include "sim/mechanics/interaction.h"
+#include "sim/mechanics/law.h"
 
-#include <cmath>
+#include <memory>
 
 namespace rend {
 
-inline Vec3 spring_force(const UnitParameters& p, const Vec3& xi, const Vec3& xj, const Vec3& vi,
-                         const Vec3& vj) {
-  const Vec3 d = xj - xi;
-  const double length = std::sqrt(d.x() * d.x() + d.y() * d.y() + d.z() * d.z());
-  if (length == 0) return Vec3::Zero();
-  const Vec3 u = d / length;
-  return (p.k * (length - p.rest) + p.damping * (vj - vi).dot(u)) * u;
-}
+Vec3 spring_force(const UnitParameters& p, const Vec3& xi, const Vec3& xj, const Vec3& vi, const Vec3& vj);
+double spring_energy(const UnitParameters& p, const Vec3& xi, const Vec3& xj); // [J]
 
-inline double spring_energy(const UnitParameters& p, const Vec3& xi, const Vec3& xj) {
-  const double stretch = (xj - xi).norm() - p.rest;
-  return 0.5 * p.k * stretch * stretch;
-}
+const std::shared_ptr<const Law>& spring_law(); // 2 particles; k, damping, rest length
 
 } // namespace rend

@@ -1,5 +1,6 @@
 #include "sim/mechanics/stretch.h"
 
+#include "sim/mechanics/spring_law.h"
 #include "sim/mechanics/young.h"
 
 namespace rend {
@@ -10,12 +11,12 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
                   .support = FaceOfVolume,
                   .units = {{"", "0"}},
                   .fold = {"2"},
-                  .present = [](const GMap& m, Dart d) { return !m.is_free(0, d); }};
+                  .present = [](const GMap& m, Dart d, std::size_t) { return !m.is_free(0, d); }};
   if (map.dimension() == 3) pattern.fold.push_back("3");
   const StiffnessOf k = stiffness_of(request, &edge_stiffness);
   const double damping = request.node.number("damping");
   return make_interaction<1>(
-      map, "stretch", Law::Spring, pattern, damping, [=](const EmbeddedMap& body, Dart d, int) {
+      map, "stretch", spring_law(), pattern, damping, [=](const EmbeddedMap& body, Dart d, int) {
         const Dart e = body.map().alpha(0, d);
         return UnitParameters{k(body, d), damping, (body.rest_of(e) - body.rest_of(d)).norm()};
       });

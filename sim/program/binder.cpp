@@ -35,7 +35,7 @@ Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, bool f
   Binder binder(map, interaction.pattern, std::move(fields), places);
   binder.interaction_ = &interaction;
   binder.fold_ = fold && !interaction.pattern.fold.empty();
-  binder.rows_ = PackedRows(static_cast<int>(binder.fields_.size()), places, 3);
+  binder.rows_ = PackedRows(static_cast<int>(binder.fields_.size()), places, interaction.law->values());
   return binder;
 }
 
@@ -45,34 +45,31 @@ Binder::Binder(const EmbeddedMap& map, Pattern pattern, std::vector<Field> field
   CHECK(fields_.size() <= Row{}.index.size());
 }
 
-bool Binder::present(Slot owner) const {
+bool Binder::present(Slot owner, std::size_t unit) const {
   const CellIndex& cells = map_->cells(pattern_.owner);
-  return cells.alive(owner) && pattern_.present(map_->map(), cells.first_dart(owner));
+  return cells.alive(owner) && pattern_.present(map_->map(), cells.first_dart(owner), unit);
 }
 
-bool Binder::fill(Slot owner, int unit, Row& row) const {
+bool Binder::fill(Slot owner, std::size_t unit, Row& row) const {
+  if (!present(owner, unit)) return false;
   const Dart d = map_->cells(pattern_.owner).first_dart(owner);
-  for (std::size_t c = 0; c < fields_.size(); ++c) {
-    const Dart end = map_->map().follow(d, fields_[c].word[static_cast<std::size_t>(unit)]);
-    row.index[c] = map_->slot(fields_[c].orbit, end);
-  }
-  row.value = {};
+  for (std::size_t c = 0; c < fields_.size(); ++c)
+    row.index[c] = map_->slot(fields_[c].orbit, map_->map().follow(d, fields_[c].word[unit]));
   if (!interaction_) return true;
-  if (interaction_->law == Law::Spring && row.index[0] == row.index[1]) return false;
-  const UnitParameters p = interaction_->parameters(owner, unit);
-  row.value = {p.k, p.damping, p.rest};
-  return p.k != 0 || p.damping != 0;
+  row.value = interaction_->unit(owner, unit);
+  return interaction_->law->acts(row.value, row.index.data());
 }
 
 bool Binder::same_particles(const Row& a, const Row& b) const {
-  return (a.index[0] == b.index[0] && a.index[1] == b.index[1]) ||
-         (a.index[0] == b.index[1] && a.index[1] == b.index[0]);
+  const std::size_t particles = pattern_.units.front().size();
+  const auto same = [&](std::size_t n, std::size_t m) { return a.index[n] == b.index[m]; };
+  return particles == 1 ? same(0, 0) : (same(0, 0) && same(1, 1)) || (same(0, 1) && same(1, 0));
 }
 
 // Keys of all units that act between the same particles as this one, reached by fold words, itself included.
-void Binder::find_class(Slot owner, int unit, const Row& row, std::vector<std::size_t>& keys) const {
+void Binder::find_class(Slot owner, std::size_t unit, const Row& row, std::vector<std::size_t>& keys) const {
   const std::size_t count = pattern_.units.size();
-  keys.assign(1, owner * count + static_cast<std::size_t>(unit));
+  keys.assign(1, owner * count + unit);
   thread_local std::vector<Dart> darts;
   for (std::size_t at = 0; at < keys.size(); ++at) {
     darts.clear();
@@ -83,8 +80,8 @@ void Binder::find_class(Slot owner, int unit, const Row& row, std::vector<std::s
         for (std::size_t u = 0; u < count; ++u) {
           const std::size_t key = twin * count + u;
           Row other;
-          if (std::find(keys.begin(), keys.end(), key) != keys.end() || !present(twin)) continue;
-          if (fill(twin, static_cast<int>(u), other) && same_particles(row, other)) keys.push_back(key);
+          if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+          if (fill(twin, u, other) && same_particles(row, other)) keys.push_back(key);
         }
       }
     }
@@ -92,29 +89,34 @@ void Binder::find_class(Slot owner, int unit, const Row& row, std::vector<std::s
   std::sort(keys.begin(), keys.end());
 }
 
+// The numbers of a class, seen from its first unit. Valid until the next call.
+const double* Binder::sum_of(const std::vector<std::size_t>& keys, const Row& first) const {
+  const std::size_t count = pattern_.units.size();
+  thread_local std::vector<double> sum;
+  sum.assign(first.value, first.value + interaction_->law->values());
+  for (std::size_t n = 1; n < keys.size(); ++n) {
+    Row other;
+    fill(owner_of(keys[n]), keys[n] % count, other);
+    interaction_->law->fold(sum.data(), other.value, swapped(first, other));
+  }
+  return sum.data();
+}
+
 // Brings the rows of one owner up to date.
 void Binder::write(Slot owner) {
   const std::size_t count = pattern_.units.size();
   thread_local std::vector<std::size_t> keys;
-  const bool there = present(owner);
   for (std::size_t unit = 0; unit < count; ++unit) {
     const std::size_t key = owner * count + unit;
     Row row;
-    bool live = there && fill(owner, static_cast<int>(unit), row);
+    bool live = fill(owner, unit, row);
     if (live && fold_) {
-      find_class(owner, static_cast<int>(unit), row, keys);
+      find_class(owner, unit, row, keys);
       live = keys.front() == key;
-      if (live) {
-        row.value[0] = row.value[1] = 0;
-        for (std::size_t member : keys) {
-          const UnitParameters p = interaction_->parameters(owner_of(member), static_cast<int>(member % count));
-          row.value[0] += p.k;
-          row.value[1] += p.damping;
-        }
-      }
+      if (live && keys.size() > 1) row.value = sum_of(keys, row);
     }
     if (live)
-      rows_.set(key, row.index.data(), row.value.data());
+      rows_.set(key, row.index.data(), row.value);
     else
       rows_.erase(key);
   }
@@ -177,11 +179,10 @@ void Binder::add_folding(std::vector<Slot>& owners) {
   }
   const std::size_t near = owners.size();
   for (std::size_t at = 0; at < near; ++at) { // and the whole of their classes
-    if (!present(owners[at])) continue;
     for (std::size_t unit = 0; unit < count; ++unit) {
       Row row;
-      if (!fill(owners[at], static_cast<int>(unit), row)) continue;
-      find_class(owners[at], static_cast<int>(unit), row, keys);
+      if (!fill(owners[at], unit, row)) continue;
+      find_class(owners[at], unit, row, keys);
       for (std::size_t key : keys)
         if (owners_seen.insert(owner_of(key))) owners.push_back(owner_of(key));
     }

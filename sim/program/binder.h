@@ -43,13 +43,15 @@ public:
 
 private:
   struct Row {
-    std::array<std::uint32_t, 16> index; // fields
-    std::array<double, 3> value;         // k, damping, rest
+    std::array<std::uint32_t, 2 * most_particles> index; // fields
+    const double* value = nullptr;                       // the unit's numbers; null: the pattern has none
   };
-  bool present(Slot owner) const;
-  bool fill(Slot owner, int unit, Row& row) const; // indices; false: silent
+  bool present(Slot owner, std::size_t unit) const;
+  bool fill(Slot owner, std::size_t unit, Row& row) const; // false: silent
   bool same_particles(const Row& a, const Row& b) const;
-  void find_class(Slot owner, int unit, const Row& row, std::vector<std::size_t>& keys) const;
+  bool swapped(const Row& a, const Row& b) const { return a.index[0] != b.index[0]; }
+  void find_class(Slot owner, std::size_t unit, const Row& row, std::vector<std::size_t>& keys) const;
+  const double* sum_of(const std::vector<std::size_t>& keys, const Row& first) const;
   void write(Slot owner);
   void add_owner(Dart d, std::vector<Slot>& owners);
   void reach(const Changes& changes, std::vector<Slot>& owners);

@@ -6,7 +6,7 @@
 namespace rend {
 
 PackedRows::PackedRows(int indices, int places, int values)
-    : places_(places), index_(static_cast<std::size_t>(indices)), value_(static_cast<std::size_t>(values)) {}
+    : places_(places), index_(static_cast<std::size_t>(indices)), columns_(static_cast<std::size_t>(values)) {}
 
 void PackedRows::resize(std::size_t keys) {
   if (keys <= keys_) return;
@@ -15,7 +15,7 @@ void PackedRows::resize(std::size_t keys) {
   mask_.resize(blocks, 0);
   range_.resize(blocks);
   for (auto& column : index_) column.resize(blocks * block_size, 0);
-  for (auto& column : value_) column.resize(blocks * block_size, 0);
+  value_.resize(blocks * block_size * columns_, 0);
 }
 
 void PackedRows::reserve(std::size_t keys) {
@@ -23,7 +23,7 @@ void PackedRows::reserve(std::size_t keys) {
   mask_.reserve(blocks);
   range_.reserve(blocks);
   for (auto& column : index_) column.reserve(blocks * block_size);
-  for (auto& column : value_) column.reserve(blocks * block_size);
+  value_.reserve(blocks * block_size * columns_);
 }
 
 std::size_t PackedRows::live_count() const {
@@ -32,13 +32,21 @@ std::size_t PackedRows::live_count() const {
   return count;
 }
 
+void PackedRows::copy_values(std::size_t from, std::size_t to) {
+  const double* source = value_.data() + place(from, 0);
+  double* target = value_.data() + place(to, 0);
+  for (std::size_t c = 0; c < columns_; ++c) target[c * lanes] = source[c * lanes];
+}
+
 // Moves rows [from, end) by one place.
 void PackedRows::shift(std::size_t from, std::size_t end, int by) {
   if (from >= end) return;
   for (auto& column : index_)
     std::memmove(column.data() + from + by, column.data() + from, (end - from) * sizeof(std::uint32_t));
-  for (auto& column : value_)
-    std::memmove(column.data() + from + by, column.data() + from, (end - from) * sizeof(double));
+  if (by > 0)
+    for (std::size_t at = end; at-- > from;) copy_values(at, at + 1);
+  else
+    for (std::size_t at = from; at < end; ++at) copy_values(at, at - 1);
 }
 
 void PackedRows::touch(std::size_t block) {
@@ -52,7 +60,8 @@ void PackedRows::set(std::size_t key, const std::uint32_t* index, const double* 
     mask_[block] |= std::uint64_t{1} << scattered(key % block_size);
   }
   for (std::size_t c = 0; c < index_.size(); ++c) index_[c][at] = index[c];
-  for (std::size_t c = 0; c < value_.size(); ++c) value_[c][at] = value[c];
+  double* to = value_.data() + place(at, 0);
+  for (std::size_t c = 0; c < columns_; ++c) to[c * lanes] = value[c];
   touch(block);
 }
 
@@ -78,7 +87,7 @@ void PackedRows::seal() {
     for (std::size_t at = begin + count; at < begin + block_size; ++at) { // gaps too: rows are a pure function
       const bool padding = at < begin + padded_in(block);
       for (auto& column : index_) column[at] = padding ? column[begin + count - 1] : 0;
-      for (auto& column : value_) column[at] = 0;
+      for (std::size_t c = 0; c < columns_; ++c) value_[place(at, static_cast<int>(c))] = 0;
     }
   }
   dirty_.clear();
@@ -87,8 +96,7 @@ void PackedRows::seal() {
 std::size_t PackedRows::bytes() const {
   std::size_t total = mask_.size() * sizeof(std::uint64_t) + range_.size() * sizeof(Range);
   for (const auto& column : index_) total += column.size() * sizeof(std::uint32_t);
-  for (const auto& column : value_) total += column.size() * sizeof(double);
-  return total;
+  return total + value_.size() * sizeof(double);
 }
 
 } // namespace rend

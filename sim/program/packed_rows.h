@@ -11,7 +11,8 @@
 // byte), and an insertion moves at most 63 rows. Neighbouring keys are sides of one face and share vertices: turned
 // around, rows that follow each other seldom add to the same vertex, and none waits for the sum before it (2.3 against
 // 1.9 µs a step at 10 × 10 quads). Padding repeats the last row's indices with values 0: the kernel takes four rows at a
-// time and needs no remainder loop.
+// time and needs no remainder loop. Values of four rows stand together, [row/4][column][row%4], so that a kernel reads
+// one stream, whether a row has 3 values (a spring) or 200 (a hexahedron).
 #pragma once
 
 #include <bit>
@@ -54,7 +55,10 @@ public:
   const std::uint32_t* index(int column) const {
     return index_[column].data();
   } // one per row, gaps between blocks
-  const double* value(int column) const { return value_[column].data(); }
+  double value(int column, std::size_t row) const { return value_[place(row, column)]; }
+
+  // The values of rows row .. row + 3 (row a multiple of four): four of column 0, four of column 1, ...
+  const double* lanes_at(std::size_t row) const { return value_.data() + place(row, 0); }
 
   // Smallest and largest vertex slot that rows of the block write to.
   struct Range {
@@ -85,6 +89,10 @@ private:
     return (n & 0x03) << 4 | (n & 0x0c) | (n & 0x30) >> 4;
   }
 
+  std::size_t place(std::size_t row, int column) const {
+    return row / lanes * lanes * columns_ + static_cast<std::size_t>(column) * lanes + row % lanes;
+  }
+  void copy_values(std::size_t from, std::size_t to);
   void shift(std::size_t from, std::size_t end, int by);
   void touch(std::size_t block);
 
@@ -93,7 +101,8 @@ private:
   std::vector<std::uint64_t> mask_;               // one per block
   std::vector<Range> range_;                      // one per block
   std::vector<std::vector<std::uint32_t>> index_; // [column][row]
-  std::vector<std::vector<double>> value_;        // [column][row]
+  std::size_t columns_;                           // of values
+  std::vector<double> value_;                     // [row / 4][column][row % 4]
   std::vector<std::size_t> dirty_;                // blocks to be sealed
 };
 

@@ -11,6 +11,7 @@
 
 #include "sim/mechanics/mass.h"
 #include "sim/program/binder.h"
+#include "sim/program/kernels.h"
 
 #include <memory>
 #include <string>
@@ -39,9 +40,6 @@ public:
   // The same by the elementary rows, each element corner's own share as well: one record per corner slot.
   void corner_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
 
-  // The same by walking the map, unit after unit. Corner may be null.
-  void walk_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
-
   void rebind(); // after edits; does nothing where there were none
   void reserve_for_separations();
 
@@ -51,21 +49,17 @@ public:
 
   double elastic_energy(const Record* position) const; // [J], where the interactions have one
 
-  // Bounds by Gershgorin's discs on element corners, which no separation changes: of the largest ω² [1/s²] and of
-  // the largest damping rate [1/s] among all modes, at the rest state.
-  struct Bounds {
-    double omega_squared = 0, damping_rate = 0, least_drag_rate = 0;
-  };
-  Bounds frequency_bounds() const;
-
   const std::vector<Binder>& folded() const { return folded_; }
   const std::vector<Binder>& elementary() const { return elementary_; }
+  const std::vector<Binder>& rows() const { return folded_.empty() ? elementary_ : folded_; } // of either set
   const ProgramOptions& options() const { return options_; }
   int parts() const; // threads that a step of this size is worth
   std::size_t bytes() const;
   bool same_as(const Program& other) const; // byte for byte
 
 private:
+  KernelArguments arguments(const Binder& binder, const Record* position, const Record* velocity,
+                            Record* force) const; // all blocks, all vertices
   void weigh_all();
   void weigh(Slot vertex);
   void place_corners();
@@ -77,7 +71,8 @@ private:
   ProgramOptions options_;
   Changes changes_;
   std::vector<Binder> folded_, elementary_;
-  std::vector<double> inverse_mass_; // [1/kg], one per vertex slot
+  std::vector<const Kernel*> kernels_; // of each interaction
+  std::vector<double> inverse_mass_;   // [1/kg], one per vertex slot
   std::vector<Slot>
       corner_vertex_;             // of every element corner slot; no_slot: free; empty without elementary rows
   std::vector<double> drag_rate_; // γ/m [1/s], one per vertex slot; empty without drag

@@ -1,4 +1,5 @@
 #include "sim/base/simd.h"
+#include "sim/mechanics/spring_law.h"
 #include "sim/program/kernels.h"
 
 namespace rend {
@@ -9,15 +10,16 @@ template <bool damped>
 REND_INLINE Double4 spring_factor(const Double4* d, const KernelArguments& a, const std::uint32_t* i,
                                   const std::uint32_t* j, std::size_t at) {
   Double4 k, rest;
-  __builtin_memcpy(&k, a.rows.value(0) + at, sizeof k);
-  __builtin_memcpy(&rest, a.rows.value(2) + at, sizeof rest);
+  const double* values = a.rows.lanes_at(at); // k, damping, rest
+  __builtin_memcpy(&k, values, sizeof k);
+  __builtin_memcpy(&rest, values + 8, sizeof rest);
   const Double4 square = sums_of(d[0] * d[0], d[1] * d[1], d[2] * d[2], d[3] * d[3]);
   const Double4 length = square_root(square);
   const Double4 inverse = 1.0 / length;
   Double4 s = k * (length - rest);
   if constexpr (damped) {
     Double4 damping, w[4];
-    __builtin_memcpy(&damping, a.rows.value(1) + at, sizeof damping);
+    __builtin_memcpy(&damping, values + 4, sizeof damping);
     for (int r = 0; r < 4; ++r) w[r] = (load(a.velocity[j[r]]) - load(a.velocity[i[r]])) * d[r];
     s += damping * (sums_of(w[0], w[1], w[2], w[3]) * inverse);
   }
@@ -46,10 +48,8 @@ REND_INLINE void fetch_ahead(const PackedRows& rows, std::size_t block) {
   constexpr std::size_t ahead = 2, line = 64;
   if (block + ahead >= rows.blocks()) return;
   const std::size_t begin = (block + ahead) * PackedRows::block_size, count = rows.rows_in(block + ahead);
-  for (std::size_t n = 0; n < count; n += line / sizeof(double)) {
-    __builtin_prefetch(rows.value(0) + begin + n);
-    __builtin_prefetch(rows.value(2) + begin + n);
-  }
+  const double* values = rows.lanes_at(begin);
+  for (std::size_t n = 0; n < 3 * count; n += line / sizeof(double)) __builtin_prefetch(values + n);
   for (std::size_t n = 0; n < count; n += line / sizeof(std::uint32_t)) {
     __builtin_prefetch(rows.index(0) + begin + n);
     __builtin_prefetch(rows.index(1) + begin + n);
@@ -101,11 +101,10 @@ REND_CLONES void run_corners_damped(const KernelArguments& a) {
 
 } // namespace
 
-void spring_forces(const KernelArguments& a, bool damped) {
-  damped ? run_damped(a) : run_undamped(a);
-}
-void spring_corner_forces(const KernelArguments& a, bool damped) {
-  damped ? run_corners_damped(a) : run_corners_undamped(a);
+Kernel spring_kernel() {
+  return {[](const Law& law) { return &law == spring_law().get(); },
+          [](const KernelArguments& a) { a.damped ? run_damped(a) : run_undamped(a); },
+          [](const KernelArguments& a) { a.damped ? run_corners_damped(a) : run_corners_undamped(a); }};
 }
 
 } // namespace rend

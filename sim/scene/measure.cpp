@@ -1,5 +1,7 @@
 #include "sim/scene/measure.h"
 
+#include "sim/mechanics/spring_law.h"
+
 #include <cmath>
 
 namespace rend {
@@ -9,13 +11,12 @@ namespace {
 template <class F> std::vector<double> largest(const Body& body, F&& value) {
   std::vector<double> out(body.program->vertices(), 0);
   const auto& x = body.map->position().values();
-  for (const Binder& binder :
-       body.program->folded().empty() ? body.program->elementary() : body.program->folded()) {
-    if (binder.interaction()->law != Law::Spring) continue;
+  for (const Binder& binder : body.program->rows()) {
+    if (binder.interaction()->law != spring_law()) continue;
     const PackedRows& rows = binder.rows();
     rows.for_each([&](std::size_t, std::size_t row) {
       const std::uint32_t i = rows.index(0)[row], j = rows.index(1)[row];
-      const double here = value(rows.value(0)[row], rows.value(2)[row], (x[j].vec() - x[i].vec()).norm());
+      const double here = value(rows.value(0, row), rows.value(2, row), (x[j].vec() - x[i].vec()).norm());
       out[i] = std::max(out[i], here);
       out[j] = std::max(out[j], here);
     });

@@ -1,6 +1,7 @@
 #include "sim/scene/scene.h"
 
 #include "sim/base/hash.h"
+#include "sim/program/frequency.h"
 #include "sim/scene/build_body.h"
 
 #include <fmt/format.h>
@@ -63,7 +64,7 @@ void Scene::build_time(const Node& time) {
 double Scene::stability_limit() const {
   double limit = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies_) {
-    const Program::Bounds b = body->program->frequency_bounds();
+    const FrequencyBounds b = frequency_bounds(*body->map, body->interactions, *body->mass, body->drag);
     limit = std::min(limit, scheme_->limit({b.omega_squared, b.damping_rate + body->uniform_drag,
                                             b.least_drag_rate + body->uniform_drag}));
   }
@@ -138,22 +139,23 @@ StageSeconds Scene::seconds() const {
   return all;
 }
 
-// Ends of a spring that move against each other by many times its rest length in one step are not resolved by it: what
+// Neighbours that move against each other by many times their distance at rest in one step are not resolved by it: what
 // explodes passes this bound long before its numbers overflow.
 void Scene::check_resolved(const Body& body, const Record* velocity) const {
   constexpr double rest_lengths = 64;
-  const Program& program = *body.program;
-  for (const Binder& binder : program.folded().empty() ? program.elementary() : program.folded()) {
-    if (binder.interaction()->law != Law::Spring) continue;
+  const Record* rest = body.map->rest().values().data();
+  for (const Binder& binder : body.program->rows()) {
+    if (binder.interaction()->law->particles() < 2) continue;
     const PackedRows& rows = binder.rows();
     bool resolved = true;
     rows.for_each([&](std::size_t, std::size_t row) {
-      const double rest = rows.value(2)[row];
-      const Vec3 apart = velocity[rows.index(1)[row]].vec() - velocity[rows.index(0)[row]].vec();
-      resolved = resolved && (rest == 0 || apart.norm() * step_ <= rest_lengths * rest);
+      const std::uint32_t i = rows.index(0)[row], j = rows.index(1)[row];
+      const double apart = (rest[j].vec() - rest[i].vec()).norm();
+      const double moved = (velocity[j].vec() - velocity[i].vec()).norm() * step_;
+      resolved = resolved && (apart == 0 || moved <= rest_lengths * apart);
     });
     if (!resolved)
-      stop(body, "ends of a " + binder.interaction()->name + " spring pass each other within a step");
+      stop(body, "neighbours joined by " + binder.interaction()->name + " pass each other within a step");
     break; // the first kind will do: neighbours are neighbours
   }
 }

@@ -68,8 +68,8 @@ struct PlainCloth {
       binder.rows().for_each([&](std::size_t, std::size_t row) {
         i.push_back(static_cast<int>(binder.rows().index(0)[row]));
         j.push_back(static_cast<int>(binder.rows().index(1)[row]));
-        k.push_back(binder.rows().value(0)[row]);
-        rest.push_back(binder.rows().value(2)[row]);
+        k.push_back(binder.rows().value(0, row));
+        rest.push_back(binder.rows().value(2, row));
       });
     for (Slot s : body.constraints.vertices()) fixed.push_back(static_cast<int>(s));
   }

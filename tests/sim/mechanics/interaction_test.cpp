@@ -55,7 +55,7 @@ template <class F> void on_every_sheet(F&& f) {
 TEST(Interaction, has_as_many_rows_as_the_polygons_have_springs) {
   on_every_sheet([](const Body& body, const BruteForce& brute) {
     EXPECT_EQ(body.program->elementary()[0].rows().live_count(), brute.units());
-    const bool pairs = body.interactions[0]->law == Law::Spring;
+    const bool pairs = body.interactions[0]->law == spring_law();
     EXPECT_EQ(body.program->folded()[0].rows().live_count(), pairs ? brute.pairs() : brute.units());
   });
 }

@@ -41,13 +41,13 @@ Eigen::Matrix3d membrane(const PolygonMesh& mesh, double nu, int depth) {
     centre /= corners;
     if ((centre - low).head<2>().minCoeff() < depth || (high - centre).head<2>().minCoeff() < depth) return;
     area += rest_area(*map, d);
-    const auto add = [&](const Interaction& kind, Slot owner, int unit, Dart from) {
-      const auto& words = kind.pattern.units[static_cast<std::size_t>(unit)];
+    const auto add = [&](const Interaction& kind, Slot owner, std::size_t unit, Dart from) {
+      const auto& words = kind.pattern.units[unit];
       const Vec3 along =
           map->rest_of(map->map().follow(from, words[1])) - map->rest_of(map->map().follow(from, words[0]));
       const double l = along.norm(), x = along.x() / l, y = along.y() / l;
       const Eigen::Vector3d strain(x * x, y * y, x * y); // of the spring, per εx, εy, γ
-      c += kind.parameters(owner, unit).k * l * l * strain * strain.transpose();
+      c += UnitParameters::of(kind.unit(owner, unit)).k * l * l * strain * strain.transpose();
     };
     Dart at = d;
     do {

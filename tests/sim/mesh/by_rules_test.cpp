@@ -139,11 +139,11 @@ void expect_same_load(const Laden& a, const Laden& b, const std::vector<Dart>& i
       const Interaction &one = *a.interactions[n], &other = *b.interactions[n];
       ASSERT_EQ(one.name, other.name);
       if (one.name == "shear anisotropic") continue; // which corners carry it is told by the numbers of darts
-      ASSERT_EQ(one.pattern.present(a.map.map(), d), other.pattern.present(b.map.map(), e));
-      if (!one.pattern.present(a.map.map(), d)) continue;
-      for (int unit = 0; unit < static_cast<int>(one.pattern.units.size()); ++unit) {
-        const UnitParameters p = one.parameters(a.map.slot(one.pattern.owner, d), unit);
-        const UnitParameters q = other.parameters(b.map.slot(other.pattern.owner, e), unit);
+      for (std::size_t unit = 0; unit < one.pattern.units.size(); ++unit) {
+        ASSERT_EQ(one.pattern.present(a.map.map(), d, unit), other.pattern.present(b.map.map(), e, unit));
+        if (!one.pattern.present(a.map.map(), d, unit)) continue;
+        const auto p = UnitParameters::of(one.unit(a.map.slot(one.pattern.owner, d), unit));
+        const auto q = UnitParameters::of(other.unit(b.map.slot(other.pattern.owner, e), unit));
         EXPECT_EQ(p.k, q.k) << one.name;
         EXPECT_EQ(p.damping, q.damping) << one.name;
         EXPECT_NEAR(p.rest, q.rest, 1e-15) << one.name;
@@ -245,8 +245,8 @@ TEST(Subdivision, quarters_corner_masses_keeps_stiffnesses_and_halves_rest_lengt
     map->map().for_each_dart([&](Dart d) {
       EXPECT_NEAR(body.mass[map->slot(VertexOfFace, d)], corner, 1e-14 * corner);
       for (const auto& each : body.interactions) {
-        if (!each->pattern.present(map->map(), d)) continue;
-        const UnitParameters p = each->parameters(map->slot(each->pattern.owner, d), 0);
+        if (!each->pattern.present(map->map(), d, 0)) continue;
+        const auto p = UnitParameters::of(each->unit(map->slot(each->pattern.owner, d), 0));
         EXPECT_EQ(p.k, known.at(each->name).first);
         EXPECT_NEAR(p.rest, known.at(each->name).second, 1e-15) << each->name;
       }

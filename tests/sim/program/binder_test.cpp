@@ -201,7 +201,7 @@ TEST(Rebinding, of_words_that_reach_over_several_faces_equals_binding_from_scrat
                         .support = EdgeOfFace,
                         .units = {{"", "0121210"}, {"", "1210121"}},
                         .fold = {},
-                        .present = [](const GMap&, Dart) { return true; }};
+                        .present = [](const GMap&, Dart, std::size_t) { return true; }};
   const std::vector<Field> fields{{{"", ""}, Vertex},
                                   {{"0121210", "1210121"}, Vertex},
                                   {{"01210", "12101"}, FaceOfVolume},

@@ -1,6 +1,7 @@
 // The kernels against the laws that they compute, row by row.
 #include "sim/program/kernels.h"
 
+#include "sim/mechanics/hinge_law.h"
 #include "sim/mechanics/spring_law.h"
 #include "sim/random_meshes.h"
 
@@ -40,6 +41,12 @@ Springs random_springs(std::size_t count, std::uint32_t vertices, unsigned seed)
   return s;
 }
 
+KernelArguments arguments(const Springs& s, std::vector<Record>& force, std::uint32_t low, std::uint32_t high,
+                          bool damped) {
+  return {*spring_law(), s.rows, s.x.data(), s.v.data(),      s.x.data(), force.data(),
+          low,           high,   0,          s.rows.blocks(), damped};
+}
+
 TEST(SpringKernel, adds_what_the_law_says) {
   for (const bool damped : {false, true}) {
     for (const std::size_t count : {1u, 3u, 64u, 65u, 301u}) {
@@ -55,9 +62,8 @@ TEST(SpringKernel, adds_what_the_law_says) {
         expected_corner[ci] = Record(f);
         expected_corner[cj] = Record(-f);
       }
-      const std::size_t blocks = s.rows.blocks();
-      spring_forces({s.rows, s.x.data(), s.v.data(), force.data(), 0, 40, 0, blocks}, damped);
-      spring_corner_forces({s.rows, s.x.data(), s.v.data(), corner.data(), 0, 0, 0, blocks}, damped);
+      spring_kernel().forces(arguments(s, force, 0, 40, damped));
+      spring_kernel().corner_forces(arguments(s, corner, 0, 0, damped));
       EXPECT_LT(difference(force, expected), 1e-14);
       EXPECT_LT(difference(corner, expected_corner), 1e-14);
       for (const Record& f : force) EXPECT_EQ(f.w, 0); // four lanes, three of them used
@@ -68,15 +74,14 @@ TEST(SpringKernel, adds_what_the_law_says) {
 
 TEST(SpringKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
   const Springs s = random_springs(500, 100, 6);
-  const std::size_t blocks = s.rows.blocks();
   std::vector<Record> whole(100), parts(100);
-  spring_forces({s.rows, s.x.data(), s.v.data(), whole.data(), 0, 100, 0, blocks}, true);
+  spring_kernel().forces(arguments(s, whole, 0, 100, true));
   for (const auto& [low, high] : {std::pair{0u, 13u}, {13u, 14u}, {14u, 77u}, {77u, 100u}})
-    spring_forces({s.rows, s.x.data(), s.v.data(), parts.data(), low, high, 0, blocks}, true);
+    spring_kernel().forces(arguments(s, parts, low, high, true));
   for (std::size_t n = 0; n < whole.size(); ++n) EXPECT_EQ(whole[n].vec(), parts[n].vec());
 }
 
-TEST(HingeKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
+TEST(PlainKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
   Recipe recipe;
   recipe.springs = {{"bend", "angular", 2, 0.3}};
   const auto sheet = body(warped(meshes::sheet(SheetPattern::Mixed, 6, 6), 0.2, 7), recipe);
@@ -84,9 +89,13 @@ TEST(HingeKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
   const PackedRows& rows = sheet->program->folded()[0].rows();
   const auto count = static_cast<std::uint32_t>(sheet->program->vertices());
   std::vector<Record> whole(count), parts(count);
-  hinge_forces({rows, positions(*sheet), velocities(*sheet), whole.data(), 0, count, 0, rows.blocks()});
+  const auto run = [&](std::vector<Record>& force, std::uint32_t low, std::uint32_t high) {
+    plain_kernel().forces({*hinge_law(), rows, positions(*sheet), velocities(*sheet), positions(*sheet),
+                           force.data(), low, high, 0, rows.blocks(), true});
+  };
+  run(whole, 0, count);
   for (const auto& [low, high] : {std::pair{0u, 13u}, {13u, 14u}, {14u, 40u}, {40u, count}})
-    hinge_forces({rows, positions(*sheet), velocities(*sheet), parts.data(), low, high, 0, rows.blocks()});
+    run(parts, low, high);
   EXPECT_GT(largest(whole), 0.01);
   for (std::size_t n = 0; n < count; ++n) EXPECT_EQ(whole[n].vec(), parts[n].vec());
 }

@@ -33,7 +33,7 @@ Rows unpacked(const PackedRows& packed) {
     EXPECT_EQ(at, packed.row(key));
     Row row{};
     for (int c = 0; c < 3; ++c) row.index[static_cast<std::size_t>(c)] = packed.index(c)[at];
-    for (int c = 0; c < 2; ++c) row.value[static_cast<std::size_t>(c)] = packed.value(c)[at];
+    for (int c = 0; c < 2; ++c) row.value[static_cast<std::size_t>(c)] = packed.value(c, at);
     EXPECT_TRUE(rows.emplace(key, row).second);
   });
   return rows;
@@ -96,8 +96,8 @@ TEST(PackedRows, are_padded_to_whole_lanes_with_rows_that_do_nothing) {
     EXPECT_LT(all.padded_in(0), count + PackedRows::lanes);
     for (std::size_t at = count; at < all.padded_in(0); ++at) {
       EXPECT_EQ(all.index(0)[at], 10u); // of a row that lives: no one else's memory
-      EXPECT_EQ(all.value(0)[at], 0);
-      EXPECT_EQ(all.value(1)[at], 0);
+      EXPECT_EQ(all.value(0, at), 0);
+      EXPECT_EQ(all.value(1, at), 0);
     }
   }
 }

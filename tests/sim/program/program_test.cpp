@@ -32,7 +32,8 @@ double off_the_walk(const Body& body) {
   const std::size_t vertices = body.program->vertices(), corners = body.map->cells(VertexOfFace).slots();
   std::vector<Record> flat(vertices), walk(vertices), corner(corners), walk_corner(corners);
   body.program->forces(positions(body), velocities(body), flat.data());
-  body.program->walk_forces(positions(body), velocities(body), walk_corner.data(), walk.data());
+  walk_forces(*body.map, body.interactions, body.mass->orbit(), positions(body), velocities(body),
+              walk_corner.data(), walk.data());
   double most = difference(flat, walk);
   if (!body.program->elementary().empty()) {
     body.program->corner_forces(positions(body), velocities(body), corner.data(), flat.data());

@@ -1,0 +1,80 @@
+// A law of force: what the particles of one unit of an interaction do to each other.
+//
+// A unit is a spring, a hinge, an element: some particles, and some numbers of its own (stiffness, rest length,
+// gradients of shape functions ...), which are embedded on the orbit that carries it and copied into its row. This is
+// the reference, one unit at a time; a kernel (program/kernels.h) may compute many at once and must agree with it.
+//
+// Adding one: a class like these, and interactions that use it. It needs no kernel to run.
+#pragma once
+
+#include "sim/base/record.h"
+
+#include <cstdint>
+#include <string>
+
+namespace rend {
+
+// Of one unit's particles, in the order of its words.
+struct UnitState {
+  const Vec3* position; // [m]
+  const Vec3* velocity; // [m/s]
+  const Vec3* rest;     // [m]
+};
+
+constexpr int most_particles = 8;
+// 3n × 3n of a unit with n particles: rows and columns 3i..3i+2 belong to particle i. Never allocates.
+using UnitMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * most_particles, 3 * most_particles>;
+
+// Which derivative of the force is wanted: the true one, or one that has no negative eigenvalue (what pushes sideways
+// under compression, and the turning of a frame, are left out), for solvers that need it so.
+enum class Tangent { Exact, Definite };
+
+class Law {
+public:
+  virtual ~Law() = default;
+
+  const std::string& name() const { return name_; }
+  int particles() const { return particles_; } // of a unit, at most 8
+  int values() const { return values_; }       // numbers that a unit carries
+
+  // The force [N] on each particle. Finite wherever the state is.
+  virtual void forces(const double* unit, const UnitState& s, Vec3* force) const = 0;
+
+  virtual double energy(const double* unit, const UnitState& s) const = 0; // [J], without damping
+
+  // −∂f/∂x [N/m] and −∂f/∂v [N·s/m]; both resized.
+  virtual void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
+                         UnitMatrix& by_velocity) const = 0;
+
+  // Numbers s_n [N/m] and d_n [N·s/m] for each particle, such that at rest −∂f/∂x ≼ diag(s_n) and −∂f/∂v ≼ diag(d_n).
+  // `mass` [kg] are those of the element corners where the forces act: how the bound is best shared out.
+  virtual void bound(const double* unit, const Vec3* rest, const double* mass, double* stiffness,
+                     double* damping) const = 0;
+
+  // Whether the unit can ever do anything between these vertices; if not, it gets no row.
+  virtual bool acts(const double* unit, const std::uint32_t* vertex) const = 0;
+
+  // Adds a unit between the same particles to another (cumulated rows); `swapped`: named in the opposite order.
+  virtual void fold(double* sum, const double* other, bool swapped) const;
+
+protected:
+  Law(std::string name, int particles, int values)
+      : name_(std::move(name)), particles_(particles), values_(values) {}
+
+private:
+  std::string name_;
+  int particles_, values_;
+};
+
+// What springs and hinges carry.
+struct UnitParameters {
+  double k = 0;       // [N/m] (spring), [N·m/rad] (hinge)
+  double damping = 0; // [N·s/m], [N·m·s/rad]
+  double rest = 0;    // length [m], angle [rad]
+
+  static UnitParameters of(const double* unit) { return {unit[0], unit[1], unit[2]}; }
+};
+static_assert(sizeof(UnitParameters) == 3 * sizeof(double));
+
+} // namespace rend
