@@ -1,5 +1,6 @@
 // Every interaction, on irregular and warped sheets, against the same computed from the polygons alone.
 #include "sim/brute_force.h"
+#include "sim/mechanics/spring_law.h"
 #include "sim/presets.h"
 
 #include <gtest/gtest.h>

@@ -55,7 +55,7 @@ Eigen::Matrix3d membrane(const PolygonMesh& mesh, double nu, int depth) {
       at = map->map().alpha(1, map->map().alpha(0, at));
     } while (at != d);
     if (all.size() > 1 && corners == 4)
-      for (int unit = 0; unit < 2; ++unit) {
+      for (std::size_t unit = 0; unit < 2; ++unit) {
         const Slot face = map->slot(FaceOfVolume, d);
         add(*all[1], face, unit, map->cells(FaceOfVolume).first_dart(face));
       }

@@ -1,6 +1,7 @@
 // Flat = walk, one thread = many, and what a separation leaves alone.
 #include "sim/brute_force.h"
 #include "sim/presets.h"
+#include "sim/program/walk_forces.h"
 #include "sim/rules/rules.h"
 #include "sim/topology/walk.h"
 
