@@ -19,15 +19,20 @@ constexpr Orbit element_orbit(int dimension) {
 double rest_area(const EmbeddedMap& map,
                  Dart d); // [m²], of the face of d (a warped one: of its fan from the centre)
 
-// Element mass / number of corners [kg].
+// [m³], of the volume of d, each face taken as its fan from the mean of its corners: exact where faces are flat.
+double rest_volume(const EmbeddedMap& map, Dart d);
+int corners_of_volume(const GMap& map, Dart d);
+
+// Element mass / number of corners [kg]. As for drag, orbit and support are a sheet's; on() says those of a map.
 struct CornerMass {
   using Value = double;
   std::string name = "corner mass";
   Orbit orbit = VertexOfFace;
   Orbit support = FaceOfVolume;
-  double density = 0; // [kg/m²] of a sheet
+  double density = 0; // [kg/m²] of a sheet, [kg/m³] of a solid
   Value birth(const EmbeddedMap& map, Dart d) const;
   Value split(const Value& whole) const { return whole; }
+  CornerMass on(const EmbeddedMap& map) const;
 };
 using MassColumn = Column<CornerMass>;
 
@@ -40,6 +45,7 @@ struct CornerDrag {
   double per_vertex = 0; // [N·s/m] of a vertex of the whole body
   Value birth(const EmbeddedMap& map, Dart d) const;
   Value split(const Value& whole) const { return whole; }
+  CornerDrag on(const EmbeddedMap& map) const;
 };
 using DragColumn = Column<CornerDrag>;
 

@@ -1,9 +1,10 @@
 #include "sim/mesh/polygons.h"
 
+#include "sim/mesh/fault.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace rend {
 
@@ -15,8 +16,8 @@ void PolygonMesh::add(std::initializer_list<std::uint32_t> polygon) {
 
 namespace {
 
-[[noreturn]] void refuse(std::size_t polygon, const std::string& what) {
-  throw std::invalid_argument(fmt::format("polygon {}: {}", polygon, what));
+[[noreturn]] void refuse(std::size_t polygon, const std::string& flaw) {
+  throw MeshFault("polygon", polygon, flaw);
 }
 
 void check(const PolygonMesh& mesh) {
@@ -83,17 +84,20 @@ void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const Sides& sides) {
 
 } // namespace
 
-std::unique_ptr<EmbeddedMap> sheet_from(const PolygonMesh& mesh) {
+SewnSheet sew_polygons(const PolygonMesh& mesh) {
   check(mesh);
   GMap map(2);
   MapEdit edit(map);
   edit.reserve(2 * mesh.corners.size());
   const Sides sides = link_polygons(edit, mesh);
   sew_sides(edit, mesh, sides);
-  return std::make_unique<EmbeddedMap>(std::move(map), [&](Dart d) {
-    const Vec3& x = mesh.points[d.value % 2 == 0 ? mesh.corners[d.value / 2] : sides.end[d.value / 2]];
+  SewnSheet sheet;
+  sheet.map = std::make_unique<EmbeddedMap>(std::move(map), [&](Dart d) {
+    sheet.point.push_back(d.value % 2 == 0 ? mesh.corners[d.value / 2] : sides.end[d.value / 2]);
+    const Vec3& x = mesh.points[sheet.point.back()];
     return Point{x, x, Vec3::Zero()};
   });
+  return sheet;
 }
 
 } // namespace rend

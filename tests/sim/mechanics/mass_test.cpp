@@ -1,6 +1,8 @@
 // Masses against sums over polygons and over particles.
 #include "sim/mechanics/mass.h"
 
+#include "sim/mesh/bar.h"
+#include "sim/mesh/tube.h"
 #include "sim/random_meshes.h"
 #include "sim/rules/rules.h"
 
@@ -85,6 +87,46 @@ TEST(Mass, of_flat_irregular_sheets_is_conserved_by_subdivision) {
       EXPECT_NEAR(total_mass(*body->map, *body->mass), before, 1e-14 * before);
     }
   }
+}
+
+// Affine images keep faces flat: volumes then have a closed form.
+CellMesh sheared(CellMesh mesh) {
+  for (Vec3& x : mesh.points) x = Vec3(x.x() + 0.3 * x.y(), x.y() - 0.2 * x.z(), x.z() + 0.1 * x.x());
+  return mesh;
+}
+
+TEST(MassOfSolids, is_the_density_times_the_volume_and_each_corner_has_its_share) {
+  Eigen::Matrix3d shear;
+  shear << 1, 0.3, 0, 0, 1, -0.2, 0.1, 0, 1;
+  for (auto pattern : {BarPattern::Hexahedra, BarPattern::Tetrahedra, BarPattern::Prisms, BarPattern::Mixed}) {
+    const CellMesh mesh = sheared(bar_cells({pattern, 4, 2, 3, Vec3(2, 1, 1.5)}));
+    const auto map = solid_from(mesh);
+    const auto& mass = map->add(CornerMass{.density = 1000}.on(*map));
+    EXPECT_NEAR(total_mass(*map, mass), 3000 * shear.determinant(), 1e-10);
+    std::uint32_t dart = 0;
+    for (std::size_t c = 0; c < mesh.cells(); ++c) {
+      const CellShape& shape = shape_of(mesh.kinds[c]);
+      const double share = 1000 * signed_volume(mesh, c) / shape.corners;
+      for (int n = 0; n < shape.darts; ++n, ++dart)
+        EXPECT_NEAR(mass[map->slot(VertexOfVolume, Dart{dart})], share, 1e-12 * share);
+    }
+  }
+}
+
+TEST(MassOfSolids, keeps_its_last_bit_when_all_elements_part) {
+  const auto map = solid_from(tube_cells({8, 4, Vec3(1, 0.8, 3), 0.15}));
+  const auto& mass = map->add(CornerMass{.density = 1000}.on(*map));
+  const double before = total_mass(*map, mass);
+  map->edit([&](Edit& edit) { map->map().for_each_dart([&](Dart d) { unsew(edit, 3, d); }); });
+  EXPECT_EQ(total_mass(*map, mass), before);
+  EXPECT_EQ(map->cells(Vertex).count(), 32u * 8u);
+}
+
+TEST(MassOfSolids, drag_is_shared_by_the_corners_of_a_vertex) {
+  const auto map = solid_from(bar_cells({BarPattern::Mixed, 3, 2, 2, Vec3(1, 1, 1)}));
+  const auto& drag = map->add(CornerDrag{.per_vertex = 0.5}.on(*map));
+  map->map().for_each_dart(
+      [&](Dart d) { EXPECT_NEAR(sum_at_vertex(*map, drag.orbit(), drag.values(), d), 0.5, 1e-14); });
 }
 
 } // namespace

@@ -1,0 +1,49 @@
+// A solid from points and cells, in linear expected time: α0 to α2 of a cell from a table (sim/mesh/cell_shapes.h),
+// α3 where two cells have a face with the same ring of points. Darts are numbered cell after cell; vertices then get
+// their slots in the order in which cells meet them.
+//
+// A point where cells meet that share no face becomes a vertex of each of their fans.
+#pragma once
+
+#include "sim/embedding/embedded_map.h"
+#include "sim/mesh/cell_shapes.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace rend {
+
+struct CellMesh {
+  std::vector<Vec3> points;           // [m]
+  std::vector<CellKind> kinds;        // one per cell
+  std::vector<std::uint32_t> corners; // point indices of all cells, one cell after another, in Gmsh's order
+  std::vector<std::uint32_t> first;   // where each cell starts in `corners`; one more entry closes the last
+  std::size_t cells() const { return kinds.size(); }
+  std::span<const std::uint32_t> corners_of(std::size_t cell) const {
+    return {corners.data() + first[cell], first[cell + 1] - first[cell]};
+  }
+  void add(CellKind kind, std::initializer_list<std::uint32_t> cell);
+  void add(CellKind kind, std::span<const std::uint32_t> cell);
+};
+
+// [m³], each face taken as its fan from the mean of its corners; negative: the cell is inside out.
+double signed_volume(const CellMesh& mesh, std::size_t cell);
+
+struct SewnSolid {
+  std::unique_ptr<EmbeddedMap> map; // of dimension 3
+  std::vector<std::uint32_t> point; // the index of the point that each vertex slot came from
+  std::size_t turned = 0;           // cells that were inside out and were turned
+};
+
+// Throws MeshFault for what a solid cannot hold: a face of more than two cells, faces that lie on each other but
+// do not match (a quad on two triangles), a cell without volume or with a corner twice, an index out of range.
+SewnSolid sew_cells(const CellMesh& mesh);
+
+inline std::unique_ptr<EmbeddedMap> solid_from(const CellMesh& mesh) {
+  return sew_cells(mesh).map;
+}
+
+} // namespace rend

@@ -1,0 +1,21 @@
+// A rectangular tube along z, one layer of hexahedra thick, its outside from the origin to (lx, ly, lz) (thesis fig.
+// 7.14: 32 hexahedra).
+//
+// Each of the four sides is divided equally into a quarter of the cells around, outside and inside alike, so that the
+// borders at the corners are mitred and cells conform.
+#pragma once
+
+#include "sim/mesh/cells.h"
+
+namespace rend {
+
+struct TubeShape {
+  int around = 8, along = 4; // cells; around is a multiple of 4
+  Vec3 size = Vec3(1, 1, 1); // lx, ly, lz [m]
+  double wall = 0.1;         // [m], less than half of lx and ly
+};
+
+// CHECK: the shape is as it says above.
+CellMesh tube_cells(const TubeShape& shape);
+
+} // namespace rend
