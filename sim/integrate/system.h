@@ -45,7 +45,7 @@ public:
 
   virtual std::size_t vertices() const = 0; // slots
 
-  // Internal forces [N], one per vertex slot.
+  // Internal forces [N], one per vertex slot. Brings `load` to the same state.
   virtual void forces(double time, const Record* position, const Record* velocity, Record* force) = 0;
 
   // Puts prescribed vertices where they are at `time`, and gives them their velocity there.
@@ -55,13 +55,15 @@ public:
   REND_INLINE Double4 acceleration(std::size_t vertex, Double4 f, Double4 v) const {
     double rate = uniform_drag;
     if (drag_rate) rate += drag_rate[vertex];
-    return f * splat(inverse_mass[vertex]) + load(gravity) - splat(rate) * v;
+    if (load) f += rend::load(load[vertex]);
+    return f * splat(inverse_mass[vertex]) + rend::load(gravity) - splat(rate) * v;
   }
 
   const double* inverse_mass = nullptr; // [1/kg], one per vertex slot; 0: free slot
   const double* drag_rate = nullptr;    // γ/m [1/s], one per vertex slot, or null
   double uniform_drag = 0;              // γ/m [1/s], of all vertices
   Record gravity;                       // [m/s²]
+  const Record* load = nullptr; // external [N], of the state last evaluated, one per vertex slot, or null
 };
 
 } // namespace rend

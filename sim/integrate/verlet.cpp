@@ -16,14 +16,14 @@ REND_CLONES void predict(const System& system, std::size_t count, double step, c
   }
 }
 
+// With w = v + dt a as predicted, v + dt/2 a is (v + w)/2: the loads of the start are not there any more.
 REND_CLONES void correct(const System& system, std::size_t count, double step, const StateView& now,
-                         const Record* force, const Record* force_there, State& next) {
-  const Double4 half = splat(0.5 * step);
+                         const Record* force_there, State& next) {
+  const Double4 half = splat(0.5), half_step = splat(0.5 * step);
   for (std::size_t i = 0; i < count; ++i) {
-    const Double4 v = load(now.velocity[i]);
-    const Double4 a = system.acceleration(i, load(force[i]), v);
-    const Double4 b = system.acceleration(i, load(force_there[i]), load(next.velocity[i]));
-    next.put(i, load(next.position[i]), v + half * (a + b));
+    const Double4 w = load(next.velocity[i]);
+    const Double4 b = system.acceleration(i, load(force_there[i]), w);
+    next.put(i, load(next.position[i]), half * (load(now.velocity[i]) + w) + half_step * b);
   }
 }
 
@@ -37,7 +37,7 @@ class VelocityVerlet final : public Integrator {
     predict(system, count, step, now, force, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
     system.forces(time + step, next.position.data(), next.velocity.data(), force_.data());
-    correct(system, count, step, now, force, force_.data(), next);
+    correct(system, count, step, now, force_.data(), next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

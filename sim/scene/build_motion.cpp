@@ -25,6 +25,9 @@ const ElementType& drive_type() {
                                    "moved by so much between from and until (at once, if until is absent)"));
     t.attributes.push_back(
         numbers("gradient", 9, "", "u = G X, row after row, reached between from and until"));
+    t.attributes.push_back(numbers("rotate", 4, "degrees/s",
+                                   "turned about the axis x y z at the rate that follows, from `from` on"));
+    t.attributes.push_back(numbers("centre", 3, "m", "a point of the axis of rotate").otherwise("0 0 0"));
     t.attributes.push_back(number("from", "s", "held before").at_least(0).otherwise("0"));
     t.attributes.push_back(number("until", "s", "for ever, if absent").at_least(0));
     t.attributes.push_back(word("then", {"hold", "free"}, "after until").otherwise("hold"));
@@ -35,6 +38,16 @@ const ElementType& drive_type() {
   return type;
 }
 
+void set_rotation(Motion& motion, const Node& node) {
+  const std::vector<double>& given = node.numbers("rotate");
+  const Vec3 axis(given[0], given[1], given[2]);
+  if (!(axis.norm() > 0))
+    node.fail("rotate", "the axis of the rotation has no direction", "rotate=\"0 0 1 90\"");
+  motion.axis = axis.normalized();
+  motion.rate = given[3];
+  motion.centre = node.vector("centre");
+}
+
 Motion motion_of(const Node& node) {
   Motion motion;
   const std::string& axes = node.text("axes");
@@ -42,14 +55,18 @@ Motion motion_of(const Node& node) {
     motion.axes[axis] = axes.find(static_cast<char>('x' + axis)) != std::string::npos;
   if (node.name() == "fix") return motion;
   int given = 0;
-  for (const char* name : {"velocity", "displacement", "gradient"}) given += node.given(name);
+  for (const char* name : {"velocity", "displacement", "gradient", "rotate"}) given += node.given(name);
   if (given != 1)
-    throw UserError(Exit::BadInput, node.place(), "<drive> needs one of velocity, displacement, gradient");
+    throw UserError(Exit::BadInput, node.place(),
+                    "<drive> needs one of velocity, displacement, gradient, rotate");
   if (node.given("velocity")) motion.velocity = node.vector("velocity");
   if (node.given("displacement")) motion.displacement = node.vector("displacement");
   if (node.given("gradient"))
     motion.gradient =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(node.numbers("gradient").data());
+  if (node.given("rotate")) set_rotation(motion, node);
+  if (node.given("centre") && !node.given("rotate"))
+    node.fail("centre", "has no use without rotate", "rotate=\"0 0 1 90\" turns by 90 degrees a second");
   motion.from = node.number("from");
   if (node.given("until")) motion.until = node.number("until");
   if (motion.until < motion.from) node.fail("until", "the drive ends before it starts");

@@ -1,25 +1,53 @@
 #include "sim/scene/constraint.h"
 
 #include "sim/base/check.h"
+#include "sim/base/math.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace rend {
 
+namespace {
+
+constexpr double radians = pi / 180; // in a degree
+
+} // namespace
+
+double Motion::elapsed(double time) const {
+  return std::clamp(time, from, std::max(from, until)) - from;
+}
+
+Vec3 Motion::turned(const Vec3& rest, double time) const {
+  const double angle = rate * elapsed(time), c = cosine_of_degrees(angle), s = sine_of_degrees(angle);
+  const Vec3 r = rest - centre;
+  return c * r + s * axis.cross(r) + (1 - c) * axis.dot(r) * axis;
+}
+
 Vec3 Motion::offset(const Vec3& rest, double time) const {
-  const double s = std::clamp(time, from, std::max(from, until)) - from;
+  const double s = elapsed(time);
   const double share = std::isfinite(until) && until > from ? s / (until - from) : (time >= from ? 1.0 : 0.0);
-  return s * velocity + share * (displacement + gradient * rest);
+  const Vec3 turn = rate != 0 ? Vec3(turned(rest, time) - (rest - centre)) : Vec3(0, 0, 0);
+  return s * velocity + share * (displacement + gradient * rest) + turn;
+}
+
+bool Motion::moves(double time) const {
+  const bool over =
+      then_free ? time > until : time >= until; // who is let go at `until` leaves with the drive's speed
+  return time >= from && !over;
 }
 
 Vec3 Motion::velocity_at(const Vec3& rest, double time) const {
-  const bool over =
-      then_free ? time > until : time >= until; // who is let go at `until` leaves with the drive's speed
-  if (time < from || over) return Vec3::Zero();
+  if (!moves(time)) return Vec3::Zero();
   Vec3 v = velocity;
   if (!std::isinf(until) && until > from) v += (displacement + gradient * rest) / (until - from);
+  if (rate != 0) v += radians * rate * axis.cross(turned(rest, time));
   return v;
+}
+
+Vec3 Motion::acceleration_at(const Vec3& rest, double time) const {
+  if (rate == 0 || !moves(time)) return Vec3::Zero();
+  return radians * rate * axis.cross(radians * rate * axis.cross(turned(rest, time)));
 }
 
 void Constraints::add(EmbeddedMap& map, const Motion& motion, const std::vector<Slot>& vertices) {
@@ -70,7 +98,7 @@ void Constraints::apply(const EmbeddedMap& map, double time, Record* position, R
 
 bool Constraints::drives() const {
   for (const Motion& m : motions_)
-    if (!m.velocity.isZero() || !m.displacement.isZero() || !m.gradient.isZero()) return true;
+    if (!m.velocity.isZero() || !m.displacement.isZero() || !m.gradient.isZero() || m.rate != 0) return true;
   return false;
 }
 

@@ -5,6 +5,7 @@
 //   velocity V    x = X + V s             s = clamp(t, from, until) − from
 //   displacement  x = X + D s/(until − from)
 //   gradient G    x = X + G X s/(until − from)
+//   rotation      x = c + R(rate s) (X − c)    about the axis through c, by Rodrigues' formula
 // With until infinite, or equal to from, displacement and gradient are reached at `from`. Before `from` a
 // driven vertex is held at X; after `until` it is held where it is, or let go with the speed it has (then =
 // free). Which motions a vertex obeys is embedded on it, and every fragment of a split vertex obeys them too.
@@ -22,12 +23,21 @@ struct Motion {
   Vec3 velocity = Vec3::Zero();     // [m/s]
   Vec3 displacement = Vec3::Zero(); // [m]
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+  Vec3 axis = Vec3::Zero();                                         // of unit length; 0: no rotation
+  Vec3 centre = Vec3::Zero();                                       // [m]
+  double rate = 0;                                                  // [degrees/s]
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   bool then_free = false;
 
   bool acts(double time) const { return !then_free || time <= until; }
   Vec3 offset(const Vec3& rest, double time) const; // x − X
   Vec3 velocity_at(const Vec3& rest, double time) const;
+  Vec3 acceleration_at(const Vec3& rest, double time) const; // [m/s²], without the jumps at from and until
+  bool moves(double time) const;                             // between from and until
+
+private:
+  Vec3 turned(const Vec3& rest, double time) const; // R (X − c)
+  double elapsed(double time) const;                // s
 };
 
 // The motions a vertex obeys: bit k is motion k.
@@ -51,6 +61,13 @@ public:
 
   const std::vector<Slot>& vertices() const { return vertices_; } // increasing
   const std::vector<Motion>& motions() const { return motions_; }
+  // Calls f(motion) for each that the vertex obeys, in the order in which they are applied.
+  template <class F> void for_each_motion(Slot vertex, F&& f) const {
+    if (!obedience_) return;
+    std::uint64_t obeys = (*obedience_)[vertex];
+    for (std::size_t k = 0; obeys; ++k, obeys >>= 1)
+      if (obeys & 1) f(motions_[k]);
+  }
   bool drives() const; // some motion moves
 
 private:

@@ -1,6 +1,7 @@
 // Prescribed motions against their formulas, through the time loop of a scene.
 #include "sim/scene/constraint.h"
 
+#include "sim/base/math.h"
 #include "sim/presets.h"
 
 #include <gmock/gmock.h>
@@ -97,6 +98,45 @@ TEST(Drive, imposes_a_gradient) {
     }
   }
   EXPECT_EQ(scene.body().constraints.vertices().size(), 25u);
+}
+
+TEST(Drive, turns_about_an_axis_through_its_centre) {
+  const Vec3 axis = Vec3(1, -2, 2) / 3, centre(0.2, 0.1, -0.3);
+  for (const std::string& scheme : every_scheme) {
+    const auto scene = cloth(
+        R"(<drive side="+x" rotate="2 -4 4 -250" centre="0.2 0.1 -0.3" from="0.02" until="0.1"/>)", scheme);
+    const std::vector<Slot> driven = vertices_where(scene.body(), at_right);
+    EXPECT_TRUE(scene.body().constraints.drives());
+    for (int n = 1; n <= 150; ++n) {
+      scene->step();
+      const double t = scene->time(), angle = -250 * std::min(std::max(t - 0.02, 0.0), 0.08) * pi / 180;
+      const bool moves = t > 0.0205 && t < 0.0995, rests = t < 0.0195 || t > 0.1005;
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+      for (Slot v : driven) {
+        const Vec3 r = turn * (rest(scene.body(), v) - centre);
+        EXPECT_NEAR((position(scene.body(), v) - centre - r).norm(), 0, 1e-15) << t;
+        const Vec3 speed = moves ? Vec3((-250 * pi / 180 * axis).cross(r)) : Vec3(0, 0, 0);
+        if (moves || rests) {
+          EXPECT_NEAR((velocity(scene.body(), v) - speed).norm(), 0, 1e-14) << t;
+        }
+      }
+    }
+  }
+}
+
+// Differences of the closed form, in the middle of the motion.
+TEST(Motion, has_the_derivatives_of_its_place) {
+  Motion motion;
+  motion.velocity = Vec3(0.1, 0.2, -0.3);
+  motion.axis = Vec3(0.6, 0, 0.8);
+  motion.rate = 100;
+  motion.centre = Vec3(0, 1, 2);
+  motion.until = 3;
+  const Vec3 x(1, 2, 3);
+  const double h = 1e-4, t = 1.2;
+  const Vec3 before = motion.offset(x, t - h), at = motion.offset(x, t), after = motion.offset(x, t + h);
+  EXPECT_NEAR(((after - before) / (2 * h) - motion.velocity_at(x, t)).norm(), 0, 1e-7);
+  EXPECT_NEAR(((after - 2 * at + before) / (h * h) - motion.acceleration_at(x, t)).norm(), 0, 1e-6);
 }
 
 TEST(Drive, without_an_end_puts_its_vertices_there_at_once) {
@@ -220,6 +260,11 @@ TEST(Constraints, are_refused_where_they_mean_nothing) {
   EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" displacement="1 0 0"/>)"),
               HasSubstr("one of velocity"));
   EXPECT_THAT(refusal_of(R"(<drive side="+x"/>)"), HasSubstr("one of velocity"));
+  EXPECT_THAT(refusal_of(R"(<drive side="+x" rotate="0 0 0 90"/>)"), HasSubstr("no direction"));
+  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" rotate="0 0 1 90"/>)"),
+              HasSubstr("one of velocity"));
+  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" centre="0 0 1"/>)"),
+              HasSubstr("no use without rotate"));
   EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" from="2" until="1"/>)"),
               HasSubstr("ends before"));
   EXPECT_THAT(refusal_of(R"(<fix side="+x" near="0 0 0"/>)"), HasSubstr("has 2 selectors"));
