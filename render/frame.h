@@ -19,6 +19,7 @@ enum class Line : std::uint8_t {
   Cell = 1,   // an edge between two cells
   Border = 2, // an edge that was a border from the start
   Torn = 3,   // an edge laid bare by tearing
+  Crease = 4, // a sharp edge of a solid
 };
 
 // One corner of a drawn triangle: 32 bytes, uploaded as it is.
@@ -32,9 +33,10 @@ static_assert(sizeof(Corner) == 32);
 
 struct FrameBody {
   std::vector<Corner> corners; // 3 a triangle
-  bool edges = true;           // draw lines of cells (torn and border lines are drawn all the same)
-  bool two_sided = true;       // a sheet: both sides are lit; a solid: the far side is only seen through a gap
-  bool sides = true; // a sheet's far side is a shade darker; false: there is but one side (a Möbius band)
+  bool edges = true;           // draw lines of cells and creases (torn and border lines are drawn all the same)
+  bool two_sided = true; // a sheet; false: a solid, whose triangles run counter-clockwise seen from outside and
+                         // are drawn from there alone
+  bool sides = true;     // a sheet's far side is a shade darker; false: there is but one side (a Möbius band)
 };
 
 struct FrameCamera {

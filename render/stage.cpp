@@ -189,9 +189,11 @@ void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& ligh
   for (const Draw& draw : draws_) {
     body_.set("cells", draw.edges ? 1 : 0);
     body_.set("transmission", draw.two_sided ? 0.16f : 0.0f);
-    body_.set("back_tint", !draw.two_sided ? 0.4f : draw.sides ? 0.74f : 1.0f);
+    body_.set("back_tint", draw.sides ? 0.74f : 1.0f);
+    (draw.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLES, draw.first, draw.count);
   }
+  glDisable(GL_CULL_FACE);
   glDisable(GL_CLIP_DISTANCE0);
 }
 

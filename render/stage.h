@@ -4,7 +4,7 @@
 //
 // Bodies are drawn over nothing, and the studio (floor and backdrop) is put behind them afterwards, once a
 // pixel: it has no edges that samples would smooth, and covers most of the picture. What is under the floor is
-// clipped away. Both sides of every triangle are lit. Lines along cells are worked out in the fragment shader,
+// clipped away. Both sides of a sheet are lit; of a solid, only the outside is drawn. Lines along cells are worked out in the fragment shader,
 // from barycentric coordinates, so they cost no geometry and are smooth at any size.
 //
 // The picture is a pure function of the frame, the size and the number of samples: the same on every run, for

@@ -7,6 +7,7 @@ in vec3 in_shadow;
 flat in vec3 half_width;
 flat in vec3 torn;
 flat in vec3 thin;
+flat in vec3 crease;
 
 uniform sampler2DShadow shadow;
 uniform float shadow_spread; // of the taps, in texture coordinates
@@ -34,7 +35,7 @@ vec2 lines() {
   vec3 height = inversesqrt(dx * dx + dy * dy + 1e-12);
   vec3 cover = clamp(half_width + 0.5 - weight * height, 0.0, 1.0);
   vec3 of_cells = 0.62 * clamp(height * 0.09 - 0.4, 0.0, 1.0);
-  vec3 of_borders = min(clamp(height * 0.25 - 0.5, 0.0, 1.0) + torn, 1.0);
+  vec3 of_borders = min(clamp(height * 0.25 - 0.5, 0.0, 1.0) + torn, 1.0) * (1.0 - 0.25 * crease);
   cover *= mix(of_borders, of_cells, thin);
   vec3 dark = cover * (1.0 - torn), bright = cover * torn;
   return vec2(max(dark.x, max(dark.y, dark.z)), max(bright.x, max(bright.y, bright.z)));

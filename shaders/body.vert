@@ -21,6 +21,7 @@ out vec3 in_shadow;
 flat out vec3 half_width; // of the line opposite to each corner [pixels]; negative: no line
 flat out vec3 torn;       // 1 where that line is a torn edge
 flat out vec3 thin;       // 1 where it lies between cells
+flat out vec3 crease;     // 1 where it is a sharp edge of a solid
 
 void main() {
   gl_Position = world_to_clip * vec4(position, 1.0);
@@ -34,7 +35,8 @@ void main() {
     uint kind = line[k];
     torn[k] = float(kind == 3u);
     thin[k] = float(kind == 1u);
-    half_width[k] = kind == 3u ? 1.7 : kind == 2u ? 1.2 : kind == 1u && cells == 1 ? 0.55 : -8.0;
+    crease[k] = float(kind == 4u);
+    half_width[k] = kind == 3u ? 1.7 : kind == 2u ? 1.2 : cells == 0 ? -8.0 : kind == 4u ? 0.9 : kind == 1u ? 0.55 : -8.0;
   }
   half_width *= line_scale;
   float facing = dot(normal, key);

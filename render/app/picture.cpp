@@ -17,10 +17,17 @@ double now() {
 static_assert(static_cast<int>(Side::Inner) == static_cast<int>(Line::None) &&
               static_cast<int>(Side::Cell) == static_cast<int>(Line::Cell) &&
               static_cast<int>(Side::Border) == static_cast<int>(Line::Border) &&
-              static_cast<int>(Side::Torn) == static_cast<int>(Line::Torn));
+              static_cast<int>(Side::Torn) == static_cast<int>(Line::Torn) &&
+              static_cast<int>(Side::Crease) == static_cast<int>(Line::Crease));
 
 std::array<float, 3> as_floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const std::array<Side, 3>& side) {
+  const auto line = [&](std::size_t k) { return static_cast<std::uint8_t>(side[k]); };
+  return {
+      as_floats(x), as_floats(normal), {colour[0], colour[1], colour[2], 255}, {line(0), line(1), line(2), 0}};
 }
 
 } // namespace
@@ -50,7 +57,11 @@ bool is_orientable(const GMap& map) {
 }
 
 BodyPicture::BodyPicture(Body& body)
-    : body_(&body), surface_(body), orientable_(is_orientable(body.map->map())) {
+    : body_(&body), orientable_(body.map->dimension() == 3 || is_orientable(body.map->map())) {
+  if (body.map->dimension() == 2)
+    sheet_.emplace(body);
+  else
+    solid_.emplace(body);
   const ElementType& type = *std::find_if(body.node->type().children.begin(), body.node->type().children.end(),
                                           [](const ChildType& child) { return child.type->name == "look"; })
                                  ->type;
@@ -59,6 +70,7 @@ BodyPicture::BodyPicture(Body& body)
   const Node* given = body.node->child("look");
   const Node& look = given ? *given : silent;
   colour_ = colour_of(look, "colour");
+  inside_ = colour_of(look, "inside");
   edges_ = look.flag("edges");
   const std::string& by = look.text("by");
   by_ = by == "strain"     ? ShownBy::Strain
@@ -97,23 +109,27 @@ void BodyPicture::colour_vertices() {
 }
 
 FrameBody BodyPicture::draw() {
-  surface_.update();
-  surface_.normals(normals_);
-  const bool by_vertex = by_ == ShownBy::Strain || by_ == ShownBy::Force;
-  if (by_vertex) colour_vertices();
+  if (by_ == ShownBy::Strain || by_ == ShownBy::Force) colour_vertices();
   FrameBody out;
   out.edges = edges_;
-  out.two_sided = body_->map->dimension() == 2;
+  out.two_sided = sheet_.has_value();
   out.sides = orientable_;
-  out.corners.reserve(3 * surface_.triangles());
+  sheet_ ? draw_sheet(out) : draw_solid(out);
+  return out;
+}
+
+void BodyPicture::draw_sheet(FrameBody& out) {
+  sheet_->update();
+  sheet_->normals(normals_);
+  out.corners.reserve(3 * sheet_->triangles());
+  const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
-  surface_.for_each_triangle([&](const Surface::Triangle& triangle) {
+  sheet_->for_each_triangle([&](const Surface::Triangle& triangle) {
     const auto [a, b, c] = triangle.vertex;
     const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
     Colour colour = colour_;
     if (by_ == ShownBy::Fragment)
       colour = fragment_colours_[labels_[body_->map->cells(FaceOfVolume).first_dart(triangle.face).value]];
-    const auto line = [&](std::size_t k) { return static_cast<std::uint8_t>(triangle.side[k]); };
     for (Slot v : triangle.vertex) {
       // A vertex normal's sign is its own: within a triangle all are turned to the triangle's side.
       Vec3 normal = normals_[v];
@@ -121,13 +137,26 @@ FrameBody BodyPicture::draw() {
       if (side < 0) normal = -normal;
       if (side == 0 && normal.isZero(0) && !flat.isZero(0)) normal = flat.normalized();
       if (by_vertex) colour = vertex_colours_[v];
-      out.corners.push_back({as_floats(x[v]),
-                             as_floats(normal),
-                             {colour[0], colour[1], colour[2], 255},
-                             {line(0), line(1), line(2), 0}});
+      out.corners.push_back(corner(x[v], normal, colour, triangle.side));
     }
   });
-  return out;
+}
+
+void BodyPicture::draw_solid(FrameBody& out) {
+  solid_->update();
+  solid_->normals(normals_);
+  out.corners.reserve(3 * solid_->triangles());
+  const bool by_vertex = !vertex_colours_.empty();
+  const auto& x = body_->map->position().values();
+  solid_->for_each_triangle([&](const SolidSurface::Triangle& triangle) {
+    Colour colour = triangle.bare ? inside_ : colour_;
+    if (by_ == ShownBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Slot v = triangle.vertex[k];
+      if (by_vertex) colour = vertex_colours_[v];
+      out.corners.push_back(corner(x[v], normals_[triangle.corner[k]], colour, triangle.side));
+    }
+  });
 }
 
 PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, double duration)

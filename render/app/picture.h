@@ -9,10 +9,12 @@
 #include "render/app/colour.h"
 #include "render/app/viewpoint.h"
 #include "render/frame.h"
+#include "sim/surface/solid_surface.h"
 #include "sim/surface/surface.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace rend {
@@ -26,20 +28,23 @@ public:
 
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that were given a colour
   FrameBody draw();                          // of the state that was observed
-  std::size_t bytes() const { return surface_.bytes(); }
+  std::size_t bytes() const { return sheet_ ? sheet_->bytes() : solid_->bytes(); }
 
 private:
+  void draw_sheet(FrameBody& out);
+  void draw_solid(FrameBody& out);
   void label_fragments(std::size_t& fragments_seen);
   void colour_vertices();
 
   Body* body_;
-  Surface surface_;
+  std::optional<Surface> sheet_; // one of the two
+  std::optional<SolidSurface> solid_;
   ShownBy by_ = ShownBy::Plain;
-  Colour colour_{};
+  Colour colour_{}, inside_{};
   bool edges_ = true, orientable_ = true;
   double scale_ = 0;
-  std::vector<Vec3> normals_;                    // unit or 0, one per vertex slot
-  std::vector<double> values_;                   // of strain or force, one per vertex slot
+  std::vector<Vec3> normals_;  // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)
+  std::vector<double> values_; // of strain or force, one per vertex slot
   std::vector<Colour> vertex_colours_;           // one per vertex slot; empty unless by strain or force
   std::vector<std::uint32_t> labels_;            // fragment of each dart; empty unless by fragment
   std::vector<Colour> fragment_colours_;         // one per label

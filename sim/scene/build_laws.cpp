@@ -66,7 +66,7 @@ void build_laws(Body& body, const Node& node) {
     body.left_out.push_back("tearing: no law, so no criterion is bound and no border is remembered");
     return;
   }
-  body.border = &body.map->add(BornBorder{});
+  body.border = &body.map->add(BornBorder(body.map->dimension()));
   for (const Node* law : laws) {
     body.laws.emplace_back(*body.map, law_settings(*law));
     if (body.laws.back().settings().criterion->elementary && body.cumulated == Cumulated::Yes)

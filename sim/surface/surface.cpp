@@ -1,5 +1,6 @@
 #include "sim/surface/surface.h"
 
+#include "sim/base/check.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 namespace rend {
 
 Surface::Surface(Body& body) : body_(body), triangles_(5, 0, 0), corners_(3, 0, 0) {
+  CHECK(body.map->dimension() == 2);
   body.map->use(FaceOfVolume);
   body.map->use(VertexOfFace);
   rebuild();
@@ -51,7 +53,7 @@ void Surface::write_face(Slot face) {
   const EmbeddedMap& map = *body_.map;
   const CellIndex& faces = map.cells(FaceOfVolume);
   const Dart first = faces.first_dart(face);
-  const bool seen = faces.alive(face) && map.map().is_free(3, first);
+  const bool seen = faces.alive(face);
   const int sides = seen ? sides_of_face(map.map(), first) : 0;
   Dart at = seen ? map.map().alpha(1, map.map().alpha(0, first)) : first; // starts the side after the first
   if (triangles_.live(face * fan_ + fan_ - 1)) --full_;

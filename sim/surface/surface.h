@@ -1,4 +1,5 @@
-// What is seen of a body: triangles of its α3-free faces, with the true edges of cells and normals.
+// What is seen of a sheet: triangles of its faces, with the true edges of cells and normals. (Of a solid:
+// solid_surface.h.)
 //
 // Rows are bound like those of the program (packed_rows.h), with the face slot as key, rebuilt only where the map
 // changed, and equal byte for byte to a full rebuild. Positions and normals are read from the state when a picture
@@ -12,15 +13,13 @@
 
 #include "sim/program/packed_rows.h"
 #include "sim/scene/body.h"
+#include "sim/surface/side.h"
 
 namespace rend {
 
-// What lies along a side of a drawn triangle.
-enum class Side : std::uint8_t { Inner = 0, Cell = 1, Border = 2, Torn = 3 };
-
 class Surface {
 public:
-  explicit Surface(Body& body);
+  explicit Surface(Body& body); // CHECK: a sheet
   ~Surface();
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
