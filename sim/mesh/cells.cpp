@@ -56,8 +56,9 @@ void check_corners(const CellMesh& mesh, std::size_t cell) {
     if (*c >= mesh.points.size())
       refuse(mesh, cell, fmt::format("has a corner {}, and there are {} points", *c, mesh.points.size()));
     if (!mesh.points[*c].allFinite())
-      refuse(mesh, cell, fmt::format("has its corner {} at a place that is not finite", *c));
-    if (std::find(corners.begin(), c, *c) != c) refuse(mesh, cell, fmt::format("meets point {} twice", *c));
+      refuse(mesh, cell, fmt::format("has its corner {} at a place that is not finite", mesh.name(*c)));
+    if (std::find(corners.begin(), c, *c) != c)
+      refuse(mesh, cell, fmt::format("meets point {} twice", mesh.name(*c)));
   }
 }
 
@@ -126,7 +127,7 @@ void link_cells(MapEdit& edit, const Cells& cells) {
 struct Side {
   std::uint32_t next, before; // the smallest point's neighbours, the smaller one first
   std::uint32_t across;       // of a quad; none of a triangle
-  std::uint32_t dart;         // stands at the smallest point and looks to `next`
+  std::uint32_t dart; // stands at the smallest point and looks to `next`; even if the ring goes on to it
   bool triangle() const { return across == Dart::none_value; }
   auto key() const { return std::tie(next, before, across); }
 };
@@ -175,19 +176,28 @@ struct Buckets {
   }
 };
 
-// α3 between all darts of two faces with the same ring.
-void sew_faces(MapEdit& edit, const Side& one, const Side& other) {
+std::string ring_text(const CellMesh& mesh, std::uint32_t smallest, const Side& side) {
+  const std::uint64_t a = mesh.name(smallest), b = mesh.name(side.next), c = mesh.name(side.before);
+  return side.triangle() ? fmt::format("{} {} {}", a, b, c)
+                         : fmt::format("{} {} {} {}", a, b, mesh.name(side.across), c);
+}
+
+// α3 between all darts of two faces with the same ring. Both rings turn as seen from inside, so that those of cells on
+// opposite sides run against each other.
+void sew_faces(MapEdit& edit, const Cells& cells, std::uint32_t smallest, const Side& one, const Side& other) {
+  if ((one.dart - other.dart) % 2 == 0) {
+    const std::size_t mine = cells.cell_of(Dart{one.dart}), theirs = cells.cell_of(Dart{other.dart});
+    refuse(cells.mesh, std::max(mine, theirs),
+           fmt::format("overlaps {} {}: both lie on the same side of the face with the points {}",
+                       shape_of(cells.mesh.kinds[std::min(mine, theirs)]).name, std::min(mine, theirs),
+                       ring_text(cells.mesh, smallest, one)));
+  }
   Dart d{one.dart}, e{other.dart};
   for (int n = 0; n < (one.triangle() ? 6 : 8); ++n) {
     edit.link(3, d, e);
     d = edit.map().alpha(n % 2, d);
     e = edit.map().alpha(n % 2, e);
   }
-}
-
-std::string ring_text(std::uint32_t smallest, const Side& side) {
-  return side.triangle() ? fmt::format("{} {} {}", smallest, side.next, side.before)
-                         : fmt::format("{} {} {} {}", smallest, side.next, side.across, side.before);
 }
 
 // Refuses open faces that lie on each other with other rings: a triangle on a quad, a quad on a crossed one.
@@ -203,8 +213,8 @@ void check_open(const Cells& cells, std::uint32_t smallest, std::span<const Side
       refuse(
           cells.mesh, mine,
           fmt::format("has a face with the points {}, on which {} {} lies with its face {}: they do not match",
-                      ring_text(smallest, quad), shape_of(cells.mesh.kinds[theirs]).name, theirs,
-                      ring_text(smallest, *found)));
+                      ring_text(cells.mesh, smallest, quad), shape_of(cells.mesh.kinds[theirs]).name, theirs,
+                      ring_text(cells.mesh, smallest, *found)));
     };
     refuse_beside(quad.next, quad.before, Dart::none_value);
     refuse_beside(quad.next, quad.across, Dart::none_value);
@@ -224,9 +234,10 @@ void sew_all(MapEdit& edit, const Cells& cells, const Buckets& buckets) {
       for (same = n + 1; same < end && buckets.sides[same].key() == side.key();) ++same;
       if (same - n > 2)
         refuse(cells.mesh, cells.cell_of(Dart{buckets.sides[n + 2].dart}),
-               fmt::format("shares the face with the points {} with more than one other", ring_text(p, side)));
+               fmt::format("shares the face with the points {} with more than one other",
+                           ring_text(cells.mesh, p, side)));
       if (same - n == 2)
-        sew_faces(edit, side, buckets.sides[n + 1]);
+        sew_faces(edit, cells, p, side, buckets.sides[n + 1]);
       else
         open.push_back(side);
     }

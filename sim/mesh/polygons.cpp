@@ -20,6 +20,15 @@ namespace {
   throw MeshFault("polygon", polygon, flaw);
 }
 
+// A corner that the polygon meets twice. Sorted, as a file may well hold a polygon of a million corners.
+void check_repeats(const PolygonMesh& mesh, std::size_t p) {
+  thread_local std::vector<std::uint32_t> sorted;
+  sorted.assign(mesh.corners.begin() + mesh.first[p], mesh.corners.begin() + mesh.first[p + 1]);
+  std::sort(sorted.begin(), sorted.end());
+  const auto repeat = std::adjacent_find(sorted.begin(), sorted.end());
+  if (repeat != sorted.end()) refuse(p, fmt::format("meets point {} twice", mesh.name(*repeat)));
+}
+
 void check(const PolygonMesh& mesh) {
   for (std::size_t p = 0; p < mesh.polygons(); ++p) {
     const auto begin = mesh.corners.begin() + mesh.first[p], end = mesh.corners.begin() + mesh.first[p + 1];
@@ -27,8 +36,8 @@ void check(const PolygonMesh& mesh) {
     for (auto c = begin; c != end; ++c) {
       if (*c >= mesh.points.size())
         refuse(p, fmt::format("has a corner {}, and there are {} points", *c, mesh.points.size()));
-      if (std::find(begin, c, *c) != c) refuse(p, fmt::format("meets point {} twice", *c));
     }
+    check_repeats(mesh, p);
   }
 }
 
@@ -56,7 +65,8 @@ Sides link_polygons(MapEdit& edit, const PolygonMesh& mesh) {
   return sides;
 }
 
-// Sews the sides that join the same two points: sides are bucketed by their smaller point, and few share one.
+// Sews the sides that join the same two points: sides are bucketed by their smaller point and sorted by the other one.
+// Few share a bucket, so that this is linear; where very many do it is still n log n.
 void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const Sides& sides) {
   const std::size_t count = mesh.corners.size();
   std::vector<std::uint32_t> start(mesh.points.size() + 1, 0), bucket(count);
@@ -66,18 +76,24 @@ void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const Sides& sides) {
   for (std::size_t p = 0; p < mesh.points.size(); ++p) start[p + 1] += start[p];
   std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
   for (std::size_t s = 0; s < count; ++s) bucket[at[low(s)]++] = static_cast<std::uint32_t>(s);
-  for (std::size_t s = 0; s < count; ++s) {
-    for (std::uint32_t n = start[low(s)]; n < start[low(s) + 1]; ++n) {
-      const std::uint32_t t = bucket[n];
-      if (t >= s || high(t) != high(s)) continue;
-      const bool turned = mesh.corners[s] != mesh.corners[t];
-      const Dart mine{2 * s}, theirs{2 * t + (turned ? 1u : 0u)};
-      if (!edit.map().is_free(2, mine) || !edit.map().is_free(2, theirs))
-        refuse(sides.polygon[s],
-               fmt::format("shares the edge between points {} and {} with more than one other", mesh.corners[s],
-                           sides.end[s]));
-      edit.link(2, mine, theirs);
-      edit.link(2, edit.map().alpha(0, mine), edit.map().alpha(0, theirs));
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    const auto begin = bucket.begin() + start[p], end = bucket.begin() + start[p + 1];
+    std::sort(begin, end,
+              [&](std::uint32_t s, std::uint32_t t) { return std::pair(high(s), s) < std::pair(high(t), t); });
+    for (auto n = begin; n != end;) {
+      const std::uint32_t s = *n;
+      const auto next = std::find_if(n, end, [&](std::uint32_t t) { return high(t) != high(s); });
+      if (next - n > 2)
+        refuse(sides.polygon[n[2]],
+               fmt::format("shares the edge between points {} and {} with more than one other",
+                           mesh.name(mesh.corners[n[2]]), mesh.name(sides.end[n[2]])));
+      if (next - n == 2) {
+        const bool turned = mesh.corners[s] != mesh.corners[n[1]];
+        const Dart mine{2 * s}, theirs{2 * n[1] + (turned ? 1u : 0u)};
+        edit.link(2, mine, theirs);
+        edit.link(2, edit.map().alpha(0, mine), edit.map().alpha(0, theirs));
+      }
+      n = next;
     }
   }
 }

@@ -18,6 +18,8 @@ struct PolygonMesh {
   std::vector<Vec3> points;           // [m]
   std::vector<std::uint32_t> corners; // point indices of all polygons, one polygon after another
   std::vector<std::uint32_t> first;   // where each polygon starts in `corners`; one more entry closes the last
+  std::vector<std::uint64_t> names;   // what messages call each point; empty: its index
+  std::uint64_t name(std::uint32_t p) const { return p < names.size() ? names[p] : p; }
   std::size_t polygons() const { return first.empty() ? 0 : first.size() - 1; }
   void add(std::initializer_list<std::uint32_t> polygon);
 };

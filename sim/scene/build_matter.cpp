@@ -117,7 +117,7 @@ void build_viscosity(Body& body, const Node& node) {
   }
   CornerDrag embedding;
   embedding.per_vertex = value;
-  body.drag = &body.map->add(embedding);
+  body.drag = &body.map->add(embedding.on(*body.map));
 }
 
 } // namespace

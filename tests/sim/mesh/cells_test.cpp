@@ -111,12 +111,7 @@ TEST(Cells, lead_from_their_first_dart_to_their_corners_by_words) {
     const auto map = solid_from(mesh);
     const Words& each = words.at(kind);
     for (std::size_t n = 0; n < each.size(); ++n) {
-      // the opposite ring is reached up the edge at a corner: turn around the first ring, then α2 α1 α0
-      Dart d = map->map().follow(Dart{0u}, each[n]);
-      if (kind == CellKind::Hexahedron && n > 4)
-        d = map->map().follow(map->map().follow(Dart{0u}, each[n - 4]), std::string(n == 7 ? "1210" : "210"));
-      if (kind == CellKind::Prism && n > 3)
-        d = map->map().follow(map->map().follow(Dart{0u}, each[n - 3]), std::string("210"));
+      const Dart d = map->map().follow(Dart{0u}, each[n]);
       EXPECT_EQ(map->rest_of(d), mesh.points[n]) << shape_of(kind).name << " corner " << n;
     }
   }
@@ -232,6 +227,13 @@ TEST(Cells, are_refused_where_a_solid_cannot_hold_them) {
   flat.points[3].z() = std::nan("");
   EXPECT_THAT(refusal_of(flat), HasSubstr("not finite"));
 
+  CellMesh again = unit(CellKind::Tetrahedron); // the same cell again, and one on the same side
+  again.add(CellKind::Tetrahedron, {1, 0, 2, 3});
+  EXPECT_THAT(refusal_of(again), HasSubstr("tetrahedron 1: overlaps tetrahedron 0"));
+  again.points.emplace_back(0.1, 0.2, 3);
+  again.corners.back() = 4;
+  EXPECT_THAT(refusal_of(again), HasSubstr("both lie on the same side of the face with the points 0 1 2"));
+
   CellMesh twice = unit(CellKind::Prism);
   twice.corners[5] = 2;
   EXPECT_THAT(refusal_of(twice), HasSubstr("prism 0: meets point 2 twice"));
@@ -255,7 +257,8 @@ TEST(Cells, are_refused_where_faces_lie_on_each_other_and_do_not_match) {
                 HasSubstr("hexahedron 0: has a face with the points 4 5 6 7, on which tetrahedron"));
   }
   CellMesh crossed = unit(CellKind::Hexahedron); // a pyramid whose base runs through the cube's points across
-  crossed.points.emplace_back(0.2, 0.6, 2);
+  crossed.points[5].z() = 1.5; // flat, it would have no volume
+  crossed.points.emplace_back(0.2, 0.6, 3);
   crossed.add(CellKind::Pyramid, {4, 6, 5, 7, 8});
   EXPECT_THAT(refusal_of(crossed), HasSubstr("they do not match"));
 }
@@ -284,11 +287,12 @@ TEST(Bar, is_a_ball_of_the_right_volume_in_every_pattern) {
     const std::size_t quads =
         2 * (5 * 4 + 5 * 3 + 4 * 3); // boxes' faces on the surface: nothing inside is open
     const std::size_t open = open_faces(solid.map->map());
-    if (pattern == BarPattern::Hexahedra) EXPECT_EQ(open, quads);
-    if (pattern == BarPattern::Tetrahedra) EXPECT_EQ(open, 2 * quads);
-    if (pattern == BarPattern::Prisms) EXPECT_EQ(open, quads + 2 * 5 * 4);
-    if (pattern == BarPattern::Mixed)
-      EXPECT_EQ(open, quads + 2 * (2 * 4 + 4 + 3)); // prisms' ends; halved sides
+    const std::map<BarPattern, std::size_t> expected{{BarPattern::Hexahedra, quads},
+                                                     {BarPattern::Tetrahedra, 2 * quads},
+                                                     {BarPattern::Prisms, quads + 2 * 5 * 4},
+                                                     // ends of prisms; sides of the one slice that is cut up
+                                                     {BarPattern::Mixed, quads + 2 * (2 * 4 + 4 + 3)}};
+    EXPECT_EQ(open, expected.at(pattern));
   }
 }
 
