@@ -1,0 +1,56 @@
+// Solids for tests of their surface: bodies without mechanics, made of cells, and the same cells as plain lists.
+#pragma once
+
+#include "sim/mesh/bar.h"
+#include "sim/mesh/tube.h"
+#include "sim/scene/body.h"
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace rend::solids {
+
+inline CellMesh bar(BarPattern pattern, int nx, int ny, int nz) {
+  return bar_cells({pattern, nx, ny, nz, Vec3(nx, ny, nz)});
+}
+
+constexpr std::array<BarPattern, 4> all_patterns{BarPattern::Hexahedra, BarPattern::Tetrahedra,
+                                                 BarPattern::Prisms, BarPattern::Mixed};
+
+// A cube of cells drawn onto a ball of radius 1: shells of the cube become spheres.
+inline CellMesh ball(BarPattern pattern, int cells) {
+  CellMesh mesh = bar(pattern, cells, cells, cells);
+  for (Vec3& x : mesh.points) {
+    x = x * (2.0 / cells) - Vec3::Ones();
+    const double shell = x.cwiseAbs().maxCoeff();
+    if (shell > 0) x *= shell / x.norm();
+  }
+  return mesh;
+}
+
+struct Named {
+  std::string name;
+  CellMesh mesh;
+};
+
+inline std::vector<Named> all() {
+  return {
+      {"hexahedra", bar(BarPattern::Hexahedra, 3, 2, 2)}, {"tetrahedra", bar(BarPattern::Tetrahedra, 2, 2, 2)},
+      {"prisms", bar(BarPattern::Prisms, 3, 2, 2)},       {"mixed", bar(BarPattern::Mixed, 4, 2, 2)},
+      {"tube", tube_cells({8, 4, Vec3(1, 1, 2), 0.2})},   {"ball", ball(BarPattern::Tetrahedra, 4)}};
+}
+
+// With memory of its borders, as one that tears has.
+inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, bool tears = true) {
+  auto made = std::make_unique<Body>();
+  made->map = std::move(map);
+  if (tears) made->border = &made->map->add(BornBorder(3));
+  return made;
+}
+inline std::unique_ptr<Body> body(const CellMesh& mesh, bool tears = true) {
+  return body(solid_from(mesh), tears);
+}
+
+} // namespace rend::solids
