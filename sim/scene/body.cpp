@@ -37,12 +37,14 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads) {
     force.reserve(map->slots_when_separated(Vertex));
     next.position.reserve(map->slots_when_separated(Vertex));
     next.velocity.reserve(map->slots_when_separated(Vertex));
+    loads.reserve_for_separations(*map);
   }
   constrain(0, map->position().values().data(), map->velocity().values().data());
 }
 
-void Body::forces(double, const Record* position, const Record* velocity, Record* out) {
+void Body::forces(double time, const Record* position, const Record* velocity, Record* out) {
   program->forces(position, velocity, out);
+  load = loads.evaluate(*map, time, position, velocity);
 }
 
 void Body::constrain(double time, Record* position, Record* velocity) {
@@ -58,6 +60,7 @@ void Body::evaluate() {
     program->forces(x, v, force.data());
   else
     program->corner_forces(x, v, corner_force.data(), force.data());
+  load = loads.evaluate(*map, time_, x, v);
 }
 
 int Body::tear(double time, long number, const std::function<void()>& sound) {
@@ -94,6 +97,7 @@ void Body::follow_changes() {
 void Body::advance(double time, double step) {
   next.resize(vertices());
   next.probe = Double4{};
+  next_time_ = time + step;
   const StateView now{map->position().values().data(), map->velocity().values().data()};
   integrator->advance(*this, time, step, now, force.data(), next);
   if (next.large) finish_streams(); // other threads are going to read them
@@ -107,6 +111,7 @@ void Body::rebind() {
   program->rebind();
   if (!corner_force.empty()) corner_force.resize(map->cells(mass->orbit()).slots());
   constraints.rebind(*map, changes);
+  loads.rebind(*map);
   for (TearLaw& law : laws) law.rebind(changes);
   changes.clear();
 }
@@ -114,6 +119,7 @@ void Body::rebind() {
 void Body::commit() {
   map->position().values().swap(next.position);
   map->velocity().values().swap(next.velocity);
+  time_ = next_time_;
 }
 
 } // namespace rend

@@ -6,6 +6,7 @@
 #include "sim/program/program.h"
 #include "sim/scene/constraint.h"
 #include "sim/scene/contact.h"
+#include "sim/scene/load.h"
 
 #include <memory>
 #include <optional>
@@ -40,6 +41,7 @@ struct Body final : System {
   std::vector<std::unique_ptr<Interaction>> interactions;
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
+  Loads loads;
   std::vector<TearLaw> laws;
   std::optional<FloorContact> floor_contact;
   std::vector<std::string> notes;    // what the preset's author should know
@@ -76,6 +78,7 @@ struct Body final : System {
 
 private:
   void follow_changes();
+  double time_ = 0, next_time_ = 0; // [s], of the current state and of `next`
 };
 
 } // namespace rend

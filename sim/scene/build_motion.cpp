@@ -1,5 +1,6 @@
 #include "sim/scene/build_motion.h"
 
+#include "sim/scene/build_load.h"
 #include "sim/scene/selector.h"
 
 namespace rend {
@@ -86,12 +87,13 @@ void build_constraints(Body& body, const Node& node) {
 } // namespace
 
 std::vector<ChildType> motion_types() {
-  return {{&fix_type(), 0, -1}, {&drive_type(), 0, -1}};
+  return {{&fix_type(), 0, -1}, {&drive_type(), 0, -1}, {&load_type(), 0, -1}};
 }
 
 void build_motion(Body& body, const Node& node) {
   build_constraints(body, node);
   if (body.constraints.motions().empty()) body.left_out.push_back("prescribed motions: no fix and no drive");
+  build_loads(body, node);
 }
 
 } // namespace rend

@@ -1,4 +1,4 @@
-// What moves a body from outside, from its preset: fixed and driven vertices.
+// What moves a body from outside, from its preset: fixed and driven vertices, and loads.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -9,7 +9,7 @@ namespace rend {
 // The elements of a preset that say so, as children of <body>.
 std::vector<ChildType> motion_types();
 
-// Constraints, on a body that has its shape. UserError, with its place, for what cannot be built.
+// Constraints and loads, on a body that has its shape. UserError, with its place, for what cannot be built.
 void build_motion(Body& body, const Node& node);
 
 } // namespace rend

@@ -30,6 +30,8 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
   if (const Node* world = preset.child("world")) {
     world_.gravity = world->vector("gravity");
     if (const Node* floor = world->child("floor")) world_.floor = floor->number("z");
+    if (const Node* wind = world->child("wind"))
+      world_.wind = Wind{wind->vector("velocity"), wind->number("drag")};
   }
   std::set<std::string> names;
   for (const Node* node : preset.all("body")) {
@@ -38,6 +40,7 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
                       fmt::format("two bodies are called '{}'", node->text("name")),
                       "give each a name of its own");
     bodies_.push_back(build_body(*node, world_.gravity, world_.floor));
+    if (world_.wind) bodies_.back()->loads.set(WindLoad(*bodies_.back()->map, *world_.wind));
   }
   const Node& time = *preset.child("time");
   scheme_ = find_scheme(time.text("integrator"));

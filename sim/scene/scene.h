@@ -10,6 +10,7 @@ namespace rend {
 struct World {
   Vec3 gravity{0, 0, -9.81};   // [m/s²]
   std::optional<double> floor; // z [m]
+  std::optional<Wind> wind;
 };
 
 struct SceneOptions {

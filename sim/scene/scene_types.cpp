@@ -51,10 +51,16 @@ const ElementType& body_type() {
 const ElementType& world_type() {
   static const ElementType floor{
       "floor", "a floor, drawn below the bodies", {number("z", "m", "its height").otherwise("0")}, {}};
+  static const ElementType wind{
+      "wind",
+      "air that pushes faces along their normals: drag x area x the square of its speed against them",
+      {numbers("velocity", 3, "m/s", "of the air").is_required(),
+       number("drag", "kg/m3", "half its density times the drag coefficient").at_least(0).otherwise("0.6")},
+      {}};
   static const ElementType type{"world",
                                 "what surrounds the bodies",
                                 {numbers("gravity", 3, "m/s2", "its acceleration").otherwise("0 0 -9.81")},
-                                {{&floor, 0, 1}}};
+                                {{&floor, 0, 1}, {&wind, 0, 1}}};
   return type;
 }
 

@@ -1,0 +1,35 @@
+// Wind: pressure on faces by the speed of the air along their normals.
+//
+//   F = drag A |w_n| w_n n,   w_n = (w − v) · n        drag = ½ ρ C [kg/m³], v: the face's mean velocity
+//
+// the quadratic law of bluff bodies (Newton's resistance; Batchelor, An Introduction to Fluid Dynamics, 5.11), without
+// friction along the face. It acts on every face of a sheet, from either side, and on those α3-free faces of a solid
+// that are turned to it (w_n < 0 along the outward normal): what it blows past is in its lee. The air does not notice
+// the body. Nodal shares are those of patch.h.
+#pragma once
+
+#include "sim/scene/patch.h"
+
+namespace rend {
+
+struct Wind {
+  Vec3 velocity = Vec3::Zero(); // [m/s]
+  double drag = 0.6;            // ½ ρ C [kg/m³]
+};
+
+class WindLoad {
+public:
+  WindLoad(EmbeddedMap& map, const Wind& wind);
+  void rebind(const EmbeddedMap& map);
+
+  // Adds the force [N] on each vertex; [m], [m/s] and [N], one per vertex slot.
+  void add(const Record* position, const Record* velocity, Record* force) const;
+  const std::vector<Slot>& vertices() const { return faces_.vertices(); } // that it may act on
+
+private:
+  Wind wind_;
+  bool sheet_;
+  CellList faces_; // of a solid, counterclockwise as seen from outside
+};
+
+} // namespace rend
