@@ -40,6 +40,14 @@ Stopped simulate(Session& session, const RunOptions& options) {
   return stopped;
 }
 
+// Those that were reached.
+bool answers_hold(const Scene& scene) {
+  for (const auto& body : scene.bodies())
+    for (const Answer& answer : body->answers)
+      if (answer.asked && !answer.holds()) return false;
+  return true;
+}
+
 Exit run(const RunOptions& options) {
   const double start = wall_clock();
   Session session(options.session);
@@ -51,7 +59,8 @@ Exit run(const RunOptions& options) {
     print_result(figures.dump(2) + "\n");
   else
     print_result(summary_of(figures) + (options.profile ? profile_of(figures) : ""));
-  return end_of(session, stopped);
+  const Exit end = end_of(session, stopped);
+  return end == Exit::Done && !answers_hold(session.scene()) ? Exit::No : end;
 }
 
 std::function<Exit()> declare(CLI::App& app) {

@@ -71,6 +71,64 @@ Json rows_json(const Scene& scene) {
   return rows;
 }
 
+Json probes_json(const Scene& scene) {
+  Json probes = Json::object();
+  for (const auto& body : scene.bodies()) {
+    for (const Probe& probe : body->probes) {
+      Json& out = probes[probe.name()]; // null: its vertices were deleted
+      const auto reading = probe.read(*body);
+      if (!reading) continue;
+      out["position"] = list_of(reading->position);
+      out["displacement"] = list_of(reading->displacement);
+      if (reading->reaction) out["reaction"] = list_of(*reading->reaction);
+    }
+  }
+  return probes;
+}
+
+// What was not reached is neither held nor broken: null.
+Json answers_json(const Scene& scene) {
+  Json answers = Json::array();
+  for (const auto& body : scene.bodies()) {
+    for (const Answer& answer : body->answers) {
+      const bool known = answer.measured.has_value();
+      answers.push_back({{"probe", body->probes[answer.probe].name()},
+                         {"quantity", answer.quantity},
+                         {"at", answer.at},
+                         {"value", answer.value},
+                         {"measured", known ? Json(*answer.measured) : Json(nullptr)},
+                         {"error", known ? Json(answer.error()) : Json(nullptr)},
+                         {"tolerance", answer.tolerance},
+                         {"holds", answer.asked ? Json(answer.holds()) : Json(nullptr)},
+                         {"source", answer.source}});
+    }
+  }
+  return answers;
+}
+
+std::string answers_in_words(const Json& answers) {
+  std::string out;
+  for (const Json& a : answers) {
+    out += fmt::format("{}{} {} at {:.6g} s is {:.9g}", out.empty() ? "  answers    " : "             ",
+                       a["probe"].get<std::string>(), a["quantity"].get<std::string>(), a["at"].get<double>(),
+                       a["value"].get<double>());
+    const bool relative = a["value"].get<double>() != 0;
+    if (a["holds"].is_null())
+      out += ": not reached";
+    else if (a["measured"].is_null())
+      out += ": its vertices are gone";
+    else
+      out += fmt::format(", measured {:.9g}: {} of {:.2g} {} {:.2g}", a["measured"].get<double>(),
+                         relative ? "a relative error" : "an error", a["error"].get<double>(),
+                         a["holds"].get<bool>() ? "holds, within" : "DOES NOT HOLD, above",
+                         a["tolerance"].get<double>());
+    if (const auto source = a["source"].get<std::string>(); !source.empty())
+      out += fmt::format(" ({})", source);
+    out += "\n";
+  }
+  return out;
+}
+
 } // namespace
 
 std::size_t fragments_of(const Scene& scene) {
@@ -108,7 +166,8 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
   figures["mass"] = scene.mass();
   figures["momentum"] = list_of(scene.momentum());
   figures["angular_momentum"] = list_of(scene.angular_momentum());
-  figures["probes"] = Json::object();
+  figures["probes"] = probes_json(scene);
+  figures["answers"] = answers_json(scene);
   figures["bytes"] = bytes_json(scene, costs);
   figures["rows"] = rows_json(scene);
   figures["hash"] = fmt::format("{:016x}", scene.hash());
@@ -140,6 +199,7 @@ std::string summary_of(const Json& f) {
   out += fmt::format("\n  memory     {} for the scene, {} at most in all\n", bytes_in_words(bytes),
                      bytes_in_words(f["bytes"]["peak_rss"].get<std::size_t>()));
   out += fmt::format("  state      {}\n", f["hash"].get<std::string>());
+  out += answers_in_words(f["answers"]);
   return out;
 }
 

@@ -15,20 +15,45 @@ void write_text(OutputFile& file, const std::string& text) {
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
+std::string header_of(const Scene& scene) {
+  std::string header = "frame,step,time,kinetic,elastic,gravity,momentum_x,momentum_y,momentum_z,"
+                       "angular_momentum_x,angular_momentum_y,angular_momentum_z,tears,fragments";
+  for (const auto& body : scene.bodies())
+    for (const Probe& probe : body->probes)
+      for (const char* what : {"x", "y", "z", "dx", "dy", "dz", "reaction_x", "reaction_y", "reaction_z"})
+        header += fmt::format(",{}_{}", probe.name(), what);
+  return header + "\n";
+}
+
+std::string cells_of(const std::optional<Vec3>& v) {
+  return v ? fmt::format(",{},{},{}", v->x(), v->y(), v->z()) : ",,,";
+}
+
+std::string probe_cells(const Scene& scene) {
+  std::string cells;
+  for (const auto& body : scene.bodies()) {
+    for (const Probe& probe : body->probes) {
+      const auto reading = probe.read(*body);
+      cells += reading
+                   ? cells_of(reading->position) + cells_of(reading->displacement) + cells_of(reading->reaction)
+                   : std::string(9, ',');
+    }
+  }
+  return cells;
+}
+
 } // namespace
 
-Diagnostics::Diagnostics(const std::filesystem::path& path) : file_(path) {
-  text_ = "frame,step,time,kinetic,elastic,gravity,momentum_x,momentum_y,momentum_z,"
-          "angular_momentum_x,angular_momentum_y,angular_momentum_z,tears,fragments\n";
-}
+Diagnostics::Diagnostics(const std::filesystem::path& path) : file_(path) {}
 
 void Diagnostics::add(long frame, const Scene& scene) {
   flush();
+  if (!any_ && text_.empty()) text_ = header_of(scene);
   const Vec3 p = scene.momentum(), l = scene.angular_momentum();
   // {} of a double is the shortest text that reads back as the same number.
-  held_ = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame, scene.steps_done(), scene.time(),
+  held_ = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", frame, scene.steps_done(), scene.time(),
                       scene.kinetic_energy(), scene.elastic_energy(), scene.gravity_energy(), p.x(), p.y(),
-                      p.z(), l.x(), l.y(), l.z(), scene.tears(), fragments_of(scene));
+                      p.z(), l.x(), l.y(), l.z(), scene.tears(), fragments_of(scene), probe_cells(scene));
 }
 
 void Diagnostics::flush() {

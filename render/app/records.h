@@ -10,7 +10,8 @@
 
 namespace rend {
 
-// A CSV file with one row a frame. Rows are held back as pictures are (film.h).
+// A CSV file with one row a frame, nine columns for each probe among them: cells are empty where there is nothing to
+// tell. Rows are held back as pictures are (film.h).
 class Diagnostics {
 public:
   explicit Diagnostics(const std::filesystem::path& path); // throws UserError (CannotCreate)

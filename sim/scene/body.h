@@ -4,6 +4,7 @@
 #include "sim/fracture/law.h"
 #include "sim/integrate/integrator.h"
 #include "sim/program/program.h"
+#include "sim/scene/answer.h"
 #include "sim/scene/constraint.h"
 #include "sim/scene/contact.h"
 #include "sim/scene/load.h"
@@ -44,6 +45,8 @@ struct Body final : System {
   Loads loads;
   std::vector<TearLaw> laws;
   std::optional<FloorContact> floor_contact;
+  std::vector<Probe> probes;
+  std::vector<Answer> answers;
   std::vector<std::string> notes;    // what the preset's author should know
   std::vector<std::string> left_out; // what this body does without, and why
 
@@ -66,7 +69,8 @@ struct Body final : System {
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
   void constrain(double time, Record* position, Record* velocity) override;
 
-  void evaluate(); // force and corner_force of the current state
+  void evaluate();                      // force and corner_force of the current state
+  double time() const { return time_; } // [s], of the current state
 
   // Criteria, changes, rebinding; returns how many changes. Before anything is changed, `sound` may throw.
   int tear(double time, long number, const std::function<void()>& sound);

@@ -3,6 +3,7 @@
 #include "sim/scene/build_laws.h"
 #include "sim/scene/build_matter.h"
 #include "sim/scene/build_motion.h"
+#include "sim/scene/build_probe.h"
 #include "sim/scene/build_shape.h"
 
 namespace rend {
@@ -34,6 +35,7 @@ std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity, std::opt
   build_motion(*body, node);
   build_laws(*body, node);
   build_contact(*body, node, floor);
+  build_probes(*body, node);
   return body;
 }
 

@@ -42,11 +42,13 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
     bodies_.push_back(build_body(*node, world_.gravity, world_.floor));
     if (world_.wind) bodies_.back()->loads.set(WindLoad(*bodies_.back()->map, *world_.wind));
   }
+  check_probes(preset);
   const Node& time = *preset.child("time");
   scheme_ = find_scheme(time.text("integrator"));
   seconds_.build = now() - start;
   for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads);
   build_time(time);
+  set_answers();
   seconds_.bind = now() - start - seconds_.build;
 }
 
@@ -114,6 +116,48 @@ void Scene::step() {
   lap(&StageSeconds::integrate);
   timed_steps_ += timed;
   ++steps_done_;
+  if (time() >= next_answer_) measure_answers();
+}
+
+void Scene::check_probes(const Node& preset) const {
+  std::set<std::string> names;
+  for (const Node* body : preset.all("body"))
+    for (const Node* probe : body->all("probe"))
+      if (!names.insert(probe->text("name")).second)
+        probe->fail("name", fmt::format("two probes are called '{}'", probe->text("name")),
+                    "give each a name of its own, also in different bodies");
+}
+
+// Times of steps are products of rounded numbers: an answer is due a little before its time.
+void Scene::set_answers() {
+  const double slack = 1e-6 * step_;
+  for (auto& body : bodies_) {
+    for (Answer& answer : body->answers) {
+      if (std::isinf(answer.at)) answer.at = duration_;
+      if (answer.at > duration_ + slack)
+        throw UserError(
+            Exit::BadInput, answer.place,
+            fmt::format("the clip ends at {:g} s, before this answer at {:g} s", duration_, answer.at));
+      next_answer_ = std::min(next_answer_, answer.at - slack);
+    }
+  }
+  if (time() >= next_answer_) measure_answers();
+}
+
+void Scene::measure_answers() {
+  next_answer_ = std::numeric_limits<double>::infinity();
+  for (auto& body : bodies_) {
+    for (Answer& answer : body->answers) {
+      const double due = answer.at - 1e-6 * step_;
+      if (time() < due) {
+        next_answer_ = std::min(next_answer_, due);
+      } else if (!answer.asked) {
+        answer.asked = true;
+        if (const auto reading = body->probes[answer.probe].read(*body))
+          answer.measured = quantity_of(*reading, answer.quantity);
+      }
+    }
+  }
 }
 
 void Scene::check() const {

@@ -60,6 +60,9 @@ public:
 
 private:
   void build_time(const Node& time);
+  void check_probes(const Node& preset) const;
+  void set_answers();
+  void measure_answers();
   double stable_step(const Node& time) const;
   double stability_limit() const; // [s]
   void check() const;
@@ -74,6 +77,7 @@ private:
   double step_ = 0, duration_ = 0;
   bool automatic_ = false;
   long steps_done_ = 0, timed_steps_ = 0;
+  double next_answer_ = std::numeric_limits<double>::infinity(); // [s], to be measured
   std::vector<std::string> notes_;
   Place step_place_; // of time.step in the preset
   StageSeconds seconds_;

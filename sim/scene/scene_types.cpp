@@ -4,6 +4,7 @@
 #include "sim/scene/build_laws.h"
 #include "sim/scene/build_matter.h"
 #include "sim/scene/build_motion.h"
+#include "sim/scene/build_probe.h"
 #include "sim/scene/build_shape.h"
 
 namespace rend {
@@ -39,7 +40,7 @@ const ElementType& body_type() {
                   "a body that deforms",
                   {text("name", "to tell bodies apart; must differ").otherwise("body")},
                   {}};
-    for (const auto& part : {shape_types(), matter_types(), motion_types(), law_types()})
+    for (const auto& part : {shape_types(), matter_types(), motion_types(), law_types(), probe_types()})
       t.children.insert(t.children.end(), part.begin(), part.end());
     t.children.push_back({&contact_type(), 0, 1});
     t.children.push_back({&look_type(), 0, 1});

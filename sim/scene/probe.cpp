@@ -1,0 +1,102 @@
+#include "sim/scene/probe.h"
+
+#include "sim/base/check.h"
+#include "sim/scene/body.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace rend {
+
+Probe::Probe(EmbeddedMap& map, std::string name, const std::vector<Slot>& vertices)
+    : name_(std::move(name)), shares_(&share_equally(map, "probe " + name_, vertices)) {}
+
+std::optional<ProbeReading> Probe::read(Body& body) const {
+  const EmbeddedMap& map = *body.map;
+  const CellIndex& corners = map.cells(shares_->orbit());
+  ProbeReading reading;
+  double whole = 0;
+  for (Slot c = 0; c < corners.slots(); ++c) {
+    const double share = (*shares_)[c];
+    if (!corners.alive(c) || share == 0) continue;
+    const Slot v = map.vertex(corners.first_dart(c));
+    const Vec3 x = map.position()[v];
+    reading.position += share * x;
+    reading.displacement += share * (x - map.rest()[v].vec());
+    whole += share;
+  }
+  if (whole == 0) return {};
+  reading.position /= whole;
+  reading.displacement /= whole;
+  if (on_support(body)) reading.reaction = reaction(body);
+  return reading;
+}
+
+std::vector<Slot> Probe::vertices(const EmbeddedMap& map) const {
+  std::vector<Slot> all;
+  const CellIndex& corners = map.cells(shares_->orbit());
+  for (Slot c = 0; c < corners.slots(); ++c)
+    if (corners.alive(c) && (*shares_)[c] != 0) all.push_back(map.vertex(corners.first_dart(c)));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+bool Probe::on_support(const Body& body) const {
+  const std::vector<Slot>& held = body.constraints.vertices();
+  if (held.empty()) return false;
+  for (Slot v : vertices(*body.map))
+    if (std::binary_search(held.begin(), held.end(), v)) return true;
+  return false;
+}
+
+Vec3 Probe::reaction(Body& body) const {
+  const EmbeddedMap& map = *body.map;
+  const double time = body.time();
+  const Record *x = map.position().values().data(), *v = map.velocity().values().data();
+  std::vector<Record> force(body.vertices());
+  body.forces(time, x, v, force.data());
+  const double *inverse_mass = body.program->inverse_mass(), *drag_rate = body.program->drag_rate();
+  Vec3 sum = Vec3::Zero();
+  for (Slot s : vertices(map)) {
+    Vec3 prescribed = Vec3::Zero();
+    std::array<bool, 3> held{};
+    body.constraints.for_each_motion(s, [&](const Motion& motion) {
+      if (!motion.acts(time)) return;
+      const Vec3 a = motion.acceleration_at(map.rest()[s], time);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!motion.axes[axis]) continue;
+        held[axis] = true;
+        prescribed[static_cast<int>(axis)] = a[static_cast<int>(axis)];
+      }
+    });
+    const double rate = body.uniform_drag + (drag_rate ? drag_rate[s] : 0);
+    const double mass = inverse_mass[s] > 0 ? 1 / inverse_mass[s] : 0;
+    Vec3 r = mass * (prescribed - body.gravity.vec() + rate * v[s].vec()) - force[s].vec();
+    if (body.load) r -= body.load[s].vec();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (held[axis]) sum[static_cast<int>(axis)] += r[static_cast<int>(axis)];
+  }
+  return sum;
+}
+
+const std::vector<std::string>& probe_quantities() {
+  static const std::vector<std::string> all{"x", "y",          "z",          "dx",         "dy",      "dz",
+                                            "d", "reaction-x", "reaction-y", "reaction-z", "reaction"};
+  return all;
+}
+
+double quantity_of(const ProbeReading& reading, const std::string& quantity) {
+  const bool of_reaction = quantity.starts_with("reaction"), of_displacement = quantity.starts_with("d");
+  if (of_reaction && !reading.reaction) return std::numeric_limits<double>::quiet_NaN();
+  const Vec3 vector = of_reaction       ? *reading.reaction
+                      : of_displacement ? reading.displacement
+                                        : reading.position;
+  if (quantity == "d" || quantity == "reaction") return vector.norm();
+  const int axis = quantity.back() - 'x';
+  CHECK(axis >= 0 && axis < 3);
+  return vector[axis];
+}
+
+} // namespace rend
