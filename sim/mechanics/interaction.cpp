@@ -3,14 +3,20 @@
 #include "sim/mechanics/bend_angular.h"
 #include "sim/mechanics/bend_provot.h"
 #include "sim/mechanics/shear_face.h"
+#include "sim/mechanics/shear_volume.h"
 #include "sim/mechanics/stretch.h"
 #include "sim/topology/walk.h"
 
 namespace rend {
 
 const std::vector<InteractionType>& all_interactions() {
-  static const std::vector<InteractionType> list{stretch(), shear_face_isotropic(), shear_face_anisotropic(),
-                                                 bend_provot(), bend_angular()};
+  static const std::vector<InteractionType> list{stretch(),
+                                                 shear_face_isotropic(),
+                                                 shear_face_anisotropic(),
+                                                 shear_volume_isotropic(),
+                                                 shear_volume_anisotropic(),
+                                                 bend_provot(),
+                                                 bend_angular()};
   return list;
 }
 

@@ -59,6 +59,7 @@ struct InteractionRequest {
   const Node& node; // k, damping, kind, ...
   std::optional<SpringMaterial> material;
   std::vector<std::string>& notes; // what the preset's author should know
+  bool surface = false;            // only on faces that are on the surface when they are born
 };
 
 struct InteractionType {
@@ -68,6 +69,7 @@ struct InteractionType {
   std::string k_unit;
   // Adds the embeddings to the map. Null: it would add nothing here, and a note says why. Throws UserError.
   std::function<std::unique_ptr<Interaction>(EmbeddedMap&, const InteractionRequest&)> make;
+  std::string where = ""; // its `where`, where an element has several: "face", "volume"
 };
 
 const std::vector<InteractionType>& all_interactions();

@@ -38,21 +38,24 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
   if (map.dimension() == 3) pattern.fold.push_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.node.number("damping");
-  return make_interaction<2>(
-      map, "shear isotropic", spring_law(), pattern, damping, [=](const EmbeddedMap& body, Dart d, int unit) {
-        if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
-        return along(body, d, diagonals[static_cast<std::size_t>(unit)], k(body, d), damping);
-      });
+  return make_interaction<2>(map, "shear isotropic", spring_law(), pattern, damping,
+                             [=, surface = request.surface](const EmbeddedMap& body, Dart d, int unit) {
+                               if (surface && !body.map().is_free(3, d)) return UnitParameters{};
+                               if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
+                               return along(body, d, diagonals[static_cast<std::size_t>(unit)], k(body, d),
+                                            damping);
+                             });
 }
 
 // Whether the corner of d carries a spring: every corner of a pentagon and more, of a quad the corner of its
-// smallest dart and the next one along that dart's edge.
+// smallest dart and the next one along that dart's edge. In a solid both sides of a face count for the smallest, so that
+// they carry theirs at the same corners, where they fold.
 bool carries(const GMap& map, Dart d) {
   const int sides = sides_of_face(map, d);
   if (sides != 4) return sides > 4;
-  const Dart first = smallest_dart(map, FaceOfVolume, d);
+  const Dart first = smallest_dart(map, Face, d);
   const Dart next = map.alpha(0, first);
-  return same_cell(map, VertexOfFace, d, first) || same_cell(map, VertexOfFace, d, next);
+  return same_cell(map, VertexOfFaceBothSides, d, first) || same_cell(map, VertexOfFaceBothSides, d, next);
 }
 
 std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const InteractionRequest& request) {
@@ -69,7 +72,8 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.node.number("damping");
   return make_interaction<1>(map, "shear anisotropic", spring_law(), pattern, damping,
-                             [=](const EmbeddedMap& body, Dart d, int) {
+                             [=, surface = request.surface](const EmbeddedMap& body, Dart d, int) {
+                               if (surface && !body.map().is_free(3, d)) return UnitParameters{};
                                if (!carries(body.map(), d)) return UnitParameters{};
                                return along(body, d, across_corner, k(body, d), damping);
                              });
@@ -78,12 +82,12 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
 } // namespace
 
 InteractionType shear_face_isotropic() {
-  return {"shear", "isotropic", "springs along both diagonals of each quad, one stiffness", "N/m",
-          make_isotropic};
+  return {"shear", "isotropic",    "springs along both diagonals of each quad, one stiffness",
+          "N/m",   make_isotropic, "face"};
 }
 InteractionType shear_face_anisotropic() {
-  return {"shear", "anisotropic", "a spring across each corner, each with its own stiffness", "N/m",
-          make_anisotropic};
+  return {"shear", "anisotropic",    "a spring across each corner, each with its own stiffness",
+          "N/m",   make_anisotropic, "face"};
 }
 
 } // namespace rend

@@ -16,7 +16,9 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
   const StiffnessOf k = stiffness_of(request, &edge_stiffness);
   const double damping = request.node.number("damping");
   return make_interaction<1>(
-      map, "stretch", spring_law(), pattern, damping, [=](const EmbeddedMap& body, Dart d, int) {
+      map, "stretch", spring_law(), pattern, damping,
+      [=, surface = request.surface](const EmbeddedMap& body, Dart d, int) {
+        if (surface && !body.map().is_free(3, d)) return UnitParameters{};
         const Dart e = body.map().alpha(0, d);
         return UnitParameters{k(body, d), damping, (body.rest_of(e) - body.rest_of(d)).norm()};
       });

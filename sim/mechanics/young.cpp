@@ -86,6 +86,12 @@ StiffnessOf stiffness_of(const InteractionRequest& request, StiffnessFormula for
   };
 }
 
+void refuse_bend_of_solid(const EmbeddedMap& map, const InteractionRequest& request) {
+  if (map.dimension() == 3)
+    throw UserError(Exit::BadInput, request.node.place(), "<bend> is for sheets",
+                    "a solid resists bending by its volume: leave it out, or add shear or elasticity");
+}
+
 bool has_inner_edge(const EmbeddedMap& map) {
   bool found = false;
   map.map().for_each_dart([&](Dart d) { found = found || !map.map().is_free(2, d); });

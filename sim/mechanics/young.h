@@ -23,6 +23,9 @@ StiffnessOf stiffness_of(const InteractionRequest& request, StiffnessFormula for
 double edge_stiffness(const SpringMaterial& material, const EmbeddedMap& map, Dart d);
 double diagonal_stiffness(const SpringMaterial& material, const EmbeddedMap& map, Dart d);
 
+// UserError: a solid has no bend, and its surface none either.
+void refuse_bend_of_solid(const EmbeddedMap& map, const InteractionRequest& request);
+
 bool has_inner_edge(const EmbeddedMap& map); // an edge between two faces of a sheet
 
 } // namespace rend

@@ -1,28 +1,41 @@
 #include "sim/scene/build_matter.h"
 
+#include "sim/mechanics/elasticity.h"
 #include "sim/mechanics/interaction.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rend {
 namespace {
 
-// <stretch>, <shear>, <bend>: one element for all interactions of that name, which differ by `kind`.
+void add_once(std::vector<std::string>& list, const std::string& word) {
+  if (!word.empty() && std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+}
+
+// <stretch>, <shear>, <bend>: one element for all interactions of that name, which differ by `kind` and `where`.
 ElementType spring_element(const std::string& name) {
   ElementType type{name, "", {}, {}};
-  std::vector<std::string> kinds;
+  std::vector<std::string> kinds, places;
   std::string unit;
   for (const InteractionType& interaction : all_interactions()) {
     if (interaction.element != name) continue;
-    type.what += (type.what.empty() ? "" : "; ") + (interaction.kind.empty() ? "" : interaction.kind + ": ") +
-                 interaction.what;
-    if (!interaction.kind.empty()) kinds.push_back(interaction.kind);
+    const std::string which =
+        interaction.kind + (interaction.where.empty() ? "" : " in a " + interaction.where);
+    type.what += (type.what.empty() ? "" : "; ") + (which.empty() ? "" : which + ": ") + interaction.what;
+    add_once(kinds, interaction.kind);
+    add_once(places, interaction.where);
     if (unit.find(interaction.k_unit) == std::string::npos)
       unit += (unit.empty() ? "" : " or ") + interaction.k_unit;
   }
   if (!kinds.empty()) {
     const std::string first = kinds.front();
     type.attributes.push_back(word("kind", kinds, "which one").otherwise(first));
+  }
+  if (!places.empty()) {
+    const std::string first = places.front();
+    type.attributes.push_back(word("where", places, "in faces, or in hexahedra").otherwise(first));
   }
   type.attributes.push_back(
       number("k", unit, "stiffness of each elementary spring; or by formula from young").above(0));
@@ -46,7 +59,10 @@ const ElementType& springs_type() {
        number("thickness", "m", "for young").above(0),
        word("cumulated", {"auto", "yes", "no"},
             "fold springs between the same particles into one: auto folds unless a law looks at each by itself")
-           .otherwise("auto")},
+           .otherwise("auto"),
+       word("on", {"all", "surface"},
+            "surface: only on the faces that are on the surface at the start (springs over finite elements)")
+           .otherwise("all")},
       {{&stretch, 0, 1}, {&shear, 0, -1}, {&bend, 0, -1}}};
   return type;
 }
@@ -83,9 +99,17 @@ void note_exactness(Body& body, const SpringMaterial& material) {
         "along one diagonal then behave, along their sides, as with poisson 0 and 1.125 times young");
 }
 
-void build_springs(Body& body, const Node& node) {
+Cumulated cumulated_of(const Node& node) {
+  const std::string& fold = node.text("cumulated");
+  return fold == "auto" ? Cumulated::Auto : fold == "yes" ? Cumulated::Yes : Cumulated::No;
+}
+
+std::optional<SpringMaterial> spring_material(Body& body, const Node& node) {
   std::optional<SpringMaterial> material;
   if (node.given("young")) {
+    if (body.map->dimension() == 3)
+      node.fail("young", "no formula gives the springs of a solid their stiffness",
+                "give each its k, or use <elasticity> for a material");
     if (!node.given("thickness"))
       node.fail("young", "stiffness from young needs the thickness of the sheet", "thickness=\"0.001\"");
     material = SpringMaterial{node.number("young"), node.number("poisson"), node.number("thickness")};
@@ -94,13 +118,22 @@ void build_springs(Body& body, const Node& node) {
   for (const char* name : {"poisson", "thickness"})
     if (!material && node.given(name))
       node.fail(name, "has no use without young", "give young, or leave it out");
-  const std::string& fold = node.text("cumulated");
-  body.cumulated = fold == "auto" ? Cumulated::Auto : fold == "yes" ? Cumulated::Yes : Cumulated::No;
+  return material;
+}
+
+bool is_meant(const InteractionType& type, const Node& node) {
+  return type.element == node.name() && (type.kind.empty() || node.text("kind") == type.kind) &&
+         (type.where.empty() || node.text("where") == type.where);
+}
+
+void build_springs(Body& body, const Node& node) {
+  const std::optional<SpringMaterial> material = spring_material(body, node);
+  body.cumulated = cumulated_of(node);
   for (const auto& child : node.children()) {
     for (const InteractionType& type : all_interactions()) {
-      if (type.element != child->name() || (!type.kind.empty() && child->text("kind") != type.kind)) continue;
+      if (!is_meant(type, *child)) continue;
       std::vector<std::string> why_not;
-      if (auto made = type.make(*body.map, {*child, material, why_not}))
+      if (auto made = type.make(*body.map, {*child, material, why_not, node.text("on") == "surface"}))
         body.interactions.push_back(std::move(made));
       for (auto* list : {&body.left_out, &body.notes})
         list->insert(list->end(), why_not.begin(), why_not.end());
@@ -108,11 +141,47 @@ void build_springs(Body& body, const Node& node) {
   }
 }
 
+// Small strain gives a sheet no stiffness out of its plane: it must lie in a plane of two axes and be held there.
+void check_flat(const Body& body, const Node& elasticity, const Node& node) {
+  if (body.map->dimension() == 3 || elasticity.text("model") == "corotational") return;
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  body.map->map().for_each_dart([&](Dart d) {
+    low = low.cwiseMin(body.map->rest_of(d));
+    high = high.cwiseMax(body.map->rest_of(d));
+  });
+  Vec3::Index axis = 0;
+  const double depth = (high - low).minCoeff(&axis);
+  const char letter = static_cast<char>('x' + axis);
+  const bool flat = depth <= 1e-9 * (high - low).norm();
+  for (const Node* fix : node.all("fix"))
+    if (flat && fix->flag("all") && fix->text("axes").find(letter) != std::string::npos) return;
+  elasticity.fail("model",
+                  fmt::format("'{}' gives a sheet no stiffness out of its plane", elasticity.text("model")),
+                  flat ? fmt::format("keep it there with <fix all=\"yes\" axes=\"{}\"/>, or take "
+                                     "model=\"corotational\"",
+                                     letter)
+                       : "take model=\"corotational\", or a sheet in the plane of two axes that is held there");
+}
+
+void build_elasticity(Body& body, const Node& elasticity, const Node& node) {
+  check_flat(body, elasticity, node);
+  for (auto& made : make_elasticity(*body.map, {elasticity, body.notes}))
+    body.interactions.push_back(std::move(made));
+  body.uniform_drag += elasticity.number("damping-mass");
+  if (!elasticity.given("cumulated")) return;
+  const Cumulated wanted = cumulated_of(elasticity);
+  const Node* springs = node.child("springs");
+  if (springs && springs->given("cumulated") && wanted != body.cumulated)
+    elasticity.fail("cumulated", "differs from that of <springs>",
+                    "a body folds all of its interactions or none");
+  body.cumulated = wanted;
+}
+
 void build_viscosity(Body& body, const Node& node) {
   const double value = node.number("value");
   if (value == 0) return;
   if (node.text("per") == "body") { // as the mass is spread: one rate for all, and no array
-    body.uniform_drag = value / total_mass(*body.map, *body.mass);
+    body.uniform_drag += value / total_mass(*body.map, *body.mass);
     return;
   }
   CornerDrag embedding;
@@ -123,11 +192,12 @@ void build_viscosity(Body& body, const Node& node) {
 } // namespace
 
 std::vector<ChildType> matter_types() {
-  return {{&springs_type(), 0, 1}, {&viscosity_type(), 0, 1}};
+  return {{&springs_type(), 0, 1}, {&elasticity_type(), 0, 1}, {&viscosity_type(), 0, 1}};
 }
 
 void build_matter(Body& body, const Node& node) {
   if (const Node* springs = node.child("springs")) build_springs(body, *springs);
+  if (const Node* elasticity = node.child("elasticity")) build_elasticity(body, *elasticity, node);
   if (const Node* viscosity = node.child("viscosity")) build_viscosity(body, *viscosity);
   if (!body.drag) body.left_out.push_back("viscosity per particle: none, so no array of it");
 }

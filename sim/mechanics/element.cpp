@@ -1,0 +1,261 @@
+#include "sim/mechanics/element.h"
+
+#include "sim/base/check.h"
+#include "sim/topology/walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+using Gradient = std::array<double, 3>;
+
+// Gauss points of [0,1], each of weight 1/2.
+const std::array<double, 2> gauss{0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+
+// A function of one coordinate: t or 1 − t, and its derivative.
+double ramp(int up, double t) {
+  return up ? t : 1 - t;
+}
+double slope(int up) {
+  return up ? 1 : -1;
+}
+
+// Where corner n of a square stands, in the order around it.
+constexpr std::array<std::array<int, 2>, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+
+// Of [0,1]², or [0,1]³ with the square below and then above.
+std::vector<ReferencePoint> box_points(int dimension) {
+  std::vector<ReferencePoint> points;
+  const int count = 1 << dimension;
+  for (int g = 0; g < count; ++g) {
+    ReferencePoint point{1.0 / count, {}};
+    const double t[3] = {gauss[g & 1], gauss[g >> 1 & 1], gauss[g >> 2 & 1]};
+    for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+      const int at[3] = {square[n % 4][0], square[n % 4][1], n < 4 ? 0 : 1};
+      for (int axis = 0; axis < dimension; ++axis) {
+        double value = slope(at[axis]);
+        for (int other = 0; other < dimension; ++other)
+          if (other != axis) value *= ramp(at[other], t[other]);
+        point.gradient[n][static_cast<std::size_t>(axis)] = value;
+      }
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+std::vector<ReferencePoint> simplex_points(int dimension) {
+  ReferencePoint point{dimension == 2 ? 1.0 / 2 : 1.0 / 6, {}};
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis) {
+    point.gradient[0][axis] = -1;
+    point.gradient[axis + 1][axis] = 1;
+  }
+  return {point};
+}
+
+std::vector<ReferencePoint> prism_points() {
+  const std::array<std::array<double, 2>, 3> inside{
+      {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}};
+  std::vector<ReferencePoint> points;
+  for (double t : gauss) {
+    for (const auto& [x, y] : inside) {
+      ReferencePoint point{1.0 / 12, {}};
+      const std::array<Gradient, 3> share{{{-1, -1, 1 - x - y}, {1, 0, x}, {0, 1, y}}};
+      for (std::size_t n = 0; n < 6; ++n) {
+        const Gradient& s = share[n % 3];
+        const int up = n < 3 ? 0 : 1;
+        point.gradient[n] = {s[0] * ramp(up, t), s[1] * ramp(up, t), s[2] * slope(up)};
+      }
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+std::vector<ReferencePoint> pyramid_points() {
+  std::vector<ReferencePoint> points = box_points(3);
+  for (ReferencePoint& point : points) {
+    Gradient top{};
+    for (std::size_t n = 4; n < 8; ++n) {
+      for (std::size_t axis = 0; axis < 3; ++axis) top[axis] += point.gradient[n][axis];
+      point.gradient[n] = {};
+    }
+    point.gradient[4] = {0, 0, top[2]}; // along the base the four cancel
+  }
+  return points;
+}
+
+// The same words from a dart that lies elsewhere: `way` leads to one that they start from.
+std::vector<std::vector<Word>> starting_with(const std::vector<Word>& ways, const std::vector<Word>& words) {
+  std::vector<std::vector<Word>> units;
+  for (const Word& way : ways) {
+    units.emplace_back();
+    for (const Word& word : words) units.back().push_back(way + word);
+  }
+  return units;
+}
+
+std::array<ElementShape, element_kinds> make_shapes() {
+  using enum ElementKind;
+  const std::vector<Word> prism{"", "0", "10", "210", "0210", "10210"}, pyramid{"", "0", "010", "10", "210"};
+  const std::vector<Word> hexahedron{"", "0", "010", "10", "210", "0210", "010210", "10210"};
+  return {
+      ElementShape{Triangle, "triangle", "triangles", 2, 3, 6, {{"", "0", "10"}}, simplex_points(2)},
+      ElementShape{Quad, "quad", "quads", 2, 4, 8, {{"", "0", "010", "10"}}, box_points(2)},
+      ElementShape{
+          Tetrahedron, "tetrahedron", "tetrahedra", 3, 4, 24, {{"", "0", "10", "210"}}, simplex_points(3)},
+      ElementShape{Hexahedron, "hexahedron", "hexahedra", 3, 8, 48, {hexahedron}, box_points(3)},
+      ElementShape{Prism, "prism", "prisms", 3, 6, 36, starting_with({"", "2", "12"}, prism), prism_points()},
+      ElementShape{Pyramid, "pyramid", "pyramids", 3, 5, 32, starting_with({"", "2", "12", "012"}, pyramid),
+                   pyramid_points()}};
+}
+
+// The darts of a small volume, without a hash set: none if there are more than a hexahedron's, or a link is free.
+struct SmallVolume {
+  std::array<std::uint32_t, 48> darts;
+  std::size_t count = 0;
+
+  bool walk(const GMap& map, Dart d) {
+    add(d.value);
+    for (std::size_t at = 0; at < count; ++at) {
+      for (int i = 0; i < 3; ++i) {
+        const Dart next = map.alpha(i, Dart{darts[at]});
+        if (next.value == darts[at]) return false;
+        if (!add(next.value)) return false;
+      }
+    }
+    return true;
+  }
+
+private:
+  bool add(std::uint32_t dart) {
+    for (std::size_t n = 0; n < count; ++n)
+      if (darts[n] == dart) return true;
+    if (count == darts.size()) return false;
+    darts[count++] = dart;
+    return true;
+  }
+};
+
+int sides_here(const GMap& map, Dart d) { // of a closed face
+  int darts = 0;
+  walk_two(map, 0, 1, d, [&](Dart) { ++darts; });
+  return darts / 2;
+}
+
+// Whether the corners that the words lead to are different ones (an injective match).
+bool corners_differ(const GMap& map, Dart d, const std::vector<Word>& words) {
+  std::array<Dart, most_particles> corner{};
+  for (std::size_t n = 0; n < words.size(); ++n) {
+    Dart least = map.follow(d, words[n]);
+    walk_two(map, 1, 2, least, [&](Dart e) { least = std::min(least, e); });
+    for (std::size_t m = 0; m < n; ++m)
+      if (corner[m] == least) return false;
+    corner[n] = least;
+  }
+  return true;
+}
+
+// Which unit's words start from d: by the sides of its face and of the faces next to it.
+std::size_t unit_from(const GMap& map, ElementKind kind, Dart d) {
+  if (kind != ElementKind::Prism && kind != ElementKind::Pyramid) return 0;
+  const int base = kind == ElementKind::Prism ? 3 : 4; // the sides of the face where words start
+  if (sides_here(map, d) == base) return 0;
+  if (sides_here(map, map.alpha(2, d)) == base) return 1;
+  if (sides_here(map, map.follow(d, Word("12"))) == base) return 2;
+  return 3;
+}
+
+std::optional<ElementPlace> solid_at(const GMap& map, Dart d) {
+  SmallVolume volume;
+  if (!volume.walk(map, d)) return {};
+  std::array<int, 5> darts_by_sides{}; // [3]: in triangles, [4]: in quads
+  Dart first = d;
+  for (std::size_t n = 0; n < volume.count; ++n) {
+    const Dart e{volume.darts[n]};
+    const int sides = sides_here(map, e);
+    if (sides != 3 && sides != 4) return {};
+    ++darts_by_sides[static_cast<std::size_t>(sides)];
+    first = std::min(first, e);
+  }
+  using enum ElementKind;
+  const int triangles = darts_by_sides[3] / 6, quads = darts_by_sides[4] / 8;
+  ElementKind kind;
+  if (triangles == 4 && quads == 0)
+    kind = Tetrahedron;
+  else if (triangles == 0 && quads == 6)
+    kind = Hexahedron;
+  else if (triangles == 2 && quads == 3)
+    kind = Prism;
+  else if (triangles == 4 && quads == 1)
+    kind = Pyramid;
+  else
+    return {};
+  const std::size_t unit = unit_from(map, kind, d);
+  const ElementShape& shape = shape_of(kind);
+  if (unit >= shape.units.size() || !corners_differ(map, d, shape.units[unit])) return {};
+  return ElementPlace{kind, unit, first};
+}
+
+} // namespace
+
+const ElementShape& shape_of(ElementKind kind) {
+  static const std::array<ElementShape, element_kinds> shapes = make_shapes();
+  return shapes[static_cast<std::size_t>(kind)];
+}
+
+std::optional<ElementPlace> element_at(const GMap& map, Dart d) {
+  if (map.dimension() == 3) return solid_at(map, d);
+  const int sides = sides_of_face(map, d);
+  if (sides != 3 && sides != 4) return {};
+  Dart first = d;
+  walk_two(map, 0, 1, d, [&](Dart e) { first = std::min(first, e); });
+  return ElementPlace{sides == 3 ? ElementKind::Triangle : ElementKind::Quad, 0, first};
+}
+
+Eigen::Matrix3d rest_frame(const ElementShape& shape, const Vec3* rest) {
+  const int around = shape.kind == ElementKind::Triangle || shape.kind == ElementKind::Tetrahedron ||
+                             shape.kind == ElementKind::Prism
+                         ? 3
+                         : 4; // corners of the first face
+  const Vec3 along = rest[1] - rest[0], across = rest[around - 1] - rest[0];
+  Vec3 normal = along.cross(across);
+  if (shape.kind == ElementKind::Quad) normal = (rest[2] - rest[0]).cross(rest[3] - rest[1]);
+  Eigen::Matrix3d frame;
+  frame.col(2) = normal.normalized();
+  frame.col(0) = (along - along.dot(frame.col(2)) * frame.col(2)).normalized();
+  frame.col(1) = frame.col(2).cross(frame.col(0));
+  return frame;
+}
+
+bool write_element(const ElementShape& shape, const Vec3* rest, const Eigen::Matrix3d& frame, double thickness,
+                   double* values) {
+  const int dim = shape.dimension;
+  std::fill(values, values + shape.values(), 0);
+  double sign = 0;
+  double* to = values;
+  for (const ReferencePoint& point : shape.points) {
+    Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+    for (int n = 1; n < shape.corners; ++n) {
+      const Gradient& g = point.gradient[static_cast<std::size_t>(n)];
+      jacobian += frame.transpose() * (rest[n] - rest[0]) * Vec3(g[0], g[1], g[2]).transpose();
+    }
+    if (dim == 2) jacobian.row(2) = Eigen::RowVector3d::UnitZ(), jacobian.col(2) = Vec3::UnitZ();
+    const double determinant = jacobian.determinant();
+    const double size = jacobian.col(0).norm() * jacobian.col(1).norm() * jacobian.col(2).norm();
+    if (!(std::abs(determinant) > 1e-12 * size) || determinant * sign < 0) {
+      std::fill(values, values + shape.values(), 0);
+      return false;
+    }
+    sign = determinant;
+    const Eigen::Matrix3d inverse = jacobian.inverse();
+    for (int r = 0; r < dim; ++r)
+      for (int c = 0; c < dim; ++c) *to++ = inverse(r, c);
+    *to++ = std::abs(determinant) * point.weight * (dim == 2 ? thickness : 1);
+  }
+  return true;
+}
+
+} // namespace rend

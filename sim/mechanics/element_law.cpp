@@ -1,0 +1,236 @@
+#include "sim/mechanics/element_law.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace rend {
+namespace {
+
+using Eigen::Matrix3d;
+
+// An element's gradients at one integration point; of a sheet the third row is 0.
+template <int N> struct PointOf {
+  Eigen::Matrix<double, 3, N> gradient; // [1/m]
+  double weight;                        // [m³]
+};
+
+template <int N, int Dim, int Points> struct Decoded {
+  std::array<PointOf<N>, static_cast<std::size_t>(Points)> points;
+  double volume = 0; // [m³]
+
+  Decoded(const ElementShape& shape, const double* values) {
+    for (std::size_t g = 0; g < points.size(); ++g, values += Dim * Dim + 1) {
+      using Inverse = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
+      const Eigen::Map<const Inverse> inverse(values);
+      points[g].gradient.setZero();
+      for (int n = 0; n < N; ++n) {
+        const double* reference = shape.points[g].gradient[static_cast<std::size_t>(n)].data();
+        points[g].gradient.col(n).template head<Dim>() =
+            inverse.transpose() * Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(reference);
+      }
+      points[g].weight = values[Dim * Dim];
+      volume += points[g].weight;
+    }
+  }
+};
+
+// What does not change with the element's size: where its material has been turned to, and its points.
+template <int N, int Dim, int Points> class ElementOf final : public ElementLaw {
+public:
+  ElementOf(ElementKind kind, ElasticModel model, Rotation rotation, const ElasticMaterial& material)
+      : ElementLaw(shape_of(kind), model, rotation, material) {}
+
+  void forces(const double* unit, const UnitState& s, Vec3* force) const override {
+    const State at(*this, unit, s);
+    for (int n = 0; n < N; ++n) force[n].setZero();
+    for (const auto& point : at.element.points) {
+      const Matrix3d stress = point.weight * at.R *
+                              stress_of(strain_of(at.R.transpose() * (at.moving * point.gradient.transpose())));
+      for (int n = 0; n < N; ++n) force[n] -= stress * point.gradient.col(n);
+    }
+  }
+
+  double energy(const double* unit, const UnitState& s) const override {
+    const State at(*this, unit, s);
+    double sum = 0;
+    for (const auto& point : at.element.points) {
+      const Matrix3d e = strain_of(at.R.transpose() * (at.x * point.gradient.transpose()));
+      sum += 0.5 * point.weight * stress_of(e).cwiseProduct(e).sum();
+    }
+    return sum;
+  }
+
+  void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
+                 UnitMatrix& by_velocity) const override {
+    const State at(*this, unit, s);
+    Whole K = turned_stiffness(at);
+    by_velocity.noalias() = material().damping * K;
+    if (tangent == Tangent::Exact && model() == ElasticModel::Corotational) K += by_turning(at);
+    by_position = K;
+  }
+
+  void bound(const double* unit, const Vec3*, const double* mass, double* stiffness,
+             double* damping) const override {
+    const double square = largest_stiffness(shape(), unit + first_point(), material(), mass);
+    for (int n = 0; n < N; ++n) {
+      stiffness[n] = square * mass[n];
+      damping[n] = material().damping * square * mass[n];
+    }
+  }
+
+  Matrix3d stress(const double* unit, const UnitState& s) const override {
+    const State at(*this, unit, s);
+    return at.R * stress_of(strain_of(at.R.transpose() * at.mean)) * at.R.transpose();
+  }
+  Matrix3d strain(const double* unit, const UnitState& s) const override {
+    const State at(*this, unit, s);
+    return at.R * strain_of(at.R.transpose() * at.mean) * at.R.transpose();
+  }
+
+private:
+  using Whole = Eigen::Matrix<double, 3 * N, 3 * N>;
+  using Corners = Eigen::Matrix<double, 3, N>;
+
+  struct State {
+    Decoded<N, Dim, Points> element;
+    Corners x, moving; // [m], from the first corner: positions, and positions + β velocities
+    Corners gradient;  // means over the volume
+    Matrix3d mean, R;  // F of the mean gradients
+
+    State(const ElementOf& law, const double* unit, const UnitState& s)
+        : element(law.shape(), unit + law.first_point()) {
+      for (int n = 0; n < N; ++n) {
+        x.col(n) = s.position[n] - s.position[0];
+        moving.col(n) = x.col(n);
+        if (law.material().damping > 0)
+          moving.col(n) += law.material().damping * (s.velocity[n] - s.velocity[0]);
+      }
+      gradient.setZero();
+      for (const auto& point : element.points) gradient += point.weight / element.volume * point.gradient;
+      mean.noalias() = x * gradient.transpose();
+      R = law.turn(unit, mean);
+    }
+  };
+
+  Matrix3d turn(const double* unit, const Matrix3d& mean) const {
+    if (model() == ElasticModel::Linear) {
+      if (Dim == 3) return Matrix3d::Identity();
+      const Vec3 a(unit[0], unit[1], unit[2]), b(unit[3], unit[4], unit[5]);
+      Matrix3d R;
+      R << a, b, a.cross(b);
+      return R;
+    }
+    if (rotation() == Rotation::Qr) return gram_schmidt(mean, Dim);
+    return Dim == 3 ? closest_rotation(mean) : closest_sheet_rotation(mean);
+  }
+
+  // ε from RᵀF, or its change from that of RᵀF.
+  static Matrix3d symmetric(const Matrix3d& turned) {
+    Matrix3d e = Matrix3d::Zero();
+    e.topLeftCorner<Dim, Dim>() =
+        0.5 * (turned.topLeftCorner<Dim, Dim>() + turned.topLeftCorner<Dim, Dim>().transpose());
+    return e;
+  }
+  static Matrix3d strain_of(const Matrix3d& turned) {
+    Matrix3d e = symmetric(turned);
+    e.diagonal().template head<Dim>().array() -= 1;
+    return e;
+  }
+  Matrix3d stress_of(const Matrix3d& e) const {
+    Matrix3d sigma = 2 * material().mu * e;
+    sigma.diagonal().template head<Dim>().array() += material().lambda * e.trace();
+    return sigma;
+  }
+
+  Whole turned_stiffness(const State& at) const {
+    Whole K = Whole::Zero();
+    const Matrix3d across = at.R.template leftCols<Dim>() * at.R.template leftCols<Dim>().transpose();
+    for (const auto& point : at.element.points) {
+      const Corners g = at.R * point.gradient;
+      const double lambda = point.weight * material().lambda, mu = point.weight * material().mu;
+      for (int j = 0; j < N; ++j) {
+        const Vec3 lj = lambda * g.col(j), mj = mu * g.col(j);
+        for (int i = 0; i <= j; ++i) {
+          const double both = mj.dot(g.col(i));
+          for (int c = 0; c < 3; ++c)
+            for (int r = 0; r < 3; ++r)
+              K(3 * i + r, 3 * j + c) += g(r, i) * lj(c) + mj(r) * g(c, i) + both * across(r, c);
+        }
+      }
+    }
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < j; ++i)
+        K.template block<3, 3>(3 * j, 3 * i) = K.template block<3, 3>(3 * i, 3 * j).transpose();
+    return K;
+  }
+
+  // −∂f/∂R : ∂R/∂x. When R turns by ω, −f_n turns by Z_n ω, and a move of corner m turns R by L(Ḡ_m) Rᵀ.
+  Whole by_turning(const State& at) const {
+    Eigen::Matrix<double, 3 * N, 3> Z = Eigen::Matrix<double, 3 * N, 3>::Zero();
+    Eigen::Matrix<double, 3, 3 * N> W;
+    for (const auto& point : at.element.points) {
+      const Matrix3d U = at.R.transpose() * (at.moving * point.gradient.transpose());
+      const Matrix3d sigma = stress_of(strain_of(U));
+      for (int axis = 0; axis < 3; ++axis) {
+        Matrix3d turn = Matrix3d::Zero(); // [e_axis]×
+        turn((axis + 2) % 3, (axis + 1) % 3) = 1;
+        turn((axis + 1) % 3, (axis + 2) % 3) = -1;
+        const Matrix3d change = point.weight * at.R * (turn * sigma - stress_of(symmetric(turn * U)));
+        for (int n = 0; n < N; ++n) Z.template block<3, 1>(3 * n, axis) += change * point.gradient.col(n);
+      }
+    }
+    const Spin spin(rotation(), at.R, at.mean);
+    for (int m = 0; m < N; ++m)
+      W.template block<3, 3>(0, 3 * m) = spin.of(at.gradient.col(m)) * at.R.transpose();
+    return Z * W;
+  }
+};
+
+} // namespace
+
+ElasticMaterial ElasticMaterial::of(double young, double poisson, int dimension) {
+  ElasticMaterial m;
+  m.mu = young / (2 * (1 + poisson));
+  m.lambda = dimension == 2 ? young * poisson / (1 - poisson * poisson)
+                            : young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  return m;
+}
+
+ElementLaw::ElementLaw(const ElementShape& shape, ElasticModel model, Rotation rotation,
+                       const ElasticMaterial& material)
+    : Law((model == ElasticModel::Linear ? "linear " : "co-rotational ") + shape.name, shape.corners,
+          shape.values() + (model == ElasticModel::Linear && shape.dimension == 2 ? 6 : 0)),
+      shape_(&shape), model_(model), rotation_(rotation), material_(material) {}
+
+bool ElementLaw::write_unit(const Vec3* rest, double thickness, double* unit) const {
+  const bool own_axes =
+      shape_->dimension == 2 || (model_ == ElasticModel::Corotational && rotation_ == Rotation::Qr);
+  const Eigen::Matrix3d frame = own_axes ? rest_frame(*shape_, rest) : Eigen::Matrix3d::Identity();
+  for (int n = 0; n < first_point(); ++n) unit[n] = frame(n % 3, n / 3);
+  return write_element(*shape_, rest, frame, thickness, unit + first_point());
+}
+
+std::shared_ptr<const ElementLaw> element_law(ElementKind kind, ElasticModel model, Rotation rotation,
+                                              const ElasticMaterial& material) {
+  const auto made = [&]<int N, int Dim, int Points>() -> std::shared_ptr<const ElementLaw> {
+    return std::make_shared<ElementOf<N, Dim, Points>>(kind, model, rotation, material);
+  };
+  switch (kind) {
+  case ElementKind::Triangle:
+    return made.template operator()<3, 2, 1>();
+  case ElementKind::Quad:
+    return made.template operator()<4, 2, 4>();
+  case ElementKind::Tetrahedron:
+    return made.template operator()<4, 3, 1>();
+  case ElementKind::Hexahedron:
+    return made.template operator()<8, 3, 8>();
+  case ElementKind::Prism:
+    return made.template operator()<6, 3, 6>();
+  case ElementKind::Pyramid:
+    return made.template operator()<5, 3, 8>();
+  }
+  return nullptr;
+}
+
+} // namespace rend

@@ -1,0 +1,58 @@
+// Mass-tensors: linear elasticity kept on vertices, edges and diagonals (Cotin et al. 2000; thesis 2.3.4, 5.3, fig. 5.24).
+//
+//   f_i = −Σ_j K_ij u_j,   u = x − x0 (and βv),   K_ij = Σ_g w (λ G_i G_jᵀ + μ G_j G_iᵀ + μ (G_i·G_j) P)
+//
+// (P = I of a solid, the projection onto the plane of a sheet's element.) 2.31 and 2.32 of the thesis lack the sign and
+// the order of the outer products. Since K_ji = K_ijᵀ one tensor serves both ends of a pair: a tetrahedron has 4 diagonal
+// tensors and 6 pairs, a hexahedron 8 and 28. Elementary tensors lie on
+//
+//   diagonal          VertexOfVolume <1,2>   (sheet: VertexOfFace <1>)
+//   edges             EdgeOfVolume <0,2>     (sheet: EdgeOfFace <0>)
+//   face diagonals    FaceOfVolume <0,1>, two of a quad
+//   volume diagonals  Volume <0,1,2>, four of a hexahedron
+//
+// and are born from the whole element, so that their support is the element. Cumulated, those between the same particles
+// are summed: folding across α3 (α2 of a sheet).
+#pragma once
+
+#include "sim/mechanics/element_law.h"
+
+namespace rend {
+
+// Of one particle: K_ii row by row, and the largest eigenvalue of the whole element's K. Of two: K_ij row by row.
+class MassTensorLaw : public Law {
+public:
+  double damping() const { return damping_; } // β [s]
+
+protected:
+  MassTensorLaw(std::string name, int particles, int values, double damping)
+      : Law(std::move(name), particles, values), damping_(damping) {}
+
+private:
+  double damping_;
+};
+
+std::shared_ptr<const MassTensorLaw> vertex_tensor_law(double damping);
+std::shared_ptr<const MassTensorLaw> pair_tensor_law(double damping);
+
+struct MassTensorRequest {
+  ElasticMaterial material;
+  double thickness; // [m], of a sheet
+  Place place;      // to blame
+};
+
+// Adds the embeddings. UserError: an element without volume. Empty: no element fits.
+std::vector<std::unique_ptr<Interaction>> make_mass_tensors(EmbeddedMap& map, const MassTensorRequest& request);
+
+// K_ij [N/m] of the element with corners i and j, at rest.
+struct ElementTensors {
+  ElementKind kind;
+  int corners;
+  double largest; // eigenvalue of K [N/m]
+  std::array<std::array<Eigen::Matrix3d, most_particles>, most_particles> K;
+};
+// UserError: it has no volume.
+ElementTensors element_tensors(const ElementShape& shape, const std::vector<Vec3>& rest,
+                               const MassTensorRequest& request);
+
+} // namespace rend

@@ -1,0 +1,116 @@
+#include "sim/mechanics/rotation.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <cmath>
+
+namespace rend {
+namespace {
+
+using Eigen::Matrix3d;
+
+constexpr double lost = 1e-12; // a length that is nothing beside another
+
+Matrix3d cofactors(const Matrix3d& F) {
+  Matrix3d C;
+  C << F.col(1).cross(F.col(2)), F.col(2).cross(F.col(0)), F.col(0).cross(F.col(1));
+  return C;
+}
+
+Matrix3d rotation_by_singular_values(const Matrix3d& F) {
+  const Eigen::JacobiSVD<Matrix3d> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3d U = svd.matrixU();
+  if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;
+  return U * svd.matrixV().transpose();
+}
+
+Vec3 any_normal(const Vec3& v) { // a unit vector at right angles to v
+  const Vec3 a = v.cwiseAbs();
+  const Vec3 axis = a.x() <= a.y() && a.x() <= a.z() ? Vec3::UnitX()
+                    : a.y() <= a.z()                 ? Vec3::UnitY()
+                                                     : Vec3::UnitZ();
+  const Vec3 normal = v.cross(axis);
+  return normal.norm() > 0 ? Vec3(normal.normalized()) : Vec3(Vec3::UnitY());
+}
+
+} // namespace
+
+Matrix3d closest_rotation(const Matrix3d& F) {
+  if (!(F.determinant() > 0)) return rotation_by_singular_values(F);
+  Matrix3d R = F;
+  for (int n = 0; n < 8; ++n) {
+    const Matrix3d C = cofactors(R);
+    const Matrix3d change = 0.5 / R.col(0).dot(C.col(0)) * C - 0.5 * R;
+    R += change;
+    if (change.squaredNorm() < 1e-15) return R; // what is left is half of that
+  }
+  return rotation_by_singular_values(F); // nearly flat
+}
+
+// In the plane of Gram–Schmidt's frame F is the triangle (p q; 0 r), whose rotation is known.
+Matrix3d closest_sheet_rotation(const Matrix3d& F) {
+  const double p = F.col(0).norm();
+  if (!(p > lost * F.col(1).norm())) return rotation_by_singular_values(F);
+  const Vec3 a = F.col(0) / p;
+  const double q = a.dot(F.col(1));
+  const Vec3 rest = F.col(1) - q * a;
+  const double r = rest.norm();
+  if (!(r > lost * (p + F.col(1).norm()))) return rotation_by_singular_values(F);
+  const Vec3 b = rest / r;
+  const double c = p + r, s = -q, h = std::sqrt(c * c + s * s);
+  Matrix3d R;
+  R.col(0) = (c * a + s * b) / h;
+  R.col(1) = (c * b - s * a) / h;
+  R.col(2) = a.cross(b);
+  return R;
+}
+
+Matrix3d gram_schmidt(const Matrix3d& F, int dimension) {
+  const double least = lost * F.norm();
+  Matrix3d R;
+  if (F.col(0).norm() > least)
+    R.col(0) = F.col(0).normalized();
+  else
+    R.col(0) = any_normal(F.col(1));
+  const Vec3 second = F.col(1) - R.col(0).dot(F.col(1)) * R.col(0);
+  const Vec3 third = F.col(2) - R.col(0).dot(F.col(2)) * R.col(0);
+  if (second.norm() > least)
+    R.col(1) = second.normalized();
+  else if (dimension == 3 && third.norm() > least)
+    R.col(1) = third.normalized().cross(R.col(0));
+  else
+    R.col(1) = any_normal(R.col(0));
+  R.col(2) = R.col(0).cross(R.col(1));
+  return R;
+}
+
+Spin::Spin(Rotation rotation, const Matrix3d& R, const Matrix3d& F) : rotation_(rotation) {
+  const Matrix3d U = R.transpose() * F;
+  const double size = U.norm();
+  if (rotation == Rotation::Qr) {
+    matrix_ = U;
+    turns_ = U(0, 0) > lost * size && U(1, 1) > lost * size;
+    return;
+  }
+  const Matrix3d S = 0.5 * (U + U.transpose());
+  const Matrix3d H = S.trace() * Matrix3d::Identity() - S;
+  turns_ = H.determinant() > 1e-9 * size * size * size;
+  if (turns_) matrix_ = H.inverse();
+}
+
+Matrix3d Spin::of(const Vec3& b) const {
+  Matrix3d L = Matrix3d::Zero();
+  if (!turns_) return L;
+  if (rotation_ == Rotation::Polar) {
+    L << 0, -b.z(), b.y(), b.z(), 0, -b.x(), -b.y(), b.x(), 0;
+    return matrix_ * L;
+  }
+  const Matrix3d& U = matrix_;
+  L(0, 2) = (b.y() - b.x() * U(0, 1) / U(0, 0)) / U(1, 1);
+  L(1, 2) = -b.x() / U(0, 0);
+  L(2, 1) = b.x() / U(0, 0);
+  return L;
+}
+
+} // namespace rend
