@@ -24,6 +24,7 @@ const std::vector<Command>& all_commands();
 Command render_command();
 Command run_command();
 Command info_command();
+Command mesh_command();
 Command help_command();
 
 // Parses the command line, runs a command, prints what went wrong. The program's exit code.

@@ -1,6 +1,7 @@
 #include "render/app/session.h"
 
 #include "render/app/console.h"
+#include "render/app/paths.h"
 #include "render/app/signals.h"
 #include "sim/program/threads.h"
 
@@ -22,6 +23,7 @@ void add_preset_options(CLI::App& app, SessionOptions& options) {
   app.add_option("--set", options.sets, "replace an attribute, such as time.step=1e-4 (any number of times)")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
+  app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the preset's folder, too");
 }
 
 void add_run_options(CLI::App& app, SessionOptions& options) {
@@ -47,6 +49,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
   std::vector<Override> overrides;
   for (const std::string& set : options.sets) overrides.push_back(parse_override(set));
   preset_ = load_scene(options.preset, overrides);
+  if (!options.allow_path) check_paths(*preset_);
   image_ = image_settings(*preset_);
   if (options.fps) image_.fps = *options.fps;
   const int threads = options.threads > 0 ? options.threads : hardware_threads();

@@ -26,6 +26,7 @@ struct SessionOptions {
   int threads = 0;               // 0: as many as the machine has
   std::string kernels = "flat";  // or walk
   bool quiet = false;
+  bool allow_path = false; // meshes from anywhere
 };
 void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set
 void add_run_options(CLI::App& app, SessionOptions& options);    // those, and how it is run

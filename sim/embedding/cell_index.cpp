@@ -16,13 +16,22 @@ void SlotEvents::clear() {
 }
 
 CellIndex::CellIndex(const GMap& map, Orbit orbit) : orbit_(orbit), slot_of_dart_(map.capacity(), no_slot) {
-  std::vector<Dart> darts;
+  std::vector<Dart>
+      darts; // of one orbit; those that were reached have their slot, so that none is marked besides
   map.for_each_dart([&](Dart first) {
     if (slot_of_dart_[first.value] != no_slot) return;
-    darts.clear();
-    collect(map, orbit_, first, darts);
     const Slot slot = static_cast<Slot>(first_dart_.size());
-    for (Dart d : darts) slot_of_dart_[d.value] = slot;
+    slot_of_dart_[first.value] = slot;
+    darts.assign(1, first);
+    for (std::size_t n = 0; n < darts.size(); ++n) {
+      for (int i = 0; i < 4; ++i) {
+        if (!orbit_.has(i)) continue;
+        const Dart next = map.alpha(i, darts[n]);
+        if (slot_of_dart_[next.value] != no_slot) continue;
+        slot_of_dart_[next.value] = slot;
+        darts.push_back(next);
+      }
+    }
     first_dart_.push_back(first); // darts come in increasing order: the first is the smallest
   });
   first_dart_.shrink_to_fit();

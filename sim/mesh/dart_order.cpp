@@ -5,9 +5,7 @@
 #include <algorithm>
 
 namespace rend {
-namespace {
 
-// The darts that a cell's table has, laid out from d; empty: the cell at d is not of that shape.
 std::vector<Dart> laid_out(const GMap& map, const CellShape& shape, Dart d) {
   std::vector<Dart> image(static_cast<std::size_t>(shape.darts));
   std::vector<std::size_t> reached{0};
@@ -26,8 +24,12 @@ std::vector<Dart> laid_out(const GMap& map, const CellShape& shape, Dart d) {
       }
     }
   }
-  return image;
+  std::vector<Dart> sorted = image; // a cell that is glued to itself may have a part of them, each several times
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end() ? image : std::vector<Dart>();
 }
+
+namespace {
 
 bool right_handed(const MapMesh& mesh, Dart d) {
   const auto at = [&](const char* word) -> const Vec3& {

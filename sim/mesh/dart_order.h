@@ -7,6 +7,9 @@
 
 namespace rend {
 
+// The darts that a cell's table has, in its order, if that of number 0 is d; empty: the cell at d is not of that shape.
+std::vector<Dart> laid_out(const GMap& map, const CellShape& shape, Dart d);
+
 // order[n]: the dart that is to have the number n. A cell of another shape keeps the order of its darts.
 std::vector<Dart> cell_order(const MapMesh& mesh);
 

@@ -9,6 +9,7 @@
 #include "sim/scene/contact.h"
 #include "sim/scene/load.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct Body final : System {
   std::string name;
   const Node* node = nullptr; // of the preset, for those who read more of it (look)
   std::unique_ptr<EmbeddedMap> map;
+  std::map<std::string, std::vector<Slot>> groups; // of the mesh file: increasing slots of vertices, at the start
   MassColumn* mass = nullptr;
   DragColumn* drag = nullptr;     // null: no viscosity per particle
   BorderColumn* border = nullptr; // null: nothing tears

@@ -80,7 +80,7 @@ void build_constraints(Body& body, const Node& node) {
     if (child->name() != "fix" && child->name() != "drive") continue;
     if (body.constraints.motions().size() == 64)
       throw UserError(Exit::BadInput, child->place(), "a body takes at most 64 <fix> and <drive>");
-    body.constraints.add(*body.map, motion_of(*child), select_vertices(*body.map, *child));
+    body.constraints.add(*body.map, motion_of(*child), select_vertices(body, *child));
   }
 }
 

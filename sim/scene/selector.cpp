@@ -1,5 +1,7 @@
 #include "sim/scene/selector.h"
 
+#include "sim/base/wording.h"
+
 #include <fmt/format.h>
 
 namespace rend {
@@ -9,6 +11,7 @@ void add_selector(std::vector<AttributeType>& attributes) {
   attributes.push_back(numbers("box", 6, "m", "select the vertices in the box x0 y0 z0 x1 y1 z1"));
   attributes.push_back(
       word("side", {"-x", "+x", "-y", "+y", "-z", "+z"}, "select the vertices at that end of the body"));
+  attributes.push_back(text("group", "select the vertices of a group that the mesh file names"));
   attributes.push_back(flag("all", "select every vertex"));
 }
 
@@ -52,17 +55,29 @@ std::vector<Slot> nearest_vertex(const EmbeddedMap& map, const Vec3& to) {
   return {best};
 }
 
+const std::vector<Slot>& vertices_of_group(const Body& body, const Node& node) {
+  const std::string& name = node.text("group");
+  const auto group = body.groups.find(name);
+  if (group != body.groups.end()) return group->second;
+  std::vector<std::string> names;
+  for (const auto& [each, slots] : body.groups) names.push_back(each);
+  node.fail("group", fmt::format("the body has no group {}", in_quotes(name)),
+            names.empty() ? "groups come from a <mesh> whose file has them"
+                          : suggestion(name, names, "groups"));
+}
+
 } // namespace
 
-std::vector<Slot> select_vertices(const EmbeddedMap& map, const Node& node) {
+std::vector<Slot> select_vertices(const Body& body, const Node& node) {
+  const EmbeddedMap& map = *body.map;
   std::vector<std::string> given;
-  for (const char* name : {"near", "box", "side", "all"})
+  for (const char* name : {"near", "box", "side", "group", "all"})
     if (node.given(name)) given.push_back(name);
   if (given.size() != 1)
     throw UserError(Exit::BadInput, node.place(),
                     given.empty() ? fmt::format("<{}> selects nothing", node.name())
                                   : fmt::format("<{}> has {} selectors", node.name(), given.size()),
-                    "give one of near, box, side, all");
+                    "give one of near, box, side, group, all");
   const std::string& how = given.front();
   const Bounds b = bounds_of(map);
   const double slack = 1e-9 * (b.high - b.low).maxCoeff();
@@ -82,6 +97,8 @@ std::vector<Slot> select_vertices(const EmbeddedMap& map, const Node& node) {
     chosen = vertices_where(map, [&](const Vec3& x) {
       return side[0] == '-' ? x[axis] <= b.low[axis] + slack : x[axis] >= b.high[axis] - slack;
     });
+  } else if (how == "group") {
+    chosen = vertices_of_group(body, node);
   } else if (node.flag("all")) {
     chosen = vertices_where(map, [](const Vec3&) { return true; });
   }

@@ -3,11 +3,12 @@
 //   near="x y z"                 the closest vertex
 //   box="x0 y0 z0 x1 y1 z1"      those within, or within 1e-9 of the body's size of it: grid lines are rounded
 //   side="-x" ... "+z"           those at that end of the body, within 1e-9 of its size
+//   group="name"                 those of a group that the body's mesh file names
 //   all="yes"
 #pragma once
 
 #include "sim/base/parameters.h"
-#include "sim/embedding/embedded_map.h"
+#include "sim/scene/body.h"
 
 namespace rend {
 
@@ -15,6 +16,6 @@ namespace rend {
 void add_selector(std::vector<AttributeType>& attributes);
 
 // Increasing slots. UserError: no selector, several, or one that selects nothing.
-std::vector<Slot> select_vertices(const EmbeddedMap& map, const Node& node);
+std::vector<Slot> select_vertices(const Body& body, const Node& node);
 
 } // namespace rend

@@ -5,7 +5,7 @@
 namespace rend {
 
 const std::vector<ShapeType>& all_shapes() {
-  static const std::vector<ShapeType> shapes{sheet_shape(), bar_shape(), tube_shape()};
+  static const std::vector<ShapeType> shapes{sheet_shape(), bar_shape(), tube_shape(), mesh_shape()};
   return shapes;
 }
 

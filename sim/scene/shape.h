@@ -7,6 +7,8 @@
 #include "sim/mesh/fault.h"
 #include "sim/scene/body.h"
 
+#include <filesystem>
+
 namespace rend {
 
 // <place>: x to turn x + shift.
@@ -28,5 +30,9 @@ const std::vector<ShapeType>& all_shapes();
 ShapeType sheet_shape();
 ShapeType bar_shape();
 ShapeType tube_shape();
+ShapeType mesh_shape();
+
+// The file of a <mesh>: relative to the preset's folder.
+std::filesystem::path mesh_path(const Node& mesh);
 
 } // namespace rend

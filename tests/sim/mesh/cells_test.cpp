@@ -257,7 +257,7 @@ TEST(Cells, are_refused_where_faces_lie_on_each_other_and_do_not_match) {
                 HasSubstr("hexahedron 0: has a face with the points 4 5 6 7, on which tetrahedron"));
   }
   CellMesh crossed = unit(CellKind::Hexahedron); // a pyramid whose base runs through the cube's points across
-  crossed.points[5].z() = 1.5; // flat, it would have no volume
+  crossed.points[5].z() = 1.5;                   // flat, it would have no volume
   crossed.points.emplace_back(0.2, 0.6, 3);
   crossed.add(CellKind::Pyramid, {4, 6, 5, 7, 8});
   EXPECT_THAT(refusal_of(crossed), HasSubstr("they do not match"));

@@ -1,0 +1,104 @@
+// Mesh files for tests: bodies of our own as text, and Gmsh to convert them.
+#pragma once
+
+#include "sim/mesh/bar.h"
+#include "sim/mesh/msh_writer.h"
+#include "sim/mesh/reader.h"
+#include "sim/mesh/sheet.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+namespace rend::files {
+
+namespace fs = std::filesystem;
+
+// A folder that goes when the test ends.
+class Folder {
+public:
+  Folder() : path_(fs::temp_directory_path() / ("rend-mesh-" + std::to_string(std::random_device()()))) {
+    fs::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  // Runs Gmsh on files of this folder.
+  void gmsh(const std::string& arguments) const {
+    const std::string command = "cd '" + path_.string() + "' && gmsh " + arguments + " -v 1 >gmsh.log 2>&1";
+    if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: gmsh " + arguments);
+  }
+  const fs::path& path() const { return path_; }
+
+private:
+  fs::path path_;
+};
+
+inline std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline MeshBody read(const std::string& name, const std::string& text) {
+  return sew(read_mesh(MeshSource(name, text)));
+}
+
+inline std::string text_of(std::unique_ptr<EmbeddedMap> map) {
+  MeshBody body;
+  body.map = std::move(map);
+  return msh_text(body, "a test");
+}
+
+inline std::unique_ptr<EmbeddedMap> mixed_bar() {
+  return solid_from(bar_cells({BarPattern::Mixed, 3, 2, 1, Vec3(3, 2, 1)}));
+}
+
+inline std::unique_ptr<EmbeddedMap> mixed_sheet() {
+  SheetShape shape;
+  shape.pattern = SheetPattern::Mixed;
+  shape.nx = 3;
+  shape.ny = 2;
+  shape.corners = rectangle(3, 2);
+  return sheet_from(sheet_polygons(shape));
+}
+
+inline std::string obj_text(const PolygonMesh& mesh) {
+  std::string text;
+  const auto number = [&](double x) { text += " " + std::to_string(x); };
+  for (const Vec3& x : mesh.points) text += "v", number(x.x()), number(x.y()), number(x.z()), text += "\n";
+  for (std::size_t p = 0; p < mesh.polygons(); ++p) {
+    text += "f";
+    for (std::uint32_t c = mesh.first[p]; c < mesh.first[p + 1]; ++c)
+      text += " " + std::to_string(mesh.corners[c] + 1);
+    text += "\n";
+  }
+  return text;
+}
+
+inline std::string off_text(const PolygonMesh& mesh) {
+  std::string text =
+      "OFF\n" + std::to_string(mesh.points.size()) + " " + std::to_string(mesh.polygons()) + " 0\n";
+  const auto number = [&](double x) { text += std::to_string(x) + " "; };
+  for (const Vec3& x : mesh.points) number(x.x()), number(x.y()), number(x.z()), text += "\n";
+  for (std::size_t p = 0; p < mesh.polygons(); ++p) {
+    text += std::to_string(mesh.first[p + 1] - mesh.first[p]);
+    for (std::uint32_t c = mesh.first[p]; c < mesh.first[p + 1]; ++c)
+      text += " " + std::to_string(mesh.corners[c]);
+    text += "\n";
+  }
+  return text;
+}
+
+} // namespace rend::files
