@@ -42,6 +42,16 @@ TEST(Packing, TurnsATriangleAroundItsNormalWithItsLines) {
   }
 }
 
+TEST(Packing, TurnsNoTriangleOfASolid) {
+  FrameBody body;
+  body.two_sided = false;
+  add_triangle(body, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, red);
+  for (Corner& corner : body.corners) corner.normal = {0, 0, -1};
+  std::vector<Corner> packed;
+  pack(body, packed);
+  EXPECT_EQ(position(packed[1]), Vector3f(2, 0, 0));
+}
+
 TEST(Packing, LeavesATriangleWithoutAreaAlone) {
   FrameBody body;
   add_triangle(body, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, red);

@@ -79,6 +79,32 @@ TEST_F(StageTest, BothSidesOfASheetAreLitAndTheFarSideIsAShadeDarker) {
   EXPECT_NEAR(one_sided, near, 3);
 }
 
+TEST_F(StageTest, OfASolidOnlyTheOutsideIsDrawn) {
+  Frame frame = front_view();
+  const Image empty = picture(frame);
+  frame.bodies.push_back(screen(0, 0.5, red)); // winds around -y, towards the camera
+  frame.bodies[0].two_sided = false;
+  EXPECT_GT(largest_difference(picture(frame), empty), 100);
+  for (std::size_t n = 0; n < 6; n += 3)
+    std::swap(frame.bodies[0].corners[n + 1], frame.bodies[0].corners[n + 2]);
+  EXPECT_LT(largest_difference(picture(frame), empty), 3);
+  frame.bodies.push_back(screen(-0.2f, 0.2f, green)); // and sheets beside it keep both sides
+  for (std::size_t n = 0; n < 6; n += 3)
+    std::swap(frame.bodies[1].corners[n + 1], frame.bodies[1].corners[n + 2]);
+  EXPECT_GT(largest_difference(picture(frame), empty), 100);
+}
+
+TEST_F(StageTest, ACreaseOfASolidIsALineThatGoesWithTheEdgesOfCells) {
+  Frame frame = front_view();
+  frame.bodies.push_back(screen(0, 0.5, grey, Line::Crease));
+  const Image with = picture(frame);
+  frame.bodies[0].edges = false;
+  const Image without = picture(frame);
+  frame.bodies[0] = screen(0, 0.5, grey, Line::None);
+  EXPECT_GT(largest_difference(with, without), 20);
+  EXPECT_EQ(largest_difference(picture(frame), without), 0);
+}
+
 TEST_F(StageTest, WhatIsInFrontHidesWhatIsBehindInAnyOrder) {
   for (const bool swapped : {false, true}) {
     Frame frame = front_view();

@@ -3,6 +3,7 @@
 #include "render/app/preset_types.h"
 #include "render/app/viewpoint.h"
 #include "render/camera.h"
+#include "sim/topology/walk.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -138,6 +139,86 @@ TEST(Picture, TakesColourAndSceneFromThePreset) {
   EXPECT_EQ(frame.floor->z, -2);
   EXPECT_EQ(frame.background, (std::array<float, 3>{1, 0, 0}));
   EXPECT_EQ(frame.camera.eye, Eigen::Vector3d(0, -5, 0));
+}
+
+// A bar of 4 × 2 × 2 boxes that remembers its borders, and whose halves a test may part.
+struct ShownBar {
+  std::unique_ptr<Node> preset;
+  std::unique_ptr<Scene> scene;
+  std::unique_ptr<PictureMaker> maker;
+
+  explicit ShownBar(const std::string& look, const std::string& pattern = "hexahedra") {
+    preset = load_scene_text(R"(<scene name="bar"><body><bar pattern=")" + pattern +
+                                 R"(" cells="4 2 2" size="4 2 2"/><mass total="1"/>)"
+                                 R"(<springs><stretch k="60"/></springs><drive side="+x" velocity="4 0 0"/>)" +
+                                 look + R"(</body><time step="1e-3" duration="1"/></scene>)",
+                             "bar.xml");
+    scene = std::make_unique<Scene>(*preset, SceneOptions{});
+    body().border = &body().map->add(BornBorder(3));
+    maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0);
+  }
+  Body& body() { return *scene->bodies()[0]; }
+  void part() {
+    body().map->edit([&](Edit& edit) {
+      for (std::uint32_t d = 0; d < edit.map().capacity(); ++d) {
+        const auto darts = darts_of(edit.map(), FaceOfVolume, Dart{d});
+        if (std::all_of(darts.begin(), darts.end(), [&](Dart e) { return body().map->rest_of(e).x() == 2; }))
+          unsew(edit, 3, Dart{d});
+      }
+    });
+  }
+  FrameBody frame() {
+    maker->observe();
+    return maker->draw(0, 0).bodies.at(0);
+  }
+};
+
+TEST(PictureOfASolid, ShowsItsHullFromOutsideAlone) {
+  for (const char* pattern : {"hexahedra", "tetrahedra", "prisms", "mixed"}) {
+    ShownBar shown("", pattern);
+    const FrameBody body = shown.frame();
+    EXPECT_FALSE(body.two_sided);
+    EXPECT_EQ(body.corners.size(), 2u * 40 * 3) << pattern; // 40 squares
+    for (std::size_t n = 0; n < body.corners.size(); n += 3) {
+      const Corner* c = &body.corners[n];
+      const Vector3f flat =
+          (position(c[1]) - position(c[0])).cross(position(c[2]) - position(c[0])).normalized();
+      EXPECT_GT(flat.dot((position(c[0]) + position(c[1]) + position(c[2])) / 3 - Vector3f(2, 1, 1)), 0);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR((normal(c[k]) - flat).norm(), 0, 1e-5);
+    }
+    const auto count = std::count_if(body.corners.begin(), body.corners.end(), [](const Corner& c) {
+      return c.line[0] == static_cast<int>(Line::Border) || c.line[0] == static_cast<int>(Line::Torn);
+    });
+    EXPECT_EQ(count, 0);
+  }
+}
+
+TEST(PictureOfASolid, GivesWhatFractureLaidBareTheInsideColour) {
+  ShownBar shown(R"(<look colour="#102030" inside="#a0b0c0"/>)");
+  EXPECT_EQ(colours(shown.frame()).size(), 1u);
+  shown.part();
+  const FrameBody body = shown.frame();
+  int inside = 0;
+  for (const Corner& c : body.corners) {
+    const bool bare = c.colour[0] == 0xa0;
+    EXPECT_EQ(bare, position(c).x() == 2 && std::abs(normal(c).x()) > 0.5f);
+    inside += bare;
+  }
+  EXPECT_EQ(inside, 2 * 4 * 2 * 3);
+}
+
+TEST(PictureOfASolid, ShowsFragmentsAndQuantitiesOnAllFaces) {
+  ShownBar fragments(R"(<look by="fragment" inside="#a0b0c0"/>)");
+  EXPECT_EQ(colours(fragments.frame()).size(), 1u);
+  fragments.part();
+  const auto two = colours(fragments.frame());
+  EXPECT_EQ(two.size(), 2u);
+  EXPECT_FALSE(two.contains({0xa0, 0xb0, 0xc0, 255}));
+  for (const char* by : {"strain", "force"}) {
+    ShownBar shown(R"(<look by=")" + std::string(by) + R"("/>)");
+    for (int n = 0; n < 400; ++n) shown.scene->step();
+    EXPECT_GT(colours(shown.frame()).size(), 3u) << by;
+  }
 }
 
 TEST(Viewpoint, TurnsAroundItsTarget) {

@@ -19,13 +19,15 @@ inline CellMesh bar(BarPattern pattern, int nx, int ny, int nz) {
 constexpr std::array<BarPattern, 4> all_patterns{BarPattern::Hexahedra, BarPattern::Tetrahedra,
                                                  BarPattern::Prisms, BarPattern::Mixed};
 
-// A cube of cells drawn onto a ball of radius 1: shells of the cube become spheres.
+// A cube of cells drawn onto a ball of radius 1, smoothly (Nowell's map): the cube's surface becomes the sphere.
 inline CellMesh ball(BarPattern pattern, int cells) {
   CellMesh mesh = bar(pattern, cells, cells, cells);
   for (Vec3& x : mesh.points) {
-    x = x * (2.0 / cells) - Vec3::Ones();
-    const double shell = x.cwiseAbs().maxCoeff();
-    if (shell > 0) x *= shell / x.norm();
+    const Vec3 c = x * (2.0 / cells) - Vec3::Ones(), s = c.cwiseProduct(c);
+    for (int i = 0; i < 3; ++i) {
+      const double a = s[(i + 1) % 3], b = s[(i + 2) % 3];
+      x[i] = c[i] * std::sqrt(1 - a / 2 - b / 2 + a * b / 3);
+    }
   }
   return mesh;
 }
