@@ -50,7 +50,7 @@ void SolidSurface::update() {
     for (Dart d : changes_.touched[i]) {
       if (!map.alive(d)) continue;
       queue_around_edge(d);
-      if (i < 3) queue_volume(d);
+      if (i < 3) queue_volume(d); // an element of another shape
     }
   for (Dart d :
        changes_.moved[Vertex.mask]) // where two vertices became one, a volume has another shape at rest
