@@ -7,13 +7,6 @@ void DrawnFaces::resize(std::size_t darts) {
   if (blocks > blocks_.size()) blocks_.resize(blocks);
 }
 
-void DrawnFaces::clear() {
-  const std::size_t blocks = blocks_.size();
-  blocks_.clear();
-  blocks_.resize(blocks);
-  faces_ = corners_ = 0;
-}
-
 DrawnFaces::Place DrawnFaces::place_of(const Block& block, Dart first) const {
   Place place{0, 0};
   while (place.face < block.faces.size() && block.faces[place.face].first < first)

@@ -22,16 +22,14 @@ public:
     bool operator==(const Corner&) const = default;
   };
   struct Face {
-    Dart first; // the smallest dart; its corner is corner 0
-    bool
-        turned; // corners are met from α1(first) on, which runs counter-clockwise seen from outside; not from first
-    bool bare; // laid bare by fracture
+    Dart first;  // the smallest dart; its corner is corner 0
+    bool turned; // corners are met from α1(first) on, not from first: counter-clockwise seen from outside
+    bool bare;   // laid bare by fracture
     std::uint32_t sides;
     bool operator==(const Face&) const = default;
   };
 
-  void resize(std::size_t darts); // room for keys below; never shrinks
-  void clear();
+  void resize(std::size_t darts);                              // room for keys below; never shrinks
   void set(const Face& face, std::span<const Corner> corners); // in place of what was there
   bool erase(Dart first);                                      // false: there was none
 
@@ -39,7 +37,7 @@ public:
     const Face* face = nullptr; // null: not drawn
     std::span<Corner> corners;
   };
-  Found find(Dart first); // until the next set() or erase()
+  Found find(Dart first); // holds until the next set() or erase()
   std::size_t count() const { return faces_; }
   std::size_t corner_count() const { return corners_; }
 

@@ -52,8 +52,8 @@ void SolidSurface::update() {
       queue_around_edge(d);
       if (i < 3) queue_volume(d); // an element of another shape
     }
-  for (Dart d :
-       changes_.moved[Vertex.mask]) // where two vertices became one, a volume has another shape at rest
+  // Other slots of vertices; and where two vertices became one, an element of another shape at rest.
+  for (Dart d : changes_.moved[Vertex.mask])
     if (map.alive(d)) queue_volume(d);
   changes_.clear();
   bind();

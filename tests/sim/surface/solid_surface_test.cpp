@@ -461,9 +461,8 @@ TEST(SolidSurface, equals_brute_force_and_a_new_one_along_storms_of_separations_
 
 TEST(SolidSurface, equals_a_new_one_along_storms_of_any_edit) {
   std::vector<Named> solids = all();
-  solids.push_back(
-      {"warped hexahedra", bar(BarPattern::Hexahedra, 3, 3, 3)}); // edges of all angles, faces not flat
-  Noise warp(2);
+  solids.push_back({"warped hexahedra", bar(BarPattern::Hexahedra, 3, 3, 3)});
+  Noise warp(2); // edges of all angles, faces not flat
   for (Vec3& x : solids.back().mesh.points) x += 0.25 * warp.vector();
   for (const Named& solid : solids) {
     SCOPED_TRACE(solid.name);
