@@ -135,9 +135,8 @@ void Scene::set_answers() {
     for (Answer& answer : body->answers) {
       if (std::isinf(answer.at)) answer.at = duration_;
       if (answer.at > duration_ + slack)
-        throw UserError(
-            Exit::BadInput, answer.place,
-            fmt::format("the clip ends at {:g} s, before this answer at {:g} s", duration_, answer.at));
+        notes_.push_back(fmt::format("{}: the clip ends at {:g} s, before this answer at {:g} s is asked for",
+                                     answer.place.text(), duration_, answer.at));
       next_answer_ = std::min(next_answer_, answer.at - slack);
     }
   }

@@ -44,8 +44,8 @@ protected:
 
   nlohmann::json run(const std::string& options) const {
     const Outcome outcome = place.rend("run '" + path.string() + "' --json --quiet " + options);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return outcome.code == 0 ? outcome.json() : nlohmann::json();
+    EXPECT_LE(outcome.code, 1) << outcome.err; // 1: an answer does not hold, which is to come later
+    return outcome.code <= 1 ? outcome.json() : nlohmann::json();
   }
   std::string tenth() const {
     const auto scene = load_scene(path);
