@@ -77,6 +77,11 @@ public:
   // The sum [N], one per vertex slot; null if there are none. Stays until the next call.
   const Record* evaluate(const EmbeddedMap& map, double time, const Record* position, const Record* velocity);
 
+  // How fast wind damps the body where it is at rest, at most [1/s].
+  double damping_rate(const EmbeddedMap& map, const double* inverse_mass) const {
+    return wind_ ? wind_->damping_rate(map, inverse_mass) : 0;
+  }
+
 private:
   bool up_to_date(double time) const;
   std::vector<Load> loads_;

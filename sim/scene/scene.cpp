@@ -70,7 +70,8 @@ double Scene::stability_limit() const {
   double limit = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies_) {
     const FrequencyBounds b = frequency_bounds(*body->map, body->interactions, *body->mass, body->drag);
-    limit = std::min(limit, scheme_->limit({b.omega_squared, b.damping_rate + body->uniform_drag,
+    const double wind = body->loads.damping_rate(*body->map, body->program->inverse_mass());
+    limit = std::min(limit, scheme_->limit({b.omega_squared, b.damping_rate + wind + body->uniform_drag,
                                             b.least_drag_rate + body->uniform_drag}));
   }
   return limit;

@@ -1,5 +1,6 @@
 #include "sim/scene/wind.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rend {
@@ -44,6 +45,21 @@ void WindLoad::add(const Record* position, const Record* velocity, Record* force
     for (std::size_t i = 0; i < vertices.size(); ++i)
       force[vertices[i]] = Record(force[vertices[i]].vec() + area[i].dot(normal) * pressure);
   }
+}
+
+double WindLoad::damping_rate(const EmbeddedMap& map, const double* inverse_mass) const {
+  std::vector<double> seen(map.cells(Vertex).slots()); // area [m²] of each vertex
+  std::vector<Vec3> x, area;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    x.clear();
+    for (Slot v : faces_[f]) x.push_back(map.rest()[v].vec());
+    area.resize(x.size());
+    corner_areas(x, area);
+    for (std::size_t i = 0; i < x.size(); ++i) seen[faces_[f][i]] += area[i].norm();
+  }
+  double most = 0;
+  for (std::size_t v = 0; v < seen.size(); ++v) most = std::max(most, seen[v] * inverse_mass[v]);
+  return 2 * wind_.drag * wind_.velocity.norm() * most;
 }
 
 } // namespace rend

@@ -26,6 +26,9 @@ public:
   void add(const Record* position, const Record* velocity, Record* force) const;
   const std::vector<Slot>& vertices() const { return faces_.vertices(); } // that it may act on
 
+  // How fast it damps a body at rest [1/s], at most: 2 drag |w| A_n/m_n. `inverse_mass` [1/kg], one per vertex slot.
+  double damping_rate(const EmbeddedMap& map, const double* inverse_mass) const;
+
 private:
   Wind wind_;
   bool sheet_;
