@@ -61,7 +61,7 @@ LoadSettings settings_of(const Node& node) {
 Load load_of(Body& body, const Node& node) {
   using Kind = LoadSettings::Kind;
   const LoadSettings settings = settings_of(node);
-  const std::vector<Slot> vertices = select_vertices(*body.map, node);
+  const std::vector<Slot> vertices = select_vertices(body, node);
   const std::string name = fmt::format("load {}", body.loads.loads().size() + 1);
   if (settings.kind == Kind::Pressure) {
     Patch patch = Patch::faces(*body.map, name, vertices);

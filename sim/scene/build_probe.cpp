@@ -81,7 +81,7 @@ std::vector<ChildType> probe_types() {
 void build_probes(Body& body, const Node& node) {
   for (const Node* probe : node.all("probe")) {
     check_name(*probe);
-    body.probes.emplace_back(*body.map, probe->text("name"), select_vertices(*body.map, *probe));
+    body.probes.emplace_back(*body.map, probe->text("name"), select_vertices(body, *probe));
   }
   for (const Node* answer : node.all("answer")) body.answers.push_back(answer_of(body, *answer));
 }
