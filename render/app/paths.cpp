@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 
 // Whether `path`, links followed, lies in `folder` or below. A file that is not there lies where its name says.
 bool lies_in(const fs::path& path, const fs::path& folder) {
-  const fs::path inner = fs::weakly_canonical(path), outer = fs::weakly_canonical(folder);
+  const fs::path inner = fs::weakly_canonical(fs::absolute(path)),
+                 outer = fs::weakly_canonical(fs::absolute(folder));
   const auto [rest, end] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
   return rest == outer.end() && end != inner.end();
 }

@@ -43,7 +43,7 @@ void read(MeshFile& file) {
   for (const char* word : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"})
     known = known || head == word;
   if (!known) in.fail(fmt::format("the word OFF is expected, and {} is not read", in_quotes(head)));
-  if (!in.line_ends() && in.source().bytes().substr(in.offset()).starts_with(" BINARY"))
+  if (!in.line_ends() && in.source().bytes().substr(in.offset()).starts_with("BINARY"))
     in.fail("binary OFF is not read", "write it as ASCII");
   in.skip_comments('#');
   const std::uint64_t points = in.size("the number of points");

@@ -3,6 +3,7 @@
 #include "sim/mesh/moka.h"
 #include "sim/mesh/reader.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -137,7 +138,7 @@ std::string binary(const std::string& name, std::size_t from, std::uint64_t numb
 }
 
 TEST(BadMesh, counts_that_lie_are_refused_before_anything_is_allocated) {
-  for (const char* count : {"1", "4000000000", "9000000000000000000", "-3"}) {
+  for (const char* count : {"2", "4000000000", "9000000000000000000", "-3"}) {
     for (const char* name : {"bar-22.msh", "bar-41.msh"}) {
       for (const char* section : {"$Nodes\n", "$Elements\n"}) {
         std::string text = good().at(name);
@@ -150,7 +151,7 @@ TEST(BadMesh, counts_that_lie_are_refused_before_anything_is_allocated) {
               Verdict::Refused);
   }
   for (const std::uint64_t count :
-       {std::uint64_t{1}, std::uint64_t{1} << 33U, ~std::uint64_t{0}, ~std::uint64_t{0} / 8}) {
+       {std::uint64_t{2}, std::uint64_t{1} << 33U, ~std::uint64_t{0}, ~std::uint64_t{0} / 8}) {
     for (const char* section : {"$Nodes\n", "$Elements\n"}) {
       const std::size_t at = good().at("bar-41b.msh").find(section) + std::string(section).size();
       for (std::size_t field : {0, 1}) // blocks, all
@@ -171,23 +172,23 @@ TEST(BadMesh, elements_that_no_map_holds_are_named) {
   const auto of = [&](const std::string& elements) {
     return refusal("a.msh", head + elements + "$EndElements\n");
   };
-  EXPECT_THAT(of("1\n7 4 0 10 20 30 99\n"), HasSubstr("a.msh:14:1: tetrahedron 7 has a node 99"));
-  EXPECT_THAT(of("1\n7 4 0 10 20 30 20\n"), HasSubstr("a.msh:14:1: tetrahedron 7 has the node 20 twice"));
-  EXPECT_THAT(of("1\n7 4 0 10 20 30 60\n"), HasSubstr("a.msh:14:1: tetrahedron 7 has no volume"));
+  EXPECT_THAT(of("1\n7 4 0 10 20 30 99\n"), HasSubstr("a.msh:15:1: tetrahedron 7 has a node 99"));
+  EXPECT_THAT(of("1\n7 4 0 10 20 30 20\n"), HasSubstr("a.msh:15:1: tetrahedron 7 has the node 20 twice"));
+  EXPECT_THAT(of("1\n7 4 0 10 20 30 60\n"), HasSubstr("a.msh:15:1: tetrahedron 7 has no volume"));
   EXPECT_THAT(of("1\n7 11 0 10 20 30 40 50 60 10 20 30 40\n"),
-              HasSubstr("a.msh:14:3: element 7 is a tetrahedron of 10 nodes, of second order"));
+              HasSubstr("a.msh:15:3: element 7 is a tetrahedron of 10 nodes, of second order"));
   EXPECT_THAT(of("1\n7 9 0 10 20 30 40 50 60\n"), HasSubstr("triangle of 6 nodes, of second order"));
   EXPECT_THAT(of("1\n7 77 0 10 20 30 40 50 60\n"), HasSubstr("third order"));
   EXPECT_THAT(of("1\n7 4000 0 10 20 30 40 50 60\n"), HasSubstr("does not know"));
   EXPECT_THAT(of("3\n1 4 0 10 20 30 40\n2 4 0 10 20 30 50\n3 4 0 10 20 30 40\n"),
-              HasSubstr("a.msh:16:1: tetrahedron 3 shares the face with the points 10 20 30"));
-  EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n2 2 0 20 30 50\n"), HasSubstr("a.msh:15:1: triangle 2 dangles"));
+              HasSubstr("a.msh:17:1: tetrahedron 3 shares the face with the points 10 20 30"));
+  EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n2 2 0 20 30 50\n"), HasSubstr("a.msh:16:1: triangle 2 dangles"));
   EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n2 3 0 10 20 30 40\n"), HasSubstr("quad 2 dangles"));
   EXPECT_THAT(of("1\n1 1 0 10 20\n"), HasSubstr("holds no solids, triangles or quads"));
   EXPECT_THAT(of("3\n1 2 0 10 20 30\n2 2 0 10 20 40\n3 2 0 10 20 50\n"),
               HasSubstr("polygon 3 shares the edge between points 10 and 20"));
   EXPECT_THAT(of("1\n1 4 0 10 20 30 40 50\n"), HasSubstr("more numbers on its line than 4 nodes"));
-  EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n"), HasSubstr("a.msh:15:1: "));
+  EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n"), HasSubstr("a.msh:16:1: "));
   EXPECT_THAT(refusal("a.msh", replaced(head, "2.2", "3.0")), HasSubstr("a.msh:2:1: version '3.0'"));
   EXPECT_THAT(refusal("a.msh", replaced(head, "20 1 0 0", "10 1 0 0")),
               HasSubstr("a.msh:7:1: node 10 is there twice"));
@@ -222,6 +223,14 @@ TEST(BadMesh, other_formats_name_line_and_entity) {
   EXPECT_THAT(refusal("a.moka", replaced(moka, "\n1 ", "\n99999 ")),
               HasSubstr("a.moka:3:1: α0 of dart 0 is 99999, and there are"));
   EXPECT_THAT(refusal("a.moka", replaced(moka, " 1 0 0 0\n", " 0\n")), HasSubstr("carries a point"));
+}
+
+TEST(BadMesh, binary_files_name_the_byte) {
+  const std::string& text = good().at("bar-41b.msh");
+  const std::size_t at = text.find("$Nodes\n") + 7;
+  EXPECT_THAT(refusal("a.msh", binary("bar-41b.msh", at + 8, 1000000, 8)),
+              HasSubstr(fmt::format("a.msh: byte {}: 1000000 nodes are announced, and the", at + 8)));
+  EXPECT_THAT(refusal("a.msh", text.substr(0, at + 100)), HasSubstr(fmt::format("a.msh: byte {}: ", at + 8)));
 }
 
 TEST(BadMesh, a_file_that_is_not_there_is_another_matter) {

@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
@@ -74,30 +75,26 @@ inline std::unique_ptr<EmbeddedMap> mixed_sheet() {
   return sheet_from(sheet_polygons(shape));
 }
 
+// "1 5 2": the corners of a polygon, counted from `base`.
+inline std::string corners_text(const PolygonMesh& mesh, std::size_t polygon, std::uint32_t base) {
+  std::string text;
+  for (std::uint32_t c = mesh.first[polygon]; c < mesh.first[polygon + 1]; ++c)
+    text += fmt::format(" {}", mesh.corners[c] + base);
+  return text;
+}
+
 inline std::string obj_text(const PolygonMesh& mesh) {
   std::string text;
-  const auto number = [&](double x) { text += " " + std::to_string(x); };
-  for (const Vec3& x : mesh.points) text += "v", number(x.x()), number(x.y()), number(x.z()), text += "\n";
-  for (std::size_t p = 0; p < mesh.polygons(); ++p) {
-    text += "f";
-    for (std::uint32_t c = mesh.first[p]; c < mesh.first[p + 1]; ++c)
-      text += " " + std::to_string(mesh.corners[c] + 1);
-    text += "\n";
-  }
+  for (const Vec3& x : mesh.points) text += fmt::format("v {} {} {}\n", x.x(), x.y(), x.z());
+  for (std::size_t p = 0; p < mesh.polygons(); ++p) text += fmt::format("f{}\n", corners_text(mesh, p, 1));
   return text;
 }
 
 inline std::string off_text(const PolygonMesh& mesh) {
-  std::string text =
-      "OFF\n" + std::to_string(mesh.points.size()) + " " + std::to_string(mesh.polygons()) + " 0\n";
-  const auto number = [&](double x) { text += std::to_string(x) + " "; };
-  for (const Vec3& x : mesh.points) number(x.x()), number(x.y()), number(x.z()), text += "\n";
-  for (std::size_t p = 0; p < mesh.polygons(); ++p) {
-    text += std::to_string(mesh.first[p + 1] - mesh.first[p]);
-    for (std::uint32_t c = mesh.first[p]; c < mesh.first[p + 1]; ++c)
-      text += " " + std::to_string(mesh.corners[c]);
-    text += "\n";
-  }
+  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.points.size(), mesh.polygons());
+  for (const Vec3& x : mesh.points) text += fmt::format("{} {} {}\n", x.x(), x.y(), x.z());
+  for (std::size_t p = 0; p < mesh.polygons(); ++p)
+    text += fmt::format("{}{}\n", mesh.first[p + 1] - mesh.first[p], corners_text(mesh, p, 0));
   return text;
 }
 
