@@ -268,7 +268,7 @@ TEST(Constraints, are_refused_where_they_mean_nothing) {
   EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" from="2" until="1"/>)"),
               HasSubstr("ends before"));
   EXPECT_THAT(refusal_of(R"(<fix side="+x" near="0 0 0"/>)"), HasSubstr("has 2 selectors"));
-  EXPECT_THAT(refusal_of(R"(<fix/>)"), HasSubstr("give one of near, box, side, all"));
+  EXPECT_THAT(refusal_of(R"(<fix/>)"), HasSubstr("give one of near, box, side, group, all"));
   EXPECT_THAT(refusal_of(R"(<fix box="2 2 2 3 3 3"/>)"), HasSubstr("from (0, 0, 0) to (1, 1, 0)"));
   std::string many;
   for (int n = 0; n < 64; ++n) many += R"(<fix near="0 0 0"/>)";
