@@ -23,7 +23,7 @@ struct MeshOptions {
 Exit info(const MeshOptions& options) {
   const nlohmann::ordered_json facts =
       mesh_facts(sew(read_mesh(std::filesystem::path(options.in))), options.in);
-  print_result(options.json ? facts.dump(2) + "\n" : facts_in_words(facts));
+  print_result(options.json ? facts_in_json(facts) : facts_in_words(facts));
   return Exit::Done;
 }
 

@@ -1,5 +1,6 @@
 #include "render/app/mesh_facts.h"
 
+#include "sim/base/wording.h"
 #include "sim/mechanics/mass.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/topology/count.h"
@@ -61,6 +62,10 @@ nlohmann::ordered_json mesh_facts(const MeshBody& mesh, const std::string& file)
   return facts;
 }
 
+std::string facts_in_json(const nlohmann::ordered_json& facts) {
+  return facts.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 std::string facts_in_words(const nlohmann::ordered_json& f) {
   const auto number = [&](const char* key) { return f[key].get<std::size_t>(); };
   const bool solid = f["kind"] == "solid";
@@ -81,7 +86,7 @@ std::string facts_in_words(const nlohmann::ordered_json& f) {
       fmt::format("  from {} to {} m, {} {:.6g} {}\n", point("low"), point("high"), solid ? "volume" : "area",
                   f[solid ? "volume" : "area"].get<double>(), solid ? "m3" : "m2");
   for (const auto& [name, count] : f["groups"].items())
-    out += fmt::format("  group '{}': {} vertices\n", name, count.get<std::size_t>());
+    out += fmt::format("  group {}: {} vertices\n", in_quotes(name), count.get<std::size_t>());
   for (const auto& note : f["notes"]) out += fmt::format("  note: {}\n", note.get<std::string>());
   return out;
 }

@@ -189,6 +189,15 @@ TEST(Cells, remember_the_point_of_each_vertex) {
     EXPECT_EQ(solid.map->rest()[v].vec(), mesh.points[solid.point[v]]);
 }
 
+TEST(Cells, take_few_bytes_a_dart) { // 64 are allowed, for map and embeddings
+  for (const BarPattern pattern : all_patterns) {
+    const auto map = solid_from(bar(pattern, 10, 10, 10));
+    map->add(CornerMass{.density = 1}.on(*map));
+    EXPECT_LT(static_cast<double>(map->map().bytes() + map->bytes()),
+              32.0 * static_cast<double>(map->map().dart_count()));
+  }
+}
+
 TEST(Cells, that_meet_only_in_a_point_or_an_edge_have_vertices_of_their_own) {
   CellMesh mesh;
   for (int z = 0; z < 3; ++z)
