@@ -81,6 +81,9 @@ Json probes_json(const Scene& scene) {
       out["position"] = list_of(reading->position);
       out["displacement"] = list_of(reading->displacement);
       if (reading->reaction) out["reaction"] = list_of(*reading->reaction);
+      if (!reading->stress) continue;
+      for (const char* part : {"xx", "yy", "zz", "xy", "yz", "xz"})
+        out["stress"][part] = quantity_of(*reading, std::string("stress-") + part);
     }
   }
   return probes;

@@ -13,7 +13,7 @@ struct Answer {
   std::string quantity;  // one of probe_quantities()
   double at =
       std::numeric_limits<double>::infinity(); // [s]: the first state from then on counts; infinite: the end
-  double value = 0;                            // [m] or [N]
+  double value = 0;                            // [m], [N] or [Pa]
   double tolerance = 0;                        // of the error
   std::string source;
   Place place; // in the preset

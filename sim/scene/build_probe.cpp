@@ -11,7 +11,7 @@ const ElementType& probe_type() {
   static const ElementType type = [] {
     ElementType t{"probe",
                   "measures the selected vertices: their mean position and displacement, and the force that "
-                  "supports those that are fixed or driven",
+                  "supports those that are fixed or driven, and the mean stress of the elements there",
                   {text("name", "of letters, digits, - and _; must differ").is_required()},
                   {}};
     add_selector(t.attributes);
@@ -26,10 +26,11 @@ const ElementType& answer_type() {
       "what a probe should measure; `rend run` compares, and ends with 1 where it does not hold",
       {text("probe", "its name").is_required(),
        word("quantity", probe_quantities(),
-            "position; displacement (d: its length); force of the support (reaction: its size)")
+            "position; displacement (d: its length); force of the support (reaction: its size); mean stress of "
+            "the elements there")
            .is_required(),
        number_or("at", {"end"}, "s", "when: at the first step from then on").at_least(0).otherwise("end"),
-       number("value", "m or N", "the known answer").is_required(),
+       number("value", "m, N or Pa", "the known answer").is_required(),
        number("tolerance", "", "error / |value| that still holds; the error itself where the value is 0")
            .at_least(0)
            .otherwise("0.01"),
@@ -64,6 +65,8 @@ Answer answer_of(const Body& body, const Node& node) {
   if (answer.quantity.starts_with("reaction") && !body.probes[answer.probe].on_support(body))
     node.fail("quantity", fmt::format("nothing supports the vertices of probe '{}'", wanted),
               "a reaction needs fixed or driven vertices");
+  if (answer.quantity.starts_with("stress") && !has_stress(body))
+    node.fail("quantity", "no element of the body knows its stress", "<elasticity> makes finite elements");
   if (!node.is_word("at")) answer.at = node.number("at");
   answer.value = node.number("value");
   answer.tolerance = node.number("tolerance");

@@ -1,6 +1,7 @@
 #include "sim/scene/probe.h"
 
 #include "sim/base/check.h"
+#include "sim/mechanics/element_law.h"
 #include "sim/scene/body.h"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ std::optional<ProbeReading> Probe::read(Body& body) const {
   reading.position /= whole;
   reading.displacement /= whole;
   if (on_support(body)) reading.reaction = reaction(body);
+  reading.stress = stress(body);
   return reading;
 }
 
@@ -81,14 +83,72 @@ Vec3 Probe::reaction(Body& body) const {
   return sum;
 }
 
+namespace {
+
+const ElementLaw* element_law_of(const Interaction& interaction) {
+  return dynamic_cast<const ElementLaw*>(interaction.law.get());
+}
+
+// σ of the element in a row.
+Eigen::Matrix3d stress_of(const ElementLaw& law, const PackedRows& rows, std::size_t row,
+                          const EmbeddedMap& map) {
+  std::array<Vec3, most_particles> x, v, rest;
+  std::vector<double> unit;
+  for (int c = 0; c < law.values(); ++c) unit.push_back(rows.value(c, row));
+  for (int p = 0; p < law.particles(); ++p) {
+    const Slot vertex = rows.index(p)[row];
+    const auto n = static_cast<std::size_t>(p);
+    x[n] = map.position()[vertex];
+    v[n] = map.velocity()[vertex];
+    rest[n] = map.rest()[vertex];
+  }
+  return law.stress(unit.data(), {x.data(), v.data(), rest.data()});
+}
+
+} // namespace
+
+bool has_stress(const Body& body) {
+  return std::any_of(body.interactions.begin(), body.interactions.end(),
+                     [](const auto& interaction) { return element_law_of(*interaction) != nullptr; });
+}
+
+std::optional<Eigen::Matrix3d> Probe::stress(const Body& body) const {
+  if (!has_stress(body)) return {};
+  std::vector<bool> ours(body.vertices());
+  for (Slot v : vertices(*body.map)) ours[v] = true;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  std::size_t count = 0;
+  for (const Binder& binder : body.program->rows()) {
+    const ElementLaw* law = element_law_of(*binder.interaction());
+    if (!law) continue;
+    const PackedRows& rows = binder.rows();
+    rows.for_each([&](std::size_t, std::size_t row) {
+      bool is = false;
+      for (int p = 0; p < law->particles(); ++p) is = is || ours[rows.index(p)[row]];
+      if (!is) return;
+      sum += stress_of(*law, rows, row, *body.map);
+      ++count;
+    });
+  }
+  if (count == 0) return {};
+  return Eigen::Matrix3d(sum / static_cast<double>(count));
+}
+
 const std::vector<std::string>& probe_quantities() {
-  static const std::vector<std::string> all{"x", "y",          "z",          "dx",         "dy",      "dz",
-                                            "d", "reaction-x", "reaction-y", "reaction-z", "reaction"};
+  static const std::vector<std::string> all{"x",         "y",         "z",          "dx",         "dy",
+                                            "dz",        "d",         "reaction-x", "reaction-y", "reaction-z",
+                                            "reaction",  "stress-xx", "stress-yy",  "stress-zz",  "stress-xy",
+                                            "stress-yz", "stress-xz"};
   return all;
 }
 
 double quantity_of(const ProbeReading& reading, const std::string& quantity) {
   const bool of_reaction = quantity.starts_with("reaction"), of_displacement = quantity.starts_with("d");
+  if (quantity.starts_with("stress")) {
+    const std::size_t n = quantity.size();
+    return reading.stress ? (*reading.stress)(quantity[n - 2] - 'x', quantity[n - 1] - 'x')
+                          : std::numeric_limits<double>::quiet_NaN();
+  }
   if (of_reaction && !reading.reaction) return std::numeric_limits<double>::quiet_NaN();
   const Vec3 vector = of_reaction       ? *reading.reaction
                       : of_displacement ? reading.displacement

@@ -9,6 +9,8 @@
 //                  R = m a − f − load − m g + γ v, the force [N] that the support exerts on the body there; a is the
 //                  prescribed acceleration (0 but for rotations), f the internal force. At rest: what bears it.
 //
+//   stress         the mean σ [Pa] of the elements that have one of its vertices, each counting the same
+//
 // A floor is no support in this sense: it acts by impulses (contact.h).
 #pragma once
 
@@ -25,6 +27,7 @@ struct Body;
 struct ProbeReading {
   Vec3 position = Vec3::Zero(), displacement = Vec3::Zero(); // [m]
   std::optional<Vec3> reaction;                              // [N]; none where nothing is prescribed
+  std::optional<Eigen::Matrix3d> stress; // [Pa], in world space; none without finite elements
 };
 
 class Probe {
@@ -40,13 +43,15 @@ public:
 private:
   std::vector<Slot> vertices(const EmbeddedMap& map) const; // increasing
   Vec3 reaction(Body& body) const;
+  std::optional<Eigen::Matrix3d> stress(const Body& body) const;
   std::string name_;
   ShareColumn* shares_;
 };
 
-// What can be asked of a reading: x, y, z, dx, dy, dz, d, reaction-x, reaction-y, reaction-z, reaction. NaN if it is
-// not there.
+// What can be asked of a reading: x, y, z, dx, dy, dz, d, reaction-x, reaction-y, reaction-z, reaction, stress-xx ...
+// NaN if it is not there.
 const std::vector<std::string>& probe_quantities();
+bool has_stress(const Body& body); // there are finite elements that know theirs
 double quantity_of(const ProbeReading& reading, const std::string& quantity);
 
 } // namespace rend

@@ -62,6 +62,26 @@ TEST(Probe, finds_the_force_that_a_turning_body_takes) {
   EXPECT_NEAR((*reading(scene).reaction - rate * Vec3(0, 1, 0).cross(scene->momentum())).norm(), 0, 1e-11);
 }
 
+// Plane stress of u = G X, with E = 1e6 and ν = 0.25: σx = σy = 1333.3, τ = 400 (design: verify, patch test).
+TEST(Probe, tells_the_stress_of_the_elements_there) {
+  for (const char* pattern : {"quads", "triangles", "mixed"}) {
+    const auto scene = presets::load(R"(<scene><body><sheet pattern=")" + std::string(pattern) +
+                                     R"(" cells="3 2" size="0.24 0.12"/><mass total="1"/>
+      <elasticity model="linear" young="1e6" poisson="0.25" thickness="0.001"/><fix all="yes" axes="z"/>
+      <drive all="yes" axes="xy" gradient="1e-3 5e-4 0 5e-4 1e-3 0 0 0 0"/>
+      <probe name="one" near="0.08 0.06 0"/><probe name="all" all="yes"/></body>
+      <time step="1e-4" duration="1"/></scene>)");
+    for (std::size_t probe = 0; probe < 2; ++probe) {
+      const ProbeReading r = reading(scene, probe);
+      EXPECT_NEAR(quantity_of(r, "stress-xx"), 4000.0 / 3, 1e-8) << pattern;
+      EXPECT_NEAR(quantity_of(r, "stress-yy"), 4000.0 / 3, 1e-8) << pattern;
+      EXPECT_NEAR(quantity_of(r, "stress-xy"), 400, 1e-8) << pattern;
+      EXPECT_NEAR(quantity_of(r, "stress-zz"), 0, 1e-8) << pattern;
+    }
+  }
+  EXPECT_FALSE(reading(cloth(R"(<probe name="p" all="yes"/>)")).stress.has_value());
+}
+
 TEST(Probe, looks_along_the_axes_that_are_held_alone) {
   const auto scene =
       cloth(R"(<fix all="yes" axes="z"/><probe name="p" all="yes"/><load side="+x" force="1 0 0"/>)");
