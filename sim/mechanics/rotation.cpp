@@ -56,7 +56,7 @@ Matrix3d closest_sheet_rotation(const Matrix3d& F) {
   const double q = a.dot(F.col(1));
   const Vec3 rest = F.col(1) - q * a;
   const double r = rest.norm();
-  if (!(r > lost * (p + F.col(1).norm()))) return rotation_by_singular_values(F);
+  if (!(r > 1e-3 * (p + F.col(1).norm()))) return rotation_by_singular_values(F);
   const Vec3 b = rest / r;
   const double c = p + r, s = -q, h = std::sqrt(c * c + s * s);
   Matrix3d R;
@@ -81,6 +81,8 @@ Matrix3d gram_schmidt(const Matrix3d& F, int dimension) {
     R.col(1) = third.normalized().cross(R.col(0));
   else
     R.col(1) = any_normal(R.col(0));
+  // What was small beside what was taken from it is not quite at right angles: once more.
+  R.col(1) = (R.col(1) - R.col(0).dot(R.col(1)) * R.col(0)).normalized();
   R.col(2) = R.col(0).cross(R.col(1));
   return R;
 }

@@ -52,7 +52,7 @@ REND_INLINE Long4 gram_schmidt_lanes(const Matrix<3>& F, Matrix<3>& R) {
   R.column[1] = i1 * rest;
   R.column[2] = cross(R.column[0], R.column[1]);
   const Double4 least = 1e-24 * (s0 + s1 + s2);
-  return (s0 > least) & (s > least);
+  return (s0 > least) & (s > 1e-6 * s1); // nearer to a line it needs a second pass
 }
 
 REND_INLINE Long4 gram_schmidt_lanes(const Matrix<2>& F, Matrix<2>& R) {
@@ -63,7 +63,7 @@ REND_INLINE Long4 gram_schmidt_lanes(const Matrix<2>& F, Matrix<2>& R) {
   const Double4 s = dot(rest, rest), i1 = 1.0 / square_root(s);
   R.column[1] = i1 * rest;
   const Double4 least = 1e-24 * (s0 + s1);
-  return (s0 > least) & (s > least);
+  return (s0 > least) & (s > 1e-6 * s1); // nearer to a line it needs a second pass
 }
 
 // R ← R + (cof R/det R − R)/2 until the change is so small that the next one would be lost in rounding.

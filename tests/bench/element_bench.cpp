@@ -1,0 +1,83 @@
+// Elements by the kernel: nanoseconds an element and an evaluation of forces, one thread.
+#include "sim/elements.h"
+
+#include <benchmark/benchmark.h>
+
+namespace rend {
+namespace {
+
+using namespace elements;
+
+void forces(benchmark::State& state, BarPattern pattern, int nx, const Elastic& recipe) {
+  const auto body = elastic_body(solid_from(warped_bar(pattern, nx, 10, 10, 0.1, 1)), recipe);
+  meshes::shake(*body, 0.05, 2);
+  std::vector<Record> force(body->program->vertices());
+  for (auto _ : state) body->program->forces(meshes::positions(*body), meshes::velocities(*body), force.data());
+  const double elements = static_cast<double>(body->map->cells(Volume).count());
+  state.counters["elements"] = elements;
+  state.counters["per element"] =
+      benchmark::Counter(elements, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+const auto tetrahedra = BarPattern::Tetrahedra;
+BENCHMARK_CAPTURE(forces, tetrahedra_linear, tetrahedra, 34, {"linear"});
+BENCHMARK_CAPTURE(forces, tetrahedra_qr, tetrahedra, 34, {"corotational", "qr"});
+BENCHMARK_CAPTURE(forces, tetrahedra_polar, tetrahedra, 34, {"corotational"});
+BENCHMARK_CAPTURE(forces, tetrahedra_polar_damped, tetrahedra, 34, {"corotational", "polar", 0.01});
+BENCHMARK_CAPTURE(forces, tetrahedra_tensors, tetrahedra, 34, {"mass-tensor"});
+BENCHMARK_CAPTURE(forces, tetrahedra_tensors_elementary, tetrahedra, 34,
+                  {"mass-tensor", "polar", 0, Cumulated::No});
+const auto hexahedra = BarPattern::Hexahedra;
+BENCHMARK_CAPTURE(forces, hexahedra_linear, hexahedra, 100, {"linear"});
+BENCHMARK_CAPTURE(forces, hexahedra_qr, hexahedra, 100, {"corotational", "qr"});
+BENCHMARK_CAPTURE(forces, hexahedra_polar, hexahedra, 100, {"corotational"});
+BENCHMARK_CAPTURE(forces, hexahedra_tensors, hexahedra, 100, {"mass-tensor"});
+BENCHMARK_CAPTURE(forces, hexahedra_tensors_elementary, hexahedra, 100,
+                  {"mass-tensor", "polar", 0, Cumulated::No});
+BENCHMARK_CAPTURE(forces, prisms_polar, BarPattern::Prisms, 50, {"corotational"});
+
+// Force and stiffness, as an implicit step asks for them.
+void stiffness(benchmark::State& state, ElementKind kind, const Model& model, Tangent tangent) {
+  Element e(kind, model, distorted(kind, 0.1, 3), 0.01);
+  e.shake(0.1, 2);
+  UnitMatrix K, by_velocity;
+  std::vector<Vec3> f(e.corners());
+  for (auto _ : state) {
+    e.law->forces(e.unit.data(), e.state(), f.data());
+    e.law->stiffness(e.unit.data(), e.state(), tangent, K, by_velocity);
+    benchmark::DoNotOptimize(K.data());
+    benchmark::DoNotOptimize(f.data());
+  }
+}
+BENCHMARK_CAPTURE(stiffness, tetrahedron_definite, ElementKind::Tetrahedron, every_model()[2],
+                  Tangent::Definite);
+BENCHMARK_CAPTURE(stiffness, tetrahedron_exact, ElementKind::Tetrahedron, every_model()[2], Tangent::Exact);
+BENCHMARK_CAPTURE(stiffness, tetrahedron_linear, ElementKind::Tetrahedron, every_model()[0], Tangent::Definite);
+BENCHMARK_CAPTURE(stiffness, hexahedron_definite, ElementKind::Hexahedron, every_model()[2], Tangent::Definite);
+BENCHMARK_CAPTURE(stiffness, hexahedron_exact, ElementKind::Hexahedron, every_model()[2], Tangent::Exact);
+
+void bound(benchmark::State& state, ElementKind kind) {
+  const Element e(kind, every_model()[2], distorted(kind, 0.1, 3));
+  const std::vector<double> mass(e.corners(), 1);
+  std::vector<double> s(e.corners()), d(e.corners());
+  for (auto _ : state) {
+    e.law->bound(e.unit.data(), e.rest.data(), mass.data(), s.data(), d.data());
+    benchmark::DoNotOptimize(s.data());
+  }
+}
+BENCHMARK_CAPTURE(bound, tetrahedron, ElementKind::Tetrahedron);
+BENCHMARK_CAPTURE(bound, hexahedron, ElementKind::Hexahedron);
+
+void recognise(benchmark::State& state, BarPattern pattern) {
+  const auto map = solid_from(warped_bar(pattern, 4, 4, 4, 0.1, 1));
+  const CellIndex& volumes = map->use(Volume);
+  Slot n = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(element_at(map->map(), volumes.first_dart(n)));
+    n = n + 1 == volumes.slots() ? 0 : n + 1;
+  }
+}
+BENCHMARK_CAPTURE(recognise, tetrahedra, tetrahedra);
+BENCHMARK_CAPTURE(recognise, hexahedra, hexahedra);
+
+} // namespace
+} // namespace rend
