@@ -74,6 +74,7 @@ BodyPicture::BodyPicture(Body& body)
   edges_ = look.flag("edges");
   const std::string& by = look.text("by");
   by_ = by == "strain"     ? ShownBy::Strain
+        : by == "stress"   ? ShownBy::Stress
         : by == "force"    ? ShownBy::Force
         : by == "fragment" ? ShownBy::Fragment
                            : ShownBy::Plain;
@@ -81,8 +82,10 @@ BodyPicture::BodyPicture(Body& body)
 
 void BodyPicture::observe(std::size_t& fragments_seen) {
   if (by_ == ShownBy::Fragment) label_fragments(fragments_seen);
-  if (by_ != ShownBy::Strain && by_ != ShownBy::Force) return;
-  values_ = by_ == ShownBy::Strain ? vertex_strain(*body_) : vertex_force(*body_);
+  if (by_ == ShownBy::Plain || by_ == ShownBy::Fragment) return;
+  values_ = by_ == ShownBy::Strain   ? vertex_strain(*body_)
+            : by_ == ShownBy::Stress ? vertex_stress(*body_)
+                                     : vertex_force(*body_);
   double most = 0;
   for (double value : values_) most = std::max(most, value);
   scale_ = std::max(scale_, rounded_up(most));
@@ -109,7 +112,7 @@ void BodyPicture::colour_vertices() {
 }
 
 FrameBody BodyPicture::draw() {
-  if (by_ == ShownBy::Strain || by_ == ShownBy::Force) colour_vertices();
+  if (by_ != ShownBy::Plain && by_ != ShownBy::Fragment) colour_vertices();
   FrameBody out;
   out.edges = edges_;
   out.two_sided = sheet_.has_value();

@@ -19,7 +19,7 @@
 
 namespace rend {
 
-enum class ShownBy { Plain, Strain, Force, Fragment };
+enum class ShownBy { Plain, Strain, Stress, Force, Fragment };
 
 // How one body is shown, and its surface.
 class BodyPicture {

@@ -112,30 +112,40 @@ std::array<ElementShape, element_kinds> make_shapes() {
                    pyramid_points()}};
 }
 
-// The darts of a small volume, without a hash set: none if there are more than a hexahedron's, or a link is free.
+// The darts of a volume of a few triangles and quads, face by face, without a hash set.
 struct SmallVolume {
-  std::array<std::uint32_t, 48> darts;
+  std::array<std::uint32_t, 48> darts; // as many as a hexahedron has
   std::size_t count = 0;
+  int triangles = 0, quads = 0;
 
+  // False: it has a free link, more darts, or other faces.
   bool walk(const GMap& map, Dart d) {
-    add(d.value);
+    if (!add_face(map, d)) return false;
     for (std::size_t at = 0; at < count; ++at) {
-      for (int i = 0; i < 3; ++i) {
-        const Dart next = map.alpha(i, Dart{darts[at]});
-        if (next.value == darts[at]) return false;
-        if (!add(next.value)) return false;
-      }
+      const Dart next = map.alpha(2, Dart{darts[at]});
+      if (next.value == darts[at] || (!has(next) && !add_face(map, next))) return false;
     }
     return true;
   }
 
 private:
-  bool add(std::uint32_t dart) {
+  bool has(Dart d) const {
     for (std::size_t n = 0; n < count; ++n)
-      if (darts[n] == dart) return true;
-    if (count == darts.size()) return false;
-    darts[count++] = dart;
-    return true;
+      if (darts[n] == d.value) return true;
+    return false;
+  }
+  bool add_face(const GMap& map, Dart d) {
+    int sides = 0;
+    Dart at = d;
+    do {
+      const Dart end = map.alpha(0, at), next = map.alpha(1, end);
+      if (end == at || next == end || ++sides > 4 || count == darts.size()) return false;
+      darts[count++] = at.value;
+      darts[count++] = end.value;
+      at = next;
+    } while (at != d);
+    ++(sides == 3 ? triangles : quads);
+    return sides >= 3;
   }
 };
 
@@ -171,17 +181,8 @@ std::size_t unit_from(const GMap& map, ElementKind kind, Dart d) {
 std::optional<ElementPlace> solid_at(const GMap& map, Dart d) {
   SmallVolume volume;
   if (!volume.walk(map, d)) return {};
-  std::array<int, 5> darts_by_sides{}; // [3]: in triangles, [4]: in quads
-  Dart first = d;
-  for (std::size_t n = 0; n < volume.count; ++n) {
-    const Dart e{volume.darts[n]};
-    const int sides = sides_here(map, e);
-    if (sides != 3 && sides != 4) return {};
-    ++darts_by_sides[static_cast<std::size_t>(sides)];
-    first = std::min(first, e);
-  }
   using enum ElementKind;
-  const int triangles = darts_by_sides[3] / 6, quads = darts_by_sides[4] / 8;
+  const int triangles = volume.triangles, quads = volume.quads;
   ElementKind kind;
   if (triangles == 4 && quads == 0)
     kind = Tetrahedron;
@@ -196,7 +197,8 @@ std::optional<ElementPlace> solid_at(const GMap& map, Dart d) {
   const std::size_t unit = unit_from(map, kind, d);
   const ElementShape& shape = shape_of(kind);
   if (unit >= shape.units.size() || !corners_differ(map, d, shape.units[unit])) return {};
-  return ElementPlace{kind, unit, first};
+  return ElementPlace{kind, unit,
+                      Dart{*std::min_element(volume.darts.begin(), volume.darts.begin() + volume.count)}};
 }
 
 } // namespace

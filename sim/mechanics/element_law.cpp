@@ -183,7 +183,7 @@ private:
     const Spin spin(rotation(), at.R, at.mean);
     for (int m = 0; m < N; ++m)
       W.template block<3, 3>(0, 3 * m) = spin.of(at.gradient.col(m)) * at.R.transpose();
-    return Z * W;
+    return Z.lazyProduct(W); // Eigen's own choice, a blocked product, is made for larger ones
   }
 };
 

@@ -177,8 +177,8 @@ std::vector<std::unique_ptr<Interaction>> make_mass_tensors(EmbeddedMap& map,
   }
   std::vector<std::unique_ptr<Interaction>> all;
   if (!any) return all;
-  const auto pair = pair_tensor_law(request.material.damping);
-  all.push_back(made<1, 10>(map, "mass-tensor vertices", vertex_tensor_law(request.material.damping),
+  const auto pair = pair_tensor_law(request);
+  all.push_back(made<1, 10>(map, "mass-tensor vertices", vertex_tensor_law(request),
                             {corner_orbit(map.dimension()), {}, {{""}}, {}, &always}, request));
   all.push_back(made<1, 9>(map, "mass-tensor edges", pair,
                            {sheet ? EdgeOfFace : EdgeOfVolume, {}, {{"", "0"}}, {}, &whole_edge}, request));

@@ -19,27 +19,28 @@
 
 namespace rend {
 
-// Of one particle: K_ii row by row, and the largest eigenvalue of the whole element's K. Of two: K_ij row by row.
-class MassTensorLaw : public Law {
-public:
-  double damping() const { return damping_; } // β [s]
-
-protected:
-  MassTensorLaw(std::string name, int particles, int values, double damping)
-      : Law(std::move(name), particles, values), damping_(damping) {}
-
-private:
-  double damping_;
-};
-
-std::shared_ptr<const MassTensorLaw> vertex_tensor_law(double damping);
-std::shared_ptr<const MassTensorLaw> pair_tensor_law(double damping);
-
 struct MassTensorRequest {
   ElasticMaterial material;
   double thickness; // [m], of a sheet
   Place place;      // to blame
 };
+
+// Of one particle: K_ii row by row, and the largest eigenvalue of the whole element's K. Of two: K_ij row by row.
+class MassTensorLaw : public Law {
+public:
+  double damping() const { return request_.material.damping; } // β [s]
+  const MassTensorRequest& request() const { return request_; }
+
+protected:
+  MassTensorLaw(std::string name, int particles, int values, MassTensorRequest request)
+      : Law(std::move(name), particles, values), request_(std::move(request)) {}
+
+private:
+  MassTensorRequest request_;
+};
+
+std::shared_ptr<const MassTensorLaw> vertex_tensor_law(const MassTensorRequest& request);
+std::shared_ptr<const MassTensorLaw> pair_tensor_law(const MassTensorRequest& request);
 
 // Adds the embeddings. UserError: an element without volume. Empty: no element fits.
 std::vector<std::unique_ptr<Interaction>> make_mass_tensors(EmbeddedMap& map, const MassTensorRequest& request);

@@ -22,7 +22,8 @@ bool any(const double* unit, int count) {
 
 class VertexTensor final : public MassTensorLaw {
 public:
-  explicit VertexTensor(double damping) : MassTensorLaw("mass-tensor of a vertex", 1, 10, damping) {}
+  explicit VertexTensor(const MassTensorRequest& request)
+      : MassTensorLaw("mass-tensor of a vertex", 1, 10, request) {}
 
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
     force[0] = -tensor(unit) * moved(s, 0, damping());
@@ -51,7 +52,8 @@ public:
 
 class PairTensor final : public MassTensorLaw {
 public:
-  explicit PairTensor(double damping) : MassTensorLaw("mass-tensor of a pair", 2, 9, damping) {}
+  explicit PairTensor(const MassTensorRequest& request)
+      : MassTensorLaw("mass-tensor of a pair", 2, 9, request) {}
 
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
     force[0] = -tensor(unit) * moved(s, 1, damping());
@@ -81,11 +83,11 @@ public:
 
 } // namespace
 
-std::shared_ptr<const MassTensorLaw> vertex_tensor_law(double damping) {
-  return std::make_shared<VertexTensor>(damping);
+std::shared_ptr<const MassTensorLaw> vertex_tensor_law(const MassTensorRequest& request) {
+  return std::make_shared<VertexTensor>(request);
 }
-std::shared_ptr<const MassTensorLaw> pair_tensor_law(double damping) {
-  return std::make_shared<PairTensor>(damping);
+std::shared_ptr<const MassTensorLaw> pair_tensor_law(const MassTensorRequest& request) {
+  return std::make_shared<PairTensor>(request);
 }
 
 } // namespace rend
