@@ -1,5 +1,6 @@
 #include "sim/mechanics/mass_tensor.h"
 
+#include "sim/base/check.h"
 #include "sim/mechanics/elasticity.h"
 #include "sim/mechanics/mass.h"
 #include "sim/topology/walk.h"
@@ -66,7 +67,8 @@ public:
   std::size_t corner(Dart d) const { // which corner d lies at
     const Dart at = corner_of(map_, d);
     std::size_t n = 0;
-    while (corner_of(map_, map_.follow(first_, (*words_)[n])) != at) ++n;
+    while (n < words_->size() && corner_of(map_, map_.follow(first_, (*words_)[n])) != at) ++n;
+    CHECK(n < words_->size());
     return n;
   }
 
