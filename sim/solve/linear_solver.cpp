@@ -1,0 +1,56 @@
+#include "sim/solve/linear_solver.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+constexpr double direct_below = 40; // iterations
+constexpr std::size_t most_blocks = 10'000'000;
+constexpr int least_iterations = 100, most_iterations = 20'000;
+
+} // namespace
+
+void LinearSolver::take(const BlockMatrix& matrix) {
+  matrix_ = &matrix;
+  factor_.analyse(matrix.pattern());
+  factored_ = preconditioned_ = false;
+}
+
+bool LinearSolver::factor_fits() const {
+  return factor_.blocks() <= most_blocks;
+}
+
+Definiteness LinearSolver::factorise() {
+  if (!factor_fits()) return Definiteness::Positive;
+  if (!factored_) {
+    definiteness_ = factor_.factorise(*matrix_);
+    factored_ = true;
+    ++factorisations_;
+  }
+  return definiteness_;
+}
+
+bool LinearSolver::iterate(const Records& b, Records& x, double tolerance) {
+  if (!preconditioned_) preconditioner_.take(*matrix_);
+  preconditioned_ = true;
+  const double worth = factor_.products() / static_cast<double>(matrix_->pattern()->blocks());
+  const int most = !factor_fits()
+                       ? most_iterations
+                       : static_cast<int>(std::clamp<double>(worth, least_iterations, most_iterations));
+  const auto result = gradient_.solve(*matrix_, preconditioner_, b, x, tolerance, most);
+  iterations_ += result.iterations;
+  return result.converged;
+}
+
+bool LinearSolver::solve(const Records& b, Records& x, double tolerance) {
+  const double worth = factor_.products() / static_cast<double>(matrix_->pattern()->blocks());
+  const bool direct = factored_ || (worth <= direct_below && factor_fits());
+  if (!direct && iterate(b, x, tolerance)) return true;
+  if (!factor_fits() || factorise() == Definiteness::Singular) return false;
+  x.resize(b.size());
+  factor_.solve(b.data(), x.data());
+  return true;
+}
+
+} // namespace rend

@@ -1,0 +1,30 @@
+// Sums over vertex slots, and what conjugate gradients do to vectors of records.
+//
+// A sum is taken over stretches of a fixed length, and then over these in their order: its bytes depend on the
+// size alone, never on the threads.
+#pragma once
+
+#include "sim/base/simd.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace rend {
+
+using Records = std::vector<Record>; // one per vertex slot
+
+inline double sum3(Double4 v) {
+  return v[0] + v[1] + v[2];
+}
+
+// 1 for the coordinates that are free, 0 for held ones: bits 0, 1, 2.
+inline Double4 free_axes(std::uint8_t held) {
+  return Double4{held & 1 ? 0.0 : 1.0, held & 2 ? 0.0 : 1.0, held & 4 ? 0.0 : 1.0, 0.0};
+}
+
+double dot(int parts, const Records& a, const Records& b);
+
+void add_scaled(int parts, double s, const Records& x, Records& y);    // y += s x
+void scale_and_add(int parts, double s, const Records& x, Records& y); // y = x + s y
+
+} // namespace rend

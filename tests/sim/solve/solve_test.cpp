@@ -1,0 +1,190 @@
+// Direct and iterative solvers against each other, against dense matrices, and over threads.
+#include "sim/solve/linear_solver.h"
+
+#include "sim/random_meshes.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace rend {
+namespace {
+
+// A grid of n × n × n vertices, each joined to 26 others, with random symmetric blocks on a diagonal that rules
+// them.
+struct Lattice {
+  BlockMatrix matrix;
+
+  explicit Lattice(std::uint32_t n, double ruling = 1, int parts = 1) {
+    std::vector<std::uint32_t> starts{0}, neighbours;
+    each(
+        n, [&](std::uint32_t, std::uint32_t other) { neighbours.push_back(other); },
+        [&] { starts.push_back(static_cast<std::uint32_t>(neighbours.size())); });
+    BlockPattern pattern = BlockPattern::of(starts, neighbours);
+    pattern.parts = parts;
+    matrix.reset(std::make_shared<const BlockPattern>(std::move(pattern)));
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(-1, 1);
+    const BlockPattern& p = *matrix.pattern();
+    for (std::uint32_t i = 0; i < p.rows(); ++i)
+      for (std::size_t at = p.start[i]; at < p.diagonal[i]; ++at) {
+        Eigen::Matrix3d b;
+        for (int k = 0; k < 9; ++k) b(k) = any(random);
+        const Eigen::Matrix3d spring = b * b.transpose(); // as of a spring between i and j: positive in all
+        add(i, i, spring);
+        add(p.column[at], p.column[at], spring);
+        add(i, p.column[at], -spring);
+        add(p.column[at], i, -spring);
+      }
+    for (std::uint32_t i = 0; i < p.rows(); ++i) matrix.add_diagonal(i, ruling);
+  }
+
+  void add(std::uint32_t i, std::uint32_t j, const Eigen::Matrix3d& b) {
+    Block3& to = matrix.at(matrix.pattern()->place(i, j));
+    to = Block3::of(to.matrix() + b);
+  }
+
+  template <class F, class G> static void each(std::uint32_t n, F&& join, G&& next) {
+    const auto m = static_cast<int>(n);
+    for (int k = 0; k < m * m * m; ++k) {
+      const int x = k % m, y = k / m % m, z = k / m / m;
+      for (int d = 0; d < 27; ++d) {
+        const int a = x + d % 3 - 1, b = y + d / 3 % 3 - 1, c = z + d / 9 - 1;
+        if (std::min({a, b, c}) >= 0 && std::max({a, b, c}) < m)
+          join(static_cast<std::uint32_t>(k), static_cast<std::uint32_t>((c * m + b) * m + a));
+      }
+      next();
+    }
+  }
+};
+
+Eigen::MatrixXd dense(const BlockMatrix& m) {
+  Eigen::MatrixXd all =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * m.rows()), static_cast<Eigen::Index>(3 * m.rows()));
+  const BlockPattern& p = *m.pattern();
+  for (std::size_t i = 0; i < p.rows(); ++i)
+    for (std::size_t at = p.start[i]; at < p.start[i + 1]; ++at)
+      all.block<3, 3>(static_cast<Eigen::Index>(3 * i), 3 * static_cast<Eigen::Index>(p.column[at])) =
+          m.at(at).matrix();
+  return all;
+}
+
+Eigen::VectorXd flat(const Records& r) {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(3 * r.size()));
+  for (std::size_t i = 0; i < r.size(); ++i) all.segment<3>(static_cast<Eigen::Index>(3 * i)) = r[i].vec();
+  return all;
+}
+
+Records right_side(std::size_t rows) {
+  Records b(rows);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (Record& r : b) r = Record(any(random), any(random), any(random));
+  return b;
+}
+
+TEST(BlockMatrix, multiplies_as_a_dense_one) {
+  const Lattice l(4);
+  const Records b = right_side(64);
+  Records y(64);
+  l.matrix.multiply(b.data(), y.data());
+  EXPECT_LT((dense(l.matrix) * flat(b) - flat(y)).norm(), 1e-12 * flat(y).norm());
+  for (const Record& r : y) EXPECT_EQ(r.w, 0);
+}
+
+TEST(BlockFactor, solves_as_a_dense_one) {
+  const Lattice l(4);
+  const Records b = right_side(64);
+  Records x(64);
+  BlockFactor factor;
+  factor.analyse(l.matrix.pattern());
+  EXPECT_EQ(factor.factorise(l.matrix), Definiteness::Positive);
+  factor.solve(b.data(), x.data());
+  const Eigen::VectorXd right = dense(l.matrix).ldlt().solve(flat(b));
+  EXPECT_LT((right - flat(x)).norm(), 1e-12 * right.norm());
+  factor.solve(x.data(), x.data());
+  const Eigen::VectorXd twice = dense(l.matrix).ldlt().solve(right);
+  EXPECT_LT((twice - flat(x)).norm(), 1e-11 * twice.norm());
+}
+
+TEST(BlockFactor, tells_what_kind_of_matrix_it_is) {
+  BlockFactor factor;
+  Lattice free(3, 0); // as a whole, it moves along three axes
+  factor.analyse(free.matrix.pattern());
+  EXPECT_EQ(factor.factorise(free.matrix), Definiteness::Singular);
+  free.matrix.add_diagonal(5, 1);
+  EXPECT_EQ(factor.factorise(free.matrix), Definiteness::Positive);
+  free.matrix.add_diagonal(5, -1.5);
+  EXPECT_EQ(factor.factorise(free.matrix), Definiteness::Indefinite);
+}
+
+TEST(BlockMatrix, holds_coordinates) {
+  Lattice l(3);
+  const Eigen::MatrixXd whole = dense(l.matrix);
+  std::vector<std::uint8_t> axes(27, 0);
+  axes[4] = 7;
+  axes[9] = 2;
+  l.matrix.hold(axes.data());
+  const Eigen::MatrixXd held = dense(l.matrix);
+  for (int r = 0; r < 81; ++r)
+    for (int c = 0; c < 81; ++c) {
+      const auto fixed = [&](int k) { return (axes[static_cast<std::size_t>(k / 3)] >> (k % 3) & 1) != 0; };
+      EXPECT_EQ(held(r, c), fixed(r) || fixed(c) ? (r == c ? 1 : 0) : whole(r, c)) << r << " " << c;
+    }
+}
+
+TEST(ConjugateGradient, agrees_with_the_direct_solver) {
+  const Lattice l(12, 0.01);
+  const Records b = right_side(l.matrix.rows());
+  Records direct(b.size()), iterated;
+  BlockFactor factor;
+  factor.analyse(l.matrix.pattern());
+  ASSERT_EQ(factor.factorise(l.matrix), Definiteness::Positive);
+  factor.solve(b.data(), direct.data());
+  Preconditioner preconditioner;
+  preconditioner.take(l.matrix);
+  ConjugateGradient gradient;
+  const auto result = gradient.solve(l.matrix, preconditioner, b, iterated, 1e-12, 2000);
+  EXPECT_TRUE(result.converged);
+  EXPECT_LT(result.iterations, 200);
+  EXPECT_LT((flat(direct) - flat(iterated)).norm(), 1e-9 * flat(direct).norm());
+}
+
+TEST(ConjugateGradient, gives_the_same_bytes_on_any_number_of_threads) {
+  std::vector<Records> all;
+  for (const int parts : {1, 2, 4}) {
+    const Lattice l(18, 0.1, parts); // more rows than a range of the preconditioner has
+    const Records b = right_side(l.matrix.rows());
+    Preconditioner preconditioner;
+    preconditioner.take(l.matrix);
+    all.emplace_back();
+    ConjugateGradient().solve(l.matrix, preconditioner, b, all.back(), 1e-8, 500);
+  }
+  for (const Records& x : all) EXPECT_EQ(std::memcmp(x.data(), all[0].data(), x.size() * sizeof(Record)), 0);
+}
+
+TEST(LinearSolver, iterates_or_not_by_a_rule) {
+  const Lattice small(3), large(14, 10);
+  for (const Lattice* l : {&small, &large}) {
+    LinearSolver solver;
+    solver.take(l->matrix);
+    const Records b = right_side(l->matrix.rows());
+    Records x, y(b.size());
+    ASSERT_TRUE(solver.solve(b, x, 1e-8));
+    EXPECT_EQ(solver.factorisations(), l == &small);
+    EXPECT_EQ(solver.iterations() > 0, l == &large);
+    l->matrix.multiply(x.data(), y.data());
+    EXPECT_LT((flat(b) - flat(y)).norm(), 2e-8 * flat(b).norm());
+  }
+}
+
+TEST(LinearSolver, says_that_a_singular_matrix_is_not_solved) {
+  const Lattice l(3, 0);
+  LinearSolver solver;
+  solver.take(l.matrix);
+  Records x;
+  EXPECT_FALSE(solver.solve(right_side(27), x, 1e-8));
+}
+
+} // namespace
+} // namespace rend
