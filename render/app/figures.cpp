@@ -50,6 +50,7 @@ Json bytes_json(const Scene& scene, const Costs& costs) {
     embeddings += body->map->bytes();
     program += body->program->bytes();
     for (const TearLaw& law : body->laws) program += law.bytes();
+    if (body->assembly) program += body->assembly->bytes() + body->integrator->solver().bytes;
   }
   return {{"map", map},
           {"embeddings", embeddings},
@@ -132,6 +133,26 @@ std::string answers_in_words(const Json& answers) {
   return out;
 }
 
+// What the integrators' solving took; null where none solves.
+Json solver_json(const Scene& scene) {
+  if (!scene.scheme().solves) return nullptr;
+  SolverFigures all;
+  std::size_t blocks = 0;
+  for (const auto& body : scene.bodies()) {
+    const SolverFigures one = body->integrator->solver();
+    all.newton += one.newton;
+    all.cg += one.cg;
+    all.factorisations += one.factorisations;
+    all.bytes += one.bytes + body->assembly->bytes();
+    blocks += body->pattern()->blocks();
+  }
+  return {{"newton", all.newton},
+          {"cg", all.cg},
+          {"factorisations", all.factorisations},
+          {"blocks", blocks},
+          {"bytes", all.bytes}};
+}
+
 } // namespace
 
 std::size_t fragments_of(const Scene& scene) {
@@ -173,6 +194,7 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
   figures["answers"] = answers_json(scene);
   figures["bytes"] = bytes_json(scene, costs);
   figures["rows"] = rows_json(scene);
+  if (Json solver = solver_json(scene); !solver.is_null()) figures["solver"] = std::move(solver);
   figures["hash"] = fmt::format("{:016x}", scene.hash());
   return figures;
 }
@@ -196,6 +218,10 @@ std::string summary_of(const Json& f) {
     out += fmt::format("{}{} {}", name == f["rows"].items().begin().key() ? "" : ", ", rows.get<std::size_t>(),
                        name);
   if (f["rows"].empty()) out += "none";
+  if (f.contains("solver"))
+    out += fmt::format("\n  solver     {} Newton iterations, {} of conjugate gradients, {} factorisations",
+                       f["solver"]["newton"].get<long>(), f["solver"]["cg"].get<long>(),
+                       f["solver"]["factorisations"].get<long>());
   std::size_t bytes = 0;
   for (const char* part : {"map", "embeddings", "program", "surface"})
     bytes += f["bytes"][part].get<std::size_t>();

@@ -104,7 +104,7 @@ Json body_json(const Body& body) {
   const CellCounts counts = count_cells(map.map());
   std::size_t laws = 0;
   for (const TearLaw& law : body.laws) laws += law.bytes();
-  return {
+  Json json = {
       {"name", body.name},
       {"kind", map.dimension() == 2 ? "sheet" : "solid"},
       {"vertices", counts.vertices},
@@ -122,6 +122,11 @@ Json body_json(const Body& body) {
        {{"map", map.map().bytes()}, {"embeddings", map.bytes()}, {"program", body.program->bytes() + laws}}},
       {"left_out", body.left_out},
       {"notes", body.notes}};
+  if (body.assembly) // the rest comes with the first step
+    json["solver"] = {{"blocks", body.assembly->pattern()->blocks()},
+                      {"matrix_bytes", body.assembly->pattern()->blocks() * sizeof(Block3)},
+                      {"pattern_bytes", body.assembly->bytes()}};
+  return json;
 }
 
 // Lines of at most 100 columns, the first after `head`, the others below its end.
@@ -214,6 +219,12 @@ std::string body_in_words(const Json& body) {
                        whole(law, "bytes"));
   for (const Json& one : body["left_out"]) out += folded("  left out  ", one.get<std::string>());
   for (const Json& one : body["notes"]) out += folded("  note      ", one.get<std::string>());
+  if (body.contains("solver")) {
+    const Json& solver = body["solver"];
+    out += fmt::format("  solver    a matrix of {} blocks ({}), their places {}\n", whole(solver, "blocks"),
+                       bytes_in_words(whole(solver, "matrix_bytes")),
+                       bytes_in_words(whole(solver, "pattern_bytes")));
+  }
   const Json& bytes = body["bytes"];
   return out + fmt::format("  bytes     map {}, embeddings {}, program {}\n",
                            bytes_in_words(whole(bytes, "map")), bytes_in_words(whole(bytes, "embeddings")),

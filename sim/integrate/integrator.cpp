@@ -8,7 +8,7 @@ namespace rend {
 
 const std::vector<Scheme>& all_schemes() {
   static const std::vector<Scheme> schemes{symplectic_euler(), explicit_euler(), velocity_verlet(), midpoint(),
-                                           runge_kutta_4()};
+                                           runge_kutta_4(),    implicit_euler(), static_solve()};
   return schemes;
 }
 

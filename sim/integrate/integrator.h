@@ -4,10 +4,25 @@
 #include "sim/integrate/system.h"
 
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace rend {
+
+// What solving took so far.
+struct SolverFigures {
+  long newton = 0;         // iterations of Newton's method
+  long cg = 0;             // iterations of conjugate gradients
+  long factorisations = 0; // of the direct solver
+  std::size_t bytes = 0;   // of matrix, factors and preconditioner
+};
+
+// A step that could not be solved. The state before it is whole.
+struct Unsolved : std::runtime_error {
+  Unsolved(const std::string& what, std::string hint_) : std::runtime_error(what), hint(std::move(hint_)) {}
+  std::string hint;
+};
 
 class Integrator {
 public:
@@ -17,6 +32,8 @@ public:
   // forces of `now`, which the laws have looked at already: no scheme pays an evaluation for them.
   virtual void advance(System& system, double time, double step, const StateView& now, const Record* force,
                        State& next) = 0;
+
+  virtual SolverFigures solver() const { return {}; }
 };
 
 // ω² and damping rates that bound those of every mode; see frequency_bounds().
@@ -32,6 +49,7 @@ struct Scheme {
   int evaluations = 1;                     // of the forces, a step
   double (*limit)(const StabilityBounds&); // a stable step [s]; 0: there is none; infinity: all are
   std::unique_ptr<Integrator> (*make)();
+  bool solves = false; // needs stiffness; its evaluations are the least a step takes
 };
 
 const std::vector<Scheme>& all_schemes();
@@ -42,6 +60,8 @@ Scheme symplectic_euler();
 Scheme velocity_verlet();
 Scheme midpoint();
 Scheme runge_kutta_4();
+Scheme implicit_euler();
+Scheme static_solve();
 
 // Limits that schemes share. With ω and d = ξω bounded separately, since they belong to different modes:
 double limit_symplectic(const StabilityBounds& bounds); // 2/(√(ω²+d²) + d)

@@ -2,7 +2,8 @@
 // prescribed.
 #pragma once
 
-#include "sim/base/simd.h"
+#include "sim/mechanics/law.h"
+#include "sim/program/block_matrix.h"
 
 #include <cstddef>
 #include <vector>
@@ -50,6 +51,19 @@ public:
 
   // Puts prescribed vertices where they are at `time`, and gives them their velocity there.
   virtual void constrain(double time, Record* position, Record* velocity) = 0;
+
+  // For schemes that solve. The pattern of stiffness and damping over vertex slots: another object after the
+  // topology changed. By default there is none (CHECK).
+  virtual std::shared_ptr<const BlockPattern> pattern();
+
+  // Adds by_position · (−∂f/∂x) + by_velocity · (−∂f/∂v), symmetrised, of the internal forces to a matrix of
+  // that pattern.
+  virtual void add_stiffness(const Record* position, const Record* velocity, Tangent tangent,
+                             double by_position, double by_velocity, BlockMatrix& out);
+
+  // Which coordinates are prescribed at `time`: bits 0, 1, 2 for x, y, z, one per vertex slot; cleared by the
+  // caller.
+  virtual void hold(double time, std::uint8_t* axes);
 
   // dv/dt [m/s²] of a free vertex under the internal force f.
   REND_INLINE Double4 acceleration(std::size_t vertex, Double4 f, Double4 v) const {

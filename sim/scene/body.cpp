@@ -27,6 +27,7 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads) {
   options.walk = walk;
   options.threads = threads;
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
+  if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
   integrator = scheme.make();
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
   map->subscribe(changes);
@@ -49,6 +50,15 @@ void Body::forces(double time, const Record* position, const Record* velocity, R
 
 void Body::constrain(double time, Record* position, Record* velocity) {
   if (!constraints.vertices().empty()) constraints.apply(*map, time, position, velocity);
+}
+
+void Body::add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
+                         double by_velocity, BlockMatrix& out) {
+  assembly->add(position, velocity, tangent, by_position, by_velocity, out);
+}
+
+void Body::hold(double time, std::uint8_t* axes) {
+  constraints.mark(time, axes);
 }
 
 void Body::evaluate() {
@@ -109,6 +119,7 @@ void Body::advance(double time, double step) {
 void Body::rebind() {
   if (!changes.any) return;
   program->rebind();
+  if (assembly) assembly->rebind();
   if (!corner_force.empty()) corner_force.resize(map->cells(mass->orbit()).slots());
   constraints.rebind(*map, changes);
   loads.rebind(*map);

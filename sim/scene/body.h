@@ -3,7 +3,7 @@
 
 #include "sim/fracture/law.h"
 #include "sim/integrate/integrator.h"
-#include "sim/program/program.h"
+#include "sim/program/assembly.h"
 #include "sim/scene/answer.h"
 #include "sim/scene/constraint.h"
 #include "sim/scene/contact.h"
@@ -53,6 +53,7 @@ struct Body final : System {
   std::vector<std::string> left_out; // what this body does without, and why
 
   std::unique_ptr<Program> program;
+  std::unique_ptr<Assembly> assembly; // null: the scheme does not solve
   std::unique_ptr<Integrator> integrator;
   std::vector<Record> force;        // internal [N] at the start of the step, one per vertex slot
   std::vector<Record> corner_force; // [N], one per corner slot; empty unless a law looks at elements
@@ -70,6 +71,10 @@ struct Body final : System {
   std::size_t vertices() const override { return program->vertices(); }
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
   void constrain(double time, Record* position, Record* velocity) override;
+  std::shared_ptr<const BlockPattern> pattern() override { return assembly->pattern(); }
+  void add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
+                     double by_velocity, BlockMatrix& out) override;
+  void hold(double time, std::uint8_t* axes) override;
 
   void evaluate();                      // force and corner_force of the current state
   double time() const { return time_; } // [s], of the current state

@@ -96,6 +96,17 @@ void Constraints::apply(const EmbeddedMap& map, double time, Record* position, R
   }
 }
 
+void Constraints::mark(double time, std::uint8_t* axes) const {
+  for (Slot vertex : vertices_) {
+    std::uint64_t obeys = (*obedience_)[vertex];
+    for (std::size_t k = 0; obeys; ++k, obeys >>= 1) {
+      if ((obeys & 1) == 0 || !motions_[k].acts(time)) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (motions_[k].axes[axis]) axes[vertex] |= static_cast<std::uint8_t>(1u << axis);
+    }
+  }
+}
+
 bool Constraints::drives() const {
   for (const Motion& m : motions_)
     if (!m.velocity.isZero() || !m.displacement.isZero() || !m.gradient.isZero() || m.rate != 0) return true;

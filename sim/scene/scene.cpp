@@ -85,7 +85,11 @@ double Scene::stable_step(const Node& time) const {
                           "surroundings damps every motion",
                           scheme_->name),
               "use symplectic, verlet or rk4, or add viscosity");
-  if (std::isinf(limit)) time.fail("step", "nothing in the scene limits the step", "give a step in seconds");
+  if (std::isinf(limit))
+    time.fail("step",
+              scheme_->solves ? fmt::format("the integrator '{}' is stable at any step", scheme_->name)
+                              : "nothing in the scene limits the step",
+              "give a step in seconds");
   return 0.9 * limit;
 }
 
@@ -111,7 +115,7 @@ void Scene::step() {
   }
   if (timed) last += tearing_seconds() - tearing; // timed by itself, in every step
   lap(&StageSeconds::criteria);
-  for (auto& body : bodies_) body->advance(time(), step_);
+  advance();
   check(); // all bodies, before one of them moves on: positions and velocities stay whole
   for (auto& body : bodies_) body->commit();
   lap(&StageSeconds::integrate);
@@ -160,6 +164,16 @@ void Scene::measure_answers() {
   }
 }
 
+void Scene::advance() {
+  for (auto& body : bodies_) {
+    try {
+      body->advance(time(), step_);
+    } catch (const Unsolved& error) {
+      stop(*body, error.what(), error.hint);
+    }
+  }
+}
+
 void Scene::check() const {
   for (const auto& body : bodies_)
     if (!body->next.finite()) stop(*body, "a number of its state is not finite");
@@ -189,6 +203,7 @@ StageSeconds Scene::seconds() const {
 // Neighbours that move against each other by many times their distance at rest in one step are not resolved by it: what
 // explodes passes this bound long before its numbers overflow.
 void Scene::check_resolved(const Body& body, const Record* velocity) const {
+  if (scheme_->solves) return; // what it could not solve, it said
   constexpr double rest_lengths = 64;
   const Record* rest = body.map->rest().values().data();
   for (const Binder& binder : body.program->rows()) {
@@ -215,6 +230,10 @@ void Scene::stop(const Body& body, const std::string& what) const {
           ? fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)",
                         limit, scheme_->name)
           : fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme_->name);
+  stop(body, what, hint);
+}
+
+void Scene::stop(const Body& body, const std::string& what, const std::string& hint) const {
   throw Unstable(
       Exit::Unstable, step_place_,
       fmt::format("the simulation was stopped as unstable at {:.6g} s (step {} of {:.3g} s) in body '{}': {}",

@@ -69,6 +69,8 @@ private:
   double tearing_seconds() const;
   void check_resolved(const Body& body, const Record* velocity) const; // [m/s], one per vertex slot
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
+  [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
+  void advance();
 
   std::string name_;
   World world_;

@@ -26,6 +26,8 @@ public:
     inverse_mass = inverse_masses_.data();
     for (std::size_t n = 0; n < modes.size(); ++n) drag_rates_[n] = 2 * modes[n].drag;
     drag_rate = drag_rates_.data();
+    pattern_ = std::make_shared<const BlockPattern>(
+        BlockPattern::of(std::vector<std::uint32_t>(modes.size() + 1, 0), {}));
     now.resize(modes.size());
     next.resize(modes.size());
   }
@@ -39,6 +41,14 @@ public:
     }
   }
   void constrain(double, Record*, Record*) override {}
+  std::shared_ptr<const BlockPattern> pattern() override { return pattern_; }
+  void add_stiffness(const Record*, const Record*, Tangent, double by_position, double by_velocity,
+                     BlockMatrix& out) override {
+    for (std::size_t n = 0; n < modes_.size(); ++n) {
+      const Mode& m = modes_[n];
+      out.add_diagonal(n, 2 * (by_position * m.omega * m.omega + by_velocity * 2 * m.d));
+    }
+  }
 
   void step(Integrator& integrator, double time, double size) {
     std::vector<Record> force(modes_.size());
@@ -54,6 +64,7 @@ public:
 private:
   std::vector<Mode> modes_;
   std::vector<double> inverse_masses_, drag_rates_;
+  std::shared_ptr<const BlockPattern> pattern_; // of single vertices
 };
 
 struct Phase {
@@ -123,6 +134,18 @@ const Scheme& scheme(const std::string& name) {
 
 constexpr double omega = 17;
 
+std::vector<Scheme> schemes_that(bool (*ask)(const Scheme&)) {
+  std::vector<Scheme> chosen;
+  std::copy_if(all_schemes().begin(), all_schemes().end(), std::back_inserter(chosen), ask);
+  return chosen;
+}
+std::vector<Scheme> marching_schemes() { // those that follow a motion
+  return schemes_that([](const Scheme& s) { return s.name != "static"; });
+}
+std::vector<Scheme> explicit_schemes() {
+  return schemes_that([](const Scheme& s) { return !s.solves; });
+}
+
 TEST(SymplecticEuler, falls_as_the_formula_says) {
   Oscillators system({Oscillators::Mode{}});
   system.gravity = Record(0, 0, -9.81);
@@ -150,12 +173,12 @@ TEST(Schemes, of_order_two_and_more_fall_exactly) {
 }
 
 TEST(Schemes, reach_their_order) {
-  for (const Scheme& each : all_schemes())
+  for (const Scheme& each : marching_schemes())
     EXPECT_NEAR(observed_order(each, {omega, 0, 0}), each.order, 0.1) << each.name;
 }
 
 TEST(Schemes, keep_their_order_with_damping) {
-  for (const Scheme& each : all_schemes()) {
+  for (const Scheme& each : marching_schemes()) {
     EXPECT_NEAR(observed_order(each, {omega, 0.2 * omega, 0}), each.order, 0.1)
         << each.name << ", damped springs";
     EXPECT_NEAR(observed_order(each, {omega, 0, 0.2 * omega}), each.order, 0.1) << each.name << ", viscosity";
@@ -163,13 +186,13 @@ TEST(Schemes, keep_their_order_with_damping) {
 }
 
 TEST(Schemes, take_damping_of_springs_and_viscosity_for_the_same) {
-  for (const Scheme& each : all_schemes())
+  for (const Scheme& each : marching_schemes())
     EXPECT_NEAR(reached(each, {omega, 3, 0}, 1, 400).x, reached(each, {omega, 1, 2}, 1, 400).x, 1e-12)
         << each.name;
 }
 
 TEST(Schemes, evaluate_forces_as_often_as_they_say) {
-  for (const Scheme& each : all_schemes()) {
+  for (const Scheme& each : explicit_schemes()) {
     Oscillators system({{omega, 0, 0}});
     system.step(*each.make(), 0, 1e-3);
     EXPECT_EQ(system.evaluations, each.evaluations) << each.name;
@@ -185,7 +208,7 @@ TEST(Schemes, find_their_names) {
 // Written past the caches where there are many vertices: the values are the same.
 TEST(Schemes, step_many_vertices_as_they_step_one) {
   constexpr std::size_t many = 200001;
-  for (const Scheme& each : all_schemes()) {
+  for (const Scheme& each : marching_schemes()) {
     Oscillators one({{omega, 1, 2}}), all(std::vector<Oscillators::Mode>(many, {omega, 1, 2}));
     one.now.position[0] = Record(1, 2, 3);
     one.now.velocity[0] = Record(-1, 0, 4);
@@ -260,7 +283,7 @@ TEST(Stability, ends_where_theory_has_it_with_damping) {
 // it takes the shape of the symplectic limit, and is 0.39 of the true one at ξ = 1 (0.92 at ξ = 0, 0.93 at
 // large ξ).
 TEST(Stability, limits_are_safe_and_not_far_below_the_true_ones) {
-  for (const Scheme& each : all_schemes()) {
+  for (const Scheme& each : explicit_schemes()) {
     double worst = 1;
     for (const double xi : {0.0, 0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 5.0, 50.0}) {
       const Oscillators::Mode mode{omega, 0, xi * omega};
@@ -275,7 +298,7 @@ TEST(Stability, limits_are_safe_and_not_far_below_the_true_ones) {
 
 // The bounds on ω and on damping belong to different modes: every mode within them must be stable at the limit.
 TEST(Stability, holds_for_all_modes_within_the_bounds) {
-  for (const Scheme& each : all_schemes()) {
+  for (const Scheme& each : explicit_schemes()) {
     for (const double least : {0.0, 0.2, 3.0, 40.0}) {
       for (const double most : {least, least + 1, least + 10, least + 200}) {
         const double limit = each.limit({omega * omega, 2 * most, 2 * least});
@@ -296,6 +319,25 @@ TEST(Stability, has_no_limit_where_nothing_acts) {
   for (const Scheme& each : all_schemes()) EXPECT_TRUE(std::isinf(each.limit({}))) << each.name;
 }
 
+// (x', v') from (x, v) by v' = (v − h ω² x)/(1 + h² ω²): the amplitude, √(ω²x² + v²), shrinks by 1/√(1 + ω²h²).
+TEST(ImplicitEuler, damps_an_oscillator_as_the_formula_says) {
+  for (const double h : {1e-4, 1e-2, 1.0, 1e3}) {
+    Oscillators system({{omega, 0, 0}});
+    system.now.position[0] = Record(1, 0, 0);
+    system.now.velocity[0] = Record(0.7, 0, 0);
+    const auto integrator = scheme("implicit").make();
+    const auto amplitude = [&] {
+      return std::hypot(omega * system.now.position[0].x, system.now.velocity[0].x);
+    };
+    for (int n = 0; n < 20; ++n) {
+      const double before = amplitude();
+      system.step(*integrator, n * h, h);
+      EXPECT_NEAR(amplitude(), before / std::sqrt(1 + omega * omega * h * h), 1e-11 * before) << h;
+    }
+    EXPECT_EQ(integrator->solver().newton, 20);
+  }
+}
+
 // Prescribed vertices: a scheme must ask for them wherever it evaluates forces, and at the end.
 TEST(Schemes, evaluate_forces_on_prescribed_vertices_where_they_then_are) {
   struct Driven final : System {
@@ -312,7 +354,7 @@ TEST(Schemes, evaluate_forces_on_prescribed_vertices_where_they_then_are) {
       v[0] = Record(std::cos(time), 0, 0);
     }
   };
-  for (const Scheme& each : all_schemes()) {
+  for (const Scheme& each : explicit_schemes()) {
     Driven system;
     State now, next;
     now.resize(1);

@@ -1,0 +1,25 @@
+// What holds a body: which motions of its pieces as rigid bodies the prescribed coordinates leave.
+//
+// A piece is what the pattern of the stiffness joins. Moved as a whole along an axis none of whose coordinates
+// is prescribed, it meets no resistance in any state: there is no equilibrium to be found, or not one alone.
+// Turns are another matter, since a pendulum has an equilibrium.
+#pragma once
+
+#include "sim/integrate/system.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+// What is left free of the first piece that can move off as a whole ("along x and z ..."); empty: none.
+// `held`: as System::hold; `inverse_mass` 0: free slot.
+std::optional<std::string> drift_of(const BlockPattern& pattern, const double* inverse_mass,
+                                    const std::vector<std::uint8_t>& held);
+
+// Whether some piece can turn as a whole, from the present positions.
+bool can_turn(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
+              const Record* position);
+
+} // namespace rend

@@ -1,0 +1,220 @@
+// Implicit (backward) Euler (design: mechanics, "Time"): stable at any step, at the price of a damping of its
+// own.
+//
+//   M (v' − v) = h ( f(x', v') + M g − γ v' + loads ),    x' = x + h v'
+//
+// Solved for v' by Newton's method from v' = v. With the momentum that is left over,
+//
+//   R(v') = h M a(x', v') − M (v' − v),    ( M + h γ + h D + h² K ) δ = R,    v' ← v' + s δ
+//
+// where K = −∂f/∂x and D = −∂f/∂v are the definite tangents (law.h), so that the matrix is positive whatever
+// the state, and δ leads downhill on the potential of which −R is the gradient. s is halved where |R| grows,
+// unless R·δ at both ends of the step says that the potential falls. Norms are those of kinetic energy, |R|² =
+// Σ |R_i|²/m_i. It stops where |R| is at most 1e-5 of the terms it is the difference of, or round-off; each
+// linear system is solved to three digits, and the matrix is kept while |R| falls to a tenth. After 50
+// iterations the step is given up (Unsolved).
+//
+// Prescribed coordinates are where they will be from the start, and their rows and columns are those of the
+// identity. Order 1. An undamped oscillator loses the factor 1/√(1 + ω²h²) a step (design: verify).
+#include "sim/integrate/integrator.h"
+
+#include "sim/solve/linear_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rend {
+namespace {
+
+constexpr double wanted = 1e-5;        // of the terms
+constexpr double linear_digits = 1e-3; // of R
+constexpr double keeps_tangent = 0.1;  // while |R| falls to so much
+
+constexpr int most_iterations = 50, most_halvings = 12;
+
+// |R| and what it is compared with, in the norm of kinetic energy [√J].
+struct Residual {
+  double norm = 0, terms = 0;
+  bool finite() const { return std::isfinite(norm); }
+};
+
+class ImplicitEuler final : public Integrator {
+public:
+  void advance(System& system, double time, double step, const StateView& now, const Record* force,
+               State& next) override;
+  SolverFigures solver() const override {
+    return {newton_, linear_.iterations(), linear_.factorisations(), matrix_.bytes() + linear_.bytes()};
+  }
+
+private:
+  struct Step {
+    System& system;
+    double end, size; // [s]
+    const StateView& now;
+  };
+  Residual evaluate(const Step& step, const Records& v);
+  void linearise(const Step& step);
+  double round_off(const Step& step) const;
+  bool search(const Step& step, Residual& residual);
+  void solve(const Step& step);
+
+  // One per vertex slot.
+  Records position_, velocity_, trial_; // [m], [m/s]: x', v', and a v' that is tried
+  Records force_;                       // [N], internal, at the last v' that was tried
+  Records momentum_, before_;           // [N·s], R there, and at velocity_
+  Records update_;                      // [m/s], δ
+  std::vector<std::uint8_t> held_;      // axes
+  BlockMatrix matrix_;                  // [kg]
+  LinearSolver linear_;
+  long newton_ = 0;
+};
+
+// R at v', into momentum_; prescribed coordinates of v' and x' are set.
+Residual ImplicitEuler::evaluate(const Step& step, const Records& v) {
+  System& system = step.system;
+  const std::size_t count = system.vertices();
+  const Double4 h = splat(step.size);
+  if (&v != &trial_) trial_ = v;
+  for (std::size_t i = 0; i < count; ++i) store(position_[i], load(step.now.position[i]) + h * load(trial_[i]));
+  system.constrain(step.end, position_.data(), trial_.data());
+  system.forces(step.end, position_.data(), trial_.data(), force_.data());
+  Double4 left{}, internal{}, outer{}, change{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double inverse = system.inverse_mass[i];
+    if (inverse == 0) {
+      momentum_[i] = Record{};
+      continue;
+    }
+    const Double4 mass = splat(1 / inverse), open = free_axes(held_[i]), w = load(trial_[i]);
+    const Double4 own = open * h * load(force_[i]) * splat(inverse); // [m/s], as all that follow
+    const Double4 whole = open * h * system.acceleration(i, load(force_[i]), w);
+    const Double4 gained = open * (w - load(step.now.velocity[i]));
+    const Double4 rest = whole - gained;
+    store(momentum_[i], mass * rest);
+    left += mass * rest * rest;
+    internal += mass * own * own;
+    outer += mass * (whole - own) * (whole - own);
+    change += mass * gained * gained;
+  }
+  return {std::sqrt(sum3(left)), std::sqrt(sum3(internal)) + std::sqrt(sum3(outer)) + std::sqrt(sum3(change))};
+}
+
+// The matrix at velocity_ and its position.
+void ImplicitEuler::linearise(const Step& step) {
+  System& system = step.system;
+  const double h = step.size;
+  matrix_.reset(system.pattern());
+  system.add_stiffness(position_.data(), velocity_.data(), Tangent::Definite, h * h, h, matrix_);
+  for (std::size_t i = 0; i < system.vertices(); ++i) {
+    const double inverse = system.inverse_mass[i];
+    const double rate = system.uniform_drag + (system.drag_rate ? system.drag_rate[i] : 0);
+    matrix_.add_diagonal(i, inverse == 0 ? 1 : (1 + h * rate) / inverse);
+  }
+  matrix_.hold(held_.data());
+  linear_.take(matrix_);
+}
+
+// What rounding the positions alone leaves of R [√J].
+double ImplicitEuler::round_off(const Step& step) const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  Double4 sum{};
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    const Block3& d = matrix_.diagonal(i);
+    const double stiff = std::max({d(0, 0), d(1, 1), d(2, 2)}) / step.size;
+    const Double4 x = load(position_[i]);
+    sum += splat(stiff * stiff * step.system.inverse_mass[i]) * x * x;
+  }
+  return 4 * epsilon * std::sqrt(sum3(sum));
+}
+
+// Goes along update_ as far as it helps; false where it does not.
+bool ImplicitEuler::search(const Step& step, Residual& residual) {
+  const Residual start = residual;
+  const double slope = dot(1, before_, update_);
+  double share = 1;
+  for (int n = 0; n < most_halvings; ++n, share *= 0.5) {
+    trial_ = velocity_;
+    add_scaled(1, share, update_, trial_);
+    residual = evaluate(step, trial_);
+    const bool falls =
+        residual.finite() && slope + dot(1, momentum_, update_) > 0.1 * slope; // by the trapezoid rule
+    if (residual.finite() && (residual.norm < start.norm || falls)) {
+      velocity_.swap(trial_);
+      before_.swap(momentum_);
+      return true;
+    }
+  }
+  return false;
+}
+
+// How far the linear system is solved: to three digits, or to the end where that is near.
+double digits_for(const Residual& residual) {
+  const double end = 0.3 * wanted * residual.terms / residual.norm;
+  return end > 1e-4 ? std::min(end, 0.1) : linear_digits;
+}
+
+[[noreturn]] void give_up(const Residual& residual, int iterations) {
+  throw Unsolved(residual.finite()
+                     ? fmt::format("Newton's method left {:.2g} of the forces after {} iterations",
+                                   residual.norm / residual.terms, iterations)
+                     : "forces are not finite",
+                 "a smaller step changes less at once");
+}
+
+void ImplicitEuler::solve(const Step& step) {
+  Residual residual = evaluate(step, velocity_);
+  velocity_.swap(trial_); // with what is prescribed
+  before_.swap(momentum_);
+  bool linear = false, here = false; // there is a matrix; it is that of velocity_
+  for (int n = 0; residual.norm != 0; ++n) {
+    if (n == most_iterations || !residual.finite()) give_up(residual, n);
+    if (!linear) linearise(step);
+    here = here || !linear;
+    ++newton_;
+    if (!linear_.solve(before_, update_, digits_for(residual)))
+      throw Unsolved("the linear system of the step could not be solved", "a smaller step is easier to solve");
+    const Residual last = residual;
+    const bool moved = search(step, residual);
+    if (!moved) {
+      residual = evaluate(step, velocity_);
+      if (residual.norm <= 1e3 * wanted * residual.terms) return; // as far as numbers go
+      if (here) give_up(residual, n);
+    }
+    if (residual.norm <= wanted * residual.terms + round_off(step)) return;
+    linear = moved && residual.norm <= keeps_tangent * last.norm;
+    here = false;
+  }
+}
+
+void ImplicitEuler::advance(System& system, double time, double size, const StateView& now, const Record*,
+                            State& next) {
+  const Step step{system, time + size, size, now};
+  const std::size_t count = system.vertices();
+  for (Records* each : {&position_, &force_, &momentum_, &before_, &update_}) each->resize(count);
+  held_.assign(count, 0);
+  system.hold(step.end, held_.data());
+  velocity_.assign(now.velocity, now.velocity + count);
+  solve(step);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool there = system.inverse_mass[i] != 0; // or a free slot
+    next.put(i, there ? load(position_[i]) : load(now.position[i]),
+             there ? load(velocity_[i]) : load(now.velocity[i]));
+  }
+}
+
+} // namespace
+
+Scheme implicit_euler() {
+  return {"implicit",
+          "implicit Euler, by Newton's method: stable at any step, damps what is fast",
+          1,
+          2,
+          [](const StabilityBounds&) { return std::numeric_limits<double>::infinity(); },
+          []() -> std::unique_ptr<Integrator> { return std::make_unique<ImplicitEuler>(); },
+          true};
+}
+
+} // namespace rend

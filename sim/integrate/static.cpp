@@ -1,0 +1,287 @@
+// The static solve, thesis 2.29: each step ends in equilibrium under what is prescribed at its end.
+//
+//   F(x) = f(x, 0) + M g + loads = 0       at the free coordinates; v' = 0, and viscosity has no part
+//
+// 1. Newton's method with the exact tangent, symmetrised: K δ = F − K u, where u are the ways of the prescribed
+//    coordinates. A linear model is solved by the first iteration: K u = R.
+// 2. Where that fails, it goes a part of the way: half of what is new in prescribed coordinates and forces,
+//    half of that ...: F(x) = (1 − s) F(x_start), s from 0 to 1. No line search here: a slender beam must first
+//    be stretched by the bending that a linear step sees, and loses that in the next.
+// 3. Where no part of the way can be gone (a chain at rest resists nothing sideways, a strut buckles), it
+//    relaxes: (K⁺ + σ M) δ = F with the definite tangent, from a large σ to a small one as long as the
+//    potential falls along δ. That is implicit Euler with ever longer steps and without memory
+//    (pseudo-transient continuation, Kelley & Keyes 1998). First under the loads alone, then again part by part
+//    after the drives, at last under all at once.
+//
+// An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. Newton's method
+// must also find the tangent positive there: what buckles is not left upright. Relaxing goes downhill, and
+// stays on a ridge only where symmetry gives it no side. A piece that can move off as a whole is refused.
+#include "sim/integrate/footing.h"
+#include "sim/integrate/integrator.h"
+#include "sim/solve/linear_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rend {
+namespace {
+
+constexpr double wanted = 1e-9, linear_digits = 1e-10;
+constexpr int most_newton = 16, most_relaxed = 600;
+constexpr double least_part = 1.0 / 4096, least_unstable = 1.0 / 16; // of the way
+constexpr double first_sigma = 1e-3, relaxed_digits = 1e-6;
+
+enum class Found { Equilibrium, Unstable, Nothing, Singular };
+
+class StaticSolve final : public Integrator {
+public:
+  void advance(System& system, double time, double step, const StateView& now, const Record* force,
+               State& next) override;
+  SolverFigures solver() const override {
+    return {newton_, linear_.iterations(), linear_.factorisations(), matrix_.bytes() + linear_.bytes()};
+  }
+
+private:
+  void prepare(System& system, const StateView& now);
+  void evaluate(const Records& x);
+  bool settled() const { return norm_ <= wanted * terms_ + noise_; }
+  void linearise(const Records& x, Tangent tangent);
+  void aim(double part);
+  Found newton(double part);
+  bool in_parts_of_the_way();
+  bool loads_first();
+  double mean_stiffness() const;
+  bool relax(double part);
+  [[noreturn]] void give_up() const;
+
+  System* system_ = nullptr;
+  double end_ = 0; // [s]
+
+  // One per vertex slot.
+  Records position_, trial_, start_, still_; // [m]; still_: velocities of 0 [m/s]
+  Records goal_;                             // [m]: where prescribed coordinates are to be
+  Records force_, sum_;                      // [N]: internal; F, 0 at prescribed coordinates
+  Records first_sum_;                        // [N]: F at start_
+  Records lead_, right_, update_;            // [m], [N], [m]: u, the right side, δ
+  std::vector<std::uint8_t> held_;           // axes
+  double norm_ = 0, terms_ = 0, noise_ = 0;  // [N]: of F, of its terms, and round-off
+  BlockMatrix matrix_;                       // [N/m]
+  LinearSolver linear_;
+  long newton_ = 0;
+};
+
+double root_of_sum(Double4 v) {
+  return std::sqrt(sum3(v));
+}
+
+void StaticSolve::prepare(System& system, const StateView& now) {
+  system_ = &system;
+  const std::size_t count = system.vertices();
+  for (Records* each : {&trial_, &force_, &sum_, &lead_, &right_, &update_}) each->resize(count);
+  still_.assign(count, Record{});
+  start_.assign(now.position, now.position + count);
+  position_ = start_;
+  held_.assign(count, 0);
+  system.hold(end_, held_.data());
+  goal_ = start_;
+  trial_ = still_;
+  system.constrain(end_, goal_.data(), trial_.data());
+  if (const auto drift = drift_of(*system.pattern(), system.inverse_mass, held_))
+    throw Unsolved(*drift + ", and a static solve needs that",
+                   "add <fix>, or use implicit, which needs no hold");
+}
+
+// F at x.
+void StaticSolve::evaluate(const Records& x) {
+  System& system = *system_;
+  system.forces(end_, x.data(), still_.data(), force_.data());
+  Double4 left{}, internal{}, outer{};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double inverse = system.inverse_mass[i];
+    const Double4 f = load(force_[i]);
+    const Double4 whole = inverse == 0 ? Double4{} : system.acceleration(i, f, Double4{}) * splat(1 / inverse);
+    const Double4 free_part = free_axes(held_[i]) * whole;
+    store(sum_[i], free_part);
+    left += free_part * free_part;
+    internal += f * f;
+    outer += (whole - f) * (whole - f);
+  }
+  norm_ = root_of_sum(left);
+  terms_ = root_of_sum(internal) + root_of_sum(outer);
+}
+
+// The tangent at x with prescribed coordinates still in it, and what rounding positions makes of F.
+void StaticSolve::linearise(const Records& x, Tangent tangent) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  matrix_.reset(system_->pattern());
+  system_->add_stiffness(x.data(), still_.data(), tangent, 1, 0, matrix_);
+  Double4 sum{};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Block3& d = matrix_.diagonal(i);
+    const double stiff = std::max({std::abs(d(0, 0)), std::abs(d(1, 1)), std::abs(d(2, 2))});
+    sum += splat(stiff * stiff) * load(x[i]) * load(x[i]);
+    if (system_->inverse_mass[i] == 0) matrix_.add_diagonal(i, 1);
+  }
+  noise_ = 4 * epsilon * root_of_sum(sum);
+}
+
+// From F, what is wanted at this part of the way, to the right side F − K u; then prescribed rows are held.
+void StaticSolve::aim(double part) {
+  const Double4 rest = splat(1 - part);
+  bool leads = false;
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    const Double4 target = load(start_[i]) + splat(part) * (load(goal_[i]) - load(start_[i]));
+    const Double4 u = (Double4{1, 1, 1, 0} - free_axes(held_[i])) * (target - load(trial_[i]));
+    store(lead_[i], u);
+    leads = leads || u[0] != 0 || u[1] != 0 || u[2] != 0;
+    store(right_[i], load(sum_[i]) - rest * load(first_sum_[i]));
+  }
+  if (leads) {
+    matrix_.multiply(lead_.data(), update_.data());
+    for (std::size_t i = 0; i < position_.size(); ++i)
+      store(right_[i], free_axes(held_[i]) * (load(right_[i]) - load(update_[i])));
+  }
+  matrix_.hold(held_.data());
+  linear_.take(matrix_);
+}
+
+// From position_ to the equilibrium at this part of the way; position_ stays where there is none.
+Found StaticSolve::newton(double part) {
+  trial_ = position_;
+  Definiteness kind = Definiteness::Positive;
+  for (int n = 0; n <= most_newton; ++n) {
+    evaluate(trial_);
+    Double4 left{};
+    for (std::size_t i = 0; i < trial_.size(); ++i) {
+      const Double4 r = load(sum_[i]) - splat(1 - part) * load(first_sum_[i]);
+      left += r * r;
+    }
+    norm_ = root_of_sum(left);
+    if (!std::isfinite(norm_)) return Found::Nothing;
+    if (n > 0 && settled()) {
+      if (kind != Definiteness::Positive) return Found::Unstable;
+      position_ = trial_;
+      return Found::Equilibrium;
+    }
+    if (n == most_newton) break;
+    linearise(trial_, Tangent::Exact);
+    aim(part);
+    ++newton_;
+    kind = linear_.factorise();
+    if (kind == Definiteness::Singular) return n == 0 ? Found::Singular : Found::Nothing;
+    if (!linear_.solve(right_, update_, linear_digits)) return Found::Nothing;
+    for (std::size_t i = 0; i < trial_.size(); ++i)
+      store(trial_[i], load(trial_[i]) + load(update_[i]) + load(lead_[i]));
+  }
+  return Found::Nothing;
+}
+
+bool StaticSolve::in_parts_of_the_way() {
+  double gone = 0, part = 1;
+  while (gone < 1) {
+    const Found found = newton(gone + part);
+    if (found == Found::Equilibrium) {
+      gone += part;
+      part = std::min(2 * part, 1 - gone);
+      continue;
+    }
+    part *= 0.5;
+    if (part < (found == Found::Unstable ? least_unstable : least_part)) return false;
+    if (found == Found::Singular && gone == 0) return false;
+  }
+  return true;
+}
+
+double StaticSolve::mean_stiffness() const { // [1/s²], for each unit of mass
+  double mass = 0, stiff = 0;
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    if (system_->inverse_mass[i] == 0) continue;
+    const Block3& d = matrix_.diagonal(i);
+    mass += 1 / system_->inverse_mass[i];
+    stiff += (d(0, 0) + d(1, 1) + d(2, 2)) / 3;
+  }
+  return stiff / mass;
+}
+
+// Downhill from position_ to an equilibrium at this part of the way of prescribed coordinates, under all
+// forces.
+bool StaticSolve::relax(double part) {
+  first_sum_.assign(position_.size(), Record{});
+  evaluate(position_);
+  double sigma = -1, tried = 0.1 * norm_; // [1/s²]; [N]: where Newton's method is tried
+  for (int n = 0; n < most_relaxed; ++n) {
+    const double before = norm_;
+    if (n > 0 && settled()) return true;
+    if (n > 0 && before < std::min(tried, 0.01 * terms_)) {
+      if (newton(part) == Found::Equilibrium) return true;
+      tried = 0.01 * before;
+      evaluate(position_);
+    }
+    linearise(position_, Tangent::Definite);
+    if (sigma < 0) sigma = first_sigma * mean_stiffness();
+    for (std::size_t i = 0; i < position_.size(); ++i)
+      if (system_->inverse_mass[i] != 0) matrix_.add_diagonal(i, sigma / system_->inverse_mass[i]);
+    trial_ = position_;
+    aim(part);
+    ++newton_;
+    if (!linear_.solve(right_, update_, relaxed_digits)) return false;
+    const double slope = dot(1, right_, update_);
+    for (std::size_t i = 0; i < trial_.size(); ++i)
+      store(trial_[i], load(position_[i]) + load(update_[i]) + load(lead_[i]));
+    evaluate(trial_);
+    const bool falls = n == 0 || slope + dot(1, sum_, update_) > 0 || norm_ < before; // by the trapezoid rule
+    if (std::isfinite(norm_) && falls) {
+      position_.swap(trial_);
+      sigma *= 0.3;
+    } else {
+      sigma *= 4;
+      evaluate(position_);
+    }
+  }
+  return false;
+}
+
+// Drives are the easier to follow the tighter the body is under its loads: first these, from where it is.
+bool StaticSolve::loads_first() {
+  position_ = start_;
+  if (!relax(0)) return false;
+  start_ = position_;
+  first_sum_.assign(start_.size(), Record{});
+  return in_parts_of_the_way();
+}
+
+void StaticSolve::give_up() const {
+  const bool turns = can_turn(*system_->pattern(), system_->inverse_mass, held_, start_.data());
+  throw Unsolved(turns ? "no equilibrium was found, and what is held lets the body turn as a whole"
+                       : fmt::format("no equilibrium was found: {:.2g} of the forces are left", norm_ / terms_),
+                 turns ? "fix more than a point or a line"
+                       : "let loads and drives grow over more steps, or use implicit with viscosity");
+}
+
+void StaticSolve::advance(System& system, double time, double step, const StateView& now, const Record*,
+                          State& next) {
+  end_ = time + step;
+  prepare(system, now);
+  evaluate(start_);
+  first_sum_ = sum_;
+  if (!in_parts_of_the_way() && !loads_first() && !relax(1)) give_up();
+  system.constrain(end_, position_.data(), trial_.data()); // to the last bit
+  for (std::size_t i = 0; i < position_.size(); ++i) next.put(i, load(position_[i]), Double4{});
+}
+
+} // namespace
+
+Scheme static_solve() {
+  return {"static",
+          "each step an equilibrium, by Newton's method",
+          1,
+          2,
+          [](const StabilityBounds&) { return std::numeric_limits<double>::infinity(); },
+          []() -> std::unique_ptr<Integrator> { return std::make_unique<StaticSolve>(); },
+          true};
+}
+
+} // namespace rend

@@ -1,0 +1,17 @@
+#include "sim/integrate/system.h"
+
+#include "sim/base/check.h"
+
+namespace rend {
+
+std::shared_ptr<const BlockPattern> System::pattern() {
+  CHECK_NOTE(false, "a system without stiffness was given to a scheme that solves");
+}
+
+void System::add_stiffness(const Record*, const Record*, Tangent, double, double, BlockMatrix&) {
+  CHECK_NOTE(false, "a system without stiffness was given to a scheme that solves");
+}
+
+void System::hold(double, std::uint8_t*) {}
+
+} // namespace rend

@@ -1,0 +1,248 @@
+// Implicit Euler and the static solve on whole scenes.
+#include "sim/program/frequency.h"
+#include "sim/scene/scene.h"
+
+#include "sim/presets.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rend {
+namespace {
+
+using testing::HasSubstr;
+
+// Two chains of n links side by side, tied to each other: along x, 1 m and a cell wide.
+std::string chain(int n, double length, double mass, double k, const std::string& more) {
+  return fmt::format(R"(<body><sheet cells="{} 1" size="{} 0.1"/><mass total="{}"/>)"
+                     R"(<springs><stretch k="{}"/></springs>{}</body>)",
+                     n, length, mass, k, more);
+}
+
+std::string scene(const std::string& body, const std::string& scheme, double step, double duration,
+                  const std::string& gravity = "0 0 -9.81") {
+  return fmt::format(R"(<scene>{}<world gravity="{}"/><time step="{}" integrator="{}" duration="{}"/></scene>)",
+                     body, gravity, step, scheme, duration);
+}
+
+double lowest(const presets::Loaded& s, int axis) {
+  double low = 1e300;
+  for (const Record& r : s.body().map->position().values()) low = std::min(low, r.vec()[axis]);
+  return low;
+}
+
+// Ten links of 0.1 m hang from x = 1 towards −x, where gravity points; loads make the last masses equal to the
+// others.
+std::string hanging(double k) {
+  const double m = 0.2, g = 9.81; // [kg] of a mass of each chain; a cell has two
+  return chain(10, 1, 10 * 2 * m, k,
+               fmt::format(R"(<viscosity value="2" per="particle"/><fix side="+x"/>)"
+                           R"(<load box="-0.01 -1 -1 0.01 1 1" force="{} 0 0"/>)",
+                           -m * g));
+}
+
+TEST(StaticSolve, lengthens_hanging_springs_as_the_formula_says) {
+  for (const double k : {1e3, 1e9}) {
+    const auto s = presets::load(scene(hanging(k), "static", 1, 1, "-9.81 0 0"));
+    s->step();
+    EXPECT_NEAR(-lowest(s, 0) / (0.2 * 9.81 / k * 10 * 11 / 2), 1, 1e-6) << k;
+    EXPECT_EQ(s->kinetic_energy(), 0);
+  }
+}
+
+TEST(ImplicitEuler, comes_to_rest_where_the_static_solve_is) {
+  const auto s = presets::load(scene(hanging(1e3), "implicit", 0.05, 20, "-9.81 0 0"));
+  for (int n = 0; n < 400; ++n) s->step();
+  EXPECT_NEAR(-lowest(s, 0) / (0.2 * 9.81 / 1e3 * 10 * 11 / 2), 1, 1e-6);
+  EXPECT_LT(s->kinetic_energy(), 1e-12);
+}
+
+// a cosh(x/a) through both ends (design: verify). The chain starts straight, and its right end comes nearer.
+TEST(StaticSolve, finds_the_catenary) {
+  struct Answer {
+    double length, sag;
+    int links;
+  };
+  for (const Answer& a : {Answer{1.2, 0.292344, 60}, Answer{2, 0.796388, 100}}) {
+    const std::string ends = fmt::format(
+        R"(<fix box="-0.01 -1 -1 0.01 1 1"/>)"
+        R"(<drive box="{} -1 -1 9 1 1" displacement="{} 0 0" from="0" until="1"/>)",
+        a.length - 0.01, 1 - a.length);
+    const auto s = presets::load(scene(chain(a.links, a.length, 0.1, 1e6, ends), "static", 1, 1));
+    s->step();
+    EXPECT_NEAR(-lowest(s, 2), a.sag, 1e-3 * a.sag) << a.length;
+    RecordProperty(fmt::format("newton {}", a.length), fmt::format("{}", s.body().integrator->solver().newton));
+  }
+}
+
+// A bar of hexahedra along x, 1 m × 0.05 m × 0.02 m, held at x = 0; more: loads at the other end.
+presets::Loaded cantilever(const std::string& model, int cells, double steps, const std::string& more) {
+  return presets::load(fmt::format(
+      R"(<scene><body><bar pattern="hexahedra" cells="{} 1 2" size="1 0.05 0.02"/><mass density="1000"/>)"
+      R"(<elasticity model="{}" young="1e7" poisson="0"/><fix side="-x"/>{}</body><world gravity="0 0 0"/>)"
+      R"(<time step="1" integrator="static" duration="{}"/></scene>)",
+      cells, model, more, steps));
+}
+constexpr double bending_stiffness = 1e7 * 0.05 * 0.02 * 0.02 * 0.02 / 12; // EI [N·m²]
+
+TEST(StaticSolve, solves_a_linear_model_in_one_iteration) {
+  const auto s = cantilever("linear", 20, 1, R"(<load side="+x" force="0 0.1 -0.01"/>)");
+  s->step();
+  EXPECT_EQ(s.body().integrator->solver().newton, 1);
+  EXPECT_LT(lowest(s, 2), -1e-3);
+}
+
+// Tip load, PL²/EI = 5 (design: verify): v/L = 0.71379, u/L = 0.38763.
+TEST(StaticSolve, bends_the_elastica) {
+  const auto s = cantilever("corotational", 240, 1,
+                            fmt::format(R"(<load side="+x" force="0 0 {}"/>)", -5 * bending_stiffness));
+  s->step();
+  Vec3 tip = Vec3::Zero();
+  int count = 0;
+  for (Slot v = 0; v < s.body().vertices(); ++v) {
+    if (s.body().map->rest()[v].x < 1 - 1e-9) continue;
+    tip += s.body().map->position()[v].vec() - s.body().map->rest()[v].vec();
+    ++count;
+  }
+  tip /= count;
+  EXPECT_NEAR(-tip.z(), 0.71379, 0.02 * 0.71379);
+  EXPECT_NEAR(-tip.x(), 0.38763, 0.02 * 0.38763);
+  EXPECT_LT(s.body().integrator->solver().newton, 20);
+}
+
+TEST(StaticSolve, refuses_what_nothing_holds) {
+  const auto refusal = [](const std::string& more, const std::string& springs) {
+    const auto s = presets::load(scene(R"(<body><sheet cells="4 3" size="1 1"/><mass total="1"/><springs>)" +
+                                           springs + "</springs>" + more + "</body>",
+                                       "static", 1, 1));
+    try {
+      s->step();
+    } catch (const Unstable& error) {
+      EXPECT_EQ(error.code, Exit::Unstable);
+      EXPECT_EQ(s->steps_done(), 0);
+      return std::string(error.what()) + " | " + error.hint;
+    }
+    return std::string("not refused");
+  };
+  const std::string springs =
+      R"(<stretch k="100"/><shear kind="isotropic" k="50"/><bend kind="provot" k="50"/>)";
+  EXPECT_THAT(refusal("", springs), HasSubstr("nothing holds a piece of 20 vertices along x, y, z"));
+  EXPECT_THAT(refusal(R"(<fix all="yes" axes="xy"/>)", springs), HasSubstr("along z"));
+  EXPECT_THAT(refusal(R"(<fix near="0 0 0"/>)", springs),
+              testing::AnyOf(HasSubstr("turn"), HasSubstr("not refused")));
+}
+
+TEST(Steps, of_schemes_that_solve_are_to_be_given) {
+  for (const char* scheme : {"implicit", "static"}) {
+    try {
+      presets::load(fmt::format(R"(<scene>{}<time step="auto" integrator="{}" duration="1"/></scene>)",
+                                hanging(10), scheme));
+      ADD_FAILURE() << scheme;
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code, Exit::BadInput);
+      EXPECT_THAT(error.what(), HasSubstr("stable at any step"));
+      EXPECT_THAT(error.hint, HasSubstr("give a step"));
+    }
+  }
+}
+
+// A driven edge, another fixed along two axes: to the last bit where they are to be.
+TEST(Schemes, that_solve_keep_prescribed_coordinates_exactly) {
+  for (const char* scheme : {"implicit", "static"}) {
+    const auto s = presets::load(presets::cloth(
+        "quads", 6, "", fmt::format(R"(<time step="0.125" integrator="{}" duration="1"/>)", scheme),
+        R"(<bend kind="provot" k="10"/>)",
+        R"(<fix side="-z" axes="xz"/><drive side="+z" velocity="0.125 0 0.25"/>)"));
+    const Constraints& held = s.body().constraints;
+    for (int n = 1; n <= 4; ++n) {
+      s->step();
+      std::vector<Record> x = s.body().map->position().values(), v = s.body().map->velocity().values();
+      const std::vector<Record> x_before = x;
+      held.apply(*s.body().map, 0.125 * n, x.data(), v.data());
+      for (Slot i : held.vertices()) EXPECT_EQ(x[i].vec(), x_before[i].vec()) << scheme << ", step " << n;
+    }
+    std::vector<std::uint8_t> axes(s.body().vertices(), 0);
+    held.mark(0.5, axes.data());
+    EXPECT_EQ(std::count(axes.begin(), axes.end(), 5), 7);
+    EXPECT_EQ(std::count(axes.begin(), axes.end(), 7), 7);
+  }
+}
+
+// At such a stiffness the largest stable step of an explicit scheme is a million times smaller.
+TEST(ImplicitEuler, is_stable_where_explicit_schemes_explode) {
+  const auto cloth = [](const char* scheme) {
+    return presets::load(
+        scene(R"(<body><sheet pattern="quads" cells="8 8" size="1 1"/><mass total="0.1"/><springs>)"
+              R"(<stretch k="1e9"/><shear kind="isotropic" k="1e9"/><bend kind="provot" k="1e9"/>)"
+              R"(</springs><fix near="0 1 0"/><fix near="1 1 0"/></body>)",
+              scheme, 1e-2, 1));
+  };
+  const auto stiff = cloth("implicit");
+  const auto total = [&] {
+    return stiff->kinetic_energy() + stiff->elastic_energy() + stiff->gravity_energy();
+  };
+  double before = total();
+  for (int n = 0; n < 50; ++n) {
+    stiff->step();
+    EXPECT_LT(total(), before + 1e-6) << n;
+    before = total();
+  }
+  const auto exploding = cloth("symplectic");
+  EXPECT_THROW(
+      {
+        for (int n = 0; n < 50; ++n) exploding->step();
+      },
+      Unstable);
+}
+
+TEST(Schemes, that_solve_tear) {
+  for (const char* scheme : {"implicit", "static"}) {
+    const auto s = presets::load(presets::cloth(
+        "quads", 8, R"(<tear criterion="global-border" threshold="0.1" change="separate"/>)",
+        fmt::format(R"(<time step="0.02" integrator="{}" duration="1"/>)", scheme),
+        R"(<bend kind="provot" k="10"/>)", R"(<fix side="-z"/><drive side="+z" velocity="0 0 0.5"/>)"));
+    try {
+      for (int n = 0; n < 40; ++n) {
+        s->step();
+        const Assembly fresh(*s.body().map, *s.body().program);
+        EXPECT_TRUE(s.body().pattern()->same_as(*fresh.pattern()));
+      }
+    } catch (const Unstable& error) { // a static solve ends where pieces come off
+      EXPECT_STREQ(scheme, "static");
+      EXPECT_THAT(error.what(), HasSubstr("nothing holds a piece"));
+    }
+    EXPECT_GT(s->tears(), 3u) << scheme;
+  }
+}
+
+TEST(Schemes, that_solve_give_the_same_bytes_on_any_number_of_threads) {
+  for (const char* scheme : {"implicit", "static"}) {
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 2, 4}) {
+      const auto s = presets::load(
+          presets::cloth("quads", 64, "",
+                         fmt::format(R"(<time step="0.01" integrator="{}" duration="1"/>)", scheme), "",
+                         R"(<fix all="yes" axes="y"/><fix side="-z"/><drive side="+z" velocity="0 0 1"/>)"),
+          {.walk = false, .threads = threads});
+      s->step();
+      EXPECT_EQ(s.body().pattern()->parts, threads);
+      hashes.push_back(s->hash());
+    }
+    EXPECT_THAT(hashes, testing::Each(hashes.front())) << scheme;
+  }
+}
+
+TEST(Schemes, that_solve_say_what_it_took) {
+  const auto s = presets::load(scene(hanging(1e3), "implicit", 0.05, 20, "-9.81 0 0"));
+  EXPECT_EQ(s.body().integrator->solver().newton, 0);
+  s->step();
+  const SolverFigures figures = s.body().integrator->solver();
+  EXPECT_GT(figures.newton, 0);
+  EXPECT_GT(figures.factorisations + figures.cg, 0);
+  EXPECT_GT(figures.bytes, 22 * sizeof(Block3));
+}
+
+} // namespace
+} // namespace rend
