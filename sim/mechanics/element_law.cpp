@@ -35,7 +35,7 @@ template <int N, int Dim, int Points> struct Decoded {
   }
 };
 
-// What does not change with the element's size: where its material has been turned to, and its points.
+// The law with the sizes known to the compiler: N corners, Dim rest axes, Points integration points.
 template <int N, int Dim, int Points> class ElementOf final : public ElementLaw {
 public:
   ElementOf(ElementKind kind, ElasticModel model, Rotation rotation, const ElasticMaterial& material)
@@ -64,10 +64,15 @@ public:
   void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
                  UnitMatrix& by_velocity) const override {
     const State at(*this, unit, s);
-    Whole K = turned_stiffness(at);
-    by_velocity.noalias() = material().damping * K;
+    by_position.resize(3 * N, 3 * N);
+    by_velocity.resize(3 * N, 3 * N);
+    Eigen::Map<Whole> K(by_position.data()), D(by_velocity.data());
+    turned_stiffness(at, K);
+    if (material().damping > 0)
+      D = material().damping * K;
+    else
+      D.setZero();
     if (tangent == Tangent::Exact && model() == ElasticModel::Corotational) K += by_turning(at);
-    by_position = K;
   }
 
   void bound(const double* unit, const Vec3*, const double* mass, double* stiffness,
@@ -125,6 +130,15 @@ private:
     return Dim == 3 ? closest_rotation(mean) : closest_sheet_rotation(mean);
   }
 
+  // [e_axis]× M.
+  static Matrix3d turned_about(int axis, const Matrix3d& M) {
+    Matrix3d turned;
+    turned.row(axis).setZero();
+    turned.row((axis + 1) % 3) = -M.row((axis + 2) % 3);
+    turned.row((axis + 2) % 3) = M.row((axis + 1) % 3);
+    return turned;
+  }
+
   // ε from RᵀF, or its change from that of RᵀF.
   static Matrix3d symmetric(const Matrix3d& turned) {
     Matrix3d e = Matrix3d::Zero();
@@ -143,8 +157,8 @@ private:
     return sigma;
   }
 
-  Whole turned_stiffness(const State& at) const {
-    Whole K = Whole::Zero();
+  void turned_stiffness(const State& at, Eigen::Map<Whole>& K) const {
+    K.setZero();
     const Matrix3d across = at.R.template leftCols<Dim>() * at.R.template leftCols<Dim>().transpose();
     for (const auto& point : at.element.points) {
       const Corners g = at.R * point.gradient;
@@ -162,7 +176,6 @@ private:
     for (int j = 0; j < N; ++j)
       for (int i = 0; i < j; ++i)
         K.template block<3, 3>(3 * j, 3 * i) = K.template block<3, 3>(3 * i, 3 * j).transpose();
-    return K;
   }
 
   // −∂f/∂R : ∂R/∂x. When R turns by ω, −f_n turns by Z_n ω, and a move of corner m turns R by L(Ḡ_m) Rᵀ.
@@ -173,10 +186,8 @@ private:
       const Matrix3d U = at.R.transpose() * (at.moving * point.gradient.transpose());
       const Matrix3d sigma = stress_of(strain_of(U));
       for (int axis = 0; axis < 3; ++axis) {
-        Matrix3d turn = Matrix3d::Zero(); // [e_axis]×
-        turn((axis + 2) % 3, (axis + 1) % 3) = 1;
-        turn((axis + 1) % 3, (axis + 2) % 3) = -1;
-        const Matrix3d change = point.weight * at.R * (turn * sigma - stress_of(symmetric(turn * U)));
+        const Matrix3d change =
+            point.weight * at.R * (turned_about(axis, sigma) - stress_of(symmetric(turned_about(axis, U))));
         for (int n = 0; n < N; ++n) Z.template block<3, 1>(3 * n, axis) += change * point.gradient.col(n);
       }
     }

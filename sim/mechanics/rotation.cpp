@@ -37,15 +37,16 @@ Vec3 any_normal(const Vec3& v) { // a unit vector at right angles to v
 } // namespace
 
 Matrix3d closest_rotation(const Matrix3d& F) {
-  if (!(F.determinant() > 0)) return rotation_by_singular_values(F);
   Matrix3d R = F;
   for (int n = 0; n < 8; ++n) {
     const Matrix3d C = cofactors(R);
-    const Matrix3d change = 0.5 / R.col(0).dot(C.col(0)) * C - 0.5 * R;
+    const double determinant = R.col(0).dot(C.col(0));
+    if (!(determinant > 0)) break; // inverted, or flat
+    const Matrix3d change = 0.5 / determinant * C - 0.5 * R;
     R += change;
     if (change.squaredNorm() < 1e-15) return R; // what is left is half of that
   }
-  return rotation_by_singular_values(F); // nearly flat
+  return rotation_by_singular_values(F);
 }
 
 // In the plane of Gram–Schmidt's frame F is the triangle (p q; 0 r), whose rotation is known.
