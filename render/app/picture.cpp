@@ -80,6 +80,8 @@ BodyPicture::BodyPicture(Body& body)
                            : ShownBy::Plain;
 }
 
+constexpr double at_rest = 1e-9; // strain
+
 void BodyPicture::observe(std::size_t& fragments_seen) {
   if (by_ == ShownBy::Fragment) label_fragments(fragments_seen);
   if (by_ == ShownBy::Plain || by_ == ShownBy::Fragment) return;
@@ -88,6 +90,11 @@ void BodyPicture::observe(std::size_t& fragments_seen) {
                                      : vertex_force(*body_);
   double most = 0;
   for (double value : values_) most = std::max(most, value);
+  if (by_ != ShownBy::Strain && most > 0 && scale_ == 0) { // at rest all is round-off, and no colour
+    const std::vector<double> strain = vertex_strain(*body_);
+    if (*std::max_element(strain.begin(), strain.end()) < at_rest) most = 0;
+  }
+  if (by_ == ShownBy::Strain && most < at_rest) most = 0;
   scale_ = std::max(scale_, rounded_up(most));
 }
 
