@@ -18,7 +18,7 @@
 // stays on a ridge only where symmetry gives it no side. A piece that can move off as a whole is refused.
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
-#include "sim/solve/linear_solver.h"
+#include "sim/integrate/load_tangent.h"
 
 #include <fmt/format.h>
 
@@ -70,6 +70,7 @@ private:
   double norm_ = 0, terms_ = 0, noise_ = 0;  // [N]: of F, of its terms, and round-off
   BlockMatrix matrix_;                       // [N/m]
   LinearSolver linear_;
+  LoadTangent load_tangent_;
   long newton_ = 0;
 };
 
@@ -132,6 +133,7 @@ void StaticSolve::linearise(const Records& x, Tangent tangent) {
 void StaticSolve::aim(double part) {
   const Double4 rest = splat(1 - part);
   bool leads = false;
+  load_tangent_.at(*system_, end_, trial_, still_, held_, {});
   for (std::size_t i = 0; i < position_.size(); ++i) {
     const Double4 target = load(start_[i]) + splat(part) * (load(goal_[i]) - load(start_[i]));
     const Double4 u = (Double4{1, 1, 1, 0} - free_axes(held_[i])) * (target - load(trial_[i]));
@@ -143,6 +145,7 @@ void StaticSolve::aim(double part) {
     matrix_.multiply(lead_.data(), update_.data());
     for (std::size_t i = 0; i < position_.size(); ++i)
       store(right_[i], free_axes(held_[i]) * (load(right_[i]) - load(update_[i])));
+    if (load_tangent_.multiply(lead_, update_)) add_scaled(1, 1, update_, right_);
   }
   matrix_.hold(held_.data());
   linear_.take(matrix_);
@@ -172,7 +175,7 @@ Found StaticSolve::newton(double part) {
     ++newton_;
     kind = linear_.factorise();
     if (kind == Definiteness::Singular) return n == 0 ? Found::Singular : Found::Nothing;
-    if (!linear_.solve(right_, update_, linear_digits)) return Found::Nothing;
+    if (!load_tangent_.solve(linear_, right_, update_, linear_digits)) return Found::Nothing;
     for (std::size_t i = 0; i < trial_.size(); ++i)
       store(trial_[i], load(trial_[i]) + load(update_[i]) + load(lead_[i]));
   }

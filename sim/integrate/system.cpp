@@ -12,6 +12,8 @@ void System::add_stiffness(const Record*, const Record*, Tangent, double, double
   CHECK_NOTE(false, "a system without stiffness was given to a scheme that solves");
 }
 
+void System::outer(double, const Record*, const Record*) {}
+
 void System::hold(double, std::uint8_t*) {}
 
 } // namespace rend

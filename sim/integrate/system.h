@@ -49,6 +49,9 @@ public:
   // Internal forces [N], one per vertex slot. Brings `load` to the same state.
   virtual void forces(double time, const Record* position, const Record* velocity, Record* force) = 0;
 
+  // Brings `load` alone to a state. By default loads depend on none.
+  virtual void outer(double time, const Record* position, const Record* velocity);
+
   // Puts prescribed vertices where they are at `time`, and gives them their velocity there.
   virtual void constrain(double time, Record* position, Record* velocity) = 0;
 

@@ -45,6 +45,10 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads) {
 
 void Body::forces(double time, const Record* position, const Record* velocity, Record* out) {
   program->forces(position, velocity, out);
+  outer(time, position, velocity);
+}
+
+void Body::outer(double time, const Record* position, const Record* velocity) {
   load = loads.evaluate(*map, time, position, velocity);
 }
 

@@ -70,6 +70,7 @@ struct Body final : System {
   // System
   std::size_t vertices() const override { return program->vertices(); }
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
+  void outer(double time, const Record* position, const Record* velocity) override;
   void constrain(double time, Record* position, Record* velocity) override;
   std::shared_ptr<const BlockPattern> pattern() override { return assembly->pattern(); }
   void add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,

@@ -1,0 +1,136 @@
+#include "sim/integrate/load_tangent.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+constexpr std::size_t most_directions = 30;
+constexpr double wanted = 1e-4;         // of |r|
+constexpr double small_motion = 1.0e-5; // of the size of the body: digits lost by rounding and by curvature balance
+
+double largest(const Records& of) {
+  Double4 most{};
+  for (const Record& r : of) {
+    const Double4 v = load(r);
+    for (int k = 0; k < 3; ++k) most[k] = std::max(most[k], std::abs(v[k]));
+  }
+  return std::max({most[0], most[1], most[2]});
+}
+
+void scale(double s, Records& x) {
+  for (Record& r : x) store(r, splat(s) * load(r));
+}
+
+} // namespace
+
+void LoadTangent::at(System& system, double time, const Records& position, const Records& velocity,
+                     const std::vector<std::uint8_t>& held, const Scales& scales) {
+  system_ = &system;
+  parts_ = system.load ? system.pattern()->parts : 1;
+  time_ = time;
+  position_ = &position;
+  velocity_ = &velocity;
+  held_ = &held;
+  scales_ = scales;
+  size_ = system.load ? largest(position) : 0;
+}
+
+void LoadTangent::move(double epsilon, const Records& along) {
+  moved_ = *position_;
+  moved_velocity_ = *velocity_;
+  add_scaled(parts_, epsilon * scales_.by_position, along, moved_);
+  if (scales_.by_velocity != 0) add_scaled(parts_, epsilon * scales_.by_velocity, along, moved_velocity_);
+  system_->outer(time_, moved_.data(), moved_velocity_.data());
+}
+
+bool LoadTangent::multiply(const Records& along, Records& out) {
+  const double most = system_->load ? largest(along) : 0;
+  if (most == 0 || size_ == 0) return false;
+  const double epsilon = small_motion * size_ / (most * scales_.by_position);
+  out.resize(along.size());
+  move(epsilon, along);
+  std::copy_n(system_->load, along.size(), out.begin());
+  move(-epsilon, along);
+  const Double4 share = splat(0.5 * scales_.share / epsilon);
+  Double4 sum{};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const bool there = system_->inverse_mass[i] != 0;
+    const Double4 change = there ? load(out[i]) - load(system_->load[i]) : Double4{};
+    const Double4 part = share * free_axes((*held_)[i]) * change;
+    sum += part * part;
+    store(out[i], part);
+  }
+  return sum3(sum) != 0;
+}
+
+// The next direction v_{n+1}: what y − L A⁻¹ y makes of v_n, without its parts along those before (Gram-Schmidt,
+// modified). False: A could not be solved with.
+bool LoadTangent::add_direction(LinearSolver& linear, std::size_t n, double digits) {
+  if (n > 0 && !linear.solve(basis_[n], solved_[n], digits)) return false;
+  basis_[n + 1] = basis_[n];
+  if (multiply(solved_[n], image_)) add_scaled(parts_, -1, image_, basis_[n + 1]);
+  column_[n].assign(n + 2, 0);
+  for (std::size_t k = 0; k <= n; ++k) {
+    column_[n][k] = dot(parts_, basis_[k], basis_[n + 1]);
+    add_scaled(parts_, -column_[n][k], basis_[k], basis_[n + 1]);
+  }
+  column_[n][n + 1] = std::sqrt(dot(parts_, basis_[n + 1], basis_[n + 1]));
+  if (column_[n][n + 1] > 0) scale(1 / column_[n][n + 1], basis_[n + 1]);
+  return true;
+}
+
+// Makes column n triangular, by the rotations before and one more; returns what is left of |r|.
+double LoadTangent::rotate(std::size_t n) {
+  std::vector<double>& h = column_[n];
+  for (std::size_t k = 0; k < n; ++k) {
+    const double upper = cosine_[k] * h[k] + sine_[k] * h[k + 1];
+    h[k + 1] = cosine_[k] * h[k + 1] - sine_[k] * h[k];
+    h[k] = upper;
+  }
+  const double length = std::sqrt(h[n] * h[n] + h[n + 1] * h[n + 1]);
+  cosine_[n] = length > 0 ? h[n] / length : 1;
+  sine_[n] = length > 0 ? h[n + 1] / length : 0;
+  h[n] = length;
+  rest_[n + 1] = -sine_[n] * rest_[n];
+  rest_[n] *= cosine_[n];
+  return std::abs(rest_[n + 1]);
+}
+
+void LoadTangent::combine(std::size_t count, Records& update) {
+  std::vector<double> part(count, 0);
+  for (std::size_t k = count; k-- > 0;) {
+    double sum = rest_[k];
+    for (std::size_t n = k + 1; n < count; ++n) sum -= column_[n][k] * part[n];
+    part[k] = column_[k][k] > 0 ? sum / column_[k][k] : 0;
+  }
+  update.assign(update.size(), Record{});
+  for (std::size_t k = 0; k < count; ++k) add_scaled(parts_, part[k], solved_[k], update);
+}
+
+bool LoadTangent::solve(LinearSolver& linear, const Records& right, Records& update, double digits) {
+  if (!linear.solve(right, update, digits)) return false;
+  const double whole = std::sqrt(dot(parts_, right, right));
+  if (whole == 0 || !multiply(update, image_) || std::sqrt(dot(parts_, image_, image_)) <= wanted * whole)
+    return true;
+  basis_.resize(most_directions + 1);
+  solved_.resize(most_directions);
+  column_.resize(most_directions);
+  for (auto* each : {&cosine_, &sine_, &rest_}) each->assign(most_directions + 1, 0);
+  basis_[0] = right;
+  solved_[0] = update;
+  scale(1 / whole, basis_[0]);
+  scale(1 / whole, solved_[0]);
+  rest_[0] = whole;
+  std::size_t n = 0;
+  double left = whole;
+  while (n < most_directions && left > wanted * whole) {
+    if (!add_direction(linear, n, digits)) return false;
+    left = rotate(n++);
+  }
+  combine(n, update);
+  return true;
+}
+
+} // namespace rend
