@@ -112,8 +112,8 @@ void LoadTangent::combine(std::size_t count, Records& update) {
 bool LoadTangent::solve(LinearSolver& linear, const Records& right, Records& update, double digits) {
   if (!linear.solve(right, update, digits)) return false;
   const double whole = std::sqrt(dot(parts_, right, right));
-  if (whole == 0 || !multiply(update, image_) || std::sqrt(dot(parts_, image_, image_)) <= wanted * whole)
-    return true;
+  counted_ = whole > 0 && multiply(update, image_) && std::sqrt(dot(parts_, image_, image_)) > wanted * whole;
+  if (!counted_) return true;
   basis_.resize(most_directions + 1);
   solved_.resize(most_directions);
   column_.resize(most_directions);

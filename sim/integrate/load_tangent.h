@@ -36,6 +36,9 @@ public:
   // come. False: not solved.
   bool solve(LinearSolver& linear, const Records& right, Records& update, double digits);
 
+  // Whether the last solve() found L to matter.
+  bool counted() const { return counted_; }
+
 private:
   void move(double epsilon, const Records& along);
   bool add_direction(LinearSolver& linear, std::size_t n, double digits);
@@ -48,6 +51,7 @@ private:
   const Records *position_ = nullptr, *velocity_ = nullptr;
   const std::vector<std::uint8_t>* held_ = nullptr;
   Scales scales_;
+  bool counted_ = false;
   double size_ = 0;                     // [m]: of the greatest coordinate
   Records moved_, moved_velocity_;      // [m], [m/s]
   Records image_;                       // L δ

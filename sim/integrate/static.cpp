@@ -3,7 +3,8 @@
 //   F(x) = f(x, 0) + M g + loads = 0       at the free coordinates; v' = 0, and viscosity has no part
 //
 // 1. Newton's method with the exact tangent, symmetrised: K δ = F − K u, where u are the ways of the prescribed
-//    coordinates. A linear model is solved by the first iteration: K u = R.
+//    coordinates. A linear model is solved by the first iteration: K u = R. Loads that follow the body have their
+//    own part in it (load_tangent.h): K − L in place of K.
 // 2. Where that fails, it goes a part of the way: half of what is new in prescribed coordinates and forces,
 //    half of that ...: F(x) = (1 − s) F(x_start), s from 0 to 1. No line search here: a slender beam must first
 //    be stretched by the bending that a linear step sees, and loses that in the next.
@@ -14,8 +15,10 @@
 //    after the drives, at last under all at once.
 //
 // An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. Newton's method
-// must also find the tangent positive there: what buckles is not left upright. Relaxing goes downhill, and
-// stays on a ridge only where symmetry gives it no side. A piece that can move off as a whole is refused.
+// must also find the tangent positive there: what buckles is not left upright. (Not asked where loads follow the
+// body: a strip bent to a circle by a moment is stable, while the part of its tangent without the load is not
+// positive, and the whole is not symmetric.) Relaxing goes downhill, and stays on a ridge only where symmetry
+// gives it no side. A piece that can move off as a whole is refused.
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/load_tangent.h"
@@ -165,7 +168,7 @@ Found StaticSolve::newton(double part) {
     norm_ = root_of_sum(left);
     if (!std::isfinite(norm_)) return Found::Nothing;
     if (n > 0 && settled()) {
-      if (kind != Definiteness::Positive) return Found::Unstable;
+      if (kind != Definiteness::Positive && !load_tangent_.counted()) return Found::Unstable;
       position_ = trial_;
       return Found::Equilibrium;
     }
