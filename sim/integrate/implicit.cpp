@@ -14,11 +14,13 @@
 // linear system is solved to a twentieth, and the matrix is kept while |R| falls to a tenth. After 50
 // iterations the step is given up (Unsolved).
 //
+// Loads that depend on the state (pressure, wind, what follows the body) have their part in the matrix, h² ∂load/∂x +
+// h ∂load/∂v (load_tangent.h).
+//
 // Prescribed coordinates are where they will be from the start, and their rows and columns are those of the
 // identity. Order 1. An undamped oscillator loses the factor 1/√(1 + ω²h²) a step (design: verify).
 #include "sim/integrate/integrator.h"
-
-#include "sim/solve/linear_solver.h"
+#include "sim/integrate/load_tangent.h"
 
 #include <fmt/format.h>
 
@@ -69,6 +71,7 @@ private:
   std::vector<std::uint8_t> held_;      // axes
   BlockMatrix matrix_;                  // [kg]
   LinearSolver linear_;
+  LoadTangent load_tangent_;
   long newton_ = 0;
 };
 
@@ -174,7 +177,8 @@ void ImplicitEuler::solve(const Step& step) {
     if (!linear) linearise(step);
     here = here || !linear;
     ++newton_;
-    if (!linear_.solve(before_, update_, digits_for(residual)))
+    load_tangent_.at(step.system, step.end, position_, velocity_, held_, {step.size, 1, step.size});
+    if (!load_tangent_.solve(linear_, before_, update_, digits_for(residual)))
       throw Unsolved("the linear system of the step could not be solved", "a smaller step is easier to solve");
     const Residual last = residual;
     const bool moved = search(step, residual);

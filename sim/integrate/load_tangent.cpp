@@ -7,17 +7,8 @@ namespace rend {
 namespace {
 
 constexpr std::size_t most_directions = 30;
-constexpr double wanted = 1e-4;         // of |r|
+constexpr double most_wanted = 1e-4;    // of |r|
 constexpr double small_motion = 1.0e-5; // of the size of the body: digits lost by rounding and by curvature balance
-
-double largest(const Records& of) {
-  Double4 most{};
-  for (const Record& r : of) {
-    const Double4 v = load(r);
-    for (int k = 0; k < 3; ++k) most[k] = std::max(most[k], std::abs(v[k]));
-  }
-  return std::max({most[0], most[1], most[2]});
-}
 
 void scale(double s, Records& x) {
   for (Record& r : x) store(r, splat(s) * load(r));
@@ -111,7 +102,7 @@ void LoadTangent::combine(std::size_t count, Records& update) {
 
 bool LoadTangent::solve(LinearSolver& linear, const Records& right, Records& update, double digits) {
   if (!linear.solve(right, update, digits)) return false;
-  const double whole = std::sqrt(dot(parts_, right, right));
+  const double whole = std::sqrt(dot(parts_, right, right)), wanted = std::max(digits, most_wanted);
   counted_ = whole > 0 && multiply(update, image_) && std::sqrt(dot(parts_, image_, image_)) > wanted * whole;
   if (!counted_) return true;
   basis_.resize(most_directions + 1);

@@ -32,8 +32,8 @@ public:
   // L δ, 0 at held coordinates; false: it is 0 all over, and not written.
   bool multiply(const Records& along, Records& out);
 
-  // (A − L) δ = r with the matrix that `linear` took: solutions with A to `digits`. As near as 30 iterations
-  // come. False: not solved.
+  // (A − L) δ = r with the matrix that `linear` took: solutions with A to `digits`, and the whole to four at
+  // most, as near as 30 iterations come. False: not solved.
   bool solve(LinearSolver& linear, const Records& right, Records& update, double digits);
 
   // Whether the last solve() found L to matter.

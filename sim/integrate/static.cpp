@@ -8,7 +8,8 @@
 // 2. Where that fails, it goes a part of the way: half of what is new in prescribed coordinates and forces,
 //    half of that ...: F(x) = (1 − s) F(x_start), s from 0 to 1. No line search here: a slender beam must first
 //    be stretched by the bending that a linear step sees, and loses that in the next.
-// 3. Where no part of the way can be gone (a chain at rest resists nothing sideways, a strut buckles), it
+// 3. Where no part of the way can be gone (a chain at rest resists nothing sideways, a cloth next to nothing, a
+//    strut buckles), it
 //    relaxes: (K⁺ + σ M) δ = F with the definite tangent, from a large σ to a small one as long as the
 //    potential falls along δ. That is implicit Euler with ever longer steps and without memory
 //    (pseudo-transient continuation, Kelley & Keyes 1998). First under the loads alone, then again part by part
@@ -71,6 +72,7 @@ private:
   Records lead_, right_, update_;            // [m], [N], [m]: u, the right side, δ
   std::vector<std::uint8_t> held_;           // axes
   double norm_ = 0, terms_ = 0, noise_ = 0;  // [N]: of F, of its terms, and round-off
+  double size_ = 0;                          // [m]: of the body
   BlockMatrix matrix_;                       // [N/m]
   LinearSolver linear_;
   LoadTangent load_tangent_;
@@ -81,6 +83,17 @@ double root_of_sum(Double4 v) {
   return std::sqrt(sum3(v));
 }
 
+// The longest side of the box around all vertices [m].
+double extent(const Records& x, const double* inverse_mass) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (inverse_mass[i] == 0) continue;
+    low = low.cwiseMin(x[i].vec());
+    high = high.cwiseMax(x[i].vec());
+  }
+  return (high - low).maxCoeff();
+}
+
 void StaticSolve::prepare(System& system, const StateView& now) {
   system_ = &system;
   const std::size_t count = system.vertices();
@@ -88,6 +101,7 @@ void StaticSolve::prepare(System& system, const StateView& now) {
   still_.assign(count, Record{});
   start_.assign(now.position, now.position + count);
   position_ = start_;
+  size_ = extent(start_, system.inverse_mass);
   held_.assign(count, 0);
   system.hold(end_, held_.data());
   goal_ = start_;
@@ -179,6 +193,7 @@ Found StaticSolve::newton(double part) {
     kind = linear_.factorise();
     if (kind == Definiteness::Singular) return n == 0 ? Found::Singular : Found::Nothing;
     if (!load_tangent_.solve(linear_, right_, update_, linear_digits)) return Found::Nothing;
+    if (n == 0 && largest(update_) * least_part > size_ * part) return Found::Singular; // as good as
     for (std::size_t i = 0; i < trial_.size(); ++i)
       store(trial_[i], load(trial_[i]) + load(update_[i]) + load(lead_[i]));
   }

@@ -7,6 +7,7 @@ namespace {
 
 constexpr double direct_below = 40; // iterations
 constexpr std::size_t most_blocks = 10'000'000;
+constexpr int hard_for = 10; // matrices
 constexpr int least_iterations = 100, most_iterations = 20'000;
 
 } // namespace
@@ -15,6 +16,7 @@ void LinearSolver::take(const BlockMatrix& matrix) {
   matrix_ = &matrix;
   factor_.analyse(matrix.pattern());
   factored_ = preconditioned_ = false;
+  if (hard_ > 0) --hard_;
 }
 
 bool LinearSolver::factor_fits() const {
@@ -45,8 +47,9 @@ bool LinearSolver::iterate(const Records& b, Records& x, double tolerance) {
 
 bool LinearSolver::solve(const Records& b, Records& x, double tolerance) {
   const double worth = factor_.products() / static_cast<double>(matrix_->pattern()->blocks());
-  const bool direct = factored_ || (worth <= direct_below && factor_fits());
+  const bool direct = factored_ || ((worth <= direct_below || hard_ > 0) && factor_fits());
   if (!direct && iterate(b, x, tolerance)) return true;
+  if (!direct) hard_ = hard_for;
   if (!factor_fits() || factorise() == Definiteness::Singular) return false;
   x.resize(b.size());
   factor_.solve(b.data(), x.data());

@@ -3,7 +3,8 @@
 // The direct way (block_factor.h) takes a number of block products that the pattern alone tells; an iteration
 // of conjugate gradients takes about one and a half per block of the matrix. The rule, which knows no clock:
 //   direct      where its products are at most 40 per block of the matrix: chains, strips, small sheets
-//   iterative   else; and direct where that has spent as much as a factor would have and not converged
+//   iterative   else; and direct where that has spent as much as a factor would have and not converged, and
+//               for the next ten matrices
 // A factor of more than ten million blocks (1 GB) is never made. Measured (20,250 tetrahedra, 4096 vertices,
 // one thread): 1460 ms for a factor, 40, 70 and 110 ms for 2, 4 and 8 digits by iterations; without the
 // incomplete factor 120, 220, 380.
@@ -39,6 +40,7 @@ private:
   ConjugateGradient gradient_;
   bool factored_ = false, preconditioned_ = false; // the matrix as it is
   Definiteness definiteness_ = Definiteness::Positive;
+  int hard_ = 0; // matrices to come that are not worth iterating
   long iterations_ = 0, factorisations_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "sim/program/threads.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -32,6 +33,15 @@ REND_CLONES void scale_and_add(double s, const Record* x, Record* y, std::size_t
 }
 
 } // namespace
+
+double largest(const Records& x) {
+  Double4 most{};
+  for (const Record& r : x) {
+    const Double4 v = load(r);
+    for (int k = 0; k < 3; ++k) most[k] = std::max(most[k], std::abs(v[k]));
+  }
+  return std::max({most[0], most[1], most[2]});
+}
 
 double dot(int parts, const Records& a, const Records& b) {
   const std::size_t stretches = (a.size() + stretch - 1) / stretch;
