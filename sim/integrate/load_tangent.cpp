@@ -7,8 +7,9 @@ namespace rend {
 namespace {
 
 constexpr std::size_t most_directions = 30;
-constexpr double most_wanted = 1e-4;    // of |r|
-constexpr double small_motion = 1.0e-5; // of the size of the body: digits lost by rounding and by curvature balance
+constexpr double most_wanted = 1e-4; // of |r|
+constexpr double small_motion =
+    1.0e-5; // of the size of the body: digits lost by rounding and by curvature balance
 
 void scale(double s, Records& x) {
   for (Record& r : x) store(r, splat(s) * load(r));
