@@ -1,0 +1,89 @@
+// Natural frequencies: eigenvalues of the assembled stiffness over the lumped masses, against those of bars and beams
+// that are fixed at one end (design: verify).
+#include "sim/base/math.h"
+#include "sim/presets.h"
+#include "sim/random_meshes.h"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rend {
+namespace {
+
+// Angular frequencies [rad/s] of the body at rest, increasing: the roots of the eigenvalues of M^-1/2 K M^-1/2 over
+// the coordinates that nothing holds.
+std::vector<double> frequencies(const std::string& in_body) {
+  const auto s = presets::load("<scene><body>" + in_body +
+                               R"(<fix side="-x"/></body><world gravity="0 0 0"/>)"
+                               R"(<time step="1" integrator="static" duration="1"/></scene>)");
+  Body& body = s.body();
+  std::vector<std::uint8_t> held(body.vertices(), 0);
+  body.hold(0, held.data());
+  BlockMatrix stiffness;
+  stiffness.reset(body.pattern());
+  body.add_stiffness(meshes::positions(body), meshes::velocities(body), Tangent::Exact, 1, 0, stiffness);
+
+  std::vector<int> place(3 * body.vertices(), -1);
+  int free = 0;
+  for (std::size_t c = 0; c < place.size(); ++c)
+    if ((held[c / 3] >> (c % 3) & 1) == 0) place[c] = free++;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(free, free);
+  const BlockPattern& p = *body.pattern();
+  const double* inverse_mass = body.program->inverse_mass();
+  for (std::uint32_t i = 0; i < p.rows(); ++i)
+    for (std::uint32_t b = p.start[i]; b < p.start[i + 1]; ++b) {
+      const std::uint32_t j = p.column[b];
+      const double mass = 1 / std::sqrt(inverse_mass[i] * inverse_mass[j]);
+      for (int k = 0; k < 9; ++k) {
+        const int row = place[3 * i + static_cast<std::uint32_t>(k / 3)];
+        const int column = place[3 * j + static_cast<std::uint32_t>(k % 3)];
+        if (row >= 0 && column >= 0) matrix(row, column) = stiffness.at(b)(k / 3, k % 3) / mass;
+      }
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
+  std::vector<double> found;
+  for (const double value : solver.eigenvalues()) found.push_back(std::sqrt(std::max(0.0, value)));
+  return found;
+}
+
+// sqrt(E/rho) = 10 m/s. A chain of n lumps and half a one at its end has 2 n c/L sin((2i - 1) pi/(4 n)), exactly.
+TEST(Frequencies, of_a_bar_along_itself) {
+  constexpr int n = 40;
+  const auto found = frequencies(
+      R"(<bar cells="40 1 1" size="1 0.02 0.02"/><mass density="1000"/><fix all="yes" axes="yz"/>
+         <elasticity model="linear" young="1e5" poisson="0"/>)");
+  for (int i = 1; i <= 5; ++i) {
+    const double chain = 2 * n * 10.0 * std::sin((2 * i - 1) * pi / (4 * n));
+    const double bar = 2 * pi * (2 * i - 1) / 4.0 * 10.0;
+    EXPECT_NEAR(found[static_cast<std::size_t>(i) - 1], chain, 1e-9 * chain) << i;
+    EXPECT_NEAR(found[static_cast<std::size_t>(i) - 1], bar, 0.006 * bar) << i;
+  }
+}
+
+// beta L of a cantilever, and w = beta^2 sqrt(E I/(rho A)). Cells of length a in a beam of height h are stiffer by
+// a^2/(2 h^2), as they cannot bend. What is left grows with the mode: shear, and masses at the surface.
+TEST(Frequencies, of_a_beam_across) {
+  struct Case {
+    std::string body;
+    double length, height, tolerance;
+  };
+  for (const Case& c : {Case{R"(<sheet cells="160 1" size="1 0.02"/><mass density="1000" thickness="0.01"/>
+               <fix all="yes" axes="z"/><elasticity model="linear" young="1e5" poisson="0" thickness="0.01"/>)",
+                             1.0 / 160, 0.02, 0.01},
+                        Case{R"(<bar cells="60 1 1" size="1 0.02 0.03"/><mass density="1000"/>
+               <fix all="yes" axes="y"/><elasticity model="linear" young="1e5" poisson="0"/>)",
+                             1.0 / 60, 0.03, 0.015}}) {
+    const auto found = frequencies(c.body);
+    const double stiffness = 1 + c.length * c.length / (2 * c.height * c.height);
+    const double betas[] = {1.875104, 4.694091, 7.854757};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double beam = betas[i] * betas[i] * 10 * c.height * std::sqrt(stiffness / 12);
+      EXPECT_NEAR(found[i], beam, c.tolerance * beam) << c.body << i;
+    }
+  }
+}
+
+} // namespace
+} // namespace rend
