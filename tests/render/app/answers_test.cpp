@@ -120,6 +120,7 @@ TEST(Verify, every_preset_holds) {
       {"verify/rectangle-springs", 4},
       {"verify/rod-own-weight", 2},
       {"verify/rotation", 7},
+      {"verify/swelling", 5},
       {"verify/wind", 2},
   };
   const Place place;
