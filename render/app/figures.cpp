@@ -90,6 +90,24 @@ Json probes_json(const Scene& scene) {
   return probes;
 }
 
+std::string probes_in_words(const Json& probes) {
+  std::string out;
+  const auto triple = [](const Json& v) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+  };
+  for (const auto& [name, probe] : probes.items()) {
+    out += fmt::format("{}{} ", out.empty() ? "  probes     " : "             ", name);
+    if (probe.is_null()) {
+      out += "has lost its vertices\n";
+      continue;
+    }
+    out += "at " + triple(probe["position"]) + " m, displaced by " + triple(probe["displacement"]) + " m";
+    if (probe.contains("reaction")) out += ", held by " + triple(probe["reaction"]) + " N";
+    out += "\n";
+  }
+  return out;
+}
+
 // What was not reached is neither held nor broken: null.
 Json answers_json(const Scene& scene) {
   Json answers = Json::array();
@@ -228,6 +246,7 @@ std::string summary_of(const Json& f) {
   out += fmt::format("\n  memory     {} for the scene, {} at most in all\n", bytes_in_words(bytes),
                      bytes_in_words(f["bytes"]["peak_rss"].get<std::size_t>()));
   out += fmt::format("  state      {}\n", f["hash"].get<std::string>());
+  out += probes_in_words(f["probes"]);
   out += answers_in_words(f["answers"]);
   return out;
 }

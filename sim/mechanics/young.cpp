@@ -67,7 +67,7 @@ StiffnessOf stiffness_of(const InteractionRequest& request, StiffnessFormula for
   }
   if (!formula || !request.material)
     throw UserError(Exit::BadInput, node.place(), fmt::format("<{}> needs its stiffness k", node.name()),
-                    formula ? "give k, or young, poisson and thickness in <springs>"
+                    formula ? "give k, or, on a sheet, young, poisson and thickness in <springs>"
                             : "no formula gives this stiffness from young; give k");
   const SpringMaterial material = *request.material;
   const Place place = node.place();

@@ -152,7 +152,7 @@ const MshType& known_type(const Msh& msh, std::int64_t number, const std::string
   if (!type)
     msh.in.fail(fmt::format("{} {}", who,
                             unread_msh_type(number >= 0 && number < 1000 ? static_cast<int>(number) : -1)),
-                "elements of first order are read: gmsh FILE -order 1 -save");
+                "elements of first order are read; in gmsh: Merge the file, SetOrder 1, Save");
   return *type;
 }
 

@@ -34,6 +34,8 @@ std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity, std::opt
   build_matter(*body, node);
   build_motion(*body, node);
   build_laws(*body, node);
+  if (body->interactions.empty())
+    body->notes.push_back("nothing holds this body together: it has neither <springs> nor <elasticity>");
   build_contact(*body, node, floor);
   build_probes(*body, node);
   return body;

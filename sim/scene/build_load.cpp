@@ -38,7 +38,11 @@ LoadSettings settings_of(const Node& node) {
   using Kind = LoadSettings::Kind;
   int given = 0;
   for (const char* name : {"force", "moment", "pressure"}) given += node.given(name);
-  if (given != 1) throw UserError(Exit::BadInput, node.place(), "<load> needs one of force, moment, pressure");
+  if (given != 1)
+    throw UserError(Exit::BadInput, node.place(),
+                    given == 0 ? "<load> needs one of force, moment, pressure"
+                               : "<load> has several of force, moment, pressure: one of them",
+                    given == 0 ? "force=\"0 0 -1\"" : "write a <load> for each");
   LoadSettings settings;
   if (node.given("pressure")) {
     settings.kind = Kind::Pressure;

@@ -59,7 +59,9 @@ Motion motion_of(const Node& node) {
   for (const char* name : {"velocity", "displacement", "gradient", "rotate"}) given += node.given(name);
   if (given != 1)
     throw UserError(Exit::BadInput, node.place(),
-                    "<drive> needs one of velocity, displacement, gradient, rotate");
+                    given == 0
+                        ? "<drive> needs one of velocity, displacement, gradient, rotate"
+                        : "<drive> has several of velocity, displacement, gradient, rotate: one of them");
   if (node.given("velocity")) motion.velocity = node.vector("velocity");
   if (node.given("displacement")) motion.displacement = node.vector("displacement");
   if (node.given("gradient"))

@@ -64,7 +64,8 @@ void build_mass(Body& body, const Node& node) {
   const bool sheet = body.map->dimension() == 2;
   const bool total = node.given("total"), density = node.given("density");
   if (total == density)
-    throw UserError(Exit::BadInput, node.place(), "<mass> needs either total or density",
+    throw UserError(Exit::BadInput, node.place(),
+                    total ? "<mass> has both total and density" : "<mass> needs total or density",
                     sheet ? "total=\"0.1\", or density=\"300\" with thickness=\"0.001\""
                           : "total=\"0.1\", or density=\"1000\"");
   if (!sheet && node.given("thickness"))

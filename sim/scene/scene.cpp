@@ -87,9 +87,11 @@ double Scene::stable_step(const Node& time) const {
               "use symplectic, verlet or rk4, or add viscosity");
   if (std::isinf(limit))
     time.fail("step",
-              scheme_->solves ? fmt::format("the integrator '{}' is stable at any step", scheme_->name)
-                              : "nothing in the scene limits the step",
-              "give a step in seconds");
+              scheme_->solves
+                  ? fmt::format("with '{}' the step is a matter of accuracy, and there is no automatic one",
+                                scheme_->name)
+                  : "nothing in the scene limits the step",
+              scheme_->solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
   return 0.9 * limit;
 }
 

@@ -26,7 +26,10 @@ const ElementType& look_type() {
       "how the body is drawn",
       {text("colour", "#rrggbb").otherwise("#2a7f8e"),
        text("inside", "#rrggbb, of the faces of a solid that fracture lays bare").otherwise("#e8b27a"),
-       word("by", {"plain", "strain", "stress", "force", "fragment"}, "what the colour shows").otherwise("plain"),
+       word("by", {"plain", "strain", "stress", "force", "fragment"},
+            "what the colour shows, on a scale from 0 to the most of the clip so far: the largest "
+            "principal strain or stress [Pa] of the elements there (of springs: elongation), or force [N]")
+           .otherwise("plain"),
        flag("edges", "draw the edges of cells").otherwise("yes")},
       {}};
   return type;

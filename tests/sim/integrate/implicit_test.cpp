@@ -142,7 +142,7 @@ TEST(Steps, of_schemes_that_solve_are_to_be_given) {
       ADD_FAILURE() << scheme;
     } catch (const UserError& error) {
       EXPECT_EQ(error.code, Exit::BadInput);
-      EXPECT_THAT(error.what(), HasSubstr("stable at any step"));
+      EXPECT_THAT(error.what(), HasSubstr("a matter of accuracy"));
       EXPECT_THAT(error.hint, HasSubstr("give a step"));
     }
   }
