@@ -26,7 +26,7 @@ void LoadTangent::at(System& system, double time, const Records& position, const
   velocity_ = &velocity;
   held_ = &held;
   scales_ = scales;
-  size_ = system.load ? largest(position) : 0;
+  size_ = system.load ? largest_coordinate(position) : 0;
 }
 
 void LoadTangent::move(double epsilon, const Records& along) {
@@ -38,7 +38,7 @@ void LoadTangent::move(double epsilon, const Records& along) {
 }
 
 bool LoadTangent::multiply(const Records& along, Records& out) {
-  const double most = system_->load ? largest(along) : 0;
+  const double most = system_->load ? largest_coordinate(along) : 0;
   if (most == 0 || size_ == 0) return false;
   const double epsilon = small_motion * size_ / (most * scales_.by_position);
   out.resize(along.size());

@@ -193,7 +193,7 @@ Found StaticSolve::newton(double part) {
     kind = linear_.factorise();
     if (kind == Definiteness::Singular) return n == 0 ? Found::Singular : Found::Nothing;
     if (!load_tangent_.solve(linear_, right_, update_, linear_digits)) return Found::Nothing;
-    if (n == 0 && largest(update_) * least_part > size_ * part) return Found::Singular; // as good as
+    if (n == 0 && largest_coordinate(update_) * least_part > size_ * part) return Found::Singular; // as good as
     for (std::size_t i = 0; i < trial_.size(); ++i)
       store(trial_[i], load(trial_[i]) + load(update_[i]) + load(lead_[i]));
   }

@@ -34,7 +34,7 @@ REND_CLONES void scale_and_add(double s, const Record* x, Record* y, std::size_t
 
 } // namespace
 
-double largest(const Records& x) {
+double largest_coordinate(const Records& x) {
   Double4 most{};
   for (const Record& r : x) {
     const Double4 v = load(r);

@@ -22,7 +22,7 @@ inline Double4 free_axes(std::uint8_t held) {
   return Double4{held & 1 ? 0.0 : 1.0, held & 2 ? 0.0 : 1.0, held & 4 ? 0.0 : 1.0, 0.0};
 }
 
-double largest(const Records& x); // of all coordinates, without signs
+double largest_coordinate(const Records& x); // of all coordinates, without signs
 
 double dot(int parts, const Records& a, const Records& b);
 
