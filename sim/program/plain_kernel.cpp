@@ -59,7 +59,8 @@ Kernel plain_kernel() {
 }
 
 const Kernel& kernel_of(const Law& law) {
-  static const std::array<Kernel, 4> kernels{spring_kernel(), element_kernel(), tensor_kernel(), plain_kernel()};
+  static const std::array<Kernel, 5> kernels{spring_kernel(), hinge_kernel(), element_kernel(), tensor_kernel(),
+                                             plain_kernel()};
   for (const Kernel& kernel : kernels)
     if (kernel.fits(law)) return kernel;
   return kernels.back();

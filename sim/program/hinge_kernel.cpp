@@ -1,0 +1,136 @@
+// The hinge law, four hinges at a time.
+//
+// With h = AB, L = |h|, a_i the arm from A to the middle of side i's outer vertices, n1 = h × a1 and n2 = a2 × h, the
+// angle is that of the law, operation by operation, so that a body at rest has no force, to the bit. The rest comes
+// from the same normals, without the unit vector and two more cross products:
+//
+//   ∂θ/∂P_i = −L n_i/|n_i|²,   t_i = a_i·h/L²
+//
+// A and B are the same vertices on both sides: they are read once, and as vertices also written once. Without length
+// or area nothing turns, as in the law; of padding the values are 0, and so is the moment.
+#include "sim/base/arc_tangent.h"
+#include "sim/mechanics/hinge_law.h"
+#include "sim/program/lanes.h"
+
+namespace rend {
+namespace {
+
+using namespace lanes;
+
+struct Side {
+  Vector arm, normal;
+  Vector turn; // ∂θ/∂P
+  Double4 t;   // where P's projection divides AB
+};
+
+struct Hinge {
+  Side side[2];
+  Double4 angle;
+};
+
+// From A to the middle of the outer vertices of side 0 or 1.
+REND_INLINE Vector arm_of(const KernelArguments& a, const Record* records, const Vector& from, int side,
+                          std::size_t at) {
+  return splat(0.5) * ((gather(records, a.rows.index(4 * side + 2) + at) - from) +
+                       (gather(records, a.rows.index(4 * side + 3) + at) - from));
+}
+
+REND_INLINE void measure(const KernelArguments& a, std::size_t at, Hinge& hinge) {
+  Side &one = hinge.side[0], &two = hinge.side[1];
+  const Vector from = gather(a.position, a.rows.index(0) + at);
+  const Vector h = gather(a.position, a.rows.index(1) + at) - from;
+  const Double4 h2 = dot(h, h), length = square_root(h2);
+  one.arm = arm_of(a, a.position, from, 0, at);
+  two.arm = arm_of(a, a.position, from, 1, at);
+  one.normal = cross(h, one.arm);
+  two.normal = cross(two.arm, h);
+  const Double4 sine = dot(cross(one.normal, two.normal), h) / length;
+  const Double4 square1 = dot(one.normal, one.normal), square2 = dot(two.normal, two.normal);
+  const Long4 turns = (square1 > 0.0) & (square2 > 0.0);
+  one.turn = (turns ? -length / square1 : Double4{}) * one.normal;
+  two.turn = (turns ? -length / square2 : Double4{}) * two.normal;
+  hinge.angle = turns ? arc_tangent_of(sine, dot(one.normal, two.normal)) : Double4{};
+  for (Side& side : hinge.side) side.t = turns ? dot(side.arm, h) / h2 : Double4{};
+}
+
+// θ̇, from velocities relative to A's.
+REND_INLINE Double4 rate_of(const KernelArguments& a, std::size_t at, const Hinge& hinge) {
+  const Vector from = gather(a.velocity, a.rows.index(0) + at);
+  const Vector h = gather(a.velocity, a.rows.index(1) + at) - from;
+  Double4 rate{};
+  for (int n = 0; n < 2; ++n) {
+    const Side& side = hinge.side[n];
+    rate += dot(side.turn, arm_of(a, a.velocity, from, n, at) - side.t * h);
+  }
+  return rate;
+}
+
+REND_INLINE Double4 wrapped(const Double4& angle) { // into (−π, π]
+  const Double4 lowered = angle > pi ? angle - 2 * pi : angle;
+  return angle <= -pi ? angle + 2 * pi : lowered;
+}
+
+template <bool damped, bool corners, bool whole>
+REND_INLINE void run_rows(const KernelArguments& a, std::size_t block) {
+  constexpr int place = corners ? 8 : 0; // index column
+  const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
+  for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
+    const double* values = a.rows.lanes_at(at); // k, damping, rest
+    Hinge hinge;
+    measure(a, at, hinge);
+    Double4 moment = load_four(values) * wrapped(hinge.angle - load_four(values + 8));
+    if constexpr (damped) moment += load_four(values + 4) * rate_of(a, at, hinge);
+    Vector end_a[2], end_b[2];
+    for (int n = 0; n < 2; ++n) {
+      const Side& side = hinge.side[n];
+      const Vector pull = moment * side.turn; // the opposite of P's force
+      end_b[n] = side.t * pull;
+      end_a[n] = pull - end_b[n];
+      const Vector outer = splat(-0.5) * pull;
+      scatter<whole>(a, a.rows.index(place + 4 * n + 2) + at, outer);
+      scatter<whole>(a, a.rows.index(place + 4 * n + 3) + at, outer);
+    }
+    if constexpr (corners) {
+      for (int n = 0; n < 2; ++n) {
+        scatter<whole>(a, a.rows.index(place + 4 * n) + at, end_a[n]);
+        scatter<whole>(a, a.rows.index(place + 4 * n + 1) + at, end_b[n]);
+      }
+    } else {
+      scatter<whole>(a, a.rows.index(0) + at, end_a[0] + end_a[1]);
+      scatter<whole>(a, a.rows.index(1) + at, end_b[0] + end_b[1]);
+    }
+  }
+}
+
+template <bool damped, bool corners> REND_INLINE void run(const KernelArguments& a) {
+  for (std::size_t block = a.first; block < a.last; ++block) {
+    const PackedRows::Range range = a.rows.range(block);
+    if (corners || (range.low >= a.low && range.high < a.high))
+      run_rows<damped, corners, true>(a, block);
+    else if (range.low < a.high && range.high >= a.low)
+      run_rows<damped, corners, false>(a, block);
+  }
+}
+
+REND_CLONES void run_undamped(const KernelArguments& a) {
+  run<false, false>(a);
+}
+REND_CLONES void run_damped(const KernelArguments& a) {
+  run<true, false>(a);
+}
+REND_CLONES void run_corners_undamped(const KernelArguments& a) {
+  run<false, true>(a);
+}
+REND_CLONES void run_corners_damped(const KernelArguments& a) {
+  run<true, true>(a);
+}
+
+} // namespace
+
+Kernel hinge_kernel() {
+  return {[](const Law& law) { return &law == hinge_law().get(); },
+          [](const KernelArguments& a) { a.damped ? run_damped(a) : run_undamped(a); },
+          [](const KernelArguments& a) { a.damped ? run_corners_damped(a) : run_corners_undamped(a); }};
+}
+
+} // namespace rend
