@@ -95,7 +95,8 @@ struct Hinges {
       v.push_back(Record(noise.vector()));
     }
     x[4] = x[3];
-    x[7] = Record(0.5 * (x[5].vec() + x[6].vec()));
+    for (std::size_t n = 5; n < 8; ++n)
+      x[n] = Record(0.5 * static_cast<double>(n), 0, 0); // on a line, to the bit
     rows.resize(count);
     for (std::size_t n = 0; n < count; ++n) {
       std::array<std::uint32_t, 16> at{};
