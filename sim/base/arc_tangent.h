@@ -24,8 +24,10 @@ template <class Number> REND_INLINE Number arc_tangent_of_ratio(const Number& t)
   }
   const Number r = (t - c) / (1.0 + t * c);
   const Number s = r * r;
-  Number series = 1.0 / 15 - s / 17.0;
-  for (int n = 13; n >= 1; n -= 2) series = 1.0 / n - s * series;
+  const Number q = s * s; // pairs do not wait for each other
+  const Number low = (1.0 / 3 - s * (1.0 / 5)) + q * (1.0 / 7 - s * (1.0 / 9));
+  const Number high = (1.0 / 11 - s * (1.0 / 13)) + q * (1.0 / 15 - s * (1.0 / 17));
+  const Number series = 1.0 - s * (low + q * q * high);
   return start + r * series;
 }
 

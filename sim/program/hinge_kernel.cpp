@@ -39,7 +39,7 @@ REND_INLINE void measure(const KernelArguments& a, std::size_t at, Hinge& hinge)
   Side &one = hinge.side[0], &two = hinge.side[1];
   const Vector from = gather(a.position, a.rows.index(0) + at);
   const Vector h = gather(a.position, a.rows.index(1) + at) - from;
-  const Double4 h2 = dot(h, h), length = square_root(h2);
+  const Double4 h2 = dot(h, h), length = square_root(h2), share = 1.0 / h2;
   one.arm = arm_of(a, a.position, from, 0, at);
   two.arm = arm_of(a, a.position, from, 1, at);
   one.normal = cross(h, one.arm);
@@ -50,7 +50,7 @@ REND_INLINE void measure(const KernelArguments& a, std::size_t at, Hinge& hinge)
   one.turn = (turns ? -length / square1 : Double4{}) * one.normal;
   two.turn = (turns ? -length / square2 : Double4{}) * two.normal;
   hinge.angle = turns ? arc_tangent_of(sine, dot(one.normal, two.normal)) : Double4{};
-  for (Side& side : hinge.side) side.t = turns ? dot(side.arm, h) / h2 : Double4{};
+  for (Side& side : hinge.side) side.t = turns ? dot(side.arm, h) * share : Double4{};
 }
 
 // θ̇, from velocities relative to A's.
