@@ -70,36 +70,55 @@ REND_INLINE Double4 wrapped(const Double4& angle) { // into (−π, π]
   return angle <= -pi ? angle + 2 * pi : lowered;
 }
 
+// What the two sides' P are pulled with, the other way round, and where it acts on AB.
+struct Pulls {
+  Vector pull[2];
+  Double4 t[2];
+};
+
+template <bool damped> REND_INLINE void pull_at(const KernelArguments& a, std::size_t at, Pulls& pulls) {
+  const double* values = a.rows.lanes_at(at); // k, damping, rest
+  Hinge hinge;
+  measure(a, at, hinge);
+  Double4 moment = load_four(values) * wrapped(hinge.angle - load_four(values + 8));
+  if constexpr (damped) moment += load_four(values + 4) * rate_of(a, at, hinge);
+  for (int n = 0; n < 2; ++n) {
+    pulls.pull[n] = moment * hinge.side[n].turn;
+    pulls.t[n] = hinge.side[n].t;
+  }
+}
+
+template <bool corners, bool whole>
+REND_INLINE void add(const KernelArguments& a, std::size_t at, const Pulls& pulls) {
+  constexpr int place = corners ? 8 : 0; // index column
+  Vector end_a[2], end_b[2];
+  for (int n = 0; n < 2; ++n) {
+    end_b[n] = pulls.t[n] * pulls.pull[n];
+    end_a[n] = pulls.pull[n] - end_b[n];
+    const Vector outer = splat(-0.5) * pulls.pull[n];
+    scatter<whole>(a, a.rows.index(place + 4 * n + 2) + at, outer);
+    scatter<whole>(a, a.rows.index(place + 4 * n + 3) + at, outer);
+  }
+  if constexpr (corners) {
+    for (int n = 0; n < 2; ++n) {
+      scatter<whole>(a, a.rows.index(place + 4 * n) + at, end_a[n]);
+      scatter<whole>(a, a.rows.index(place + 4 * n + 1) + at, end_b[n]);
+    }
+  } else {
+    scatter<whole>(a, a.rows.index(0) + at, end_a[0] + end_a[1]);
+    scatter<whole>(a, a.rows.index(1) + at, end_b[0] + end_b[1]);
+  }
+}
+
+// A block's angles first, then its forces: in short loops the processor works on several hinges' divisions at once.
 template <bool damped, bool corners, bool whole>
 REND_INLINE void run_rows(const KernelArguments& a, std::size_t block) {
-  constexpr int place = corners ? 8 : 0; // index column
-  const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
-  for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
-    const double* values = a.rows.lanes_at(at); // k, damping, rest
-    Hinge hinge;
-    measure(a, at, hinge);
-    Double4 moment = load_four(values) * wrapped(hinge.angle - load_four(values + 8));
-    if constexpr (damped) moment += load_four(values + 4) * rate_of(a, at, hinge);
-    Vector end_a[2], end_b[2];
-    for (int n = 0; n < 2; ++n) {
-      const Side& side = hinge.side[n];
-      const Vector pull = moment * side.turn; // the opposite of P's force
-      end_b[n] = side.t * pull;
-      end_a[n] = pull - end_b[n];
-      const Vector outer = splat(-0.5) * pull;
-      scatter<whole>(a, a.rows.index(place + 4 * n + 2) + at, outer);
-      scatter<whole>(a, a.rows.index(place + 4 * n + 3) + at, outer);
-    }
-    if constexpr (corners) {
-      for (int n = 0; n < 2; ++n) {
-        scatter<whole>(a, a.rows.index(place + 4 * n) + at, end_a[n]);
-        scatter<whole>(a, a.rows.index(place + 4 * n + 1) + at, end_b[n]);
-      }
-    } else {
-      scatter<whole>(a, a.rows.index(0) + at, end_a[0] + end_a[1]);
-      scatter<whole>(a, a.rows.index(1) + at, end_b[0] + end_b[1]);
-    }
-  }
+  const std::size_t begin = block * PackedRows::block_size, count = a.rows.padded_in(block);
+  Pulls pulls[PackedRows::block_size / PackedRows::lanes];
+  for (std::size_t n = 0; n < count; n += PackedRows::lanes)
+    pull_at<damped>(a, begin + n, pulls[n / PackedRows::lanes]);
+  for (std::size_t n = 0; n < count; n += PackedRows::lanes)
+    add<corners, whole>(a, begin + n, pulls[n / PackedRows::lanes]);
 }
 
 template <bool damped, bool corners> REND_INLINE void run(const KernelArguments& a) {
