@@ -164,5 +164,17 @@ void forces(benchmark::State& state) {
   for (auto _ : state) body.evaluate();
 }
 BENCHMARK(forces)->Arg(10)->Arg(64)->Arg(1000);
+
+// Table 6.3: springs over edges against hinges. What a hinge takes: the difference to no bending, by their number.
+void bending(benchmark::State& state, const std::string& bend) {
+  presets::Loaded scene = presets::load(presets::cloth("quads", 16, "", small_steps, bend));
+  Body& body = scene.body();
+  scene->step();
+  for (auto _ : state) body.evaluate();
+}
+BENCHMARK_CAPTURE(bending, none, "");
+BENCHMARK_CAPTURE(bending, provot, R"(<bend kind="provot" k="10"/>)");
+BENCHMARK_CAPTURE(bending, angular, R"(<bend kind="angular" k="0.01"/>)");
+BENCHMARK_CAPTURE(bending, angular_damped, R"(<bend kind="angular" k="0.01" damping="1e-5"/>)");
 } // namespace
 } // namespace rend
