@@ -97,6 +97,7 @@ Stopped Session::loop(long last_frame, const Calls& calls, double& away) {
   const long last_step = this->last_step(last_frame);
   long frame = 0, due = 0; // the next frame, and the step that it waits for
   while (true) {
+    if (scene_->steps_done() >= due || scene_->steps_done() >= last_step) scene_->check_sound();
     if (scene_->steps_done() >= due) {
       const double since = wall_clock();
       for (; frame <= last_frame && clock_->step_of(frame) <= scene_->steps_done(); ++frame) calls.frame(frame);

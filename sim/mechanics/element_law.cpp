@@ -44,9 +44,11 @@ public:
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
     const State at(*this, unit, s);
     for (int n = 0; n < N; ++n) force[n].setZero();
-    for (const auto& point : at.element.points) {
-      const Matrix3d stress = point.weight * at.R *
-                              stress_of(strain_of(at.R.transpose() * (at.moving * point.gradient.transpose())));
+    for (std::size_t g = 0; g < at.element.points.size(); ++g) {
+      const auto& point = at.element.points[g];
+      const Matrix3d& R = at.frame(g);
+      const Matrix3d stress =
+          point.weight * R * stress_of(strain_of(R.transpose() * (at.moving * point.gradient.transpose())));
       for (int n = 0; n < N; ++n) force[n] -= stress * point.gradient.col(n);
     }
   }
@@ -54,8 +56,9 @@ public:
   double energy(const double* unit, const UnitState& s) const override {
     const State at(*this, unit, s);
     double sum = 0;
-    for (const auto& point : at.element.points) {
-      const Matrix3d e = strain_of(at.R.transpose() * (at.x * point.gradient.transpose()));
+    for (std::size_t g = 0; g < at.element.points.size(); ++g) {
+      const auto& point = at.element.points[g];
+      const Matrix3d e = strain_of(at.frame(g).transpose() * (at.x * point.gradient.transpose()));
       sum += 0.5 * point.weight * stress_of(e).cwiseProduct(e).sum();
     }
     return sum;
@@ -96,12 +99,21 @@ public:
 private:
   using Whole = Eigen::Matrix<double, 3 * N, 3 * N>;
   using Corners = Eigen::Matrix<double, 3, N>;
+  using Turns = Eigen::Matrix<double, 3 * N, 3>;
+
+  static constexpr bool by_point = turns_by_point(Dim, Points);
 
   struct State {
     Decoded<N, Dim, Points> element;
     Corners x, moving; // [m], from the first corner: positions, and positions + β velocities
     Corners gradient;  // means over the volume
     Matrix3d mean, R;  // F of the mean gradients
+    std::array<Matrix3d, by_point ? Points : 0> R_at;
+
+    const Matrix3d& frame(std::size_t g) const {
+      if constexpr (by_point) return R_at[g];
+      return R;
+    }
 
     State(const ElementOf& law, const double* unit, const UnitState& s)
         : element(law.shape(), unit + law.first_point()) {
@@ -115,6 +127,9 @@ private:
       for (const auto& point : element.points) gradient += point.weight / element.volume * point.gradient;
       mean.noalias() = x * gradient.transpose();
       R = law.turn(unit, mean);
+      if constexpr (by_point)
+        for (std::size_t g = 0; g < R_at.size(); ++g)
+          R_at[g] = law.turn(unit, x * element.points[g].gradient.transpose());
     }
   };
 
@@ -159,9 +174,11 @@ private:
 
   void turned_stiffness(const State& at, Eigen::Map<Whole>& K) const {
     K.setZero();
-    const Matrix3d across = at.R.template leftCols<Dim>() * at.R.template leftCols<Dim>().transpose();
-    for (const auto& point : at.element.points) {
-      const Corners g = at.R * point.gradient;
+    for (std::size_t p = 0; p < at.element.points.size(); ++p) {
+      const auto& point = at.element.points[p];
+      const Matrix3d& R = at.frame(p);
+      const Matrix3d across = R.template leftCols<Dim>() * R.template leftCols<Dim>().transpose();
+      const Corners g = R * point.gradient;
       const double lambda = point.weight * material().lambda, mu = point.weight * material().mu;
       for (int j = 0; j < N; ++j) {
         const Vec3 lj = lambda * g.col(j), mj = mu * g.col(j);
@@ -180,21 +197,42 @@ private:
 
   // −∂f/∂R : ∂R/∂x. When R turns by ω, −f_n turns by Z_n ω, and a move of corner m turns R by L(Ḡ_m) Rᵀ.
   Whole by_turning(const State& at) const {
-    Eigen::Matrix<double, 3 * N, 3> Z = Eigen::Matrix<double, 3 * N, 3>::Zero();
-    Eigen::Matrix<double, 3, 3 * N> W;
-    for (const auto& point : at.element.points) {
-      const Matrix3d U = at.R.transpose() * (at.moving * point.gradient.transpose());
-      const Matrix3d sigma = stress_of(strain_of(U));
-      for (int axis = 0; axis < 3; ++axis) {
-        const Matrix3d change =
-            point.weight * at.R * (turned_about(axis, sigma) - stress_of(symmetric(turned_about(axis, U))));
-        for (int n = 0; n < N; ++n) Z.template block<3, 1>(3 * n, axis) += change * point.gradient.col(n);
+    Turns Z = Turns::Zero();
+    if constexpr (by_point) {
+      Whole sum = Whole::Zero();
+      for (std::size_t g = 0; g < at.element.points.size(); ++g) {
+        Z.setZero();
+        const Corners& gradient = at.element.points[g].gradient;
+        add_turning(at, g, Z);
+        sum += Z.lazyProduct(turns_of(at.R_at[g], at.x * gradient.transpose(), gradient));
       }
+      return sum;
     }
-    const Spin spin(rotation(), at.R, at.mean);
-    for (int m = 0; m < N; ++m)
-      W.template block<3, 3>(0, 3 * m) = spin.of(at.gradient.col(m)) * at.R.transpose();
-    return Z.lazyProduct(W); // Eigen's own choice, a blocked product, is made for larger ones
+    for (std::size_t g = 0; g < at.element.points.size(); ++g) add_turning(at, g, Z);
+    return Z.lazyProduct(
+        turns_of(at.R, at.mean, at.gradient)); // Eigen's own, blocked product is for larger ones
+  }
+
+  // Z of one point.
+  void add_turning(const State& at, std::size_t g, Turns& Z) const {
+    const auto& point = at.element.points[g];
+    const Matrix3d& R = at.frame(g);
+    const Matrix3d U = R.transpose() * (at.moving * point.gradient.transpose());
+    const Matrix3d sigma = stress_of(strain_of(U));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Matrix3d change =
+          point.weight * R * (turned_about(axis, sigma) - stress_of(symmetric(turned_about(axis, U))));
+      for (int n = 0; n < N; ++n) Z.template block<3, 1>(3 * n, axis) += change * point.gradient.col(n);
+    }
+  }
+
+  // L(G_m) Rᵀ of every corner.
+  Eigen::Matrix<double, 3, 3 * N> turns_of(const Matrix3d& R, const Matrix3d& F,
+                                           const Corners& gradient) const {
+    Eigen::Matrix<double, 3, 3 * N> W;
+    const Spin spin(rotation(), R, F);
+    for (int m = 0; m < N; ++m) W.template block<3, 3>(0, 3 * m) = spin.of(gradient.col(m)) * R.transpose();
+    return W;
   }
 };
 

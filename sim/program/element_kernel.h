@@ -1,7 +1,7 @@
 // The kernel of mechanics/element_law.h, four elements at a time, one pass over what they carry.
 //
 // For each kind of element, with or without rotation and damping: positions are gathered and turned into lanes, F is
-// formed at each integration point, R from their mean, and P = w R σ goes back through J⁻ᵀ to the corners. Nothing but
+// formed at each integration point, R from their mean (at each point of a sheet's quad), and P = w R σ goes back through J⁻ᵀ to the corners. Nothing but
 // J⁻¹ and w is read: 80 bytes of a tetrahedron, 640 of a hexahedron (its 24 × 24 stiffness would be 4608). Points of a
 // hexahedron are read twice, the second time from the nearest cache.
 #pragma once
@@ -72,15 +72,16 @@ template <class Shape, Turning turning, bool damped> struct ElementLanes {
   static constexpr bool flat = turning == Turning::None && Dim == 2; // carries its axes
   static constexpr bool turned = turning != Turning::None;
   static constexpr Rotation rotation = turning == Turning::Qr ? Rotation::Qr : Rotation::Polar;
+  static constexpr int frames = turned && turns_by_point(Dim, Shape::points) ? Shape::points : 1;
 
   // Forces on the corners of the rows at .. at + 3.
   static REND_INLINE void forces(const KernelArguments& a, const ElasticMaterial& m, std::size_t at,
                                  Vector* f) {
     const double* values = a.rows.lanes_at(at);
-    Matrix<Dim> R;
+    Matrix<Dim> R[frames];
     if constexpr (flat) {
       for (int c = 0; c < 2; ++c, values += 12)
-        R.column[c] = {load_four(values), load_four(values + 4), load_four(values + 8)};
+        R[0].column[c] = {load_four(values), load_four(values + 4), load_four(values + 8)};
     }
     Vector x[N], D[Shape::columns_count];
     from_first_corner(a.position, a, at, x);
@@ -90,7 +91,8 @@ template <class Shape, Turning turning, bool damped> struct ElementLanes {
       Shape::columns(x, D);
       mean_gradient(values, D, F, mean, volume);
     }
-    if constexpr (turned) turn<rotation, Dim>(mean, volume, R);
+    if constexpr (turned)
+      for (int g = 0; g < frames; ++g) turn<rotation, Dim>(frames == 1 ? mean : F[g], volume, R[g]);
     if constexpr (damped) {
       Vector v[N];
       from_first_corner(a.velocity, a, at, v);
@@ -105,7 +107,7 @@ template <class Shape, Turning turning, bool damped> struct ElementLanes {
       if constexpr (Dim == 3 && !turned)
         P = stress(F[g], inverse.weight, m.lambda, m.mu);
       else
-        P = turned_stress<Dim>(R, F[g], inverse.weight, m.lambda, m.mu);
+        P = turned_stress<Dim>(R[frames == 1 ? 0 : g], F[g], inverse.weight, m.lambda, m.mu);
       for (int r = 0; r < Dim; ++r) {
         Vector& sum = H[Shape::column(g, r)];
         for (int c = 0; c < Dim; ++c) sum = sum + inverse.A[r][c] * P.column[c];

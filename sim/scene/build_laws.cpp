@@ -66,6 +66,10 @@ void build_laws(Body& body, const Node& node) {
     body.left_out.push_back("tearing: no law, so no criterion is bound and no border is remembered");
     return;
   }
+  if (body.map->dimension() == 3)
+    throw UserError(Exit::BadInput, laws.front()->place(),
+                    "a solid does not tear yet: its laws act on sheets alone",
+                    "leave <tear> out, or make the body a <sheet>");
   body.border = &body.map->add(BornBorder(body.map->dimension()));
   for (const Node* law : laws) {
     body.laws.emplace_back(*body.map, law_settings(*law));

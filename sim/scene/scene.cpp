@@ -46,10 +46,24 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
   const Node& time = *preset.child("time");
   scheme_ = find_scheme(time.text("integrator"));
   seconds_.build = now() - start;
+  check_contact(preset);
   for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads);
   build_time(time);
   set_answers();
   seconds_.bind = now() - start - seconds_.build;
+}
+
+// Contact acts by impulses after the step, which a scheme that solves for the end of the step does not see.
+void Scene::check_contact(const Node& preset) {
+  if (!scheme_->solves) return;
+  for (const auto& body : bodies_) {
+    if (!body->floor_contact) continue;
+    if (scheme_->name == "static")
+      preset.child("time")->fail("integrator", "the static solve knows no contact with the floor",
+                                 "leave <contact> out, or let it come to rest with symplectic and viscosity");
+    body->notes.push_back("contact: what rests on the floor under 'implicit' is pressed too much, the more the "
+                          "stiffer it is and the larger the step; symplectic does not have this");
+  }
 }
 
 void Scene::build_time(const Node& time) {
@@ -200,6 +214,11 @@ StageSeconds Scene::seconds() const {
     all.rebind += body->rebind_seconds;
   }
   return all;
+}
+
+void Scene::check_sound() const {
+  if (steps_done_ == 0 || scheme_->solves) return;
+  for (const auto& body : bodies_) check_resolved(*body, body->map->velocity().values().data());
 }
 
 // Neighbours that move against each other by many times their distance at rest in one step are not resolved by it: what

@@ -48,6 +48,9 @@ public:
   // its start stays torn.
   void step();
 
+  // Throws Unstable where the motion of the current state is not resolved by the step: before a state is shown.
+  void check_sound() const;
+
   std::size_t tears() const;
   double kinetic_energy() const;
   double elastic_energy() const;
@@ -63,6 +66,7 @@ private:
   void check_probes(const Node& preset) const;
   void set_answers();
   void measure_answers();
+  void check_contact(const Node& preset);
   double stable_step(const Node& time) const;
   double stability_limit() const; // [s]
   void check() const;
