@@ -34,6 +34,9 @@ public:
                        State& next) = 0;
 
   virtual SolverFigures solver() const { return {}; }
+
+  // Whether bodies move in time: where a step is an equilibrium, drives have neither inertia nor viscosity.
+  virtual bool moves() const { return true; }
 };
 
 // ω² and damping rates that bound those of every mode; see frequency_bounds().

@@ -15,11 +15,15 @@
 //    (pseudo-transient continuation, Kelley & Keyes 1998). First under the loads alone, then again part by part
 //    after the drives, at last under all at once.
 //
-// An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. Newton's method
+// An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. What rounding
+// positions makes of F is taken where F is; far away it could exceed all forces, and anything would count: so it
+// is at most 1e-6 of them, or what it is within the reach of the step under the stiffness at its start (a body
+// without forces has no other measure). Newton's method
 // must also find the tangent positive there: what buckles is not left upright. (Not asked where loads follow the
 // body: a strip bent to a circle by a moment is stable, while the part of its tangent without the load is not
 // positive, and the whole is not symmetric.) Relaxing goes downhill, and stays on a ridge only where symmetry
-// gives it no side. A piece that can move off as a whole is refused.
+// gives it no side. A piece that can move off as a whole is refused, and so is one that can turn in a model of
+// small displacements, where f does not turn with the body: no turn ever meets a resistance.
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/load_tangent.h"
@@ -33,7 +37,8 @@
 namespace rend {
 namespace {
 
-constexpr double wanted = 1e-9, linear_digits = 1e-10;
+constexpr double wanted = 1e-9, linear_digits = 1e-10, most_noise = 1e-6; // of the forces
+constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();    // of a coordinate
 constexpr int most_newton = 16, most_relaxed = 600;
 constexpr double least_part = 1.0 / 4096, least_unstable = 1.0 / 16; // of the way
 constexpr double first_sigma = 1e-3, relaxed_digits = 1e-6;
@@ -47,11 +52,16 @@ public:
   SolverFigures solver() const override {
     return {newton_, linear_.iterations(), linear_.factorisations(), matrix_.bytes() + linear_.bytes()};
   }
+  bool moves() const override { return false; }
 
 private:
   void prepare(System& system, const StateView& now);
+  bool turns_with_body();
   void evaluate(const Records& x);
-  bool settled() const { return norm_ <= wanted * terms_ + noise_; }
+  double noise(const Records& x) const;
+  bool settled() const {
+    return std::isfinite(norm_) && std::isfinite(terms_) && norm_ <= wanted * terms_ + noise_;
+  }
   void linearise(const Records& x, Tangent tangent);
   void aim(double part);
   Found newton(double part);
@@ -72,6 +82,9 @@ private:
   Records lead_, right_, update_;            // [m], [N], [m]: u, the right side, δ
   std::vector<std::uint8_t> held_;           // axes
   double norm_ = 0, terms_ = 0, noise_ = 0;  // [N]: of F, of its terms, and round-off
+  std::vector<double> stiff_;                // [N/m]: the largest of each diagonal block; 0: not known yet
+  double noise_of_start_ = -1;               // [N]: at most, within reach_ of the origin; < 0: not known yet
+  double reach_ = 0;                         // [m]: the largest coordinate that this step has to do with
   double size_ = 0;                          // [m]: of the body
   BlockMatrix matrix_;                       // [N/m]
   LinearSolver linear_;
@@ -81,6 +94,10 @@ private:
 
 double root_of_sum(Double4 v) {
   return std::sqrt(sum3(v));
+}
+
+double stiffness_of(const Block3& d) {
+  return std::max({std::abs(d(0, 0)), std::abs(d(1, 1)), std::abs(d(2, 2))});
 }
 
 // The longest side of the box around all vertices [m].
@@ -102,14 +119,56 @@ void StaticSolve::prepare(System& system, const StateView& now) {
   start_.assign(now.position, now.position + count);
   position_ = start_;
   size_ = extent(start_, system.inverse_mass);
+  stiff_.assign(count, 0);
+  noise_of_start_ = -1;
   held_.assign(count, 0);
   system.hold(end_, held_.data());
   goal_ = start_;
   trial_ = still_;
   system.constrain(end_, goal_.data(), trial_.data());
+  reach_ = std::max({largest_coordinate(start_), largest_coordinate(goal_), size_});
   if (const auto drift = drift_of(*system.pattern(), system.inverse_mass, held_))
     throw Unsolved(*drift + ", and a static solve needs that",
                    "add <fix>, or use implicit, which needs no hold");
+  if (can_turn(*system.pattern(), system.inverse_mass, held_, start_.data()) && !turns_with_body())
+    throw Unsolved(
+        "what is held lets the body turn as a whole, and a model of small displacements resists no turn",
+        "fix more than a point or a line, or use a co-rotational model");
+}
+
+// Whether forces turn with the body, measured at quarter turns about z and x, which are exact in coordinates.
+bool StaticSolve::turns_with_body() {
+  System& system = *system_;
+  system.forces(end_, start_.data(), still_.data(), force_.data());
+  matrix_.reset(system.pattern());
+  system.add_stiffness(start_.data(), still_.data(), Tangent::Definite, 1, 0, matrix_);
+  for (const bool about_z : {true, false}) {
+    const auto turned = [about_z](Double4 v) {
+      return about_z ? Double4{-v[1], v[0], v[2], 0} : Double4{v[0], -v[2], v[1], 0};
+    };
+    for (std::size_t i = 0; i < start_.size(); ++i) store(trial_[i], turned(load(start_[i])));
+    system.forces(end_, trial_.data(), still_.data(), sum_.data());
+    Double4 change{}, scale{};
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      if (system.inverse_mass[i] == 0) continue;
+      const Double4 f = turned(load(force_[i])), d = load(sum_[i]) - f;
+      const double stretch = stiffness_of(matrix_.diagonal(i)) * size_;
+      change += d * d;
+      scale += f * f + splat(stretch * stretch);
+    }
+    if (root_of_sum(change) > 1e-6 * root_of_sum(scale)) return false;
+  }
+  return true;
+}
+
+// What rounding positions makes of F at x, with the stiffness last seen [N].
+double StaticSolve::noise(const Records& x) const {
+  Double4 sum{};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Double4 moved = splat(stiff_[i]) * load(x[i]);
+    sum += moved * moved;
+  }
+  return std::min(rounded * root_of_sum(sum), std::max(most_noise * terms_, noise_of_start_));
 }
 
 // F at x.
@@ -129,21 +188,20 @@ void StaticSolve::evaluate(const Records& x) {
   }
   norm_ = root_of_sum(left);
   terms_ = root_of_sum(internal) + root_of_sum(outer);
+  noise_ = noise(x);
 }
 
-// The tangent at x with prescribed coordinates still in it, and what rounding positions makes of F.
+// The tangent at x with prescribed coordinates still in it, and the stiffness that noise() goes by.
 void StaticSolve::linearise(const Records& x, Tangent tangent) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   matrix_.reset(system_->pattern());
   system_->add_stiffness(x.data(), still_.data(), tangent, 1, 0, matrix_);
-  Double4 sum{};
+  double squares = 0; // [N²/m²]
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const Block3& d = matrix_.diagonal(i);
-    const double stiff = std::max({std::abs(d(0, 0)), std::abs(d(1, 1)), std::abs(d(2, 2))});
-    sum += splat(stiff * stiff) * load(x[i]) * load(x[i]);
+    stiff_[i] = stiffness_of(matrix_.diagonal(i));
+    squares += stiff_[i] * stiff_[i];
     if (system_->inverse_mass[i] == 0) matrix_.add_diagonal(i, 1);
   }
-  noise_ = 4 * epsilon * root_of_sum(sum);
+  if (noise_of_start_ < 0) noise_of_start_ = rounded * reach_ * std::sqrt(squares);
 }
 
 // From F, what is wanted at this part of the way, to the right side F − K u; then prescribed rows are held.
@@ -287,6 +345,9 @@ void StaticSolve::advance(System& system, double time, double step, const StateV
   end_ = time + step;
   prepare(system, now);
   evaluate(start_);
+  if (!std::isfinite(terms_))
+    throw Unsolved("the forces are larger than numbers go",
+                   "look for a mass, load or stiffness that is too large");
   first_sum_ = sum_;
   if (!in_parts_of_the_way() && !loads_first() && !relax(1)) give_up();
   system.constrain(end_, position_.data(), trial_.data()); // to the last bit

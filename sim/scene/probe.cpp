@@ -75,7 +75,8 @@ Vec3 Probe::reaction(Body& body) const {
     });
     const double rate = body.uniform_drag + (drag_rate ? drag_rate[s] : 0);
     const double mass = inverse_mass[s] > 0 ? 1 / inverse_mass[s] : 0;
-    Vec3 r = mass * (prescribed - body.gravity.vec() + rate * v[s].vec()) - force[s].vec();
+    Vec3 r = -mass * body.gravity.vec() - force[s].vec();
+    if (body.integrator->moves()) r += mass * (prescribed + rate * v[s].vec());
     if (body.load) r -= body.load[s].vec();
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (held[axis]) sum[static_cast<int>(axis)] += r[static_cast<int>(axis)];

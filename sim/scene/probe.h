@@ -8,6 +8,7 @@
 //   reaction       Σ R_n over the fixed and driven vertices among them, along the axes that are prescribed:
 //                  R = m a − f − load − m g + γ v, the force [N] that the support exerts on the body there; a is the
 //                  prescribed acceleration (0 but for rotations), f the internal force. At rest: what bears it.
+//                  A static solve has neither a nor v.
 //
 //   stress         the mean σ [Pa] of the elements that have one of its vertices, each counting the same
 //

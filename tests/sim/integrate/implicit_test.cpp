@@ -66,10 +66,10 @@ TEST(StaticSolve, finds_the_catenary) {
     int links;
   };
   for (const Answer& a : {Answer{1.2, 0.292344, 60}, Answer{2, 0.796388, 100}}) {
-    const std::string ends = fmt::format(
-        R"(<fix box="-0.01 -1 -1 0.01 1 1"/>)"
-        R"(<drive box="{} -1 -1 9 1 1" displacement="{} 0 0" from="0" until="1"/>)",
-        a.length - 0.01, 1 - a.length);
+    const std::string ends =
+        fmt::format(R"(<fix box="-0.01 -1 -1 0.01 1 1"/>)"
+                    R"(<drive box="{} -1 -1 9 1 1" displacement="{} 0 0" from="0" until="1"/>)",
+                    a.length - 0.01, 1 - a.length);
     const auto s = presets::load(scene(chain(a.links, a.length, 0.1, 1e6, ends), "static", 1, 1));
     s->step();
     EXPECT_NEAR(-lowest(s, 2), a.sag, 1e-3 * a.sag) << a.length;
@@ -132,6 +132,77 @@ TEST(StaticSolve, refuses_what_nothing_holds) {
   EXPECT_THAT(refusal(R"(<fix all="yes" axes="xy"/>)", springs), HasSubstr("along z"));
   EXPECT_THAT(refusal(R"(<fix near="0 0 0"/>)", springs),
               testing::AnyOf(HasSubstr("turn"), HasSubstr("not refused")));
+}
+
+// A bar of hexahedra along x, a metre long, under its weight.
+presets::Loaded heavy_bar(const std::string& pattern, const std::string& model, double density,
+                          const std::string& held) {
+  return presets::load(
+      scene(fmt::format(R"(<body><bar pattern="{}" cells="6 2 2" size="1 0.2 0.2"/><mass density="{}"/>)"
+                        R"(<elasticity model="{}" young="1e5"/>{}</body>)",
+                        pattern, density, model, held),
+            "static", 1, 1));
+}
+
+std::string refusal_of_step(const presets::Loaded& s) {
+  try {
+    s->step();
+  } catch (const Unstable& error) {
+    EXPECT_EQ(static_cast<int>(error.code), 76);
+    return std::string(error.what()) + " | " + error.hint;
+  }
+  return "not refused";
+}
+
+// Held at a point it may turn: no model of small displacements has an equilibrium, wherever the solve gets to.
+TEST(StaticSolve, refuses_small_displacements_of_what_may_turn) {
+  for (const char* model : {"linear", "mass-tensor"})
+    for (const char* pattern : {"hexahedra", "prisms", "tetrahedra", "mixed"})
+      EXPECT_THAT(refusal_of_step(heavy_bar(pattern, model, 1000, R"(<fix near="0 0 0"/>)")),
+                  HasSubstr("lets the body turn as a whole"))
+          << model << ", " << pattern;
+  EXPECT_EQ(refusal_of_step(heavy_bar("hexahedra", "linear", 1, R"(<fix side="-x"/>)")), "not refused");
+}
+
+// What turns with its elements hangs below the point, its weight on the line through it; or it is refused.
+TEST(StaticSolve, hangs_a_bar_from_its_corner_or_refuses) {
+  for (const char* pattern : {"hexahedra", "prisms", "tetrahedra", "mixed"}) {
+    const auto s = heavy_bar(pattern, "corotational", 100, R"(<fix near="0 0 0"/>)");
+    const std::string refusal = refusal_of_step(s);
+    if (refusal != "not refused") {
+      EXPECT_THAT(refusal, HasSubstr("no equilibrium was found")) << pattern;
+      continue;
+    }
+    Vec3 moment = Vec3::Zero();
+    double mass = 0;
+    for (Slot v = 0; v < s.body().vertices(); ++v) {
+      const double m = 1 / s.body().program->inverse_mass()[v];
+      moment += m * s.body().map->position()[v].vec();
+      mass += m;
+    }
+    EXPECT_NEAR(moment.x() / mass, 0, 1e-6) << pattern;
+    EXPECT_NEAR(moment.y() / mass, 0, 1e-6) << pattern;
+    EXPECT_LT(moment.z() / mass, -0.4) << pattern;
+  }
+}
+
+TEST(StaticSolve, refuses_forces_that_overflow) {
+  EXPECT_THAT(refusal_of_step(heavy_bar("hexahedra", "corotational", 1e300, R"(<fix side="-x"/>)")),
+              HasSubstr("larger than numbers go"));
+  EXPECT_THAT(refusal_of_step(heavy_bar("hexahedra", "corotational", 1000,
+                                        R"(<fix side="-x"/><load side="+x" force="1e300 0 0"/>)")),
+              HasSubstr("larger than numbers go"));
+}
+
+// Turned as it is held, without loads: all forces are round-off, and that is an equilibrium.
+TEST(StaticSolve, takes_a_turn_without_loads) {
+  const auto s = presets::load(scene(
+      R"(<body><bar pattern="hexahedra" cells="6 2 2" size="1 0.2 0.2"/><mass density="1000"/>)"
+      R"(<elasticity young="1e5"/><drive side="-x" rotate="0 0 1 90"/><probe name="p" side="-x"/></body>)",
+      "static", 0.25, 1, "0 0 0"));
+  for (int n = 0; n < 4; ++n) s->step();
+  EXPECT_LT(s->elastic_energy(), 1e-12);
+  EXPECT_NEAR(s.body().probes[0].read(s.body())->reaction->norm(), 0, 1e-6); // 1e5 Pa on 0.04 m²; no inertia
 }
 
 TEST(Steps, of_schemes_that_solve_are_to_be_given) {
