@@ -70,7 +70,7 @@ REND_INLINE Double4 wrapped(const Double4& angle) { // into (−π, π]
   return angle <= -pi ? angle + 2 * pi : lowered;
 }
 
-// What the two sides' P are pulled with, the other way round, and where it acts on AB.
+// The opposites of the forces on the two sides' P, and where P's projections divide AB.
 struct Pulls {
   Vector pull[2];
   Double4 t[2];

@@ -36,7 +36,7 @@ const Kernel& kernel_of(const Law& law); // the first that fits
 
 Kernel
 spring_kernel();       // spring_law.h, four rows at a time: 2.3 ns a spring where a plain loop takes 4.2 to 4.9
-Kernel hinge_kernel(); // hinge_law.h, four rows at a time
+Kernel hinge_kernel(); // hinge_law.h, four rows at a time: 18 ns a hinge where the law takes 130
 Kernel element_kernel(); // element_law.h: element_kernel.h
 Kernel tensor_kernel();  // mass_tensor.h, four rows at a time
 Kernel plain_kernel();   // any law, unit after unit
