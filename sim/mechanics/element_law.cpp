@@ -252,11 +252,43 @@ ElementLaw::ElementLaw(const ElementShape& shape, ElasticModel model, Rotation r
           shape.values() + (model == ElasticModel::Linear && shape.dimension == 2 ? 6 : 0)),
       shape_(&shape), model_(model), rotation_(rotation), material_(material) {}
 
+namespace {
+
+// As write_element, each point in the rest element's own tangent plane there: a quad that is warped at rest then has
+// no strain at rest. False also where it is folded.
+bool write_in_tangent_planes(const ElementShape& shape, const Vec3* rest, const Matrix3d& frame,
+                             double thickness, double* values) {
+  ElementShape one = shape;
+  for (const ReferencePoint& point : shape.points) {
+    Vec3 along = Vec3::Zero(), across = Vec3::Zero();
+    for (int n = 1; n < shape.corners; ++n) {
+      along += point.gradient[static_cast<std::size_t>(n)][0] * (rest[n] - rest[0]);
+      across += point.gradient[static_cast<std::size_t>(n)][1] * (rest[n] - rest[0]);
+    }
+    Vec3 normal = along.cross(across).normalized();
+    const double side = normal.dot(frame.col(2));
+    if (side < 0) normal = -normal;
+    Matrix3d own;
+    own.col(2) = normal;
+    own.col(0) = (frame.col(0) - frame.col(0).dot(normal) * normal).normalized();
+    own.col(1) = normal.cross(own.col(0));
+    one.points.assign(1, point);
+    if (side == 0 || !own.allFinite() || !write_element(one, rest, own, thickness, values)) return false;
+    values += one.values();
+  }
+  return true;
+}
+
+} // namespace
+
 bool ElementLaw::write_unit(const Vec3* rest, double thickness, double* unit) const {
   const bool own_axes =
       shape_->dimension == 2 || (model_ == ElasticModel::Corotational && rotation_ == Rotation::Qr);
   const Eigen::Matrix3d frame = own_axes ? rest_frame(*shape_, rest) : Eigen::Matrix3d::Identity();
   for (int n = 0; n < first_point(); ++n) unit[n] = frame(n % 3, n / 3);
+  const bool by_point = turns_by_point(shape_->dimension, static_cast<int>(shape_->points.size()));
+  if (model_ == ElasticModel::Corotational && by_point && write_element(*shape_, rest, frame, thickness, unit))
+    return write_in_tangent_planes(*shape_, rest, frame, thickness, unit);
   return write_element(*shape_, rest, frame, thickness, unit + first_point());
 }
 

@@ -258,11 +258,11 @@ std::string refusal_of(const std::string& prescribed) {
 
 TEST(Constraints, are_refused_where_they_mean_nothing) {
   EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" displacement="1 0 0"/>)"),
-              HasSubstr("one of velocity"));
+              HasSubstr("several of velocity"));
   EXPECT_THAT(refusal_of(R"(<drive side="+x"/>)"), HasSubstr("one of velocity"));
   EXPECT_THAT(refusal_of(R"(<drive side="+x" rotate="0 0 0 90"/>)"), HasSubstr("no direction"));
   EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" rotate="0 0 1 90"/>)"),
-              HasSubstr("one of velocity"));
+              HasSubstr("several of velocity"));
   EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" centre="0 0 1"/>)"),
               HasSubstr("no use without rotate"));
   EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" from="2" until="1"/>)"),
