@@ -43,10 +43,12 @@ CriterionType atomic_border() {
   return {"atomic-border",
           "|difference of the forces that the two elements apply, across the border|",
           "N",
-          Cell::Borders,
           true,
-          "separate",
-          [](EmbeddedMap& map) -> std::unique_ptr<Criterion> { return std::make_unique<AtomicBorder>(map); }};
+          [](const CriterionRequest&) { return Cell::Borders; },
+          [](const CriterionRequest&) { return std::string(); },
+          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+            return std::make_unique<AtomicBorder>(request.map);
+          }};
 }
 
 } // namespace rend

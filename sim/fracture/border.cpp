@@ -23,11 +23,12 @@ Vec3 face_normal(const EmbeddedMap& map, const Record* x, Dart d) {
 } // namespace
 
 Binder bind_borders(EmbeddedMap& map, bool corners) {
-  const Pattern pattern{.owner = EdgeOfVolume,
-                        .support = EdgeOfVolume,
-                        .units = {{"", "0"}},
-                        .fold = {},
-                        .present = [](const GMap& m, Dart d, std::size_t) { return !m.is_free(2, d) && !m.is_free(0, d); }};
+  const Pattern pattern{
+      .owner = EdgeOfVolume,
+      .support = EdgeOfVolume,
+      .units = {{"", "0"}},
+      .fold = {},
+      .present = [](const GMap& m, Dart d, std::size_t) { return !m.is_free(2, d) && !m.is_free(0, d); }};
   std::vector<Field> fields{{{""}, Vertex}, {{"0"}, Vertex}};
   if (corners) {
     const Orbit corner = corner_orbit(map.dimension());

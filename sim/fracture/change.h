@@ -1,6 +1,7 @@
 // Topological changes: what a law does where its criterion says so (thesis 7.3; design: mechanics, section 4).
 //
 // Every change is made of one operation, the separation of two elements. Embeddings follow by their own policies.
+// Adding one: a file with a function `ChangeType my_change()`, and its name in all_changes().
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -13,9 +14,12 @@ namespace rend {
 
 struct ChangeType {
   std::string name, what;
-  std::vector<Cell> cells; // it acts on
-  // Applies the change at a candidate if it is still possible; false: it was not, and nothing was changed.
-  bool (*apply)(Edit&, const ForceView&, const Candidate&);
+  Cell own; // of which it is the default
+  bool (*fits)(Cell cell, int dimension);
+  bool (*elementary)(Cell cell); // needs the forces of each element by itself
+  // Applies the change at a candidate if it is still possible; false: it was not, and nothing was changed. Slots and
+  // positions are those of before the edit, links those of now.
+  bool (*apply)(Edit&, const ForceView&, Cell cell, const Candidate&);
 };
 
 const std::vector<ChangeType>& all_changes();

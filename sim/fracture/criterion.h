@@ -4,6 +4,7 @@
 // Adding one: a file with a function `CriterionType my_criterion()`, and its name in all_criteria().
 #pragma once
 
+#include "sim/fracture/cell.h"
 #include "sim/program/program.h"
 
 #include <functional>
@@ -15,14 +16,18 @@ namespace rend {
 
 // Where a change may happen, and how badly.
 struct Candidate {
-  double value = 0; // in the criterion's unit, above the threshold
-  Dart dart;        // the smallest of the cell
+  double value = 0;           // in the criterion's unit, above the threshold
+  Dart dart;                  // the smallest of the cell
+  Vec3 normal = Vec3::Zero(); // of a vertex: unit, of the plane that would part it
 };
 
 // The state a law looks at.
 struct ForceView {
   const EmbeddedMap& map;
+  const Program& program;
+  const MassColumn& mass;
   const Record* position; // [m], one per vertex slot
+  const Record* velocity; // [m/s], one per vertex slot
   const Record* force;    // internal [N], one per vertex slot
   const Record* corner;   // internal [N], one per corner slot: the share of each element; null unless asked for
 };
@@ -30,21 +35,30 @@ struct ForceView {
 class Criterion {
 public:
   virtual ~Criterion() = default;
+  // Appends what exceeds the threshold, in any order that is a function of the state and the map alone.
   virtual void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) = 0;
   virtual void rebind(const Changes& changes) = 0;
   virtual void reserve_for_separations() = 0; // see EmbeddedMap
   virtual std::size_t bytes() const = 0;
 };
 
-// The cell that a criterion measures, or a change acts on.
-enum class Cell { Borders, Vertices, Elements, Springs };
+// The body and the law that a criterion is made for.
+struct CriterionRequest {
+  EmbeddedMap& map;
+  const std::vector<std::unique_ptr<Interaction>>& interactions;
+  const MassColumn& mass;
+  std::string kind;         // of springs: "stretch", "shear", "bend"; empty: not said
+  bool compression = false; // negative eigenvalues count as well
+};
 
 struct CriterionType {
   std::string name, what, unit;
-  Cell cell;
   bool elementary; // needs the forces of each element by itself
-  std::string default_change;
-  std::unique_ptr<Criterion> (*make)(EmbeddedMap&);
+  // The cell that it measures there.
+  Cell (*cell)(const CriterionRequest&);
+  // What the body, or what was said of it, lacks for this criterion, as a sentence; empty: nothing.
+  std::string (*lacking)(const CriterionRequest&);
+  std::unique_ptr<Criterion> (*make)(const CriterionRequest&);
 };
 
 const std::vector<CriterionType>& all_criteria();

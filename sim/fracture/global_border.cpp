@@ -64,10 +64,12 @@ CriterionType global_border() {
   return {"global-border",
           "|sum of the internal forces of the shared vertices, across the border|",
           "N",
-          Cell::Borders,
           false,
-          "separate",
-          [](EmbeddedMap& map) -> std::unique_ptr<Criterion> { return std::make_unique<GlobalBorder>(map); }};
+          [](const CriterionRequest&) { return Cell::Borders; },
+          [](const CriterionRequest&) { return std::string(); },
+          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+            return std::make_unique<GlobalBorder>(request.map);
+          }};
 }
 
 } // namespace rend

@@ -4,8 +4,8 @@
 
 namespace rend {
 
-TearLaw::TearLaw(EmbeddedMap& map, const LawSettings& settings)
-    : settings_(settings), criterion_(settings.criterion->make(map)) {}
+TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
+    : settings_(settings), criterion_(settings.criterion->make(request)) {}
 
 const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   candidates_.clear();
@@ -21,10 +21,10 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
   map.edit([&](Edit& edit) {
     for (const Candidate& candidate : candidates_) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
-      const Vec3 a = view.position[map.vertex(candidate.dart)];
-      const Vec3 b = view.position[map.vertex(map.map().alpha(0, candidate.dart))];
-      if (!settings_.change->apply(edit, view, candidate)) continue;
-      events.push_back({0, 0, 0, candidate.value, candidate.dart, 0.5 * (a + b)});
+      if (!map.map().alive(candidate.dart)) continue; // it went with another
+      const Vec3 place = middle_of(map, view.position, settings_.cell, candidate.dart);
+      if (!settings_.change->apply(edit, view, settings_.cell, candidate)) continue;
+      events.push_back({0, 0, 0, candidate.value, candidate.dart, place});
       ++made;
     }
   });

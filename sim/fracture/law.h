@@ -14,9 +14,14 @@ namespace rend {
 struct LawSettings {
   const CriterionType* criterion = nullptr;
   const ChangeType* change = nullptr;
+  Cell cell = Cell::Borders; // of the criterion, on its body
+  std::string kind;          // of springs: CriterionRequest
+  bool compression = false;
   double threshold = 0;
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   int max_per_step = 0;                                             // 0: any number
+
+  bool elementary() const { return criterion->elementary || change->elementary(cell); }
 };
 
 // One applied change.
@@ -31,7 +36,7 @@ struct TearEvent {
 
 class TearLaw {
 public:
-  TearLaw(EmbeddedMap& map, const LawSettings& settings);
+  TearLaw(const CriterionRequest& request, const LawSettings& settings);
 
   const LawSettings& settings() const { return settings_; }
   bool active(double time) const { return time >= settings_.from && time <= settings_.until; }

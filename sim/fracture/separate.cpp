@@ -5,12 +5,15 @@
 namespace rend {
 
 ChangeType separate() {
-  return {"separate",
-          "the two elements at the border let go of each other",
-          {Cell::Borders},
-          [](Edit& edit, const ForceView&, const Candidate& candidate) {
-            return unsew(edit, edit.map().dimension(), candidate.dart);
-          }};
+  return {
+      "separate",
+      "the two elements at the border let go of each other",
+      Cell::Borders,
+      [](Cell cell, int dimension) { return cell == Cell::Borders || (cell == Cell::Edges && dimension == 2); },
+      [](Cell) { return false; },
+      [](Edit& edit, const ForceView&, Cell, const Candidate& candidate) {
+        return unsew(edit, edit.map().dimension(), candidate.dart);
+      }};
 }
 
 } // namespace rend

@@ -18,8 +18,8 @@ Body::~Body() {
 }
 
 void Body::prepare(const Scheme& scheme, bool walk, int threads) {
-  const bool elementary = std::any_of(laws.begin(), laws.end(),
-                                      [](const TearLaw& law) { return law.settings().criterion->elementary; });
+  const bool elementary =
+      std::any_of(laws.begin(), laws.end(), [](const TearLaw& law) { return law.settings().elementary(); });
   ProgramOptions options;
   options.elementary = elementary;
   options.folded = !elementary || scheme.evaluations > 1;
@@ -77,18 +77,31 @@ void Body::evaluate() {
   load = loads.evaluate(*map, time_, x, v);
 }
 
+ForceView Body::view() const {
+  return {*map,
+          *program,
+          *mass,
+          map->position().values().data(),
+          map->velocity().values().data(),
+          force.data(),
+          corner_force.empty() ? nullptr : corner_force.data()};
+}
+
+CriterionRequest Body::request_for(const LawSettings& law) const {
+  return {*map, interactions, *mass, law.kind, law.compression};
+}
+
 int Body::tear(double time, long number, const std::function<void()>& sound) {
   int made = 0;
   for (std::size_t n = 0; n < laws.size(); ++n) {
     TearLaw& law = laws[n];
     if (!law.active(time)) continue;
-    const ForceView view{*map, map->position().values().data(), force.data(),
-                         corner_force.empty() ? nullptr : corner_force.data()};
-    if (law.find(view).empty()) continue;
+    const ForceView now = view();
+    if (law.find(now).empty()) continue;
     sound();
     const double start = seconds_now();
     const std::size_t before = events.size();
-    const int changed = law.apply(*map, view, events);
+    const int changed = law.apply(*map, now, events);
     for (std::size_t e = before; e < events.size(); ++e) {
       events[e].time = time;
       events[e].step = number;

@@ -37,7 +37,8 @@ struct Body final : System {
   std::string name;
   const Node* node = nullptr; // of the preset, for those who read more of it (look)
   std::unique_ptr<EmbeddedMap> map;
-  std::map<std::string, std::vector<Slot>> groups; // of the mesh file: increasing slots of vertices, at the start
+  std::map<std::string, std::vector<Slot>>
+      groups; // of the mesh file: increasing slots of vertices, at the start
   MassColumn* mass = nullptr;
   DragColumn* drag = nullptr;     // null: no viscosity per particle
   BorderColumn* border = nullptr; // null: nothing tears
@@ -77,7 +78,9 @@ struct Body final : System {
                      double by_velocity, BlockMatrix& out) override;
   void hold(double time, std::uint8_t* axes) override;
 
-  void evaluate();                      // force and corner_force of the current state
+  void evaluate();        // force and corner_force of the current state
+  ForceView view() const; // of that
+  CriterionRequest request_for(const LawSettings& law) const;
   double time() const { return time_; } // [s], of the current state
 
   // Criteria, changes, rebinding; returns how many changes. Before anything is changed, `sound` may throw.

@@ -23,6 +23,8 @@ const ElementType& tear_type() {
          number("threshold", "N", "the value above which it tears; rend run --events tells what was reached")
              .above(0)
              .is_required(),
+         word("kind", {"stretch", "shear", "bend"}, "of springs: which of them are measured"),
+         flag("compression", "principal stresses and strains count in compression as well").otherwise("no"),
          word("change", changes, "what is done; default: that of the criterion"),
          number("from", "s", "not before").at_least(0).otherwise("0"),
          number("until", "s", "not after").at_least(0),
@@ -32,20 +34,31 @@ const ElementType& tear_type() {
   return type;
 }
 
-LawSettings law_settings(const Node& node) {
+// The change that was asked for, or the one that is the cell's own.
+const ChangeType* change_of(const Node& node, const CriterionType& criterion, Cell cell, int dimension) {
+  std::string fitting;
+  for (const ChangeType& type : all_changes()) {
+    if (!type.fits(cell, dimension)) continue;
+    fitting += (fitting.empty() ? "" : ", ") + type.name;
+    if (node.given("change") ? type.name == node.text("change") : type.own == cell) return &type;
+  }
+  node.fail("change",
+            fmt::format("'{}' does not fit the criterion '{}', which measures the {}", node.text("change"),
+                        criterion.name, name_of(cell, dimension)),
+            "these do: " + fitting);
+}
+
+LawSettings law_settings(const Node& node, const Body& body) {
   LawSettings law;
   for (const CriterionType& type : all_criteria())
     if (type.name == node.text("criterion")) law.criterion = &type;
-  const std::string& change = node.given("change") ? node.text("change") : law.criterion->default_change;
-  std::string fitting;
-  for (const ChangeType& type : all_changes()) {
-    const bool fits = std::find(type.cells.begin(), type.cells.end(), law.criterion->cell) != type.cells.end();
-    if (fits) fitting += (fitting.empty() ? "" : ", ") + type.name;
-    if (fits && type.name == change) law.change = &type;
-  }
-  if (!law.change)
-    node.fail("change", fmt::format("'{}' does not fit the criterion '{}'", change, law.criterion->name),
-              "these do: " + fitting);
+  if (node.given("kind")) law.kind = node.text("kind");
+  law.compression = node.flag("compression");
+  const CriterionRequest request = body.request_for(law);
+  if (const std::string lacking = law.criterion->lacking(request); !lacking.empty())
+    node.fail("criterion", fmt::format("'{}' {}", law.criterion->name, lacking));
+  law.cell = law.criterion->cell(request);
+  law.change = change_of(node, *law.criterion, law.cell, request.map.dimension());
   law.threshold = node.number("threshold");
   law.from = node.number("from");
   if (node.given("until")) law.until = node.number("until");
@@ -66,15 +79,12 @@ void build_laws(Body& body, const Node& node) {
     body.left_out.push_back("tearing: no law, so no criterion is bound and no border is remembered");
     return;
   }
-  if (body.map->dimension() == 3)
-    throw UserError(Exit::BadInput, laws.front()->place(),
-                    "a solid does not tear yet: its laws act on sheets alone",
-                    "leave <tear> out, or make the body a <sheet>");
   body.border = &body.map->add(BornBorder(body.map->dimension()));
   for (const Node* law : laws) {
-    body.laws.emplace_back(*body.map, law_settings(*law));
-    if (body.laws.back().settings().criterion->elementary && body.cumulated == Cumulated::Yes)
-      law->fail("criterion", "looks at each spring by itself, and cumulated=\"yes\" folds them",
+    const LawSettings settings = law_settings(*law, body);
+    body.laws.emplace_back(body.request_for(settings), settings);
+    if (body.laws.back().settings().elementary() && body.cumulated == Cumulated::Yes)
+      law->fail("criterion", "looks at each element by itself, and cumulated=\"yes\" folds what they do",
                 "leave cumulated at auto");
   }
 }

@@ -166,8 +166,10 @@ inline std::unique_ptr<Body> body(const PolygonMesh& mesh, const Recipe& recipe 
   if (recipe.fixed) made->constraints.add(*made->map, Motion{}, {made->map->vertex(Dart{0u})});
   made->cumulated = recipe.cumulated;
   if (!recipe.criteria.empty()) made->border = &made->map->add(BornBorder{});
-  for (const std::string& name : recipe.criteria)
-    made->laws.emplace_back(*made->map, law(name, recipe.threshold));
+  for (const std::string& name : recipe.criteria) {
+    const LawSettings settings = law(name, recipe.threshold);
+    made->laws.emplace_back(made->request_for(settings), settings);
+  }
   made->prepare(*find_scheme(recipe.scheme), false, recipe.threads);
   return made;
 }

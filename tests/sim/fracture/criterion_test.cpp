@@ -21,15 +21,11 @@ std::unique_ptr<Body> strained(const PolygonMesh& mesh, double threshold, const 
   return made;
 }
 
-ForceView view_of(const Body& body) {
-  return {*body.map, positions(body), body.force.data(), body.corner_force.data()};
-}
-
 // Both criteria's values at all edges are those of the polygons.
 void expect_values_of(Body& body, const BruteForce& brute) {
   for (TearLaw& law : body.laws) {
     const bool atomic = law.settings().criterion->elementary;
-    const std::vector<Candidate> found = law.find(view_of(body));
+    const std::vector<Candidate> found = law.find(body.view());
     const std::map<Dart, double> expected = brute.border_values(*body.map, atomic);
     double most = 0;
     for (const auto& [dart, value] : expected) most = std::max(most, value);
@@ -63,7 +59,7 @@ TEST(Criterion, measures_by_each_interaction_alone_what_its_definition_says) {
       brute.add(spring);
       for (TearLaw& law : body->laws) {
         const auto expected = brute.border_values(*body->map, law.settings().criterion->elementary);
-        for (const Candidate& c : law.find(view_of(*body))) EXPECT_NEAR(c.value, expected.at(c.dart), 1e-11);
+        for (const Candidate& c : law.find(body->view())) EXPECT_NEAR(c.value, expected.at(c.dart), 1e-11);
       }
     }
   }
@@ -103,7 +99,7 @@ TEST(Criterion, does_not_depend_on_which_way_round_the_faces_are_walked) {
       }
   two->evaluate();
   for (std::size_t n = 0; n < 2; ++n) {
-    const auto a = one->laws[n].find(view_of(*one)), b = two->laws[n].find(view_of(*two));
+    const auto a = one->laws[n].find(one->view()), b = two->laws[n].find(two->view());
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t c = 0; c < a.size(); ++c) EXPECT_NEAR(a[c].value, b[c].value, 1e-11 * a[0].value);
   }
@@ -115,7 +111,7 @@ TEST(Law, finds_what_exceeds_the_threshold_by_falling_value) {
   brute.look_at(*body);
   for (const Spring& spring : all_springs()) brute.add(spring);
   for (TearLaw& law : body->laws) {
-    const std::vector<Candidate> found = law.find(view_of(*body));
+    const std::vector<Candidate> found = law.find(body->view());
     const auto all = brute.border_values(*body->map, law.settings().criterion->elementary);
     const auto above = std::count_if(all.begin(), all.end(), [](const auto& v) { return v.second > 20; });
     EXPECT_EQ(found.size(), static_cast<std::size_t>(above));
@@ -134,7 +130,7 @@ TEST(Law, breaks_ties_by_the_smallest_dart) {
   for (Slot v = 0; v < body->program->vertices(); ++v) // the middle column is moved, and mirrors itself
     if (body->map->rest()[v].x == 2) body->map->position()[v].x = 2.5;
   body->evaluate();
-  const ForceView view{*body->map, positions(*body), body->force.data(), nullptr};
+  const ForceView view = body->view();
   const std::vector<Candidate> found = body->laws[0].find(view);
   int ties = 0;
   for (std::size_t n = 1; n < found.size(); ++n) {
@@ -150,8 +146,8 @@ TEST(Law, makes_at_most_so_many_changes_a_step_and_the_worst_first) {
   const auto body = strained(warped(sheet(SheetPattern::Quads, 5, 5), 0.2, 8), 5, all_springs());
   LawSettings settings = body->laws[0].settings();
   settings.max_per_step = 3;
-  TearLaw law(*body->map, settings);
-  const ForceView view = view_of(*body);
+  TearLaw law(body->request_for(settings), settings);
+  const ForceView view = body->view();
   const std::vector<Candidate> found = law.find(view);
   ASSERT_GT(found.size(), 3u);
   std::vector<TearEvent> events;
@@ -170,14 +166,14 @@ TEST(Law, makes_at_most_so_many_changes_a_step_and_the_worst_first) {
 
 TEST(Separate, opens_an_edge_once) {
   const auto body = strained(sheet(SheetPattern::Quads, 2, 1), 1e-9, all_springs());
-  const ForceView view = view_of(*body);
+  const ForceView view = body->view();
   Dart inner;
   body->map->map().for_each_dart([&](Dart d) {
     if (!body->map->map().is_free(2, d)) inner = d;
   });
   body->map->edit([&](Edit& edit) {
-    EXPECT_TRUE(all_changes().front().apply(edit, view, {1, inner}));
-    EXPECT_FALSE(all_changes().front().apply(edit, view, {1, inner}));
+    EXPECT_TRUE(all_changes().front().apply(edit, view, Cell::Borders, {1, inner, {}}));
+    EXPECT_FALSE(all_changes().front().apply(edit, view, Cell::Borders, {1, inner, {}}));
   });
   EXPECT_EQ(body->map->cells(Vertex).count(), 8u);
 }

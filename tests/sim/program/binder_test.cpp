@@ -47,11 +47,10 @@ std::string stale(Body& body, const Surface* surface) {
   if (!body.constraints.motions().empty() && body.constraints.vertices() != prescribed(body))
     return "constraints";
   body.evaluate();
-  const ForceView view{*body.map, positions(body), body.force.data(),
-                       body.corner_force.empty() ? nullptr : body.corner_force.data()};
+  const ForceView view = body.view();
   for (TearLaw& law : body.laws) {
     LawSettings settings = law.settings();
-    TearLaw anew(*body.map, settings);
+    TearLaw anew(body.request_for(settings), settings);
     if (!same_candidates(law.find(view), anew.find(view))) return "candidates of " + settings.criterion->name;
   }
   return {};

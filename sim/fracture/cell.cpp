@@ -1,0 +1,49 @@
+#include "sim/fracture/cell.h"
+
+#include "sim/mechanics/mass.h"
+#include "sim/topology/walk.h"
+
+#include <algorithm>
+
+namespace rend {
+
+Orbit orbit_of(Cell cell, int dimension) {
+  switch (cell) {
+  case Cell::Edges:
+    return Edge;
+  case Cell::Borders:
+    return dimension == 2 ? Edge : Face;
+  case Cell::Vertices:
+    return Vertex;
+  case Cell::Elements:
+    return element_orbit(dimension);
+  }
+  return {};
+}
+
+std::string name_of(Cell cell, int dimension) {
+  switch (cell) {
+  case Cell::Edges:
+    return "edge";
+  case Cell::Borders:
+    return dimension == 2 ? "edge" : "face";
+  case Cell::Vertices:
+    return "vertex";
+  case Cell::Elements:
+    return dimension == 2 ? "face" : "volume";
+  }
+  return {};
+}
+
+Vec3 middle_of(const EmbeddedMap& map, const Record* x, Cell cell, Dart d) {
+  if (cell == Cell::Vertices) return x[map.vertex(d)].vec();
+  std::vector<Slot> vertices;
+  for (Dart e : darts_of(map.map(), orbit_of(cell, map.dimension()), d)) vertices.push_back(map.vertex(e));
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  Vec3 sum = Vec3::Zero();
+  for (Slot v : vertices) sum += x[v].vec();
+  return sum / static_cast<double>(vertices.size());
+}
+
+} // namespace rend

@@ -1,0 +1,23 @@
+// The cells that criteria measure and changes act on.
+#pragma once
+
+#include "sim/embedding/embedded_map.h"
+
+#include <string>
+
+namespace rend {
+
+enum class Cell {
+  Edges,
+  Borders,  // between two elements: an edge of a sheet, a face of a solid
+  Vertices, // with the plane that would part it
+  Elements, // a face of a sheet, a volume of a solid
+};
+
+Orbit orbit_of(Cell cell, int dimension);
+std::string name_of(Cell cell, int dimension); // "edge", "face" ...
+
+// The mean of the positions [m, one per vertex slot] of its vertices.
+Vec3 middle_of(const EmbeddedMap& map, const Record* position, Cell cell, Dart d);
+
+} // namespace rend
