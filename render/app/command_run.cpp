@@ -50,7 +50,9 @@ bool answers_hold(const Scene& scene) {
 
 Exit run(const RunOptions& options) {
   const double start = wall_clock();
-  Session session(options.session);
+  SessionOptions wanted = options.session;
+  wanted.births = !options.events.empty();
+  Session session(wanted);
   const Stopped stopped = simulate(session, options);
   Costs costs;
   costs.total = wall_clock() - start;

@@ -7,6 +7,8 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 namespace rend {
 namespace {
 
@@ -128,6 +130,42 @@ Json answers_json(const Scene& scene) {
   return answers;
 }
 
+// What each law did, whether it did anything or not.
+Json laws_json(const Scene& scene) {
+  Json laws = Json::array();
+  for (const auto& body : scene.bodies()) {
+    for (std::size_t n = 0; n < body->laws.size(); ++n) {
+      const LawSettings& law = body->laws[n].settings();
+      const auto made = [&](const TearEvent& event) { return event.law == static_cast<int>(n); };
+      const auto first = std::find_if(body->events.begin(), body->events.end(), made);
+      laws.push_back({{"body", body->name},
+                      {"criterion", law.criterion->name},
+                      {"change", law.change->name},
+                      {"threshold", law.threshold},
+                      {"unit", law.criterion->unit},
+                      {"tears", std::count_if(body->events.begin(), body->events.end(), made)},
+                      {"first", first == body->events.end() ? Json(nullptr) : Json(first->time)}});
+    }
+  }
+  return laws;
+}
+
+std::string laws_in_words(const Json& laws) {
+  std::string out;
+  for (const Json& law : laws) {
+    const auto text = [&](const char* name) { return law[name].get<std::string>(); };
+    const auto tears = law["tears"].get<std::size_t>();
+    out += fmt::format("             {} of '{}' above {:.6g} {}, {}: {}", text("criterion"), text("body"),
+                       law["threshold"].get<double>(), text("unit"), text("change"),
+                       tears == 0   ? "never"
+                       : tears == 1 ? "once"
+                                    : fmt::format("{} times", tears));
+    if (tears > 0) out += fmt::format(", first at {:.6g} s", law["first"].get<double>());
+    out += "\n";
+  }
+  return out;
+}
+
 std::string answers_in_words(const Json& answers) {
   std::string out;
   for (const Json& a : answers) {
@@ -198,6 +236,7 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
                {"darts", darts},
                {"fragments", fragments_of(scene)},
                {"tears", scene.tears()}};
+  figures["laws"] = laws_json(scene);
   figures["stopped"] = stopped == Stopped::Unstable      ? Json("unstable")
                        : stopped == Stopped::Interrupted ? Json("interrupted")
                                                          : Json(nullptr);
@@ -229,6 +268,7 @@ std::string summary_of(const Json& f) {
                      count("darts"));
   out += fmt::format("  tearing    {} tears, {} fragment{}\n", count("tears"), count("fragments"),
                      count("fragments") == 1 ? "" : "s");
+  out += laws_in_words(f["laws"]);
   out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n",
                      number("energy", "kinetic"), number("energy", "elastic"), number("energy", "gravity"));
   out += "  rows       ";

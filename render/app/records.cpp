@@ -11,6 +11,8 @@
 namespace rend {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 void write_text(OutputFile& file, const std::string& text) {
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
@@ -92,15 +94,20 @@ void EventFile::write(const Scene& scene) {
   std::string text;
   for (const auto& [body, event] : entries) {
     const LawSettings& law = body->laws[static_cast<std::size_t>(event->law)].settings();
-    const nlohmann::ordered_json line{{"time", event->time},
-                                      {"step", event->step},
-                                      {"body", body->name},
-                                      {"criterion", law.criterion->name},
-                                      {"value", event->value},
-                                      {"threshold", law.threshold},
-                                      {"change", law.change->name},
-                                      {"cell", event->dart.value},
-                                      {"position", {event->place.x(), event->place.y(), event->place.z()}}};
+    const Json line{{"time", event->time},
+                    {"step", event->step},
+                    {"body", body->name},
+                    {"criterion", law.criterion->name},
+                    {"kind", law.kind.empty() ? Json(nullptr) : Json(law.kind)},
+                    {"value", event->value},
+                    {"threshold", law.threshold},
+                    {"unit", law.criterion->unit},
+                    {"change", law.change->name},
+                    {"cell", name_of(law.cell, body->map->dimension())},
+                    {"dart", event->dart.value},
+                    {"position", {event->place.x(), event->place.y(), event->place.z()}},
+                    {"fragments", event->fragments},
+                    {"born", event->born}};
     text += line.dump() + "\n";
   }
   write_text(file_, text);

@@ -26,7 +26,8 @@ private:
   bool any_ = false; // rows that are not held
 };
 
-// Topological changes as JSON, one a line, in the order of time; of one step, in the order of bodies.
+// Topological changes as JSON, one a line, in the order of time; of one step, in the order of bodies. To be written of
+// scenes with births alone (SceneOptions).
 class EventFile {
 public:
   explicit EventFile(const std::filesystem::path& path); // throws UserError (CannotCreate)

@@ -53,7 +53,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
   image_ = image_settings(*preset_);
   if (options.fps) image_.fps = *options.fps;
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
-  scene_ = std::make_unique<Scene>(*preset_, SceneOptions{options.kernels == "walk", threads});
+  scene_ = std::make_unique<Scene>(*preset_, SceneOptions{options.kernels == "walk", threads, options.births});
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
@@ -111,7 +111,19 @@ Stopped Session::loop(long last_frame, const Calls& calls, double& away) {
   }
 }
 
+namespace {
+
+void say_what_is_gone(const Scene& scene) {
+  for (const auto& body : scene.bodies())
+    if (body->gone)
+      print_note(fmt::format("body '{}' is gone: every element of it was deleted at {:.6g} s", body->name,
+                             *body->gone));
+}
+
+} // namespace
+
 Exit end_of(const Session& session, Stopped stopped) {
+  if (!session.quiet()) say_what_is_gone(session.scene());
   if (stopped == Stopped::No) return Exit::Done;
   if (stopped == Stopped::Unstable) {
     print_error(session.failure()->what(), session.failure()->hint);

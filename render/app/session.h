@@ -27,6 +27,7 @@ struct SessionOptions {
   std::string kernels = "flat";  // or walk
   bool quiet = false;
   bool allow_path = false; // meshes from anywhere
+  bool births = false;     // events tell how many fragments there are
 };
 void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set
 void add_run_options(CLI::App& app, SessionOptions& options);    // those, and how it is run
@@ -74,7 +75,7 @@ private:
   double step_seconds_ = 0;
 };
 
-// The exit code of a run; says what went wrong, if anything did.
+// The exit code of a run; says what went wrong, if anything did, and which bodies are gone.
 Exit end_of(const Session& session, Stopped stopped);
 
 double wall_clock(); // [s], since any moment

@@ -25,5 +25,11 @@ struct ChangeType {
 const std::vector<ChangeType>& all_changes();
 
 ChangeType separate();
+ChangeType delete_element();
+ChangeType split_vertex();
+ChangeType delete_edge();
+
+// The element of d lets go of all its neighbours and is removed.
+void remove_element_of(Edit& edit, Dart d);
 
 } // namespace rend

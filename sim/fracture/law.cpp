@@ -16,15 +16,17 @@ const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   return candidates_;
 }
 
-int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events) {
+int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events, Births* births) {
   int made = 0;
   map.edit([&](Edit& edit) {
+    if (births) births->begin();
     for (const Candidate& candidate : candidates_) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
       if (!map.map().alive(candidate.dart)) continue; // it went with another
       const Vec3 place = middle_of(map, view.position, settings_.cell, candidate.dart);
       if (!settings_.change->apply(edit, view, settings_.cell, candidate)) continue;
-      events.push_back({0, 0, 0, candidate.value, candidate.dart, place});
+      events.push_back({.value = candidate.value, .dart = candidate.dart, .place = place});
+      if (births) births->note(*edit.journal());
       ++made;
     }
   });

@@ -4,6 +4,7 @@
 // first, ties by smallest dart, each checked again for being still possible; and the map is brought up to date once.
 #pragma once
 
+#include "sim/fracture/births.h"
 #include "sim/fracture/change.h"
 #include "sim/fracture/criterion.h"
 
@@ -24,16 +25,6 @@ struct LawSettings {
   bool elementary() const { return criterion->elementary || change->elementary(cell); }
 };
 
-// One applied change.
-struct TearEvent {
-  double time = 0; // [s]
-  long step = 0;
-  int law = 0; // of its body
-  double value = 0;
-  Dart dart;
-  Vec3 place = Vec3::Zero(); // [m], the middle of the cell
-};
-
 class TearLaw {
 public:
   TearLaw(const CriterionRequest& request, const LawSettings& settings);
@@ -44,8 +35,9 @@ public:
   // What exceeds the threshold, sorted. Looks, and changes nothing.
   const std::vector<Candidate>& find(const ForceView& view);
 
-  // Makes the changes that find() asked for. Returns how many were made; appends an event for each.
-  int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events);
+  // Makes the changes that find() asked for. Returns how many were made; appends an event for each, and what it undid
+  // to `births`, if there is one.
+  int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events, Births* births = nullptr);
 
   void rebind(const Changes& changes) { criterion_->rebind(changes); }
   void reserve_for_separations() { criterion_->reserve_for_separations(); }

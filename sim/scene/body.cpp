@@ -92,25 +92,30 @@ CriterionRequest Body::request_for(const LawSettings& law) const {
 }
 
 int Body::tear(double time, long number, const std::function<void()>& sound) {
+  const std::size_t before = events.size();
   int made = 0;
-  for (std::size_t n = 0; n < laws.size(); ++n) {
-    TearLaw& law = laws[n];
-    if (!law.active(time)) continue;
-    const ForceView now = view();
-    if (law.find(now).empty()) continue;
-    sound();
-    const double start = seconds_now();
-    const std::size_t before = events.size();
-    const int changed = law.apply(*map, now, events);
-    for (std::size_t e = before; e < events.size(); ++e) {
-      events[e].time = time;
-      events[e].step = number;
-      events[e].law = static_cast<int>(n);
-    }
-    made += changed;
-    change_seconds += seconds_now() - start;
-    if (changed > 0) follow_changes();
+  for (std::size_t n = 0; n < laws.size(); ++n)
+    if (laws[n].active(time)) made += apply_law(n, time, number, sound);
+  if (made == 0) return 0;
+  if (births) births->settle(map->map(), std::span(events).subspan(before));
+  if (map->map().dart_count() == 0 && !gone) gone = time;
+  return made;
+}
+
+int Body::apply_law(std::size_t number, double time, long step, const std::function<void()>& sound) {
+  const ForceView now = view();
+  if (laws[number].find(now).empty()) return 0;
+  sound();
+  const double start = seconds_now();
+  const std::size_t before = events.size();
+  const int made = laws[number].apply(*map, now, events, births.get());
+  for (std::size_t e = before; e < events.size(); ++e) {
+    events[e].time = time;
+    events[e].step = step;
+    events[e].law = static_cast<int>(number);
   }
+  change_seconds += seconds_now() - start;
+  if (made > 0) follow_changes();
   return made;
 }
 

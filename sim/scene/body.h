@@ -61,6 +61,8 @@ struct Body final : System {
   State next;      // where the integrator writes: the old state stays whole until the step is kept
   Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
+  std::unique_ptr<Births> births; // null: nobody asks how many fragments each change left
+  std::optional<double> gone;     // [s], when the last element was deleted; the body goes on with nothing
 
   ~Body() override;
   bool tears() const { return !laws.empty(); }
@@ -92,6 +94,7 @@ struct Body final : System {
   double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
 
 private:
+  int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   void follow_changes();
   double time_ = 0, next_time_ = 0; // [s], of the current state and of `next`
 };

@@ -73,12 +73,35 @@ std::vector<ChildType> law_types() {
   return {{&tear_type(), 0, -1}};
 }
 
+namespace {
+
+// Every vertex is prescribed in all its coordinates, for good, and none of them ever moves.
+bool wholly_fixed(const Body& body) {
+  const CellIndex& vertices = body.map->cells(Vertex);
+  if (body.constraints.drives() || body.constraints.vertices().size() < vertices.count()) return false;
+  for (Slot v : body.constraints.vertices()) {
+    std::array<bool, 3> held{};
+    body.constraints.for_each_motion(v, [&](const Motion& motion) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        held[axis] = held[axis] || (motion.axes[axis] && !motion.then_free);
+    });
+    if (!held[0] || !held[1] || !held[2]) return false;
+  }
+  return true;
+}
+
+} // namespace
+
 void build_laws(Body& body, const Node& node) {
   const std::vector<const Node*> laws = node.all("tear");
   if (laws.empty()) {
     body.left_out.push_back("tearing: no law, so no criterion is bound and no border is remembered");
     return;
   }
+  if (wholly_fixed(body))
+    body.notes.push_back(
+        "tearing: every vertex is fixed, so that nothing moves and a law sees the same forces in "
+        "every step");
   body.border = &body.map->add(BornBorder(body.map->dimension()));
   for (const Node* law : laws) {
     const LawSettings settings = law_settings(*law, body);

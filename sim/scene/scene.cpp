@@ -40,6 +40,7 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
                       fmt::format("two bodies are called '{}'", node->text("name")),
                       "give each a name of its own");
     bodies_.push_back(build_body(*node, world_.gravity, world_.floor));
+    if (options.births) bodies_.back()->births = std::make_unique<Births>();
     if (world_.wind) bodies_.back()->loads.set(WindLoad(*bodies_.back()->map, *world_.wind));
   }
   check_probes(preset);

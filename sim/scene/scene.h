@@ -16,6 +16,7 @@ struct World {
 struct SceneOptions {
   bool walk = false; // --kernels walk
   int threads = 1;
+  bool births = false; // events tell how many fragments there are
 };
 
 // Wall-clock seconds by stage; those of step() are sampled every few steps and scaled up.

@@ -2,7 +2,7 @@
 // from.
 //
 // The journal: for every i, the darts whose αi changed; the darts created; the darts removed. A dart may stand
-// in it more than once.
+// in it more than once. Touched darts come in pairs, those that were linked to each other or let go of each other.
 #pragma once
 
 #include "sim/topology/gmap.h"
@@ -26,6 +26,7 @@ public:
   explicit MapEdit(GMap& map, Journal* journal = nullptr) : map_(map), journal_(journal) {}
 
   const GMap& map() const { return map_; }
+  const Journal* journal() const { return journal_; } // null: without one
 
   Dart add_dart();                  // free in all its links
   void remove_dart(Dart d);         // CHECK: free in all its links

@@ -1,0 +1,24 @@
+// Delete-edge: every element that holds the edge is deleted (thesis 7.3.4, after Norton et al. 1991). The other way of
+// removing an edge, by splitting one of its ends, is split-vertex on a criterion of edges.
+#include "sim/fracture/change.h"
+
+#include "sim/topology/walk.h"
+
+namespace rend {
+
+ChangeType delete_edge() {
+  return {
+      "delete-edge",
+      "every element that holds the edge is gone; its other variant is split-vertex, which splits one of the "
+      "edge's ends",
+      Cell::Edges,
+      [](Cell cell, int) { return cell == Cell::Edges; },
+      [](Cell) { return false; },
+      [](Edit& edit, const ForceView&, Cell, const Candidate& candidate) {
+        for (Dart d : darts_of(edit.map(), Edge, candidate.dart))
+          if (edit.map().alive(d)) remove_element_of(edit, d);
+        return true;
+      }};
+}
+
+} // namespace rend

@@ -1,0 +1,28 @@
+// Delete-element: every border of an element lets go, and its darts are removed (thesis 7.3.2, fig. 7.7).
+#include "sim/fracture/change.h"
+
+#include "sim/mechanics/mass.h"
+#include "sim/topology/walk.h"
+
+namespace rend {
+
+void remove_element_of(Edit& edit, Dart d) {
+  const int dimension = edit.map().dimension();
+  const Orbit element = element_orbit(dimension);
+  for (Dart e : darts_of(edit.map(), element, d)) unsew(edit, dimension, e);
+  remove_orbit(edit, element, d);
+}
+
+ChangeType delete_element() {
+  return {"delete-element",
+          "the element lets go of all its neighbours and is gone",
+          Cell::Elements,
+          [](Cell cell, int) { return cell == Cell::Elements; },
+          [](Cell) { return false; },
+          [](Edit& edit, const ForceView&, Cell, const Candidate& candidate) {
+            remove_element_of(edit, candidate.dart);
+            return true;
+          }};
+}
+
+} // namespace rend

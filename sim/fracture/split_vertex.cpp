@@ -1,0 +1,109 @@
+// Split-vertex: the elements around a vertex are parted by a plane through it (thesis 7.3.3, after O'Brien & Hodgins
+// 1999), without cutting any of them:
+//
+//   side of element e = [(c_e − x)·n ≥ 0],   c_e the mean of its corners
+//
+// and every border at the vertex between elements of different sides is separated. Of an edge, one end is split, the
+// plane across the edge: that end A where the elements that hold the edge pull more along it, by Σ_e |f_e,A · u|.
+#include "sim/fracture/change.h"
+
+#include "sim/base/check.h"
+#include "sim/mechanics/mass.h"
+#include "sim/topology/walk.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rend {
+namespace {
+
+// The slots of the corners that the darts belong to, each once, increasing: of before the edit, which changes none.
+std::vector<Slot> corners_of(const EmbeddedMap& map, const std::vector<Dart>& darts) {
+  const Orbit corner = corner_orbit(map.dimension());
+  std::vector<Slot> slots;
+  for (Dart d : darts) slots.push_back(map.slot(corner, d));
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
+}
+
+Vec3 centre_of_element(const EmbeddedMap& map, const Record* position, Dart d) {
+  const CellIndex& corners = map.cells(corner_orbit(map.dimension()));
+  const std::vector<Slot> slots = corners_of(map, darts_of(map.map(), element_orbit(map.dimension()), d));
+  Vec3 sum = Vec3::Zero();
+  for (Slot c : slots) sum += position[map.vertex(corners.first_dart(c))].vec();
+  return sum / static_cast<double>(slots.size());
+}
+
+// Of every corner at a vertex: whether its element lies on the positive side.
+class Sides {
+public:
+  Sides(const EmbeddedMap& map, const std::vector<Dart>& darts, const Record* position, const Vec3& normal)
+      : map_(map), corner_(corner_orbit(map.dimension())), slots_(corners_of(map, darts)) {
+    const Vec3 here = position[map.vertex(darts.front())];
+    for (Slot c : slots_) {
+      const Dart d = map.cells(corner_).first_dart(c);
+      above_.push_back((centre_of_element(map, position, d) - here).dot(normal) >= 0);
+    }
+  }
+  bool above(Dart d) const {
+    const auto at = std::lower_bound(slots_.begin(), slots_.end(), map_.slot(corner_, d));
+    return above_[static_cast<std::size_t>(at - slots_.begin())];
+  }
+
+private:
+  const EmbeddedMap& map_;
+  Orbit corner_;
+  std::vector<Slot> slots_;
+  std::vector<bool> above_;
+};
+
+bool split(Edit& edit, const ForceView& view, Dart vertex, const Vec3& normal) {
+  const GMap& map = edit.map();
+  const int link = map.dimension();
+  const std::vector<Dart> darts = darts_of(map, Vertex, vertex);
+  const Sides sides(view.map, darts, view.position, normal);
+  bool any = false;
+  for (Dart d : darts) {
+    if (map.is_free(link, d) || sides.above(d) == sides.above(map.alpha(link, d))) continue;
+    unsew(edit, link, d);
+    any = true;
+  }
+  return any;
+}
+
+double pull_at(const ForceView& view, Dart end, const Vec3& along) {
+  double sum = 0;
+  for (Slot c : corners_of(view.map, darts_of(view.map.map(), EdgeEnd, end)))
+    sum += std::abs(view.corner[c].vec().dot(along));
+  return sum;
+}
+
+bool split_an_end(Edit& edit, const ForceView& view, Dart d) {
+  CHECK(view.corner);
+  Dart first = d, second = edit.map().alpha(0, d);
+  Vec3 along = view.position[view.map.vertex(second)].vec() - view.position[view.map.vertex(first)].vec();
+  const double length = along.norm();
+  if (!(length > 0)) return false;
+  along /= length;
+  if (pull_at(view, second, along) > pull_at(view, first, along)) std::swap(first, second);
+  return split(edit, view, first, along) || split(edit, view, second, along);
+}
+
+} // namespace
+
+ChangeType split_vertex() {
+  return {"split-vertex",
+          "the elements at the vertex part where the plane across the force runs between them; of an edge, "
+          "that end is "
+          "split which is pulled more, or else the other",
+          Cell::Vertices,
+          [](Cell cell, int) { return cell == Cell::Vertices || cell == Cell::Edges; },
+          [](Cell cell) { return cell == Cell::Edges; },
+          [](Edit& edit, const ForceView& view, Cell cell, const Candidate& candidate) {
+            return cell == Cell::Edges ? split_an_end(edit, view, candidate.dart)
+                                       : split(edit, view, candidate.dart, candidate.normal);
+          }};
+}
+
+} // namespace rend
