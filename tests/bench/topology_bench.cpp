@@ -1,5 +1,7 @@
 // What a walk, a separation and a subdivision cost. Run alone: cmake -DREND_BENCH=ON, then topology_bench.
+#include "sim/elements.h"
 #include "sim/rules/rules.h"
+#include "sim/surface/solid_surface.h"
 #include "sim/topology/walk.h"
 
 #include <benchmark/benchmark.h>
@@ -136,6 +138,76 @@ void subdivide_sheet(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * 8 * n * n);
 }
 BENCHMARK(subdivide_sheet)->ArgName("side")->Arg(112)->Unit(benchmark::kMillisecond);
+
+// A cube of 6 n³ co-rotational tetrahedra that tears, and what is seen of it.
+struct TornCube {
+  std::unique_ptr<Body> body;
+  std::unique_ptr<SolidSurface> surface;
+  std::vector<Dart>
+      cracks; // faces across x between boxes, plane after plane, each row by row: as a crack grows
+
+  explicit TornCube(int n) : body(elements::elastic_body(cube(n), {})) {
+    body->border = &body->map->add(BornBorder(3));
+    body->map->subscribe(body->changes);
+    body->map->reserve_for_separations();
+    body->program->reserve_for_separations();
+    surface = std::make_unique<SolidSurface>(*body);
+    find_cracks();
+  }
+
+  static std::unique_ptr<EmbeddedMap> cube(int n) {
+    return solid_from(bar_cells({BarPattern::Tetrahedra, n, n, n, Vec3(n, n, n)}));
+  }
+
+  void find_cracks() {
+    const GMap& map = body->map->map();
+    std::vector<std::pair<std::array<double, 3>, Dart>> faces;
+    map.for_each_dart([&](Dart d) {
+      if (map.is_free(3, d) || smallest_dart(map, Face, d) != d) return;
+      const Vec3 a = body->map->rest_of(d), b = body->map->rest_of(map.alpha(0, d)),
+                 c = body->map->rest_of(map.follow(d, std::string_view("101"))), sum = a + b + c;
+      if (a.x() == b.x() && b.x() == c.x()) faces.push_back({{sum.x(), sum.z(), sum.y()}, d});
+    });
+    std::sort(faces.begin(), faces.end());
+    for (const auto& [place, d] : faces) cracks.push_back(d);
+  }
+
+  void follow() {
+    body->rebind();
+    surface->update();
+  }
+};
+
+// One after another, with all that follows: embeddings, program, surface.
+void separate_tetrahedra(benchmark::State& state) {
+  TornCube cube(static_cast<int>(state.range(0)));
+  std::size_t next = 0;
+  for (auto _ : state) {
+    cube.body->map->edit([&](Edit& edit) { unsew(edit, 3, cube.cracks[next]); });
+    cube.follow();
+    ++next;
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(separate_tetrahedra)
+    ->ArgName("boxes")
+    ->Arg(12)
+    ->Arg(55)
+    ->Iterations(3000)
+    ->Unit(benchmark::kMicrosecond);
+
+// Every face of 50,000 tetrahedra in one step.
+void storm(benchmark::State& state) {
+  TornCube cube(20);
+  const double mass = total_mass(*cube.body->map, *cube.body->mass);
+  for (auto _ : state) {
+    cube.body->map->edit([&](Edit& edit) { edit.map().for_each_dart([&](Dart d) { unsew(edit, 3, d); }); });
+    cube.follow();
+  }
+  if (validate(*cube.body->map) || total_mass(*cube.body->map, *cube.body->mass) != mass)
+    state.SkipWithError("the map or the mass is wrong");
+}
+BENCHMARK(storm)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace rend

@@ -1,0 +1,215 @@
+// Storms: all changes, by chance, on every kind of mesh. The map stays valid; nothing moves; what is built upon the map
+// equals what would be built anew; and fragments are counted right after each single change.
+#include "sim/fracture/torn_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace rend {
+namespace {
+
+using namespace torn;
+
+bool same_bits(const Vec3& a, const Vec3& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0;
+}
+
+// What each dart has, by number: place, speed, and its corner's mass.
+struct Snapshot {
+  std::vector<Vec3> position, velocity;
+  std::vector<double> mass;
+  double whole;
+  Vec3 momentum;
+
+  explicit Snapshot(const Body& body)
+      : position(body.map->map().capacity()), velocity(position.size()), mass(position.size()),
+        whole(total_mass(*body.map, *body.mass)), momentum(total_momentum(*body.map, *body.mass)) {
+    body.map->map().for_each_dart([&](Dart d) {
+      position[d.value] = body.map->position()[body.map->vertex(d)];
+      velocity[d.value] = body.map->velocity()[body.map->vertex(d)];
+      mass[d.value] = (*body.mass)[body.map->slot(body.mass->orbit(), d)];
+    });
+  }
+};
+
+void expect_nothing_moved(const Body& body, const Snapshot& before, bool deleted) {
+  const Snapshot now(body);
+  body.map->map().for_each_dart([&](Dart d) {
+    EXPECT_TRUE(same_bits(now.position[d.value], before.position[d.value]));
+    EXPECT_TRUE(same_bits(now.velocity[d.value], before.velocity[d.value]));
+    EXPECT_EQ(now.mass[d.value], before.mass[d.value]);
+  });
+  if (deleted) return;
+  EXPECT_EQ(now.whole, before.whole);
+  EXPECT_TRUE(same_bits(now.momentum, before.momentum));
+}
+
+std::vector<Slot> prescribed(const Body& body) {
+  std::vector<Slot> found;
+  for (const auto& column : body.map->columns())
+    if (const auto* obedience = dynamic_cast<const Column<Obedience>*>(column.get()))
+      for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)
+        if (body.map->cells(Vertex).alive(v) && (*obedience)[v] != 0) found.push_back(v);
+  return found;
+}
+
+// Surfaces of either kind.
+struct Seen {
+  std::unique_ptr<Surface> sheet;
+  std::unique_ptr<SolidSurface> solid;
+  explicit Seen(Body& body) {
+    if (body.map->dimension() == 2)
+      sheet = std::make_unique<Surface>(body);
+    else
+      solid = std::make_unique<SolidSurface>(body);
+  }
+  void update() {
+    if (sheet) sheet->update();
+    if (solid) solid->update();
+  }
+  bool same_as(const Seen& other) const {
+    return sheet ? sheet->same_as(*other.sheet) : solid->same_as(*other.solid);
+  }
+};
+
+void expect_as_built_anew(Body& body, const Seen& seen) {
+  EXPECT_EQ(validate(*body.map), std::nullopt);
+  const Program fresh(*body.map, body.interactions, *body.mass, body.drag, body.program->options());
+  EXPECT_TRUE(body.program->same_as(fresh));
+  EXPECT_TRUE(seen.same_as(Seen(body)));
+  EXPECT_EQ(body.constraints.vertices(), prescribed(body));
+}
+
+const std::vector<By>& every_way() {
+  static const std::vector<By> all{{"separate", Cell::Borders},
+                                   {"split-vertex", Cell::Vertices},
+                                   {"split-vertex", Cell::Edges},
+                                   {"delete-element", Cell::Elements},
+                                   {"delete-edge", Cell::Edges}};
+  return all;
+}
+
+bool deletes(const std::string& change) {
+  return change.starts_with("delete");
+}
+
+void blow(Body& body, int steps) {
+  Seen seen(body);
+  for (int n = 0; n < steps; ++n) {
+    const Snapshot before(body);
+    const std::size_t events = body.events.size();
+    body.evaluate();
+    body.tear(n, n, [] {});
+    bool deleted = false;
+    for (std::size_t e = events; e < body.events.size(); ++e)
+      deleted |= deletes(body.laws[static_cast<std::size_t>(body.events[e].law)].settings().change->name);
+    expect_nothing_moved(body, before, deleted);
+    if (n % 3 == 0) continue; // sometimes two before anybody looks
+    seen.update();
+    expect_as_built_anew(body, seen);
+    if (testing::Test::HasFailure()) FAIL() << "after step " << n;
+  }
+}
+
+TEST(Storm, of_each_change_on_every_mesh_leaves_a_valid_map_and_moves_nothing) {
+  for (const By& way : every_way()) {
+    for (auto& each : elements::irregular_maps()) {
+      SCOPED_TRACE(way.change + " on " + each.name);
+      const auto body = torn::body(std::move(each.map), {way});
+      blow(*body, 25);
+      EXPECT_GT(body->events.size(), 5u);
+    }
+  }
+}
+
+TEST(Storm, of_all_laws_at_once_leaves_a_valid_map_and_moves_nothing) {
+  for (auto& each : elements::irregular_maps()) {
+    SCOPED_TRACE(each.name);
+    const auto body = torn::body(std::move(each.map), every_way(), "rk4"); // both sets of rows
+    blow(*body, 25);
+    EXPECT_GT(body->events.size(), 5u);
+  }
+}
+
+TEST(Storm, on_sheets_of_many_sides_and_without_sides_leaves_a_valid_map) {
+  for (const meshes::Named& each : meshes::irregular()) {
+    SCOPED_TRACE(each.name);
+    const auto body = torn::body(sheet_from(each.mesh), every_way());
+    blow(*body, 20);
+  }
+}
+
+TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
+  for (const By& way : every_way()) {
+    for (std::size_t m = 0; m < elements::irregular_maps().size(); ++m) {
+      auto maps = elements::irregular_maps(), twins = elements::irregular_maps();
+      SCOPED_TRACE(way.change + " on " + maps[m].name);
+      const auto body = torn::body(std::move(maps[m].map), {way, {"separate", Cell::Borders}});
+      const auto twin = torn::body(std::move(twins[m].map), {way});
+      Chance<Cell::Borders>::most = 60; // many, so that pieces come off
+      for (int step = 0; step < 8; ++step) {
+        const std::size_t first = body->events.size();
+        std::vector<Candidate> told;
+        body->evaluate();
+        body->tear(step, step, [] {});
+        for (auto* some : {&Chance<Cell::Borders>::told, &Chance<Cell::Vertices>::told,
+                           &Chance<Cell::Edges>::told, &Chance<Cell::Elements>::told}) {
+          told.insert(told.end(), some->begin(), some->end());
+          some->clear();
+        }
+        for (std::size_t e = first; e < body->events.size(); ++e) {
+          const TearEvent& event = body->events[e];
+          const auto candidate = std::find_if(told.begin(), told.end(), [&](const Candidate& c) {
+            return c.dart == event.dart && c.value == event.value;
+          });
+          ASSERT_NE(candidate, told.end());
+          const By by = event.law == 0 ? way : By{"separate", Cell::Borders};
+          const long before = static_cast<long>(count_cells(twin->map->map(), Component));
+          ASSERT_TRUE(make(*twin, by.change, by.cell, *candidate));
+          const long after = static_cast<long>(count_cells(twin->map->map(), Component));
+          EXPECT_EQ(event.fragments, after);
+          EXPECT_EQ(event.born, after - before);
+        }
+      }
+      Chance<Cell::Borders>::most = 4;
+      EXPECT_GT(count_cells(body->map->map(), Component), 1u);
+    }
+  }
+}
+
+TEST(Body, that_loses_its_last_element_goes_on_with_nothing) {
+  for (const char* scheme : {"symplectic", "rk4", "implicit"}) {
+    for (auto& each : elements::irregular_maps()) {
+      SCOPED_TRACE(each.name + std::string(", ") + scheme);
+      const auto body = torn::body(std::move(each.map),
+                                   {{"delete-element", Cell::Elements}, {"delete-edge", Cell::Edges}}, scheme);
+      Chance<Cell::Elements>::most = 20;
+      Seen seen(*body);
+      int step = 0;
+      for (; !body->gone && step < 400; ++step) {
+        body->evaluate();
+        body->tear(step * 1e-3, step, [] {});
+      }
+      Chance<Cell::Elements>::most = 4;
+      ASSERT_TRUE(body->gone);
+      EXPECT_EQ(*body->gone, (step - 1) * 1e-3);
+      EXPECT_EQ(body->events.back().fragments, 0);
+      EXPECT_EQ(body->map->map().dart_count(), 0u);
+      EXPECT_EQ(total_mass(*body->map, *body->mass), 0);
+      seen.update();
+      expect_as_built_anew(*body, seen);
+      for (int n = 0; n < 3; ++n) {
+        body->evaluate();
+        EXPECT_EQ(body->tear(1, step, [] {}), 0);
+        body->advance(1, 1e-3);
+        EXPECT_TRUE(body->next.finite());
+        body->commit();
+      }
+      EXPECT_TRUE(body->constraints.vertices().empty());
+    }
+  }
+}
+
+} // namespace
+} // namespace rend

@@ -1,0 +1,148 @@
+// Bodies of every kind of mesh for tests of topological changes, and a criterion that says what it is told to.
+#pragma once
+
+#include "sim/elements.h"
+#include "sim/fracture/law.h"
+#include "sim/surface/solid_surface.h"
+#include "sim/surface/solids.h"
+#include "sim/surface/surface.h"
+#include "sim/topology/count.h"
+#include "sim/topology/walk.h"
+
+#include <set>
+
+namespace rend::torn {
+
+using meshes::Noise;
+
+// Finds cells by chance: some candidates each time it is asked, with planes by chance.
+template <Cell C> class Chance final : public Criterion {
+public:
+  static inline std::size_t most = 4;
+  static inline Noise noise{1};
+  static inline std::vector<Candidate> told; // all that was found
+
+  explicit Chance(const CriterionRequest&) {}
+  void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
+    const GMap& map = view.map.map();
+    std::set<Dart> met;
+    if (map.dart_count() == 0) return;
+    for (std::size_t n = 1 + noise.below(most); n > 0; --n) {
+      Dart d{noise.below(map.capacity())};
+      while (!map.alive(d)) d = Dart{noise.below(map.capacity())};
+      const Dart first = smallest_dart(map, orbit_of(C, map.dimension()), d);
+      if (!met.insert(first).second) continue;
+      candidates.push_back({threshold + 1 + noise(), first, noise.vector().normalized()});
+      told.push_back(candidates.back());
+    }
+  }
+  void rebind(const Changes&) override {}
+  void reserve_for_separations() override {}
+  std::size_t bytes() const override { return 0; }
+};
+
+template <Cell C> const CriterionType& chance() {
+  static const CriterionType type{
+      "chance",
+      "anything",
+      "",
+      false,
+      [](const CriterionRequest&) { return C; },
+      [](const CriterionRequest&) { return std::string(); },
+      [](const CriterionRequest& r) -> std::unique_ptr<Criterion> { return std::make_unique<Chance<C>>(r); }};
+  return type;
+}
+
+inline const ChangeType& change(const std::string& name) {
+  for (const ChangeType& type : all_changes())
+    if (type.name == name) return type;
+  throw std::invalid_argument(name);
+}
+
+// A change on the cells that chance finds.
+struct By {
+  std::string change;
+  Cell cell;
+};
+
+inline const CriterionType& chance_on(Cell cell) {
+  switch (cell) {
+  case Cell::Edges:
+    return chance<Cell::Edges>();
+  case Cell::Borders:
+    return chance<Cell::Borders>();
+  case Cell::Vertices:
+    return chance<Cell::Vertices>();
+  case Cell::Elements:
+    break;
+  }
+  return chance<Cell::Elements>();
+}
+
+// Co-rotational, with springs along its edges, damped by its surroundings, with one vertex fixed; shaken.
+inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::vector<By>& laws = {},
+                                  const std::string& scheme = "symplectic") {
+  auto made = std::make_unique<Body>();
+  made->name = "torn";
+  made->map = std::move(map);
+  CornerMass mass;
+  mass.density = 10;
+  made->mass = &made->map->add(mass.on(*made->map));
+  CornerDrag drag;
+  drag.per_vertex = 0.1;
+  made->drag = &made->map->add(drag.on(*made->map));
+  elements::add_elasticity(*made, {});
+  made->interactions.push_back(meshes::interaction(*made->map, {"stretch", "", 60, 0.3}));
+  made->constraints.add(*made->map, Motion{}, {made->map->vertex(Dart{0u})});
+  made->border = &made->map->add(BornBorder(made->map->dimension()));
+  made->births = std::make_unique<Births>();
+  for (const By& by : laws) {
+    LawSettings law;
+    law.criterion = &chance_on(by.cell);
+    law.change = &change(by.change);
+    law.cell = by.cell;
+    made->laws.emplace_back(made->request_for(law), law);
+  }
+  made->prepare(*find_scheme(scheme), false, 1);
+  meshes::shake(*made, 0.05, 3);
+  made->constrain(0, made->map->position().values().data(), made->map->velocity().values().data());
+  made->evaluate();
+  return made;
+}
+
+inline std::unique_ptr<Body> block(int n) {
+  return body(solid_from(solids::bar(BarPattern::Hexahedra, n, n, n)));
+}
+
+// The map's own numbers.
+inline std::string counts(const Body& body) {
+  const CellCounts c = count_cells(body.map->map());
+  return std::to_string(c.vertices) + " " + std::to_string(c.edges) + " " + std::to_string(c.faces) + " " +
+         std::to_string(c.volumes) + " in " + std::to_string(c.fragments);
+}
+
+// Makes one change as a law would; false: it was not possible.
+inline bool make(Body& body, const std::string& name, Cell cell, const Candidate& candidate) {
+  bool made = false;
+  const ForceView view = body.view();
+  body.map->edit([&](Edit& edit) { made = change(name).apply(edit, view, cell, candidate); });
+  body.rebind();
+  body.evaluate();
+  return made;
+}
+
+// The dart of the cell whose middle is nearest, at rest.
+inline Dart cell_at(const Body& body, Cell cell, const Vec3& place) {
+  Dart best;
+  double least = 1e300;
+  body.map->map().for_each_dart([&](Dart d) {
+    const double far = (middle_of(*body.map, body.map->rest().values().data(), cell, d) - place).norm();
+    if (far < least - 1e-9) {
+      least = far;
+      best = d;
+    }
+  });
+  return best;
+}
+
+} // namespace rend::torn
