@@ -87,14 +87,17 @@ void CellIndex::update(const GMap& map, const Journal& journal, SlotEvents& even
   fragments.clear();
   scratch.darts.clear();
   scratch.seen.clear();
+  // Marks every dart, or one of each pair {d, α1(d)}.
+  const auto marked = [&](Dart d) { return (orbit_.has(1) ? std::min(d, map.alpha(1, d)) : d).value; };
   const auto visit = [&](Dart d) {
-    if (!map.alive(d) || scratch.seen.contains(d.value)) return;
+    if (!map.alive(d) || scratch.seen.contains(marked(d))) return;
     const std::size_t begin = scratch.darts.size();
     collect(map, orbit_, d, scratch.darts);
     Dart smallest = d;
     for (std::size_t n = begin; n < scratch.darts.size(); ++n) {
-      scratch.seen.insert(scratch.darts[n].value);
-      smallest = std::min(smallest, scratch.darts[n]);
+      const Dart e = scratch.darts[n];
+      if (marked(e) == e.value) scratch.seen.insert(e.value);
+      smallest = std::min(smallest, e);
     }
     fragments.push_back({smallest, begin, scratch.darts.size()});
   };

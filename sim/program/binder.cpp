@@ -17,6 +17,11 @@ std::vector<Field> particle_fields(const Pattern& pattern, Orbit orbit) {
   return fields;
 }
 
+// A word that stays in the owner's own orbit ends in it wherever it starts.
+bool stays_in(Orbit orbit, const Word& word) {
+  return std::all_of(word.begin(), word.end(), [&](auto letter) { return orbit.has(letter - '0'); });
+}
+
 Dart follow_back(const GMap& map, Dart d, const Word& word, std::size_t length) {
   while (length > 0) d = map.alpha(word[--length] - '0', d);
   return d;
@@ -143,6 +148,18 @@ void Binder::add_owner(Dart d, std::vector<Slot>& owners) {
   if (owners_seen.insert(owner)) owners.push_back(owner);
 }
 
+// Neighbours in the list mostly have the same owner.
+void Binder::add_owners(const std::vector<Dart>& darts, std::vector<Slot>& owners) {
+  Slot last = no_slot;
+  for (Dart d : darts) {
+    if (!map_->map().alive(d)) continue;
+    const Slot owner = map_->slot(pattern_.owner, d);
+    if (owner == last) continue;
+    last = owner;
+    if (owners_seen.insert(owner)) owners.push_back(owner);
+  }
+}
+
 void Binder::reach(const Changes& changes, std::vector<Slot>& owners) {
   const GMap& map = map_->map();
   const auto by_links = [&](const Word& word) {
@@ -152,13 +169,19 @@ void Binder::reach(const Changes& changes, std::vector<Slot>& owners) {
   };
   for (Slot owner : changes.slots[pattern_.owner.mask])
     if (owners_seen.insert(owner)) owners.push_back(owner);
+  std::array<bool, orbit_kinds> inside{}; // some field of that index space has a word that stays inside
   for (const Field& field : fields_) {
     for (const Word& word : field.word) {
       by_links(word);
-      for (Dart x : changes.moved[field.orbit.mask])
-        if (map.alive(x)) add_owner(follow_back(map, x, word, word.size()), owners);
+      if (stays_in(pattern_.owner, word))
+        inside[field.orbit.mask] = true;
+      else
+        for (Dart x : changes.moved[field.orbit.mask])
+          if (map.alive(x)) add_owner(follow_back(map, x, word, word.size()), owners);
     }
   }
+  for (std::size_t mask = 0; mask < inside.size(); ++mask)
+    if (inside[mask]) add_owners(changes.moved[mask], owners);
   if (fold_)
     for (const Word& word : pattern_.fold) by_links(word);
 }

@@ -54,6 +54,7 @@ private:
   const double* sum_of(const std::vector<std::size_t>& keys, const Row& first) const;
   void write(Slot owner);
   void add_owner(Dart d, std::vector<Slot>& owners);
+  void add_owners(const std::vector<Dart>& darts, std::vector<Slot>& owners);
   void reach(const Changes& changes, std::vector<Slot>& owners);
   void add_folding(std::vector<Slot>& owners);
 

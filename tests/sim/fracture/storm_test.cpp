@@ -148,6 +148,7 @@ TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
       const auto body = torn::body(std::move(maps[m].map), {way, {"separate", Cell::Borders}});
       const auto twin = torn::body(std::move(twins[m].map), {way});
       Chance<Cell::Borders>::most = 60; // many, so that pieces come off
+      long most = 0;
       for (int step = 0; step < 8; ++step) {
         const std::size_t first = body->events.size();
         std::vector<Candidate> told;
@@ -170,10 +171,11 @@ TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
           const long after = static_cast<long>(count_cells(twin->map->map(), Component));
           EXPECT_EQ(event.fragments, after);
           EXPECT_EQ(event.born, after - before);
+          most = std::max(most, after);
         }
       }
       Chance<Cell::Borders>::most = 4;
-      EXPECT_GT(count_cells(body->map->map(), Component), 1u);
+      EXPECT_GT(most, 1);
     }
   }
 }
