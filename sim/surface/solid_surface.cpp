@@ -49,8 +49,8 @@ void SolidSurface::update() {
   for (std::size_t i = 0; i < 4; ++i)
     for (Dart d : changes_.touched[i]) {
       if (!map.alive(d)) continue;
-      queue_around_edge(d);
-      if (i < 3) queue_volume(d); // an element of another shape
+      if (i < 3 || d <= map.alpha(0, d)) queue_around_edge(d); // α3 changes at both ends of an edge
+      if (i < 3) queue_volume(d);                              // an element of another shape
     }
   // Other slots of vertices; and where two vertices became one, an element of another shape at rest.
   for (Dart d : changes_.moved[Vertex.mask])
@@ -61,11 +61,11 @@ void SolidSurface::update() {
 
 void SolidSurface::queue(Dart d) {
   const GMap& map = body_.map->map();
-  if (!map.is_free(3, d) || queued_.contains(d.value)) return;
+  if (!map.is_free(3, d) || queued_.contains(std::min(d, map.alpha(0, d)).value)) return;
   Dart first = d;
   walk_two(map, 0, 1, d, [&](Dart e) {
     first = std::min(first, e);
-    queued_.insert(e.value);
+    if (e <= map.alpha(0, e)) queued_.insert(e.value);
   });
   queue_.push_back(first);
 }
@@ -75,16 +75,17 @@ void SolidSurface::queue_around_edge(Dart d) {
 }
 
 void SolidSurface::queue_volume(Dart d) {
-  if (volumes_.contains(d.value)) return;
+  const GMap& map = body_.map->map();
+  if (volumes_.contains(std::min(d, map.alpha(0, d)).value)) return;
   thread_local std::vector<Dart> darts;
   darts.clear();
-  const GMap& map = body_.map->map();
   collect(map, Volume, d, darts);
   for (Dart e : darts) {
+    if (map.alpha(0, e) < e) continue; // one end of an edge will do
     volumes_.insert(e.value);
     if (!map.is_free(3, e)) continue;
-    queue(e);
-    queue(across_hull_edge(map, e)); // the edge between may have become a crease, or be one no more
+    if (e <= map.alpha(1, e)) queue(e); // as the smallest dart of its face is
+    queue(across_hull_edge(map, e));    // the edge between may have become a crease, or be one no more
   }
 }
 

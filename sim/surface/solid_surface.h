@@ -93,8 +93,8 @@ private:
 
   // Scratch of update().
   std::vector<Dart> queue_; // smallest darts of the faces to be bound
-  IndexSet queued_;         // all their darts
-  IndexSet volumes_;        // darts of volumes that were queued
+  IndexSet queued_;         // of each of their sides, the smaller dart
+  IndexSet volumes_;        // of each side in volumes that were queued, the smaller dart
   std::vector<FanCorner> fan_;
   bool fan_closed_ = false;
 };

@@ -30,23 +30,23 @@ void mirrored(const GMap& map, int i, int j, int k, Dart d, std::vector<Dart>& o
   for (std::size_t n = begin; n < end; ++n) out.push_back(map.alpha(k, out[n]));
 }
 
-// The vertex of d in a solid, one volume's corner <1,2> after another: those are walked without marks, and of a pair
-// {e, α1(e)}, which α3 takes to a pair, the smaller dart alone is marked.
-void around_vertex(const GMap& map, Dart d, std::vector<Dart>& out) {
+// <i,i+1,i+2>(d): a volume face after face, or the vertex of a solid one volume's corner after another. Those pieces,
+// <i,i+1>, are walked without marks; of a pair {e, αi(e)}, which αi+2 takes to a pair, the smaller dart alone is marked.
+void piece_by_piece(const GMap& map, int i, Dart d, std::vector<Dart>& out) {
   thread_local IndexSet seen;
   seen.clear();
   std::size_t at = out.size();
-  const auto corner = [&](Dart first) {
-    walk_two(map, 1, 2, first, [&](Dart e) {
+  const auto piece = [&](Dart first) {
+    walk_two(map, i, i + 1, first, [&](Dart e) {
       out.push_back(e);
-      if (e <= map.alpha(1, e)) seen.insert(e.value);
+      if (e <= map.alpha(i, e)) seen.insert(e.value);
     });
   };
-  corner(d);
+  piece(d);
   for (; at < out.size(); ++at) {
-    const Dart e = out[at], next = map.alpha(3, e);
-    if (next == e || map.alpha(1, e) < e) continue;
-    if (!seen.contains(std::min(next, map.alpha(1, next)).value)) corner(next);
+    const Dart e = out[at], next = map.alpha(i + 2, e);
+    if (next == e || map.alpha(i, e) < e) continue;
+    if (!seen.contains(std::min(next, map.alpha(i, next)).value)) piece(next);
   }
 }
 
@@ -86,8 +86,10 @@ void collect(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out) {
     return mirrored(map, 2, 3, 0, d, out);
   case 11:
     return mirrored(map, 0, 1, 3, d, out);
+  case 7:
+    return piece_by_piece(map, 0, d, out);
   case 14:
-    return around_vertex(map, d, out);
+    return piece_by_piece(map, 1, d, out);
   default:
     return flood(map, orbit, d, out);
   }

@@ -2,8 +2,8 @@
 //
 // Orbits of at most two links are a path or a cycle and are walked without marks. So are <0,2,3> and <0,1,3>:
 // α0 commutes with α2 and α3, hence <0,2,3>(d) = <2,3>(d) ∪ α0<2,3>(d); and α3 with α0 and α1. The others need
-// to know where they have been: a small hash set that is cleared by counting up, and of <1,2,3>, which is walked corner
-// by corner, holds every second dart. A walk's order depends on the map and the first dart alone.
+// to know where they have been: a small hash set that is cleared by counting up. It holds every second dart of <0,1,2>
+// and <1,2,3>, which are walked face by face and corner by corner. A walk's order depends on the map and the first dart alone.
 #pragma once
 
 #include "sim/topology/gmap.h"
