@@ -193,6 +193,7 @@ TEST_F(Program, WritesEveryTopologicalChange) {
   std::string line;
   std::size_t count = 0;
   double last = 0;
+  long fragments = 1;
   while (std::getline(file, line)) {
     const nlohmann::json event = nlohmann::json::parse(line);
     EXPECT_EQ(event["body"], "cloth");
@@ -201,13 +202,25 @@ TEST_F(Program, WritesEveryTopologicalChange) {
     EXPECT_EQ(event["threshold"], 2);
     EXPECT_GT(event["value"], 2);
     EXPECT_EQ(event["position"].size(), 3U);
-    EXPECT_TRUE(event["cell"].is_number_unsigned());
+    EXPECT_EQ(event["cell"], "edge");
+    EXPECT_EQ(event["unit"], "N");
+    EXPECT_TRUE(event["kind"].is_null());
+    EXPECT_TRUE(event["dart"].is_number_unsigned());
+    EXPECT_GE(event["fragments"], 1);
+    fragments += event["born"].get<long>();
+    EXPECT_EQ(event["fragments"], fragments);
     EXPECT_GE(event["time"], last);
     last = event["time"];
     ++count;
   }
-  EXPECT_EQ(outcome.json()["tears"], count);
+  const nlohmann::json figures = outcome.json();
+  EXPECT_EQ(figures["tears"], count);
   EXPECT_GT(count, 0U);
+  EXPECT_EQ(figures["fragments"], fragments);
+  ASSERT_EQ(figures["laws"].size(), 1U);
+  EXPECT_EQ(figures["laws"][0]["tears"], count);
+  EXPECT_EQ(figures["laws"][0]["change"], "separate");
+  EXPECT_LE(figures["laws"][0]["first"], last);
 }
 
 TEST_F(Program, RunsSoManySteps) {

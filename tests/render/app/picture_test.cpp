@@ -173,6 +173,24 @@ struct ShownBar {
   }
 };
 
+TEST(Picture, OfABodyThatLostItsLastElementIsEmpty) {
+  for (const char* by : {"", R"(<look by="fragment"/>)", R"(<look by="strain"/>)"}) {
+    Shown sheet(quads, by);
+    ShownBar solid(by);
+    for (Scene* scene : {sheet.scene.get(), solid.scene.get()}) {
+      Body& body = *scene->bodies()[0];
+      body.map->edit([&](Edit& edit) {
+        for (std::uint32_t d = 0; d < edit.map().capacity(); ++d)
+          if (edit.map().alive(Dart{d})) remove_element_of(edit, Dart{d});
+      });
+      body.rebind();
+      scene->step();
+    }
+    EXPECT_TRUE(sheet.frame().bodies.at(0).corners.empty());
+    EXPECT_TRUE(solid.frame().corners.empty());
+  }
+}
+
 TEST(PictureOfASolid, ShowsItsHullFromOutsideAlone) {
   for (const char* pattern : {"hexahedra", "tetrahedra", "prisms", "mixed"}) {
     ShownBar shown("", pattern);
