@@ -189,6 +189,15 @@ std::string answers_in_words(const Json& answers) {
   return out;
 }
 
+// Those that move, in the order of the preset.
+Json spheres_json(const Scene& scene) {
+  Json spheres = Json::array();
+  for (const Sphere& sphere : scene.world().spheres)
+    if (sphere.moves())
+      spheres.push_back({{"centre", list_of(sphere.centre)}, {"velocity", list_of(sphere.velocity)}});
+  return spheres;
+}
+
 // What the integrators' solving took; null where none solves.
 Json solver_json(const Scene& scene) {
   if (!scene.scheme().solves) return nullptr;
@@ -249,6 +258,7 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
   figures["angular_momentum"] = list_of(scene.angular_momentum());
   figures["probes"] = probes_json(scene);
   figures["answers"] = answers_json(scene);
+  if (Json spheres = spheres_json(scene); !spheres.empty()) figures["spheres"] = std::move(spheres);
   figures["bytes"] = bytes_json(scene, costs);
   figures["rows"] = rows_json(scene);
   if (Json solver = solver_json(scene); !solver.is_null()) figures["solver"] = std::move(solver);

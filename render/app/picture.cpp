@@ -1,5 +1,6 @@
 #include "render/app/picture.h"
 
+#include "render/app/obstacle_picture.h"
 #include "render/app/preset_types.h"
 #include "sim/scene/measure.h"
 #include "sim/topology/count.h"
@@ -190,6 +191,8 @@ Frame PictureMaker::draw(long number, double time) {
   frame.time = scene_.time();
   frame.number = static_cast<int>(number);
   for (auto& body : bodies_) frame.bodies.push_back(body->draw());
+  for (const Sphere& sphere : scene_.world().spheres) frame.obstacles.push_back(picture_of(sphere));
+  for (const Box& box : scene_.world().boxes) frame.obstacles.push_back(picture_of(box));
   if (scene_.world().floor) frame.floor = FrameFloor{*scene_.world().floor};
   frame.camera = viewpoint_.at(time);
   frame.background = background_;

@@ -69,6 +69,9 @@ std::unique_ptr<Node> checked(std::unique_ptr<Node> scene) {
   image_settings(*scene); // its colour
   for (const Node* body : scene->all("body"))
     if (const Node* look = body->child("look")) colour_of(*look, "colour");
+  if (const Node* world = scene->child("world"))
+    for (const char* name : {"sphere", "box"})
+      for (const Node* obstacle : world->all(name)) colour_of(*obstacle, "colour");
   if (const Node* camera = scene->child("camera")) check_camera(*camera);
   return scene;
 }

@@ -134,7 +134,7 @@ void Body::advance(double time, double step) {
   integrator->advance(*this, time, step, now, force.data(), next);
   if (next.large) finish_streams(); // other threads are going to read them
   if (!floor_contact) return;
-  floor_contact->apply(next);
+  floor_contact->apply(next, step);
   constrain(time + step, next.position.data(), next.velocity.data()); // what is prescribed yields to no floor
 }
 

@@ -47,6 +47,7 @@ struct Body final : System {
   Constraints constraints;
   Loads loads;
   std::vector<TearLaw> laws;
+  std::optional<ContactSettings> contact; // as the preset has it
   std::optional<FloorContact> floor_contact;
   std::vector<Probe> probes;
   std::vector<Answer> answers;

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "sim/scene/body.h"
+#include "sim/scene/world.h"
 
 namespace rend {
 
 // UserError, with its place, for what cannot be built. The body is not prepared yet.
-std::unique_ptr<Body> build_body(const Node& node, const Vec3& gravity, std::optional<double> floor);
+std::unique_ptr<Body> build_body(const Node& node, const World& world);
 
 } // namespace rend

@@ -3,6 +3,7 @@
 #include "sim/base/hash.h"
 #include "sim/program/frequency.h"
 #include "sim/scene/build_body.h"
+#include "sim/scene/build_world.h"
 
 #include <fmt/format.h>
 
@@ -27,19 +28,14 @@ constexpr long checked = 32, checked_at = 7;
 Scene::Scene(const Node& preset, const SceneOptions& options) {
   const double start = now();
   name_ = preset.text("name");
-  if (const Node* world = preset.child("world")) {
-    world_.gravity = world->vector("gravity");
-    if (const Node* floor = world->child("floor")) world_.floor = floor->number("z");
-    if (const Node* wind = world->child("wind"))
-      world_.wind = Wind{wind->vector("velocity"), wind->number("drag")};
-  }
+  world_ = build_world(preset.child("world"));
   std::set<std::string> names;
   for (const Node* node : preset.all("body")) {
     if (!names.insert(node->text("name")).second)
       throw UserError(Exit::BadInput, node->place(),
                       fmt::format("two bodies are called '{}'", node->text("name")),
                       "give each a name of its own");
-    bodies_.push_back(build_body(*node, world_.gravity, world_.floor));
+    bodies_.push_back(build_body(*node, world_));
     if (options.births) bodies_.back()->births = std::make_unique<Births>();
     if (world_.wind) bodies_.back()->loads.set(WindLoad(*bodies_.back()->map, *world_.wind));
   }
@@ -48,6 +44,7 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
   scheme_ = find_scheme(time.text("integrator"));
   seconds_.build = now() - start;
   check_contact(preset);
+  contacts_ = Contacts::of(world_, bodies_);
   for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads);
   build_time(time);
   set_answers();
@@ -58,9 +55,9 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
 void Scene::check_contact(const Node& preset) {
   if (!scheme_->solves) return;
   for (const auto& body : bodies_) {
-    if (!body->floor_contact) continue;
+    if (!body->contact) continue;
     if (scheme_->name == "static")
-      preset.child("time")->fail("integrator", "the static solve knows no contact with the floor",
+      preset.child("time")->fail("integrator", "the static solve knows no contact",
                                  "leave <contact> out, or let it come to rest with symplectic and viscosity");
     body->notes.push_back("contact: what rests on the floor under 'implicit' is pressed too much, the more the "
                           "stiffer it is and the larger the step; symplectic does not have this");
@@ -135,6 +132,7 @@ void Scene::step() {
   advance();
   check(); // all bodies, before one of them moves on: positions and velocities stay whole
   for (auto& body : bodies_) body->commit();
+  for (Sphere& sphere : world_.spheres) sphere.commit();
   lap(&StageSeconds::integrate);
   timed_steps_ += timed;
   ++steps_done_;
@@ -189,6 +187,7 @@ void Scene::advance() {
       stop(*body, error.what(), error.hint);
     }
   }
+  if (contacts_) contacts_->advance(time(), step_);
 }
 
 void Scene::check() const {
@@ -272,6 +271,7 @@ std::size_t Scene::tears() const {
 double Scene::kinetic_energy() const {
   double sum = 0;
   for (const auto& body : bodies_) sum += rend::kinetic_energy(*body->map, *body->mass);
+  for (const Sphere& s : world_.spheres) sum += 0.5 * s.mass * s.velocity.squaredNorm();
   return sum;
 }
 double Scene::elastic_energy() const {
@@ -282,21 +282,25 @@ double Scene::elastic_energy() const {
 double Scene::gravity_energy() const {
   double sum = 0;
   for (const auto& body : bodies_) sum += rend::gravity_energy(*body->map, *body->mass, world_.gravity);
+  for (const Sphere& s : world_.spheres) sum -= s.mass * world_.gravity.dot(s.centre);
   return sum;
 }
 double Scene::mass() const {
   double sum = 0;
   for (const auto& body : bodies_) sum += total_mass(*body->map, *body->mass);
+  for (const Sphere& s : world_.spheres) sum += s.mass;
   return sum;
 }
 Vec3 Scene::momentum() const {
   Vec3 sum = Vec3::Zero();
   for (const auto& body : bodies_) sum += total_momentum(*body->map, *body->mass);
+  for (const Sphere& s : world_.spheres) sum += s.mass * s.velocity;
   return sum;
 }
 Vec3 Scene::angular_momentum() const {
   Vec3 sum = Vec3::Zero();
   for (const auto& body : bodies_) sum += total_angular_momentum(*body->map, *body->mass);
+  for (const Sphere& s : world_.spheres) sum += s.mass * s.centre.cross(s.velocity);
   return sum;
 }
 
@@ -312,6 +316,11 @@ std::uint64_t Scene::hash() const {
       for (int i = 0; i < 4; ++i) links[static_cast<std::size_t>(i) + 1] = body->map->map().alpha(i, d).value;
       hash = hash_bytes(links.data(), sizeof links, hash);
     });
+  }
+  for (const Sphere& s : world_.spheres) {
+    if (!s.moves()) continue;
+    hash = hash_bytes(s.centre.data(), 3 * sizeof(double), hash);
+    hash = hash_bytes(s.velocity.data(), 3 * sizeof(double), hash);
   }
   return hash;
 }

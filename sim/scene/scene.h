@@ -2,16 +2,11 @@
 #pragma once
 
 #include "sim/scene/body.h"
+#include "sim/scene/contacts.h"
 
 #include <optional>
 
 namespace rend {
-
-struct World {
-  Vec3 gravity{0, 0, -9.81};   // [m/s²]
-  std::optional<double> floor; // z [m]
-  std::optional<Wind> wind;
-};
 
 struct SceneOptions {
   bool walk = false; // --kernels walk
@@ -53,13 +48,14 @@ public:
   void check_sound() const;
 
   std::size_t tears() const;
+  // Of bodies, and of spheres that fall.
   double kinetic_energy() const;
   double elastic_energy() const;
   double gravity_energy() const;
   double mass() const;
   Vec3 momentum() const;
   Vec3 angular_momentum() const;
-  std::uint64_t hash() const; // of positions, velocities and topology
+  std::uint64_t hash() const; // of positions, velocities and topology, and of spheres that move
   StageSeconds seconds() const;
 
 private:
@@ -80,6 +76,7 @@ private:
   std::string name_;
   World world_;
   std::vector<std::unique_ptr<Body>> bodies_;
+  std::unique_ptr<Contacts> contacts_; // null: no body meets more than the floor
   const Scheme* scheme_ = nullptr;
   double step_ = 0, duration_ = 0;
   bool automatic_ = false;

@@ -1,24 +1,16 @@
 #include "sim/scene/scene_types.h"
 
 #include "sim/integrate/integrator.h"
+#include "sim/scene/build_contact.h"
 #include "sim/scene/build_laws.h"
 #include "sim/scene/build_matter.h"
 #include "sim/scene/build_motion.h"
 #include "sim/scene/build_probe.h"
 #include "sim/scene/build_shape.h"
+#include "sim/scene/build_world.h"
 
 namespace rend {
 namespace {
-
-const ElementType& contact_type() {
-  static const ElementType type{"contact",
-                                "what the body does not pass through",
-                                {word("with", {"floor"}, "what it meets").otherwise("floor"),
-                                 number("thickness", "m", "kept from it").at_least(0).otherwise("0.002"),
-                                 number("friction", "", "Coulomb's coefficient").at_least(0).otherwise("0.5")},
-                                {}};
-  return type;
-}
 
 const ElementType& look_type() {
   static const ElementType type{
@@ -49,22 +41,6 @@ const ElementType& body_type() {
     t.children.push_back({&look_type(), 0, 1});
     return t;
   }();
-  return type;
-}
-
-const ElementType& world_type() {
-  static const ElementType floor{
-      "floor", "a floor, drawn below the bodies", {number("z", "m", "its height").otherwise("0")}, {}};
-  static const ElementType wind{
-      "wind",
-      "air that pushes faces along their normals: drag x area x the square of its speed against them",
-      {numbers("velocity", 3, "m/s", "of the air").is_required(),
-       number("drag", "kg/m3", "half its density times the drag coefficient").at_least(0).otherwise("0.6")},
-      {}};
-  static const ElementType type{"world",
-                                "what surrounds the bodies",
-                                {numbers("gravity", 3, "m/s2", "its acceleration").otherwise("0 0 -9.81")},
-                                {{&floor, 0, 1}, {&wind, 0, 1}}};
   return type;
 }
 

@@ -1,0 +1,58 @@
+// A body as contact sees it in a step: what of it can be touched, and which way an impulse moves it.
+//
+// A point of a face, x = Σ b_i x_i with weights b_i that sum up to 1, takes an impulse J as b_i J on each vertex: neither
+// momentum nor angular momentum depends on how it is shared. Its inverse mass is then Σ b_i²/m_i.
+#pragma once
+
+#include "sim/scene/body.h"
+#include "sim/scene/contact_faces.h"
+
+namespace rend {
+
+class ContactBody {
+public:
+  explicit ContactBody(Body& body_) : body(&body_), faces(*body_.map) {}
+
+  // Before each step's contacts. `time` [s]: at the end of the step.
+  void prepare(double time);
+
+  Body* body;
+  ContactFaces faces;
+  bool changed = true; // the faces, since the last step
+
+  const ContactSettings& settings() const { return *body->contact; }
+  std::size_t vertices() const { return body->vertices(); } // slots
+  bool alive(Slot v) const { return body->inverse_mass[v] != 0; }
+  double inverse_mass(Slot v) const {
+    return held_.empty() ? body->inverse_mass[v] : held_[v];
+  }                                                            // 0: held, or free slot
+  Vec3 from(Slot v) const { return body->map->position()[v]; } // [m], at the start of the step
+  Record& position(Slot v) const { return body->next.position[v]; }
+  Record& velocity(Slot v) const { return body->next.velocity[v]; }
+
+private:
+  std::vector<double> held_;       // [1/kg], one per vertex slot, 0: fully prescribed; empty: nothing is
+  std::vector<std::uint8_t> axes_; // scratch
+};
+
+// A point of a body: up to three of its vertices with weights that sum up to 1.
+struct ContactPoint {
+  const ContactBody* body = nullptr;
+  std::array<Slot, 3> vertex{}; // the same three times: a vertex
+  std::array<double, 3> weight{};
+
+  static ContactPoint at(const ContactBody& body, Slot v) { return {&body, {v, v, v}, {1, 0, 0}}; }
+
+  Vec3 from() const;                                 // [m], at the start of the step
+  Vec3 position() const;                             // [m]
+  Vec3 velocity() const;                             // [m/s]
+  double inverse_mass() const;                       // [1/kg]
+  void push(const Vec3& impulse, double step) const; // [N·s]: on velocities, and with step × that on positions
+  void shift(const Vec3& by) const;                  // [kg·m]: on positions alone, each b_i/m_i of it
+};
+
+// What an inelastic impact with friction takes from a relative velocity u [m/s]: the change of u, whose part along n is
+// never towards n. Its work is never positive.
+Vec3 impact(const Vec3& u, const Vec3& normal, double friction);
+
+} // namespace rend

@@ -1,0 +1,24 @@
+#include "sim/scene/contacts.h"
+
+namespace rend {
+
+std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::unique_ptr<Body>>& bodies) {
+  std::unique_ptr<Contacts> contacts(new Contacts(world));
+  for (const auto& body : bodies)
+    if (body->contact && body->contact->faces())
+      contacts->bodies_.push_back(std::make_unique<ContactBody>(*body));
+  if (contacts->bodies_.empty() && world.spheres.empty()) return {};
+  return contacts;
+}
+
+void Contacts::advance(double time, double step) {
+  for (auto& body : bodies_) body->prepare(time + step);
+  obstacles_.advance(bodies_, time, step);
+  for (auto& each : bodies_) {
+    Body& body = *each->body;
+    if (body.floor_contact) body.floor_contact->apply(body.next, step);
+    body.constrain(time + step, body.next.position.data(), body.next.velocity.data());
+  }
+}
+
+} // namespace rend

@@ -1,0 +1,22 @@
+// All contacts of a scene that are more than one body's with the floor (which is the body's own: contact.h), at the end of
+// each step, after every body has made its own. What is prescribed yields to none of them, and the floor comes last.
+#pragma once
+
+#include "sim/scene/obstacle_contact.h"
+
+namespace rend {
+
+class Contacts {
+public:
+  // Null where no body asks for any: then it costs nothing. Before bodies are prepared.
+  static std::unique_ptr<Contacts> of(World& world, const std::vector<std::unique_ptr<Body>>& bodies);
+
+  void advance(double time, double step); // [s]: changes the `next` of bodies and spheres
+
+private:
+  explicit Contacts(World& world) : obstacles_(world) {}
+  std::vector<std::unique_ptr<ContactBody>> bodies_; // that ask for it, in the order of the scene
+  ObstacleContact obstacles_;
+};
+
+} // namespace rend

@@ -1,0 +1,154 @@
+#include "sim/scene/obstacle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+
+void Sphere::predict(double time, double step, const Vec3& gravity) {
+  next_velocity = falls() ? Vec3(velocity + step * gravity) : velocity;
+  next_centre = falls() ? Vec3(centre + step * next_velocity) : Vec3(start + time * velocity);
+}
+
+void Sphere::commit() {
+  centre = next_centre;
+  velocity = next_velocity;
+}
+
+namespace {
+
+Plane tangent(const Vec3& at, double reach) {
+  const double length = at.norm();
+  return {length > 0 ? Vec3(at / length) : Vec3(Vec3::UnitZ()), reach};
+}
+
+// Where the way first meets the sphere; `from` itself where it is inside.
+Vec3 met(const Vec3& from, const Vec3& way, double reach) {
+  const double c = from.squaredNorm() - reach * reach, b = from.dot(way), a = way.squaredNorm();
+  if (c <= 0 || a == 0) return from;
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  return from + std::clamp((-b - root) / a, 0.0, 1.0) * way;
+}
+
+} // namespace
+
+std::optional<Plane> Sphere::stop(const Vec3& from, const Vec3& to, double reach) {
+  const double deep = 0.25 * reach * reach; // below half the radius, squared
+  const double left = to.squaredNorm();
+  const Vec3 way = to - from;
+  if (left < reach * reach) {
+    const bool guides = left > deep && from.dot(to) > 0;
+    return tangent(guides ? to : met(from, way, reach), reach);
+  }
+  const double length = way.squaredNorm();
+  if (length * 3 < reach * reach) return {}; // too short a chord to pass so deep
+  const double share = -from.dot(way) / length;
+  if (share <= 0 || share >= 1 || (from + share * way).squaredNorm() > deep) return {};
+  return tangent(met(from, way, reach), reach);
+}
+
+std::optional<Plane> Box::stop(const Vec3& from, const Vec3& to, double margin) const {
+  double in = -1, out = 1, least = 1e300; // shares of the way; depth [m] of `from` below the nearest side
+  Plane entry, nearest;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double ends[2] = {low[axis] - margin, high[axis] + margin};
+    for (int end = 0; end < 2; ++end) {
+      const double sign = end == 0 ? -1 : 1;
+      const double above = sign * (from[axis] - ends[end]), above_later = sign * (to[axis] - ends[end]);
+      if (above >= 0 && above_later >= 0) return {};
+      const double share = above / (above - above_later);
+      const Plane side{Vec3(sign * Vec3::Unit(axis)), sign * ends[end]};
+      if (above >= 0 && share > in) {
+        in = share;
+        entry = side;
+      } else if (above < 0 && above_later > 0) {
+        out = std::min(out, share);
+      }
+      if (above < 0 && -above < least) {
+        least = -above;
+        nearest = side;
+      }
+    }
+  }
+  if (in >= out) return {}; // it passes a corner
+  if (in >= 0) return entry;
+  const bool inside = ((to - low).array() > -margin).all() && ((high - to).array() > -margin).all();
+  return inside ? std::optional(nearest) : std::nullopt;
+}
+
+Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point) {
+  const Vec3 ab = x[1] - x[0], ac = x[2] - x[0], ap = point - x[0];
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+  const Vec3 bp = point - x[1];
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const double s = d1 > d3 ? d1 / (d1 - d3) : 0;
+    return {1 - s, s, 0};
+  }
+  const Vec3 cp = point - x[2];
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const double s = d2 > d6 ? d2 / (d2 - d6) : 0;
+    return {1 - s, 0, s};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double along = d4 - d3, all = along + (d5 - d6);
+    const double s = all > 0 ? along / all : 0;
+    return {0, 1 - s, s};
+  }
+  const double whole = va + vb + vc;
+  return {va / whole, vb / whole, vc / whole};
+}
+
+namespace {
+
+// Signed distance [m] to a box, and where it grows.
+double box_distance(const Box& box, const Vec3& x, Vec3& gradient) {
+  const Vec3 centre = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
+  const Vec3 from = x - centre, beyond = from.cwiseAbs() - half;
+  const auto signed_axis = [&](int axis) { return Vec3((from[axis] < 0 ? -1.0 : 1.0) * Vec3::Unit(axis)); };
+  int axis = 0;
+  if (beyond.maxCoeff(&axis) <= 0) {
+    gradient = signed_axis(axis);
+    return beyond[axis];
+  }
+  gradient.setZero();
+  for (int a = 0; a < 3; ++a)
+    if (beyond[a] > 0) gradient += beyond[a] * signed_axis(a);
+  const double distance = gradient.norm();
+  gradient /= distance;
+  return distance;
+}
+
+} // namespace
+
+Weights deepest_in_box(const TriangleCorners& x, const Box& box) {
+  Weights weight{1.0 / 3, 1.0 / 3, 1.0 / 3};
+  Vec3 point = (x[0] + x[1] + x[2]) / 3, gradient;
+  for (int n = 0; n < 16; ++n) {
+    box_distance(box, point, gradient);
+    std::size_t towards = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (gradient.dot(x[k]) < gradient.dot(x[towards])) towards = k;
+    if (gradient.dot(point - x[towards]) <= 0) break; // the least there is
+    double low = 0, high = 1; // the least along the way to that corner: the slope grows along it
+    for (int halving = 0; halving < 10; ++halving) {
+      const double middle = 0.5 * (low + high);
+      box_distance(box, point + middle * (x[towards] - point), gradient);
+      (gradient.dot(x[towards] - point) < 0 ? low : high) = middle;
+    }
+    const double share = 0.5 * (low + high);
+    for (double& w : weight) w *= 1 - share;
+    weight[towards] += share;
+    point += share * (x[towards] - point);
+  }
+  return weight;
+}
+
+} // namespace rend

@@ -1,0 +1,71 @@
+// Obstacles: spheres and boxes that bodies do not pass through, and where a point that moves meets them.
+//
+// A point that ends a step within an obstacle is kept outside of a plane. Which one depends on where it came from, so
+// that nothing is pushed out on the far side:
+//
+//   sphere   the tangent plane over the point; where it went in so deep that this is no guide, or passed right through,
+//            the tangent plane where its way meets the sphere
+//   box      the side through which its way comes in; of a point that was inside, the nearest side
+//
+// The way is a straight line, relative to the obstacle. What is as long as a step's motion is therefore not missed, nor
+// what is thinner. A sphere moves as prescribed (start + velocity × time), or, having mass, falls: it does not turn, so
+// that friction acts on it as on a slider.
+#pragma once
+
+#include "sim/base/parameters.h"
+#include "sim/base/record.h"
+
+#include <array>
+#include <optional>
+
+namespace rend {
+
+// The half-space n·x ≥ offset.
+struct Plane {
+  Vec3 normal = Vec3::UnitZ(); // unit
+  double offset = 0;           // [m]
+};
+
+struct Sphere {
+  Vec3 start = Vec3::Zero();      // [m], its centre at time 0
+  double radius = 0, mass = 0;    // [m], [kg]; mass 0: moves as prescribed
+  std::optional<double> friction; // Coulomb's coefficient; none: that of the body
+  const Node* node = nullptr;     // of the preset, for those who read more of it (colour)
+
+  Vec3 centre = start, velocity = Vec3::Zero();           // [m], [m/s], of the current state
+  Vec3 next_centre = start, next_velocity = Vec3::Zero(); // at the end of the step that is being made
+
+  bool falls() const { return mass > 0; }
+  bool moves() const { return falls() || !velocity.isZero(0); }
+  double inverse_mass() const { return mass > 0 ? 1 / mass : 0; } // [1/kg]
+
+  // Where it goes if nothing stops it; `time` [s] at the end of the step.
+  void predict(double time, double step, const Vec3& gravity);
+  void commit();
+
+  // For a point that went from → to [m] in the step, relative to the centre at its start and end; `reach` [m] is the
+  // radius and what is kept from it. None: it is outside.
+  static std::optional<Plane> stop(const Vec3& from, const Vec3& to, double reach);
+};
+
+struct Box {
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero(); // [m]
+  std::optional<double> friction;
+  const Node* node = nullptr;
+
+  // As for a sphere, but in world space; `margin` [m] is kept from it.
+  std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const;
+};
+
+// Weights of the point of a triangle that lies deepest; they sum up to 1.
+using Weights = std::array<double, 3>;
+using TriangleCorners = std::array<Vec3, 3>;
+
+// Nearest to `point`: Ericson, Real-Time Collision Detection, 5.1.5.
+Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point);
+
+// Of least signed distance to the box, which is convex: by Frank and Wolfe's method, as Macklin et al., Local
+// Optimization for Robust Signed Distance Field Collision, 2020. To a small part of the triangle.
+Weights deepest_in_box(const TriangleCorners& x, const Box& box);
+
+} // namespace rend

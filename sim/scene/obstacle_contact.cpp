@@ -1,0 +1,197 @@
+#include "sim/scene/obstacle_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+constexpr int sweeps = 8;
+constexpr int passes = 2;            // over faces: what one puts out, its neighbour may put in
+constexpr double own_friction = 0.5; // between obstacles that say nothing of it
+
+using Bounds = Eigen::AlignedBox3d;
+
+// A sphere in a step, as the templates below see it.
+struct MovingSphere {
+  const Sphere* sphere;
+  Vec3 velocity() const { return sphere->next_velocity; }
+  Bounds bounds(double margin) const {
+    const Vec3 reach = Vec3::Constant(sphere->radius + margin);
+    Bounds box(sphere->next_centre - reach, sphere->next_centre + reach);
+    return box.extend(sphere->centre - reach).extend(sphere->centre + reach);
+  }
+  std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
+    const Vec3 a = from - sphere->centre, b = to - sphere->next_centre;
+    auto plane = Sphere::stop(a, b, sphere->radius + margin);
+    if (plane) plane->offset += plane->normal.dot(sphere->next_centre);
+    return plane;
+  }
+  Weights deepest(const TriangleCorners& x) const { return nearest_in_triangle(x, sphere->next_centre); }
+};
+
+struct StandingBox {
+  const Box* box;
+  Vec3 velocity() const { return Vec3::Zero(); }
+  Bounds bounds(double margin) const {
+    return {box->low - Vec3::Constant(margin), box->high + Vec3::Constant(margin)};
+  }
+  std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
+    return box->stop(from, to, margin);
+  }
+  Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
+};
+
+// Calls f(point, plane) for each vertex of the body that the obstacle is to stop.
+template <class Shape, class F> void for_each_vertex(const Shape& shape, const ContactBody& body, F&& f) {
+  const double margin = body.settings().thickness;
+  const Bounds near = shape.bounds(margin);
+  for (Slot v = 0; v < body.vertices(); ++v) {
+    const Vec3 from = body.from(v), to = body.position(v);
+    if ((from.cwiseMax(to).array() < near.min().array()).any()) continue;
+    if ((from.cwiseMin(to).array() > near.max().array()).any() || !body.alive(v)) continue;
+    if (const auto plane = shape.stop(from, to, margin)) f(ContactPoint::at(body, v), *plane);
+  }
+}
+
+// The same for the deepest point of each face.
+template <class Shape, class F> void for_each_face(const Shape& shape, const ContactBody& body, F&& f) {
+  const double margin = body.settings().thickness;
+  const Bounds near = shape.bounds(margin);
+  for (const ContactFaces::Triangle& triangle : body.faces.triangles()) {
+    const auto [a, b, c] = triangle.vertex;
+    const TriangleCorners x{body.position(a), body.position(b), body.position(c)};
+    if ((x[0].cwiseMax(x[1]).cwiseMax(x[2]).array() < near.min().array()).any()) continue;
+    if ((x[0].cwiseMin(x[1]).cwiseMin(x[2]).array() > near.max().array()).any()) continue;
+    const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
+    if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
+    if (const auto plane = shape.stop(point.from(), point.position(), margin)) f(point, *plane);
+  }
+}
+
+// Puts a point out of an obstacle that does not yield.
+void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacle, double friction,
+              double step) {
+  const double w = point.inverse_mass();
+  const double gap = plane.normal.dot(point.position()) - plane.offset;
+  if (w == 0 || gap >= 0) return;
+  const Vec3 change = impact(point.velocity() - obstacle, plane.normal, friction);
+  const Vec3 along = change - plane.normal.dot(change) * plane.normal;
+  point.push(change / w, 0);
+  point.shift((step * along - gap * plane.normal) / w);
+}
+
+template <class Shape>
+void keep_body_out(const Shape& shape, const ContactBody& body, double friction, double step, bool falls) {
+  const Vec3 velocity = shape.velocity();
+  const auto act = [&](const ContactPoint& point, const Plane& plane) {
+    if (!falls) return keep_out(point, plane, velocity, friction, step);
+    const double w = point.inverse_mass(), gap = plane.normal.dot(point.position()) - plane.offset;
+    if (w > 0 && gap < 0) point.shift(-gap / w * plane.normal); // momentum was traded before
+  };
+  for_each_vertex(shape, body, act);
+  for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, act);
+}
+
+// The point of the box that is nearest to x.
+Vec3 nearest(const Box& box, const Vec3& x) {
+  return x.cwiseMax(box.low).cwiseMin(box.high);
+}
+
+// The plane that keeps a sphere's centre out of a box.
+std::optional<Plane> plane_against(const Box& box, const Sphere& sphere) {
+  const Vec3 to = sphere.next_centre, at = nearest(box, to), from = to - at;
+  const double distance = from.norm();
+  if (distance >= sphere.radius) return {};
+  if (distance == 0) return box.stop(sphere.centre, to, sphere.radius);
+  return Plane{from / distance, from.dot(at) / distance + sphere.radius};
+}
+
+} // namespace
+
+void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& bodies, double time,
+                              double step) {
+  for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity);
+  trade(bodies, step);
+  for (const auto& body : bodies) {
+    if (!body->settings().obstacles) continue;
+    const double own = body->settings().friction;
+    for (const Sphere& sphere : world_.spheres)
+      keep_body_out(MovingSphere{&sphere}, *body, sphere.friction.value_or(own), step, sphere.falls());
+    for (const Box& box : world_.boxes)
+      keep_body_out(StandingBox{&box}, *body, box.friction.value_or(own), step, false);
+  }
+}
+
+void ObstacleContact::trade(const std::vector<std::unique_ptr<ContactBody>>& bodies, double step) {
+  touches_.clear();
+  bool falls = false;
+  for (std::size_t s = 0; s < world_.spheres.size(); ++s) {
+    if (!world_.spheres[s].falls()) continue;
+    falls = true;
+    for (const auto& body : bodies)
+      if (body->settings().obstacles) find_touches(s, *body);
+  }
+  if (!falls) return;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (Touch& touch : touches_) meet(touch, step);
+    for (Sphere& a : world_.spheres)
+      for (Sphere& b : world_.spheres)
+        if (&a < &b) collide(a, b);
+    for (Sphere& sphere : world_.spheres)
+      if (sphere.falls()) support(sphere);
+  }
+  for (Sphere& sphere : world_.spheres)
+    if (sphere.falls()) settle(sphere, step);
+}
+
+void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) {
+  const Sphere& sphere = world_.spheres[number];
+  const double friction = sphere.friction.value_or(body.settings().friction);
+  const auto keep = [&](const ContactPoint& point, const Plane& plane) {
+    touches_.push_back({number, point, plane.normal, friction});
+  };
+  for_each_vertex(MovingSphere{&sphere}, body, keep);
+  for_each_face(MovingSphere{&sphere}, body, keep);
+}
+
+void ObstacleContact::meet(Touch& touch, double step) {
+  Sphere& sphere = world_.spheres[touch.sphere];
+  const double W = sphere.inverse_mass(), w = touch.point.inverse_mass();
+  const Vec3 impulse =
+      impact(touch.point.velocity() - sphere.next_velocity, touch.normal, touch.friction) / (w + W);
+  touch.point.push(impulse, step);
+  sphere.next_velocity -= W * impulse;
+}
+
+// The floor and boxes under a sphere that falls.
+void ObstacleContact::support(Sphere& sphere) {
+  const double own = sphere.friction.value_or(own_friction);
+  if (world_.floor && sphere.next_centre.z() < *world_.floor + sphere.radius)
+    sphere.next_velocity += impact(sphere.next_velocity, Vec3::UnitZ(), world_.floor_friction.value_or(own));
+  for (const Box& box : world_.boxes)
+    if (const auto plane = plane_against(box, sphere))
+      sphere.next_velocity += impact(sphere.next_velocity, plane->normal, box.friction.value_or(own));
+}
+
+void ObstacleContact::collide(Sphere& a, Sphere& b) {
+  const Vec3 apart = b.next_centre - a.next_centre;
+  const double distance = apart.norm(), w = a.inverse_mass() + b.inverse_mass();
+  if (w == 0 || distance == 0 || distance >= a.radius + b.radius) return;
+  const double friction = a.friction.value_or(b.friction.value_or(own_friction));
+  const Vec3 impulse = impact(b.next_velocity - a.next_velocity, apart / distance, friction) / w;
+  a.next_velocity -= a.inverse_mass() * impulse;
+  b.next_velocity += b.inverse_mass() * impulse;
+}
+
+// With its velocity to where it ends, but not into what stands there.
+void ObstacleContact::settle(Sphere& sphere, double step) {
+  sphere.next_centre = sphere.centre + step * sphere.next_velocity;
+  for (const Box& box : world_.boxes)
+    if (const auto plane = plane_against(box, sphere))
+      sphere.next_centre +=
+          std::max(0.0, plane->offset - plane->normal.dot(sphere.next_centre)) * plane->normal;
+  if (world_.floor) sphere.next_centre.z() = std::max(sphere.next_centre.z(), *world_.floor + sphere.radius);
+}
+
+} // namespace rend
