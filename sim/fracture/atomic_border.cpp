@@ -1,4 +1,4 @@
-// The atomic criterion on edges (thesis 7.3): |(f_1 − f_2)·n|, with f_i the force that element i applies to the two
+// The atomic criterion on edges and faces (thesis 7.4): |(f_1 − f_2)·n|, with f_i the force that element i applies to the
 // shared vertices. |f_1 − f_2| bounds it.
 #include "sim/base/simd.h"
 #include "sim/fracture/border.h"
@@ -11,30 +11,41 @@ namespace {
 
 class AtomicBorder final : public Criterion {
 public:
-  explicit AtomicBorder(EmbeddedMap& map) : borders_(bind_borders(map, true)) {}
+  explicit AtomicBorder(EmbeddedMap& map) : borders_(map, Borders::Carry::Corners) {}
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
-    const PackedRows& rows = borders_.rows();
-    const std::uint32_t *a1 = rows.index(2), *b1 = rows.index(3), *a2 = rows.index(4), *b2 = rows.index(5);
-    const double square = threshold * threshold;
-    rows.for_each([&](std::size_t key, std::size_t row) {
-      const Double4 f = (load(view.corner[a1[row]]) + load(view.corner[b1[row]])) -
-                        (load(view.corner[a2[row]]) + load(view.corner[b2[row]]));
-      const Double4 ff = f * f;
-      if (ff[0] + ff[1] + ff[2] <= square) return;
-      const Vec3 difference(f[0], f[1], f[2]);
-      const Dart d = view.map.cells(EdgeOfVolume).first_dart(borders_.owner_of(key));
-      const double value = std::abs(difference.dot(across_border(view.map, view.position, d)));
-      if (value > threshold) candidates.push_back({value, d});
-    });
+    if (borders_.of_sheet())
+      look<2>(view, threshold, candidates);
+    else
+      look<0>(view, threshold, candidates);
   }
 
   void rebind(const Changes& changes) override { borders_.rebind(changes); }
   void reserve_for_separations() override { borders_.reserve_for_separations(); }
-  std::size_t bytes() const override { return borders_.rows().bytes(); }
+  std::size_t bytes() const override { return borders_.bytes(); }
 
 private:
-  Binder borders_;
+  // Vertices: of each border, if known.
+  template <std::size_t Vertices>
+  void look(const ForceView& view, double threshold, std::vector<Candidate>& candidates) const {
+    const PackedRows& rows = borders_.rows();
+    const double square = threshold * threshold;
+    rows.for_each([&](std::size_t key, std::size_t row) {
+      const std::size_t vertices = Vertices > 0 ? Vertices : borders_.vertices(key);
+      Double4 f1{}, f2{};
+      for (std::size_t k = 0; k < vertices; ++k) {
+        f1 += load(view.corner[rows.index(static_cast<int>(2 * k))[row]]);
+        f2 += load(view.corner[rows.index(static_cast<int>(2 * k + 1))[row]]);
+      }
+      const Double4 f = f1 - f2, ff = f * f;
+      if (ff[0] + ff[1] + ff[2] <= square) return;
+      const Dart d = borders_.dart(key);
+      const double value = std::abs(Vec3(f[0], f[1], f[2]).dot(across_border(view.map, view.position, d)));
+      if (value > threshold) candidates.push_back({value, d});
+    });
+  }
+
+  Borders borders_;
 };
 
 } // namespace
@@ -45,7 +56,7 @@ CriterionType atomic_border() {
           "N",
           true,
           [](const CriterionRequest&) { return Cell::Borders; },
-          [](const CriterionRequest&) { return std::string(); },
+          [](const CriterionRequest& request) { return lacking_for_borders(request.map); },
           [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return std::make_unique<AtomicBorder>(request.map);
           }};

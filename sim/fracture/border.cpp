@@ -1,11 +1,16 @@
 #include "sim/fracture/border.h"
 
+#include "sim/base/check.h"
 #include "sim/mechanics/mass.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 
 namespace rend {
 namespace {
 
-// The normal of the face of d, walked from d along α0 first (Newell's sum; unit, or 0 without area).
+// The mean normal of the face of d, walked from d along α0 first (Newell's sum; unit, or 0 without area).
 Vec3 face_normal(const EmbeddedMap& map, const Record* x, Dart d) {
   Vec3 sum = Vec3::Zero();
   const Vec3 origin = x[map.vertex(d)];
@@ -20,28 +25,77 @@ Vec3 face_normal(const EmbeddedMap& map, const Record* x, Dart d) {
   return sum;
 }
 
-} // namespace
+constexpr int most_sides = static_cast<int>(most_fields / 2);
 
-Binder bind_borders(EmbeddedMap& map, bool corners) {
+int most_sides_of(const EmbeddedMap& map) {
+  int most = 3;
+  for_each_face(map, [&](Dart d) { most = std::max(most, sides_of_face(map.map(), d)); });
+  return most;
+}
+
+// To the n-th vertex around the face, on its other side or this one.
+Word around(bool other, int n) {
+  Word word(other ? 1 : 0, '3');
+  if (n > 0) word += '0';
+  for (int k = 1; k < n; ++k) word.append("10");
+  return word;
+}
+
+Binder edges_of_sheet(EmbeddedMap& map, Borders::Carry carry) {
   const Pattern pattern{
       .owner = EdgeOfVolume,
       .support = EdgeOfVolume,
       .units = {{"", "0"}},
       .fold = {},
       .present = [](const GMap& m, Dart d, std::size_t) { return !m.is_free(2, d) && !m.is_free(0, d); }};
-  std::vector<Field> fields{{{""}, Vertex}, {{"0"}, Vertex}};
-  if (corners) {
-    const Orbit corner = corner_orbit(map.dimension());
-    map.use(corner);
-    for (const char* word : {"", "0", "2", "20"}) fields.push_back({{word}, corner});
-  }
   map.use(EdgeOfVolume);
-  Binder binder(map, pattern, std::move(fields), 2);
-  binder.bind();
-  return binder;
+  if (carry == Borders::Carry::Vertices) return Binder(map, pattern, {{{""}, Vertex}, {{"0"}, Vertex}}, 2);
+  const Orbit corner = corner_orbit(2);
+  map.use(corner);
+  return Binder(map, pattern, {{{""}, corner}, {{"2"}, corner}, {{"0"}, corner}, {{"20"}, corner}}, 0);
+}
+
+Binder faces_of_solid(EmbeddedMap& map, Borders::Carry carry) {
+  const int most = most_sides_of(map);
+  CHECK(most <= most_sides);
+  Pattern pattern{.owner = Face,
+                  .support = Face,
+                  .units = {},
+                  .fold = {},
+                  .present = [](const GMap& m, Dart d, std::size_t unit) {
+                    return !m.is_free(3, d) && sides_of_face(m, d) == static_cast<int>(unit) + 3;
+                  }};
+  const bool corners = carry == Borders::Carry::Corners;
+  const Orbit orbit = corners ? corner_orbit(3) : Vertex;
+  map.use(Face);
+  map.use(orbit);
+  std::vector<Field> fields(static_cast<std::size_t>(corners ? 2 * most : most), Field{{}, orbit});
+  for (int sides = 3; sides <= most; ++sides) {
+    pattern.units.push_back({});
+    for (std::size_t n = 0; n < fields.size(); ++n) { // those beyond the face's own repeat its first
+      const int k = static_cast<int>(corners ? n / 2 : n) % sides;
+      fields[n].word.push_back(around(corners && n % 2 == 1, k));
+      if (!corners) pattern.units.back().push_back(fields[n].word.back());
+    }
+  }
+  return Binder(map, pattern, std::move(fields), corners ? 0 : most);
+}
+
+} // namespace
+
+std::string lacking_for_borders(const EmbeddedMap& map) {
+  const int most = map.dimension() == 3 ? most_sides_of(map) : 0;
+  if (most <= most_sides) return {};
+  return fmt::format("takes faces of up to {} sides, and one here has {}", most_sides, most);
+}
+
+Borders::Borders(EmbeddedMap& map, Carry carry)
+    : map_(&map), binder_(map.dimension() == 2 ? edges_of_sheet(map, carry) : faces_of_solid(map, carry)) {
+  binder_.bind();
 }
 
 Vec3 across_border(const EmbeddedMap& map, const Record* x, Dart d) {
+  if (map.dimension() == 3) return face_normal(map, x, d);
   const Vec3 along = x[map.vertex(map.map().alpha(0, d))].vec() - x[map.vertex(d)].vec();
   // Faces that agree walk their common edge in opposite directions: the other one from B.
   const Dart other = map.map().alpha(0, map.map().alpha(2, d));

@@ -7,9 +7,4 @@ const std::vector<ChangeType>& all_changes() {
   return list;
 }
 
-const std::vector<CriterionType>& all_criteria() {
-  static const std::vector<CriterionType> list{global_border(), atomic_border()};
-  return list;
-}
-
 } // namespace rend

@@ -37,9 +37,9 @@ public:
   virtual ~Criterion() = default;
   // Appends what exceeds the threshold, in any order that is a function of the state and the map alone.
   virtual void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) = 0;
-  virtual void rebind(const Changes& changes) = 0;
-  virtual void reserve_for_separations() = 0; // see EmbeddedMap
-  virtual std::size_t bytes() const = 0;
+  virtual void rebind(const Changes&) {}    // of those that carry rows
+  virtual void reserve_for_separations() {} // see EmbeddedMap
+  virtual std::size_t bytes() const { return 0; }
 };
 
 // The body and the law that a criterion is made for.
@@ -63,7 +63,13 @@ struct CriterionType {
 
 const std::vector<CriterionType>& all_criteria();
 
-CriterionType global_border();
+CriterionType atomic_spring();
+CriterionType atomic_element();
+CriterionType atomic_vertex();
+CriterionType cumulative_vertex();
+CriterionType vertex_stress_criterion();
 CriterionType atomic_border();
+CriterionType global_border();
+CriterionType strain();
 
 } // namespace rend

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rend {
 namespace {
 
@@ -52,6 +54,12 @@ bool (*present_of(ElementKind kind))(const GMap&, Dart, std::size_t) {
   return nullptr;
 }
 
+Pattern pattern_of(const ElementShape& shape) {
+  const Orbit owner = element_orbit(shape.dimension);
+  return {
+      .owner = owner, .support = owner, .units = shape.units, .fold = {}, .present = present_of(shape.kind)};
+}
+
 template <int Values>
 std::unique_ptr<Interaction> made(EmbeddedMap& map, const std::shared_ptr<const ElementLaw>& law,
                                   double thickness, const Place& place) {
@@ -61,8 +69,7 @@ std::unique_ptr<Interaction> made(EmbeddedMap& map, const std::shared_ptr<const 
   interaction->name = law->name();
   interaction->column = &map.add(ElementEmbedding<Values>{law->name(), owner, owner, law, thickness, place});
   interaction->law = law;
-  interaction->pattern = Pattern{
-      .owner = owner, .support = owner, .units = shape.units, .fold = {}, .present = present_of(shape.kind)};
+  interaction->pattern = pattern_of(shape);
   interaction->damped = law->material().damping > 0;
   return interaction;
 }
@@ -94,9 +101,9 @@ struct Census {
   std::size_t others = 0;
 };
 
-Census count_elements(EmbeddedMap& map) {
+Census count_elements(const EmbeddedMap& map) {
   Census census;
-  const CellIndex& elements = map.use(element_orbit(map.dimension()));
+  const CellIndex& elements = map.cells(element_orbit(map.dimension()));
   for (Slot e = 0; e < elements.slots(); ++e) {
     if (!elements.alive(e)) continue;
     if (const auto at = element_at(map.map(), elements.first_dart(e)))
@@ -106,6 +113,22 @@ Census count_elements(EmbeddedMap& map) {
   }
   return census;
 }
+
+// See linear_elements().
+struct MadeWhenAsked final : Interaction {
+  const EmbeddedMap* map = nullptr;
+  double thickness = 0;
+  mutable std::vector<double> values;
+
+  const double* unit(Slot owner, std::size_t unit) const override {
+    const auto& element = static_cast<const ElementLaw&>(*law);
+    const std::vector<Vec3> rest =
+        rest_positions(*map, map->cells(pattern.owner).first_dart(owner), pattern.units[unit]);
+    values.resize(static_cast<std::size_t>(law->values()));
+    if (!element.write_unit(rest.data(), thickness, values.data())) std::fill(values.begin(), values.end(), 0);
+    return values.data();
+  }
+};
 
 double thickness_of(const Node& node, int dimension) {
   if (dimension == 3) {
@@ -146,6 +169,24 @@ const ElementType& elasticity_type() {
   return type;
 }
 
+std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map,
+                                                          const MassTensorRequest& request) {
+  std::vector<std::unique_ptr<Interaction>> all;
+  const Census census = count_elements(map);
+  for (std::size_t n = 0; n < census.of_kind.size(); ++n) {
+    if (census.of_kind[n] == 0) continue;
+    const auto kind = static_cast<ElementKind>(n);
+    auto made = std::make_unique<MadeWhenAsked>();
+    made->law = element_law(kind, ElasticModel::Linear, Rotation::Polar, request.material);
+    made->name = made->law->name();
+    made->pattern = pattern_of(shape_of(kind));
+    made->map = &map;
+    made->thickness = request.thickness;
+    all.push_back(std::move(made));
+  }
+  return all;
+}
+
 ElasticMaterial elastic_material(const Node& node, int dimension) {
   ElasticMaterial material = ElasticMaterial::of(node.number("young"), node.number("poisson"), dimension);
   material.damping = node.number("damping-stiffness");
@@ -166,6 +207,7 @@ std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, cons
   const int dimension = map.dimension();
   const double thickness = thickness_of(node, dimension);
   const ElasticMaterial material = elastic_material(node, dimension);
+  map.use(element_orbit(dimension));
   const Census census = count_elements(map);
   if (census.others > 0)
     request.notes.push_back(

@@ -11,6 +11,8 @@
 
 namespace rend {
 
+struct MassTensorRequest;
+
 const ElementType& elasticity_type();
 
 struct ElasticityRequest {
@@ -21,6 +23,11 @@ struct ElasticityRequest {
 // Adds the embeddings to the map. UserError: an element without volume, by its name and place; a sheet without
 // thickness, or a solid with one; no element that fits.
 std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, const ElasticityRequest& request);
+
+// The linear elements that mass-tensors are made of, to be asked for stress and forces. They are no embedding: the numbers
+// of a unit are made when they are asked for, and last until the next are.
+std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map,
+                                                          const MassTensorRequest& request);
 
 // E and ν of the request, β from its damping-stiffness.
 ElasticMaterial elastic_material(const Node& node, int dimension);

@@ -50,11 +50,24 @@ HingePoints hinge_gradient(const HingePoints& x) {
   return gradient;
 }
 
+namespace {
+
+double moment_of(const UnitParameters& p, const HingePoints& x, const HingePoints& v,
+                 const HingePoints& gradient) {
+  double rate = 0; // θ̇
+  for (std::size_t n = 0; n < gradient.size(); ++n) rate += gradient[n].dot(v[n]);
+  return p.k * wrapped(hinge_angle(x) - p.rest) + p.damping * rate;
+}
+
+} // namespace
+
+double hinge_moment(const UnitParameters& p, const HingePoints& x, const HingePoints& v) {
+  return moment_of(p, x, v, hinge_gradient(x));
+}
+
 HingePoints hinge_forces(const UnitParameters& p, const HingePoints& x, const HingePoints& v) {
   HingePoints forces = hinge_gradient(x);
-  double rate = 0; // θ̇
-  for (std::size_t n = 0; n < forces.size(); ++n) rate += forces[n].dot(v[n]);
-  const double moment = p.k * wrapped(hinge_angle(x) - p.rest) + p.damping * rate;
+  const double moment = moment_of(p, x, v, forces);
   for (Vec3& force : forces) force *= -moment;
   return forces;
 }

@@ -31,6 +31,7 @@ double hinge_angle(const HingePoints& x);
 // ∂θ/∂x of the eight. Where P of a side is on the hinge line, or the hinge has no length, nothing turns: all zero.
 HingePoints hinge_gradient(const HingePoints& x);
 
+double hinge_moment(const UnitParameters& p, const HingePoints& x, const HingePoints& v); // kθ + λθ̇ [N·m]
 HingePoints hinge_forces(const UnitParameters& p, const HingePoints& x, const HingePoints& v);
 double hinge_energy(const UnitParameters& p, const HingePoints& x); // [J], the potential of the force
 

@@ -94,6 +94,14 @@ void Binder::find_class(Slot owner, std::size_t unit, const Row& row, std::vecto
   std::sort(keys.begin(), keys.end());
 }
 
+void Binder::units_of_row(std::size_t key, std::vector<std::size_t>& keys) const {
+  Row row;
+  if (fold_ && fill(owner_of(key), key % pattern_.units.size(), row))
+    find_class(owner_of(key), key % pattern_.units.size(), row, keys);
+  else
+    keys.assign(1, key);
+}
+
 // The numbers of a class, seen from its first unit. Valid until the next call.
 const double* Binder::sum_of(const std::vector<std::size_t>& keys, const Row& first) const {
   const std::size_t count = pattern_.units.size();

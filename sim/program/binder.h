@@ -21,6 +21,8 @@ struct Field {
   Orbit orbit;
 };
 
+constexpr std::size_t most_fields = 64;
+
 class Binder {
 public:
   // Rows of an interaction: its particles' vertices, and with `corners` also the element corners that take the
@@ -37,14 +39,17 @@ public:
   int units() const { return static_cast<int>(pattern_.units.size()); }
   Slot owner_of(std::size_t key) const { return static_cast<Slot>(key / pattern_.units.size()); }
 
+  // Keys of the units that the row of a live key stands for: itself and what it folds, in increasing order.
+  void units_of_row(std::size_t key, std::vector<std::size_t>& keys) const;
+
   void bind();                         // all owners
   void rebind(const Changes& changes); // those that the changes concern
   void reserve_for_separations();      // see EmbeddedMap
 
 private:
   struct Row {
-    std::array<std::uint32_t, 2 * most_particles> index; // fields
-    const double* value = nullptr;                       // the unit's numbers; null: the pattern has none
+    std::array<std::uint32_t, most_fields> index; // as many as there are fields
+    const double* value = nullptr;                // the unit's numbers; null: the pattern has none
   };
   bool present(Slot owner, std::size_t unit) const;
   bool fill(Slot owner, std::size_t unit, Row& row) const; // false: silent

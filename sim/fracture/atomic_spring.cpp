@@ -1,0 +1,43 @@
+// The atomic criterion on springs of one kind (thesis 7.4.1): the force of each single one, of an angular bend its moment.
+//
+// A stretch spring lies on its edge, a shear spring in its element, a bend on the border that it keeps: that cell is
+// measured by the largest of its springs.
+#include "sim/fracture/single_springs.h"
+
+namespace rend {
+namespace {
+
+class AtomicSpring final : public Criterion {
+public:
+  explicit AtomicSpring(const CriterionRequest& request)
+      : springs_(request), cell_(cell_of_kind(request.kind)) {}
+
+  void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
+    const std::size_t first = candidates.size();
+    springs_.each_above(view, threshold, [&](const UnitNow& spring) {
+      const double value = force_of(spring);
+      if (value > threshold) candidates.push_back({value, cell_of(view.map, cell_, spring)});
+    });
+    keep_largest(candidates, first);
+  }
+
+private:
+  SingleSprings springs_;
+  Cell cell_;
+};
+
+} // namespace
+
+CriterionType atomic_spring() {
+  return {"atomic-spring",
+          "the force of each single spring of the kind given, of an angular bend its moment [N.m]",
+          "N, of an angular bend N.m",
+          false,
+          [](const CriterionRequest& request) { return cell_of_kind(request.kind); },
+          [](const CriterionRequest& request) { return lacking_for_springs(request); },
+          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+            return std::make_unique<AtomicSpring>(request);
+          }};
+}
+
+} // namespace rend

@@ -1,0 +1,27 @@
+#include "sim/fracture/norms.h"
+
+#include "sim/base/simd.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+
+REND_CLONES double norms(const Record* force, std::size_t count, double* norm) {
+  Double4 largest{};
+  std::size_t v = 0;
+  for (; v + 4 <= count; v += 4) {
+    const Double4 a = load(force[v]), b = load(force[v + 1]), c = load(force[v + 2]), d = load(force[v + 3]);
+    const Double4 n = square_root(sums_of(a * a, b * b, c * c, d * d));
+    __builtin_memcpy(norm + v, &n, sizeof n);
+    largest = n > largest ? n : largest;
+  }
+  for (; v < count; ++v) {
+    const Record& f = force[v];
+    norm[v] = std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z);
+    largest[0] = std::max(largest[0], norm[v]);
+  }
+  return std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]));
+}
+
+} // namespace rend

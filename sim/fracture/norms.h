@@ -1,0 +1,13 @@
+// |f| of all vertices at once.
+#pragma once
+
+#include "sim/base/record.h"
+
+#include <cstddef>
+
+namespace rend {
+
+// Writes `count` norms; returns the largest.
+double norms(const Record* force, std::size_t count, double* norm);
+
+} // namespace rend

@@ -1,0 +1,100 @@
+#include "sim/fracture/single_springs.h"
+
+#include "sim/mechanics/hinge_law.h"
+#include "sim/mechanics/spring_law.h"
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+bool is_hinge(const Interaction& interaction) {
+  return interaction.law == hinge_law();
+}
+bool is_spring(const Interaction& interaction) {
+  return interaction.law == spring_law() || is_hinge(interaction);
+}
+
+struct Ends {
+  Vec3 apart, speed; // [m], [m/s]
+};
+Ends ends_of(const ForceView& view, const PackedRows& rows, std::size_t row) {
+  const std::uint32_t i = rows.index(0)[row], j = rows.index(1)[row];
+  return {view.position[j].vec() - view.position[i].vec(), view.velocity[j].vec() - view.velocity[i].vec()};
+}
+
+} // namespace
+
+SingleSprings::SingleSprings(const CriterionRequest& request) {
+  for (std::size_t n = 0; n < request.interactions.size(); ++n) {
+    const Interaction& interaction = *request.interactions[n];
+    if (is_spring(interaction) && interaction.name.starts_with(request.kind)) of_.push_back(n);
+  }
+}
+
+double SingleSprings::bound(const ForceView& view, const PackedRows& rows, std::size_t row) {
+  const auto [apart, speed] = ends_of(view, rows, row);
+  const double length = apart.norm(), along = length > 0 ? speed.dot(apart) / length : 0;
+  const double force =
+      rows.value(0, row) * std::abs(length - rows.value(2, row)) + rows.value(1, row) * std::abs(along);
+  return force * (1 + 1e-12); // sums of k and rounding
+}
+
+double SingleSprings::elongation(const ForceView& view, const PackedRows& rows, std::size_t row) {
+  const double rest = rows.value(2, row);
+  return rest > 0 ? ends_of(view, rows, row).apart.norm() / rest - 1 : 0;
+}
+
+double force_of(const UnitNow& spring) {
+  if (!is_hinge(*spring.interaction)) return spring.forces()[0].norm();
+  return std::abs(hinge_moment(UnitParameters::of(spring.values), spring.position, spring.velocity));
+}
+
+double elongation_of(const UnitNow& spring) {
+  const double rest = UnitParameters::of(spring.values).rest;
+  return rest > 0 ? (spring.position[1] - spring.position[0]).norm() / rest - 1 : 0;
+}
+
+Cell cell_of_kind(const std::string& kind) {
+  return kind == "stretch" ? Cell::Edges : kind == "shear" ? Cell::Elements : Cell::Borders;
+}
+
+Dart cell_of(const EmbeddedMap& map, Cell cell, const UnitNow& spring) {
+  return smallest_dart(map.map(), orbit_of(cell, map.dimension()), spring.owner);
+}
+
+std::string lacking_for_springs(const CriterionRequest& request) {
+  std::vector<std::string> there;
+  bool hinges = false, straight = false;
+  for (const auto& interaction : request.interactions) {
+    if (!is_spring(*interaction)) continue;
+    const std::string kind = interaction->name.substr(0, interaction->name.find(' '));
+    if (std::find(there.begin(), there.end(), kind) == there.end()) there.push_back(kind);
+    if (kind == request.kind) (is_hinge(*interaction) ? hinges : straight) = true;
+  }
+  std::string list;
+  for (const std::string& kind : there) list += (list.empty() ? "" : ", ") + kind;
+  if (there.empty()) return "looks at springs, and this body has none";
+  if (request.kind.empty()) return "looks at springs of one kind: say kind, one of " + list;
+  if (!hinges && !straight)
+    return fmt::format("looks at springs of kind '{}', and this body has none: it has {}", request.kind, list);
+  if (hinges && straight)
+    return "would compare forces and moments with one threshold: this body bends by both kinds";
+  return {};
+}
+
+void keep_largest(std::vector<Candidate>& candidates, std::size_t first) {
+  const auto begin = candidates.begin() + static_cast<std::ptrdiff_t>(first);
+  std::stable_sort(begin, candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.dart != b.dart ? a.dart < b.dart : a.value > b.value;
+  });
+  candidates.erase(std::unique(begin, candidates.end(),
+                               [](const Candidate& a, const Candidate& b) { return a.dart == b.dart; }),
+                   candidates.end());
+}
+
+} // namespace rend

@@ -1,0 +1,76 @@
+// The single springs and hinges of a body, of one kind or all, whether or not the program folds parallel ones into a row.
+//
+// A row's own force says too little: k and λ of parallel springs may cancel. But
+//
+//   |k_e (l − l0) + λ_e u·w|  ≤  Σk |l − l0| + Σλ |u·w|
+//
+// for each spring e that the row stands for, since the rest length is common; only where the right side exceeds the
+// threshold are single springs looked at. A hinge has a row of its own.
+#pragma once
+
+#include "sim/fracture/criterion.h"
+#include "sim/program/unit_now.h"
+
+namespace rend {
+
+class SingleSprings {
+public:
+  // Of interactions whose name begins with `kind`; empty: of all springs and hinges.
+  explicit SingleSprings(const CriterionRequest& request);
+
+  bool empty() const { return of_.empty(); }
+
+  // Calls f(unit now) for every unit whose force [N] (moment [N.m] of a hinge) may exceed the threshold, and for some
+  // others, in an order that is a function of the map alone.
+  template <class F> void each_above(const ForceView& view, double threshold, F&& f) const {
+    each_row(view, [&](const Binder& binder, std::size_t key, std::size_t row) {
+      if (binder.interaction()->law->particles() == 2 && bound(view, binder.rows(), row) <= threshold) return;
+      each_unit(view, binder, key, f);
+    });
+  }
+
+  // The same for every row whose elongation l/l0 − 1, by size, exceeds the threshold.
+  template <class F> void each_longer(const ForceView& view, double threshold, F&& f) const {
+    each_row(view, [&](const Binder& binder, std::size_t key, std::size_t row) {
+      if (std::abs(elongation(view, binder.rows(), row)) > threshold) each_unit(view, binder, key, f);
+    });
+  }
+
+private:
+  template <class F> void each_row(const ForceView& view, F&& f) const {
+    for (std::size_t n : of_) {
+      const Binder& binder = view.program.rows()[n];
+      binder.rows().for_each([&](std::size_t key, std::size_t row) { f(binder, key, row); });
+    }
+  }
+  template <class F> void each_unit(const ForceView& view, const Binder& binder, std::size_t key, F&& f) const {
+    thread_local std::vector<std::size_t> keys;
+    binder.units_of_row(key, keys);
+    for (std::size_t k : keys)
+      f(UnitNow(view.map, *binder.interaction(),
+                view.map.cells(binder.pattern().owner).first_dart(binder.owner_of(k)),
+                k % static_cast<std::size_t>(binder.units()), view.position, view.velocity));
+  }
+  static double bound(const ForceView& view, const PackedRows& rows, std::size_t row); // [N]
+  static double elongation(const ForceView& view, const PackedRows& rows, std::size_t row);
+
+  std::vector<std::size_t> of_; // places among the body's interactions
+};
+
+// [N], of a hinge its moment [N.m]; by size.
+double force_of(const UnitNow& spring);
+
+// l/l0 − 1 of a spring.
+double elongation_of(const UnitNow& spring);
+
+// The cell that springs of this kind are measured on, and that of one of them, by its smallest dart.
+Cell cell_of_kind(const std::string& kind);
+Dart cell_of(const EmbeddedMap& map, Cell cell, const UnitNow& spring);
+
+// What is wrong with the `kind` that was asked for, as a sentence; empty: nothing.
+std::string lacking_for_springs(const CriterionRequest& request);
+
+// Of candidates from `first` on that share a dart, leaves the largest, by dart.
+void keep_largest(std::vector<Candidate>& candidates, std::size_t first);
+
+} // namespace rend

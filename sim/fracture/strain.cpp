@@ -1,0 +1,92 @@
+// The criterion of strain: the elongation ratio l/l0 − 1 of each spring of one kind, on the cells of its atomic twin; or,
+// where no kind is given, the largest principal strain of each element of the continuum.
+#include "sim/fracture/element_scan.h"
+#include "sim/fracture/single_springs.h"
+#include "sim/mechanics/hinge_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+class SpringStrain final : public Criterion {
+public:
+  explicit SpringStrain(const CriterionRequest& request)
+      : springs_(request), cell_(cell_of_kind(request.kind)), compression_(request.compression) {}
+
+  void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
+    const std::size_t first = candidates.size();
+    springs_.each_longer(view, threshold, [&](const UnitNow& spring) {
+      const double ratio = elongation_of(spring), value = compression_ ? std::abs(ratio) : ratio;
+      if (value > threshold) candidates.push_back({value, cell_of(view.map, cell_, spring)});
+    });
+    keep_largest(candidates, first);
+  }
+
+private:
+  SingleSprings springs_;
+  Cell cell_;
+  bool compression_;
+};
+
+class ElementStrain final : public Criterion {
+public:
+  explicit ElementStrain(const CriterionRequest& request)
+      : scan_(request, ElementScan::Of::Strain), compression_(request.compression) {}
+
+  void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
+    scan_.each_above(view, threshold, [&](Dart d) {
+      scan_.continuum().each_of(
+          d, view.position, nullptr, [&](const Continuum::Part& part, const UnitNow& now) {
+            const double value = largest_principal(strain_of(part, now), compression_).value;
+            if (value > threshold) candidates.push_back({value, d});
+          });
+    });
+  }
+
+  void rebind(const Changes& changes) override { scan_.rebind(changes); }
+  void reserve_for_separations() override { scan_.reserve_for_separations(); }
+  std::size_t bytes() const override { return scan_.bytes(); }
+
+private:
+  ElementScan scan_;
+  bool compression_;
+};
+
+std::string lacking(const CriterionRequest& request) {
+  if (request.kind.empty()) {
+    if (lacking_for_stress(request).empty()) return {};
+    if (const std::string springs = lacking_for_springs(request); springs.starts_with("looks at springs of"))
+      return springs;
+    return "looks at springs or at the elements of <elasticity>, and this body has neither";
+  }
+  const bool angular =
+      std::any_of(request.interactions.begin(), request.interactions.end(), [&](const auto& each) {
+        return each->law == hinge_law() && each->name.starts_with(request.kind);
+      });
+  if (angular)
+    return "looks at elongations, which an angular bend does not have: atomic-spring takes its moment";
+  return lacking_for_springs(request);
+}
+
+} // namespace
+
+CriterionType strain() {
+  return {
+      "strain",
+      "the elongation ratio of each spring of the kind given; without a kind, the largest principal strain of "
+      "each element",
+      "",
+      false,
+      [](const CriterionRequest& request) {
+        return request.kind.empty() ? Cell::Elements : cell_of_kind(request.kind);
+      },
+      &lacking,
+      [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+        if (request.kind.empty()) return std::make_unique<ElementStrain>(request);
+        return std::make_unique<SpringStrain>(request);
+      }};
+}
+
+} // namespace rend

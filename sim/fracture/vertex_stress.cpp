@@ -1,0 +1,58 @@
+// The criterion of stress at vertices (thesis 7.2; Koschier et al. 2014): the largest eigenvalue of the mean of its
+// elements' σ, weighed by their masses there, with the plane across its eigenvector.
+//
+// λmax of a mean is at most that of the largest of the means' terms: only vertices of elements that exceed the threshold
+// themselves are looked at.
+#include "sim/fracture/element_scan.h"
+
+namespace rend {
+namespace {
+
+class VertexStressCriterion final : public Criterion {
+public:
+  explicit VertexStressCriterion(const CriterionRequest& request)
+      : scan_(request, ElementScan::Of::Stress), compression_(request.compression),
+        stress_(request.map, scan_.continuum(), request.mass) {}
+
+  void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
+    stress_.clear();
+    seen_.clear();
+    const CellIndex& vertices = view.map.cells(Vertex);
+    scan_.each_above(view, threshold, [&](Dart element) {
+      scan_.continuum().each_of(element, view.position, nullptr, [&](const auto&, const UnitNow& now) {
+        for (std::size_t n = 0; n < static_cast<std::size_t>(now.particles); ++n) {
+          if (!seen_.insert(now.vertex[n])) continue;
+          const auto [value, direction] =
+              largest_principal(stress_.at(now.vertex[n], view.position), compression_);
+          if (value > threshold) candidates.push_back({value, vertices.first_dart(now.vertex[n]), direction});
+        }
+      });
+    });
+  }
+
+  void rebind(const Changes& changes) override { scan_.rebind(changes); }
+  void reserve_for_separations() override { scan_.reserve_for_separations(); }
+  std::size_t bytes() const override { return scan_.bytes() + stress_.bytes(); }
+
+private:
+  ElementScan scan_;
+  bool compression_;
+  VertexStress stress_;
+  IndexSet seen_; // vertex slots
+};
+
+} // namespace
+
+CriterionType vertex_stress_criterion() {
+  return {"vertex-stress",
+          "the largest principal value of the mean stress of the elements at the vertex; the plane across it",
+          "Pa",
+          false,
+          [](const CriterionRequest&) { return Cell::Vertices; },
+          [](const CriterionRequest& request) { return lacking_for_stress(request); },
+          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+            return std::make_unique<VertexStressCriterion>(request);
+          }};
+}
+
+} // namespace rend
