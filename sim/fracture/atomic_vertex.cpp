@@ -17,7 +17,8 @@ public:
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     largest_.clear();
     const auto look = [&](const UnitNow& unit) {
-      const auto force = unit.forces();
+      auto force = unit.forces();
+      gather_at_corners(view, unit, force);
       for (std::size_t n = 0; n < static_cast<std::size_t>(unit.particles); ++n) {
         const double value = force[n].norm();
         if (value > threshold) keep(view.map, unit.vertex[n], value, force[n], candidates);
@@ -28,6 +29,21 @@ public:
   }
 
 private:
+  // A hinge takes hold of a triangle's outer vertex twice.
+  static void gather_at_corners(const ForceView& view, const UnitNow& unit,
+                                std::array<Vec3, most_particles>& force) {
+    const CellIndex& corners = view.map.cells(view.mass.orbit());
+    for (std::size_t n = 1; n < static_cast<std::size_t>(unit.particles); ++n) {
+      for (std::size_t m = 0; m < n; ++m) {
+        if (unit.vertex[m] != unit.vertex[n] || corners.slot(unit.corner[m]) != corners.slot(unit.corner[n]))
+          continue;
+        force[m] += force[n];
+        force[n].setZero();
+        break;
+      }
+    }
+  }
+
   void keep(const EmbeddedMap& map, Slot vertex, double value, const Vec3& force,
             std::vector<Candidate>& candidates) {
     const auto next = static_cast<std::uint32_t>(candidates.size());

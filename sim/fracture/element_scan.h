@@ -1,18 +1,22 @@
 // The elements of a body's continuum that exceed a bound: most are ruled out, four at a time, without any rotation.
 //
-// For every R with orthonormal columns (F − R)ᵀ(F − R) ≽ 0, that is
+// With F the mean over the element, for every R with orthonormal columns (F − R)ᵀ(F − R) ≽ 0, that is
 //
 //   ε = sym(RᵀF) − I  ≼  E = (FᵀF − I)/2
 //
-// so that, whatever the model and its rotation, and with F the mean over the element,
+// so that, whatever the model and its rotation,
 //
 //   λmax(σ) = λ tr ε + 2μ λmax(ε)  ≤  λ tr E + 2μ (tr E/d + √(1 − 1/d) |dev E|)
 //
-// which is tight: at a strain of 1 % it is 0.5 % above under tension along one axis.
+// which is tight: at a strain of 1 % it is 0.5 % above under tension along one axis. Under compression, with the closest
+// rotation and det F > 0, RᵀF = √(2E + I) and c = 2/(1 + √(1 + 2m)), m ≤ λmin(E), give ε ≽ c E where E is negative and
+// tr ε ≥ tr E − c²|E|²/2. What no bound is known of is looked at.
 #pragma once
 
 #include "sim/fracture/criterion.h"
 #include "sim/program/continuum.h"
+
+#include <optional>
 
 namespace rend {
 
@@ -26,17 +30,30 @@ public:
   // Calls f(smallest dart of the element) for every element whose largest principal value (with compression: by size) may
   // exceed the threshold, and for some others, in an order that is a function of the map alone.
   template <class F> void each_above(const ForceView& view, double threshold, F&& f) {
-    (void)threshold;
-    continuum_.each(view.position, nullptr, [&](const Continuum::Part&, const UnitNow& now) { f(now.owner); });
+    for (std::size_t n = 0; n < continuum_.parts().size(); ++n) {
+      const Binder& binder = rows_of(view, n);
+      keys_.clear();
+      scan(continuum_.parts()[n], binder.rows(), view.position, threshold);
+      for (std::size_t key : keys_) f(view.map.cells(binder.pattern().owner).first_dart(binder.owner_of(key)));
+    }
   }
 
-  void rebind(const Changes&) {}
-  void reserve_for_separations() {}
-  std::size_t bytes() const { return 0; }
+  void rebind(const Changes& changes);
+  void reserve_for_separations();
+  std::size_t bytes() const;
 
 private:
+  const Binder& rows_of(const ForceView& view, std::size_t part) const {
+    const std::size_t index = continuum_.parts()[part].index;
+    return index == Continuum::made_again ? *again_[part] : view.program.rows()[index];
+  }
+  void scan(const Continuum::Part& part, const PackedRows& rows, const Record* position, double threshold);
+
   Continuum continuum_;
   Of quantity_;
+  bool compression_;
+  std::vector<std::optional<Binder>> again_; // rows of parts that the program has none of
+  std::vector<std::size_t> keys_;
 };
 
 // What a body lacks for its elements to have a stress, as a sentence; empty: nothing.

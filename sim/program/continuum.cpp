@@ -72,8 +72,4 @@ Principal largest_principal(const Eigen::Matrix3d& tensor, bool compression) {
   return {which == 0 ? -values[0] : values[2], direction};
 }
 
-Vec3 principal_values(const Eigen::Matrix3d& tensor) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
-}
-
 } // namespace rend

@@ -65,10 +65,9 @@ inline Eigen::Matrix3d strain_of(const Continuum::Part& part, const UnitNow& ele
 // The mean stress at vertices, from elements that are evaluated when they are first asked for.
 class VertexStress {
 public:
-  VertexStress(EmbeddedMap& map, const Continuum& continuum, const MassColumn& mass)
-      : map_(&map), continuum_(&continuum), mass_(&mass) {
-    map.use(element_orbit(map.dimension()));
-  }
+  // Elements have slots on this map.
+  VertexStress(const EmbeddedMap& map, const Continuum& continuum, const MassColumn& mass)
+      : map_(&map), continuum_(&continuum), mass_(&mass) {}
   void clear() { // for another state
     place_.clear();
     sums_.clear();
@@ -98,8 +97,5 @@ struct Principal {
   Vec3 direction;
 };
 Principal largest_principal(const Eigen::Matrix3d& tensor, bool compression);
-
-// [Pa or 1], ascending.
-Vec3 principal_values(const Eigen::Matrix3d& tensor);
 
 } // namespace rend

@@ -1,7 +1,7 @@
 #include "sim/scene/probe.h"
 
 #include "sim/base/check.h"
-#include "sim/mechanics/element_law.h"
+#include "sim/program/continuum.h"
 #include "sim/scene/body.h"
 
 #include <algorithm>
@@ -84,53 +84,25 @@ Vec3 Probe::reaction(Body& body) const {
   return sum;
 }
 
-namespace {
-
-const ElementLaw* element_law_of(const Interaction& interaction) {
-  return dynamic_cast<const ElementLaw*>(interaction.law.get());
-}
-
-// σ of the element in a row.
-Eigen::Matrix3d stress_of(const ElementLaw& law, const PackedRows& rows, std::size_t row,
-                          const EmbeddedMap& map) {
-  std::array<Vec3, most_particles> x, v, rest;
-  std::vector<double> unit;
-  for (int c = 0; c < law.values(); ++c) unit.push_back(rows.value(c, row));
-  for (int p = 0; p < law.particles(); ++p) {
-    const Slot vertex = rows.index(p)[row];
-    const auto n = static_cast<std::size_t>(p);
-    x[n] = map.position()[vertex];
-    v[n] = map.velocity()[vertex];
-    rest[n] = map.rest()[vertex];
-  }
-  return law.stress(unit.data(), {x.data(), v.data(), rest.data()});
-}
-
-} // namespace
-
 bool has_stress(const Body& body) {
-  return std::any_of(body.interactions.begin(), body.interactions.end(),
-                     [](const auto& interaction) { return element_law_of(*interaction) != nullptr; });
+  return !Continuum(*body.map, body.interactions).empty();
 }
 
 std::optional<Eigen::Matrix3d> Probe::stress(const Body& body) const {
-  if (!has_stress(body)) return {};
+  const EmbeddedMap& map = *body.map;
+  const Continuum continuum(map, body.interactions);
+  if (continuum.empty()) return {};
   std::vector<bool> ours(body.vertices());
-  for (Slot v : vertices(*body.map)) ours[v] = true;
+  for (Slot v : vertices(map)) ours[v] = true;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   std::size_t count = 0;
-  for (const Binder& binder : body.program->rows()) {
-    const ElementLaw* law = element_law_of(*binder.interaction());
-    if (!law) continue;
-    const PackedRows& rows = binder.rows();
-    rows.for_each([&](std::size_t, std::size_t row) {
-      bool is = false;
-      for (int p = 0; p < law->particles(); ++p) is = is || ours[rows.index(p)[row]];
-      if (!is) return;
-      sum += stress_of(*law, rows, row, *body.map);
-      ++count;
-    });
-  }
+  continuum.each(map.position().values().data(), nullptr, [&](const Continuum::Part& part, const UnitNow& e) {
+    bool is = false;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(e.particles); ++n) is = is || ours[e.vertex[n]];
+    if (!is) return;
+    sum += stress_of(part, e);
+    ++count;
+  });
   if (count == 0) return {};
   return Eigen::Matrix3d(sum / static_cast<double>(count));
 }

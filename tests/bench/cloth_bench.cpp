@@ -35,6 +35,36 @@ BENCHMARK_CAPTURE(rk4_step, mixed, "mixed", "");
 BENCHMARK_CAPTURE(rk4_step, mixed_global, "mixed", global_law);
 BENCHMARK_CAPTURE(rk4_step, mixed_atomic, "mixed", atomic_law);
 
+// Of 100 x 100 quads: the criteria's share of a step. Far: no force is anywhere near the threshold; near: the largest
+// value is half of it.
+std::string law(const std::string& attributes, double threshold) {
+  return "<tear " + attributes + " threshold=\"" + std::to_string(threshold) + "\"/>";
+}
+double largest_value(const std::string& attributes) {
+  presets::Loaded scene = presets::load(presets::cloth("quads", 100, law(attributes, 1e9)));
+  for (int n = 0; n < 200; ++n) scene->step();
+  Body& body = scene.body();
+  body.evaluate();
+  LawSettings settings = body.laws.front().settings();
+  settings.threshold = 1e-12;
+  TearLaw all(body.request_for(settings), settings);
+  return all.find(body.view()).front().value;
+}
+void criterion_step(benchmark::State& state, const std::string& attributes, bool near) {
+  const double threshold = near ? 2 * largest_value(attributes) : 1e9;
+  steps(state, presets::cloth("quads", 100, attributes.empty() ? "" : law(attributes, threshold)));
+}
+BENCHMARK_CAPTURE(criterion_step, none, "", false);
+BENCHMARK_CAPTURE(criterion_step, global, R"(criterion="global-border")", false);
+BENCHMARK_CAPTURE(criterion_step, global_near, R"(criterion="global-border")", true);
+BENCHMARK_CAPTURE(criterion_step, atomic, R"(criterion="atomic-border")", false);
+BENCHMARK_CAPTURE(criterion_step, atomic_near, R"(criterion="atomic-border")", true);
+BENCHMARK_CAPTURE(criterion_step, spring, R"(criterion="atomic-spring" kind="stretch" change="separate")",
+                  false);
+BENCHMARK_CAPTURE(criterion_step, spring_near, R"(criterion="atomic-spring" kind="stretch" change="separate")",
+                  true);
+BENCHMARK_CAPTURE(criterion_step, strain, R"(criterion="strain" kind="stretch" change="separate")", false);
+
 const char* const small_steps = R"(<time step="1e-6" integrator="symplectic" duration="1"/>)";
 
 void flat(benchmark::State& state) {

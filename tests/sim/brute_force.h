@@ -48,6 +48,7 @@ public:
     }
     force_.assign(mesh_.points.size(), Vec3::Zero());
     corner_.assign(dart_.size(), Vec3::Zero());
+    singles_.clear();
   }
 
   // Adds the forces of an interaction, and counts: its units, and the pairs of particles that they act between.
@@ -65,6 +66,21 @@ public:
   }
   std::size_t units() const { return units_; }
   std::size_t pairs() const { return pairs_.size(); }
+
+  // Single springs and hinges, one after another.
+  struct Single {
+    std::string element;                               // "stretch", "shear", "bend"
+    double force = 0;                                  // [N], of a hinge its moment [N.m]; by size
+    double elongation = 0;                             // l/l0 − 1
+    Dart on;                                           // some dart of its cell: edge, face, edge
+    std::vector<std::pair<std::uint32_t, Vec3>> pulls; // point, force on it as one element corner [N]
+  };
+  const std::vector<Single>& singles() const { return singles_; }
+  const std::vector<Dart>& darts() const { return dart_; } // of each corner
+  std::size_t corner_at(std::uint32_t point) const {       // one of them
+    return static_cast<std::size_t>(std::find(mesh_.corners.begin(), mesh_.corners.end(), point) -
+                                    mesh_.corners.begin());
+  }
 
   // In the order of the body's slots.
   std::vector<Record> forces(const Body& body) const {
@@ -91,7 +107,7 @@ public:
       if (e.p.forward == e.q.forward) n2 = -n2; // both walk their common edge the same way: turned over
       const Vec3 sum = (n1 + n2).norm() < 1e-12 ? n1 : Vec3(n1 + n2);
       const Vec3 across = (x_[e.b] - x_[e.a]).cross(sum);
-      const Dart d = dart_[e.p.forward ? e.p.a : e.p.b];
+      const Dart d = dart_[side(e)];
       const std::vector<Dart> darts{d, map.map().alpha(0, d), map.map().alpha(2, d),
                                     map.map().follow(d, Word("02"))};
       values[*std::min_element(darts.begin(), darts.end())] = std::abs(f.dot(across.normalized()));
@@ -110,6 +126,8 @@ private:
     std::uint32_t a, b; // points
     Flank p, q;
   };
+
+  static std::size_t side(const Edge& e) { return e.p.forward ? e.p.a : e.p.b; } // the corner where it starts
 
   std::size_t sides(std::size_t polygon) const { return mesh_.first[polygon + 1] - mesh_.first[polygon]; }
   std::size_t corner(std::size_t polygon, std::size_t n) const {
@@ -146,37 +164,42 @@ private:
     corner_[corner] += f;
   }
 
-  void spring(std::size_t i, std::size_t j, const Spring& s) {
+  void spring(std::size_t i, std::size_t j, const Spring& s, std::size_t on) {
     const Vec3 d = at(j) - at(i);
     const double length = d.norm(), rest_length = (rest(j) - rest(i)).norm();
     const double tension = s.k * (length - rest_length) + s.damping * (speed(j) - speed(i)).dot(d) / length;
     push(i, tension / length * d);
     push(j, -tension / length * d);
+    singles_.push_back({s.element,
+                        std::abs(tension),
+                        length / rest_length - 1,
+                        dart_[on],
+                        {{mesh_.corners[i], tension / length * d}, {mesh_.corners[j], -tension / length * d}}});
     ++units_;
     pairs_.insert(std::minmax(mesh_.corners[i], mesh_.corners[j]));
   }
 
   void stretch(const Spring& s) {
     for (std::size_t p = 0; p < mesh_.polygons(); ++p)
-      for (std::size_t i = 0; i < sides(p); ++i) spring(corner(p, i), corner(p, i + 1), s);
+      for (std::size_t i = 0; i < sides(p); ++i) spring(corner(p, i), corner(p, i + 1), s, corner(p, i));
   }
 
   void shear(const Spring& s) {
     for (std::size_t p = 0; p < mesh_.polygons(); ++p) {
       const std::size_t n = sides(p);
       if (n == 4) {
-        spring(corner(p, 0), corner(p, 2), s);
-        spring(corner(p, 1), corner(p, 3), s);
+        spring(corner(p, 0), corner(p, 2), s, corner(p, 0));
+        spring(corner(p, 1), corner(p, 3), s, corner(p, 0));
       } else if (n > 4 && s.kind == "anisotropic") {
-        for (std::size_t i = 0; i < n; ++i) spring(corner(p, i + n - 1), corner(p, i + 1), s);
+        for (std::size_t i = 0; i < n; ++i) spring(corner(p, i + n - 1), corner(p, i + 1), s, corner(p, 0));
       }
     }
   }
 
   void provot(const Spring& s) {
     for (const Edge& e : edges_) {
-      spring(e.p.near_a, e.q.near_a, s);
-      spring(e.p.near_b, e.q.near_b, s);
+      spring(e.p.near_a, e.q.near_a, s, side(e));
+      spring(e.p.near_b, e.q.near_b, s, side(e));
     }
   }
 
@@ -220,6 +243,11 @@ private:
       double moment = s.k * turn;
       for (const auto& [c, g] : pulls) moment += s.damping * g.dot(speed(c));
       for (const auto& [c, g] : pulls) push(c, -moment * g);
+      Single single{s.element, std::abs(moment), 0, dart_[side(e)], {}};
+      std::map<std::size_t, Vec3> on_corner; // a triangle's outer vertex is near both ends
+      for (const auto& [c, g] : pulls) on_corner.try_emplace(c, Vec3::Zero()).first->second -= moment * g;
+      for (const auto& [c, f] : on_corner) single.pulls.push_back({mesh_.corners[c], f});
+      singles_.push_back(std::move(single));
     }
   }
 
@@ -238,6 +266,7 @@ private:
   std::vector<Edge> edges_;
   std::vector<Vec3> x_, v_, force_; // by point
   std::vector<Vec3> corner_;        // force, by corner
+  std::vector<Single> singles_;
   std::size_t units_ = 0;
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_;
 };
