@@ -107,6 +107,7 @@ KernelArguments Program::arguments(const Binder& binder, const Record* position,
 // Rows of all interactions are run tile by tile, so that the vertices of a tile are read from memory once and not once
 // per interaction: 8192 vertices with their forces take half a megabyte. Tiles depend on the number of slots alone.
 constexpr std::size_t tile_vertices = 8192;
+constexpr std::size_t corner_tile_vertices = 1024; // with some four corners each
 
 void Program::forces(const Record* position, const Record* velocity, Record* force) const {
   if (options_.walk)
@@ -146,8 +147,16 @@ void Program::corner_forces(const Record* position, const Record* velocity, Reco
     return walk_forces(*map_, *interactions_, mass_->orbit(), position, velocity, corner, force);
   std::memset(static_cast<void*>(corner), 0, corner_vertex_.size() * sizeof(Record));
   std::memset(static_cast<void*>(force), 0, vertices() * sizeof(Record));
-  for (std::size_t n = 0; n < elementary_.size(); ++n)
-    kernels_[n]->corner_forces(arguments(elementary_[n], position, velocity, corner));
+  const std::size_t tiles = vertices() / corner_tile_vertices + 1;
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    for (std::size_t n = 0; n < elementary_.size(); ++n) {
+      const std::size_t blocks = elementary_[n].rows().blocks();
+      KernelArguments part = arguments(elementary_[n], position, velocity, corner);
+      part.first = blocks * tile / tiles;
+      part.last = blocks * (tile + 1) / tiles;
+      kernels_[n]->corner_forces(part);
+    }
+  }
   for (Slot c = 0; c < corner_vertex_.size(); ++c) {
     if (corner_vertex_[c] == no_slot) continue;
     Record& sum = force[corner_vertex_[c]];
@@ -190,7 +199,8 @@ bool Program::same_as(const Program& other) const {
                       [](const Binder& p, const Binder& q) { return p.rows().same_as(q.rows()); });
   };
   const auto same_bytes = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
   };
   return same(folded_, other.folded_) && same(elementary_, other.elementary_) &&
          corner_vertex_ == other.corner_vertex_ && same_bytes(inverse_mass_, other.inverse_mass_) &&
