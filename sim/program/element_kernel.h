@@ -67,7 +67,9 @@ REND_INLINE Matrix<3> stress(const Matrix<3>& F, const Double4& weight, double l
            {xz, yz, twice * (f2.z - 1.0) + trace}}};
 }
 
-template <class Shape, Turning turning, bool damped> struct ElementLanes {
+// Whether a model is damped and whether a block reaches beyond its part are asked while it runs: both change little,
+// and the compiler would have to write a kernel for each.
+template <class Shape, Turning turning> struct ElementLanes {
   static constexpr int N = Shape::N, Dim = Shape::dim;
   static constexpr bool flat = turning == Turning::None && Dim == 2; // carries its axes
   static constexpr bool turned = turning != Turning::None;
@@ -87,13 +89,13 @@ template <class Shape, Turning turning, bool damped> struct ElementLanes {
     from_first_corner(a.position, a, at, x);
     Matrix<Dim> F[Shape::points], mean;
     Double4 volume{};
-    if constexpr (turned || !damped) {
+    if (turned || !a.damped) {
       Shape::columns(x, D);
       mean_gradient(values, D, F, mean, volume);
     }
     if constexpr (turned)
       for (int g = 0; g < frames; ++g) turn<rotation, Dim>(frames == 1 ? mean : F[g], volume, R[g]);
-    if constexpr (damped) {
+    if (a.damped) {
       Vector v[N];
       from_first_corner(a.velocity, a, at, v);
       for (int n = 1; n < N; ++n) x[n] = x[n] + splat(m.damping) * v[n];
@@ -102,7 +104,7 @@ template <class Shape, Turning turning, bool damped> struct ElementLanes {
     Vector H[Shape::columns_count] = {};
     for (int g = 0; g < Shape::points; ++g) {
       const Inverse<Dim> inverse(values + static_cast<std::size_t>(g) * Inverse<Dim>::stride);
-      if constexpr (damped) F[g] = gradient_at<Shape, Dim>(g, D, inverse);
+      if (a.damped) F[g] = gradient_at<Shape, Dim>(g, D, inverse);
       Matrix<Dim> P;
       if constexpr (Dim == 3 && !turned)
         P = stress(F[g], inverse.weight, m.lambda, m.mu);
@@ -145,46 +147,54 @@ private:
   }
 };
 
-// All rows of the blocks that the arguments ask for.
-template <class Lanes, bool corners, bool whole>
-REND_INLINE void run_rows(const KernelArguments& a, const ElasticMaterial& m, std::size_t block) {
+// The rows of a block; `whole`: all that they write to is this part's.
+template <class Lanes, bool corners>
+REND_INLINE void run_rows(const KernelArguments& a, const ElasticMaterial& m, std::size_t block, bool whole) {
   constexpr int first = corners ? Lanes::N : 0; // index column
   const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
   for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
     Vector f[Lanes::N];
     Lanes::forces(a, m, at, f);
-    for (int n = 0; n < Lanes::N; ++n) scatter<whole>(a, a.rows.index(first + n) + at, f[n]);
-  }
-}
-
-template <class Lanes, bool corners>
-REND_INLINE void run_blocks(const KernelArguments& a, const ElasticMaterial& m) {
-  for (std::size_t block = a.first; block < a.last; ++block) {
-    const PackedRows::Range range = a.rows.range(block);
-    if (corners || (range.low >= a.low && range.high < a.high))
-      run_rows<Lanes, corners, true>(a, m, block);
-    else if (range.low < a.high && range.high >= a.low)
-      run_rows<Lanes, corners, false>(a, m, block);
+    if (corners || whole)
+      for (int n = 0; n < Lanes::N; ++n) scatter<true>(a, a.rows.index(first + n) + at, f[n]);
+    else
+      for (int n = 0; n < Lanes::N; ++n) scatter<false>(a, a.rows.index(first + n) + at, f[n]);
   }
 }
 
 template <class Shape, Turning turning, bool corners>
-REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMaterial& m) {
-  if (a.damped)
-    run_blocks<ElementLanes<Shape, turning, true>, corners>(a, m);
-  else
-    run_blocks<ElementLanes<Shape, turning, false>, corners>(a, m);
+REND_INLINE void run_blocks(const KernelArguments& a, const ElasticMaterial& m) {
+  for (std::size_t block = a.first; block < a.last; ++block) {
+    const PackedRows::Range range = a.rows.range(block);
+    const bool whole = range.low >= a.low && range.high < a.high;
+    if (corners || whole || (range.low < a.high && range.high >= a.low))
+      run_rows<ElementLanes<Shape, turning>, corners>(a, m, block, whole);
+  }
 }
 
 // What a law asks for, with the loop inside: to be called from a function with REND_CLONES.
 template <class Shape, bool corners> REND_INLINE void run_elements(const KernelArguments& a) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
   if (law.model() == ElasticModel::Linear)
-    run_damped_or_not<Shape, Turning::None, corners>(a, law.material());
+    run_blocks<Shape, Turning::None, corners>(a, law.material());
   else if (law.rotation() == Rotation::Qr)
-    run_damped_or_not<Shape, Turning::Qr, corners>(a, law.material());
+    run_blocks<Shape, Turning::Qr, corners>(a, law.material());
   else
-    run_damped_or_not<Shape, Turning::Polar, corners>(a, law.material());
+    run_blocks<Shape, Turning::Polar, corners>(a, law.material());
 }
+
+// One file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`: KernelArguments::corner_forces.
+void triangles(const KernelArguments& a);
+void quads(const KernelArguments& a);
+void tetrahedra(const KernelArguments& a);
+void hexahedra(const KernelArguments& a);
+void prisms(const KernelArguments& a);
+void pyramids(const KernelArguments& a);
+void triangle_corners(const KernelArguments& a);
+void quad_corners(const KernelArguments& a);
+void tetrahedron_corners(const KernelArguments& a);
+void hexahedron_corners(const KernelArguments& a);
+void prism_corners(const KernelArguments& a);
+void pyramid_corners(const KernelArguments& a);
 
 } // namespace rend::lanes
