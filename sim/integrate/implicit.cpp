@@ -11,7 +11,7 @@
 // the state, and δ leads downhill on the potential of which −R is the gradient. s is halved where |R| grows,
 // unless R·δ at both ends of the step says that the potential falls. Norms are those of kinetic energy, |R|² =
 // Σ |R_i|²/m_i. It stops where |R| is at most 1e-5 of the terms it is the difference of, or round-off; each
-// linear system is solved to a twentieth, and the matrix is kept while |R| falls to a tenth. After 50
+// linear system is solved to a hundredth, and the matrix is kept while |R| falls to a tenth. After 50
 // iterations a step is taken as it is where |R| is at most 1e-3 of those terms (cloth that buckles), else given up
 // (Unsolved).
 //
@@ -33,7 +33,7 @@ namespace rend {
 namespace {
 
 constexpr double wanted = 1e-5;        // of the terms
-constexpr double linear_digits = 5e-2; // of R: Newton with a definite tangent gains little more
+constexpr double linear_digits = 1e-2; // of R: Newton with a definite tangent gains little more
 constexpr double accepted = 1e-3;      // of the terms, at the last iteration
 constexpr double keeps_tangent = 0.1;  // while |R| falls to so much
 
@@ -155,10 +155,9 @@ bool ImplicitEuler::search(const Step& step, Residual& residual) {
   return false;
 }
 
-// How far the linear system is solved: to a twentieth, or to the end where that is near.
+// How far the linear system is solved: to a hundredth, or to the end where that is nearer.
 double digits_for(const Residual& residual) {
-  const double end = 0.3 * wanted * residual.terms / residual.norm;
-  return end > 1e-4 ? std::min(end, 0.1) : linear_digits;
+  return std::clamp(0.3 * wanted * residual.terms / residual.norm, linear_digits, 0.1);
 }
 
 [[noreturn]] void give_up(const Residual& residual, int iterations) {

@@ -39,10 +39,14 @@ BlockPattern pattern_of(const std::vector<Binder>& binders, std::size_t vertices
 
 } // namespace
 
+// A product takes a nanosecond and a half a block, and to call the other threads up to ten microseconds each time,
+// or as long as something else runs on their processors: with fewer rows it was ten times as slow where others work.
+constexpr std::size_t least_shared = 32768; // rows
+
 void Assembly::rebind() {
   const std::vector<Binder>& binders = program_->rows();
   BlockPattern pattern = pattern_of(binders, program_->vertices());
-  pattern.parts = program_->parts();
+  pattern.parts = pattern.rows() < least_shared ? 1 : program_->parts();
   if (!pattern_ || !pattern_->same_as(pattern) || pattern_->parts != pattern.parts)
     pattern_ = std::make_shared<const BlockPattern>(std::move(pattern));
   place_.resize(binders.size());
@@ -133,7 +137,7 @@ void Assembly::add_rows(std::size_t binder, const Record* x, const Record* v, Ta
 void Assembly::add(const Record* position, const Record* velocity, Tangent tangent, double by_position,
                    double by_velocity, BlockMatrix& out) const {
   CHECK(out.pattern() == pattern_);
-  in_parts(pattern_->parts, pattern_->rows(), [&](std::size_t low, std::size_t high) {
+  in_parts(program_->parts(), pattern_->rows(), [&](std::size_t low, std::size_t high) {
     for (std::size_t n = 0; n < place_.size(); ++n)
       add_rows(n, position, velocity, tangent, {by_position, by_velocity}, low, high, out);
   });

@@ -24,7 +24,7 @@ struct BlockPattern {
   std::vector<std::uint32_t> start;    // of each row's blocks; rows + 1
   std::vector<std::uint32_t> column;   // one per block, increasing in a row
   std::vector<std::uint32_t> diagonal; // place of the block (i, i), one per row
-  int parts = 1;                       // threads that work on it is worth
+  int parts = 1;                       // threads that a product with it is worth
 
   // Row i holds i and `neighbours[starts[i] .. starts[i + 1])`, in any order and any number of times.
   static BlockPattern of(const std::vector<std::uint32_t>& starts,

@@ -3,38 +3,46 @@
 #include <cmath>
 
 namespace rend {
+namespace {
 
-ConjugateGradient::Result ConjugateGradient::solve(const BlockMatrix& matrix,
-                                                   const Preconditioner& preconditioner, const Records& b,
+void gather(const std::vector<std::uint32_t>& order, const Records& from, Records& to) {
+  to.resize(from.size());
+  for (std::size_t k = 0; k < order.size(); ++k) to[k] = from[order[k]];
+}
+
+void multiply(const std::vector<Block3>& blocks, const Records& x, Records& y) {
+  for (std::size_t k = 0; k < blocks.size(); ++k) store(y[k], times(blocks[k], x[k]));
+}
+
+} // namespace
+
+ConjugateGradient::Result ConjugateGradient::solve(Preconditioner& preconditioner, int parts, const Records& b,
                                                    Records& x, double tolerance, int most) {
-  const int parts = matrix.pattern()->parts;
-  x.assign(b.size(), Record{});
-  residual_ = b;
-  corrected_.resize(b.size());
-  image_.resize(b.size());
-  const double goal = tolerance * std::sqrt(dot(parts, b, b));
-  preconditioner.apply(residual_.data(), corrected_.data());
+  gather(preconditioner.order(), b, residual_);
+  preconditioner.forward(residual_, residual_);
+  for (Records* each : {&corrected_, &moved_, &image_}) each->resize(b.size());
+  sum_.assign(b.size(), Record{});
+  multiply(preconditioner.pivots(), residual_, corrected_);
   direction_ = corrected_;
   double energy = dot(parts, residual_, corrected_);
+  const double goal = tolerance * tolerance * energy;
   Result result;
-  while (true) {
-    if (std::sqrt(dot(parts, residual_, residual_)) <= goal) {
-      result.converged = true;
-      return result;
-    }
-    if (result.iterations == most) return result;
-    matrix.multiply(direction_.data(), image_.data());
+  while (!(result.converged = energy <= goal) && result.iterations < most) {
+    preconditioner.product(direction_, moved_, image_);
     const double curvature = dot(parts, direction_, image_);
-    if (!(curvature > 0)) return result;
+    if (!(curvature > 0)) break;
     const double along = energy / curvature;
-    add_scaled(parts, along, direction_, x);
+    add_scaled(parts, along, moved_, sum_);
     add_scaled(parts, -along, image_, residual_);
-    preconditioner.apply(residual_.data(), corrected_.data());
+    multiply(preconditioner.pivots(), residual_, corrected_);
     const double before = energy;
     energy = dot(parts, residual_, corrected_);
     scale_and_add(parts, energy / before, corrected_, direction_);
     ++result.iterations;
   }
+  x.resize(b.size());
+  for (std::size_t k = 0; k < b.size(); ++k) x[preconditioner.order()[k]] = sum_[k];
+  return result;
 }
 
 } // namespace rend

@@ -1,4 +1,5 @@
-// Conjugate gradients with a preconditioner (Hestenes & Stiefel 1952; Shewchuk 1994, B3).
+// Conjugate gradients with a preconditioner (Hestenes & Stiefel 1952; Shewchuk 1994, B3), in the unknowns (D + Lᵀ) x of
+// preconditioner.h. What is left is measured by |r|² = rᵀ M⁻¹ r, which counts what is smooth for more than rᵀ r does.
 #pragma once
 
 #include "sim/solve/preconditioner.h"
@@ -10,18 +11,19 @@ class ConjugateGradient {
 public:
   struct Result {
     int iterations = 0;
-    bool converged = false; // |b − A x| ≤ tolerance · |b| by the recurrence
+    bool converged = false; // rᵀ M⁻¹ r ≤ tolerance² · bᵀ M⁻¹ b by the recurrence, r = b − A x
   };
 
-  // From x = 0, at most `most` iterations. It stops before, not converged, where the matrix proves not to be
-  // positive.
-  Result solve(const BlockMatrix& matrix, const Preconditioner& preconditioner, const Records& b, Records& x,
-               double tolerance, int most);
+  // A x = b with the matrix that the preconditioner took, from x = 0, at most `most` iterations on `parts` threads.
+  // It stops before, not converged, where the matrix proves not to be positive.
+  Result solve(Preconditioner& preconditioner, int parts, const Records& b, Records& x, double tolerance,
+               int most);
 
-  std::size_t bytes() const { return 4 * residual_.size() * sizeof(Record); }
+  std::size_t bytes() const { return 6 * residual_.size() * sizeof(Record); }
 
 private:
-  Records residual_, direction_, image_, corrected_; // r, p, A p, M⁻¹ r
+  // In the order of the preconditioner: r' = (D + L)⁻¹ r, D r', p', (D + Lᵀ)⁻¹ p', (D + L)⁻¹ A of it, x.
+  Records residual_, corrected_, direction_, moved_, image_, sum_;
 };
 
 } // namespace rend

@@ -7,7 +7,8 @@ namespace {
 
 constexpr double direct_below = 40; // iterations
 constexpr std::size_t most_blocks = 10'000'000;
-constexpr int hard_for = 10; // matrices
+constexpr double single_from = 1e-2; // tolerance
+constexpr int hard_for = 10;         // matrices
 constexpr int least_iterations = 100, most_iterations = 20'000;
 
 } // namespace
@@ -34,13 +35,15 @@ Definiteness LinearSolver::factorise() {
 }
 
 bool LinearSolver::iterate(const Records& b, Records& x, double tolerance) {
-  if (!preconditioned_) preconditioner_.take(*matrix_);
-  preconditioned_ = true;
+  const Precision precision = tolerance < single_from ? Precision::Double : Precision::Single;
+  if (!preconditioned_ || (precision == Precision::Double && precision_ == Precision::Single))
+    preconditioned_ = preconditioner_.take(*matrix_, precision_ = precision);
+  if (!preconditioned_) return false;
   const double worth = factor_.products() / static_cast<double>(matrix_->pattern()->blocks());
   const int most = !factor_fits()
                        ? most_iterations
                        : static_cast<int>(std::clamp<double>(worth, least_iterations, most_iterations));
-  const auto result = gradient_.solve(*matrix_, preconditioner_, b, x, tolerance, most);
+  const auto result = gradient_.solve(preconditioner_, matrix_->pattern()->parts, b, x, tolerance, most);
   iterations_ += result.iterations;
   return result.converged;
 }

@@ -1,13 +1,11 @@
 // A x = b for a symmetric matrix, by the way that takes less work.
 //
 // The direct way (block_factor.h) takes a number of block products that the pattern alone tells; an iteration
-// of conjugate gradients takes about one and a half per block of the matrix. The rule, which knows no clock:
+// of conjugate gradients takes about one per block of the matrix. The rule, which knows no clock:
 //   direct      where its products are at most 40 per block of the matrix: chains, strips, small sheets
 //   iterative   else; and direct where that has spent as much as a factor would have and not converged, and
 //               for the next ten matrices
-// A factor of more than ten million blocks (1 GB) is never made. Measured (20,250 tetrahedra, 4096 vertices,
-// one thread): 1460 ms for a factor, 40, 70 and 110 ms for 2, 4 and 8 digits by iterations; without the
-// incomplete factor 120, 220, 380.
+// A factor of more than ten million blocks (1 GB) is never made. Up to two digits are iterated in single precision.
 #pragma once
 
 #include "sim/solve/block_factor.h"
@@ -20,7 +18,7 @@ public:
   // Takes a matrix, or new values of it; it must stay as it is while it is solved with.
   void take(const BlockMatrix& matrix);
 
-  // To |b − A x| ≤ tolerance · |b|. False: not solved, x is useless.
+  // To |b − A x| ≤ tolerance · |b|, in the norm of conjugate_gradient.h where it iterates. False: not solved, x is useless.
   bool solve(const Records& b, Records& x, double tolerance);
 
   // Whether a factor can be made, and how the matrix is then. Where it cannot, Positive is assumed.
@@ -39,6 +37,7 @@ private:
   Preconditioner preconditioner_;
   ConjugateGradient gradient_;
   bool factored_ = false, preconditioned_ = false; // the matrix as it is
+  Precision precision_ = Precision::Double;        // of what is preconditioned
   Definiteness definiteness_ = Definiteness::Positive;
   int hard_ = 0; // matrices to come that are not worth iterating
   long iterations_ = 0, factorisations_ = 0;

@@ -2,13 +2,17 @@
 
 #include "sim/program/threads.h"
 #include "sim/solve/block_products.h"
+#include "sim/solve/vertex_order.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace rend {
 namespace {
 
 constexpr std::size_t range = 4096; // rows
+constexpr double most_taken = 1;    // ω
+constexpr double least_left = 0.6;  // of A_ii in D_i
 
 // Calls f(begin, end) for every range of rows.
 template <class F> void each_range(int parts, std::size_t rows, F&& f) {
@@ -35,104 +39,204 @@ bool invert(const Block3& block, Block3& inverse) {
 
 void Preconditioner::shape() {
   const BlockPattern& p = *pattern_;
-  start_.assign(1, 0);
-  column_.clear();
-  source_.clear();
-  for (std::size_t i = 0; i < p.rows(); ++i) {
-    const std::size_t first = i / range * range;
-    for (std::size_t at = p.start[i]; at < p.diagonal[i]; ++at) {
-      if (p.column[at] < first) continue;
-      column_.push_back(p.column[at]);
-      source_.push_back(static_cast<std::uint32_t>(at));
+  order_ = vertex_order(p);
+  std::vector<std::uint32_t> place(p.rows());
+  for (std::uint32_t k = 0; k < order_.size(); ++k) place[order_[k]] = k;
+  for (Part* part : {&lower_, &upper_, &across_}) *part = Part{{0}, {}, {}, {}, {}};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> row; // column, source
+  for (std::size_t k = 0; k < p.rows(); ++k) {
+    row.clear();
+    for (std::uint32_t at = p.start[order_[k]]; at < p.start[order_[k] + std::size_t{1}]; ++at)
+      row.emplace_back(place[p.column[at]], at);
+    std::sort(row.begin(), row.end());
+    for (const auto& [column, source] : row) {
+      if (column == k) continue;
+      Part& part = column / range != k / range ? across_ : column < k ? lower_ : upper_;
+      part.column.push_back(column);
+      part.source.push_back(source);
     }
-    start_.push_back(static_cast<std::uint32_t>(column_.size()));
+    for (Part* part : {&lower_, &upper_, &across_})
+      part->start.push_back(static_cast<std::uint32_t>(part->column.size()));
   }
-  lower_.resize(column_.size());
-  inverse_pivot_.resize(p.rows());
 }
 
-void Preconditioner::take(const BlockMatrix& matrix) {
+void Preconditioner::Part::copy(const BlockMatrix& matrix, std::size_t row, Precision precision) {
+  for (std::size_t at = start[row]; at < start[row + 1]; ++at) {
+    const Block3& b = matrix.at(source[at]);
+    if (precision == Precision::Double)
+      wide[at] = b;
+    else
+      for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 4; ++r) narrow[at].column[c][r] = static_cast<float>((&b.column[c].x)[r]);
+  }
+}
+
+bool Preconditioner::take(const BlockMatrix& matrix, Precision precision) {
   if (pattern_ != matrix.pattern()) {
     pattern_ = matrix.pattern();
     shape();
   }
-  each_range(pattern_->parts, pattern_->rows(), [&](std::size_t begin, std::size_t end) {
-    if (!factorise(matrix, begin, end)) take_diagonal(matrix, begin, end);
-  });
-}
-
-void Preconditioner::take_diagonal(const BlockMatrix& matrix, std::size_t begin, std::size_t end) {
-  for (std::size_t i = begin; i < end; ++i) {
-    if (!invert(matrix.diagonal(i), inverse_pivot_[i])) {
-      inverse_pivot_[i] = Block3{};
-      for (int axis = 0; axis < 3; ++axis)
-        inverse_pivot_[i](axis, axis) = 1 / std::max(1e-300, std::abs(matrix.diagonal(i)(axis, axis)));
-    }
-    std::fill(lower_.begin() + start_[i], lower_.begin() + start_[i + 1], Block3{});
+  precision_ = precision;
+  for (Part* part : {&lower_, &upper_, &across_}) {
+    part->wide.resize(precision == Precision::Double ? part->column.size() : 0);
+    part->narrow.resize(precision == Precision::Single ? part->column.size() : 0);
   }
+  for (auto* each : {&pivot_, &inverse_pivot_, &gap_}) each->resize(pattern_->rows());
+  std::atomic<bool> positive = true;
+  each_range(pattern_->parts, pattern_->rows(), [&](std::size_t begin, std::size_t end) {
+    if (!factorise(matrix, begin, end)) positive = false;
+  });
+  return positive;
 }
 
-// Row after row: Y_ij = A_ij − Σ_m Y_im L_jmᵀ over the columns m that rows i and j share, L_ij = Y_ij D_j⁻¹.
+// D = A − ω sum, with ω halved until D is positive by so much; none where A itself is not.
+bool Preconditioner::choose_pivot(std::size_t i, const Block3& own, const Block3& sum) {
+  Block3 inverse;
+  double share = most_taken;
+  for (int n = 0; n < 4; ++n, share *= 0.5) {
+    for (int c = 0; c < 3; ++c) {
+      const Double4 a = load(own.column[c]), without = a + share * load(sum.column[c]);
+      store(pivot_[i].column[c], without);
+      store(gap_[i].column[c], without - least_left * a);
+    }
+    if (invert(gap_[i], inverse)) return invert(pivot_[i], inverse_pivot_[i]);
+  }
+  pivot_[i] = own;
+  return invert(own, inverse_pivot_[i]);
+}
+
 bool Preconditioner::factorise(const BlockMatrix& matrix, std::size_t begin, std::size_t end) {
-  std::vector<Block3> work(end - begin);         // row i of Y
-  std::vector<std::uint32_t> of(end - begin, 0); // row + 1 that the entry of work is of
   for (std::size_t i = begin; i < end; ++i) {
-    Block3 diagonal = matrix.diagonal(i);
-    for (std::size_t at = start_[i]; at < start_[i + 1]; ++at) {
-      work[column_[at] - begin] = matrix.at(source_[at]);
-      of[column_[at] - begin] = static_cast<std::uint32_t>(i + 1);
+    for (Part* part : {&lower_, &upper_, &across_}) part->copy(matrix, i, precision_);
+    const Block3& own = matrix.diagonal(order_[i]);
+    Block3 sum{}; // −Σ A_ij D_j⁻¹ A_ji
+    for (std::size_t at = lower_.start[i]; at < lower_.start[i + 1]; ++at) {
+      const Block3& a = matrix.at(lower_.source[at]);
+      const Block3& inverse = inverse_pivot_[lower_.column[at]];
+      Block3 y;
+      for (int c = 0; c < 3; ++c) store(y.column[c], times(a, inverse.column[c]));
+      subtract_product(sum, y, a);
     }
-    for (std::size_t at = start_[i]; at < start_[i + 1]; ++at) {
-      const std::uint32_t j = column_[at];
-      Block3& y = work[j - begin];
-      for (std::size_t n = start_[j]; n < start_[j + std::size_t{1}]; ++n)
-        if (of[column_[n] - begin] == i + 1) subtract_product(y, work[column_[n] - begin], lower_[n]);
-      for (int c = 0; c < 3; ++c) store(lower_[at].column[c], times(y, inverse_pivot_[j].column[c]));
-      subtract_product(diagonal, y, lower_[at]);
-    }
-    if (!invert(diagonal, inverse_pivot_[i])) return false;
+    if (!choose_pivot(i, own, sum)) return false;
+    for (int c = 0; c < 3; ++c) store(gap_[i].column[c], load(own.column[c]) - 2.0 * load(pivot_[i].column[c]));
   }
   return true;
 }
 
 namespace {
 
-REND_CLONES void apply_rows(const std::vector<std::uint32_t>& start, const std::vector<std::uint32_t>& column,
-                            const std::vector<Block3>& lower, const std::vector<Block3>& inverse_pivot,
-                            std::size_t begin, std::size_t end, const Record* r, Record* z) {
-  for (std::size_t i = begin; i < end; ++i) {
-    Double4 first = load(r[i]), second{}, third{};
-    for (std::size_t at = start[i]; at < start[i + 1]; ++at) {
-      const Record& y = z[column[at]];
-      first -= load(lower[at].column[0]) * splat(y.x);
-      second += load(lower[at].column[1]) * splat(y.y);
-      third += load(lower[at].column[2]) * splat(y.z);
-    }
-    store(z[i], first - (second + third));
+using Float4 = float __attribute__((vector_size(16)));
+
+REND_INLINE Double4 column_of(const Block3& b, int c) {
+  return load(b.column[c]);
+}
+REND_INLINE Double4 column_of(const Preconditioner::Narrow& b, int c) {
+  Float4 four;
+  __builtin_memcpy(&four, b.column[c], sizeof four);
+  return __builtin_convertvector(four, Double4);
+}
+
+REND_INLINE Double4 times(const Block3& b, Double4 x) {
+  return load(b.column[0]) * splat(x[0]) + load(b.column[1]) * splat(x[1]) + load(b.column[2]) * splat(x[2]);
+}
+
+// sum − Σ B_ij x_j over row i.
+template <class Block>
+REND_INLINE Double4 without(Double4 sum, const Preconditioner::Part& part, const Block* value, std::size_t i,
+                            const Record* x) {
+  Double4 second{}, third{};
+  for (std::size_t at = part.start[i]; at < part.start[i + 1]; ++at) {
+    const Record& y = x[part.column[at]];
+    sum -= column_of(value[at], 0) * splat(y.x);
+    second += column_of(value[at], 1) * splat(y.y);
+    third += column_of(value[at], 2) * splat(y.z);
   }
-  for (std::size_t i = begin; i < end; ++i) store(z[i], times(inverse_pivot[i], z[i]));
+  return sum - (second + third);
+}
+
+// y = (D + L)⁻¹ r
+template <class Block>
+REND_INLINE void down(const Preconditioner::Part& lower, const Block* value, const Block3* inverse,
+                      std::size_t begin, std::size_t end, const Record* r, Record* y) {
+  for (std::size_t i = begin; i < end; ++i)
+    store(y[i], times(inverse[i], without(load(r[i]), lower, value, i, y)));
+}
+
+// t = (D + Lᵀ)⁻¹ p, rest = p + gap t
+template <class Block>
+REND_INLINE void up(const Preconditioner::Part& upper, const Block* value, const Block3* inverse,
+                    const Block3* gap, std::size_t begin, std::size_t end, const Record* p, Record* t,
+                    Record* rest) {
   for (std::size_t i = end; i-- > begin;) {
-    const Double4 x = load(z[i]);
-    for (std::size_t at = start[i]; at < start[i + 1]; ++at) {
-      const Block3& l = lower[at];
-      Record& to = z[column[at]];
-      store(to,
-            load(to) - sums_of(load(l.column[0]) * x, load(l.column[1]) * x, load(l.column[2]) * x, Double4{}));
-    }
+    const Double4 x = times(inverse[i], without(load(p[i]), upper, value, i, t));
+    store(t[i], x);
+    store(rest[i], load(p[i]) + times(gap[i], x));
+  }
+}
+
+// y = (D + L)⁻¹ (image + C t), image = t + y
+template <class Block>
+REND_INLINE void down_and_add(const Preconditioner::Part& lower, const Block* value,
+                              const Preconditioner::Part& across, const Block* beyond, const Block3* inverse,
+                              std::size_t begin, std::size_t end, const Record* t, Record* y, Record* image) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const Double4 rest = load(image[i]) - without(Double4{}, across, beyond, i, t);
+    const Double4 x = times(inverse[i], without(rest, lower, value, i, y));
+    store(y[i], x);
+    store(image[i], load(t[i]) + x);
   }
 }
 
 } // namespace
 
-void Preconditioner::apply(const Record* r, Record* z) const {
-  each_range(pattern_->parts, pattern_->rows(), [&](std::size_t begin, std::size_t end) {
-    apply_rows(start_, column_, lower_, inverse_pivot_, begin, end, r, z);
+REND_CLONES void Preconditioner::forward(std::size_t begin, std::size_t end, const Record* r, Record* y) const {
+  if (precision_ == Precision::Single)
+    down(lower_, lower_.narrow.data(), inverse_pivot_.data(), begin, end, r, y);
+  else
+    down(lower_, lower_.wide.data(), inverse_pivot_.data(), begin, end, r, y);
+}
+
+REND_CLONES void Preconditioner::backward(std::size_t begin, std::size_t end, const Record* p, Record* t,
+                                          Record* rest) const {
+  if (precision_ == Precision::Single)
+    up(upper_, upper_.narrow.data(), inverse_pivot_.data(), gap_.data(), begin, end, p, t, rest);
+  else
+    up(upper_, upper_.wide.data(), inverse_pivot_.data(), gap_.data(), begin, end, p, t, rest);
+}
+
+REND_CLONES void Preconditioner::finish(std::size_t begin, std::size_t end, const Record* t, Record* y,
+                                        Record* image) const {
+  if (precision_ == Precision::Single)
+    down_and_add(lower_, lower_.narrow.data(), across_, across_.narrow.data(), inverse_pivot_.data(), begin,
+                 end, t, y, image);
+  else
+    down_and_add(lower_, lower_.wide.data(), across_, across_.wide.data(), inverse_pivot_.data(), begin, end, t,
+                 y, image);
+}
+
+void Preconditioner::forward(const Records& r, Records& y) const {
+  each_range(pattern_->parts, r.size(),
+             [&](std::size_t begin, std::size_t end) { forward(begin, end, r.data(), y.data()); });
+}
+
+void Preconditioner::product(const Records& p, Records& t, Records& image) {
+  work_.resize(p.size());
+  each_range(pattern_->parts, p.size(), [&](std::size_t begin, std::size_t end) {
+    backward(begin, end, p.data(), t.data(), image.data());
+  });
+  each_range(pattern_->parts, p.size(), [&](std::size_t begin, std::size_t end) {
+    finish(begin, end, t.data(), work_.data(), image.data());
   });
 }
 
+std::size_t Preconditioner::Part::bytes() const {
+  return (start.size() + 2 * column.size()) * sizeof(std::uint32_t) + wide.size() * sizeof(Block3) +
+         narrow.size() * sizeof(Narrow);
+}
+
 std::size_t Preconditioner::bytes() const {
-  return (lower_.size() + inverse_pivot_.size()) * sizeof(Block3) +
-         (start_.size() + 2 * column_.size()) * sizeof(std::uint32_t);
+  return lower_.bytes() + upper_.bytes() + across_.bytes() + 3 * pivot_.size() * sizeof(Block3) +
+         order_.size() * sizeof(std::uint32_t) + work_.size() * sizeof(Record);
 }
 
 } // namespace rend

@@ -300,7 +300,7 @@ TEST(Schemes, that_solve_give_the_same_bytes_on_any_number_of_threads) {
                          R"(<fix all="yes" axes="y"/><fix side="-z"/><drive side="+z" velocity="0 0 1"/>)"),
           {.walk = false, .threads = threads});
       s->step();
-      EXPECT_EQ(s.body().pattern()->parts, threads);
+      EXPECT_EQ(s.body().program->parts(), threads);
       hashes.push_back(s->hash());
     }
     EXPECT_THAT(hashes, testing::Each(hashes.front())) << scheme;

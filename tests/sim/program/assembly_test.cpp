@@ -96,7 +96,7 @@ TEST(Assembly, gives_the_same_bytes_on_any_number_of_threads) {
     recipe.scheme = "implicit";
     recipe.threads = 1 << n;
     const auto made = shaken(recipe, 65, 65);
-    ASSERT_EQ(made->pattern()->parts, 1 << n);
+    ASSERT_EQ(made->program->parts(), 1 << n);
     all[n].reset(made->pattern());
     made->add_stiffness(positions(*made), velocities(*made), Tangent::Definite, 1e-4, 1e-2, all[n]);
     EXPECT_EQ(std::memcmp(&all[n].at(0), &all[0].at(0), all[0].bytes()), 0) << recipe.threads;

@@ -1,5 +1,6 @@
 // Direct and iterative solvers against each other, against dense matrices, and over threads.
 #include "sim/solve/linear_solver.h"
+#include "sim/solve/vertex_order.h"
 
 #include "sim/random_meshes.h"
 
@@ -142,9 +143,9 @@ TEST(ConjugateGradient, agrees_with_the_direct_solver) {
   ASSERT_EQ(factor.factorise(l.matrix), Definiteness::Positive);
   factor.solve(b.data(), direct.data());
   Preconditioner preconditioner;
-  preconditioner.take(l.matrix);
+  ASSERT_TRUE(preconditioner.take(l.matrix, Precision::Double));
   ConjugateGradient gradient;
-  const auto result = gradient.solve(l.matrix, preconditioner, b, iterated, 1e-12, 2000);
+  const auto result = gradient.solve(preconditioner, 1, b, iterated, 1e-12, 2000);
   EXPECT_TRUE(result.converged);
   EXPECT_LT(result.iterations, 200);
   EXPECT_LT((flat(direct) - flat(iterated)).norm(), 1e-9 * flat(direct).norm());
@@ -156,11 +157,60 @@ TEST(ConjugateGradient, gives_the_same_bytes_on_any_number_of_threads) {
     const Lattice l(18, 0.1, parts); // more rows than a range of the preconditioner has
     const Records b = right_side(l.matrix.rows());
     Preconditioner preconditioner;
-    preconditioner.take(l.matrix);
+    ASSERT_TRUE(preconditioner.take(l.matrix, Precision::Double));
     all.emplace_back();
-    ConjugateGradient().solve(l.matrix, preconditioner, b, all.back(), 1e-8, 500);
+    ConjugateGradient().solve(preconditioner, parts, b, all.back(), 1e-8, 500);
   }
   for (const Records& x : all) EXPECT_EQ(std::memcmp(x.data(), all[0].data(), x.size() * sizeof(Record)), 0);
+}
+
+TEST(Preconditioner, multiplies_with_the_matrix_between_its_halves) {
+  const Lattice l(17, 0.5); // more rows than a range has
+  const std::size_t rows = l.matrix.rows();
+  for (const Precision precision : {Precision::Double, Precision::Single}) {
+    Preconditioner m;
+    ASSERT_TRUE(m.take(l.matrix, precision));
+    const Records p = right_side(rows);
+    Records t(rows), image(rows), natural(rows), product(rows), expected(rows);
+    m.product(p, t, image);
+    for (std::size_t k = 0; k < rows; ++k) natural[m.order()[k]] = t[k];
+    l.matrix.multiply(natural.data(), product.data());
+    for (std::size_t k = 0; k < rows; ++k) expected[k] = product[m.order()[k]];
+    m.forward(expected, expected);
+    const double error = (flat(expected) - flat(image)).norm() / flat(image).norm();
+    EXPECT_LT(error, precision == Precision::Double ? 1e-13 : 1e-6);
+  }
+}
+
+TEST(Preconditioner, refuses_a_diagonal_that_is_not_positive) {
+  Lattice l(3);
+  Preconditioner m;
+  EXPECT_TRUE(m.take(l.matrix, Precision::Single));
+  l.matrix.add_diagonal(13, -1000);
+  EXPECT_FALSE(m.take(l.matrix, Precision::Single));
+}
+
+TEST(VertexOrder, is_a_permutation_that_brings_neighbours_together) {
+  // A path whose rows are scattered, and a row by itself.
+  const std::uint32_t n = 101;
+  std::vector<std::vector<std::uint32_t>> beside(n + 1);
+  const auto name = [&](std::uint32_t k) { return k * 37 % n; };
+  for (std::uint32_t k = 0; k + 1 < n; ++k) {
+    beside[name(k)].push_back(name(k + 1));
+    beside[name(k + 1)].push_back(name(k));
+  }
+  std::vector<std::uint32_t> starts{0}, neighbours;
+  for (const auto& row : beside) {
+    neighbours.insert(neighbours.end(), row.begin(), row.end());
+    starts.push_back(static_cast<std::uint32_t>(neighbours.size()));
+  }
+  const std::vector<std::uint32_t> order = vertex_order(BlockPattern::of(starts, neighbours));
+  std::vector<std::uint32_t> place(n + 1, n + 1);
+  ASSERT_EQ(order.size(), n + 1);
+  for (std::uint32_t k = 0; k <= n; ++k) place[order[k]] = k;
+  for (std::uint32_t i = 0; i <= n; ++i) ASSERT_LE(place[i], n);
+  for (std::uint32_t k = 0; k + 1 < n; ++k)
+    EXPECT_EQ(std::max(place[name(k)], place[name(k + 1)]) - std::min(place[name(k)], place[name(k + 1)]), 1u);
 }
 
 TEST(LinearSolver, iterates_or_not_by_a_rule) {
