@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rend {
 
@@ -108,47 +109,38 @@ Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point) {
 
 namespace {
 
-// Signed distance [m] to a box, and where it grows.
-double box_distance(const Box& box, const Vec3& x, Vec3& gradient) {
-  const Vec3 centre = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
-  const Vec3 from = x - centre, beyond = from.cwiseAbs() - half;
-  const auto signed_axis = [&](int axis) { return Vec3((from[axis] < 0 ? -1.0 : 1.0) * Vec3::Unit(axis)); };
-  int axis = 0;
-  if (beyond.maxCoeff(&axis) <= 0) {
-    gradient = signed_axis(axis);
-    return beyond[axis];
+// Where in [0, 1] a convex function is least, by golden section, to 1/300; and its value.
+template <class F> std::pair<double, double> least(F&& f) {
+  constexpr double golden = 0.6180339887498949;
+  double low = 0, high = 1, a = 1 - golden, b = golden, fa = f(a), fb = f(b);
+  for (int n = 0; n < 10; ++n) {
+    if (fa < fb) {
+      high = b;
+      b = a;
+      fb = fa;
+      a = high - golden * (high - low);
+      fa = f(a);
+    } else {
+      low = a;
+      a = b;
+      fa = fb;
+      b = low + golden * (high - low);
+      fb = f(b);
+    }
   }
-  gradient.setZero();
-  for (int a = 0; a < 3; ++a)
-    if (beyond[a] > 0) gradient += beyond[a] * signed_axis(a);
-  const double distance = gradient.norm();
-  gradient /= distance;
-  return distance;
+  return fa < fb ? std::pair(a, fa) : std::pair(b, fb);
 }
 
 } // namespace
 
 Weights deepest_in_box(const TriangleCorners& x, const Box& box) {
-  Weights weight{1.0 / 3, 1.0 / 3, 1.0 / 3};
-  Vec3 point = (x[0] + x[1] + x[2]) / 3, gradient;
-  for (int n = 0; n < 16; ++n) {
-    box_distance(box, point, gradient);
-    std::size_t towards = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-      if (gradient.dot(x[k]) < gradient.dot(x[towards])) towards = k;
-    if (gradient.dot(point - x[towards]) <= 0) break; // the least there is
-    double low = 0, high = 1; // the least along the way to that corner: the slope grows along it
-    for (int halving = 0; halving < 10; ++halving) {
-      const double middle = 0.5 * (low + high);
-      box_distance(box, point + middle * (x[towards] - point), gradient);
-      (gradient.dot(x[towards] - point) < 0 ? low : high) = middle;
-    }
-    const double share = 0.5 * (low + high);
-    for (double& w : weight) w *= 1 - share;
-    weight[towards] += share;
-    point += share * (x[towards] - point);
-  }
-  return weight;
+  const Vec3 centre = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
+  const Vec3 from = x[0] - centre, side = x[1] - x[0], across = x[2] - x[1];
+  const auto along_chord = [&](double s) { // chords are parallel to the side across from corner 0
+    return least([&](double t) { return ((from + s * side + s * t * across).cwiseAbs() - half).maxCoeff(); });
+  };
+  const double s = least([&](double at) { return along_chord(at).second; }).first, t = along_chord(s).first;
+  return {1 - s, s * (1 - t), s * t};
 }
 
 } // namespace rend

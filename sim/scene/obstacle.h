@@ -64,8 +64,9 @@ using TriangleCorners = std::array<Vec3, 3>;
 // Nearest to `point`: Ericson, Real-Time Collision Detection, 5.1.5.
 Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point);
 
-// Of least signed distance to the box, which is convex: by Frank and Wolfe's method, as Macklin et al., Local
-// Optimization for Robust Signed Distance Field Collision, 2020. To a small part of the triangle.
+// Where the largest of the distances to the sides of the box is least: a convex function, whose least is found by golden
+// section within golden section, to 1/300 of the triangle. (Frank and Wolfe's method, Macklin et al. 2020, takes as many
+// evaluations and stalls where two sides are equally far.)
 Weights deepest_in_box(const TriangleCorners& x, const Box& box);
 
 } // namespace rend

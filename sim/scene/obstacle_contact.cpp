@@ -8,6 +8,7 @@ namespace {
 
 constexpr int sweeps = 8;
 constexpr int passes = 2;            // over faces: what one puts out, its neighbour may put in
+constexpr double touching = 1e-9;    // [m]
 constexpr double own_friction = 0.5; // between obstacles that say nothing of it
 
 using Bounds = Eigen::AlignedBox3d;
@@ -57,12 +58,12 @@ template <class Shape, class F> void for_each_vertex(const Shape& shape, const C
 // The same for the deepest point of each face.
 template <class Shape, class F> void for_each_face(const Shape& shape, const ContactBody& body, F&& f) {
   const double margin = body.settings().thickness;
-  const Bounds near = shape.bounds(margin);
+  const Bounds near = shape.bounds(margin - touching); // what lies on a side is not looked at
   for (const ContactFaces::Triangle& triangle : body.faces.triangles()) {
     const auto [a, b, c] = triangle.vertex;
     const TriangleCorners x{body.position(a), body.position(b), body.position(c)};
-    if ((x[0].cwiseMax(x[1]).cwiseMax(x[2]).array() < near.min().array()).any()) continue;
-    if ((x[0].cwiseMin(x[1]).cwiseMin(x[2]).array() > near.max().array()).any()) continue;
+    if ((x[0].cwiseMax(x[1]).cwiseMax(x[2]).array() <= near.min().array()).any()) continue;
+    if ((x[0].cwiseMin(x[1]).cwiseMin(x[2]).array() >= near.max().array()).any()) continue;
     const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
     if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
     if (const auto plane = shape.stop(point.from(), point.position(), margin)) f(point, *plane);

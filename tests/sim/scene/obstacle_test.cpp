@@ -38,12 +38,15 @@ TEST(Obstacle, a_triangle_s_deepest_point_in_a_box_is_as_deep_as_any_of_many) {
   for (int n = 0; n < 200; ++n) {
     const TriangleCorners x{1.5 * noise.vector(), 1.5 * noise.vector(), 1.5 * noise.vector()};
     const auto at = [&](const Weights& w) { return Vec3(w[0] * x[0] + w[1] * x[1] + w[2] * x[2]); };
-    const double found = box_distance(box, at(deepest_in_box(x, box)));
+    const auto distance = [&](const Weights& w) {
+      return ((at(w) - 0.5 * (box.low + box.high)).cwiseAbs() - 0.5 * (box.high - box.low)).maxCoeff();
+    };
+    const double found = distance(deepest_in_box(x, box));
     double least = 1e300;
     for (int i = 0; i <= 40; ++i)
       for (int j = 0; j <= 40 - i; ++j)
-        least = std::min(least, box_distance(box, at({i / 40.0, j / 40.0, (40 - i - j) / 40.0})));
-    EXPECT_LE(found, least + 0.06); // of a triangle of size 3
+        least = std::min(least, distance({i / 40.0, j / 40.0, (40 - i - j) / 40.0}));
+    EXPECT_LE(found, least + 0.01); // of a triangle of size 3
   }
 }
 
@@ -168,19 +171,20 @@ TEST(ObstacleContact, a_fast_sphere_does_not_pass_through_a_cloth) {
   }
 }
 
-TEST(ObstacleContact, a_sphere_comes_to_rest_in_a_held_cloth_on_a_box_and_on_the_floor) {
+TEST(ObstacleContact, spheres_are_caught_by_a_held_cloth_a_box_and_the_floor) {
   const auto scene = presets::load(R"(<scene><body><sheet pattern="triangles" cells="8 8" size="1 1"/>
-      <place translate="0 0 1"/><mass total="0.2"/><springs><stretch k="200" damping="0.5"/></springs>
+      <place translate="0 0 1"/><mass total="0.2"/><springs><stretch k="200" damping="0.05"/></springs>
       <viscosity value="2" per="body"/><contact thickness="0.01"/><fix side="-x"/><fix side="+x"/></body>
       <world><floor z="0"/><box low="2 0 0" high="3 1 0.5"/>
       <sphere centre="0.5 0.5 1.2" radius="0.15" mass="0.3"/><sphere centre="2.5 0.5 0.8" radius="0.1" mass="2"/>
-      <sphere centre="5 5 1" radius="0.25" mass="1"/></world><time step="1e-3" duration="4"/></scene>)");
+      <sphere centre="5 5 1" radius="0.25" mass="1"/></world><time step="5e-4" duration="4"/></scene>)");
   while (scene->time() < 4) scene->step();
   const auto& spheres = scene->world().spheres;
   EXPECT_GT(spheres[0].centre.z(), 0.3);
-  EXPECT_LT(spheres[0].velocity.norm(), 0.02);
-  EXPECT_NEAR(spheres[1].centre.z(), 0.6, 1e-9);
-  EXPECT_NEAR(spheres[2].centre.z(), 0.25, 1e-9);
+  EXPECT_LT(spheres[0].velocity.norm(), 0.3) << "it swings";
+  const double fall = 9.81 * 5e-4 * 5e-4; // of a step
+  EXPECT_NEAR(spheres[1].centre.z(), 0.6, fall);
+  EXPECT_NEAR(spheres[2].centre.z(), 0.25, fall);
   EXPECT_LT(deepest(scene), 0.004);
 }
 
