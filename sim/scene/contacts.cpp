@@ -7,12 +7,16 @@ std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::uniq
   for (const auto& body : bodies)
     if (body->contact && body->contact->faces())
       contacts->bodies_.push_back(std::make_unique<ContactBody>(*body));
+  for (const auto& body : contacts->bodies_)
+    if (body->settings().fragments && !contacts->fragments_)
+      contacts->fragments_ = std::make_unique<FragmentContact>();
   if (contacts->bodies_.empty() && world.spheres.empty()) return {};
   return contacts;
 }
 
 void Contacts::advance(double time, double step) {
   for (auto& body : bodies_) body->prepare(time + step);
+  if (fragments_) fragments_->advance(bodies_, step);
   obstacles_.advance(bodies_, time, step);
   for (auto& each : bodies_) {
     Body& body = *each->body;

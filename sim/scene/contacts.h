@@ -1,7 +1,9 @@
 // All contacts of a scene that are more than one body's with the floor (which is the body's own: contact.h), at the end of
-// each step, after every body has made its own. What is prescribed yields to none of them, and the floor comes last.
+// each step, after every body has made its own. Bodies and fragments among each other first, then obstacles, the
+// floor last, and what is prescribed yields to none of them.
 #pragma once
 
+#include "sim/scene/fragment_contact.h"
 #include "sim/scene/obstacle_contact.h"
 
 namespace rend {
@@ -16,6 +18,7 @@ public:
 private:
   explicit Contacts(World& world) : obstacles_(world) {}
   std::vector<std::unique_ptr<ContactBody>> bodies_; // that ask for it, in the order of the scene
+  std::unique_ptr<FragmentContact> fragments_;       // null: no body asks for it
   ObstacleContact obstacles_;
 };
 

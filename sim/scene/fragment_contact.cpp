@@ -1,0 +1,106 @@
+#include "sim/scene/fragment_contact.h"
+
+#include "sim/scene/obstacle.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+constexpr int sweeps = 4;
+constexpr double relaxation = 0.05;  // [s]
+constexpr double coincident = 1e-10; // of the thickness and the face's size
+constexpr double deepest = 3;        // thicknesses below a solid's face that are still taken for an overlap
+constexpr double beside = 1.5;       // thicknesses at which a way passes by a face
+
+TriangleCorners mixed(const TriangleCorners& a, const TriangleCorners& b, double share) {
+  TriangleCorners out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = a[k] + share * (b[k] - a[k]);
+  return out;
+}
+
+Vec3 at(const TriangleCorners& x, const Weights& w) {
+  return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
+}
+
+bool over(const Weights& w) { // and not beside
+  return w[0] > 0 && w[1] > 0 && w[2] > 0;
+}
+
+// Of a vertex at x and a face: the nearest point, and the direction in which the vertex is to be kept.
+struct Facing {
+  Weights weight{};
+  Vec3 normal = Vec3::Zero();
+  double gap = 0; // [m], below 0: under the face of a solid
+};
+std::optional<Facing> facing(const Vec3& x, const TriangleCorners& face, bool solid, double thickness) {
+  Facing out;
+  out.weight = nearest_in_triangle(face, x);
+  const Vec3 way = x - at(face, out.weight);
+  const double distance = way.norm();
+  const Vec3 area = (face[1] - face[0]).cross(face[2] - face[0]);
+  const double size = area.norm();
+  const bool known = distance > coincident * (thickness + distance + (face[1] - face[0]).norm());
+  if (solid && size > 0 && (over(out.weight) || !known)) {
+    out.normal = area / size;
+    out.gap = out.normal.dot(way);
+    return out.gap > -deepest * thickness ? std::optional(out) : std::nullopt;
+  }
+  if (!known || (solid && way.dot(area) < 0)) return {};
+  out.normal = way / distance;
+  out.gap = distance;
+  return out;
+}
+
+} // namespace
+
+std::optional<FragmentContact::Touch> FragmentContact::touch(const ContactPairs::Bodies& bodies,
+                                                             const ContactPair& pair, double step) const {
+  const ContactBody &body = *bodies[pair.body], &other = *bodies[pair.face_body];
+  const double thickness = ContactPairs::thickness(body, other);
+  const auto& slots = other.faces.triangles()[pair.triangle].vertex;
+  const Vec3 x0 = body.from(pair.vertex), x1 = body.position(pair.vertex);
+  const TriangleCorners y0{other.from(slots[0]), other.from(slots[1]), other.from(slots[2])};
+  const TriangleCorners y1{other.position(slots[0]), other.position(slots[1]), other.position(slots[2])};
+  const bool solid = other.body->map->dimension() == 3;
+  auto start = facing(x0, y0, solid, thickness);
+  if (!start) return {};
+  const double before = start->gap, after = start->normal.dot(x1 - at(y1, start->weight));
+  if (after >= thickness) return {};
+  if (before > thickness) { // where the way comes as near as that: it may pass by
+    const double share = (before - thickness) / (before - after);
+    const Vec3 there = x0 + share * (x1 - x0);
+    const Vec3 side = start->normal;
+    start = facing(there, mixed(y0, y1, share), solid, thickness);
+    if (!start || start->gap > beside * thickness || start->normal.dot(side) <= 0) return {};
+  }
+  double wanted = std::min(thickness, before);
+  const double short_of = (before < 0 ? 0 : thickness) - before;
+  if (short_of > 0 && (before < 0 || !pair.neighbours)) wanted += std::min(1.0, step / relaxation) * short_of;
+  const double friction = std::max(body.settings().friction, other.settings().friction);
+  return Touch{
+      ContactPoint::at(body, pair.vertex), {&other, slots, start->weight}, start->normal, wanted, friction};
+}
+
+void FragmentContact::meet(const Touch& touch, double step) {
+  const double w = touch.vertex.inverse_mass() + touch.face.inverse_mass();
+  const double left = touch.gap - touch.normal.dot(touch.vertex.position() - touch.face.position());
+  if (w == 0 || left <= 0) return;
+  const Vec3 change = impact(touch.vertex.velocity() - touch.face.velocity(), touch.normal, touch.friction);
+  const Vec3 along = change - touch.normal.dot(change) * touch.normal;
+  const Vec3 by = (step * along + left * touch.normal) / w;
+  touch.vertex.push(change / w, 0);
+  touch.face.push(-change / w, 0);
+  touch.vertex.shift(by);
+  touch.face.shift(-by);
+}
+
+void FragmentContact::advance(const ContactPairs::Bodies& bodies, double step) {
+  touches_.clear();
+  for (const ContactPair& pair : pairs_.find(bodies))
+    if (auto found = touch(bodies, pair, step)) touches_.push_back(*found);
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (const Touch& touch : touches_) meet(touch, step);
+}
+
+} // namespace rend
