@@ -4,6 +4,7 @@
 #include "sim/topology/count.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <unsupported/Eigen/BVH>
 
@@ -42,6 +43,21 @@ struct Query {
     return false; // go on
   }
 };
+
+// Whether they may come as near as `thickness` before one of them has moved by half the skin: by how far they are apart at
+// the end of the step, and how far they moved against each other in it.
+bool may_meet(const ContactBody& body, Slot v, const ContactBody& other, const ContactFaces::Triangle& triangle,
+              double reach) {
+  const Vec3 x = body.position(v), moved = x - body.from(v);
+  TriangleCorners y;
+  double most = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    y[k] = other.position(triangle.vertex[k]);
+    most = std::max(most, (moved - (y[k] - other.from(triangle.vertex[k]))).squaredNorm());
+  }
+  const Weights w = nearest_in_triangle(y, x);
+  return (x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2]).norm() <= reach + std::sqrt(most);
+}
 
 bool is_corner(Slot v, const ContactFaces::Triangle& triangle) {
   return std::find(triangle.vertex.begin(), triangle.vertex.end(), v) != triangle.vertex.end();
@@ -153,7 +169,11 @@ void ContactPairs::search(const Bodies& bodies) {
       Eigen::BVIntersect(tree, query);
       for (const Leaf& face : found) {
         ContactPair pair{b, v, face.body, face.triangle};
-        if (allowed(bodies, n, pair)) pairs_.push_back(pair);
+        const ContactFaces::Triangle& triangle = bodies[face.body]->faces.triangles()[face.triangle];
+        if (allowed(bodies, n, pair) &&
+            may_meet(*bodies[b], v, *bodies[face.body], triangle, skin_ + thickness) &&
+            !joined(bodies, n, pair))
+          pairs_.push_back(pair);
       }
     }
   }
@@ -163,17 +183,24 @@ void ContactPairs::search(const Bodies& bodies) {
   });
 }
 
-bool ContactPairs::allowed(const Bodies& bodies, std::size_t entry, ContactPair& pair) const {
-  if (pair.body != pair.face_body) return true;
-  const ContactBody& body = *bodies[pair.body];
+bool ContactPairs::same_fragment(std::size_t entry, const ContactPair& pair) const {
   const Of& of = of_[pair.body];
-  const bool same = of.vertex_fragment[entry] == of.face_fragment[pair.triangle];
-  if (same && !body.settings().self) return false;
-  const ContactFaces::Triangle& triangle = body.faces.triangles()[pair.triangle];
-  if (is_corner(pair.vertex, triangle)) return false;
-  const double apart = apart_at_rest(body, pair.vertex, triangle), thickness = body.settings().thickness;
-  pair.neighbours = apart <= thickness;
-  return !same || apart > 2 * thickness; // nearer ones are held apart by what joins them
+  return pair.body == pair.face_body && of.vertex_fragment[entry] == of.face_fragment[pair.triangle];
+}
+
+bool ContactPairs::allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const {
+  if (!same_fragment(entry, pair)) return true;
+  const ContactBody& body = *bodies[pair.body];
+  return body.settings().self && !is_corner(pair.vertex, body.faces.triangles()[pair.triangle]);
+}
+
+// Whether what joins them holds them apart; finds out whether they are neighbours.
+bool ContactPairs::joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const {
+  if (pair.body != pair.face_body) return false;
+  const ContactBody& body = *bodies[pair.body];
+  const double apart = apart_at_rest(body, pair.vertex, body.faces.triangles()[pair.triangle]);
+  pair.neighbours = apart <= body.settings().thickness;
+  return same_fragment(entry, pair) && apart <= 2 * body.settings().thickness;
 }
 
 } // namespace rend

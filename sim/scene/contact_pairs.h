@@ -48,7 +48,9 @@ private:
   bool anything(const Bodies& bodies) const;
   bool stale(const Bodies& bodies) const;
   void search(const Bodies& bodies);
-  bool allowed(const Bodies& bodies, std::size_t entry, ContactPair& pair) const;
+  bool same_fragment(std::size_t entry, const ContactPair& pair) const; // entry: of the vertex in Of::vertices
+  bool allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const;
+  bool joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const;
 
   std::vector<Of> of_; // one per body
   std::vector<ContactPair> pairs_;

@@ -43,27 +43,42 @@ struct StandingBox {
   Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
 };
 
-// Calls f(point, plane) for each vertex of the body that the obstacle is to stop.
-template <class Shape, class F> void for_each_vertex(const Shape& shape, const ContactBody& body, F&& f) {
+// On which sides a point is outside: bits 2 a and 2 a + 1 for less and more along axis a (Cohen and Sutherland's).
+using Outside = std::uint8_t;
+Outside outside(const Bounds& near, const Vec3& x) {
+  unsigned code = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    code |= static_cast<unsigned>(x[axis] <= near.min()[axis]) << (2 * axis) |
+            static_cast<unsigned>(x[axis] >= near.max()[axis]) << (2 * axis + 1);
+  return static_cast<Outside>(code);
+}
+
+// Calls f(point, plane) for each vertex of the body that the obstacle is to stop. `codes`: where that leaves each slot.
+template <class Shape, class F>
+void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;
-  const Bounds near = shape.bounds(margin);
+  const Bounds near = shape.bounds(margin - touching); // what lies on a side is not looked at
+  codes.resize(body.vertices());
   for (Slot v = 0; v < body.vertices(); ++v) {
-    const Vec3 from = body.from(v), to = body.position(v);
-    if ((from.cwiseMax(to).array() < near.min().array()).any()) continue;
-    if ((from.cwiseMin(to).array() > near.max().array()).any() || !body.alive(v)) continue;
-    if (const auto plane = shape.stop(from, to, margin)) f(ContactPoint::at(body, v), *plane);
+    const Vec3 to = body.position(v);
+    codes[v] = outside(near, to);
+    if (codes[v] != 0 && (codes[v] & outside(near, body.from(v))) != 0) continue;
+    if (!body.alive(v)) continue;
+    const auto plane = shape.stop(body.from(v), to, margin);
+    if (!plane) continue;
+    f(ContactPoint::at(body, v), *plane);
+    codes[v] = outside(near, body.position(v));
   }
 }
 
-// The same for the deepest point of each face.
-template <class Shape, class F> void for_each_face(const Shape& shape, const ContactBody& body, F&& f) {
+// The same for the deepest point of each face, with those codes.
+template <class Shape, class F>
+void for_each_face(const Shape& shape, const ContactBody& body, const std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;
-  const Bounds near = shape.bounds(margin - touching); // what lies on a side is not looked at
   for (const ContactFaces::Triangle& triangle : body.faces.triangles()) {
     const auto [a, b, c] = triangle.vertex;
+    if ((codes[a] & codes[b] & codes[c]) != 0) continue;
     const TriangleCorners x{body.position(a), body.position(b), body.position(c)};
-    if ((x[0].cwiseMax(x[1]).cwiseMax(x[2]).array() <= near.min().array()).any()) continue;
-    if ((x[0].cwiseMin(x[1]).cwiseMin(x[2]).array() >= near.max().array()).any()) continue;
     const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
     if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
     if (const auto plane = shape.stop(point.from(), point.position(), margin)) f(point, *plane);
@@ -83,15 +98,16 @@ void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacl
 }
 
 template <class Shape>
-void keep_body_out(const Shape& shape, const ContactBody& body, double friction, double step, bool falls) {
+void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, double friction,
+                   double step, bool falls) {
   const Vec3 velocity = shape.velocity();
   const auto act = [&](const ContactPoint& point, const Plane& plane) {
     if (!falls) return keep_out(point, plane, velocity, friction, step);
     const double w = point.inverse_mass(), gap = plane.normal.dot(point.position()) - plane.offset;
     if (w > 0 && gap < 0) point.shift(-gap / w * plane.normal); // momentum was traded before
   };
-  for_each_vertex(shape, body, act);
-  for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, act);
+  for_each_vertex(shape, body, codes, act);
+  for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, codes, act);
 }
 
 // The point of the box that is nearest to x.
@@ -118,9 +134,9 @@ void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& b
     if (!body->settings().obstacles) continue;
     const double own = body->settings().friction;
     for (const Sphere& sphere : world_.spheres)
-      keep_body_out(MovingSphere{&sphere}, *body, sphere.friction.value_or(own), step, sphere.falls());
+      keep_body_out(MovingSphere{&sphere}, *body, codes_, sphere.friction.value_or(own), step, sphere.falls());
     for (const Box& box : world_.boxes)
-      keep_body_out(StandingBox{&box}, *body, box.friction.value_or(own), step, false);
+      keep_body_out(StandingBox{&box}, *body, codes_, box.friction.value_or(own), step, false);
   }
 }
 
@@ -152,8 +168,8 @@ void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) 
   const auto keep = [&](const ContactPoint& point, const Plane& plane) {
     touches_.push_back({number, point, plane.normal, friction});
   };
-  for_each_vertex(MovingSphere{&sphere}, body, keep);
-  for_each_face(MovingSphere{&sphere}, body, keep);
+  for_each_vertex(MovingSphere{&sphere}, body, codes_, keep);
+  for_each_face(MovingSphere{&sphere}, body, codes_, keep);
 }
 
 void ObstacleContact::meet(Touch& touch, double step) {

@@ -44,7 +44,8 @@ private:
   void settle(Sphere& sphere, double step);
 
   World& world_;
-  std::vector<Touch> touches_; // scratch
+  std::vector<Touch> touches_;      // scratch
+  std::vector<std::uint8_t> codes_; // scratch, one per vertex slot: on which sides of an obstacle it is
 };
 
 } // namespace rend
