@@ -79,9 +79,25 @@ inline const CriterionType& chance_on(Cell cell) {
   return chance<Cell::Elements>();
 }
 
+// Laws with each criterion that the body can be measured by; none ever acts by itself.
+inline void watch(Body& body) {
+  for (const CriterionType& type : all_criteria()) {
+    LawSettings law;
+    law.criterion = &type;
+    law.change = &all_changes().front();
+    if (type.name == "atomic-spring") law.kind = "stretch";
+    const CriterionRequest request = body.request_for(law);
+    if (!type.lacking(request).empty()) continue;
+    law.cell = type.cell(request);
+    law.threshold = 1e-3;
+    law.from = 1e9;
+    body.laws.emplace_back(request, law);
+  }
+}
+
 // Co-rotational, with springs along its edges, damped by its surroundings, with one vertex fixed; shaken.
 inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::vector<By>& laws = {},
-                                  const std::string& scheme = "symplectic") {
+                                  const std::string& scheme = "symplectic", bool watched = false) {
   auto made = std::make_unique<Body>();
   made->name = "torn";
   made->map = std::move(map);
@@ -103,6 +119,7 @@ inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::v
     law.cell = by.cell;
     made->laws.emplace_back(made->request_for(law), law);
   }
+  if (watched) watch(*made);
   made->prepare(*find_scheme(scheme), false, 1);
   meshes::shake(*made, 0.05, 3);
   made->constrain(0, made->map->position().values().data(), made->map->velocity().values().data());
