@@ -170,12 +170,20 @@ double gravity_energy(const EmbeddedMap& map, const MassColumn& mass, const Vec3
 double sum_at_vertex(const EmbeddedMap& map, Orbit corner, const std::vector<double>& values, Dart d) {
   const CellIndex& cells = map.cells(corner);
   thread_local std::vector<Dart> darts;
+  thread_local std::vector<std::pair<Dart, Slot>> corners; // smallest dart and slot
   darts.clear();
+  corners.clear();
   collect(map.map(), Vertex, d, darts);
-  std::erase_if(darts, [&](Dart e) { return cells.first_dart(cells.slot(e)) != e; });
-  std::sort(darts.begin(), darts.end());
+  Slot last = no_slot;
+  for (Dart e : darts) { // the darts of a corner mostly follow each other
+    const Slot slot = cells.slot(e);
+    if (slot != last) corners.push_back({cells.first_dart(slot), slot});
+    last = slot;
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   double sum = 0;
-  for (Dart e : darts) sum += values[cells.slot(e)];
+  for (const auto& [first, slot] : corners) sum += values[slot];
   return sum;
 }
 

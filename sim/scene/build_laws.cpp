@@ -10,12 +10,15 @@ namespace {
 const ElementType& tear_type() {
   static const ElementType type = [] {
     std::vector<std::string> criteria, changes;
-    std::string what;
+    std::string what, done;
     for (const CriterionType& c : all_criteria()) {
       criteria.push_back(c.name);
       what += (what.empty() ? "" : "; ") + c.name + ": " + c.what;
     }
-    for (const ChangeType& c : all_changes()) changes.push_back(c.name);
+    for (const ChangeType& c : all_changes()) {
+      changes.push_back(c.name);
+      done += "; " + c.name + ": " + c.what;
+    }
     return ElementType{
         "tear",
         "a law: where the criterion exceeds the threshold, the change is made",
@@ -25,7 +28,7 @@ const ElementType& tear_type() {
              .is_required(),
          word("kind", {"stretch", "shear", "bend"}, "of springs: which of them are measured"),
          flag("compression", "principal stresses and strains count in compression as well").otherwise("no"),
-         word("change", changes, "what is done; default: that of the criterion"),
+         word("change", changes, "what is done; default: that of the cell which the criterion measures" + done),
          number("from", "s", "not before").at_least(0).otherwise("0"),
          number("until", "s", "not after").at_least(0),
          integer("max-per-step", "the worst so many a step; 0: all").at_least(0).otherwise("0")},
