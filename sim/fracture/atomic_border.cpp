@@ -14,38 +14,59 @@ public:
   explicit AtomicBorder(EmbeddedMap& map) : borders_(map, Borders::Carry::Corners) {}
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
-    if (borders_.of_sheet())
-      look<2>(view, threshold, candidates);
-    else
-      look<0>(view, threshold, candidates);
+    const Record* corner = view.corner;
+    if (view.corner_room) {
+      if (!mark_suspects(view, threshold)) return;
+      view.program.corner_forces_at(mark_, view.position, view.velocity, view.corner_room);
+      corner = view.corner_room;
+    }
+    borders_.rows().for_each([&](std::size_t key, std::size_t row) {
+      if (corner != view.corner && !suspect(view, key, row, threshold)) return;
+      measure(view, corner, key, row, threshold, candidates);
+    });
   }
 
   void rebind(const Changes& changes) override { borders_.rebind(changes); }
   void reserve_for_separations() override { borders_.reserve_for_separations(); }
-  std::size_t bytes() const override { return borders_.bytes(); }
+  std::size_t bytes() const override { return borders_.bytes() + mark_.capacity(); }
 
 private:
-  // Vertices: of each border, if known.
-  template <std::size_t Vertices>
-  void look(const ForceView& view, double threshold, std::vector<Candidate>& candidates) const {
-    const PackedRows& rows = borders_.rows();
-    const double square = threshold * threshold;
-    rows.for_each([&](std::size_t key, std::size_t row) {
-      const std::size_t vertices = Vertices > 0 ? Vertices : borders_.vertices(key);
-      Double4 f1{}, f2{};
-      for (std::size_t k = 0; k < vertices; ++k) {
-        f1 += load(view.corner[rows.index(static_cast<int>(2 * k))[row]]);
-        f2 += load(view.corner[rows.index(static_cast<int>(2 * k + 1))[row]]);
-      }
-      const Double4 f = f1 - f2, ff = f * f;
-      if (ff[0] + ff[1] + ff[2] <= square) return;
-      const Dart d = borders_.dart(key);
-      const double value = std::abs(Vec3(f[0], f[1], f[2]).dot(across_border(view.map, view.position, d)));
-      if (value > threshold) candidates.push_back({value, d});
+  // Whether the sizes of all single forces on its vertices exceed the threshold; they bound |f_1 − f_2|.
+  bool suspect(const ForceView& view, std::size_t key, std::size_t row, double threshold) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < borders_.vertices(key); ++k) sum += view.force[borders_.vertex(k)[row]].w;
+    return !(sum * (1 + 1e-9) <= threshold);
+  }
+
+  // Vertices of borders that are suspect; false: there are none.
+  bool mark_suspects(const ForceView& view, double threshold) {
+    const std::size_t vertices = view.map.cells(Vertex).slots();
+    mark_.assign(vertices, 0);
+    bool any = false;
+    borders_.rows().for_each([&](std::size_t key, std::size_t row) {
+      if (!suspect(view, key, row, threshold)) return;
+      any = true;
+      for (std::size_t k = 0; k < borders_.vertices(key); ++k) mark_[borders_.vertex(k)[row]] = 1;
     });
+    return any;
+  }
+
+  void measure(const ForceView& view, const Record* corner, std::size_t key, std::size_t row, double threshold,
+               std::vector<Candidate>& candidates) const {
+    Double4 f1{}, f2{};
+    for (std::size_t k = 0; k < borders_.vertices(key); ++k) {
+      f1 += load(corner[borders_.corner(k, 0)[row]]);
+      f2 += load(corner[borders_.corner(k, 1)[row]]);
+    }
+    const Double4 f = f1 - f2, ff = f * f;
+    if (ff[0] + ff[1] + ff[2] <= threshold * threshold) return;
+    const Dart d = borders_.dart(key);
+    const double value = std::abs(Vec3(f[0], f[1], f[2]).dot(across_border(view.map, view.position, d)));
+    if (value > threshold) candidates.push_back({value, d});
   }
 
   Borders borders_;
+  std::vector<std::uint8_t> mark_; // one per vertex slot
 };
 
 } // namespace
@@ -59,7 +80,8 @@ CriterionType atomic_border() {
           [](const CriterionRequest& request) { return lacking_for_borders(request.map); },
           [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return std::make_unique<AtomicBorder>(request.map);
-          }};
+          },
+          true};
 }
 
 } // namespace rend

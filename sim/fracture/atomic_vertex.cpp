@@ -2,9 +2,13 @@
 // element of the continuum on its corner there, with the plane across that force.
 //
 // Tensors of a mass-tensor body are no forces of their own (a body that is moved as a whole feels them, though their sum
-// is 0): its linear elements count.
+// is 0): its linear elements count. The kernel tells which elements exceed the threshold, and they alone are looked at one
+// by one.
 #include "sim/fracture/single_springs.h"
 #include "sim/program/continuum.h"
+#include "sim/program/kernels.h"
+
+#include <algorithm>
 
 namespace rend {
 namespace {
@@ -12,7 +16,14 @@ namespace {
 class AtomicVertex final : public Criterion {
 public:
   explicit AtomicVertex(const CriterionRequest& request)
-      : springs_(request), continuum_(request.map, request.interactions) {}
+      : springs_(request), continuum_(request.map, request.interactions) {
+    const Orbit corner = corner_orbit(request.map.dimension());
+    request.map.use(corner);
+    for (const Continuum::Part& part : continuum_.parts()) {
+      rows_.push_back(Binder::of(request.map, *part.interaction, false, corner));
+      rows_.back().bind();
+    }
+  }
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     largest_.clear();
@@ -25,7 +36,24 @@ public:
       }
     };
     springs_.each_above(view, threshold, look);
-    continuum_.each(view.position, view.velocity, [&](const auto&, const UnitNow& element) { look(element); });
+    for (std::size_t n = 0; n < rows_.size(); ++n)
+      each_above(view, n, threshold, [&](Dart d) {
+        continuum_.each_of(d, view.position, view.velocity, [&](const auto& part, const UnitNow& element) {
+          if (&part == &continuum_.parts()[n]) look(element);
+        });
+      });
+  }
+
+  void rebind(const Changes& changes) override {
+    for (Binder& binder : rows_) binder.rebind(changes);
+  }
+  void reserve_for_separations() override {
+    for (Binder& binder : rows_) binder.reserve_for_separations();
+  }
+  std::size_t bytes() const override {
+    std::size_t sum = corner_.capacity() * sizeof(Record);
+    for (const Binder& binder : rows_) sum += binder.rows().bytes();
+    return sum;
   }
 
 private:
@@ -44,6 +72,35 @@ private:
     }
   }
 
+  // Calls f(smallest dart) for elements of a part with a force above the threshold, give or take rounding.
+  template <class F> void each_above(const ForceView& view, std::size_t part, double threshold, F&& f) {
+    const Binder& binder = rows_[part];
+    const Law& law = *continuum_.parts()[part].law;
+    const PackedRows& rows = binder.rows();
+    corner_.assign(view.map.cells(view.mass.orbit()).slots(), Record());
+    kernel_of(law).corner_forces({.law = law,
+                                  .rows = rows,
+                                  .position = view.position,
+                                  .velocity = view.velocity,
+                                  .rest = view.map.rest().values().data(),
+                                  .force = corner_.data(),
+                                  .low = 0,
+                                  .high = static_cast<std::uint32_t>(view.map.cells(Vertex).slots()),
+                                  .first = 0,
+                                  .last = rows.blocks(),
+                                  .damped = binder.interaction()->damped});
+    const int corners = law.particles();
+    const double square = threshold * threshold * (1 - 1e-9);
+    rows.for_each([&](std::size_t key, std::size_t row) {
+      double most = 0;
+      for (int n = 0; n < corners; ++n) {
+        const Record& g = corner_[rows.index(corners + n)[row]];
+        most = std::max(most, g.x * g.x + g.y * g.y + g.z * g.z);
+      }
+      if (most > square) f(view.map.cells(binder.pattern().owner).first_dart(binder.owner_of(key)));
+    });
+  }
+
   void keep(const EmbeddedMap& map, Slot vertex, double value, const Vec3& force,
             std::vector<Candidate>& candidates) {
     const auto next = static_cast<std::uint32_t>(candidates.size());
@@ -56,7 +113,9 @@ private:
 
   SingleSprings springs_;
   Continuum continuum_;
-  IndexMap largest_; // vertex slot → place among the candidates
+  std::vector<Binder> rows_;   // of each part, with corners
+  std::vector<Record> corner_; // [N], one per corner slot: of one part
+  IndexMap largest_;           // vertex slot → place among the candidates
 };
 
 } // namespace

@@ -25,7 +25,7 @@ Vec3 face_normal(const EmbeddedMap& map, const Record* x, Dart d) {
   return sum;
 }
 
-constexpr int most_sides = static_cast<int>(most_fields / 2);
+constexpr int most_sides = static_cast<int>(most_fields / 3);
 
 int most_sides_of(const EmbeddedMap& map) {
   int most = 3;
@@ -52,7 +52,9 @@ Binder edges_of_sheet(EmbeddedMap& map, Borders::Carry carry) {
   if (carry == Borders::Carry::Vertices) return Binder(map, pattern, {{{""}, Vertex}, {{"0"}, Vertex}}, 2);
   const Orbit corner = corner_orbit(2);
   map.use(corner);
-  return Binder(map, pattern, {{{""}, corner}, {{"2"}, corner}, {{"0"}, corner}, {{"20"}, corner}}, 0);
+  return Binder(
+      map, pattern,
+      {{{""}, corner}, {{"2"}, corner}, {{"0"}, corner}, {{"20"}, corner}, {{""}, Vertex}, {{"0"}, Vertex}}, 0);
 }
 
 Binder faces_of_solid(EmbeddedMap& map, Borders::Carry carry) {
@@ -65,20 +67,18 @@ Binder faces_of_solid(EmbeddedMap& map, Borders::Carry carry) {
                   .present = [](const GMap& m, Dart d, std::size_t unit) {
                     return !m.is_free(3, d) && sides_of_face(m, d) == static_cast<int>(unit) + 3;
                   }};
-  const bool corners = carry == Borders::Carry::Corners;
-  const Orbit orbit = corners ? corner_orbit(3) : Vertex;
   map.use(Face);
-  map.use(orbit);
-  std::vector<Field> fields(static_cast<std::size_t>(corners ? 2 * most : most), Field{{}, orbit});
-  for (int sides = 3; sides <= most; ++sides) {
-    pattern.units.push_back({});
-    for (std::size_t n = 0; n < fields.size(); ++n) { // those beyond the face's own repeat its first
-      const int k = static_cast<int>(corners ? n / 2 : n) % sides;
-      fields[n].word.push_back(around(corners && n % 2 == 1, k));
-      if (!corners) pattern.units.back().push_back(fields[n].word.back());
-    }
-  }
-  return Binder(map, pattern, std::move(fields), corners ? 0 : most);
+  std::vector<Field> fields;
+  const auto add = [&](bool other, int vertex, Orbit orbit) { // those beyond a face's own repeat its first
+    map.use(orbit);
+    Field& field = fields.emplace_back(Field{{}, orbit});
+    for (int sides = 3; sides <= most; ++sides) field.word.push_back(around(other, vertex % sides));
+  };
+  for (int k = 0; k < most && carry == Borders::Carry::Corners; ++k)
+    for (bool other : {false, true}) add(other, k, corner_orbit(3));
+  for (int k = 0; k < most; ++k) add(false, k, Vertex);
+  pattern.units.resize(static_cast<std::size_t>(most - 2));
+  return Binder(map, pattern, std::move(fields), 0);
 }
 
 } // namespace
@@ -91,6 +91,7 @@ std::string lacking_for_borders(const EmbeddedMap& map) {
 
 Borders::Borders(EmbeddedMap& map, Carry carry)
     : map_(&map), binder_(map.dimension() == 2 ? edges_of_sheet(map, carry) : faces_of_solid(map, carry)) {
+  if (carry == Carry::Corners) first_vertex_ = of_sheet() ? 4 : 2 * (binder_.pattern().units.size() + 2);
   binder_.bind();
 }
 

@@ -13,12 +13,18 @@ class Borders {
 public:
   enum class Carry {
     Vertices, // fields 0 .. n − 1: the n vertices of the border
-    Corners,  // fields 2k and 2k + 1: corners of its k-th vertex in the two elements
+    Corners,  // fields 2k and 2k + 1: corners of its k-th vertex in the two elements; then the vertices
   };
-  // UserError is for lacking_for_borders() to avoid: CHECK that no face has too many sides.
+  // CHECK: no face has too many sides (lacking_for_borders).
   Borders(EmbeddedMap& map, Carry carry);
 
   const PackedRows& rows() const { return binder_.rows(); }
+  const std::uint32_t* vertex(std::size_t k) const { // one per row
+    return rows().index(static_cast<int>(first_vertex_ + k));
+  }
+  const std::uint32_t* corner(std::size_t k, std::size_t element) const {
+    return rows().index(static_cast<int>(2 * k + element));
+  }
   bool of_sheet() const { return binder_.pattern().owner == EdgeOfVolume; }
   std::size_t vertices(std::size_t key) const {
     return of_sheet() ? 2 : key % binder_.pattern().units.size() + 3;
@@ -33,6 +39,7 @@ public:
 
 private:
   const EmbeddedMap* map_;
+  std::size_t first_vertex_ = 0; // field
   Binder binder_;
 };
 

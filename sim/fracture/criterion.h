@@ -30,6 +30,9 @@ struct ForceView {
   const Record* velocity; // [m/s], one per vertex slot
   const Record* force;    // internal [N], one per vertex slot
   const Record* corner;   // internal [N], one per corner slot: the share of each element; null unless asked for
+  // Not null: in its place the fourth lane of `force` holds Program::forces_with_sums(), and this has room for
+  // Program::corner_forces_at() where that says too little.
+  Record* corner_room = nullptr;
 };
 
 class Criterion {
@@ -59,6 +62,7 @@ struct CriterionType {
   // What the body, or what was said of it, lacks for this criterion, as a sentence; empty: nothing.
   std::string (*lacking)(const CriterionRequest&);
   std::unique_ptr<Criterion> (*make)(const CriterionRequest&);
+  bool by_sums = false; // elementary, and takes ForceView::corner_room instead
 };
 
 const std::vector<CriterionType>& all_criteria();

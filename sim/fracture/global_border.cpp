@@ -21,14 +21,14 @@ public:
     const double largest = norms(view.force, vertices, norm_.data());
     if (borders_.of_sheet()) {
       if (2 * largest <= threshold) return; // an edge needs one end above half of it
-      const std::uint32_t *a = borders_.rows().index(0), *b = borders_.rows().index(1);
+      const std::uint32_t *a = borders_.vertex(0), *b = borders_.vertex(1);
       borders_.rows().for_each([&](std::size_t key, std::size_t row) {
         if (norm_[a[row]] + norm_[b[row]] > threshold) measure(view, key, row, threshold, candidates);
       });
     } else {
       borders_.rows().for_each([&](std::size_t key, std::size_t row) {
         double bound = 0;
-        for (std::size_t k = 0; k < borders_.vertices(key); ++k) bound += norm_[vertex(k, row)];
+        for (std::size_t k = 0; k < borders_.vertices(key); ++k) bound += norm_[borders_.vertex(k)[row]];
         if (bound > threshold) measure(view, key, row, threshold, candidates);
       });
     }
@@ -39,14 +39,10 @@ public:
   std::size_t bytes() const override { return borders_.bytes() + norm_.capacity() * sizeof(double); }
 
 private:
-  std::uint32_t vertex(std::size_t k, std::size_t row) const {
-    return borders_.rows().index(static_cast<int>(k))[row];
-  }
-
   void measure(const ForceView& view, std::size_t key, std::size_t row, double threshold,
                std::vector<Candidate>& candidates) const {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < borders_.vertices(key); ++k) sum += view.force[vertex(k, row)].vec();
+    for (std::size_t k = 0; k < borders_.vertices(key); ++k) sum += view.force[borders_.vertex(k)[row]].vec();
     if (sum.squaredNorm() <= threshold * threshold) return;
     const Dart d = borders_.dart(key);
     const double value = std::abs(sum.dot(across_border(view.map, view.position, d)));

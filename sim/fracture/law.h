@@ -23,6 +23,7 @@ struct LawSettings {
   int max_per_step = 0;                                             // 0: any number
 
   bool elementary() const { return criterion->elementary || change->elementary(cell); }
+  bool by_sums() const { return criterion->by_sums && !change->elementary(cell); }
 };
 
 class TearLaw {

@@ -180,6 +180,7 @@ std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map
     made->law = element_law(kind, ElasticModel::Linear, Rotation::Polar, request.material);
     made->name = made->law->name();
     made->pattern = pattern_of(shape_of(kind));
+    made->damped = request.material.damping > 0;
     made->map = &map;
     made->thickness = request.thickness;
     all.push_back(std::move(made));

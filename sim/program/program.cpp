@@ -1,6 +1,9 @@
 #include "sim/program/program.h"
 
+#include "sim/base/check.h"
 #include "sim/base/simd.h"
+#include "sim/mechanics/spring_law.h"
+#include "sim/program/spring_sums.h"
 #include "sim/program/threads.h"
 #include "sim/program/walk_forces.h"
 
@@ -112,6 +115,20 @@ constexpr std::size_t corner_tile_vertices = 1024; // with some four corners eac
 void Program::forces(const Record* position, const Record* velocity, Record* force) const {
   if (options_.walk)
     return walk_forces(*map_, *interactions_, mass_->orbit(), position, velocity, nullptr, force);
+  run_folded(false, position, velocity, force);
+}
+
+bool sums_fit(const std::vector<std::unique_ptr<Interaction>>& interactions, const ProgramOptions& options) {
+  return !options.walk && std::all_of(interactions.begin(), interactions.end(),
+                                      [](const auto& interaction) { return interaction->law == spring_law(); });
+}
+
+void Program::forces_with_sums(const Record* position, const Record* velocity, Record* force) const {
+  CHECK(sums_fit(*interactions_, options_));
+  run_folded(true, position, velocity, force);
+}
+
+void Program::run_folded(bool sums, const Record* position, const Record* velocity, Record* force) const {
   const std::vector<Binder>& binders = rows();
   const std::size_t tiles = vertices() / tile_vertices + 1;
   in_parts(parts(), vertices(), [&](std::size_t begin, std::size_t end) {
@@ -134,7 +151,7 @@ void Program::forces(const Record* position, const Record* velocity, Record* for
         part.high = static_cast<std::uint32_t>(end);
         part.first = blocks * tile / tiles;
         part.last = blocks * (tile + 1) / tiles;
-        kernels_[n]->forces(part);
+        sums ? spring_forces_with_sums(part) : kernels_[n]->forces(part);
       }
     }
     clear_to(end);
@@ -161,6 +178,28 @@ void Program::corner_forces(const Record* position, const Record* velocity, Reco
     if (corner_vertex_[c] == no_slot) continue;
     Record& sum = force[corner_vertex_[c]];
     store(sum, load(sum) + load(corner[c]));
+  }
+}
+
+// A unit that acts on a corner has a row in a block whose range holds the corner's vertex.
+void Program::corner_forces_at(const std::vector<std::uint8_t>& mark, const Record* position,
+                               const Record* velocity, Record* corner) const {
+  std::vector<std::uint32_t> marks(mark.size() + 1, 0); // of vertices before each
+  for (std::size_t v = 0; v < mark.size(); ++v) marks[v + 1] = marks[v] + mark[v];
+  const auto concerned = [&](const PackedRows& rows, std::size_t block) {
+    const PackedRows::Range range = rows.range(block);
+    return range.low <= range.high && marks[range.high + 1] > marks[range.low];
+  };
+  for (Slot c = 0; c < corner_vertex_.size(); ++c)
+    if (corner_vertex_[c] != no_slot && mark[corner_vertex_[c]]) store(corner[c], Double4{});
+  for (std::size_t n = 0; n < elementary_.size(); ++n) {
+    KernelArguments part = arguments(elementary_[n], position, velocity, corner);
+    for (std::size_t block = 0; block < elementary_[n].rows().blocks(); ++block) {
+      if (!concerned(elementary_[n].rows(), block)) continue;
+      part.first = block;
+      part.last = block + 1;
+      kernels_[n]->corner_forces(part);
+    }
   }
 }
 

@@ -40,6 +40,14 @@ public:
   // The same by the elementary rows, each element corner's own share as well: one record per corner slot.
   void corner_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
 
+  // Where sums_fit(): forces() with the same bits, and in each record's fourth lane the sum of the sizes of all single
+  // forces on the vertex. To be cleared before others read it.
+  void forces_with_sums(const Record* position, const Record* velocity, Record* force) const;
+
+  // Of corner_forces(), the shares at corners of vertices with a mark alone; others are undefined.
+  void corner_forces_at(const std::vector<std::uint8_t>& mark, const Record* position, const Record* velocity,
+                        Record* corner) const;
+
   void rebind(); // after edits; does nothing where there were none
   void reserve_for_separations();
 
@@ -60,6 +68,7 @@ public:
 private:
   KernelArguments arguments(const Binder& binder, const Record* position, const Record* velocity,
                             Record* force) const; // all blocks, all vertices
+  void run_folded(bool sums, const Record* position, const Record* velocity, Record* force) const;
   void weigh_all();
   void weigh(Slot vertex);
   void place_corners();
@@ -77,5 +86,8 @@ private:
       corner_vertex_;             // of every element corner slot; no_slot: free; empty without elementary rows
   std::vector<double> drag_rate_; // γ/m [1/s], one per vertex slot; empty without drag
 };
+
+// Whether forces_with_sums() is there: for springs alone, and not where the map is walked.
+bool sums_fit(const std::vector<std::unique_ptr<Interaction>>& interactions, const ProgramOptions& options);
 
 } // namespace rend

@@ -22,9 +22,13 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads) {
       std::any_of(laws.begin(), laws.end(), [](const TearLaw& law) { return law.settings().elementary(); });
   ProgramOptions options;
   options.elementary = elementary;
-  options.folded = !elementary || scheme.evaluations > 1;
   options.fold = cumulated != Cumulated::No;
   options.walk = walk;
+  sums_ = elementary && sums_fit(interactions, options) &&
+          std::all_of(laws.begin(), laws.end(), [](const TearLaw& law) {
+            return !law.settings().elementary() || law.settings().by_sums();
+          });
+  options.folded = !elementary || scheme.evaluations > 1 || sums_;
   options.threads = threads;
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
@@ -70,7 +74,9 @@ void Body::evaluate() {
   drag_rate = program->drag_rate();
   force.resize(vertices());
   const Record *x = map->position().values().data(), *v = map->velocity().values().data();
-  if (corner_force.empty())
+  if (sums_)
+    program->forces_with_sums(x, v, force.data());
+  else if (corner_force.empty())
     program->forces(x, v, force.data());
   else
     program->corner_forces(x, v, corner_force.data(), force.data());
@@ -84,7 +90,12 @@ ForceView Body::view() const {
           map->position().values().data(),
           map->velocity().values().data(),
           force.data(),
-          corner_force.empty() ? nullptr : corner_force.data()};
+          corner_force.empty() || sums_ ? nullptr : corner_force.data(),
+          sums_ ? corner_force.data() : nullptr};
+}
+
+void Body::clear_sums() {
+  for (Record& f : force) f.w = 0;
 }
 
 CriterionRequest Body::request_for(const LawSettings& law) const {
@@ -127,6 +138,7 @@ void Body::follow_changes() {
 }
 
 void Body::advance(double time, double step) {
+  if (sums_) clear_sums();
   next.resize(vertices());
   next.probe = Double4{};
   next_time_ = time + step;

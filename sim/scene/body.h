@@ -57,8 +57,8 @@ struct Body final : System {
   std::unique_ptr<Program> program;
   std::unique_ptr<Assembly> assembly; // null: the scheme does not solve
   std::unique_ptr<Integrator> integrator;
-  std::vector<Record> force;        // internal [N] at the start of the step, one per vertex slot
-  std::vector<Record> corner_force; // [N], one per corner slot; empty unless a law looks at elements
+  std::vector<Record> force;                // internal [N] at the start of the step, one per vertex slot
+  mutable std::vector<Record> corner_force; // [N], one per corner slot; empty unless a law looks at elements
   State next;      // where the integrator writes: the old state stays whole until the step is kept
   Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
@@ -97,6 +97,8 @@ struct Body final : System {
 private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   void follow_changes();
+  void clear_sums();
+  bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
   double time_ = 0, next_time_ = 0; // [s], of the current state and of `next`
 };
 
