@@ -15,6 +15,8 @@ std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::uniq
 }
 
 void Contacts::advance(double time, double step) {
+  for (auto& body : bodies_)
+    if (!body->body->next.finite()) return; // the scene is about to stop
   for (auto& body : bodies_) body->prepare(time + step);
   if (fragments_) fragments_->advance(bodies_, step);
   obstacles_.advance(bodies_, time, step);

@@ -3,6 +3,7 @@
 #include "sim/scene/obstacle.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -10,8 +11,8 @@ namespace {
 constexpr int sweeps = 4;
 constexpr double relaxation = 0.05;  // [s]
 constexpr double coincident = 1e-10; // of the thickness and the face's size
-constexpr double deepest = 3;        // thicknesses below a solid's face that are still taken for an overlap
-constexpr double beside = 1.5;       // thicknesses at which a way passes by a face
+constexpr double deepest = 0.2; // of a face's size: below a solid's face that is still taken for an overlap
+constexpr double beside = 1.5;  // thicknesses at which a way passes by a face
 
 TriangleCorners mixed(const TriangleCorners& a, const TriangleCorners& b, double share) {
   TriangleCorners out;
@@ -44,7 +45,7 @@ std::optional<Facing> facing(const Vec3& x, const TriangleCorners& face, bool so
   if (solid && size > 0 && (over(out.weight) || !known)) {
     out.normal = area / size;
     out.gap = out.normal.dot(way);
-    return out.gap > -deepest * thickness ? std::optional(out) : std::nullopt;
+    return out.gap > -std::max(thickness, deepest * std::sqrt(size)) ? std::optional(out) : std::nullopt;
   }
   if (!known || (solid && way.dot(area) < 0)) return {};
   out.normal = way / distance;

@@ -16,11 +16,12 @@
 // Fragments lie exactly on each other when they are parted. Only what approaches is stopped: nothing that is nearer than
 // the thickness is pushed away, so nothing explodes, and what recedes is left alone, so nothing sticks. Two points of
 // sheets that coincide have no side yet and pass until they have one. What overlaps (vertices below a solid's face, no
-// deeper than three times the thickness) and what came too near though it was not so at rest is worked off over
+// deeper than a fifth of its size) and what came too near though it was not so at rest is worked off over
 // `relaxation`, by positions alone.
 //
-// Limits: edges that cross in mid-air with no vertex near pass each other (cells show it if they are much larger than
-// the thickness); several contacts at once are solved as far as `sweeps` rounds go.
+// Of two bodies the mean of their thicknesses and the larger friction count. Limits: edges that cross in mid-air with no
+// vertex near pass each other (cells show it if they are much larger than the thickness); several contacts at once are
+// solved as far as `sweeps` rounds go.
 #pragma once
 
 #include "sim/scene/contact_pairs.h"
