@@ -59,8 +59,8 @@ Bounds bounds_of(const Sphere& sphere) {
   return {sphere.start - reach, sphere.start + reach};
 }
 
-// What a sphere needs that moves: where it starts, and where it goes to as far as that is in the bodies' room, or it would
-// make them small.
+// What a sphere needs that moves: where it starts, and where it goes to as far as that is in the bodies' room,
+// or it would make them small.
 Bounds room_of(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, double duration) {
   const Bounds start = bounds_of(sphere);
   Vec3 way = duration * sphere.velocity;

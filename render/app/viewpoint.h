@@ -9,9 +9,10 @@
 
 namespace rend {
 
-// A box that the bodies and obstacles hardly leave: where they are, where they are driven to by `duration`, and room below
-// them to hang or fall (as deep as they are wide where nothing holds them up on all sides, but not below the
-// floor). Of a sphere that moves, only what it passes between the start and the end of the bodies' room counts.
+// A box that the bodies and obstacles hardly leave: where they are, where they are driven to by `duration`, and
+// room below them to hang or fall (as deep as they are wide where nothing holds them up on all sides, but not
+// below the floor). Of a sphere that moves, only what it passes between the start and the end of the bodies'
+// room counts.
 Eigen::AlignedBox3d room_of(const Scene& scene, double duration);
 
 class Viewpoint {

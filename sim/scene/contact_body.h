@@ -1,7 +1,8 @@
 // A body as contact sees it in a step: what of it can be touched, and which way an impulse moves it.
 //
-// A point of a face, x = Σ b_i x_i with weights b_i that sum up to 1, takes an impulse J as b_i J on each vertex: neither
-// momentum nor angular momentum depends on how it is shared. Its inverse mass is then Σ b_i²/m_i.
+// A point of a face, x = Σ b_i x_i with weights b_i that sum up to 1, takes an impulse J as b_i J on each
+// vertex: neither momentum nor angular momentum depends on how it is shared. Its inverse mass is then Σ
+// b_i²/m_i.
 #pragma once
 
 #include "sim/scene/body.h"
@@ -51,8 +52,8 @@ struct ContactPoint {
   void shift(const Vec3& by) const;                  // [kg·m]: on positions alone, each b_i/m_i of it
 };
 
-// What an inelastic impact with friction takes from a relative velocity u [m/s]: the change of u, whose part along n is
-// never towards n. Its work is never positive.
+// What an inelastic impact with friction takes from a relative velocity u [m/s]: the change of u, whose part
+// along n is never towards n. Its work is never positive.
 Vec3 impact(const Vec3& u, const Vec3& normal, double friction);
 
 } // namespace rend

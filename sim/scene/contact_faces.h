@@ -1,5 +1,6 @@
-// What others can touch of a body: its α3-free faces as triangles, each face a fan around the vertex of its first dart
-// (as it is drawn), those of a solid counter-clockwise as seen from outside at rest. Listed anew after edits.
+// What others can touch of a body: its α3-free faces as triangles, each face a fan around the vertex of its
+// first dart (as it is drawn), those of a solid counter-clockwise as seen from outside at rest. Listed anew
+// after edits.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"

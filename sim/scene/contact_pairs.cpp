@@ -44,8 +44,8 @@ struct Query {
   }
 };
 
-// Whether they may come as near as `thickness` before one of them has moved by half the skin: by how far they are apart at
-// the end of the step, and how far they moved against each other in it.
+// Whether they may come as near as `thickness` before one of them has moved by half the skin: by how far they
+// are apart at the end of the step, and how far they moved against each other in it.
 bool may_meet(const ContactBody& body, Slot v, const ContactBody& other, const ContactFaces::Triangle& triangle,
               double reach) {
   const Vec3 x = body.position(v), moved = x - body.from(v);

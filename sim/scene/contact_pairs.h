@@ -1,11 +1,12 @@
 // Which vertices may meet which faces in a step: the broad phase of contact between bodies and fragments.
 //
-// Faces are triangles (contact_faces.h), kept in a tree of boxes: Eigen's KdBVH (unsupported/Eigen/BVH, MPL 2), since
-// Eigen is there already, the tree is a pure function of the boxes, and what is found is sorted, so that no order of a
-// search shows. (Bullet's btDbvt and FCL would be new dependencies, for single precision or for whole bodies.) The tree
-// cannot follow what moves; so pairs are looked for with a skin around all, and looked for again when a vertex has moved
-// by half of it against the mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967), or when a map was changed.
-// Pairs are more than what meets, and what meets is always among them: when they were looked for leaves no trace.
+// Faces are triangles (contact_faces.h), kept in a tree of boxes: Eigen's KdBVH (unsupported/Eigen/BVH, MPL 2),
+// since Eigen is there already, the tree is a pure function of the boxes, and what is found is sorted, so that
+// no order of a search shows. (Bullet's btDbvt and FCL would be new dependencies, for single precision or for
+// whole bodies.) The tree cannot follow what moves; so pairs are looked for with a skin around all, and looked
+// for again when a vertex has moved by half of it against the mean of all (Verlet's neighbour lists, Phys. Rev.
+// 159, 1967), or when a map was changed. Pairs are more than what meets, and what meets is always among them:
+// when they were looked for leaves no trace.
 #pragma once
 
 #include "sim/scene/contact_body.h"
@@ -26,8 +27,9 @@ class ContactPairs {
 public:
   using Bodies = std::vector<std::unique_ptr<ContactBody>>;
 
-  // The pairs of this step, by body, vertex, body of the face, triangle. Of bodies with fragments: those of different
-  // bodies and of different fragments, and with self also those within a fragment that are no neighbours.
+  // The pairs of this step, by body, vertex, body of the face, triangle. Of bodies with fragments: those of
+  // different bodies and of different fragments, and with self also those within a fragment that are no
+  // neighbours.
   const std::vector<ContactPair>& find(const Bodies& bodies);
 
   // What two bodies keep from each other [m].

@@ -1,6 +1,6 @@
-// All contacts of a scene that are more than one body's with the floor (which is the body's own: contact.h), at the end of
-// each step, after every body has made its own. Bodies and fragments among each other first, then obstacles, the
-// floor last, and what is prescribed yields to none of them.
+// All contacts of a scene that are more than one body's with the floor (which is the body's own: contact.h), at
+// the end of each step, after every body has made its own. Bodies and fragments among each other first, then
+// obstacles, the floor last, and what is prescribed yields to none of them.
 #pragma once
 
 #include "sim/scene/fragment_contact.h"

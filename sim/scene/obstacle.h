@@ -1,15 +1,15 @@
 // Obstacles: spheres and boxes that bodies do not pass through, and where a point that moves meets them.
 //
-// A point that ends a step within an obstacle is kept outside of a plane. Which one depends on where it came from, so
-// that nothing is pushed out on the far side:
+// A point that ends a step within an obstacle is kept outside of a plane. Which one depends on where it came
+// from, so that nothing is pushed out on the far side:
 //
-//   sphere   the tangent plane over the point; where it went in so deep that this is no guide, or passed right through,
-//            the tangent plane where its way meets the sphere
+//   sphere   the tangent plane over the point; where it went in so deep that this is no guide, or passed
+//            right through, the tangent plane where its way meets the sphere
 //   box      the side through which its way comes in; of a point that was inside, the nearest side
 //
-// The way is a straight line, relative to the obstacle. What is as long as a step's motion is therefore not missed, nor
-// what is thinner. A sphere moves as prescribed (start + velocity × time), or, having mass, falls: it does not turn, so
-// that friction acts on it as on a slider.
+// The way is a straight line, relative to the obstacle. What is as long as a step's motion is therefore not
+// missed, nor what is thinner. A sphere moves as prescribed (start + velocity × time), or, having mass, falls:
+// it does not turn, so that friction acts on it as on a slider.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -43,8 +43,8 @@ struct Sphere {
   void predict(double time, double step, const Vec3& gravity);
   void commit();
 
-  // For a point that went from → to [m] in the step, relative to the centre at its start and end; `reach` [m] is the
-  // radius and what is kept from it. None: it is outside.
+  // For a point that went from → to [m] in the step, relative to the centre at its start and end; `reach` [m]
+  // is the radius and what is kept from it. None: it is outside.
   static std::optional<Plane> stop(const Vec3& from, const Vec3& to, double reach);
 };
 
@@ -64,9 +64,9 @@ using TriangleCorners = std::array<Vec3, 3>;
 // Nearest to `point`: Ericson, Real-Time Collision Detection, 5.1.5.
 Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point);
 
-// Where the largest of the distances to the sides of the box is least: a convex function, whose least is found by golden
-// section within golden section, to 1/300 of the triangle. (Frank and Wolfe's method, Macklin et al. 2020, takes as many
-// evaluations and stalls where two sides are equally far.)
+// Where the largest of the distances to the sides of the box is least: a convex function, whose least is found
+// by golden section within golden section, to 1/300 of the triangle. (Frank and Wolfe's method, Macklin et al.
+// 2020, takes as many evaluations and stalls where two sides are equally far.)
 Weights deepest_in_box(const TriangleCorners& x, const Box& box);
 
 } // namespace rend

@@ -43,7 +43,8 @@ struct StandingBox {
   Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
 };
 
-// On which sides a point is outside: bits 2 a and 2 a + 1 for less and more along axis a (Cohen and Sutherland's).
+// On which sides a point is outside: bits 2 a and 2 a + 1 for less and more along axis a (Cohen and
+// Sutherland's).
 using Outside = std::uint8_t;
 Outside outside(const Bounds& near, const Vec3& x) {
   unsigned code = 0;
@@ -53,7 +54,8 @@ Outside outside(const Bounds& near, const Vec3& x) {
   return static_cast<Outside>(code);
 }
 
-// Calls f(point, plane) for each vertex of the body that the obstacle is to stop. `codes`: where that leaves each slot.
+// Calls f(point, plane) for each vertex of the body that the obstacle is to stop. `codes`: where that leaves
+// each slot.
 template <class Shape, class F>
 void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;

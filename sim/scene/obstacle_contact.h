@@ -1,18 +1,19 @@
 // Contact of bodies with spheres and boxes, at the end of a step.
 //
-// Looked at are the vertices, and of each face the point that lies deepest, so that neither a small sphere nor the edge
-// of a box slips between vertices. A point that is inside, or passed through, is kept out by a plane (obstacle.h): it is
-// put on it, loses its speed into it, and is slowed along it by Coulomb's friction. With relative velocity u, plane n and
-// inverse masses w of the point and W of the obstacle (0, unless it falls),
+// Looked at are the vertices, and of each face the point that lies deepest, so that neither a small sphere nor
+// the edge of a box slips between vertices. A point that is inside, or passed through, is kept out by a plane
+// (obstacle.h): it is put on it, loses its speed into it, and is slowed along it by Coulomb's friction. With
+// relative velocity u, plane n and inverse masses w of the point and W of the obstacle (0, unless it falls),
 //
 //   Δu = max(0, −u·n) n − min(1, μ max(0, −u·n)/|u_t|) u_t,    J = Δu/(w + W)
 //
-// J on the point, −J on the sphere: momentum is conserved to round-off, and kinetic energy is lost by each. What falls
-// first trades momentum with all that it touches, in `sweeps` rounds in the order of bodies and slots, and then moves
-// with the velocity that this leaves; so do the points, and what overlap remains is taken off their positions alone.
+// J on the point, −J on the sphere: momentum is conserved to round-off, and kinetic energy is lost by each.
+// What falls first trades momentum with all that it touches, in `sweeps` rounds in the order of bodies and
+// slots, and then moves with the velocity that this leaves; so do the points, and what overlap remains is taken
+// off their positions alone.
 //
-// Limits: several contacts of a heavy sphere are solved as far as the rounds go; obstacles yield to nothing else; a
-// sphere much smaller than the faces should move less than its diameter in a step.
+// Limits: several contacts of a heavy sphere are solved as far as the rounds go; obstacles yield to nothing
+// else; a sphere much smaller than the faces should move less than its diameter in a step.
 #pragma once
 
 #include "sim/scene/contact_body.h"

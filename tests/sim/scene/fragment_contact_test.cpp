@@ -1,4 +1,5 @@
-// Pieces among each other: they keep momentum, do not pass, and neither explode nor stick where they were parted.
+// Pieces among each other: they keep momentum, do not pass, and neither explode nor stick where they were
+// parted.
 #include "sim/scene/fragment_contact.h"
 
 #include "sim/presets.h"

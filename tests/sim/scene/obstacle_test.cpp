@@ -1,4 +1,5 @@
-// Spheres and boxes: against plain geometry, against Coulomb's and Newton's laws, and by what must never happen.
+// Spheres and boxes: against plain geometry, against Coulomb's and Newton's laws, and by what must never
+// happen.
 #include "sim/scene/obstacle.h"
 
 #include "sim/presets.h"
