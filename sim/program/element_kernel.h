@@ -67,9 +67,11 @@ REND_INLINE Matrix<3> stress(const Matrix<3>& F, const Double4& weight, double l
            {xz, yz, twice * (f2.z - 1.0) + trace}}};
 }
 
-// Whether a model is damped and whether a block reaches beyond its part are asked while it runs: both change little,
-// and the compiler would have to write a kernel for each.
-template <class Shape, Turning turning> struct ElementLanes {
+// Whether a block reaches beyond its part, and of an element with several points whether it is damped, are asked while
+// it runs: that takes no time which can be measured, and the compiler would have to write a kernel for each.
+enum class Damping { No, Yes, Asked };
+
+template <class Shape, Turning turning, Damping damping> struct ElementLanes {
   static constexpr int N = Shape::N, Dim = Shape::dim;
   static constexpr bool flat = turning == Turning::None && Dim == 2; // carries its axes
   static constexpr bool turned = turning != Turning::None;
@@ -89,13 +91,14 @@ template <class Shape, Turning turning> struct ElementLanes {
     from_first_corner(a.position, a, at, x);
     Matrix<Dim> F[Shape::points], mean;
     Double4 volume{};
-    if (turned || !a.damped) {
+    const bool damped = damping == Damping::Asked ? a.damped : damping == Damping::Yes;
+    if (turned || !damped) {
       Shape::columns(x, D);
       mean_gradient(values, D, F, mean, volume);
     }
     if constexpr (turned)
       for (int g = 0; g < frames; ++g) turn<rotation, Dim>(frames == 1 ? mean : F[g], volume, R[g]);
-    if (a.damped) {
+    if (damped) {
       Vector v[N];
       from_first_corner(a.velocity, a, at, v);
       for (int n = 1; n < N; ++n) x[n] = x[n] + splat(m.damping) * v[n];
@@ -104,7 +107,7 @@ template <class Shape, Turning turning> struct ElementLanes {
     Vector H[Shape::columns_count] = {};
     for (int g = 0; g < Shape::points; ++g) {
       const Inverse<Dim> inverse(values + static_cast<std::size_t>(g) * Inverse<Dim>::stride);
-      if (a.damped) F[g] = gradient_at<Shape, Dim>(g, D, inverse);
+      if (damped) F[g] = gradient_at<Shape, Dim>(g, D, inverse);
       Matrix<Dim> P;
       if constexpr (Dim == 3 && !turned)
         P = stress(F[g], inverse.weight, m.lambda, m.mu);
@@ -162,25 +165,35 @@ REND_INLINE void run_rows(const KernelArguments& a, const ElasticMaterial& m, st
   }
 }
 
-template <class Shape, Turning turning, bool corners>
+template <class Lanes, bool corners>
 REND_INLINE void run_blocks(const KernelArguments& a, const ElasticMaterial& m) {
   for (std::size_t block = a.first; block < a.last; ++block) {
     const PackedRows::Range range = a.rows.range(block);
     const bool whole = range.low >= a.low && range.high < a.high;
     if (corners || whole || (range.low < a.high && range.high >= a.low))
-      run_rows<ElementLanes<Shape, turning>, corners>(a, m, block, whole);
+      run_rows<Lanes, corners>(a, m, block, whole);
   }
+}
+
+template <class Shape, Turning turning, bool corners>
+REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMaterial& m) {
+  if constexpr (Shape::points > 1)
+    run_blocks<ElementLanes<Shape, turning, Damping::Asked>, corners>(a, m);
+  else if (a.damped)
+    run_blocks<ElementLanes<Shape, turning, Damping::Yes>, corners>(a, m);
+  else
+    run_blocks<ElementLanes<Shape, turning, Damping::No>, corners>(a, m);
 }
 
 // What a law asks for, with the loop inside: to be called from a function with REND_CLONES.
 template <class Shape, bool corners> REND_INLINE void run_elements(const KernelArguments& a) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
   if (law.model() == ElasticModel::Linear)
-    run_blocks<Shape, Turning::None, corners>(a, law.material());
+    run_damped_or_not<Shape, Turning::None, corners>(a, law.material());
   else if (law.rotation() == Rotation::Qr)
-    run_blocks<Shape, Turning::Qr, corners>(a, law.material());
+    run_damped_or_not<Shape, Turning::Qr, corners>(a, law.material());
   else
-    run_blocks<Shape, Turning::Polar, corners>(a, law.material());
+    run_damped_or_not<Shape, Turning::Polar, corners>(a, law.material());
 }
 
 // One file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`: KernelArguments::corner_forces.
