@@ -117,6 +117,7 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
   const ForceView now = view();
   if (laws[number].find(now).empty()) return 0;
   sound();
+  if (witness) witness(false);
   const double start = seconds_now();
   const std::size_t before = events.size();
   const int made = laws[number].apply(*map, now, events, births.get());
@@ -127,6 +128,7 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
   }
   change_seconds += seconds_now() - start;
   if (made > 0) follow_changes();
+  if (witness) witness(true);
   return made;
 }
 

@@ -62,6 +62,7 @@ struct Body final : System {
   State next;      // where the integrator writes: the old state stays whole until the step is kept
   Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
+  std::function<void(bool made)> witness; // called before and after a law makes its changes; may be empty
   std::unique_ptr<Births> births; // null: nobody asks how many fragments each change left
   std::optional<double> gone;     // [s], when the last element was deleted; the body goes on with nothing
 

@@ -1,102 +1,14 @@
 // Storms: all changes, by chance, on every kind of mesh. The map stays valid; nothing moves; what is built upon the map
 // equals what would be built anew; and fragments are counted right after each single change.
 #include "sim/fracture/torn_bodies.h"
+#include "sim/fracture/torn_checks.h"
 
 #include <gtest/gtest.h>
-
-#include <cstring>
 
 namespace rend {
 namespace {
 
 using namespace torn;
-
-bool same_bits(const Vec3& a, const Vec3& b) {
-  return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0;
-}
-
-// What each dart has, by number: place, speed, and its corner's mass.
-struct Snapshot {
-  std::vector<Vec3> position, velocity;
-  std::vector<double> mass;
-  double whole;
-  Vec3 momentum;
-
-  explicit Snapshot(const Body& body)
-      : position(body.map->map().capacity()), velocity(position.size()), mass(position.size()),
-        whole(total_mass(*body.map, *body.mass)), momentum(total_momentum(*body.map, *body.mass)) {
-    body.map->map().for_each_dart([&](Dart d) {
-      position[d.value] = body.map->position()[body.map->vertex(d)];
-      velocity[d.value] = body.map->velocity()[body.map->vertex(d)];
-      mass[d.value] = (*body.mass)[body.map->slot(body.mass->orbit(), d)];
-    });
-  }
-};
-
-void expect_nothing_moved(const Body& body, const Snapshot& before, bool deleted) {
-  const Snapshot now(body);
-  body.map->map().for_each_dart([&](Dart d) {
-    EXPECT_TRUE(same_bits(now.position[d.value], before.position[d.value]));
-    EXPECT_TRUE(same_bits(now.velocity[d.value], before.velocity[d.value]));
-    EXPECT_EQ(now.mass[d.value], before.mass[d.value]);
-  });
-  if (deleted) return;
-  EXPECT_EQ(now.whole, before.whole);
-  EXPECT_TRUE(same_bits(now.momentum, before.momentum));
-}
-
-std::vector<Slot> prescribed(const Body& body) {
-  std::vector<Slot> found;
-  for (const auto& column : body.map->columns())
-    if (const auto* obedience = dynamic_cast<const Column<Obedience>*>(column.get()))
-      for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)
-        if (body.map->cells(Vertex).alive(v) && (*obedience)[v] != 0) found.push_back(v);
-  return found;
-}
-
-// Surfaces of either kind.
-struct Seen {
-  std::unique_ptr<Surface> sheet;
-  std::unique_ptr<SolidSurface> solid;
-  explicit Seen(Body& body) {
-    if (body.map->dimension() == 2)
-      sheet = std::make_unique<Surface>(body);
-    else
-      solid = std::make_unique<SolidSurface>(body);
-  }
-  void update() {
-    if (sheet) sheet->update();
-    if (solid) solid->update();
-  }
-  bool same_as(const Seen& other) const {
-    return sheet ? sheet->same_as(*other.sheet) : solid->same_as(*other.solid);
-  }
-};
-
-bool same(const std::vector<Candidate>& a, const std::vector<Candidate>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Candidate& p, const Candidate& q) {
-    return p.value == q.value && p.dart == q.dart && p.normal == q.normal;
-  });
-}
-
-void expect_criteria_as_built_anew(Body& body) {
-  body.evaluate();
-  const ForceView view = body.view();
-  for (TearLaw& law : body.laws) {
-    if (law.settings().from == 0) continue; // chance
-    TearLaw anew(body.request_for(law.settings()), law.settings());
-    EXPECT_TRUE(same(law.find(view), anew.find(view))) << law.settings().criterion->name;
-  }
-}
-
-void expect_as_built_anew(Body& body, const Seen& seen) {
-  EXPECT_EQ(validate(*body.map), std::nullopt);
-  const Program fresh(*body.map, body.interactions, *body.mass, body.drag, body.program->options());
-  EXPECT_TRUE(body.program->same_as(fresh));
-  EXPECT_TRUE(seen.same_as(Seen(body)));
-  EXPECT_EQ(body.constraints.vertices(), prescribed(body));
-  expect_criteria_as_built_anew(body);
-}
 
 const std::vector<By>& every_way() {
   static const std::vector<By> all{{"separate", Cell::Borders},

@@ -345,7 +345,7 @@ TEST(Scene, is_refused_where_it_cannot_be_built) {
       refusal_of(scene(
           R"(<sheet cells="1 1" size="1 1"/>)" + mass +
           R"(<springs cumulated="yes"><stretch k="1"/></springs><tear criterion="atomic-border" threshold="1"/>)")),
-      HasSubstr("folds them"));
+      HasSubstr("folds what"));
 }
 
 TEST(Mass, is_what_the_preset_says) {
