@@ -1,5 +1,6 @@
 #include "sim/scene/contact_faces.h"
 
+#include "sim/mechanics/winding.h"
 #include "sim/scene/patch.h"
 
 namespace rend {
@@ -30,7 +31,7 @@ void ContactFaces::list() {
     if (!faces.alive(face)) continue;
     const Dart d = faces.first_dart(face);
     if (!map_.map().is_free(3, d)) continue;
-    vertices_of_face(map_, d, solid && faces_inwards(map_, d), ring);
+    vertices_of_face(map_, d, solid && !winds_outward(map_, d), ring);
     for (std::size_t k = 1; k + 1 < ring.size(); ++k)
       triangles_.push_back({{ring[0], ring[k], ring[k + 1]}, face});
   }

@@ -1,6 +1,6 @@
 #include "sim/scene/patch.h"
 
-#include "sim/mechanics/mass.h"
+#include "sim/mechanics/winding.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -63,23 +63,6 @@ void vertices_of_face(const EmbeddedMap& map, Dart d, bool turned, std::vector<S
   if (turned) std::reverse(out.begin(), out.end());
 }
 
-bool faces_inwards(const EmbeddedMap& map, Dart d) {
-  const auto mean = [&](Orbit orbit) {
-    Vec3 sum = Vec3::Zero();
-    const std::vector<Dart> darts = darts_of(map.map(), orbit, d);
-    for (Dart e : darts) sum += map.rest_of(e);
-    return Vec3(sum / static_cast<double>(darts.size()));
-  };
-  std::vector<Slot> face;
-  vertices_of_face(map, d, false, face);
-  std::vector<Vec3> x, area(face.size());
-  for (Slot v : face) x.push_back(map.rest()[v].vec());
-  corner_areas(x, area);
-  Vec3 normal = Vec3::Zero();
-  for (const Vec3& a : area) normal += a;
-  return normal.dot(mean(FaceOfVolume) - mean(Volume)) < 0;
-}
-
 namespace {
 
 // Of each face of a sheet, by slot, whether its first dart goes around it against its neighbours: in each component
@@ -137,7 +120,7 @@ Patch::Found Patch::find_faces(EmbeddedMap& map, const std::vector<Slot>& vertic
     if (!sheet && !map.map().is_free(3, d)) continue;
     vertices_of_face(map, d, false, face);
     if (!std::all_of(face.begin(), face.end(), [&](Slot v) { return is[v]; })) continue;
-    found.emplace_back(f, (sheet ? turned[f] : faces_inwards(map, d)) ? -1 : 1);
+    found.emplace_back(f, (sheet ? turned[f] : !winds_outward(map, d)) ? -1 : 1);
   }
   return found;
 }

@@ -42,9 +42,6 @@ private:
 // The vertices of the face of d, in the order in which d → α0 d goes around it; backwards if `turned`.
 void vertices_of_face(const EmbeddedMap& map, Dart d, bool turned, std::vector<Slot>& out);
 
-// Whether the face of d is seen from inside its volume, at rest, when gone around from d to α0 d.
-bool faces_inwards(const EmbeddedMap& map, Dart d);
-
 class Patch {
 public:
   enum class Of { Faces, Edges, Corners };

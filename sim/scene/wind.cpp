@@ -1,5 +1,7 @@
 #include "sim/scene/wind.h"
 
+#include "sim/mechanics/winding.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +20,7 @@ void WindLoad::rebind(const EmbeddedMap& map) {
     if (!cells.alive(f)) continue;
     const Dart d = cells.first_dart(f);
     if (!map.map().is_free(3, d)) continue;
-    vertices_of_face(map, d, !sheet_ && faces_inwards(map, d), vertices);
+    vertices_of_face(map, d, !sheet_ && !winds_outward(map, d), vertices);
     faces_.add(vertices);
   }
 }

@@ -11,14 +11,9 @@
 // solid is pinched has several.
 #pragma once
 
-#include "sim/embedding/embedded_map.h"
-
-#include <string_view>
+#include "sim/mechanics/winding.h"
 
 namespace rend {
-
-// Steps that keep to one half of a volume's darts: along the face to its next side, over the side to the next face.
-inline constexpr std::string_view to_next_side = "01", to_next_face = "20";
 
 // The dart at the other end of the path, at the same vertex: d itself where the volume is open (α2-free).
 inline Dart across_hull_edge(const GMap& map, Dart d) {
@@ -26,13 +21,6 @@ inline Dart across_hull_edge(const GMap& map, Dart d) {
   while (!map.is_free(3, e)) e = map.alpha(2, map.alpha(3, e));
   return e;
 }
-
-// Twice the area of the face at rest times its normal [m²], counter-clockwise from d over α0(d).
-Vec3 rest_area_vector(const EmbeddedMap& map, Dart d);
-
-// Whether the face of d, walked from d over α0(d), runs counter-clockwise when seen from outside its volume: by the sign
-// of the volume at rest, which is exact for every closed polyhedron, convex or not. A volume of 0 counts as outward.
-bool winds_outward(const EmbeddedMap& map, Dart d);
 
 // The smallest dart of <0,1>(d).
 Dart smallest_of_face(const GMap& map, Dart d);
