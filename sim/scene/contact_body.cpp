@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rend {
 
@@ -40,6 +41,13 @@ double ContactPoint::inverse_mass() const {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += weight[k] * weight[k] * body->inverse_mass(vertex[k]);
   return sum;
+}
+
+double ContactPoint::leverage() const {
+  const double whole = inverse_mass();
+  double most = 0;
+  for (std::size_t k = 0; k < 3; ++k) most = std::max(most, weight[k] * body->inverse_mass(vertex[k]));
+  return whole > 0 ? most / whole : std::numeric_limits<double>::infinity();
 }
 
 void ContactPoint::push(const Vec3& impulse, double step) const {

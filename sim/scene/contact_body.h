@@ -44,10 +44,13 @@ struct ContactPoint {
 
   static ContactPoint at(const ContactBody& body, Slot v) { return {&body, {v, v, v}, {1, 0, 0}}; }
 
-  Vec3 from() const;                                 // [m], at the start of the step
-  Vec3 position() const;                             // [m]
-  Vec3 velocity() const;                             // [m/s]
-  double inverse_mass() const;                       // [1/kg]
+  Vec3 from() const;           // [m], at the start of the step
+  Vec3 position() const;       // [m]
+  Vec3 velocity() const;       // [m/s]
+  double inverse_mass() const; // [1/kg]
+  // How far the vertex that moves most goes when the point is shifted by 1: about 1, and more where others of the face
+  // are held. Infinite where all are.
+  double leverage() const;
   void push(const Vec3& impulse, double step) const; // [N·s]: on velocities, and with step × that on positions
   void shift(const Vec3& by) const;                  // [kg·m]: on positions alone, each b_i/m_i of it
 };

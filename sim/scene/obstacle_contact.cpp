@@ -8,6 +8,7 @@ namespace {
 
 constexpr int sweeps = 8;
 constexpr int passes = 2;            // over faces: what one puts out, its neighbour may put in
+constexpr double most_leverage = 4;  // a face that is held inside an obstacle stays there
 constexpr double touching = 1e-9;    // [m]
 constexpr double own_friction = 0.5; // between obstacles that say nothing of it
 
@@ -83,7 +84,8 @@ void for_each_face(const Shape& shape, const ContactBody& body, const std::vecto
     const TriangleCorners x{body.position(a), body.position(b), body.position(c)};
     const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
     if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
-    if (const auto plane = shape.stop(point.from(), point.position(), margin)) f(point, *plane);
+    const auto plane = shape.stop(point.from(), point.position(), margin);
+    if (plane && point.leverage() <= most_leverage) f(point, *plane);
   }
 }
 

@@ -220,5 +220,17 @@ TEST(ObstacleContact, costs_a_body_nothing_that_meets_the_floor_alone) {
       UserError);
 }
 
+// The faces beside the clamp touch it, and only one of their vertices can move: it must not be thrown about for it.
+TEST(ObstacleContact, leaves_a_body_at_rest_that_is_held_where_it_touches) {
+  const auto scene = presets::load(
+      R"(<scene><body><bar cells="4 1 1" size="1.2 0.3 0.3"/><place translate="0 0 0.5"/><mass density="1000"/>
+      <elasticity young="1e5"/><fix side="-x"/><contact/></body><world gravity="0 0 0">
+      <box low="-0.1 -0.1 0" high="0 0.4 0.9"/></world><time step="auto" duration="0.1"/></scene>)");
+  while (scene->time() < scene->duration()) scene->step();
+  const Body& body = scene.body();
+  for (Slot v = 0; v < body.vertices(); ++v)
+    EXPECT_LT((body.map->position()[v].vec() - body.map->rest()[v].vec()).norm(), 1e-3);
+}
+
 } // namespace
 } // namespace rend
