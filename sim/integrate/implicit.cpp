@@ -11,9 +11,9 @@
 // the state, and δ leads downhill on the potential of which −R is the gradient. s is halved where |R| grows,
 // unless R·δ at both ends of the step says that the potential falls. Norms are those of kinetic energy, |R|² =
 // Σ |R_i|²/m_i. It stops where |R| is at most 1e-5 of the terms it is the difference of, or round-off; each
-// linear system is solved to a hundredth, and the matrix is kept while |R| falls to a tenth. After 50
-// iterations a step is taken as it is where |R| is at most 1e-3 of those terms (cloth that buckles), else given up
-// (Unsolved).
+// linear system is solved to a hundredth, and the matrix is kept while |R| falls to a tenth. A step
+// that is not there after 50 iterations (cloth that buckles, wind in gusts) is gone in two halves, these in halves ...
+// 1/1024 at least, and else given up (Unsolved).
 //
 // Loads that depend on the state (pressure, wind, what follows the body) have their part in the matrix, h² ∂load/∂x +
 // h ∂load/∂v (load_tangent.h).
@@ -34,10 +34,12 @@ namespace {
 
 constexpr double wanted = 1e-5;        // of the terms
 constexpr double linear_digits = 1e-2; // of R: Newton with a definite tangent gains little more
-constexpr double accepted = 1e-3;      // of the terms, at the last iteration
-constexpr double keeps_tangent = 0.1;  // while |R| falls to so much
+constexpr double accepted = 1e-4;     // of the terms, where no step along an update helps: as far as numbers go
+constexpr double keeps_tangent = 0.1; // while |R| falls to so much
 
-constexpr int most_iterations = 50, most_halvings = 12;
+constexpr int most_iterations = 50, most_halvings = 12; // of Newton's method, of its updates
+constexpr int most_parted = 10;                         // halvings of the step
+constexpr double least_part = 1.0 / (1 << most_parted);
 
 // |R| and what it is compared with, in the norm of kinetic energy [√J].
 struct Residual {
@@ -64,14 +66,16 @@ private:
   double round_off(const Step& step) const;
   bool search(const Step& step, Residual& residual);
   void solve(const Step& step);
+  void keep(const System& system);
 
   // One per vertex slot.
-  Records position_, velocity_, trial_; // [m], [m/s]: x', v', and a v' that is tried
-  Records force_;                       // [N], internal, at the last v' that was tried
-  Records momentum_, before_;           // [N·s], R there, and at velocity_
-  Records update_;                      // [m/s], δ
-  std::vector<std::uint8_t> held_;      // axes
-  BlockMatrix matrix_;                  // [kg]
+  Records position_, velocity_, trial_;         // [m], [m/s]: x', v', and a v' that is tried
+  Records reached_position_, reached_velocity_; // [m], [m/s]: at the start of the part of the step
+  Records force_;                               // [N], internal, at the last v' that was tried
+  Records momentum_, before_;                   // [N·s], R there, and at velocity_
+  Records update_;                              // [m/s], δ
+  std::vector<std::uint8_t> held_;              // axes
+  BlockMatrix matrix_;                          // [kg]
   LinearSolver linear_;
   LoadTangent load_tangent_;
   long newton_ = 0;
@@ -174,7 +178,6 @@ void ImplicitEuler::solve(const Step& step) {
   before_.swap(momentum_);
   bool linear = false, here = false; // there is a matrix; it is that of velocity_
   for (int n = 0; residual.norm != 0; ++n) {
-    if (n == most_iterations && residual.norm <= accepted * residual.terms) return;
     if (n == most_iterations || !residual.finite()) give_up(residual, n);
     if (!linear) linearise(step);
     here = here || !linear;
@@ -186,7 +189,7 @@ void ImplicitEuler::solve(const Step& step) {
     const bool moved = search(step, residual);
     if (!moved) {
       residual = evaluate(step, velocity_);
-      if (residual.norm <= 1e3 * wanted * residual.terms) return; // as far as numbers go
+      if (residual.norm <= accepted * residual.terms) return;
       if (here) give_up(residual, n);
     }
     if (residual.norm <= wanted * residual.terms + round_off(step)) return;
@@ -195,20 +198,42 @@ void ImplicitEuler::solve(const Step& step) {
   }
 }
 
+// From velocity_ and what it led to, to the start of what is left of the step.
+void ImplicitEuler::keep(const System& system) {
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    if (system.inverse_mass[i] == 0) continue;
+    reached_position_[i] = position_[i];
+    reached_velocity_[i] = velocity_[i];
+  }
+}
+
 void ImplicitEuler::advance(System& system, double time, double size, const StateView& now, const Record*,
                             State& next) {
-  const Step step{system, time + size, size, now};
   const std::size_t count = system.vertices();
   for (Records* each : {&position_, &force_, &momentum_, &before_, &update_}) each->resize(count);
-  held_.assign(count, 0);
-  system.hold(step.end, held_.data());
-  velocity_.assign(now.velocity, now.velocity + count);
-  solve(step);
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool there = system.inverse_mass[i] != 0; // or a free slot
-    next.put(i, there ? load(position_[i]) : load(now.position[i]),
-             there ? load(velocity_[i]) : load(now.velocity[i]));
+  reached_position_.assign(now.position, now.position + count);
+  reached_velocity_.assign(now.velocity, now.velocity + count);
+  double gone = 0, part = 1; // of the step; sums of halves, without rounding
+  while (gone < 1) {
+    const Step step{
+        system, time + size * (gone + part), size * part, {reached_position_.data(), reached_velocity_.data()}};
+    held_.assign(count, 0);
+    system.hold(step.end, held_.data());
+    velocity_ = reached_velocity_;
+    try {
+      solve(step);
+    } catch (const Unsolved& unsolved) {
+      part *= 0.5;
+      if (part < least_part)
+        throw Unsolved(fmt::format("{}, and after {} halvings of the step", unsolved.what(), most_parted),
+                       unsolved.hint);
+      continue;
+    }
+    keep(system);
+    gone += part;
+    while (gone < 1 && std::fmod(gone, 2 * part) == 0) part *= 2;
   }
+  for (std::size_t i = 0; i < count; ++i) next.put(i, load(reached_position_[i]), load(reached_velocity_[i]));
 }
 
 } // namespace

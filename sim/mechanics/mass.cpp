@@ -1,6 +1,7 @@
 #include "sim/mechanics/mass.h"
 
 #include "sim/mechanics/interaction.h"
+#include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -28,16 +29,14 @@ namespace {
 // Calls f(d) once for each face of the volume of d, with a dart of it that turns as d does: all faces are then seen
 // turning the same way from inside.
 template <class F> void each_face_of_volume(const GMap& map, Dart d, F&& f) {
-  thread_local std::vector<Dart> faces; // the smallest dart of each; few, so that looking through all is fast
+  thread_local IndexSet faces; // the smallest dart of each
   thread_local std::vector<Dart> found;
   faces.clear();
   found.assign(1, d);
   const auto visit = [&](Dart start) {
     Dart smallest = start;
     walk_two(map, 0, 1, start, [&](Dart e) { smallest = std::min(smallest, e); });
-    if (std::find(faces.begin(), faces.end(), smallest) != faces.end()) return false;
-    faces.push_back(smallest);
-    return true;
+    return faces.insert(smallest.value);
   };
   visit(d);
   for (std::size_t n = 0; n < found.size(); ++n) {

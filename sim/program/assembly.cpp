@@ -1,9 +1,8 @@
 #include "sim/program/assembly.h"
 
 #include "sim/base/check.h"
+#include "sim/program/gathered.h"
 #include "sim/program/threads.h"
-
-#include <array>
 
 namespace rend {
 
@@ -65,25 +64,6 @@ void Assembly::rebind() {
 
 namespace {
 
-// What a law wants to know of a unit.
-struct Gathered {
-  std::array<Vec3, most_particles> x, v, rest;
-  std::vector<double> unit;
-  bool owned = false; // some particle is in [low, high)
-};
-
-void gather(const PackedRows& rows, std::size_t row, int particles, const Record* x, const Record* v,
-            const Record* rest, Gathered& g) {
-  for (int p = 0; p < particles; ++p) {
-    const std::uint32_t vertex = rows.index(p)[row];
-    const auto n = static_cast<std::size_t>(p);
-    g.x[n] = x[vertex];
-    g.v[n] = v[vertex];
-    g.rest[n] = rest[vertex];
-  }
-  for (std::size_t c = 0; c < g.unit.size(); ++c) g.unit[c] = rows.value(static_cast<int>(c), row);
-}
-
 REND_INLINE void add_block(const UnitMatrix& unit, int p, int q, Block3& to) {
   for (int c = 0; c < 3; ++c) {
     const double* from = &unit.coeffRef(3 * p, 3 * q + c); // columns stand together
@@ -105,7 +85,6 @@ void Assembly::add_rows(std::size_t binder, const Record* x, const Record* v, Ta
   const Record* rest = map_->rest().values().data();
   thread_local Gathered g;
   thread_local UnitMatrix by_position, by_velocity;
-  g.unit.resize(static_cast<std::size_t>(law.values()));
   for (std::size_t block = 0; block < rows.blocks(); ++block) {
     const PackedRows::Range range = rows.range(block);
     if (range.low >= high || range.high < low) continue;
@@ -115,8 +94,8 @@ void Assembly::add_rows(std::size_t binder, const Record* x, const Record* v, Ta
       bool any = false;
       for (int p = 0; p < particles; ++p) any = any || owned(p);
       if (!any) continue;
-      gather(rows, row, particles, x, v, rest, g);
-      law.stiffness(g.unit.data(), {g.x.data(), g.v.data(), g.rest.data()}, tangent, by_position, by_velocity);
+      g.take(law, rows, row, x, v, rest);
+      law.stiffness(g.unit(), g.state(), tangent, by_position, by_velocity);
       by_position *= scales.position;
       if (interaction.damped && scales.velocity != 0) by_position += scales.velocity * by_velocity;
       if (tangent == Tangent::Exact) {

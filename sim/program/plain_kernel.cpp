@@ -1,3 +1,4 @@
+#include "sim/program/gathered.h"
 #include "sim/program/kernels.h"
 
 #include <array>
@@ -8,20 +9,11 @@ namespace {
 // Calls f(row, forces of the unit's particles) for the rows of a block.
 template <class F> void each_unit(const KernelArguments& a, std::size_t block, F&& f) {
   const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.rows_in(block);
-  const int particles = a.law.particles(), values = a.law.values();
-  std::array<Vec3, most_particles> x, v, rest, force;
-  thread_local std::vector<double> unit;
-  unit.resize(static_cast<std::size_t>(values));
+  std::array<Vec3, most_particles> force;
+  thread_local Gathered g;
   for (std::size_t at = begin; at < end; ++at) {
-    for (int p = 0; p < particles; ++p) {
-      const std::uint32_t vertex = a.rows.index(p)[at];
-      const auto n = static_cast<std::size_t>(p);
-      x[n] = a.position[vertex];
-      v[n] = a.velocity[vertex];
-      rest[n] = a.rest[vertex];
-    }
-    for (int c = 0; c < values; ++c) unit[static_cast<std::size_t>(c)] = a.rows.value(c, at);
-    a.law.forces(unit.data(), {x.data(), v.data(), rest.data()}, force.data());
+    g.take(a.law, a.rows, at, a.position, a.velocity, a.rest);
+    a.law.forces(g.unit(), g.state(), force.data());
     f(at, force);
   }
 }

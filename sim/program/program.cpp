@@ -3,6 +3,7 @@
 #include "sim/base/check.h"
 #include "sim/base/simd.h"
 #include "sim/mechanics/spring_law.h"
+#include "sim/program/gathered.h"
 #include "sim/program/spring_sums.h"
 #include "sim/program/threads.h"
 #include "sim/program/walk_forces.h"
@@ -205,20 +206,12 @@ void Program::corner_forces_at(const std::vector<std::uint8_t>& mark, const Reco
 
 double Program::elastic_energy(const Record* x) const {
   double sum = 0;
-  std::array<Vec3, most_particles> position, still, rest;
-  still.fill(Vec3::Zero());
-  std::vector<double> unit;
+  Gathered g;
   for (const Binder& binder : rows()) {
-    const PackedRows& packed = binder.rows();
     const Law& law = *binder.interaction()->law;
-    unit.resize(static_cast<std::size_t>(law.values()));
-    packed.for_each([&](std::size_t, std::size_t row) {
-      for (int p = 0; p < law.particles(); ++p) {
-        position[static_cast<std::size_t>(p)] = x[packed.index(p)[row]];
-        rest[static_cast<std::size_t>(p)] = map_->rest()[packed.index(p)[row]];
-      }
-      for (int c = 0; c < law.values(); ++c) unit[static_cast<std::size_t>(c)] = packed.value(c, row);
-      sum += law.energy(unit.data(), {position.data(), still.data(), rest.data()});
+    binder.rows().for_each([&](std::size_t, std::size_t row) {
+      g.take(law, binder.rows(), row, x, nullptr, map_->rest().values().data());
+      sum += law.energy(g.unit(), g.state());
     });
   }
   return sum;

@@ -2,10 +2,10 @@
 
 #include "sim/base/check.h"
 #include "sim/mechanics/mass.h"
+#include "sim/mechanics/rotation.h"
 #include "sim/topology/walk.h"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -119,10 +119,7 @@ Eigen::Matrix3d Load::rotation(const EmbeddedMap& map, const Record* position) c
   }
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (Slot v : frame_) covariance += (position[v].vec() - here) * (map.rest()[v].vec() - rest).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d u = svd.matrixU();
-  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
-  return u * svd.matrixV().transpose();
+  return closest_rotation(covariance);
 }
 
 void Load::add(const EmbeddedMap& map, double time, const Record* position, Record* force) const {
