@@ -88,7 +88,7 @@ TEST_P(EveryPreset, is_used_by_somebody) {
   for (const std::string cells : {"quads", "triangles", "mixed"}) // as tests/bench/table-7.1 spells its nine
     if (name.starts_with("tear/table-7.1-" + cells + "-"))
       name = "$cells" + name.substr(("tear/table-7.1-" + cells).size());
-  EXPECT_THAT(texts, testing::HasSubstr(name));
+  EXPECT_NE(texts.find(name), std::string::npos) << "nobody names " << name;
 }
 
 class PresetWithALaw : public EveryPreset {};
