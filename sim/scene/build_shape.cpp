@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace rend {
 namespace {
 
@@ -28,6 +30,20 @@ const ElementType& mass_type() {
   return type;
 }
 
+// Energies and volumes are products of a few lengths: beyond this they need not be numbers any more.
+constexpr double farthest = 1e30; // [m]
+
+void check_reach(const Body& body, const Node& shape) {
+  for (const Record& x : body.map->rest().values())
+    for (double component : {x.x, x.y, x.z})
+      if (!(std::abs(component) <= farthest))
+        throw UserError(
+            Exit::BadInput, shape.place(),
+            fmt::format("a vertex lies {:g} m from the origin, and at most {:g} m are reckoned with",
+                        std::abs(component), farthest),
+            "scale and translate of <place>, and the sizes of the shape, are in metres");
+}
+
 void build_map(Body& body, const Node& node) {
   std::vector<std::string> names;
   const Node* chosen = nullptr;
@@ -46,6 +62,7 @@ void build_map(Body& body, const Node& node) {
   if (!chosen)
     throw UserError(Exit::BadInput, node.place(), "<body> needs a shape", "one of: " + listed(names));
   how->build(body, *chosen, Placement(node.child("place")));
+  check_reach(body, *chosen);
 }
 
 // Of all elements: the area of a sheet [m²], the volume of a solid [m³].
