@@ -1,7 +1,6 @@
 #include "sim/fracture/cell.h"
 
 #include "sim/mechanics/mass.h"
-#include "sim/topology/walk.h"
 
 #include <algorithm>
 
@@ -35,10 +34,10 @@ std::string name_of(Cell cell, int dimension) {
   return {};
 }
 
-Vec3 middle_of(const EmbeddedMap& map, const Record* x, Cell cell, Dart d) {
-  if (cell == Cell::Vertices) return x[map.vertex(d)].vec();
-  std::vector<Slot> vertices;
-  for (Dart e : darts_of(map.map(), orbit_of(cell, map.dimension()), d)) vertices.push_back(map.vertex(e));
+Vec3 middle_of(const EmbeddedMap& map, const Record* x, std::span<const Dart> darts) {
+  thread_local std::vector<Slot> vertices;
+  vertices.clear();
+  for (Dart d : darts) vertices.push_back(map.vertex(d));
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   Vec3 sum = Vec3::Zero();

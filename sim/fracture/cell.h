@@ -3,6 +3,7 @@
 
 #include "sim/embedding/embedded_map.h"
 
+#include <span>
 #include <string>
 
 namespace rend {
@@ -17,7 +18,7 @@ enum class Cell {
 Orbit orbit_of(Cell cell, int dimension);
 std::string name_of(Cell cell, int dimension); // "edge", "face" ...
 
-// The mean of the positions [m, one per vertex slot] of its vertices.
-Vec3 middle_of(const EmbeddedMap& map, const Record* position, Cell cell, Dart d);
+// The mean of the positions [m, one per vertex slot] of the vertices of these darts.
+Vec3 middle_of(const EmbeddedMap& map, const Record* position, std::span<const Dart> darts);
 
 } // namespace rend

@@ -7,6 +7,7 @@
 #include "sim/embedding/embedded_map.h"
 #include "sim/fracture/criterion.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct ChangeType {
   bool (*fits)(Cell cell, int dimension);
   bool (*elementary)(Cell cell); // needs the forces of each element by itself
   // Applies the change at a candidate if it is still possible; false: it was not, and nothing was changed. Slots and
-  // positions are those of before the edit, links those of now.
-  bool (*apply)(Edit&, const ForceView&, Cell cell, const Candidate&);
+  // positions are those of before the edit, links those of now. `darts`: of the candidate's cell before the edit, those
+  // that are left of them; the cell may have fallen apart since.
+  bool (*apply)(Edit&, const ForceView&, Cell cell, const Candidate&, std::span<const Dart> darts);
 };
 
 const std::vector<ChangeType>& all_changes();

@@ -2,8 +2,6 @@
 // removing an edge, by splitting one of its ends, is split-vertex on a criterion of edges.
 #include "sim/fracture/change.h"
 
-#include "sim/topology/walk.h"
-
 namespace rend {
 
 ChangeType delete_edge() {
@@ -14,8 +12,8 @@ ChangeType delete_edge() {
       Cell::Edges,
       [](Cell cell, int) { return cell == Cell::Edges; },
       [](Cell) { return false; },
-      [](Edit& edit, const ForceView&, Cell, const Candidate& candidate) {
-        for (Dart d : darts_of(edit.map(), Edge, candidate.dart))
+      [](Edit& edit, const ForceView&, Cell, const Candidate&, std::span<const Dart> darts) {
+        for (Dart d : darts)
           if (edit.map().alive(d)) remove_element_of(edit, d);
         return true;
       }};

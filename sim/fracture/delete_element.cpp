@@ -19,8 +19,8 @@ ChangeType delete_element() {
           Cell::Elements,
           [](Cell cell, int) { return cell == Cell::Elements; },
           [](Cell) { return false; },
-          [](Edit& edit, const ForceView&, Cell, const Candidate& candidate) {
-            remove_element_of(edit, candidate.dart);
+          [](Edit& edit, const ForceView&, Cell, const Candidate&, std::span<const Dart> darts) {
+            remove_element_of(edit, darts.front());
             return true;
           }};
 }

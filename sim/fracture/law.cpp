@@ -1,5 +1,7 @@
 #include "sim/fracture/law.h"
 
+#include "sim/topology/walk.h"
+
 #include <algorithm>
 
 namespace rend {
@@ -17,20 +19,37 @@ const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
 }
 
 int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events, Births* births) {
+  note_cells(map.map());
   int made = 0;
   map.edit([&](Edit& edit) {
     if (births) births->begin();
-    for (const Candidate& candidate : candidates_) {
+    for (std::size_t n = 0; n < candidates_.size(); ++n) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
-      if (!map.map().alive(candidate.dart)) continue; // it went with another
-      const Vec3 place = middle_of(map, view.position, settings_.cell, candidate.dart);
-      if (!settings_.change->apply(edit, view, settings_.cell, candidate)) continue;
-      events.push_back({.value = candidate.value, .dart = candidate.dart, .place = place});
+      const std::span<const Dart> cell(darts_.data() + begin_[n], begin_[n + 1] - begin_[n]);
+      left_.clear();
+      for (Dart d : cell)
+        if (map.map().alive(d)) left_.push_back(d);
+      if (left_.empty()) continue; // it went with another
+      if (!settings_.change->apply(edit, view, settings_.cell, candidates_[n], left_)) continue;
+      events.push_back({.value = candidates_[n].value,
+                        .dart = candidates_[n].dart,
+                        .place = middle_of(map, view.position, cell)});
       if (births) births->note(*edit.journal());
       ++made;
     }
   });
   return made;
+}
+
+// What the first change leaves of another cell must not depend on where its smallest dart was.
+void TearLaw::note_cells(const GMap& map) {
+  const Orbit orbit = orbit_of(settings_.cell, map.dimension());
+  darts_.clear();
+  begin_.assign(1, 0);
+  for (const Candidate& candidate : candidates_) {
+    collect(map, orbit, candidate.dart, darts_);
+    begin_.push_back(darts_.size());
+  }
 }
 
 } // namespace rend

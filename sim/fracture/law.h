@@ -45,9 +45,13 @@ public:
   std::size_t bytes() const { return criterion_->bytes() + candidates_.capacity() * sizeof(Candidate); }
 
 private:
+  void note_cells(const GMap& map);
   LawSettings settings_;
   std::unique_ptr<Criterion> criterion_;
   std::vector<Candidate> candidates_;
+  std::vector<Dart> darts_;        // of the candidates' cells before the edit, one cell after another
+  std::vector<std::size_t> begin_; // of each in darts_
+  std::vector<Dart> left_;         // scratch: of one cell, those that are left
 };
 
 } // namespace rend

@@ -11,8 +11,8 @@ ChangeType separate() {
       Cell::Borders,
       [](Cell cell, int dimension) { return cell == Cell::Borders || (cell == Cell::Edges && dimension == 2); },
       [](Cell) { return false; },
-      [](Edit& edit, const ForceView&, Cell, const Candidate& candidate) {
-        return unsew(edit, edit.map().dimension(), candidate.dart);
+      [](Edit& edit, const ForceView&, Cell, const Candidate&, std::span<const Dart> darts) {
+        return unsew(edit, edit.map().dimension(), darts.front());
       }};
 }
 

@@ -18,7 +18,7 @@ namespace rend {
 namespace {
 
 // The slots of the corners that the darts belong to, each once, increasing: of before the edit, which changes none.
-std::vector<Slot> corners_of(const EmbeddedMap& map, const std::vector<Dart>& darts) {
+std::vector<Slot> corners_of(const EmbeddedMap& map, std::span<const Dart> darts) {
   const Orbit corner = corner_orbit(map.dimension());
   std::vector<Slot> slots;
   for (Dart d : darts) slots.push_back(map.slot(corner, d));
@@ -38,7 +38,7 @@ Vec3 centre_of_element(const EmbeddedMap& map, const Record* position, Dart d) {
 // Of every corner at a vertex: whether its element lies on the positive side.
 class Sides {
 public:
-  Sides(const EmbeddedMap& map, const std::vector<Dart>& darts, const Record* position, const Vec3& normal)
+  Sides(const EmbeddedMap& map, std::span<const Dart> darts, const Record* position, const Vec3& normal)
       : map_(map), corner_(corner_orbit(map.dimension())), slots_(corners_of(map, darts)) {
     const Vec3 here = position[map.vertex(darts.front())];
     for (Slot c : slots_) {
@@ -58,10 +58,10 @@ private:
   std::vector<bool> above_;
 };
 
-bool split(Edit& edit, const ForceView& view, Dart vertex, const Vec3& normal) {
+// `darts`: of the vertex.
+bool split(Edit& edit, const ForceView& view, std::span<const Dart> darts, const Vec3& normal) {
   const GMap& map = edit.map();
   const int link = map.dimension();
-  const std::vector<Dart> darts = darts_of(map, Vertex, vertex);
   const Sides sides(view.map, darts, view.position, normal);
   bool any = false;
   for (Dart d : darts) {
@@ -72,22 +72,34 @@ bool split(Edit& edit, const ForceView& view, Dart vertex, const Vec3& normal) {
   return any;
 }
 
-double pull_at(const ForceView& view, Dart end, const Vec3& along) {
+double pull_at(const ForceView& view, std::span<const Dart> end, const Vec3& along) {
   double sum = 0;
-  for (Slot c : corners_of(view.map, darts_of(view.map.map(), EdgeEnd, end)))
-    sum += std::abs(view.corner[c].vec().dot(along));
+  for (Slot c : corners_of(view.map, end)) sum += std::abs(view.corner[c].vec().dot(along));
   return sum;
 }
 
-bool split_an_end(Edit& edit, const ForceView& view, Dart d) {
+// All darts of the vertices, as they are now, of these darts.
+std::vector<Dart> vertices_of(const GMap& map, std::span<const Dart> end) {
+  std::vector<Dart> all;
+  for (Dart d : end) collect(map, Vertex, d, all);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+bool split_an_end(Edit& edit, const ForceView& view, std::span<const Dart> edge) {
   CHECK(view.corner);
-  Dart first = d, second = edit.map().alpha(0, d);
-  Vec3 along = view.position[view.map.vertex(second)].vec() - view.position[view.map.vertex(first)].vec();
+  std::vector<Dart> first, second; // darts of the edge at its ends
+  const Slot here = view.map.vertex(edge.front());
+  for (Dart d : edge) (view.map.vertex(d) == here ? first : second).push_back(d);
+  if (second.empty()) return false; // a loop
+  Vec3 along = view.position[view.map.vertex(second.front())].vec() - view.position[here].vec();
   const double length = along.norm();
   if (!(length > 0)) return false;
   along /= length;
   if (pull_at(view, second, along) > pull_at(view, first, along)) std::swap(first, second);
-  return split(edit, view, first, along) || split(edit, view, second, along);
+  return split(edit, view, vertices_of(edit.map(), first), along) ||
+         split(edit, view, vertices_of(edit.map(), second), along);
 }
 
 } // namespace
@@ -95,14 +107,15 @@ bool split_an_end(Edit& edit, const ForceView& view, Dart d) {
 ChangeType split_vertex() {
   return {"split-vertex",
           "the elements at the vertex part where the plane across the force runs between them; of an edge, "
-          "that end is "
-          "split which is pulled more, or else the other",
+          "that end "
+          "is split which is pulled more, or else the other",
           Cell::Vertices,
           [](Cell cell, int) { return cell == Cell::Vertices || cell == Cell::Edges; },
           [](Cell cell) { return cell == Cell::Edges; },
-          [](Edit& edit, const ForceView& view, Cell cell, const Candidate& candidate) {
-            return cell == Cell::Edges ? split_an_end(edit, view, candidate.dart)
-                                       : split(edit, view, candidate.dart, candidate.normal);
+          [](Edit& edit, const ForceView& view, Cell cell, const Candidate& candidate,
+             std::span<const Dart> darts) {
+            return cell == Cell::Edges ? split_an_end(edit, view, darts)
+                                       : split(edit, view, darts, candidate.normal);
           }};
 }
 

@@ -154,7 +154,7 @@ void check_flat(const Body& body, const Node& elasticity, const Node& node) {
   const char letter = static_cast<char>('x' + axis);
   const bool flat = depth <= 1e-9 * (high - low).norm();
   for (const Node* fix : node.all("fix"))
-    if (flat && fix->flag("all") && fix->text("axes").find(letter) != std::string::npos) return;
+    if (flat && fix->given("all") && fix->flag("all") && fix->text("axes").find(letter) != std::string::npos) return;
   elasticity.fail("model",
                   fmt::format("'{}' gives a sheet no stiffness out of its plane", elasticity.text("model")),
                   flat ? fmt::format("keep it there with <fix all=\"yes\" axes=\"{}\"/>, or take "

@@ -2,6 +2,7 @@
 #include "sim/presets.h"
 #include "sim/topology/count.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,6 +109,25 @@ TEST(Law, tears_a_moebius_band) {
     EXPECT_GT(scene->tears(), 3u) << criterion;
     for (const Record& x : scene.body().map->position().values()) EXPECT_TRUE(x.vec().allFinite());
   }
+}
+
+// Two edges tear in one step, and the first deletion takes one side of the second: mirror images tear alike, wherever the
+// darts' numbers start.
+TEST(Law, deletes_what_is_left_of_an_edge_in_mirror_images_alike) {
+  const auto ends = [](double fixed, double moved) {
+    const auto box = [](double x) {
+      return fmt::format(R"(<drive box="{} -.1 -1 {} .1 1")", x - 0.1, x + 0.1);
+    };
+    const presets::Loaded scene = presets::load(
+        R"(<scene><body><sheet cells="3 1" size="3 1"/><mass total="1"/><springs><stretch k="20"/></springs>)" +
+        box(fixed) + R"( displacement="0 -2 0"/>)" + box(moved) + R"( displacement="0 -1 0"/>)" +
+        R"(<tear criterion="atomic-spring" kind="stretch" threshold="15" change="delete-edge"/></body>
+           <world gravity="0 0 0"/><time step="1e-3" duration="0.01"/></scene>)");
+    scene->step();
+    return std::pair(scene->tears(), scene.body().map->use(FaceOfVolume).count());
+  };
+  EXPECT_EQ(ends(0, 1), std::pair(std::size_t{2}, std::size_t{1}));
+  EXPECT_EQ(ends(3, 2), std::pair(std::size_t{2}, std::size_t{1}));
 }
 
 TEST(Law, refuses_what_does_not_fit) {

@@ -88,15 +88,19 @@ TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
           told.insert(told.end(), some->begin(), some->end());
           some->clear();
         }
+        std::vector<std::vector<Dart>> cells; // of the events of one law, before its first
+        std::size_t noted = first;
         for (std::size_t e = first; e < body->events.size(); ++e) {
           const TearEvent& event = body->events[e];
+          const By by = event.law == 0 ? way : By{"separate", Cell::Borders};
+          for (; noted < body->events.size() && body->events[noted].law == event.law; ++noted)
+            cells.push_back(cell_of(*twin, by.cell, body->events[noted].dart));
           const auto candidate = std::find_if(told.begin(), told.end(), [&](const Candidate& c) {
             return c.dart == event.dart && c.value == event.value;
           });
           ASSERT_NE(candidate, told.end());
-          const By by = event.law == 0 ? way : By{"separate", Cell::Borders};
           const long before = static_cast<long>(count_cells(twin->map->map(), Component));
-          ASSERT_TRUE(make(*twin, by.change, by.cell, *candidate));
+          ASSERT_TRUE(make(*twin, by.change, by.cell, *candidate, cells[e - first]));
           const long after = static_cast<long>(count_cells(twin->map->map(), Component));
           EXPECT_EQ(event.fragments, after);
           EXPECT_EQ(event.born, after - before);

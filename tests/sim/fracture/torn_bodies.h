@@ -138,14 +138,24 @@ inline std::string counts(const Body& body) {
          std::to_string(c.volumes) + " in " + std::to_string(c.fragments);
 }
 
-// Makes one change as a law would; false: it was not possible.
-inline bool make(Body& body, const std::string& name, Cell cell, const Candidate& candidate) {
+inline std::vector<Dart> cell_of(const Body& body, Cell cell, Dart d) {
+  return darts_of(body.map->map(), orbit_of(cell, body.map->dimension()), d);
+}
+
+// Makes one change as a law would, on what is left of a cell; false: it was not possible.
+inline bool make(Body& body, const std::string& name, Cell cell, const Candidate& candidate,
+                 std::vector<Dart> darts) {
   bool made = false;
   const ForceView view = body.view();
-  body.map->edit([&](Edit& edit) { made = change(name).apply(edit, view, cell, candidate); });
+  std::erase_if(darts, [&](Dart d) { return !body.map->map().alive(d); });
+  body.map->edit([&](Edit& edit) { made = change(name).apply(edit, view, cell, candidate, darts); });
   body.rebind();
   body.evaluate();
   return made;
+}
+
+inline bool make(Body& body, const std::string& name, Cell cell, const Candidate& candidate) {
+  return make(body, name, cell, candidate, cell_of(body, cell, candidate.dart));
 }
 
 // The dart of the cell whose middle is nearest, at rest.
@@ -153,7 +163,8 @@ inline Dart cell_at(const Body& body, Cell cell, const Vec3& place) {
   Dart best;
   double least = 1e300;
   body.map->map().for_each_dart([&](Dart d) {
-    const double far = (middle_of(*body.map, body.map->rest().values().data(), cell, d) - place).norm();
+    const double far =
+        (middle_of(*body.map, body.map->rest().values().data(), cell_of(body, cell, d)) - place).norm();
     if (far < least - 1e-9) {
       least = far;
       best = d;
