@@ -142,7 +142,7 @@ Json laws_json(const Scene& scene) {
                       {"criterion", law.criterion->name},
                       {"change", law.change->name},
                       {"threshold", law.threshold},
-                      {"unit", law.criterion->unit},
+                      {"unit", law.unit},
                       {"tears", std::count_if(body->events.begin(), body->events.end(), made)},
                       {"first", first == body->events.end() ? Json(nullptr) : Json(first->time)}});
     }

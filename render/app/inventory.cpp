@@ -92,7 +92,7 @@ Json laws_json(const Body& body) {
     all.push_back({{"criterion", s.criterion->name},
                    {"what", s.criterion->what},
                    {"threshold", s.threshold},
-                   {"unit", s.criterion->unit},
+                   {"unit", s.unit},
                    {"change", s.change->name},
                    {"bytes", law.bytes()}});
   }

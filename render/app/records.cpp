@@ -101,7 +101,7 @@ void EventFile::write(const Scene& scene) {
                     {"kind", law.kind.empty() ? Json(nullptr) : Json(law.kind)},
                     {"value", event->value},
                     {"threshold", law.threshold},
-                    {"unit", law.criterion->unit},
+                    {"unit", law.unit},
                     {"change", law.change->name},
                     {"cell", name_of(law.cell, body->map->dimension())},
                     {"dart", event->dart.value},

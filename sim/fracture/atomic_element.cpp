@@ -39,7 +39,10 @@ CriterionType atomic_element() {
           [](const CriterionRequest& request) { return lacking_for_stress(request); },
           [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return std::make_unique<AtomicElement>(request);
-          }};
+          },
+          false,
+          false,
+          true};
 }
 
 } // namespace rend

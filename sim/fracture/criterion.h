@@ -62,7 +62,9 @@ struct CriterionType {
   // What the body, or what was said of it, lacks for this criterion, as a sentence; empty: nothing.
   std::string (*lacking)(const CriterionRequest&);
   std::unique_ptr<Criterion> (*make)(const CriterionRequest&);
-  bool by_sums = false; // elementary, and takes ForceView::corner_room instead
+  bool by_sums = false;                               // elementary, and takes ForceView::corner_room instead
+  bool takes_kind = false, takes_compression = false; // what of the request it heeds
+  std::string (*unit_there)(const CriterionRequest&) = nullptr; // where it is not `unit` on every body
 };
 
 const std::vector<CriterionType>& all_criteria();

@@ -19,6 +19,7 @@ struct LawSettings {
   std::string kind;          // of springs: CriterionRequest
   bool compression = false;
   double threshold = 0;
+  std::string unit;                                                 // of that
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   int max_per_step = 0;                                             // 0: any number
 

@@ -87,6 +87,11 @@ std::string lacking_for_springs(const CriterionRequest& request) {
   return {};
 }
 
+bool turns(const CriterionRequest& request) {
+  return std::any_of(request.interactions.begin(), request.interactions.end(),
+                     [&](const auto& each) { return is_hinge(*each) && each->name.starts_with(request.kind); });
+}
+
 void keep_largest(std::vector<Candidate>& candidates, std::size_t first) {
   const auto begin = candidates.begin() + static_cast<std::ptrdiff_t>(first);
   std::stable_sort(begin, candidates.end(), [](const Candidate& a, const Candidate& b) {

@@ -70,6 +70,9 @@ Dart cell_of(const EmbeddedMap& map, Cell cell, const UnitNow& spring);
 // What is wrong with the `kind` that was asked for, as a sentence; empty: nothing.
 std::string lacking_for_springs(const CriterionRequest& request);
 
+// Whether springs of this kind are hinges there, which have a moment and no elongation.
+bool turns(const CriterionRequest& request);
+
 // Of candidates from `first` on that share a dart, leaves the largest, by dart.
 void keep_largest(std::vector<Candidate>& candidates, std::size_t first);
 

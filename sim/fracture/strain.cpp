@@ -2,7 +2,6 @@
 // where no kind is given, the largest principal strain of each element of the continuum.
 #include "sim/fracture/element_scan.h"
 #include "sim/fracture/single_springs.h"
-#include "sim/mechanics/hinge_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,11 +60,7 @@ std::string lacking(const CriterionRequest& request) {
       return springs;
     return "looks at springs or at the elements of <elasticity>, and this body has neither";
   }
-  const bool angular =
-      std::any_of(request.interactions.begin(), request.interactions.end(), [&](const auto& each) {
-        return each->law == hinge_law() && each->name.starts_with(request.kind);
-      });
-  if (angular)
+  if (turns(request))
     return "looks at elongations, which an angular bend does not have: atomic-spring takes its moment";
   return lacking_for_springs(request);
 }
@@ -86,7 +81,10 @@ CriterionType strain() {
       [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
         if (request.kind.empty()) return std::make_unique<ElementStrain>(request);
         return std::make_unique<SpringStrain>(request);
-      }};
+      },
+      false,
+      true,
+      true};
 }
 
 } // namespace rend

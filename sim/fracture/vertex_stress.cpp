@@ -52,7 +52,10 @@ CriterionType vertex_stress_criterion() {
           [](const CriterionRequest& request) { return lacking_for_stress(request); },
           [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return std::make_unique<VertexStressCriterion>(request);
-          }};
+          },
+          false,
+          false,
+          true};
 }
 
 } // namespace rend

@@ -57,12 +57,19 @@ LawSettings law_settings(const Node& node, const Body& body) {
     if (type.name == node.text("criterion")) law.criterion = &type;
   if (node.given("kind")) law.kind = node.text("kind");
   law.compression = node.flag("compression");
+  if (!law.kind.empty() && !law.criterion->takes_kind)
+    node.fail("kind", fmt::format("a kind means nothing to the criterion '{}'", law.criterion->name),
+              "atomic-spring and strain look at springs of a kind");
+  if (law.compression && !law.criterion->takes_compression)
+    node.fail("compression", fmt::format("compression means nothing to the criterion '{}'", law.criterion->name),
+              "forces count by magnitude; stresses and strains have a sign");
   const CriterionRequest request = body.request_for(law);
   if (const std::string lacking = law.criterion->lacking(request); !lacking.empty())
     node.fail("criterion", fmt::format("'{}' {}", law.criterion->name, lacking));
   law.cell = law.criterion->cell(request);
   law.change = change_of(node, *law.criterion, law.cell, request.map.dimension());
   law.threshold = node.number("threshold");
+  law.unit = law.criterion->unit_there ? law.criterion->unit_there(request) : law.criterion->unit;
   law.from = node.number("from");
   if (node.given("until")) law.until = node.number("until");
   if (law.until < law.from) node.fail("until", "the law ends before it starts");
