@@ -33,15 +33,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace rend {
 namespace {
 
-constexpr double wanted = 1e-9, linear_digits = 1e-10, most_noise = 1e-6; // of the forces
-constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();    // of a coordinate
-constexpr int most_newton = 16, most_relaxed = 600;
-constexpr double least_part = 1.0 / 4096, least_unstable = 1.0 / 16; // of the way
-constexpr double first_sigma = 1e-3, relaxed_digits = 1e-6;
+constexpr double wanted = 1e-9, linear_digits = 1e-10, most_noise = 1e-6;                  // of the forces
+constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();                     // of a coordinate
+constexpr int most_newton = 16, most_falling = 60, most_relaxed = 600, most_solved = 3000; // iterations
+constexpr double least_part = 1.0 / 256, least_unstable = 1.0 / 16;                        // of the way
+constexpr double most_reach = 4096; // of a linear step, in sizes of the body: no more than as good as singular
+constexpr double first_sigma = 1e-3, least_sigma = 1e-12, near_digits = 1e-4; // σ of the mean stiffness
+constexpr double far_digits = 1e-2; // what is iterated in single precision
+constexpr double near = 0.05;       // of the forces, left
 
 enum class Found { Equilibrium, Unstable, Nothing, Singular };
 
@@ -64,10 +68,12 @@ private:
   }
   void linearise(const Records& x, Tangent tangent);
   void aim(double part);
+  double digits(int n, double before) const;
   Found newton(double part);
   bool in_parts_of_the_way();
   bool loads_first();
   double mean_stiffness() const;
+  bool direction(Tangent tangent, double sigma, double part);
   bool relax(double part);
   [[noreturn]] void give_up() const;
 
@@ -89,7 +95,7 @@ private:
   BlockMatrix matrix_;                       // [N/m]
   LinearSolver linear_;
   LoadTangent load_tangent_;
-  long newton_ = 0;
+  long newton_ = 0, last_ = 0; // iterations: so far, and what this step may come to
 };
 
 double root_of_sum(Double4 v) {
@@ -226,11 +232,18 @@ void StaticSolve::aim(double part) {
   linear_.take(matrix_);
 }
 
+// How far iteration n solves, where it iterates: no further than brings the square of what the last one did.
+double StaticSolve::digits(int n, double before) const {
+  if (linear_.direct()) return linear_digits;
+  const double fell = n == 0 ? 1 : norm_ / before;
+  return std::clamp(std::max(0.5 * fell * fell, 0.3 * wanted * terms_ / norm_), linear_digits, far_digits);
+}
+
 // From position_ to the equilibrium at this part of the way; position_ stays where there is none.
 Found StaticSolve::newton(double part) {
   trial_ = position_;
-  Definiteness kind = Definiteness::Positive;
-  for (int n = 0; n <= most_newton; ++n) {
+  double before[2] = {}; // [N]: |F| of the last iteration, and of that before it
+  for (int n = 0; n <= most_falling; ++n) {
     evaluate(trial_);
     Double4 left{};
     for (std::size_t i = 0; i < trial_.size(); ++i) {
@@ -240,27 +253,27 @@ Found StaticSolve::newton(double part) {
     norm_ = root_of_sum(left);
     if (!std::isfinite(norm_)) return Found::Nothing;
     if (n > 0 && settled()) {
-      if (kind != Definiteness::Positive && !load_tangent_.counted()) return Found::Unstable;
+      if (linear_.factorise() != Definiteness::Positive && !load_tangent_.counted()) return Found::Unstable;
       position_ = trial_;
       return Found::Equilibrium;
     }
-    if (n == most_newton) break;
+    if (n >= most_newton && norm_ > 0.5 * before[1]) break;
     linearise(trial_, Tangent::Exact);
     aim(part);
     ++newton_;
-    kind = linear_.factorise();
-    if (kind == Definiteness::Singular) return n == 0 ? Found::Singular : Found::Nothing;
-    if (!load_tangent_.solve(linear_, right_, update_, linear_digits)) return Found::Nothing;
-    if (n == 0 && largest_coordinate(update_) * least_part > size_ * part) return Found::Singular; // as good as
+    if (!load_tangent_.solve(linear_, right_, update_, digits(n, before[0])))
+      return n == 0 ? Found::Singular : Found::Nothing;
+    if (n == 0 && largest_coordinate(update_) > most_reach * size_ * part) return Found::Singular; // as good as
     for (std::size_t i = 0; i < trial_.size(); ++i)
       store(trial_[i], load(trial_[i]) + load(update_[i]) + load(lead_[i]));
+    before[1] = std::exchange(before[0], norm_);
   }
   return Found::Nothing;
 }
 
 bool StaticSolve::in_parts_of_the_way() {
   double gone = 0, part = 1;
-  while (gone < 1) {
+  while (gone < 1 && newton_ < last_) {
     const Found found = newton(gone + part);
     if (found == Found::Equilibrium) {
       gone += part;
@@ -271,7 +284,7 @@ bool StaticSolve::in_parts_of_the_way() {
     if (part < (found == Found::Unstable ? least_unstable : least_part)) return false;
     if (found == Found::Singular && gone == 0) return false;
   }
-  return true;
+  return gone == 1;
 }
 
 double StaticSolve::mean_stiffness() const { // [1/s²], for each unit of mass
@@ -285,13 +298,32 @@ double StaticSolve::mean_stiffness() const { // [1/s²], for each unit of mass
   return stiff / mass;
 }
 
+// From position_ along a tangent that σ [1/s²] makes stiffer, into trial_; false: not downhill.
+bool StaticSolve::direction(Tangent tangent, double sigma, double part) {
+  linearise(position_, tangent);
+  for (std::size_t i = 0; i < position_.size(); ++i)
+    if (system_->inverse_mass[i] != 0) matrix_.add_diagonal(i, sigma / system_->inverse_mass[i]);
+  trial_ = position_;
+  aim(part);
+  ++newton_;
+  if (!linear_.solve(right_, update_, norm_ > near * terms_ ? far_digits : near_digits)) return false;
+  if (linear_.definiteness() != Definiteness::Positive) return false;
+  for (std::size_t i = 0; i < trial_.size(); ++i)
+    store(trial_[i], load(position_[i]) + load(update_[i]) + load(lead_[i]));
+  return true;
+}
+
 // Downhill from position_ to an equilibrium at this part of the way of prescribed coordinates, under all
 // forces.
 bool StaticSolve::relax(double part) {
   first_sum_.assign(position_.size(), Record{});
   evaluate(position_);
-  double sigma = -1, tried = 0.1 * norm_; // [1/s²]; [N]: where Newton's method is tried
-  for (int n = 0; n < most_relaxed; ++n) {
+  linearise(position_, Tangent::Definite);
+  const double mean = mean_stiffness(), most = first_sigma * mean, least = least_sigma * mean;
+  double far = most, close = 1e-6 * mean; // σ of the definite tangent, and of the exact one [1/s²]
+  double tried = 0.1 * norm_;             // [N]: where Newton's method is tried
+  bool helped = true;                     // the last direction
+  for (int n = 0; n < most_relaxed && newton_ < last_; ++n) {
     const double before = norm_;
     if (n > 0 && settled()) return true;
     if (n > 0 && before < std::min(tried, 0.01 * terms_)) {
@@ -299,26 +331,26 @@ bool StaticSolve::relax(double part) {
       tried = 0.01 * before;
       evaluate(position_);
     }
-    linearise(position_, Tangent::Definite);
-    if (sigma < 0) sigma = first_sigma * mean_stiffness();
-    for (std::size_t i = 0; i < position_.size(); ++i)
-      if (system_->inverse_mass[i] != 0) matrix_.add_diagonal(i, sigma / system_->inverse_mass[i]);
-    trial_ = position_;
-    aim(part);
-    ++newton_;
-    if (!linear_.solve(right_, update_, relaxed_digits)) return false;
+    bool exact = n > 0 && norm_ < near * terms_ && close <= mean;
+    if (exact && !direction(Tangent::Exact, close, part)) {
+      close *= 10;
+      exact = false;
+    }
+    if (!exact && !direction(Tangent::Definite, far, part)) return false;
     const double slope = dot(1, right_, update_);
-    for (std::size_t i = 0; i < trial_.size(); ++i)
-      store(trial_[i], load(position_[i]) + load(update_[i]) + load(lead_[i]));
     evaluate(trial_);
     const bool falls = n == 0 || slope + dot(1, sum_, update_) > 0 || norm_ < before; // by the trapezoid rule
-    if (std::isfinite(norm_) && falls) {
+    double& sigma = exact ? close : far;
+    const bool kept = std::isfinite(norm_) && falls;
+    if (!kept)
+      sigma *= exact ? 10 : 4;
+    else if (helped)
+      sigma = std::max(0.3 * sigma, least);
+    helped = kept;
+    if (kept)
       position_.swap(trial_);
-      sigma *= 0.3;
-    } else {
-      sigma *= 4;
+    else
       evaluate(position_);
-    }
   }
   return false;
 }
@@ -334,8 +366,10 @@ bool StaticSolve::loads_first() {
 
 void StaticSolve::give_up() const {
   const bool turns = can_turn(*system_->pattern(), system_->inverse_mass, held_, start_.data());
-  throw Unsolved(turns ? "no equilibrium was found, and what is held lets the body turn as a whole"
-                       : fmt::format("no equilibrium was found: {:.2g} of the forces are left", norm_ / terms_),
+  const std::string left =
+      fmt::format("no equilibrium was found: {:.2g} of the forces are left after {} iterations", norm_ / terms_,
+                  newton_ - (last_ - most_solved));
+  throw Unsolved(turns ? left + ", and what is held lets the body turn as a whole" : left,
                  turns ? "fix more than a point or a line"
                        : "let loads and drives grow over more steps, or use implicit with viscosity");
 }
@@ -343,6 +377,7 @@ void StaticSolve::give_up() const {
 void StaticSolve::advance(System& system, double time, double step, const StateView& now, const Record*,
                           State& next) {
   end_ = time + step;
+  last_ = newton_ + most_solved;
   prepare(system, now);
   evaluate(start_);
   if (!std::isfinite(terms_))

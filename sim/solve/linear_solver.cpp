@@ -24,6 +24,14 @@ bool LinearSolver::factor_fits() const {
   return factor_.blocks() <= most_blocks;
 }
 
+double LinearSolver::worth() const {
+  return factor_.products() / static_cast<double>(matrix_->pattern()->blocks());
+}
+
+bool LinearSolver::direct() const {
+  return factored_ || ((worth() <= direct_below || hard_ > 0) && factor_fits());
+}
+
 Definiteness LinearSolver::factorise() {
   if (!factor_fits()) return Definiteness::Positive;
   if (!factored_) {
@@ -39,20 +47,18 @@ bool LinearSolver::iterate(const Records& b, Records& x, double tolerance) {
   if (!preconditioned_ || (precision == Precision::Double && precision_ == Precision::Single))
     preconditioned_ = preconditioner_.take(*matrix_, precision_ = precision);
   if (!preconditioned_) return false;
-  const double worth = factor_.products() / static_cast<double>(matrix_->pattern()->blocks());
   const int most = !factor_fits()
                        ? most_iterations
-                       : static_cast<int>(std::clamp<double>(worth, least_iterations, most_iterations));
+                       : static_cast<int>(std::clamp<double>(worth(), least_iterations, most_iterations));
   const auto result = gradient_.solve(preconditioner_, matrix_->pattern()->parts, b, x, tolerance, most);
   iterations_ += result.iterations;
   return result.converged;
 }
 
 bool LinearSolver::solve(const Records& b, Records& x, double tolerance) {
-  const double worth = factor_.products() / static_cast<double>(matrix_->pattern()->blocks());
-  const bool direct = factored_ || ((worth <= direct_below || hard_ > 0) && factor_fits());
-  if (!direct && iterate(b, x, tolerance)) return true;
-  if (!direct) hard_ = hard_for;
+  const bool at_once = direct();
+  if (!at_once && iterate(b, x, tolerance)) return true;
+  if (!at_once) hard_ = hard_for;
   if (!factor_fits() || factorise() == Definiteness::Singular) return false;
   x.resize(b.size());
   factor_.solve(b.data(), x.data());

@@ -24,12 +24,17 @@ public:
   // Whether a factor can be made, and how the matrix is then. Where it cannot, Positive is assumed.
   Definiteness factorise();
 
+  // Whether it is going to solve directly; and how the matrix is, as far as solving it has shown.
+  bool direct() const;
+  Definiteness definiteness() const { return factored_ ? definiteness_ : Definiteness::Positive; }
+
   long iterations() const { return iterations_; }
   long factorisations() const { return factorisations_; }
   std::size_t bytes() const { return factor_.bytes() + preconditioner_.bytes() + gradient_.bytes(); }
 
 private:
   bool factor_fits() const;
+  double worth() const; // iterations that a factor takes as long as
   bool iterate(const Records& b, Records& x, double tolerance);
 
   const BlockMatrix* matrix_ = nullptr;
