@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+
 namespace rend {
 namespace {
 
@@ -31,6 +33,34 @@ template <class F> bool any_piece(const BlockPattern& pattern, const double* inv
   return false;
 }
 
+// Of a piece, about its middle and in its own size: which of the six are held, and how well.
+struct RigidMotions {
+  const Record* position;
+  Vec3 centre = Vec3::Zero();
+  double size = 0;                                                        // [m]; 0: a point
+  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero(); // Σ of the rows of held coordinates
+
+  RigidMotions(const Piece& piece, const std::vector<std::uint8_t>& axes, const Record* position_)
+      : position(position_) {
+    for (std::uint32_t v : piece) centre += position[v].vec() / static_cast<double>(piece.size());
+    for (std::uint32_t v : piece) size = std::max(size, (position[v].vec() - centre).norm());
+    for (std::uint32_t v : piece)
+      for (unsigned axis = 0; axis < 3; ++axis)
+        if (axes[v] >> axis & 1) hold(v, axis);
+  }
+  Vec3 arm(std::uint32_t v) const {
+    return size > 0 ? Vec3((position[v].vec() - centre) / size) : Vec3(Vec3::Zero());
+  }
+  void hold(std::uint32_t v, unsigned axis) {
+    Eigen::Matrix<double, 6, 1> row; // this coordinate's part in the six motions
+    row << Vec3::Unit(axis), arm(v).cross(Vec3::Unit(axis));
+    held += row * row.transpose();
+  }
+  Eigen::Index rank(double threshold) const {
+    return Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>>(held).setThreshold(threshold).rank();
+  }
+};
+
 } // namespace
 
 std::optional<std::string> drift_of(const BlockPattern& pattern, const double* inverse_mass,
@@ -53,22 +83,33 @@ std::optional<std::string> drift_of(const BlockPattern& pattern, const double* i
 bool can_turn(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
               const Record* position) {
   return any_piece(pattern, inverse_mass, [&](const Piece& piece) {
-    Vec3 centre = Vec3::Zero();
-    for (std::uint32_t v : piece) centre += position[v].vec() / static_cast<double>(piece.size());
-    double size = 0;
-    for (std::uint32_t v : piece) size = std::max(size, (position[v].vec() - centre).norm());
-    if (size == 0) return false;
-    Eigen::Matrix<double, 6, 6> held_motions = Eigen::Matrix<double, 6, 6>::Zero();
-    for (std::uint32_t v : piece) {
-      const Vec3 arm = (position[v].vec() - centre) / size;
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!(held[v] >> axis & 1)) continue;
-        Eigen::Matrix<double, 6, 1> row; // this coordinate's part in the six motions
-        row << Vec3::Unit(axis), arm.cross(Vec3::Unit(axis));
-        held_motions += row * row.transpose();
-      }
-    }
-    return Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>>(held_motions).setThreshold(1e-9).rank() < 6;
+    const RigidMotions motions(piece, held, position);
+    return motions.size > 0 && motions.rank(1e-9) < 6;
+  });
+}
+
+void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Record* position, bool turns,
+               std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& loose) {
+  any_piece(pattern, inverse_mass, [&](Piece& piece) {
+    RigidMotions motions(piece, held, position);
+    unsigned axes = 0;
+    for (std::uint32_t v : piece) axes |= held[v];
+    if (axes == 7 && (turns || motions.size == 0 || motions.rank(1e-9) == 6)) return false;
+    for (std::uint32_t v : piece) loose[v] = 1;
+    std::stable_sort(piece.begin(), piece.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return motions.arm(a).squaredNorm() > motions.arm(b).squaredNorm();
+    });
+    for (const double clearly : {0.05, 1e-9})
+      for (std::uint32_t v : piece)
+        for (unsigned axis = 0; axis < 3 && motions.rank(clearly) < 6; ++axis) {
+          if (held[v] >> axis & 1) continue;
+          RigidMotions more = motions;
+          more.hold(v, axis);
+          if (more.rank(clearly) == motions.rank(clearly)) continue;
+          motions = more;
+          held[v] = static_cast<std::uint8_t>(held[v] | 1U << axis);
+        }
+    return false;
   });
 }
 

@@ -22,4 +22,10 @@ std::optional<std::string> drift_of(const BlockPattern& pattern, const double* i
 bool can_turn(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
               const Record* position);
 
+// For pieces that came off: holds as many coordinates of each piece that can move off as a whole (or turn, where
+// nothing `turns` with the body) as keep it in its place and leave it to take its own shape, and marks its vertices.
+// Without loads those coordinates carry nothing. `loose`: one per vertex slot.
+void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Record* position, bool turns,
+               std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& loose);
+
 } // namespace rend

@@ -23,7 +23,8 @@
 // body: a strip bent to a circle by a moment is stable, while the part of its tangent without the load is not
 // positive, and the whole is not symmetric.) Relaxing goes downhill, and stays on a ridge only where symmetry
 // gives it no side. A piece that can move off as a whole is refused, and so is one that can turn in a model of
-// small displacements, where f does not turn with the body: no turn ever meets a resistance.
+// small displacements, where f does not turn with the body: no turn ever meets a resistance. Once the body has stood,
+// what comes off it is no reason to stop: such a piece takes its own shape where it is, without loads.
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/load_tangent.h"
@@ -60,6 +61,7 @@ public:
 
 private:
   void prepare(System& system, const StateView& now);
+  void check_footing();
   bool turns_with_body();
   void evaluate(const Records& x);
   double noise(const Records& x) const;
@@ -75,6 +77,7 @@ private:
   double mean_stiffness() const;
   bool direction(Tangent tangent, double sigma, double part);
   bool relax(double part);
+  bool without_turns(const StateView& now);
   [[noreturn]] void give_up() const;
 
   System* system_ = nullptr;
@@ -87,6 +90,9 @@ private:
   Records first_sum_;                        // [N]: F at start_
   Records lead_, right_, update_;            // [m], [N], [m]: u, the right side, δ
   std::vector<std::uint8_t> held_;           // axes
+  std::vector<std::uint8_t> loose_;          // 1: of a piece that came off, without loads
+  bool stood_ = false;                       // in equilibrium, once
+  bool keeps_turned_ = false;                // what can turn is loose
   double norm_ = 0, terms_ = 0, noise_ = 0;  // [N]: of F, of its terms, and round-off
   std::vector<double> stiff_;                // [N/m]: the largest of each diagonal block; 0: not known yet
   double noise_of_start_ = -1;               // [N]: at most, within reach_ of the origin; < 0: not known yet
@@ -133,10 +139,25 @@ void StaticSolve::prepare(System& system, const StateView& now) {
   trial_ = still_;
   system.constrain(end_, goal_.data(), trial_.data());
   reach_ = std::max({largest_coordinate(start_), largest_coordinate(goal_), size_});
-  if (const auto drift = drift_of(*system.pattern(), system.inverse_mass, held_))
+  loose_.assign(count, 0);
+  check_footing();
+}
+
+// What was held when the body first stood and is no more came off by tearing, or was let go.
+void StaticSolve::check_footing() {
+  System& system = *system_;
+  const BlockPattern& pattern = *system.pattern();
+  const auto drift = drift_of(pattern, system.inverse_mass, held_);
+  const bool stiff_to_turns =
+      can_turn(pattern, system.inverse_mass, held_, start_.data()) && (keeps_turned_ || !turns_with_body());
+  if (stood_ && (drift || stiff_to_turns)) {
+    pin_loose(pattern, system.inverse_mass, start_.data(), !stiff_to_turns, held_, loose_);
+    return;
+  }
+  if (drift)
     throw Unsolved(*drift + ", and a static solve needs that",
                    "add <fix>, or use implicit, which needs no hold");
-  if (can_turn(*system.pattern(), system.inverse_mass, held_, start_.data()) && !turns_with_body())
+  if (stiff_to_turns)
     throw Unsolved(
         "what is held lets the body turn as a whole, and a model of small displacements resists no turn",
         "fix more than a point or a line, or use a co-rotational model");
@@ -185,7 +206,11 @@ void StaticSolve::evaluate(const Records& x) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double inverse = system.inverse_mass[i];
     const Double4 f = load(force_[i]);
-    const Double4 whole = inverse == 0 ? Double4{} : system.acceleration(i, f, Double4{}) * splat(1 / inverse);
+    Double4 whole = f;
+    if (inverse == 0)
+      whole = Double4{};
+    else if (!loose_[i])
+      whole = system.acceleration(i, f, Double4{}) * splat(1 / inverse);
     const Double4 free_part = free_axes(held_[i]) * whole;
     store(sum_[i], free_part);
     left += free_part * free_part;
@@ -364,6 +389,19 @@ bool StaticSolve::loads_first() {
   return in_parts_of_the_way();
 }
 
+// What hangs by a hinge since it tore may find no rest, where a mean rotation leaves moments of its own: from then on
+// it stays as what came off.
+bool StaticSolve::without_turns(const StateView& now) {
+  if (!stood_ || keeps_turned_ || !can_turn(*system_->pattern(), system_->inverse_mass, held_, start_.data()))
+    return false;
+  keeps_turned_ = true;
+  last_ += most_solved;
+  prepare(*system_, now);
+  evaluate(start_);
+  first_sum_ = sum_;
+  return in_parts_of_the_way() || loads_first() || relax(1);
+}
+
 void StaticSolve::give_up() const {
   const bool turns = can_turn(*system_->pattern(), system_->inverse_mass, held_, start_.data());
   const std::string left =
@@ -384,9 +422,10 @@ void StaticSolve::advance(System& system, double time, double step, const StateV
     throw Unsolved("the forces are larger than numbers go",
                    "look for a mass, load or stiffness that is too large");
   first_sum_ = sum_;
-  if (!in_parts_of_the_way() && !loads_first() && !relax(1)) give_up();
+  if (!in_parts_of_the_way() && !loads_first() && !relax(1) && !without_turns(now)) give_up();
   system.constrain(end_, position_.data(), trial_.data()); // to the last bit
   for (std::size_t i = 0; i < position_.size(); ++i) next.put(i, load(position_[i]), Double4{});
+  stood_ = true;
 }
 
 } // namespace

@@ -51,10 +51,15 @@ Scene::Scene(const Node& preset, const SceneOptions& options) {
   seconds_.bind = now() - start - seconds_.build;
 }
 
-// Contact acts by impulses after the step, which a scheme that solves for the end of the step does not see.
+// Contact acts by impulses after the step, which a scheme that solves for the end of the step does not see; nor does
+// an equilibrium tell where what is free goes.
 void Scene::check_contact(const Node& preset) {
   if (!scheme_->solves) return;
   for (const auto& body : bodies_) {
+    if (scheme_->name == "static" && body->tears())
+      body->notes.push_back(
+          "static: what tears off and nothing holds keeps its place, without its weight and loads; "
+          "under implicit it falls");
     if (!body->contact) continue;
     if (scheme_->name == "static")
       preset.child("time")->fail("integrator", "the static solve knows no contact",
