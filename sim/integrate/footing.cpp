@@ -7,6 +7,8 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace rend {
 namespace {
@@ -111,6 +113,45 @@ void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Re
         }
     return false;
   });
+}
+
+double stiffness_of(const Block3& d) {
+  return std::max({std::abs(d(0, 0)), std::abs(d(1, 1)), std::abs(d(2, 2))});
+}
+
+double extent(const Records& x, const double* inverse_mass) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (inverse_mass[i] == 0) continue;
+    low = low.cwiseMin(x[i].vec());
+    high = high.cwiseMax(x[i].vec());
+  }
+  return (high - low).maxCoeff();
+}
+
+bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix) {
+  Records still(position.size()), turned_position(position.size()), force(position.size()),
+      after(position.size());
+  system.forces(time, position.data(), still.data(), force.data());
+  matrix.reset(system.pattern());
+  system.add_stiffness(position.data(), still.data(), Tangent::Definite, 1, 0, matrix);
+  for (const bool about_z : {true, false}) {
+    const auto turned = [about_z](Double4 v) {
+      return about_z ? Double4{-v[1], v[0], v[2], 0} : Double4{v[0], -v[2], v[1], 0};
+    };
+    for (std::size_t i = 0; i < position.size(); ++i) store(turned_position[i], turned(load(position[i])));
+    system.forces(time, turned_position.data(), still.data(), after.data());
+    Double4 change{}, scale{};
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      if (system.inverse_mass[i] == 0) continue;
+      const Double4 f = turned(load(force[i])), d = load(after[i]) - f;
+      const double stretch = stiffness_of(matrix.diagonal(i)) * size;
+      change += d * d;
+      scale += f * f + splat(stretch * stretch);
+    }
+    if (std::sqrt(sum3(change)) > 1e-6 * std::sqrt(sum3(scale))) return false;
+  }
+  return true;
 }
 
 } // namespace rend

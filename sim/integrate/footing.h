@@ -6,6 +6,7 @@
 #pragma once
 
 #include "sim/integrate/system.h"
+#include "sim/solve/vectors.h"
 
 #include <optional>
 #include <string>
@@ -27,5 +28,14 @@ bool can_turn(const BlockPattern& pattern, const double* inverse_mass, const std
 // Without loads those coordinates carry nothing. `loose`: one per vertex slot.
 void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Record* position, bool turns,
                std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& loose);
+
+// Whether forces turn with the body, measured at quarter turns about z and x, which are exact in coordinates.
+// `size`: its extent() [m]; the matrix is written.
+bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix);
+
+double stiffness_of(const Block3& diagonal); // the largest diagonal entry [N/m]
+
+// The longest side of the box around all vertices [m].
+double extent(const Records& position, const double* inverse_mass);
 
 } // namespace rend

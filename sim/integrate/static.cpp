@@ -9,17 +9,16 @@
 //    half of that ...: F(x) = (1 − s) F(x_start), s from 0 to 1. No line search here: a slender beam must first
 //    be stretched by the bending that a linear step sees, and loses that in the next.
 // 3. Where no part of the way can be gone (a chain at rest resists nothing sideways, a cloth next to nothing, a
-//    strut buckles), it
-//    relaxes: (K⁺ + σ M) δ = F with the definite tangent, from a large σ to a small one as long as the
-//    potential falls along δ. That is implicit Euler with ever longer steps and without memory
-//    (pseudo-transient continuation, Kelley & Keyes 1998). First under the loads alone, then again part by part
-//    after the drives, at last under all at once.
+//    strut buckles), it relaxes: (K⁺ + σ M) δ = F with the definite tangent, from a large σ to a small one as long
+//    as the potential falls along δ. That is implicit Euler with ever longer steps and without memory
+//    (pseudo-transient continuation, Kelley & Keyes 1998). Near the end the exact tangent takes the place of K⁺ where
+//    a σ of its own makes it positive. First under the loads alone, then again part by part after the drives, at last
+//    under all at once.
 //
 // An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. What rounding
 // positions makes of F is taken where F is; far away it could exceed all forces, and anything would count: so it
 // is at most 1e-6 of them, or what it is within the reach of the step under the stiffness at its start (a body
-// without forces has no other measure). Newton's method
-// must also find the tangent positive there: what buckles is not left upright. (Not asked where loads follow the
+// without forces has no other measure). Newton's method must also find the tangent positive there: what buckles is not left upright. (Not asked where loads follow the
 // body: a strip bent to a circle by a moment is stable, while the part of its tangent without the load is not
 // positive, and the whole is not symmetric.) Relaxing goes downhill, and stays on a ridge only where symmetry
 // gives it no side. A piece that can move off as a whole is refused, and so is one that can turn in a model of
@@ -62,7 +61,6 @@ public:
 private:
   void prepare(System& system, const StateView& now);
   void check_footing();
-  bool turns_with_body();
   void evaluate(const Records& x);
   double noise(const Records& x) const;
   bool settled() const {
@@ -108,21 +106,6 @@ double root_of_sum(Double4 v) {
   return std::sqrt(sum3(v));
 }
 
-double stiffness_of(const Block3& d) {
-  return std::max({std::abs(d(0, 0)), std::abs(d(1, 1)), std::abs(d(2, 2))});
-}
-
-// The longest side of the box around all vertices [m].
-double extent(const Records& x, const double* inverse_mass) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (inverse_mass[i] == 0) continue;
-    low = low.cwiseMin(x[i].vec());
-    high = high.cwiseMax(x[i].vec());
-  }
-  return (high - low).maxCoeff();
-}
-
 void StaticSolve::prepare(System& system, const StateView& now) {
   system_ = &system;
   const std::size_t count = system.vertices();
@@ -148,8 +131,8 @@ void StaticSolve::check_footing() {
   System& system = *system_;
   const BlockPattern& pattern = *system.pattern();
   const auto drift = drift_of(pattern, system.inverse_mass, held_);
-  const bool stiff_to_turns =
-      can_turn(pattern, system.inverse_mass, held_, start_.data()) && (keeps_turned_ || !turns_with_body());
+  const bool stiff_to_turns = can_turn(pattern, system.inverse_mass, held_, start_.data()) &&
+                              (keeps_turned_ || !turns_with_body(system, end_, start_, size_, matrix_));
   if (stood_ && (drift || stiff_to_turns)) {
     pin_loose(pattern, system.inverse_mass, start_.data(), !stiff_to_turns, held_, loose_);
     return;
@@ -161,31 +144,6 @@ void StaticSolve::check_footing() {
     throw Unsolved(
         "what is held lets the body turn as a whole, and a model of small displacements resists no turn",
         "fix more than a point or a line, or use a co-rotational model");
-}
-
-// Whether forces turn with the body, measured at quarter turns about z and x, which are exact in coordinates.
-bool StaticSolve::turns_with_body() {
-  System& system = *system_;
-  system.forces(end_, start_.data(), still_.data(), force_.data());
-  matrix_.reset(system.pattern());
-  system.add_stiffness(start_.data(), still_.data(), Tangent::Definite, 1, 0, matrix_);
-  for (const bool about_z : {true, false}) {
-    const auto turned = [about_z](Double4 v) {
-      return about_z ? Double4{-v[1], v[0], v[2], 0} : Double4{v[0], -v[2], v[1], 0};
-    };
-    for (std::size_t i = 0; i < start_.size(); ++i) store(trial_[i], turned(load(start_[i])));
-    system.forces(end_, trial_.data(), still_.data(), sum_.data());
-    Double4 change{}, scale{};
-    for (std::size_t i = 0; i < start_.size(); ++i) {
-      if (system.inverse_mass[i] == 0) continue;
-      const Double4 f = turned(load(force_[i])), d = load(sum_[i]) - f;
-      const double stretch = stiffness_of(matrix_.diagonal(i)) * size_;
-      change += d * d;
-      scale += f * f + splat(stretch * stretch);
-    }
-    if (root_of_sum(change) > 1e-6 * root_of_sum(scale)) return false;
-  }
-  return true;
 }
 
 // What rounding positions makes of F at x, with the stiffness last seen [N].
