@@ -1,19 +1,16 @@
 #include "sim/scene/contact.h"
 
-#include <algorithm>
-#include <cmath>
+#include "sim/scene/impact.h"
 
 namespace rend {
 
 void FloorContact::apply(State& next, double step) const {
   for (std::size_t i = 0; i < next.position.size(); ++i) {
-    Record& x = next.position[i];
+    Record &x = next.position[i], &v = next.velocity[i];
     if (!(x.z < height)) continue;
-    Record& v = next.velocity[i];
-    const double lost = std::max(0.0, -v.z), along = std::sqrt(v.x * v.x + v.y * v.y);
-    const double kept = along > 0 ? std::max(0.0, 1 - friction * lost / along) : 0;
-    x = Record(x.x - step * (1 - kept) * v.x, x.y - step * (1 - kept) * v.y, height);
-    v = Record(kept * v.x, kept * v.y, std::max(0.0, v.z));
+    const Impulse change = impact(v, Vec3::UnitZ(), friction, Vec3::Ones());
+    x = Record(x.x + step * change.friction.x(), x.y + step * change.friction.y(), height);
+    v = Record(v.vec() + change.whole());
   }
 }
 

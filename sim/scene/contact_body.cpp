@@ -1,22 +1,16 @@
 #include "sim/scene/contact_body.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace rend {
 
 void ContactBody::prepare(double time) {
   changed = faces.update();
-  const std::vector<Slot>& prescribed = body->constraints.vertices();
   held_.clear();
-  if (prescribed.empty()) return;
-  constexpr std::uint8_t every_axis = 7;
-  held_.assign(body->inverse_mass, body->inverse_mass + vertices());
-  axes_.assign(vertices(), 0);
-  body->constraints.mark(time, axes_.data());
-  for (Slot v : prescribed)
-    if (axes_[v] == every_axis) held_[v] = 0;
+  if (body->constraints.vertices().empty()) return;
+  held_.assign(vertices(), 0);
+  body->constraints.mark(time, held_.data());
 }
 
 Vec3 ContactPoint::from() const {
@@ -37,22 +31,23 @@ Vec3 ContactPoint::velocity() const {
   return sum;
 }
 
-double ContactPoint::inverse_mass() const {
-  double sum = 0;
+Vec3 ContactPoint::inverse_mass() const {
+  Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) sum += weight[k] * weight[k] * body->inverse_mass(vertex[k]);
   return sum;
 }
 
-double ContactPoint::leverage() const {
-  const double whole = inverse_mass();
+double ContactPoint::leverage(const Vec3& normal) const {
+  const double whole = yield_along(normal, inverse_mass());
   double most = 0;
-  for (std::size_t k = 0; k < 3; ++k) most = std::max(most, weight[k] * body->inverse_mass(vertex[k]));
+  for (std::size_t k = 0; k < 3; ++k)
+    most = std::max(most, weight[k] * body->inverse_mass(vertex[k]).cwiseProduct(normal).norm());
   return whole > 0 ? most / whole : std::numeric_limits<double>::infinity();
 }
 
 void ContactPoint::push(const Vec3& impulse, double step) const {
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 change = weight[k] * body->inverse_mass(vertex[k]) * impulse;
+    const Vec3 change = weight[k] * body->inverse_mass(vertex[k]).cwiseProduct(impulse);
     Record &x = body->position(vertex[k]), &v = body->velocity(vertex[k]);
     x = Record(x.vec() + step * change);
     v = Record(v.vec() + change);
@@ -62,16 +57,8 @@ void ContactPoint::push(const Vec3& impulse, double step) const {
 void ContactPoint::shift(const Vec3& by) const {
   for (std::size_t k = 0; k < 3; ++k) {
     Record& x = body->position(vertex[k]);
-    x = Record(x.vec() + weight[k] * body->inverse_mass(vertex[k]) * by);
+    x = Record(x.vec() + weight[k] * body->inverse_mass(vertex[k]).cwiseProduct(by));
   }
-}
-
-Vec3 impact(const Vec3& u, const Vec3& normal, double friction) {
-  const double along = u.dot(normal), lost = std::max(0.0, -along);
-  const Vec3 sliding = u - along * normal;
-  const double speed = sliding.norm();
-  const double stopped = speed > 0 ? std::min(1.0, friction * lost / speed) : 0;
-  return lost * normal - stopped * sliding;
 }
 
 } // namespace rend

@@ -79,21 +79,31 @@ std::optional<FragmentContact::Touch> FragmentContact::touch(const ContactPairs:
   const double short_of = (before < 0 ? 0 : thickness) - before;
   if (short_of > 0 && (before < 0 || !pair.neighbours)) wanted += std::min(1.0, step / relaxation) * short_of;
   const double friction = std::max(body.settings().friction, other.settings().friction);
-  return Touch{
-      ContactPoint::at(body, pair.vertex), {&other, slots, start->weight}, start->normal, wanted, friction};
+  const ContactPoint vertex = ContactPoint::at(body, pair.vertex), face{&other, slots, start->weight};
+  const Vec3 normal = start->normal;
+  return Touch{vertex, face, normal, wanted, friction, vertex.held(normal), face.held(normal)};
 }
 
 void FragmentContact::meet(const Touch& touch, double step) {
-  const double w = touch.vertex.inverse_mass() + touch.face.inverse_mass();
+  Vec3 yields = Vec3::Zero();
+  if (!touch.vertex_held) yields += touch.vertex.inverse_mass();
+  if (!touch.face_held) yields += touch.face.inverse_mass();
+  const double w = yield_along(touch.normal, yields);
   const double left = touch.gap - touch.normal.dot(touch.vertex.position() - touch.face.position());
-  if (w == 0 || left <= 0) return;
-  const Vec3 change = impact(touch.vertex.velocity() - touch.face.velocity(), touch.normal, touch.friction);
-  const Vec3 along = change - touch.normal.dot(change) * touch.normal;
-  const Vec3 by = (step * along + left * touch.normal) / w;
-  touch.vertex.push(change / w, 0);
-  touch.face.push(-change / w, 0);
-  touch.vertex.shift(by);
-  touch.face.shift(-by);
+  if (left <= 0 || w == 0) return;
+  const Vec3 u = touch.vertex.velocity() - touch.face.velocity();
+  const Impulse impulse = impact(u, touch.normal, touch.friction, yields);
+  const Vec3 dragged = step * impulse.friction;
+  const double after = left - touch.normal.dot(yields.cwiseProduct(dragged));
+  const Vec3 by = dragged + std::max(0.0, after) / w * touch.normal;
+  if (!touch.vertex_held) {
+    touch.vertex.push(impulse.whole(), 0);
+    touch.vertex.shift(by);
+  }
+  if (!touch.face_held) {
+    touch.face.push(-impulse.whole(), 0);
+    touch.face.shift(-by);
+  }
 }
 
 void FragmentContact::advance(const ContactPairs::Bodies& bodies, double step) {

@@ -9,7 +9,7 @@
 // gap would be less than the thickness at the end of the step, and less than it was, the pair takes an
 // inelastic impulse with Coulomb's friction,
 //
-//   J = Δu/(1/m + Σ b_i²/m_i)   on the vertex, −b_i J on those of the face       (Δu: obstacle_contact.h)
+//   J (impact.h) with yields 1/m + Σ b_i²/m_i   on the vertex, −b_i J on those of the face
 //
 // and its positions are moved by inverse mass until the gap is what it was, at most the thickness. So momentum,
 // angular momentum but for the thickness, and the centre of mass are kept to round-off, and kinetic energy only
@@ -42,6 +42,7 @@ private:
     Vec3 normal; // from the face to the vertex
     double gap;  // [m], to be had at the end of the step
     double friction;
+    bool vertex_held, face_held; // ContactPoint::held
   };
   std::optional<Touch> touch(const ContactPairs::Bodies& bodies, const ContactPair& pair, double step) const;
   static void meet(const Touch& touch, double step);

@@ -23,6 +23,9 @@ Plane tangent(const Vec3& at, double reach) {
   return {length > 0 ? Vec3(at / length) : Vec3(Vec3::UnitZ()), reach};
 }
 
+constexpr double grazing = 0.02; // of the radius: how deep a way may pass through without being stopped
+constexpr double alike = 0.8;    // cosine between two normals, of which the later one is then taken
+
 // Where the way first meets the sphere; `from` itself where it is inside.
 Vec3 met(const Vec3& from, const Vec3& way, double reach) {
   const double c = from.squaredNorm() - reach * reach, b = from.dot(way), a = way.squaredNorm();
@@ -34,17 +37,17 @@ Vec3 met(const Vec3& from, const Vec3& way, double reach) {
 } // namespace
 
 std::optional<Plane> Sphere::stop(const Vec3& from, const Vec3& to, double reach) {
-  const double deep = 0.25 * reach * reach; // below half the radius, squared
-  const double left = to.squaredNorm();
+  const double left = to.squaredNorm(), square = reach * reach;
   const Vec3 way = to - from;
-  if (left < reach * reach) {
-    const bool guides = left > deep && from.dot(to) > 0;
-    return tangent(guides ? to : met(from, way, reach), reach);
+  if (left < square) {
+    const Vec3 entry = met(from, way, reach);
+    const bool guides = 4 * left > square && entry.dot(to) > alike * entry.norm() * to.norm();
+    return tangent(guides ? to : entry, reach);
   }
-  const double length = way.squaredNorm();
-  if (length * 3 < reach * reach) return {}; // too short a chord to pass so deep
+  const double length = way.squaredNorm(), passed = (1 - grazing) * (1 - grazing) * square;
+  if (length < square - passed) return {}; // too short a chord to pass so deep
   const double share = -from.dot(way) / length;
-  if (share <= 0 || share >= 1 || (from + share * way).squaredNorm() > deep) return {};
+  if (share <= 0 || share >= 1 || (from + share * way).squaredNorm() > passed) return {};
   return tangent(met(from, way, reach), reach);
 }
 

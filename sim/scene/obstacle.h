@@ -3,8 +3,8 @@
 // A point that ends a step within an obstacle is kept outside of a plane. Which one depends on where it came
 // from, so that nothing is pushed out on the far side:
 //
-//   sphere   the tangent plane over the point; where it went in so deep that this is no guide, or passed
-//            right through, the tangent plane where its way meets the sphere
+//   sphere   the tangent plane over the point; where that leans otherwise than the one where its way meets the
+//            sphere, or the way passes through and out again, deeper than 0.02 of the radius, the latter
 //   box      the side through which its way comes in; of a point that was inside, the nearest side
 //
 // The way is a straight line, relative to the obstacle. What is as long as a step's motion is therefore not

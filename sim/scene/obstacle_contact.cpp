@@ -8,7 +8,6 @@ namespace {
 
 constexpr int sweeps = 8;
 constexpr int passes = 2;            // over faces: what one puts out, its neighbour may put in
-constexpr double most_leverage = 4;  // a face that is held inside an obstacle stays there
 constexpr double touching = 1e-9;    // [m]
 constexpr double own_friction = 0.5; // between obstacles that say nothing of it
 
@@ -85,20 +84,24 @@ void for_each_face(const Shape& shape, const ContactBody& body, const std::vecto
     const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
     if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
     const auto plane = shape.stop(point.from(), point.position(), margin);
-    if (plane && point.leverage() <= most_leverage) f(point, *plane);
+    if (plane) f(point, *plane);
   }
+}
+
+// By positions alone.
+void put_out(const ContactPoint& point, const Plane& plane) {
+  const double gap = plane.normal.dot(point.position()) - plane.offset;
+  if (gap < 0) point.shift(-gap / yield_along(plane.normal, point.inverse_mass()) * plane.normal);
 }
 
 // Puts a point out of an obstacle that does not yield.
 void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacle, double friction,
               double step) {
-  const double w = point.inverse_mass();
-  const double gap = plane.normal.dot(point.position()) - plane.offset;
-  if (w == 0 || gap >= 0) return;
-  const Vec3 change = impact(point.velocity() - obstacle, plane.normal, friction);
-  const Vec3 along = change - plane.normal.dot(change) * plane.normal;
-  point.push(change / w, 0);
-  point.shift((step * along - gap * plane.normal) / w);
+  if (plane.normal.dot(point.position()) >= plane.offset || point.held(plane.normal)) return;
+  const Impulse impulse = impact(point.velocity() - obstacle, plane.normal, friction, point.inverse_mass());
+  point.push(impulse.whole(), 0);
+  point.shift(step * impulse.friction);
+  put_out(point, plane);
 }
 
 template <class Shape>
@@ -107,8 +110,7 @@ void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outs
   const Vec3 velocity = shape.velocity();
   const auto act = [&](const ContactPoint& point, const Plane& plane) {
     if (!falls) return keep_out(point, plane, velocity, friction, step);
-    const double w = point.inverse_mass(), gap = plane.normal.dot(point.position()) - plane.offset;
-    if (w > 0 && gap < 0) point.shift(-gap / w * plane.normal); // momentum was traded before
+    if (!point.held(plane.normal)) put_out(point, plane); // momentum was traded before
   };
   for_each_vertex(shape, body, codes, act);
   for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, codes, act);
@@ -126,6 +128,11 @@ std::optional<Plane> plane_against(const Box& box, const Sphere& sphere) {
   if (distance >= sphere.radius) return {};
   if (distance == 0) return box.stop(sphere.centre, to, sphere.radius);
   return Plane{from / distance, from.dot(at) / distance + sphere.radius};
+}
+
+// By what does not yield.
+void stop(Sphere& sphere, const Vec3& normal, double friction) {
+  sphere.next_velocity += impact(sphere.next_velocity, normal, friction, Vec3::Ones()).whole();
 }
 
 } // namespace
@@ -170,7 +177,7 @@ void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) 
   const Sphere& sphere = world_.spheres[number];
   const double friction = sphere.friction.value_or(body.settings().friction);
   const auto keep = [&](const ContactPoint& point, const Plane& plane) {
-    touches_.push_back({number, point, plane.normal, friction});
+    touches_.push_back({number, point, plane.normal, friction, point.held(plane.normal)});
   };
   for_each_vertex(MovingSphere{&sphere}, body, codes_, keep);
   for_each_face(MovingSphere{&sphere}, body, codes_, keep);
@@ -178,10 +185,11 @@ void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) 
 
 void ObstacleContact::meet(Touch& touch, double step) {
   Sphere& sphere = world_.spheres[touch.sphere];
-  const double W = sphere.inverse_mass(), w = touch.point.inverse_mass();
+  const double W = sphere.inverse_mass();
+  const Vec3 yields = Vec3::Constant(W) + (touch.held ? Vec3(Vec3::Zero()) : touch.point.inverse_mass());
   const Vec3 impulse =
-      impact(touch.point.velocity() - sphere.next_velocity, touch.normal, touch.friction) / (w + W);
-  touch.point.push(impulse, step);
+      impact(touch.point.velocity() - sphere.next_velocity, touch.normal, touch.friction, yields).whole();
+  if (!touch.held) touch.point.push(impulse, step);
   sphere.next_velocity -= W * impulse;
 }
 
@@ -189,10 +197,9 @@ void ObstacleContact::meet(Touch& touch, double step) {
 void ObstacleContact::support(Sphere& sphere) {
   const double own = sphere.friction.value_or(own_friction);
   if (world_.floor && sphere.next_centre.z() < *world_.floor + sphere.radius)
-    sphere.next_velocity += impact(sphere.next_velocity, Vec3::UnitZ(), world_.floor_friction.value_or(own));
+    stop(sphere, Vec3::UnitZ(), world_.floor_friction.value_or(own));
   for (const Box& box : world_.boxes)
-    if (const auto plane = plane_against(box, sphere))
-      sphere.next_velocity += impact(sphere.next_velocity, plane->normal, box.friction.value_or(own));
+    if (const auto plane = plane_against(box, sphere)) stop(sphere, plane->normal, box.friction.value_or(own));
 }
 
 void ObstacleContact::collide(Sphere& a, Sphere& b) {
@@ -200,7 +207,8 @@ void ObstacleContact::collide(Sphere& a, Sphere& b) {
   const double distance = apart.norm(), w = a.inverse_mass() + b.inverse_mass();
   if (w == 0 || distance == 0 || distance >= a.radius + b.radius) return;
   const double friction = a.friction.value_or(b.friction.value_or(own_friction));
-  const Vec3 impulse = impact(b.next_velocity - a.next_velocity, apart / distance, friction) / w;
+  const Vec3 impulse =
+      impact(b.next_velocity - a.next_velocity, apart / distance, friction, Vec3::Constant(w)).whole();
   a.next_velocity -= a.inverse_mass() * impulse;
   b.next_velocity += b.inverse_mass() * impulse;
 }

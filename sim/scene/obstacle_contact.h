@@ -5,8 +5,9 @@
 // (obstacle.h): it is put on it, loses its speed into it, and is slowed along it by Coulomb's friction. With
 // relative velocity u, plane n and inverse masses w of the point and W of the obstacle (0, unless it falls),
 //
-//   Δu = max(0, −u·n) n − min(1, μ max(0, −u·n)/|u_t|) u_t,    J = Δu/(w + W)
+//   J = max(0, −u·n)/(w + W) n − min(1, μ max(0, −u·n)/|u_t|)/(w + W) u_t
 //
+// (impact.h has it for what is held along some axes.)
 // J on the point, −J on the sphere: momentum is conserved to round-off, and kinetic energy is lost by each.
 // What falls first trades momentum with all that it touches, in `sweeps` rounds in the order of bodies and
 // slots, and then moves with the velocity that this leaves; so do the points, and what overlap remains is taken
@@ -36,6 +37,7 @@ private:
     ContactPoint point;
     Vec3 normal; // from the sphere
     double friction;
+    bool held; // it does not yield to the sphere, or hardly
   };
   void trade(const std::vector<std::unique_ptr<ContactBody>>& bodies, double step);
   void find_touches(std::size_t sphere, const ContactBody& body);

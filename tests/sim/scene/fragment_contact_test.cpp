@@ -198,5 +198,24 @@ TEST(FragmentContact, costs_nothing_before_there_are_fragments) {
   EXPECT_EQ(pairs.searches(), 0);
 }
 
+TEST(FragmentContact, a_block_rests_on_a_sheet_that_is_held_along_its_fall) {
+  const auto scene =
+      presets::load(R"(<scene><body name="sheet"><sheet pattern="triangles" cells="12 12" size="1 1"/>
+      <place translate="0 0 0.5"/><mass total="0.2"/><springs><stretch k="200"/></springs>
+      <contact with="fragments" thickness="0.004"/><fix all="yes" axes="z"/></body>
+      <body name="block"><bar pattern="tetrahedra" cells="2 2 2" size="0.3 0.3 0.3"/><place rotate="10 20 5" translate="0.35 0.35 0.65"/>
+      <mass total="5"/><elasticity young="1e5"/><contact with="fragments" thickness="0.004"/></body><world/>
+      <time step="5e-4" duration="0.5"/></scene>)");
+  const auto energy = [&] {
+    return scene->kinetic_energy() + scene->elastic_energy() + scene->gravity_energy();
+  };
+  const double start = energy();
+  while (scene->time() < 0.5) {
+    scene->step();
+    ASSERT_LE(energy(), start + 0.02 * std::abs(start)) << scene->time();
+    for (const Record& x : scene.body(1).map->position().values()) ASSERT_GT(x.z, 0.48) << scene->time();
+  }
+}
+
 } // namespace
 } // namespace rend

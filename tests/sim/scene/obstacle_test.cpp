@@ -1,5 +1,6 @@
 // Spheres and boxes: against plain geometry, against Coulomb's and Newton's laws, and by what must never
 // happen.
+#include "sim/scene/impact.h"
 #include "sim/scene/obstacle.h"
 
 #include "sim/presets.h"
@@ -58,6 +59,15 @@ TEST(Obstacle, a_sphere_stops_what_comes_in_on_the_side_where_it_does) {
   EXPECT_THAT(Sphere::stop({3, 0, 0}, {-3, 0, 0}, 1)->normal, Vec3(1, 0, 0)) << "right through";
   EXPECT_FALSE(Sphere::stop({3, 1.1, 0}, {-3, 1.1, 0}, 1));
   EXPECT_FALSE(Sphere::stop({0, 1, 0}, {0.1, 0.999, 0}, 0.995)) << "grazing";
+  EXPECT_FALSE(Sphere::stop({3, 0.99, 0}, {-3, 0.99, 0}, 1)) << "grazing";
+  for (double aside : {0.1, 0.5, 0.6, 0.9, 0.97})
+    for (double end : {-3.0, 0.0}) {
+      if (end == 0 && aside > 0.6) continue; // over the point, which is nearly the same
+      const auto plane = Sphere::stop({3, aside, 0}, {end, aside, 0}, 1);
+      ASSERT_TRUE(plane);
+      EXPECT_LT((plane->normal - Vec3(std::sqrt(1 - aside * aside), aside, 0)).norm(), 1e-9)
+          << aside << " aside, where it comes in";
+    }
 }
 
 TEST(Obstacle, a_box_stops_what_comes_in_through_the_side_where_it_does) {
@@ -172,6 +182,30 @@ TEST(ObstacleContact, a_fast_sphere_does_not_pass_through_a_cloth) {
   }
 }
 
+// A small cloth aside of the middle of the way of a sphere that passes 70 and 700 mm in a step: both keep on their
+// sides of the tangent plane where they meet, and it takes all the speed along that.
+TEST(ObstacleContact, a_fast_sphere_does_not_pass_what_it_hits_aside) {
+  for (const char* step : {"1e-3", "1e-2"}) {
+    const double tolerance =
+        step == std::string("1e-3") ? 0.25 : 0.02; // a step's way is short: the plane over its end
+    for (double aside : {0.14, 0.16, 0.2, 0.28}) {
+      const auto scene = presets::load(
+          R"(<scene><body><sheet cells="1 1" size="0.001 0.001"/><place translate=")" + std::to_string(aside) +
+          R"( -0.0005 0"/><mass total="0.01"/><springs><stretch k="0.01"/></springs>
+          <contact thickness="0.002" friction="0"/></body><world gravity="0 0 0">
+          <sphere centre="0 0 0.31" radius="0.3" velocity="0 0 -70" mass="1"/></world>
+          <time step=")" +
+          step + R"(" duration="1"/></scene>)");
+      while (scene->time() < 0.0199) scene->step();
+      const double sine = aside / 0.302, cosine = std::sqrt(1 - sine * sine);
+      const Vec3 normal(sine, 0, -cosine), pushed = 70 * cosine / 1.01 * normal; // by a sphere of 1 kg
+      const Vec3 got = total_momentum(*scene.body().map, *scene.body().mass) / 0.01;
+      EXPECT_LT((got - pushed).norm(), tolerance * pushed.norm())
+          << aside << ' ' << step << ' ' << got.transpose();
+    }
+  }
+}
+
 TEST(ObstacleContact, spheres_are_caught_by_a_held_cloth_a_box_and_the_floor) {
   const auto scene = presets::load(R"(<scene><body><sheet pattern="triangles" cells="8 8" size="1 1"/>
       <place translate="0 0 1"/><mass total="0.2"/><springs><stretch k="200" damping="0.05"/></springs>
@@ -218,6 +252,45 @@ TEST(ObstacleContact, costs_a_body_nothing_that_meets_the_floor_alone) {
       presets::load(
           start + R"(<contact with="floor"/></body><world><sphere centre="0 0 0" radius="1"/></world>)" + end),
       UserError);
+}
+
+double total_energy(const presets::Loaded& scene) {
+  return scene->kinetic_energy() + scene->elastic_energy() + scene->gravity_energy();
+}
+
+// What is fixed along z alone gives way to a sphere from above no more than what is fixed altogether.
+TEST(ObstacleContact, a_sphere_rests_on_a_sheet_that_is_held_along_its_fall) {
+  const auto scene = presets::load(R"(<scene><body><sheet pattern="triangles" cells="12 12" size="1 1"/>
+      <place translate="0 0 0.5"/><mass total="0.2"/><springs><stretch k="200"/></springs>
+      <contact thickness="0.004"/><fix all="yes" axes="z"/></body>
+      <world><sphere centre="0.47 0.53 0.7" radius="0.12" mass="5"/></world><time step="1e-3" duration="0.6"/></scene>)");
+  const double start = total_energy(scene);
+  double last = start;
+  while (scene->time() < 0.6) {
+    scene->step();
+    ASSERT_LE(total_energy(scene), last + 1e-9 * start) << scene->time();
+    last = std::min(last, total_energy(scene));
+  }
+  EXPECT_NEAR(scene->world().spheres[0].centre.z(), 0.624, 0.003);
+  EXPECT_LT(scene->world().spheres[0].velocity.norm(), 0.02);
+}
+
+// Against the sum over the vertices of what holds them: none of the parts along x and y may be lost.
+TEST(ObstacleContact, what_is_held_along_one_axis_yields_along_the_others) {
+  const Vec3 u(0.3, -0.2, -2), n = Vec3(1, 2, 2) / 3;
+  for (double friction : {0.0, 0.4, 100.0}) {
+    for (const Vec3& yields : {Vec3(2, 2, 2), Vec3(2, 2, 0.5), Vec3(3, 0, 0), Vec3(0, 0, 0)}) {
+      const Impulse impulse = impact(u, n, friction, yields);
+      const Vec3 after = u + yields.cwiseProduct(impulse.whole());
+      const Vec3 pushed = u + yields.cwiseProduct(impulse.normal);
+      EXPECT_LE(impulse.whole().dot(u + after), 1e-12) << "its work";
+      EXPECT_LE(impulse.friction.norm(), friction * impulse.normal.norm() + 1e-12);
+      if (yields.isZero()) continue;
+      EXPECT_NEAR(pushed.dot(n), 0, 1e-12);
+      const bool sticks = friction == 100 && yields.x() == yields.z();
+      EXPECT_LT(after.norm(), sticks ? 1e-12 : 1e300);
+    }
+  }
 }
 
 // The faces beside the clamp touch it, and only one of their vertices can move: it must not be thrown about for it.
