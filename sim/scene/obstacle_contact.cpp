@@ -9,6 +9,8 @@ namespace {
 constexpr int sweeps = 8;
 constexpr int passes = 2;            // over faces: what one puts out, its neighbour may put in
 constexpr double touching = 1e-9;    // [m]
+constexpr double relaxation = 0.05;  // [s], of what was inside at the start of the step
+constexpr double fastest = 0.1;      // [m/s], of that
 constexpr double own_friction = 0.5; // between obstacles that say nothing of it
 
 using Bounds = Eigen::AlignedBox3d;
@@ -21,6 +23,9 @@ struct MovingSphere {
     const Vec3 reach = Vec3::Constant(sphere->radius + margin);
     Bounds box(sphere->next_centre - reach, sphere->next_centre + reach);
     return box.extend(sphere->centre - reach).extend(sphere->centre + reach);
+  }
+  double depth(const Vec3& from, double margin) const {
+    return sphere->radius + margin - (from - sphere->centre).norm();
   }
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
     const Vec3 a = from - sphere->centre, b = to - sphere->next_centre;
@@ -36,6 +41,9 @@ struct StandingBox {
   Vec3 velocity() const { return Vec3::Zero(); }
   Bounds bounds(double margin) const {
     return {box->low - Vec3::Constant(margin), box->high + Vec3::Constant(margin)};
+  }
+  double depth(const Vec3& from, double margin) const {
+    return margin + std::min((from - box->low).minCoeff(), (box->high - from).minCoeff());
   }
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
     return box->stop(from, to, margin);
@@ -68,7 +76,7 @@ void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Ou
     if (!body.alive(v)) continue;
     const auto plane = shape.stop(body.from(v), to, margin);
     if (!plane) continue;
-    f(ContactPoint::at(body, v), *plane);
+    f(ContactPoint::at(body, v), *plane, shape.depth(body.from(v), margin));
     codes[v] = outside(near, body.position(v));
   }
 }
@@ -84,33 +92,39 @@ void for_each_face(const Shape& shape, const ContactBody& body, const std::vecto
     const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
     if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
     const auto plane = shape.stop(point.from(), point.position(), margin);
-    if (plane) f(point, *plane);
+    if (plane) f(point, *plane, shape.depth(point.from(), margin));
   }
 }
 
-// By positions alone.
-void put_out(const ContactPoint& point, const Plane& plane) {
-  const double gap = plane.normal.dot(point.position()) - plane.offset;
+// How deep [m] a point may still be at the end of a step that was as deep as `before` at its start.
+double still_deep(double before, double step) {
+  return before > 0 ? before - std::min(before * std::min(1.0, step / relaxation), fastest * step) : 0;
+}
+
+// By positions alone, but for a depth that is kept [m].
+void put_out(const ContactPoint& point, const Plane& plane, double kept) {
+  const double gap = plane.normal.dot(point.position()) - plane.offset + kept;
   if (gap < 0) point.shift(-gap / yield_along(plane.normal, point.inverse_mass()) * plane.normal);
 }
 
 // Puts a point out of an obstacle that does not yield.
-void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacle, double friction,
+void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacle, double friction, double kept,
               double step) {
   if (plane.normal.dot(point.position()) >= plane.offset || point.held(plane.normal)) return;
   const Impulse impulse = impact(point.velocity() - obstacle, plane.normal, friction, point.inverse_mass());
   point.push(impulse.whole(), 0);
   point.shift(step * impulse.friction);
-  put_out(point, plane);
+  put_out(point, plane, kept);
 }
 
 template <class Shape>
 void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, double friction,
                    double step, bool falls) {
   const Vec3 velocity = shape.velocity();
-  const auto act = [&](const ContactPoint& point, const Plane& plane) {
-    if (!falls) return keep_out(point, plane, velocity, friction, step);
-    if (!point.held(plane.normal)) put_out(point, plane); // momentum was traded before
+  const auto act = [&](const ContactPoint& point, const Plane& plane, double before) {
+    const double kept = still_deep(before, step);
+    if (!falls) return keep_out(point, plane, velocity, friction, kept, step);
+    if (!point.held(plane.normal)) put_out(point, plane, kept); // momentum was traded before
   };
   for_each_vertex(shape, body, codes, act);
   for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, codes, act);
@@ -176,7 +190,7 @@ void ObstacleContact::trade(const std::vector<std::unique_ptr<ContactBody>>& bod
 void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) {
   const Sphere& sphere = world_.spheres[number];
   const double friction = sphere.friction.value_or(body.settings().friction);
-  const auto keep = [&](const ContactPoint& point, const Plane& plane) {
+  const auto keep = [&](const ContactPoint& point, const Plane& plane, double) {
     touches_.push_back({number, point, plane.normal, friction, point.held(plane.normal)});
   };
   for_each_vertex(MovingSphere{&sphere}, body, codes_, keep);
