@@ -276,7 +276,8 @@ std::size_t Scene::tears() const {
 double Scene::kinetic_energy() const {
   double sum = 0;
   for (const auto& body : bodies_) sum += rend::kinetic_energy(*body->map, *body->mass);
-  for (const Sphere& s : world_.spheres) sum += 0.5 * s.mass * s.velocity.squaredNorm();
+  for (const Sphere& s : world_.spheres)
+    if (s.falls()) sum += 0.5 * s.mass * s.velocity.squaredNorm();
   return sum;
 }
 double Scene::elastic_energy() const {
