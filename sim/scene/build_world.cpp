@@ -32,7 +32,7 @@ const ElementType& sphere_type() {
       "sphere",
       "a rigid sphere, for bodies with <contact>",
       {numbers("centre", 3, "m", "at the start").is_required(),
-       number("radius", "m", "its size").above(0).is_required(),
+       number("radius", "m", "its size").above(0).at_most(1e30).is_required(),
        numbers("velocity", 3, "m/s", "constant; with a mass: at the start").otherwise("0 0 0"),
        number("mass", "kg", "if given, it falls, and is pushed back by what it meets").above(0), friction(),
        text("colour", "#rrggbb").otherwise("#c9a227")},
