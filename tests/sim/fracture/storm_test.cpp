@@ -71,6 +71,8 @@ TEST(Storm, on_sheets_of_many_sides_and_without_sides_leaves_a_valid_map) {
 
 TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
   for (const By& way : every_way()) {
+    // The ends of an edge are told by the slots of before all changes: one after the other is not the same there.
+    if (way.change == "split-vertex" && way.cell == Cell::Edges) continue;
     for (std::size_t m = 0; m < elements::irregular_maps().size(); ++m) {
       auto maps = elements::irregular_maps(), twins = elements::irregular_maps();
       SCOPED_TRACE(way.change + " on " + maps[m].name);
@@ -93,6 +95,7 @@ TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
         for (std::size_t e = first; e < body->events.size(); ++e) {
           const TearEvent& event = body->events[e];
           const By by = event.law == 0 ? way : By{"separate", Cell::Borders};
+          if (noted == e) twin->evaluate(); // a law looks at forces once, and then makes its changes
           for (; noted < body->events.size() && body->events[noted].law == event.law; ++noted)
             cells.push_back(cell_of(*twin, by.cell, body->events[noted].dart));
           const auto candidate = std::find_if(told.begin(), told.end(), [&](const Candidate& c) {

@@ -142,7 +142,8 @@ inline std::vector<Dart> cell_of(const Body& body, Cell cell, Dart d) {
   return darts_of(body.map->map(), orbit_of(cell, body.map->dimension()), d);
 }
 
-// Makes one change as a law would, on what is left of a cell; false: it was not possible.
+// Makes one change as a law would, on what is left of a cell, by the forces that were last evaluated; false: it was not
+// possible.
 inline bool make(Body& body, const std::string& name, Cell cell, const Candidate& candidate,
                  std::vector<Dart> darts) {
   bool made = false;
@@ -150,12 +151,13 @@ inline bool make(Body& body, const std::string& name, Cell cell, const Candidate
   std::erase_if(darts, [&](Dart d) { return !body.map->map().alive(d); });
   body.map->edit([&](Edit& edit) { made = change(name).apply(edit, view, cell, candidate, darts); });
   body.rebind();
-  body.evaluate();
   return made;
 }
 
 inline bool make(Body& body, const std::string& name, Cell cell, const Candidate& candidate) {
-  return make(body, name, cell, candidate, cell_of(body, cell, candidate.dart));
+  const bool made = make(body, name, cell, candidate, cell_of(body, cell, candidate.dart));
+  body.evaluate();
+  return made;
 }
 
 // The dart of the cell whose middle is nearest, at rest.
