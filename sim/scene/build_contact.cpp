@@ -1,6 +1,9 @@
 #include "sim/scene/build_contact.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 
@@ -22,15 +25,28 @@ const ElementType& contact_type() {
 
 namespace {
 
-void say_what_it_passes(Body& body, const World& world) {
-  if (world.floor)
-    body.left_out.push_back("contact: the floor is drawn, and this body falls through it (no <contact>)");
-  else if (world.has_obstacles())
-    body.left_out.push_back(
-        "contact: spheres and boxes are drawn, and this body passes through (no <contact>)");
-  else
-    return;
+void say_what_it_passes(Body& body, const World& world, bool floor, bool obstacles) {
+  const bool through_floor = world.floor && !floor, through_obstacles = world.has_obstacles() && !obstacles;
+  if (!through_floor && !through_obstacles) return;
+  body.left_out.push_back(
+      fmt::format("contact: {} drawn, and this body passes through ({})",
+                  through_floor && through_obstacles ? "floor, spheres and boxes are"
+                  : through_floor                    ? "the floor is"
+                                                     : "spheres and boxes are",
+                  body.node->child("contact") ? "with of its <contact> names other things" : "no <contact>"));
   body.notes.push_back(body.left_out.back());
+}
+
+// What is below the floor is lifted onto it in the first step, which strains it.
+void say_what_starts_below(Body& body, double height) {
+  double lowest = height;
+  for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)
+    if (body.map->cells(Vertex).alive(v)) lowest = std::min(lowest, body.map->rest()[v].z);
+  const double depth = height - lowest;
+  if (depth <= 1e-6 * std::abs(height) + 1e-9) return;
+  body.notes.push_back(fmt::format("contact: it starts {:.3g} m below where the floor holds it (thickness "
+                                   "counted), and is lifted there at once, which strains it: place it higher",
+                                   depth));
 }
 
 ContactSettings settings_of(const Node& contact) {
@@ -64,13 +80,15 @@ void check_world(const Node& contact, const ContactSettings& settings, const Wor
 
 void build_contact(Body& body, const Node& node, const World& world) {
   const Node* contact = node.child("contact");
-  if (!contact) return say_what_it_passes(body, world);
+  if (!contact) return say_what_it_passes(body, world, false, false);
   ContactSettings settings = settings_of(*contact);
   check_world(*contact, settings, world);
+  say_what_it_passes(body, world, settings.floor, settings.obstacles);
   settings.obstacles = settings.obstacles && world.has_obstacles();
   if (settings.floor && world.floor)
     body.floor_contact =
         FloorContact{*world.floor + settings.thickness, world.floor_friction.value_or(settings.friction)};
+  if (body.floor_contact) say_what_starts_below(body, body.floor_contact->height);
   body.contact = settings;
 }
 

@@ -23,7 +23,10 @@ const ElementType& tear_type() {
         "tear",
         "a law: where the criterion exceeds the threshold, the change is made",
         {word("criterion", criteria, what).is_required(),
-         number("threshold", "N", "the value above which it tears; rend run --events tells what was reached")
+         number("threshold", "",
+                "the value above which it tears, in newtons, of stresses in pascals, of strains a ratio; a low "
+                "one "
+                "and rend run --events tell what is reached")
              .above(0)
              .is_required(),
          word("kind", {"stretch", "shear", "bend"}, "of springs: which of them are measured"),
@@ -61,7 +64,8 @@ LawSettings law_settings(const Node& node, const Body& body) {
     node.fail("kind", fmt::format("a kind means nothing to the criterion '{}'", law.criterion->name),
               "atomic-spring and strain look at springs of a kind");
   if (law.compression && !law.criterion->takes_compression)
-    node.fail("compression", fmt::format("compression means nothing to the criterion '{}'", law.criterion->name),
+    node.fail("compression",
+              fmt::format("compression means nothing to the criterion '{}'", law.criterion->name),
               "forces count by magnitude; stresses and strains have a sign");
   const CriterionRequest request = body.request_for(law);
   if (const std::string lacking = law.criterion->lacking(request); !lacking.empty())
