@@ -192,6 +192,40 @@ void ElementScan::scan(const Continuum::Part& part, const PackedRows& rows, cons
   run_kind(part.law->shape().kind, {rows, part.law->first_point(), position, bound, keys_});
 }
 
+namespace {
+
+class LargestOfElements final : public Criterion {
+public:
+  LargestOfElements(const CriterionRequest& request, ElementScan::Of quantity)
+      : scan_(request, quantity), tensor_of_(quantity == ElementScan::Of::Stress ? &stress_of : &strain_of),
+        compression_(request.compression) {}
+
+  void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
+    scan_.each_above(view, threshold, [&](Dart d) {
+      scan_.continuum().each_of(
+          d, view.position, nullptr, [&](const Continuum::Part& part, const UnitNow& now) {
+            const double value = largest_principal(tensor_of_(part, now), compression_).value;
+            if (value > threshold) candidates.push_back({value, d});
+          });
+    });
+  }
+
+  void rebind(const Changes& changes) override { scan_.rebind(changes); }
+  void reserve_for_separations() override { scan_.reserve_for_separations(); }
+  std::size_t bytes() const override { return scan_.bytes(); }
+
+private:
+  ElementScan scan_;
+  Eigen::Matrix3d (*tensor_of_)(const Continuum::Part&, const UnitNow&); // σ [Pa] or ε, in world space
+  bool compression_;
+};
+
+} // namespace
+
+std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request, ElementScan::Of quantity) {
+  return std::make_unique<LargestOfElements>(request, quantity);
+}
+
 std::string lacking_for_stress(const CriterionRequest& request) {
   if (!Continuum(request.map, request.interactions).empty()) return {};
   return "looks at the elements of a continuum, and this body has no <elasticity>";

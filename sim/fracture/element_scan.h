@@ -56,6 +56,9 @@ private:
   std::vector<std::size_t> keys_;
 };
 
+// The criterion on each element by itself: its largest principal value, on Elements.
+std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request, ElementScan::Of quantity);
+
 // What a body lacks for its elements to have a stress, as a sentence; empty: nothing.
 std::string lacking_for_stress(const CriterionRequest& request);
 

@@ -29,30 +29,6 @@ private:
   bool compression_;
 };
 
-class ElementStrain final : public Criterion {
-public:
-  explicit ElementStrain(const CriterionRequest& request)
-      : scan_(request, ElementScan::Of::Strain), compression_(request.compression) {}
-
-  void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
-    scan_.each_above(view, threshold, [&](Dart d) {
-      scan_.continuum().each_of(
-          d, view.position, nullptr, [&](const Continuum::Part& part, const UnitNow& now) {
-            const double value = largest_principal(strain_of(part, now), compression_).value;
-            if (value > threshold) candidates.push_back({value, d});
-          });
-    });
-  }
-
-  void rebind(const Changes& changes) override { scan_.rebind(changes); }
-  void reserve_for_separations() override { scan_.reserve_for_separations(); }
-  std::size_t bytes() const override { return scan_.bytes(); }
-
-private:
-  ElementScan scan_;
-  bool compression_;
-};
-
 std::string lacking(const CriterionRequest& request) {
   if (request.kind.empty()) {
     if (lacking_for_stress(request).empty()) return {};
@@ -79,7 +55,7 @@ CriterionType strain() {
       },
       &lacking,
       [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
-        if (request.kind.empty()) return std::make_unique<ElementStrain>(request);
+        if (request.kind.empty()) return largest_of_elements(request, ElementScan::Of::Strain);
         return std::make_unique<SpringStrain>(request);
       },
       false,
