@@ -48,7 +48,7 @@ private:
 
   std::array<std::size_t, 4> touched_{}; // of the journal's lists: how much was read
   std::size_t removed_read_ = 0;
-  std::vector<Undoing> changes_;
+  std::vector<Undoing> changes_;             // one per change noted
   std::vector<std::pair<Dart, Dart>> pairs_; // that let go of each other, change after change
   std::vector<Dart> removed_;                // change after change
 

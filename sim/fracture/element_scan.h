@@ -53,7 +53,7 @@ private:
   Of quantity_;
   bool compression_;
   std::vector<std::optional<Binder>> again_; // rows of parts that the program has none of
-  std::vector<std::size_t> keys_;
+  std::vector<std::size_t> keys_;            // scratch: of rows that may exceed the threshold
 };
 
 // The criterion on each element by itself: its largest principal value, on Elements.

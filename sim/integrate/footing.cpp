@@ -154,4 +154,15 @@ bool turns_with_body(System& system, double time, const Records& position, doubl
   return true;
 }
 
+double mean_stiffness(const BlockMatrix& matrix, const double* inverse_mass, std::size_t count) {
+  double mass = 0, stiff = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (inverse_mass[i] == 0) continue;
+    const Block3& d = matrix.diagonal(i);
+    mass += 1 / inverse_mass[i];
+    stiff += (d(0, 0) + d(1, 1) + d(2, 2)) / 3;
+  }
+  return stiff / mass;
+}
+
 } // namespace rend

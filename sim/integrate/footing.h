@@ -38,4 +38,7 @@ double stiffness_of(const Block3& diagonal); // the largest diagonal entry [N/m]
 // The longest side of the box around all vertices [m].
 double extent(const Records& position, const double* inverse_mass);
 
+// [1/s²]: the mean of the diagonal for each unit of mass. inverse_mass: [1/kg], one per vertex slot, 0: free slot.
+double mean_stiffness(const BlockMatrix& matrix, const double* inverse_mass, std::size_t count);
+
 } // namespace rend

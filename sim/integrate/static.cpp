@@ -16,14 +16,15 @@
 //    under all at once.
 //
 // An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. What rounding
-// positions makes of F is taken where F is; far away it could exceed all forces, and anything would count: so it
-// is at most 1e-6 of them, or what it is within the reach of the step under the stiffness at its start (a body
-// without forces has no other measure). Newton's method must also find the tangent positive there: what buckles is not left upright. (Not asked where loads follow the
-// body: a strip bent to a circle by a moment is stable, while the part of its tangent without the load is not
-// positive, and the whole is not symmetric.) Relaxing goes downhill, and stays on a ridge only where symmetry
-// gives it no side. A piece that can move off as a whole is refused, and so is one that can turn in a model of
-// small displacements, where f does not turn with the body: no turn ever meets a resistance. Once the body has stood,
-// what comes off it is no reason to stop: such a piece takes its own shape where it is, without loads.
+// positions makes of F is taken where F is; far away it could exceed all forces, and anything would count: so
+// it is at most 1e-6 of them, or what it is within the reach of the step under the stiffness at its start (a
+// body without forces has no other measure). Newton's method must also find the tangent positive there: what
+// buckles is not left upright. (Not asked where loads follow the body: a strip bent to a circle by a moment is
+// stable, while the part of its tangent without the load is not positive, and the whole is not symmetric.)
+// Relaxing goes downhill, and stays on a ridge only where symmetry gives it no side. A piece that can move off
+// as a whole is refused, and so is one that can turn in a model of small displacements, where f does not turn
+// with the body: no turn ever meets a resistance. Once the body has stood, what comes off it is no reason to
+// stop: such a piece takes its own shape where it is, without loads.
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/load_tangent.h"
@@ -72,7 +73,6 @@ private:
   Found newton(double part);
   bool in_parts_of_the_way();
   bool loads_first();
-  double mean_stiffness() const;
   bool direction(Tangent tangent, double sigma, double part);
   bool relax(double part);
   bool without_turns(const StateView& now);
@@ -270,17 +270,6 @@ bool StaticSolve::in_parts_of_the_way() {
   return gone == 1;
 }
 
-double StaticSolve::mean_stiffness() const { // [1/s²], for each unit of mass
-  double mass = 0, stiff = 0;
-  for (std::size_t i = 0; i < position_.size(); ++i) {
-    if (system_->inverse_mass[i] == 0) continue;
-    const Block3& d = matrix_.diagonal(i);
-    mass += 1 / system_->inverse_mass[i];
-    stiff += (d(0, 0) + d(1, 1) + d(2, 2)) / 3;
-  }
-  return stiff / mass;
-}
-
 // From position_ along a tangent that σ [1/s²] makes stiffer, into trial_; false: not downhill.
 bool StaticSolve::direction(Tangent tangent, double sigma, double part) {
   linearise(position_, tangent);
@@ -302,7 +291,8 @@ bool StaticSolve::relax(double part) {
   first_sum_.assign(position_.size(), Record{});
   evaluate(position_);
   linearise(position_, Tangent::Definite);
-  const double mean = mean_stiffness(), most = first_sigma * mean, least = least_sigma * mean;
+  const double mean = mean_stiffness(matrix_, system_->inverse_mass, position_.size()),
+               most = first_sigma * mean, least = least_sigma * mean;
   double far = most, close = 1e-6 * mean; // σ of the definite tangent, and of the exact one [1/s²]
   double tried = 0.1 * norm_;             // [N]: where Newton's method is tried
   bool helped = true;                     // the last direction

@@ -51,8 +51,8 @@ private:
   }
 
   const EmbeddedMap* map_;
-  std::vector<Part> parts_;
-  std::vector<std::unique_ptr<Interaction>> again_;
+  std::vector<Part> parts_;                         // of each kind of element, in the order of the interactions
+  std::vector<std::unique_ptr<Interaction>> again_; // those that were made again
 };
 
 inline Eigen::Matrix3d stress_of(const Continuum::Part& part, const UnitNow& element) { // σ [Pa]
@@ -85,9 +85,9 @@ private:
   const EmbeddedMap* map_;
   const Continuum* continuum_;
   const MassColumn* mass_;
-  IndexMap place_; // element slot → place in sums_
-  std::vector<Sum> sums_;
-  std::vector<Dart> corners_;
+  IndexMap place_;            // element slot → place in sums_
+  std::vector<Sum> sums_;     // one per element that was asked for since clear()
+  std::vector<Dart> corners_; // scratch: the smallest dart of each corner at a vertex
 };
 
 // The largest eigenvalue of a symmetric tensor and its unit eigenvector, whose largest component is positive; with

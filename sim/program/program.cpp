@@ -185,7 +185,8 @@ void Program::corner_forces(const Record* position, const Record* velocity, Reco
 // A unit that acts on a corner has a row in a block whose range holds the corner's vertex.
 void Program::corner_forces_at(const std::vector<std::uint8_t>& mark, const Record* position,
                                const Record* velocity, Record* corner) const {
-  std::vector<std::uint32_t> marks(mark.size() + 1, 0); // of vertices before each
+  thread_local std::vector<std::uint32_t> marks; // of the vertex slots before each, and at last of all
+  marks.assign(mark.size() + 1, 0);
   for (std::size_t v = 0; v < mark.size(); ++v) marks[v + 1] = marks[v] + mark[v];
   const auto concerned = [&](const PackedRows& rows, std::size_t block) {
     const PackedRows::Range range = rows.range(block);

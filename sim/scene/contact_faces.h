@@ -29,7 +29,7 @@ private:
   void list();
   EmbeddedMap& map_;
   Changes changes_;
-  std::vector<Triangle> triangles_;
+  std::vector<Triangle> triangles_; // by increasing face slot, a face's own one after another
 };
 
 } // namespace rend

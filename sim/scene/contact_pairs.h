@@ -54,9 +54,9 @@ private:
   bool allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const;
   bool joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const;
 
-  std::vector<Of> of_; // one per body
-  std::vector<ContactPair> pairs_;
-  double skin_ = 0; // [m]
+  std::vector<Of> of_;             // one per body
+  std::vector<ContactPair> pairs_; // of the last search, sorted
+  double skin_ = 0;                // [m]
   bool listed_ = false;
   long searches_ = 0;
 };
