@@ -22,6 +22,10 @@ enum class Line : std::uint8_t {
   Crease = 4, // a sharp edge of a solid
 };
 
+inline std::array<float, 3> as_floats(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
 // One corner of a drawn triangle: 32 bytes, uploaded as it is.
 struct Corner {
   std::array<float, 3> position;      // [m]

@@ -11,10 +11,6 @@ constexpr int sphere_segments = 16; // to an eighth of a turn: 0.06 % of the rad
 constexpr int box_segments = 3;
 constexpr double rounding = 0.02; // of a box's edges, in shares of its smallest size
 
-std::array<float, 3> as_floats(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 // Along one side of a cube: from −1 to 1, and 0 twice, once for each half.
 struct Tick {
   double at, half; // half: −1, 1

@@ -21,10 +21,6 @@ static_assert(static_cast<int>(Side::Inner) == static_cast<int>(Line::None) &&
               static_cast<int>(Side::Torn) == static_cast<int>(Line::Torn) &&
               static_cast<int>(Side::Crease) == static_cast<int>(Line::Crease));
 
-std::array<float, 3> as_floats(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const std::array<Side, 3>& side) {
   const auto line = [&](std::size_t k) { return static_cast<std::uint8_t>(side[k]); };
   return {
