@@ -239,6 +239,7 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
                {"integrator", scene.scheme().name},
                {"step", scene.step_size()},
                {"steps", scene.steps_done()},
+               {"evaluations", scene.evaluations()},
                {"time", scene.time()},
                {"vertices", vertices},
                {"elements", elements},
@@ -281,6 +282,7 @@ std::string summary_of(const Json& f) {
   out += laws_in_words(f["laws"]);
   out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n",
                      number("energy", "kinetic"), number("energy", "elastic"), number("energy", "gravity"));
+  out += fmt::format("  forces     evaluated {} times\n", f["evaluations"].get<long>());
   out += "  rows       ";
   for (const auto& [name, rows] : f["rows"].items())
     out += fmt::format("{}{} {}", name == f["rows"].items().begin().key() ? "" : ", ", rows.get<std::size_t>(),

@@ -5,6 +5,7 @@
 #include "sim/mechanics/law.h"
 #include "sim/program/block_matrix.h"
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct State {
     velocity.resize(vertices);
   }
 
-  // Writes the new state of a vertex, and looks on the way whether it is finite: 0 times what is not is not 0.
+  // Writes the new state of a vertex, and looks on the way how fast it is and whether it is finite: 0 times what is
+  // not is not 0.
   REND_INLINE void put(std::size_t i, Double4 x, Double4 v) {
     if (large) {
       stream(position[i], x);
@@ -28,9 +30,13 @@ struct State {
       store(position[i], x);
       store(velocity[i], v);
     }
-    probe += 0.0 * (x + v);
+    probe += v * v + 0.0 * x;
   }
-  bool finite() const { return probe[0] + probe[1] + probe[2] == 0; }
+
+  // Σ |v|² over all vertex slots [m²/s²], as far as they were put; not finite where a number of the state is not.
+  double motion() const { return probe[0] + probe[1] + probe[2]; }
+  bool finite() const { return std::isfinite(motion()); }
+  void look(); // the same of what was written without put()
   Double4 probe{};
   bool large = false; // more than the caches hold
 };

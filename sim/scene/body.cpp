@@ -49,11 +49,15 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads) {
 
 void Body::forces(double time, const Record* position, const Record* velocity, Record* out) {
   program->forces(position, velocity, out);
+  ++evaluations;
+  if (faulty.armed(StepStage::Forces)) faulty.spoil(program->inverse_mass(), vertices(), out);
   outer(time, position, velocity);
 }
 
 void Body::outer(double time, const Record* position, const Record* velocity) {
   load = loads.evaluate(*map, time, position, velocity);
+  if (load && faulty.armed(StepStage::Loads))
+    load = faulty.spoil_copy(program->inverse_mass(), vertices(), load);
 }
 
 void Body::constrain(double time, Record* position, Record* velocity) {
@@ -80,7 +84,9 @@ void Body::evaluate() {
     program->forces(x, v, force.data());
   else
     program->corner_forces(x, v, corner_force.data(), force.data());
-  load = loads.evaluate(*map, time_, x, v);
+  ++evaluations;
+  if (faulty.armed(StepStage::Forces)) faulty.spoil(inverse_mass, vertices(), force.data());
+  outer(time_, x, v);
 }
 
 ForceView Body::view() const {
@@ -146,10 +152,16 @@ void Body::advance(double time, double step) {
   next_time_ = time + step;
   const StateView now{map->position().values().data(), map->velocity().values().data()};
   integrator->advance(*this, time, step, now, force.data(), next);
+  if (faulty.armed(StepStage::Integration)) spoil_next();
   if (next.large) finish_streams(); // other threads are going to read them
   if (!floor_contact) return;
   floor_contact->apply(next, step);
   constrain(time + step, next.position.data(), next.velocity.data()); // what is prescribed yields to no floor
+}
+
+void Body::spoil_next() {
+  faulty.spoil(program->inverse_mass(), vertices(), next.velocity.data());
+  next.look();
 }
 
 void Body::rebind() {

@@ -7,6 +7,7 @@
 #include "sim/scene/answer.h"
 #include "sim/scene/constraint.h"
 #include "sim/scene/contact.h"
+#include "sim/scene/fault.h"
 #include "sim/scene/load.h"
 
 #include <map>
@@ -63,8 +64,8 @@ struct Body final : System {
   Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
   std::function<void(bool made)> witness; // called before and after a law makes its changes; may be empty
-  std::unique_ptr<Births> births; // null: nobody asks how many fragments each change left
-  std::optional<double> gone;     // [s], when the last element was deleted; the body goes on with nothing
+  std::unique_ptr<Births> births;         // null: nobody asks how many fragments each change left
+  std::optional<double> gone; // [s], when the last element was deleted; the body goes on with nothing
 
   ~Body() override;
   bool tears() const { return !laws.empty(); }
@@ -92,8 +93,11 @@ struct Body final : System {
   void advance(double time, double step); // the current state to `next`
   void rebind();                          // program, constraints, laws
   void commit();                          // takes `next`
+  void spoil_next();                      // as `faulty` says
 
   double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
+  long evaluations = 0; // of the internal forces so far, but for those that probes ask for
+  FaultySpot faulty;
 
 private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);

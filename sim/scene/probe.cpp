@@ -58,7 +58,8 @@ Vec3 Probe::reaction(Body& body) const {
   const double time = body.time();
   const Record *x = map.position().values().data(), *v = map.velocity().values().data();
   std::vector<Record> force(body.vertices());
-  body.forces(time, x, v, force.data());
+  body.program->forces(x, v, force.data());
+  body.outer(time, x, v);
   const double *inverse_mass = body.program->inverse_mass(), *drag_rate = body.program->drag_rate();
   Vec3 sum = Vec3::Zero();
   for (Slot s : vertices(map)) {

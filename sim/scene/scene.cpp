@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <set>
@@ -25,7 +26,7 @@ constexpr long checked = 32, checked_at = 7;
 
 } // namespace
 
-Scene::Scene(const Node& preset, const SceneOptions& options) {
+Scene::Scene(const Node& preset, const SceneOptions& options) : fault_(options.fault) {
   const double start = now();
   name_ = preset.text("name");
   world_ = build_world(preset.child("world"));
@@ -125,6 +126,7 @@ void Scene::step() {
     seconds_.*stage += at - last;
     last = at;
   };
+  if (fault_ && fault_->step <= steps_done_) arm_fault();
   for (auto& body : bodies_) body->evaluate();
   lap(&StageSeconds::forces);
   const double tearing = tearing_seconds();
@@ -193,6 +195,21 @@ void Scene::advance() {
     }
   }
   if (contacts_) contacts_->advance(time(), step_);
+  for (auto& body : bodies_)
+    if (body->faulty.armed(StepStage::Contact)) body->spoil_next();
+}
+
+// The fault's step begins, or is over.
+void Scene::arm_fault() {
+  const auto has = [&](const std::unique_ptr<Body>& body) {
+    return body->map->map().dart_count() > 0 && (fault_->stage != StepStage::Loads || !body->loads.empty());
+  };
+  const auto body = std::find_if(bodies_.begin(), bodies_.end(), has);
+  const bool now = fault_->step == steps_done_;
+  if (now && body != bodies_.end()) (*body)->faulty.arm(*fault_);
+  if (!now)
+    for (auto& each : bodies_) each->faulty.disarm();
+  if (!now || !fault_->lasting) fault_.reset();
 }
 
 void Scene::check() const {
@@ -270,6 +287,12 @@ void Scene::stop(const Body& body, const std::string& what, const std::string& h
 std::size_t Scene::tears() const {
   std::size_t count = 0;
   for (const auto& body : bodies_) count += body->events.size();
+  return count;
+}
+
+long Scene::evaluations() const {
+  long count = 0;
+  for (const auto& body : bodies_) count += body->evaluations;
   return count;
 }
 

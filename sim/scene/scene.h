@@ -12,6 +12,8 @@ struct SceneOptions {
   bool walk = false; // --kernels walk
   int threads = 1;
   bool births = false; // events tell how many fragments there are
+  bool guard = true;   // false: what goes wrong is not redone; what is not finite still stops the run
+  std::optional<Fault> fault = {};
 };
 
 // Wall-clock seconds by stage; those of step() are sampled every few steps and scaled up.
@@ -48,6 +50,7 @@ public:
   void check_sound() const;
 
   std::size_t tears() const;
+  long evaluations() const; // of internal forces, of all bodies, for all steps so far
   // Of bodies, and of spheres that fall.
   double kinetic_energy() const;
   double elastic_energy() const;
@@ -72,6 +75,7 @@ private:
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
   void advance();
+  void arm_fault();
 
   std::string name_;
   World world_;
@@ -85,6 +89,7 @@ private:
   std::vector<std::string> notes_;
   Place step_place_; // of time.step in the preset
   StageSeconds seconds_;
+  std::optional<Fault> fault_;
 };
 
 } // namespace rend

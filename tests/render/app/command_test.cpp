@@ -106,10 +106,11 @@ TEST_F(Program, PrintsItsFiguresUnderTheNamesOfTheContract) {
   const Outcome outcome = place.rend("run pulled.xml --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const nlohmann::json f = outcome.json();
-  for (const char* key :
-       {"preset",   "integrator",       "step",   "steps",   "time",    "vertices", "elements",
-        "darts",    "fragments",        "tears",  "stopped", "seconds", "energy",   "mass",
-        "momentum", "angular_momentum", "probes", "bytes",   "rows",    "hash"})
+  for (const char* key : {"preset",   "integrator",       "step",     "steps",  "evaluations",
+                          "time",     "vertices",         "elements", "darts",  "fragments",
+                          "tears",    "stopped",          "seconds",  "energy", "mass",
+                          "momentum", "angular_momentum", "probes",   "bytes",  "rows",
+                          "hash"})
     EXPECT_TRUE(f.contains(key)) << key;
   for (const char* key : {"total", "build", "bind", "step", "forces", "criteria", "change", "rebind", "surface",
                           "draw", "png", "video"})
