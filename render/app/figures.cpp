@@ -218,6 +218,17 @@ Json solver_json(const Scene& scene) {
           {"bytes", all.bytes}};
 }
 
+// How an adaptive integrator cut its steps, over all bodies.
+Json adaptive_json(const Scene& scene) {
+  long parts = 0, rejected = 0;
+  for (const auto& body : scene.bodies()) {
+    const SolverFigures one = body->integrator->solver();
+    parts += one.parts;
+    rejected += one.rejected;
+  }
+  return {{"parts", parts}, {"rejected", rejected}};
+}
+
 } // namespace
 
 std::size_t fragments_of(const Scene& scene) {
@@ -263,6 +274,7 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
   figures["bytes"] = bytes_json(scene, costs);
   figures["rows"] = rows_json(scene);
   if (Json solver = solver_json(scene); !solver.is_null()) figures["solver"] = std::move(solver);
+  if (scene.scheme().adaptive) figures["adaptive"] = adaptive_json(scene);
   figures["hash"] = fmt::format("{:016x}", scene.hash());
   return figures;
 }
@@ -292,6 +304,9 @@ std::string summary_of(const Json& f) {
     out += fmt::format("\n  solver     {} Newton iterations, {} of conjugate gradients, {} factorisations",
                        f["solver"]["newton"].get<long>(), f["solver"]["cg"].get<long>(),
                        f["solver"]["factorisations"].get<long>());
+  if (f.contains("adaptive"))
+    out += fmt::format("\n  adaptive   {} parts of steps, {} more rejected for their error",
+                       f["adaptive"]["parts"].get<long>(), f["adaptive"]["rejected"].get<long>());
   std::size_t bytes = 0;
   for (const char* part : {"map", "embeddings", "program", "surface"})
     bytes += f["bytes"][part].get<std::size_t>();

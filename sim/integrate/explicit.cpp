@@ -26,12 +26,13 @@ class ExplicitEuler final : public Integrator {
 } // namespace
 
 Scheme explicit_euler() {
-  return {"explicit",
-          "explicit Euler: stable through damping alone",
-          1,
-          1,
-          &limit_by_drag,
-          []() -> std::unique_ptr<Integrator> { return std::make_unique<ExplicitEuler>(); }};
+  return {
+      "explicit",
+      "explicit Euler: stable through damping alone",
+      1,
+      1,
+      &limit_by_drag,
+      [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<ExplicitEuler>(); }};
 }
 
 } // namespace rend

@@ -239,13 +239,14 @@ void ImplicitEuler::advance(System& system, double time, double size, const Stat
 } // namespace
 
 Scheme implicit_euler() {
-  return {"implicit",
-          "implicit Euler, by Newton's method: stable at any step, damps what is fast",
-          1,
-          2,
-          [](const StabilityBounds&) { return std::numeric_limits<double>::infinity(); },
-          []() -> std::unique_ptr<Integrator> { return std::make_unique<ImplicitEuler>(); },
-          true};
+  return {
+      "implicit",
+      "implicit Euler, by Newton's method: stable at any step, damps what is fast",
+      1,
+      2,
+      [](const StabilityBounds&) { return std::numeric_limits<double>::infinity(); },
+      [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<ImplicitEuler>(); },
+      true};
 }
 
 } // namespace rend

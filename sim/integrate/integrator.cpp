@@ -1,14 +1,21 @@
 #include "sim/integrate/integrator.h"
 
+#include "sim/base/check.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace rend {
 
+void Integrator::carry(std::span<const double> numbers) {
+  CHECK(numbers.empty());
+}
+
 const std::vector<Scheme>& all_schemes() {
-  static const std::vector<Scheme> schemes{symplectic_euler(), explicit_euler(), velocity_verlet(), midpoint(),
-                                           runge_kutta_4(),    implicit_euler(), static_solve()};
+  static const std::vector<Scheme> schemes{symplectic_euler(), explicit_euler(), velocity_verlet(),
+                                           midpoint(),         runge_kutta_4(),  runge_kutta_45(),
+                                           implicit_euler(),   static_solve()};
   return schemes;
 }
 

@@ -4,6 +4,7 @@
 #include "sim/integrate/system.h"
 
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct SolverFigures {
   long cg = 0;             // iterations of conjugate gradients
   long factorisations = 0; // of the direct solver
   std::size_t bytes = 0;   // of matrix, factors and preconditioner
+  long parts = 0;          // into which an adaptive scheme cut its steps
+  long rejected = 0;       // parts whose error was too large, tried again shorter
 };
 
 // A step that could not be solved. The state before it is whole.
@@ -35,6 +38,11 @@ public:
 
   virtual SolverFigures solver() const { return {}; }
 
+  // What one step hands on to the next besides the state of the body, for those who stop and go on later: a scheme made
+  // anew and given the same numbers goes on to the bit. `carry` takes what `carried` gave (CHECK).
+  virtual std::vector<double> carried() const { return {}; }
+  virtual void carry(std::span<const double> numbers);
+
   // Whether bodies move in time: where a step is an equilibrium, drives have neither inertia nor viscosity.
   virtual bool moves() const { return true; }
 };
@@ -46,13 +54,20 @@ struct StabilityBounds {
   double least_drag_rate = 0; // the smallest [1/s], of ambient viscosity alone
 };
 
+// What a scheme is made for.
+struct SchemeSettings {
+  double tolerance = 1e-6; // adaptive schemes: the error of a part of the step, as a share of `size`
+  double size = 1;         // [m], of the body
+};
+
 struct Scheme {
   std::string name, what;
   int order = 1;
   int evaluations = 1;                     // of the forces, a step
   double (*limit)(const StabilityBounds&); // a stable step [s]; 0: there is none; infinity: all are
-  std::unique_ptr<Integrator> (*make)();
-  bool solves = false; // needs stiffness; its evaluations are the least a step takes
+  std::unique_ptr<Integrator> (*make)(const SchemeSettings& settings);
+  bool solves = false;   // needs stiffness; its evaluations are the least a step takes
+  bool adaptive = false; // cuts steps into parts by their error; its evaluations are the least, too
 };
 
 const std::vector<Scheme>& all_schemes();
@@ -63,6 +78,7 @@ Scheme symplectic_euler();
 Scheme velocity_verlet();
 Scheme midpoint();
 Scheme runge_kutta_4();
+Scheme runge_kutta_45();
 Scheme implicit_euler();
 Scheme static_solve();
 

@@ -62,9 +62,12 @@ double limit(const StabilityBounds& b) {
 } // namespace
 
 Scheme midpoint() {
-  return {"midpoint", "midpoint rule (RK2)",
-          2,          2,
-          &limit,     []() -> std::unique_ptr<Integrator> { return std::make_unique<Midpoint>(); }};
+  return {"midpoint",
+          "midpoint rule (RK2)",
+          2,
+          2,
+          &limit,
+          [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<Midpoint>(); }};
 }
 
 } // namespace rend

@@ -89,9 +89,12 @@ double limit(const StabilityBounds& b) {
 } // namespace
 
 Scheme runge_kutta_4() {
-  return {"rk4",  "the classical Runge-Kutta scheme",
-          4,      4,
-          &limit, []() -> std::unique_ptr<Integrator> { return std::make_unique<RungeKutta4>(); }};
+  return {"rk4",
+          "the classical Runge-Kutta scheme",
+          4,
+          4,
+          &limit,
+          [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<RungeKutta4>(); }};
 }
 
 } // namespace rend

@@ -384,7 +384,7 @@ Scheme static_solve() {
           1,
           2,
           [](const StabilityBounds&) { return std::numeric_limits<double>::infinity(); },
-          []() -> std::unique_ptr<Integrator> { return std::make_unique<StaticSolve>(); },
+          [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<StaticSolve>(); },
           true};
 }
 

@@ -29,12 +29,13 @@ class SymplecticEuler final : public Integrator {
 } // namespace
 
 Scheme symplectic_euler() {
-  return {"symplectic",
-          "symplectic Euler: velocity first, then position",
-          1,
-          1,
-          &limit_symplectic,
-          []() -> std::unique_ptr<Integrator> { return std::make_unique<SymplecticEuler>(); }};
+  return {
+      "symplectic",
+      "symplectic Euler: velocity first, then position",
+      1,
+      1,
+      &limit_symplectic,
+      [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<SymplecticEuler>(); }};
 }
 
 } // namespace rend

@@ -45,12 +45,13 @@ class VelocityVerlet final : public Integrator {
 } // namespace
 
 Scheme velocity_verlet() {
-  return {"verlet",
-          "velocity Verlet, damping at the predicted velocity",
-          2,
-          2,
-          &limit_symplectic,
-          []() -> std::unique_ptr<Integrator> { return std::make_unique<VelocityVerlet>(); }};
+  return {
+      "verlet",
+      "velocity Verlet, damping at the predicted velocity",
+      2,
+      2,
+      &limit_symplectic,
+      [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<VelocityVerlet>(); }};
 }
 
 } // namespace rend

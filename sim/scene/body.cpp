@@ -1,5 +1,7 @@
 #include "sim/scene/body.h"
 
+#include "sim/integrate/footing.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -17,7 +19,7 @@ Body::~Body() {
   if (map) map->unsubscribe(changes);
 }
 
-void Body::prepare(const Scheme& scheme, bool walk, int threads) {
+void Body::prepare(const Scheme& scheme, bool walk, int threads, double tolerance) {
   const bool elementary =
       std::any_of(laws.begin(), laws.end(), [](const TearLaw& law) { return law.settings().elementary(); });
   ProgramOptions options;
@@ -32,7 +34,8 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads) {
   options.threads = threads;
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
-  integrator = scheme.make();
+  const double size = extent(map->rest().values(), program->inverse_mass());
+  integrator = scheme.make({tolerance, size > 0 ? size : 1});
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
   map->subscribe(changes);
   if (tears()) {

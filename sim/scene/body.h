@@ -71,7 +71,7 @@ struct Body final : System {
   bool tears() const { return !laws.empty(); }
 
   // Builds the program and all that the time loop needs. To be called once, when everything is declared.
-  void prepare(const Scheme& scheme, bool walk, int threads);
+  void prepare(const Scheme& scheme, bool walk, int threads, double tolerance = SchemeSettings{}.tolerance);
 
   // System
   std::size_t vertices() const override { return program->vertices(); }

@@ -46,7 +46,7 @@ Scene::Scene(const Node& preset, const SceneOptions& options) : fault_(options.f
   seconds_.build = now() - start;
   check_contact(preset);
   contacts_ = Contacts::of(world_, bodies_);
-  for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads);
+  for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads, tolerance_of(time));
   build_time(time);
   set_answers();
   seconds_.bind = now() - start - seconds_.build;
@@ -70,6 +70,16 @@ void Scene::check_contact(const Node& preset) {
   }
 }
 
+double Scene::tolerance_of(const Node& time) const {
+  if (time.given("tolerance") && !scheme_->adaptive)
+    time.fail(
+        "tolerance",
+        fmt::format("the tolerance belongs to rk45, which chooses its steps by it, not to '{}'", scheme_->name),
+        "leave it out, or write integrator=\"rk45\"");
+  return time.number("tolerance");
+}
+
+// The step of an adaptive scheme is what it divides: by itself it takes that of symplectic, so that laws look as often.
 void Scene::build_time(const Node& time) {
   duration_ = time.number("duration");
   step_place_ = time.place("step");
@@ -85,18 +95,22 @@ void Scene::build_time(const Node& time) {
 }
 
 double Scene::stability_limit() const {
+  return stability_limit(*scheme_);
+}
+
+double Scene::stability_limit(const Scheme& scheme) const {
   double limit = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies_) {
     const FrequencyBounds b = frequency_bounds(*body->map, body->interactions, *body->mass, body->drag);
     const double wind = body->loads.damping_rate(*body->map, body->program->inverse_mass());
-    limit = std::min(limit, scheme_->limit({b.omega_squared, b.damping_rate + wind + body->uniform_drag,
-                                            b.least_drag_rate + body->uniform_drag}));
+    limit = std::min(limit, scheme.limit({b.omega_squared, b.damping_rate + wind + body->uniform_drag,
+                                          b.least_drag_rate + body->uniform_drag}));
   }
   return limit;
 }
 
 double Scene::stable_step(const Node& time) const {
-  const double limit = stability_limit();
+  const double limit = stability_limit(scheme_->adaptive ? *find_scheme("symplectic") : *scheme_);
   if (limit <= 0)
     time.fail("step",
               fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the "

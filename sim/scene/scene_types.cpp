@@ -51,8 +51,18 @@ const ElementType& time_type() {
     return ElementType{
         "time",
         "how time goes",
-        {number_or("step", {"auto"}, "s", "auto: 0.9 of what is stable").above(0).otherwise("auto"),
+        {number_or("step", {"auto"}, "s", "auto: 0.9 of what is stable (under rk45: with symplectic)")
+             .above(0)
+             .otherwise("auto"),
          word("integrator", names, "the scheme").otherwise("symplectic"),
+         number(
+             "tolerance", "",
+             "of rk45, which cuts each step into parts until what one part has wrong, in the mean over the "
+             "body's mass, is below this share of the body's size (a velocity's error counts with the step's "
+             "length)")
+             .at_least(1e-14)
+             .at_most(0.1)
+             .otherwise("1e-6"),
          number("duration", "s", "of the clip").at_least(0).is_required()},
         {}};
   }();
