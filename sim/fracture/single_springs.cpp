@@ -51,7 +51,7 @@ double SingleSprings::elongation(const ForceView& view, const PackedRows& rows, 
 
 double force_of(const UnitNow& spring) {
   if (!is_hinge(*spring.interaction)) return spring.forces()[0].norm();
-  return std::abs(hinge_moment(UnitParameters::of(spring.values), spring.position, spring.velocity));
+  return std::abs(hinge_moment(HingeParameters::of(spring.values), spring.position, spring.velocity));
 }
 
 double elongation_of(const UnitNow& spring) {

@@ -16,24 +16,45 @@ bool present(const GMap& map, Dart d, std::size_t = 0) {
   return one >= 3 && one <= 4 && two >= 3 && two <= 4;
 }
 
+// Born from rest positions and stiffness; a fragment keeps it.
+struct HingeEmbedding {
+  using Value = HingeParameters;
+  std::string name = "bend angular";
+  Orbit orbit = EdgeOfVolume, support = FaceOfVolume;
+  StiffnessOf k;
+  double damping = 0;
+  Value birth(const EmbeddedMap& body, Dart d) const {
+    if (!present(body.map(), d)) return {};
+    const std::vector<Vec3> rest = rest_positions(body, d, hinge);
+    HingePoints x;
+    std::copy(rest.begin(), rest.end(), x.begin());
+    return {k(body, d), damping, hinge_angle(x), hinge_least(x)};
+  }
+  Value split(const Value& whole) const { return whole; }
+};
+
+struct Hinges final : Interaction {
+  const Column<HingeEmbedding>* column = nullptr;
+  const double* unit(Slot owner, std::size_t) const override { return &(*column)[owner].k; }
+};
+
 std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_bend_of_solid(map, request);
   if (!has_inner_edge(map)) {
     request.notes.push_back("bend was left out: no edge lies between two faces");
     return nullptr;
   }
-  const Pattern pattern{
+  HingeEmbedding embedding;
+  embedding.k = stiffness_of(request, nullptr);
+  embedding.damping = request.node.number("damping");
+  auto made = std::make_unique<Hinges>();
+  made->name = embedding.name;
+  made->law = hinge_law();
+  made->damped = embedding.damping > 0;
+  made->pattern = {
       .owner = EdgeOfVolume, .support = FaceOfVolume, .units = {hinge}, .fold = {}, .present = &present};
-  const StiffnessOf k = stiffness_of(request, nullptr);
-  const double damping = request.node.number("damping");
-  return make_interaction<1>(map, "bend angular", hinge_law(), pattern, damping,
-                             [=](const EmbeddedMap& body, Dart d, int) {
-                               if (!present(body.map(), d)) return UnitParameters{};
-                               const std::vector<Vec3> rest = rest_positions(body, d, hinge);
-                               HingePoints x;
-                               std::copy(rest.begin(), rest.end(), x.begin());
-                               return UnitParameters{k(body, d), damping, hinge_angle(x)};
-                             });
+  made->column = &map.add(std::move(embedding));
+  return made;
 }
 
 } // namespace

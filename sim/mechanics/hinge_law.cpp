@@ -52,29 +52,48 @@ HingePoints hinge_gradient(const HingePoints& x) {
 
 namespace {
 
-double moment_of(const UnitParameters& p, const HingePoints& x, const HingePoints& v,
-                 const HingePoints& gradient) {
+constexpr double crushed = 1.0 / 8; // of the area at rest
+
+double square_of_side(const HingePoints& x, std::size_t side) { // |n|² [m⁴]
+  const Vec3 arm = 0.5 * ((x[side + 2] - x[0]) + (x[side + 3] - x[0]));
+  return (x[1] - x[0]).cross(arm).squaredNorm();
+}
+
+double fade_of(const HingeParameters& p, const HingePoints& x) { // φ₁ φ₂
+  double fade = 1;
+  for (std::size_t side : {0u, 4u})
+    if (const double square = square_of_side(x, side); square < p.least) fade *= square / p.least;
+  return fade;
+}
+
+double moment_of(const HingeParameters& p, const HingePoints& x, const HingePoints& v,
+                 const HingePoints& gradient, double fade) {
   double rate = 0; // θ̇
   for (std::size_t n = 0; n < gradient.size(); ++n) rate += gradient[n].dot(v[n]);
-  return p.k * wrapped(hinge_angle(x) - p.rest) + p.damping * rate;
+  return fade * (p.k * wrapped(hinge_angle(x) - p.rest) + p.damping * (fade * rate));
 }
 
 } // namespace
 
-double hinge_moment(const UnitParameters& p, const HingePoints& x, const HingePoints& v) {
-  return moment_of(p, x, v, hinge_gradient(x));
+double hinge_least(const HingePoints& rest) {
+  const double one = square_of_side(rest, 0), two = square_of_side(rest, 4), smaller = std::min(one, two);
+  return crushed * crushed * (smaller > 0 ? smaller : std::max(one, two));
 }
 
-HingePoints hinge_forces(const UnitParameters& p, const HingePoints& x, const HingePoints& v) {
+double hinge_moment(const HingeParameters& p, const HingePoints& x, const HingePoints& v) {
+  return moment_of(p, x, v, hinge_gradient(x), fade_of(p, x));
+}
+
+HingePoints hinge_forces(const HingeParameters& p, const HingePoints& x, const HingePoints& v) {
   HingePoints forces = hinge_gradient(x);
-  const double moment = moment_of(p, x, v, forces);
+  const double moment = moment_of(p, x, v, forces, fade_of(p, x));
   for (Vec3& force : forces) force *= -moment;
   return forces;
 }
 
-double hinge_energy(const UnitParameters& p, const HingePoints& x) {
+double hinge_energy(const HingeParameters& p, const HingePoints& x) {
   const double angle = wrapped(hinge_angle(x) - p.rest);
-  return 0.5 * p.k * angle * angle;
+  return 0.5 * p.k * angle * angle * fade_of(p, x);
 }
 
 namespace {
@@ -87,27 +106,28 @@ HingePoints points_of(const Vec3* x) {
 
 class HingeLaw final : public Law {
 public:
-  HingeLaw() : Law("hinge", 8, 3) {}
+  HingeLaw() : Law("hinge", 8, 4) {}
 
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
-    const HingePoints f = hinge_forces(UnitParameters::of(unit), points_of(s.position), points_of(s.velocity));
+    const HingePoints f = hinge_forces(HingeParameters::of(unit), points_of(s.position), points_of(s.velocity));
     std::copy(f.begin(), f.end(), force);
   }
 
   double energy(const double* unit, const UnitState& s) const override {
-    return hinge_energy(UnitParameters::of(unit), points_of(s.position));
+    return hinge_energy(HingeParameters::of(unit), points_of(s.position));
   }
 
-  // k g gᵀ and λ g gᵀ with g = ∂θ/∂x, which are definite; exact, for the position also −moment ∂²θ/∂x², by central
-  // differences of the force.
+  // φ k g gᵀ and φ² λ g gᵀ with g = ∂θ/∂x, which are definite; exact, for the position also −moment ∂²θ/∂x², by
+  // central differences of the force.
   void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
                  UnitMatrix& by_velocity) const override {
-    const UnitParameters p = UnitParameters::of(unit);
+    const HingeParameters p = HingeParameters::of(unit);
     const HingePoints x = points_of(s.position), g = hinge_gradient(x);
     Eigen::Matrix<double, 24, 1> gradient;
     for (int n = 0; n < 8; ++n) gradient.segment<3>(3 * n) = g[static_cast<std::size_t>(n)];
-    by_position = p.k * gradient * gradient.transpose();
-    by_velocity = p.damping * gradient * gradient.transpose();
+    const double fade = fade_of(p, x);
+    by_position = fade * p.k * gradient * gradient.transpose();
+    by_velocity = fade * fade * p.damping * gradient * gradient.transpose();
     if (tangent == Tangent::Definite) return;
     const double h = 1e-6 * (x[1] - x[0]).norm();
     if (!(h > 0)) return;

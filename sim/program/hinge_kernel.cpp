@@ -17,6 +17,8 @@ namespace {
 
 using namespace lanes;
 
+constexpr double nothing = 1e-290; // [m⁴]: its inverse is still a number
+
 struct Side {
   Vector arm, normal;
   Vector turn; // ∂θ/∂P
@@ -26,7 +28,12 @@ struct Side {
 struct Hinge {
   Side side[2];
   Double4 angle;
+  Double4 fade; // φ₁ φ₂
 };
+
+REND_INLINE bool any(const Long4& lanes) {
+  return (lanes[0] | lanes[1] | lanes[2] | lanes[3]) != 0;
+}
 
 // From A to the middle of the outer vertices of side 0 or 1.
 REND_INLINE Vector arm_of(const KernelArguments& a, const Record* records, const Vector& from, int side,
@@ -35,7 +42,7 @@ REND_INLINE Vector arm_of(const KernelArguments& a, const Record* records, const
                        (gather(records, a.rows.index(4 * side + 3) + at) - from));
 }
 
-REND_INLINE void measure(const KernelArguments& a, std::size_t at, Hinge& hinge) {
+REND_INLINE void measure(const KernelArguments& a, std::size_t at, const Double4& least, Hinge& hinge) {
   Side &one = hinge.side[0], &two = hinge.side[1];
   const Vector from = gather(a.position, a.rows.index(0) + at);
   const Vector h = gather(a.position, a.rows.index(1) + at) - from;
@@ -46,7 +53,13 @@ REND_INLINE void measure(const KernelArguments& a, std::size_t at, Hinge& hinge)
   two.normal = cross(two.arm, h);
   const Double4 sine = dot(cross(one.normal, two.normal), h) / length;
   const Double4 square1 = dot(one.normal, one.normal), square2 = dot(two.normal, two.normal);
-  const Long4 turns = (square1 > 0.0) & (square2 > 0.0);
+  const Long4 turns = (square1 > nothing) & (square2 > nothing),
+              crushed = (square1 < least) | (square2 < least);
+  hinge.fade = splat(1);
+  if (any(crushed)) { // hardly ever
+    hinge.fade *= square1 < least ? square1 / least : splat(1);
+    hinge.fade *= square2 < least ? square2 / least : splat(1);
+  }
   one.turn = (turns ? -length / square1 : Double4{}) * one.normal;
   two.turn = (turns ? -length / square2 : Double4{}) * two.normal;
   hinge.angle = turns ? arc_tangent_of(sine, dot(one.normal, two.normal)) : Double4{};
@@ -77,11 +90,12 @@ struct Pulls {
 };
 
 template <bool damped> REND_INLINE void pull_at(const KernelArguments& a, std::size_t at, Pulls& pulls) {
-  const double* values = a.rows.lanes_at(at); // k, damping, rest
+  const double* values = a.rows.lanes_at(at); // k, damping, rest, least
   Hinge hinge;
-  measure(a, at, hinge);
+  measure(a, at, load_four(values + 12), hinge);
   Double4 moment = load_four(values) * wrapped(hinge.angle - load_four(values + 8));
-  if constexpr (damped) moment += load_four(values + 4) * rate_of(a, at, hinge);
+  if constexpr (damped) moment += load_four(values + 4) * (hinge.fade * rate_of(a, at, hinge));
+  moment *= hinge.fade;
   for (int n = 0; n < 2; ++n) {
     pulls.pull[n] = moment * hinge.side[n].turn;
     pulls.t[n] = hinge.side[n].t;

@@ -221,6 +221,20 @@ private:
     return (q.dot(u.cross(p)) > 0 ? -1 : 1) * (pi_ - between);
   }
 
+  // What is left of a hinge's forces where a triangle (hinge, face centre) has less than 1/8 of the smaller one's area
+  // at rest, by the squares of areas.
+  double crushed(const Edge& e) const {
+    const auto area = [&](const Flank& f, auto&& place) {
+      const Vec3 a = place(e.p.a);
+      return (place(e.p.b) - a).cross(0.5 * (place(f.near_a) + place(f.near_b)) - a).norm();
+    };
+    const auto now = [&](std::size_t c) { return at(c); };
+    const auto once = [&](std::size_t c) { return rest(c); };
+    const double least = std::min(area(e.p, once), area(e.q, once)) / 8;
+    const double p = std::min(1.0, area(e.p, now) / least), q = std::min(1.0, area(e.q, now) / least);
+    return p * p * q * q;
+  }
+
   void angular(const Spring& s) {
     for (const Edge& e : edges_) {
       if (sides(e.p.polygon) > 4 || sides(e.q.polygon) > 4) continue;
@@ -240,10 +254,12 @@ private:
         pulls.push_back({f.a, -(1 - t) * g});
         pulls.push_back({f.b, -t * g});
       }
+      const double fade = crushed(e);
+      for (auto& [c, g] : pulls) g *= fade;
       double moment = s.k * turn;
       for (const auto& [c, g] : pulls) moment += s.damping * g.dot(speed(c));
       for (const auto& [c, g] : pulls) push(c, -moment * g);
-      Single single{s.element, std::abs(moment), 0, dart_[side(e)], {}};
+      Single single{s.element, std::abs(fade * moment), 0, dart_[side(e)], {}};
       std::map<std::size_t, Vec3> on_corner; // a triangle's outer vertex is near both ends
       for (const auto& [c, g] : pulls) on_corner.try_emplace(c, Vec3::Zero()).first->second -= moment * g;
       for (const auto& [c, f] : on_corner) single.pulls.push_back({mesh_.corners[c], f});

@@ -12,7 +12,7 @@ namespace {
 
 using meshes::Noise;
 
-constexpr UnitParameters stiff{2.0, 0, 0};
+constexpr HingeParameters stiff{2.0, 0, 0};
 
 // Two triangles on the hinge (0,0,0)-(1,0,0): M1 in the xy plane at y < 0, M2 turned up by `angle` from flat.
 HingePoints folded(double angle) {
@@ -74,7 +74,7 @@ TEST(Hinge, angle_changes_sign_with_the_sides_and_with_the_direction) {
 
 // At the angle and rest angle given: force against the difference of energies.
 void expect_gradient(const HingePoints& x, double rest, const Places& vertices) {
-  UnitParameters p = stiff;
+  HingeParameters p = stiff;
   p.rest = rest;
   const HingePoints f = hinge_forces(p, x, still);
   constexpr double h = 1e-5;
@@ -108,7 +108,7 @@ TEST(Hinge, force_is_minus_the_gradient_across_the_fold_back) {
   for (double angle : {3.0, pi + 0.2, pi + 0.5}) {
     const double sign = hinge_angle(folded(0.1)) > 0 ? 1 : -1;
     expect_gradient(folded(angle), sign * 2.9, of_triangles);
-    UnitParameters p = stiff;
+    HingeParameters p = stiff;
     p.rest = sign * 2.9;
     EXPECT_NEAR(hinge_energy(p, folded(angle)), 0.5 * p.k * (angle - 2.9) * (angle - 2.9), 1e-12);
   }
@@ -158,6 +158,66 @@ TEST(Hinge, without_length_or_area_gives_no_force) {
   HingePoints point;
   point.fill(Vec3(1, 2, 3));
   for (const Vec3& force : hinge_forces({2, 1, 0.1}, point, point)) EXPECT_EQ(force, Vec3(0, 0, 0));
+}
+
+// A pair of triangles whose side two is as high as it was at rest, times `height`.
+HingePoints crushed_to(double height) {
+  HingePoints x = folded(0.7);
+  x[6] = x[7] = Vec3(0.6, 0, 0) + height * (x[6] - Vec3(0.6, 0, 0));
+  return x;
+}
+HingePoints velocities_of(unsigned seed) {
+  Noise noise(seed);
+  return random_velocities(noise, true);
+}
+double largest_of(const HingePoints& f) {
+  double most = 0;
+  for (const Vec3& force : f) most = std::max(most, force.norm());
+  return most;
+}
+
+TEST(Hinge, force_is_bounded_however_flat_a_side_is_crushed) {
+  const HingePoints v = velocities_of(8);
+  const HingeParameters p{2, 0.3, 0.1, hinge_least(folded(0))}, damped{0, 0.3, 0.1, p.least};
+  const double at_rest = largest_of(hinge_forces(p, crushed_to(1), still));
+  const double rate_at_rest = largest_of(hinge_forces(damped, crushed_to(1), v));
+  for (double height = 1; height > 1e-170; height *= 0.7) {
+    EXPECT_LE(largest_of(hinge_forces(p, crushed_to(height), still)), 8 * at_rest) << height;
+    EXPECT_LE(largest_of(hinge_forces(damped, crushed_to(height), v)), 8 * 8 * 2 * rate_at_rest) << height;
+  }
+  EXPECT_GT(largest_of(hinge_forces(p, crushed_to(0.13), still)), 5 * at_rest);
+  EXPECT_LT(largest_of(hinge_forces(p, crushed_to(1e-6), still)), 1e-3 * at_rest); // sides change: through 0
+}
+
+TEST(Hinge, force_is_what_it_was_to_the_bit_where_nothing_is_crushed) {
+  const double least = hinge_least(folded(0));
+  const HingePoints v = velocities_of(9);
+  for (const double height : {10.0, 1.0, 0.2, 0.112}) {
+    const HingePoints x = crushed_to(height), f = hinge_forces({2, 0.3, 0.1, least}, x, v),
+                      plain = hinge_forces({2, 0.3, 0.1, 0}, x, v);
+    for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(f[n], plain[n]) << height;
+  }
+  EXPECT_NE(hinge_forces({2, 0.3, 0.1, least}, crushed_to(0.11), v)[6],
+            hinge_forces({2, 0.3, 0.1, 0}, crushed_to(0.11), v)[6]);
+}
+
+TEST(Hinge, conserves_momentum_and_dissipates_where_it_is_crushed) {
+  Noise noise(10);
+  for (int n = 0; n < 200; ++n) {
+    const bool triangles = n % 2 == 0;
+    const HingePoints x = random_hinge(noise, triangles), v = random_velocities(noise, triangles);
+    const HingePoints f = hinge_forces({2, 0.5, 0.3, 4.0}, x, v), drag = hinge_forces({0, 0.5, 0.3, 4.0}, x, v);
+    Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+    double power = 0;
+    for (std::size_t p = 0; p < 8; ++p) {
+      sum += f[p];
+      moment += x[p].cross(f[p]);
+      power += drag[p].dot(v[p]);
+    }
+    EXPECT_LT(sum.norm(), 1e-14 * (1 + largest_of(f)));
+    EXPECT_LT(moment.norm(), 1e-13 * (1 + largest_of(f)));
+    EXPECT_LE(power, 0);
+  }
 }
 
 TEST(Hinge, damping_dissipates) {
