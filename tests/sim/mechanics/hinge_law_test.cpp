@@ -1,6 +1,7 @@
 #include "sim/mechanics/hinge_law.h"
 
 #include "sim/base/math.h"
+#include "sim/presets.h"
 #include "sim/random_meshes.h"
 
 #include <gtest/gtest.h>
@@ -247,6 +248,23 @@ TEST(Hinge, damping_rate_is_that_of_the_angle) {
     for (std::size_t p = 0; p < 8; ++p) from_gradient += g[p].dot(v[p]);
     EXPECT_NEAR(from_gradient, rate, 1e-6 * std::max(1.0, std::abs(rate)));
   }
+}
+
+// A ball tears a cloth, whose pieces fall and are crushed: with forces without bound it was torn to bits by them, and
+// stopped as unstable at 0.95 s.
+TEST(Hinge, lets_a_torn_cloth_fall_in_a_heap) {
+  const auto s = presets::load(
+      R"(<scene><body><sheet pattern="crossed" cells="10 10" size="1 1"/>)"
+      R"(<place rotate="90 0 0" translate="-0.5 0 0.35"/><mass total="0.1"/>)"
+      R"(<springs young="1e5" poisson="0.3333333333333333" thickness="1e-3"><stretch damping="0.01"/>)"
+      R"(<bend kind="angular" k="5e-3" damping="1e-5"/></springs><viscosity value="0.05" per="body"/>)"
+      R"(<fix box="-0.51 -1 1.24 -0.39 1 1.36"/><fix box="0.39 -1 1.24 0.51 1 1.36"/>)"
+      R"(<tear criterion="global-border" threshold="1" until="0.29" change="separate"/>)"
+      R"(<contact with="floor obstacles" thickness="0.004"/></body><world><floor z="0"/>)"
+      R"(<sphere centre="0 -1.2 0.72" radius="0.14" velocity="0 5 1.2" mass="0.6"/></world>)"
+      R"(<time step="auto" duration="1.2"/></scene>)");
+  while (s->time() < 1.2 - 1e-9) s->step();
+  EXPECT_GT(s->tears(), 0u);
 }
 
 } // namespace
