@@ -1,0 +1,214 @@
+#include "render/report/page.h"
+
+#include "render/report/page_style.h"
+#include "sim/base/check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace rend::html {
+namespace {
+
+constexpr std::string_view replacement = "\xEF\xBF\xBD"; // U+FFFD
+
+// The length of the character of UTF-8 at `at`, 0 where there is none that XML knows.
+std::size_t character(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
+  const unsigned char first = byte(at);
+  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : first == '\t' || first == '\n' ? 1 : 0;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || at + length > text.size()) return 0;
+  std::uint32_t code = first & (0xffu >> (length + 1));
+  for (std::size_t n = 1; n < length; ++n) {
+    if ((byte(at + n) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(at + n) & 0x3fu);
+  }
+  const std::uint32_t least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
+  const bool surrogate = code >= 0xd800 && code < 0xe000, none = (code & 0xfffe) == 0xfffe;
+  return code < least || code > 0x10ffff || surrogate || none ? 0 : length;
+}
+
+std::string escaped_text(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character(text, at);
+    if (length == 0) {
+      out += replacement;
+      ++at;
+      continue;
+    }
+    switch (text[at]) {
+    case '&':
+      out += "&amp;";
+      break;
+    case '<':
+      out += "&lt;";
+      break;
+    case '>':
+      out += "&gt;";
+      break;
+    case '"':
+      out += "&quot;";
+      break;
+    case '\'':
+      out += "&#39;";
+      break;
+    default:
+      out += text.substr(at, length);
+    }
+    at += length;
+  }
+  return out;
+}
+
+const char* name_of(Tone tone) {
+  switch (tone) {
+  case Tone::Good:
+    return "good";
+  case Tone::Note:
+    return "note";
+  case Tone::Limit:
+    return "limit";
+  case Tone::Bad:
+    return "bad";
+  case Tone::Plain:
+    break;
+  }
+  return "plain";
+}
+
+// RFC 4648.
+std::string base64(std::string_view bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t n = 0; n < 3; ++n)
+      group = group << 8 | (at + n < bytes.size() ? static_cast<unsigned char>(bytes[at + n]) : 0u);
+    for (std::size_t n = 0; n < 4; ++n) out += at + n > bytes.size() ? '=' : digits[group >> (18 - 6 * n) & 63];
+  }
+  return out;
+}
+
+} // namespace
+
+Html escaped(std::string_view text) {
+  return {escaped_text(text)};
+}
+Html strong(std::string_view text) {
+  return {"<strong>" + escaped_text(text) + "</strong>"};
+}
+Html code(std::string_view text) {
+  return {"<code>" + escaped_text(text) + "</code>"};
+}
+Html link(std::string_view href, std::string_view text) {
+  return {"<a href=\"" + escaped_text(href) + "\">" + escaped_text(text) + "</a>"};
+}
+Html muted(std::string_view text) {
+  return {"<span class=\"muted\">" + escaped_text(text) + "</span>"};
+}
+Html badge(Tone tone, std::string_view word) {
+  return {fmt::format("<span class=\"badge {}\">{}</span>", name_of(tone), escaped_text(word))};
+}
+
+Html heading(int level, std::string_view text, std::string_view id) {
+  CHECK(level >= 2 && level <= 4);
+  const std::string mark = id.empty() ? "" : " id=\"" + escaped_text(id) + "\"";
+  return {fmt::format("<h{0}{1}>{2}</h{0}>\n", level, mark, escaped_text(text))};
+}
+Html paragraph(const Html& line) {
+  return {"<p>" + line.text + "</p>\n"};
+}
+Html list(const std::vector<Html>& items) {
+  std::string out = "<ul>\n";
+  for (const Html& item : items) out += "<li>" + item.text + "</li>\n";
+  return {out + "</ul>\n"};
+}
+Html preformatted(std::string_view text) {
+  return {"<pre>" + escaped_text(text) + "</pre>\n"};
+}
+Html details(const Html& summary, const Html& body, bool open) {
+  return {fmt::format("<details{}><summary>{}</summary>\n<div class=\"inner\">\n{}</div></details>\n",
+                      open ? " open=\"open\"" : "", summary.text, body.text)};
+}
+
+Html table(const Table& table) {
+  std::string out = "<div class=\"wide\"><table";
+  if (table.sortable) out += " class=\"sortable\"";
+  out += ">\n";
+  if (!table.caption.empty()) out += "<caption>" + escaped_text(table.caption) + "</caption>\n";
+  const auto kind = [&](std::size_t n) { return table.columns[n].number ? " class=\"number\"" : ""; };
+  out += "<thead><tr>";
+  for (std::size_t n = 0; n < table.columns.size(); ++n)
+    out += fmt::format("<th{}>{}</th>", kind(n), escaped_text(table.columns[n].name));
+  out += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    CHECK(row.size() == table.columns.size());
+    out += "<tr>";
+    for (std::size_t n = 0; n < row.size(); ++n) {
+      out += fmt::format("<td{}", kind(n));
+      if (!row[n].order.empty()) out += " data-order=\"" + escaped_text(row[n].order) + "\"";
+      out += ">" + row[n].what.text + "</td>";
+    }
+    out += "</tr>\n";
+  }
+  return {out + "</tbody></table></div>\n"};
+}
+
+Html facts(const std::vector<std::pair<std::string, Html>>& all) {
+  std::string out = "<dl>\n";
+  for (const auto& [name, value] : all)
+    out += "<dt>" + escaped_text(name) + "</dt><dd>" + value.text + "</dd>\n";
+  return {out + "</dl>\n"};
+}
+
+Html tiles(const std::vector<Tile>& all) {
+  std::string out = "<div class=\"tiles\">\n";
+  for (const Tile& tile : all)
+    out += fmt::format("<div class=\"tile {}\"><b>{}</b><span>{}</span></div>\n", name_of(tile.tone),
+                       escaped_text(tile.figure), escaped_text(tile.what));
+  return {out + "</div>\n"};
+}
+
+Html figure(PictureFormat format, std::string_view bytes, std::string_view alternative, const Html& caption) {
+  // As an image, not as elements: the names within one plot must not meet those of another.
+  std::string out =
+      fmt::format("<figure><img alt=\"{}\" src=\"data:image/{};base64,{}\"/>", escaped_text(alternative),
+                  format == PictureFormat::Svg ? "svg+xml" : "png", base64(bytes));
+  if (!caption.text.empty()) out += "<figcaption>" + caption.text + "</figcaption>";
+  return {out + "</figure>\n"};
+}
+
+std::string in_digits(double value, int digits) {
+  if (std::isnan(value)) return "not a number";
+  if (std::isinf(value)) return value > 0 ? "infinite" : "-infinite";
+  return fmt::format("{:.{}g}", value, digits);
+}
+
+std::string page(std::string_view title, const Html& body) {
+  const std::string name = escaped_text(title);
+  return fmt::format(R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8"/>
+<meta name="viewport" content="width=device-width, initial-scale=1"/>
+<meta name="color-scheme" content="light dark"/>
+<title>{}</title>
+<style>{}</style>
+</head>
+<body>
+<main>
+<h1>{}</h1>
+{}</main>
+<script>{}</script>
+</body>
+</html>
+)",
+                     name, page_style, name, body.text, page_script);
+}
+
+} // namespace rend::html
