@@ -1,0 +1,70 @@
+#include "render/app/check_run.h"
+
+#include "render/app/preset_types.h"
+#include "render/app/signals.h"
+#include "render/output.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& path, const std::string& text) {
+  OutputFile file(path);
+  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  file.commit();
+}
+
+} // namespace
+
+std::string file_name(const std::string& case_name) {
+  std::string name;
+  for (const char c : case_name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-';
+    if (plain || (!name.empty() && name.back() != '-')) name += plain ? c : '-';
+  }
+  return name;
+}
+
+void write_cases(const fs::path& folder, const std::vector<CheckCase>& cases) {
+  for (const CheckCase& each : cases) {
+    write_file(folder / (file_name(each.name) + ".xml"), each.preset);
+    for (const auto& [name, content] : each.files) write_file(folder / name, content);
+  }
+}
+
+std::vector<CheckResult> run_cases(const fs::path& folder, const std::vector<CheckCase>& cases, int jobs,
+                                   const std::function<void(std::size_t, const CheckResult&)>& done) {
+  const ReadPreset read = [&](const CheckCase& which, const Sets& sets) {
+    std::vector<Override> overrides;
+    for (const auto& [path, value] : sets) overrides.push_back({path, value});
+    return load_scene(folder / (file_name(which.name) + ".xml"), overrides);
+  };
+  std::vector<std::optional<CheckResult>> results(cases.size());
+  std::atomic<std::size_t> next = 0;
+  std::mutex one_at_a_time;
+  const auto work = [&] {
+    for (std::size_t n = next++; n < cases.size() && stop_signal() == 0; n = next++) {
+      results[n] = run_case(cases[n], read);
+      const std::lock_guard lock(one_at_a_time);
+      done(n, *results[n]);
+    }
+  };
+  std::vector<std::jthread> others;
+  for (int n = 1; n < jobs; ++n) others.emplace_back(work);
+  work();
+  others.clear(); // waits for them
+  std::vector<CheckResult> all;
+  for (auto& result : results)
+    if (result) all.push_back(std::move(*result));
+  return all;
+}
+
+} // namespace rend

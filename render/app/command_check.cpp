@@ -1,0 +1,191 @@
+// rend check: numerical stability on stiff and extreme cases.
+#include "render/app/check_report.h"
+#include "render/app/check_run.h"
+#include "render/app/command.h"
+#include "render/app/console.h"
+#include "render/app/session.h"
+#include "render/app/signals.h"
+#include "render/output.h"
+#include "sim/program/threads.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fnmatch.h>
+#include <memory>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CheckOptions {
+  std::string folder;            // empty: no files are left
+  std::vector<std::string> only; // patterns of names
+  bool list = false, json = false, quick = false, quiet = false;
+  int jobs = 0; // 0: as many as the machine has threads
+};
+
+// A folder for presets that nobody asked to keep.
+class Temporary {
+public:
+  Temporary() {
+    std::string name = (fs::temp_directory_path() / "rend-check-XXXXXX").string();
+    if (!mkdtemp(name.data()))
+      throw UserError(Exit::CannotCreate, {},
+                      "no folder can be made in " + in_quotes(fs::temp_directory_path().string()),
+                      "give one with -o");
+    path_ = name;
+  }
+  ~Temporary() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+  const fs::path& path() const { return path_; }
+
+private:
+  fs::path path_;
+};
+
+// Part of a name is enough: "static" means "*static*".
+bool is_wanted(const CheckCase& which, const CheckOptions& options) {
+  if (options.quick && !which.quick) return false;
+  return options.only.empty() ||
+         std::any_of(options.only.begin(), options.only.end(), [&](const std::string& pattern) {
+           return fnmatch(("*" + pattern + "*").c_str(), which.name.c_str(), 0) == 0;
+         });
+}
+
+std::vector<CheckChapter> wanted(const CheckOptions& options) {
+  std::vector<CheckChapter> chapters;
+  for (const CheckFamily& family : all_families()) {
+    CheckChapter chapter{family, {}, {}};
+    for (CheckCase& one : family.cases())
+      if (is_wanted(one, options)) chapter.cases.push_back(std::move(one));
+    if (!chapter.cases.empty()) chapters.push_back(std::move(chapter));
+  }
+  if (!chapters.empty()) return chapters;
+  std::vector<std::string> names;
+  for (const CheckFamily& family : all_families()) names.push_back(family.name);
+  throw UserError(Exit::Usage, {}, "no case has such a name",
+                  "the families are " + listed(names) + "; --list names all");
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error)
+    throw UserError(Exit::CannotCreate, {path.string(), 0, 0}, "the folder cannot be made: " + error.message());
+}
+
+std::string line_of(std::size_t number, std::size_t all, const CheckCase& which, const CheckResult& result) {
+  const Finding& f = result.finding;
+  std::string line = fmt::format("[{:>4}/{}] {:<11} {:7.2f} s  {}", number, all, name_of(f.verdict),
+                                 result.seconds, which.name);
+  if (f.verdict == Verdict::Failed) {
+    line += fmt::format("\n             expected: {}\n             {}", which.expectation, f.what);
+    for (const Measure& m : f.measures)
+      if (!m.holds())
+        line += fmt::format("\n             {}: {:.6g}, not within {:.6g} and {:.6g}", m.what, m.got, m.low,
+                            m.high);
+  }
+  return line + "\n";
+}
+
+// Runs all cases of all chapters as one list, so that no thread waits at a family's end.
+void run_all(std::vector<CheckChapter>& chapters, const fs::path& folder, const CheckOptions& options) {
+  std::vector<CheckCase> cases;
+  for (const CheckChapter& chapter : chapters)
+    cases.insert(cases.end(), chapter.cases.begin(), chapter.cases.end());
+  write_cases(folder, cases);
+  std::size_t count = 0;
+  const auto say = [&](std::size_t n, const CheckResult& result) {
+    ++count;
+    if (!options.quiet) fmt::print(stderr, "{}", line_of(count, cases.size(), cases[n], result));
+  };
+  const int jobs = options.jobs > 0 ? options.jobs : hardware_threads();
+  std::vector<CheckResult> results = run_cases(folder, cases, jobs, say);
+  if (results.size() < cases.size()) return; // a signal
+  auto next = results.begin();
+  for (CheckChapter& chapter : chapters)
+    for (std::size_t n = 0; n < chapter.cases.size(); ++n) chapter.results.push_back(std::move(*next++));
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  OutputFile file(path);
+  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  file.commit();
+}
+
+std::string summary_of(const std::vector<CheckChapter>& chapters, double seconds, const std::string& folder) {
+  const CheckCounts counts = count(chapters);
+  std::string out = fmt::format(
+      "{} cases in {}: {} ok, {} refused as they should be, {} known limits, {} failed\n", counts.all(),
+      seconds_in_words(seconds), counts.ok, counts.refused, counts.limits, counts.failed);
+  for (const CheckChapter& chapter : chapters)
+    for (std::size_t n = 0; n < chapter.results.size(); ++n)
+      if (chapter.results[n].finding.verdict == Verdict::Failed)
+        out += fmt::format("  failed: {}: {}\n", chapter.cases[n].name, chapter.results[n].finding.what);
+  if (!folder.empty()) out += fmt::format("  {}\n", (fs::path(folder) / "index.html").string());
+  return out;
+}
+
+Exit check(const CheckOptions& options) {
+  std::vector<CheckChapter> chapters = wanted(options);
+  if (options.list) {
+    std::string names;
+    for (const CheckChapter& chapter : chapters)
+      for (const CheckCase& one : chapter.cases) names += one.name + "\n";
+    print_result(names);
+    return Exit::Done;
+  }
+  const double start = wall_clock();
+  std::unique_ptr<Temporary> temporary;
+  if (options.folder.empty()) temporary = std::make_unique<Temporary>();
+  const fs::path cases = temporary ? temporary->path() : fs::path(options.folder) / "cases";
+  make_folder(cases);
+  run_all(chapters, cases, options);
+  if (chapters.front().results.empty()) {
+    print_error("stopped by a signal: nothing is reported");
+    return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  }
+  const double seconds = wall_clock() - start;
+  const nlohmann::ordered_json json = check_json(chapters, seconds);
+  if (!options.folder.empty()) {
+    write_text(fs::path(options.folder) / "check.json", json.dump(2) + "\n");
+    write_text(fs::path(options.folder) / "index.html", check_page(chapters, seconds, true));
+  }
+  print_result(options.json ? json.dump(2) + "\n" : summary_of(chapters, seconds, options.folder));
+  return count(chapters).failed > 0 ? Exit::No : Exit::Done;
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<CheckOptions>();
+  app.add_option("-o,--output", options->folder,
+                 "write index.html, check.json and the presets of all cases there")
+      ->type_name("DIR");
+  app.add_option("--only", options->only, "cases whose names hold this (* and ? stand for anything)")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
+  app.add_flag("--quick", options->quick, "the few cases that stand for the others");
+  app.add_flag("--list", options->list, "the names of the cases, one a line");
+  app.add_flag("--json", options->json, "the findings as one JSON object");
+  app.add_option("--jobs", options->jobs, "cases at once; default: the threads of the machine")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  app.add_flag("-q,--quiet", options->quiet, "no line for each case");
+  return [options] { return check(*options); };
+}
+
+} // namespace
+
+Command check_command() {
+  return {"check", "check numerical stability on stiff and extreme cases", declare};
+}
+
+} // namespace rend

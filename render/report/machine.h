@@ -1,0 +1,23 @@
+// What a report was made on and with: without it, a figure in seconds says little.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rend {
+
+struct Machine {
+  std::string processor; // "AMD EPYC 7B13"; as the system calls it
+  int threads = 0;       // that it runs at once
+  std::string system;    // "Linux 6.1.0 x86_64"
+  std::string compiler;  // "g++ 12.2.0"
+  std::string flags;     // that the program was compiled with
+  std::string version;   // of rend, with its commit: "0.1.0 (1a2b3c4d5e6f)"
+};
+Machine this_machine();
+
+std::vector<std::pair<std::string, std::string>>
+described(const Machine& machine); // names and values, to be listed
+
+} // namespace rend

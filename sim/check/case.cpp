@@ -1,0 +1,81 @@
+#include "sim/check/case.h"
+
+#include "sim/check/families.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace rend {
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+  case Verdict::Ok:
+    return "ok";
+  case Verdict::Refused:
+    return "refused";
+  case Verdict::Limit:
+    return "known limit";
+  case Verdict::Failed:
+    break;
+  }
+  return "failed";
+}
+
+void Finding::within(std::string measure, double got, double low, double high) {
+  measures.push_back({std::move(measure), got, low, high});
+}
+void Finding::at_most(std::string measure, double got, double high) {
+  within(std::move(measure), got, -std::numeric_limits<double>::infinity(), high);
+}
+void Finding::at_least(std::string measure, double got, double low) {
+  within(std::move(measure), got, low, std::numeric_limits<double>::infinity());
+}
+void Finding::near(std::string measure, double got, double known, double error) {
+  within(std::move(measure), got, known - error, known + error);
+}
+void Finding::limit(std::string what_happens, std::string reason) {
+  verdict = Verdict::Limit;
+  what = std::move(what_happens);
+  why = std::move(reason);
+}
+bool Finding::holds() const {
+  return std::all_of(measures.begin(), measures.end(), [](const Measure& m) { return m.holds(); });
+}
+
+Trial Bench::open(const Sets& sets, SceneOptions options) const {
+  Trial trial;
+  trial.preset = (*read_)(*case_, sets);
+  trial.scene = std::make_unique<Scene>(*trial.preset, options);
+  return trial;
+}
+
+const std::vector<CheckFamily>& all_families() {
+  static const std::vector<CheckFamily> list{stiffness_family(), poisson_family(), step_limit_family()};
+  return list;
+}
+
+CheckResult run_case(const CheckCase& which, const ReadPreset& read) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  CheckResult result;
+  Finding& finding = result.finding;
+  const auto fail = [&](const std::string& what, const std::string& why) {
+    finding.verdict = Verdict::Failed;
+    finding.what = what;
+    finding.why = why;
+  };
+  try {
+    which.run(Bench(which, read), finding);
+    if (finding.verdict != Verdict::Failed && !finding.holds())
+      fail(finding.what.empty() ? "a figure lies outside of its bounds" : finding.what, finding.why);
+  } catch (const UserError& error) {
+    fail(error.what(), error.hint);
+  } catch (const std::exception& error) { // a fault of ours: the others still run
+    fail(error.what(), "this is a fault of rend itself");
+  }
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return result;
+}
+
+} // namespace rend
