@@ -49,6 +49,9 @@ public:
   // Throws Unstable where the motion of the current state is not resolved by the step: before a state is shown.
   void check_sound() const;
 
+  // The largest step [s] that is surely stable with a scheme here; 0: none, infinity: any.
+  double stability_limit(const Scheme& scheme) const;
+
   std::size_t tears() const;
   long evaluations() const; // of internal forces, of all bodies, for all steps so far
   // Of bodies, and of spheres that fall.

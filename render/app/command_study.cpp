@@ -1,0 +1,130 @@
+// rend study: error against run time.
+#include "render/app/command.h"
+#include "render/app/console.h"
+#include "render/app/session.h"
+#include "render/app/signals.h"
+#include "render/app/study_options.h"
+#include "render/app/study_page.h"
+#include "render/app/study_plots.h"
+#include "render/app/study_table.h"
+#include "render/output.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <csignal>
+#include <ctime>
+#include <memory>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& path, const std::string& text) {
+  OutputFile file(path);
+  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  file.commit();
+}
+
+// Before anything runs: a folder that cannot be had is said at once.
+fs::path make_folder(const StudyOptions& options, const std::string& name) {
+  const fs::path folder =
+      options.folder.empty() ? fs::path("out") / (name + "-study") : fs::path(options.folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw UserError(Exit::CannotCreate, {folder.string()},
+                    "the folder cannot be created" + (error ? ": " + error.message() : std::string{}) + ".",
+                    "Choose another one with -o.");
+  OutputFile probe(folder / "study.csv"); // may it be written to? It goes again by itself
+  return folder;
+}
+
+// A line that is overwritten on a terminal; elsewhere one every few seconds.
+class Teller {
+public:
+  explicit Teller(bool quiet) : quiet_(quiet), terminal_(is_terminal(stderr)) {}
+  ~Teller() { clear(); }
+  void tell(const std::string& what, double share) {
+    const double now = wall_clock();
+    if (quiet_ || now < next_) return;
+    next_ = now + (terminal_ ? 0.1 : 5);
+    fmt::print(stderr, "{}{:3.0f}%  {}{}", terminal_ ? "\r" : "", 100 * share, what,
+               terminal_ ? "\033[K" : "\n");
+    std::fflush(stderr);
+    shown_ = terminal_;
+  }
+  void clear() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+    shown_ = false;
+  }
+
+private:
+  bool quiet_, terminal_, shown_ = false;
+  double next_ = 0; // [s]
+};
+
+std::vector<DrawnPlot> write_plots(const StudyReport& report, const std::string& name, const fs::path& folder) {
+  std::vector<DrawnPlot> drawn;
+  for (const NamedPlot& plot : plots_of(report, name)) {
+    const auto svg = draw(plot.plot, PlotFormat::Svg);
+    if (!svg) {
+      print_note("gnuplot is not installed (Debian: gnuplot-nox): the study has its numbers and no plots");
+      return {};
+    }
+    write_file(folder / (plot.file + ".svg"), *svg);
+    write_file(folder / (plot.file + ".png"), *draw(plot.plot, PlotFormat::Png));
+    drawn.push_back({*svg, plot.caption});
+  }
+  return drawn;
+}
+
+Exit study(const StudyOptions& options) {
+  const StudyTask task = study_task(options);
+  const fs::path folder = make_folder(options, task.name);
+  Teller teller(options.session.quiet);
+  StudyCalls calls;
+  calls.progress = [&](const std::string& what, double share) { teller.tell(what, share); };
+  calls.going = [] { return stop_signal() == 0; };
+  StudyReport report;
+  try {
+    report = run_study(task.plan, task.make, calls);
+  } catch (const Interrupted&) {
+    teller.clear();
+    print_error("the study was stopped by a signal: nothing was written");
+    return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  }
+  teller.clear();
+  const Provenance provenance = provenance_of(options.session.preset);
+  nlohmann::ordered_json json = json_of(report);
+  json["name"] = task.name;
+  json["findings"] = findings_of(report);
+  json["provenance"] = json_of(provenance);
+  write_file(folder / "study.csv", csv_of(report));
+  write_file(folder / "study.json", json.dump(2) + "\n");
+  write_file(folder / "index.html",
+             page_of(report, task.name, write_plots(report, task.name, folder), provenance));
+  if (options.json) {
+    print_result(json.dump(2) + "\n");
+  } else {
+    std::string out = fmt::format("{}: {} runs of {:.4g} s\n", task.name, report.rows.size(), report.duration);
+    for (const std::string& line : findings_of(report)) out += "  " + line + "\n";
+    print_result(out + fmt::format("  The page is {}\n", (folder / "index.html").string()));
+  }
+  return Exit::Done;
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<StudyOptions>();
+  declare_study(app, *options);
+  return [options] { return study(*options); };
+}
+
+} // namespace
+
+Command study_command() {
+  return {"study", "measure the error of every scheme against its run time", declare};
+}
+
+} // namespace rend

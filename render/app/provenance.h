@@ -1,0 +1,28 @@
+// Where figures come from: machine, build, preset and command line, for reports that others should be able to repeat.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace rend {
+
+struct Provenance {
+  std::string version, commit; // of rend; "-dirty": with changes that are not committed
+  std::string compiler, flags; // "GNU 12.2.0", "-O3 ..."
+  std::string machine, system; // processor and kernel, as they name themselves
+  int processors = 0;
+  std::string preset, hash; // its path as it was given, and XXH3 of its bytes, 16 hex digits
+  std::string command;      // for a shell
+  std::string date;         // of the run, UTC: ISO 8601
+};
+
+// Throws UserError (ReadWrite) where the preset cannot be read any more.
+Provenance provenance_of(const std::filesystem::path& preset);
+
+nlohmann::ordered_json json_of(const Provenance& provenance);
+
+// The words as a shell reads them again.
+std::string quoted_for_shell(const std::vector<std::string>& words);
+
+} // namespace rend

@@ -1,0 +1,27 @@
+// Single runs of a study: one that is looked at, and others that are only timed.
+#pragma once
+
+#include "sim/study/study.h"
+
+namespace rend {
+
+struct SampledRun {
+  Outcome outcome = Outcome::Done;
+  std::string reason; // of a failure
+  long steps_done = 0;
+  double seconds = 0; // of this thread, samples and all
+  RunCounts counts;
+  Trajectory trajectory; // up to the failure
+};
+
+// `steps` steps, with a sample at the start and each time that one of study_samples equal parts of them is over.
+SampledRun sampled_run(Scene& scene, long steps, const std::function<bool()>& going);
+
+// Seconds of the time loop alone. The run is known not to fail.
+double timed_run(Scene& scene, long steps, const std::function<bool()>& going);
+
+RunTime summary_of(std::vector<double> seconds); // at least one (CHECK)
+
+double thread_seconds(); // [s], how long this thread has run
+
+} // namespace rend
