@@ -84,6 +84,14 @@ long FrameChoice::last(long frames) const {
   return best;
 }
 
+long last_chosen(const FrameChoice& choice, const FrameClock& clock) {
+  const long last = choice.last(clock.frames());
+  if (last < 0)
+    throw UserError(Exit::Usage, {}, "--frames asks for none of the frames of this clip",
+                    fmt::format("they are 0 to {}", clock.frames() - 1));
+  return last;
+}
+
 PictureSize parse_size(const std::string& text) {
   const std::size_t cross = std::min(text.find('x'), text.size());
   const auto width = whole_number(std::string_view(text).substr(0, cross));

@@ -44,6 +44,9 @@ private:
   std::vector<Range> ranges_;
 };
 
+// The last frame of the clip that is wanted. UserError (Usage) where that is none of them.
+long last_chosen(const FrameChoice& choice, const FrameClock& clock);
+
 // "1280x720". UserError (Usage) where it is no such size, or a side is not between 16 and 8192 pixels.
 struct PictureSize {
   int width = 0, height = 0; // [pixels]

@@ -3,6 +3,7 @@
 #include "render/app/console.h"
 #include "render/app/figures.h"
 #include "render/app/film.h"
+#include "render/app/output_folder.h"
 #include "render/app/progress.h"
 #include "render/app/session.h"
 
@@ -24,8 +25,7 @@ struct RenderOptions {
 PipelineOptions pipeline_options(const RenderOptions& options, const Session& session) {
   PipelineOptions out;
   const std::string& name = session.scene().name();
-  out.folder =
-      options.folder.empty() ? std::filesystem::path("out") / name : std::filesystem::path(options.folder);
+  out.folder = folder_for(options.folder, name);
   out.name = name;
   out.width = session.image().width;
   out.height = session.image().height;
@@ -40,15 +40,6 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   out.video = !options.video.empty();
   if (out.video) out.extension = "." + options.video;
   return out;
-}
-
-// Before anything slow is done. The last frame that is wanted.
-long last_frame(const FrameChoice& choice, const FrameClock& clock) {
-  const long last = choice.last(clock.frames());
-  if (last < 0)
-    throw UserError(Exit::Usage, {}, "--frames asks for none of the frames of this clip",
-                    fmt::format("they are 0 to {}", clock.frames() - 1));
-  return last;
 }
 
 std::string closing_words(const Film& film, const PipelineOptions& files, double seconds) {
@@ -87,7 +78,7 @@ Exit render(const RenderOptions& options) {
   const FrameChoice choice = options.frames.empty() ? FrameChoice() : FrameChoice(options.frames);
   if (!options.size.empty()) parse_size(options.size);
   Session session(options.session);
-  const long last = last_frame(choice, session.clock());
+  const long last = last_chosen(choice, session.clock());
   const PipelineOptions files = pipeline_options(options, session);
   Film film(session, files, choice);
   const Stopped stopped = shoot(session, film, last);

@@ -1,6 +1,7 @@
 // rend run: the simulation alone, with its figures.
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/export_series.h"
 #include "render/app/figures.h"
 #include "render/app/progress.h"
 #include "render/app/records.h"
@@ -17,10 +18,30 @@ namespace {
 struct RunOptions {
   SessionOptions session;
   bool json = false, profile = false;
-  std::string diagnostics, events; // files; empty: none
+  std::string diagnostics, events;    // files; empty: none
+  std::string format, folder, frames; // of what is exported; empty: not given
 };
 
-Stopped simulate(Session& session, const RunOptions& options) {
+// Before anything slow is done.
+void check_export(const RunOptions& options) {
+  if (!options.format.empty()) {
+    export_format(options.format);
+    return;
+  }
+  if (!options.folder.empty() || !options.frames.empty())
+    throw UserError(Exit::Usage, {}, "-o and --frames say where and when states are exported, and none are",
+                    "add --export vtu, or make pictures with rend render");
+}
+
+std::unique_ptr<ExportSeries> export_of(const Session& session, const RunOptions& options) {
+  if (options.format.empty()) return nullptr;
+  const FrameChoice choice = options.frames.empty() ? FrameChoice() : FrameChoice(options.frames);
+  last_chosen(choice, session.clock());
+  return std::make_unique<ExportSeries>(session, export_format(options.format),
+                                        folder_for(options.folder, session.scene().name()), choice);
+}
+
+Stopped simulate(Session& session, const RunOptions& options, ExportSeries* series) {
   std::optional<Diagnostics> diagnostics;
   std::optional<EventFile> events;
   if (!options.diagnostics.empty()) diagnostics.emplace(options.diagnostics);
@@ -29,6 +50,7 @@ Stopped simulate(Session& session, const RunOptions& options) {
   Session::Calls calls;
   calls.frame = [&](long frame) {
     if (diagnostics) diagnostics->add(frame, session.scene());
+    if (series) series->take(frame);
   };
   calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
   const Stopped stopped = session.run(session.clock().frames() - 1, calls);
@@ -36,6 +58,7 @@ Stopped simulate(Session& session, const RunOptions& options) {
     diagnostics->abandon();
   else if (diagnostics)
     diagnostics->finish();
+  if (series) stopped == Stopped::Unstable ? series->abandon() : series->finish();
   if (events && (stopped != Stopped::Unstable || session.scene().tears() > 0)) events->write(session.scene());
   return stopped;
 }
@@ -50,13 +73,16 @@ bool answers_hold(const Scene& scene) {
 
 Exit run(const RunOptions& options) {
   const double start = wall_clock();
+  check_export(options);
   SessionOptions wanted = options.session;
   wanted.births = !options.events.empty();
   Session session(wanted);
-  const Stopped stopped = simulate(session, options);
+  const std::unique_ptr<ExportSeries> series = export_of(session, options);
+  const Stopped stopped = simulate(session, options, series.get());
   Costs costs;
   costs.total = wall_clock() - start;
-  const nlohmann::ordered_json figures = figures_of(session, stopped, costs);
+  nlohmann::ordered_json figures = figures_of(session, stopped, costs);
+  if (series) figures["export"] = series->figures();
   if (options.json)
     print_result(figures.dump(2) + "\n");
   else
@@ -74,6 +100,13 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--events", options->events, "every topological change, one JSON object a line")
       ->type_name("FILE");
+  app.add_option("--export", options->format, "the state at every frame as a file for other programs: vtu")
+      ->type_name("FORMAT");
+  app.add_option("-o,--output", options->folder, "folder of these files; default: out/ and the scene's name")
+      ->type_name("DIR");
+  app.add_option("--frames", options->frames,
+                 "export only these: 7, 0-100, 0-100x2, 10-, or several with commas")
+      ->type_name("LIST");
   return [options] { return run(*options); };
 }
 

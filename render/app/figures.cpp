@@ -313,6 +313,10 @@ std::string summary_of(const Json& f) {
   out += fmt::format("\n  memory     {} for the scene, {} at most in all\n", bytes_in_words(bytes),
                      bytes_in_words(f["bytes"]["peak_rss"].get<std::size_t>()));
   out += fmt::format("  state      {}\n", f["hash"].get<std::string>());
+  if (f.contains("export"))
+    out += fmt::format("  exported   {} files ({}) in {}\n", f["export"]["files"].get<std::size_t>(),
+                       bytes_in_words(f["export"]["bytes"].get<std::size_t>()),
+                       f["export"]["folder"].get<std::string>());
   out += probes_in_words(f["probes"]);
   out += answers_in_words(f["answers"]);
   return out;

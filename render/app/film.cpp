@@ -1,46 +1,16 @@
 #include "render/app/film.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <system_error>
-#include <unistd.h>
 #include <utility>
 
 namespace rend {
 
-namespace fs = std::filesystem;
-
 Film::Film(Session& session, const PipelineOptions& options, const FrameChoice& choice)
-    : session_(session), options_(options), choice_(choice),
+    : session_(session), options_(options), folder_(options.folder), choice_(choice),
       maker_(session.preset(), session.scene(), static_cast<double>(options.width) / options.height,
-             session.clock().duration()) {
-  note_missing_folders();
-}
-
-// Which folders have to be made. That they can be is found out now, and not after an hour of simulation.
-void Film::note_missing_folders() {
-  std::error_code error;
-  fs::path at = options_.folder.lexically_normal();
-  if (!at.has_filename()) at = at.parent_path(); // "out/": its filename is empty
-  for (; !at.empty() && !fs::exists(at, error); at = at.parent_path()) made_.push_back(at);
-  std::reverse(made_.begin(), made_.end());
-  const fs::path there = at.empty() ? fs::path(".") : at;
-  if (!fs::is_directory(there, error))
-    throw UserError(Exit::CannotCreate, {there.string()}, "a file is in the way of the output folder",
-                    "choose another one with -o");
-  if (::access(there.c_str(), W_OK | X_OK) != 0)
-    throw UserError(Exit::CannotCreate, {there.string()},
-                    std::string("nothing can be written there: ") + std::strerror(errno),
-                    "choose another one with -o");
-}
+             session.clock().duration()) {}
 
 Film::~Film() {
-  pipeline_.reset();
-  std::error_code error;
-  for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder)
-    if (!fs::is_directory(*folder, error) || !fs::is_empty(*folder, error) || !fs::remove(*folder, error))
-      break;
+  pipeline_.reset(); // before the folder, which goes if nothing was written to it
 }
 
 void Film::take(long frame) {

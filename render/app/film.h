@@ -6,11 +6,11 @@
 // empty is removed.
 #pragma once
 
+#include "render/app/output_folder.h"
 #include "render/app/picture.h"
 #include "render/app/session.h"
 #include "render/pipeline.h"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,10 +39,10 @@ private:
   void release();
   void push(Frame&& frame);
   void close();
-  void note_missing_folders();
 
   Session& session_;
   PipelineOptions options_;
+  OutputFolder folder_;
   FrameChoice choice_;
   PictureMaker maker_;
   std::unique_ptr<Pipeline> pipeline_;
@@ -51,7 +51,6 @@ private:
   std::vector<long> numbers_; // of the frames that show the held state
   long held_step_ = -1;
   long frames_ = 0;
-  std::vector<std::filesystem::path> made_; // folders that were not there before, outermost first
 };
 
 } // namespace rend

@@ -4,6 +4,7 @@
 #include "render/app/preset_types.h"
 #include "sim/scene/measure.h"
 #include "sim/topology/count.h"
+#include "sim/topology/orientation.h"
 
 #include <algorithm>
 #include <chrono>
@@ -28,30 +29,6 @@ Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const s
 }
 
 } // namespace
-
-bool is_orientable(const GMap& map) {
-  std::vector<std::uint8_t> side(map.capacity(), 0); // 0: not seen yet; 1, 2: its class
-  std::vector<Dart> stack;
-  bool orientable = true;
-  map.for_each_dart([&](Dart first) {
-    if (side[first.value] != 0) return;
-    side[first.value] = 1;
-    stack.assign(1, first);
-    while (!stack.empty()) {
-      const Dart d = stack.back();
-      stack.pop_back();
-      for (int i = 0; i < 4; ++i) {
-        const Dart next = map.alpha(i, d);
-        if (next == d) continue;
-        if (side[next.value] == side[d.value]) orientable = false;
-        if (side[next.value] != 0) continue;
-        side[next.value] = static_cast<std::uint8_t>(3 - side[d.value]);
-        stack.push_back(next);
-      }
-    }
-  });
-  return orientable;
-}
 
 BodyPicture::BodyPicture(Body& body)
     : body_(&body), orientable_(body.map->dimension() == 3 || is_orientable(body.map->map())) {

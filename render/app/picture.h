@@ -72,7 +72,4 @@ private:
   double seconds_ = 0;
 };
 
-// Whether the darts can be told into two classes that every link leads between: a Möbius band's cannot.
-bool is_orientable(const GMap& map);
-
 } // namespace rend

@@ -1,0 +1,68 @@
+#include "render/app/export_series.h"
+
+#include "render/output.h"
+#include "sim/base/wording.h"
+
+#include <fmt/format.h>
+
+namespace rend {
+
+ExportSeries::ExportSeries(const Session& session, const ExportFormat& format,
+                           const std::filesystem::path& folder, const FrameChoice& choice)
+    : session_(session), format_(format), folder_(folder), choice_(choice),
+      exporter_(format.make(session.scene())) {}
+
+void ExportSeries::take(long frame) {
+  const double start = wall_clock();
+  const long step = session_.scene().steps_done();
+  if (step != held_step_) release();
+  if (choice_.has(frame) && step != held_step_) {
+    held_ = exporter_->state();
+    held_file_ = {session_.scene().time(), fmt::format("{:05d}{}", frame, format_.extension)};
+    held_step_ = step;
+  }
+  seconds_ += wall_clock() - start;
+}
+
+void ExportSeries::release() {
+  if (held_.empty()) return;
+  write(held_file_.name, held_);
+  files_.push_back(std::move(held_file_));
+  held_.clear();
+}
+
+void ExportSeries::write(const std::string& name, const std::string& bytes) {
+  folder_.make();
+  OutputFile file(folder_.path() / name);
+  file.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  file.commit();
+  bytes_ += bytes.size();
+}
+
+void ExportSeries::finish() {
+  const double start = wall_clock();
+  release();
+  if (!files_.empty()) write(index_name(), exporter_->index(files_));
+  seconds_ += wall_clock() - start;
+}
+
+void ExportSeries::abandon() {
+  held_.clear();
+  finish();
+}
+
+nlohmann::ordered_json ExportSeries::figures() const {
+  return {{"format", format_.name}, {"folder", folder_.path().string()},
+          {"index", index_name()},  {"files", files_.size()},
+          {"bytes", bytes_},        {"seconds", seconds_}};
+}
+
+const ExportFormat& export_format(const std::string& name) {
+  if (const ExportFormat* format = find_export_format(name)) return *format;
+  std::vector<std::string> names;
+  for (const ExportFormat& format : all_export_formats()) names.push_back(format.name);
+  throw UserError(Exit::Usage, {}, fmt::format("--export {}: there is no such format", in_quotes(name)),
+                  suggestion(name, names, "formats"));
+}
+
+} // namespace rend

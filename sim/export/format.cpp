@@ -1,0 +1,18 @@
+#include "sim/export/format.h"
+
+#include <algorithm>
+
+namespace rend {
+
+const std::vector<ExportFormat>& all_export_formats() {
+  static const std::vector<ExportFormat> all{vtu_format()};
+  return all;
+}
+
+const ExportFormat* find_export_format(const std::string& name) {
+  const auto& all = all_export_formats();
+  const auto at = std::find_if(all.begin(), all.end(), [&](const ExportFormat& f) { return f.name == name; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+} // namespace rend

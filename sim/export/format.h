@@ -1,0 +1,40 @@
+// The file formats that states are exported in. Adding one: a file with a function `ExportFormat my_format()`, and its
+// name in all_export_formats().
+#pragma once
+
+#include "sim/scene/scene.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+// A file that was written: what an index lists.
+struct ExportedFile {
+  double time;      // [s], of the state
+  std::string name; // in the folder of the index
+};
+
+// Writes the states of one scene.
+class Exporter {
+public:
+  virtual ~Exporter() = default;
+  virtual std::string state() const = 0; // the bytes of a file with the present state
+  // The bytes of the file that lists the others.
+  virtual std::string index(std::span<const ExportedFile> files) const = 0;
+};
+
+struct ExportFormat {
+  std::string name, what;                                // "vtu", one line
+  std::string extension, index_extension;                // ".vtu", ".pvd"
+  std::unique_ptr<Exporter> (*make)(const Scene& scene); // of the scene's first state; the scene outlives it
+};
+
+const std::vector<ExportFormat>& all_export_formats();
+const ExportFormat* find_export_format(const std::string& name); // null: there is none
+
+ExportFormat vtu_format();
+
+} // namespace rend

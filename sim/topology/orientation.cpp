@@ -1,0 +1,29 @@
+#include "sim/topology/orientation.h"
+
+namespace rend {
+
+Sides sides_of(const GMap& map) {
+  Sides sides{std::vector<std::uint8_t>(map.capacity(), 0)};
+  std::vector<Dart> stack;
+  map.for_each_dart([&](Dart first) {
+    if (sides.of_dart[first.value] != 0) return;
+    sides.of_dart[first.value] = 1;
+    stack.assign(1, first);
+    while (!stack.empty()) {
+      const Dart d = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 4; ++i) {
+        const Dart next = map.alpha(i, d);
+        if (next == d) continue;
+        std::uint8_t& side = sides.of_dart[next.value];
+        if (side == sides.of_dart[d.value]) sides.orientable = false;
+        if (side != 0) continue;
+        side = static_cast<std::uint8_t>(3 - sides.of_dart[d.value]);
+        stack.push_back(next);
+      }
+    }
+  });
+  return sides;
+}
+
+} // namespace rend
