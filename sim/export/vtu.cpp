@@ -29,9 +29,9 @@ public:
     const std::string type = std::is_same_v<T, double>         ? "Float64"
                              : std::is_same_v<T, std::int64_t> ? "Int64"
                                                                : "UInt8";
-    line(
-        fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)",
-                    type, name, components, numbers_.size()));
+    const std::string width = components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components);
+    line(fmt::format(R"(<DataArray type="{}" Name="{}"{} format="appended" offset="{}"/>)", type, name, width,
+                     numbers_.size()));
     const std::uint64_t bytes = values.size() * sizeof(T);
     append(&bytes, sizeof bytes);
     append(values.data(), bytes);
