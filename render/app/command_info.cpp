@@ -17,7 +17,7 @@ struct InfoOptions {
 
 Exit info(InfoOptions options) {
   options.session.quiet = true; // notes are part of the answer
-  const Session session(options.session);
+  Session session(options.session);
   const nlohmann::ordered_json inventory = inventory_of(session);
   print_result(options.json ? inventory.dump(2) + "\n" : inventory_in_words(inventory));
   return Exit::Done;

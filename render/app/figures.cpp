@@ -1,6 +1,7 @@
 #include "render/app/figures.h"
 
 #include "render/app/console.h"
+#include "sim/scene/footprint.h"
 #include "sim/topology/count.h"
 
 #include <fmt/format.h>
@@ -46,17 +47,21 @@ Json seconds_json(const Session& session, const Costs& costs) {
 }
 
 Json bytes_json(const Scene& scene, const Costs& costs) {
-  std::size_t map = 0, embeddings = 0, program = 0;
+  std::vector<Holding> all = footprint_of(scene);
   for (const auto& body : scene.bodies()) {
-    map += body->map->map().bytes();
-    embeddings += body->map->bytes();
-    program += body->program->bytes();
-    for (const TearLaw& law : body->laws) program += law.bytes();
-    if (body->assembly) program += body->assembly->bytes() + body->integrator->solver().bytes;
+    const std::vector<Holding> more = footprint_of(*body);
+    all.insert(all.end(), more.begin(), more.end());
   }
-  return {{"map", map},
-          {"embeddings", embeddings},
-          {"program", program},
+  const auto of = [&](std::initializer_list<const char*> parts) {
+    std::size_t sum = 0;
+    for (const char* part : parts) sum += bytes_of_part(all, part);
+    return sum;
+  };
+  return {{"map", of({"map"})},
+          {"embeddings", of({"slots", "embeddings"})},
+          {"program", of({"program", "laws", "solver"})},
+          {"state", of({"state", "integrator"})},
+          {"surroundings", of({"constraints", "loads", "contact"})},
           {"surface", costs.surface_bytes},
           {"peak_rss", peak_memory()}};
 }
@@ -308,7 +313,7 @@ std::string summary_of(const Json& f) {
     out += fmt::format("\n  adaptive   {} parts of steps, {} more rejected for their error",
                        f["adaptive"]["parts"].get<long>(), f["adaptive"]["rejected"].get<long>());
   std::size_t bytes = 0;
-  for (const char* part : {"map", "embeddings", "program", "surface"})
+  for (const char* part : {"map", "embeddings", "program", "state", "surroundings", "surface"})
     bytes += f["bytes"][part].get<std::size_t>();
   out += fmt::format("\n  memory     {} for the scene, {} at most in all\n", bytes_in_words(bytes),
                      bytes_in_words(f["bytes"]["peak_rss"].get<std::size_t>()));

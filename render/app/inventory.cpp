@@ -1,10 +1,10 @@
 #include "render/app/inventory.h"
 
-#include "render/app/console.h"
+#include "render/app/left_out.h"
+#include "render/app/passes.h"
 #include "sim/program/frequency.h"
+#include "sim/scene/footprint.h"
 #include "sim/topology/count.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,173 +99,87 @@ Json laws_json(const Body& body) {
   return all;
 }
 
-Json body_json(const Body& body) {
-  const EmbeddedMap& map = *body.map;
-  const CellCounts counts = count_cells(map.map());
-  std::size_t laws = 0;
-  for (const TearLaw& law : body.laws) laws += law.bytes();
-  Json json = {
-      {"name", body.name},
-      {"kind", map.dimension() == 2 ? "sheet" : "solid"},
-      {"vertices", counts.vertices},
-      {"edges", counts.edges},
-      {"elements", map.dimension() == 2 ? counts.faces : counts.volumes},
-      {"darts", map.map().dart_count()},
-      {"fragments", counts.fragments},
-      {"euler", counts.euler},
-      {"prescribed", body.constraints.vertices().size()},
-      {"slots", slots_json(map)},
-      {"embeddings", embeddings_json(map)},
-      {"interactions", interactions_json(*body.program)},
-      {"laws", laws_json(body)},
-      {"bytes",
-       {{"map", map.map().bytes()}, {"embeddings", map.bytes()}, {"program", body.program->bytes() + laws}}},
-      {"left_out", body.left_out},
-      {"notes", body.notes}};
-  if (body.assembly) // the rest comes with the first step
-    json["solver"] = {{"blocks", body.assembly->pattern()->blocks()},
-                      {"matrix_bytes", body.assembly->pattern()->blocks() * sizeof(Block3)},
-                      {"pattern_bytes", body.assembly->bytes()}};
-  return json;
+// Before the first step.
+Json cells_json(const Body& body) {
+  const GMap& map = body.map->map();
+  const CellCounts counts = count_cells(map);
+  return {{"name", body.name},
+          {"kind", map.dimension() == 2 ? "sheet" : "solid"},
+          {"vertices", counts.vertices},
+          {"edges", counts.edges},
+          {"elements", map.dimension() == 2 ? counts.faces : counts.volumes},
+          {"darts", map.dart_count()},
+          {"fragments", counts.fragments},
+          {"euler", counts.euler},
+          {"prescribed", body.constraints.vertices().size()}};
 }
 
-// Lines of at most 100 columns, the first after `head`, the others below its end.
-std::string folded(const std::string& head, const std::string& text) {
-  constexpr std::size_t columns = 100;
-  std::string out, line = head;
-  bool bare = true; // nothing stands on the line yet
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string token = text.substr(at, end - at);
-    if (!bare && line.size() + 1 + token.size() > columns) {
-      out += line + '\n';
-      line.assign(head.size(), ' ');
-      bare = true;
-    }
-    line += (bare ? "" : " ") + token;
-    bare = false;
-    at = end + 1;
+Json arrays_json(const std::vector<Holding>& arrays) {
+  Json all = Json::array();
+  for (const Holding& one : arrays)
+    all.push_back({{"part", one.part}, {"name", one.name}, {"per", one.per}, {"bytes", one.bytes}});
+  return all;
+}
+
+// By part, and of all.
+Json bytes_json(const std::vector<Holding>& arrays) {
+  Json bytes = Json::object();
+  std::size_t total = 0;
+  for (const std::string& part : footprint_parts()) {
+    const std::size_t of_part = bytes_of_part(arrays, part);
+    if (of_part > 0) bytes[part] = of_part;
+    total += of_part;
   }
-  return out + line + '\n';
+  bytes["total"] = total;
+  return bytes;
 }
 
-std::string text(const Json& json, const char* key) {
-  return json[key].get<std::string>();
-}
-std::size_t whole(const Json& json, const char* key) {
-  return json[key].get<std::size_t>();
-}
-double real(const Json& json, const char* key) {
-  return json[key].get<double>();
-}
-
-std::string time_in_words(const Json& time) {
-  std::string step = fmt::format("{:.6g} s a step by {} (order {}, {} evaluation{})", real(time, "step"),
-                                 text(time, "integrator"), whole(time, "order"), whole(time, "evaluations"),
-                                 whole(time, "evaluations") == 1 ? "" : "s");
-  if (text(time, "from") == "auto")
-    step += "; auto: 0.9 of the largest that is stable at rest";
-  else
-    step += "; given by the preset";
-  if (time["limit"].is_null())
-    step += "; nothing limits it";
-  else if (real(time, "limit") > 0)
-    step += fmt::format("; stable at rest: up to {:.3g} s", real(time, "limit"));
-  else
-    step += "; no step is stable";
-  step += fmt::format(", from modes of at most {:.4g} rad/s, damped at most {:.4g}/s",
-                      real(time["bounds"], "omega"), real(time["bounds"], "damping_rate"));
-  return folded("time      ", step) +
-         fmt::format("          {:.6g} s in {} steps; {} frames at {:g} a second\n", real(time, "duration"),
-                     whole(time, "steps"), whole(time, "frames"), real(time, "fps"));
-}
-
-std::string orbit_in_words(const Json& json) {
-  return text(json, "orbit") + " " + text(json, "links");
-}
-
-std::string tables_in_words(const Json& body) {
-  std::string out = fmt::format("  {:<52}{:>22}{:>12}{:>12}\n", "orbits in use", "", "slots", "bytes");
-  for (const Json& one : body["slots"])
-    out +=
-        fmt::format("    {:<72}{:>12}{:>12}\n", orbit_in_words(one), whole(one, "slots"), whole(one, "bytes"));
-  out += fmt::format("  {:<40}{:<46}{:>12}\n", "embeddings", "on", "bytes");
-  for (const Json& one : body["embeddings"])
-    out += fmt::format("    {:<38}{:<46}{:>12}\n", text(one, "name"), orbit_in_words(one), whole(one, "bytes"));
-  out += fmt::format("  {:<40}{:<34}{:>12}{:>12}\n", "interactions", "caused by", "rows", "bytes");
-  for (const Json& one : body["interactions"]) {
-    std::string label = text(one, "name");
-    if (text(one, "rows_are") != "folded") label += fmt::format(" ({})", text(one, "rows_are"));
-    out += fmt::format("    {:<38}{:<34}{:>12}{:>12}\n", label, orbit_in_words(one), whole(one, "rows"),
-                       whole(one, "bytes"));
-  }
-  return out;
-}
-
-std::string body_in_words(const Json& body) {
-  std::string out = fmt::format("body {}: a {}\n", text(body, "name"), text(body, "kind"));
-  out += fmt::format("  {} vertices, {} edges, {} elements, {} darts, {} fragment{}, Euler characteristic {}\n",
-                     whole(body, "vertices"), whole(body, "edges"), whole(body, "elements"),
-                     whole(body, "darts"), whole(body, "fragments"), whole(body, "fragments") == 1 ? "" : "s",
-                     body["euler"].get<long>());
-  if (whole(body, "prescribed") > 0)
-    out += fmt::format("  {} vertices are prescribed\n", whole(body, "prescribed"));
-  out += tables_in_words(body);
-  if (!body["laws"].empty()) out += fmt::format("  {:<86}{:>12}\n", "laws", "bytes");
-  for (const Json& law : body["laws"])
-    out += fmt::format("    {:<84}{:>12}\n",
-                       fmt::format("{} above {:g} {}: {}", text(law, "criterion"), real(law, "threshold"),
-                                   text(law, "unit"), text(law, "change")),
-                       whole(law, "bytes"));
-  for (const Json& one : body["left_out"]) out += folded("  left out  ", one.get<std::string>());
-  for (const Json& one : body["notes"]) out += folded("  note      ", one.get<std::string>());
-  if (body.contains("solver")) {
-    const Json& solver = body["solver"];
-    out += fmt::format("  solver    a matrix of {} blocks ({}), their places {}\n", whole(solver, "blocks"),
-                       bytes_in_words(whole(solver, "matrix_bytes")),
-                       bytes_in_words(whole(solver, "pattern_bytes")));
-  }
-  const Json& bytes = body["bytes"];
-  return out + fmt::format("  bytes     map {}, embeddings {}, program {}\n",
-                           bytes_in_words(whole(bytes, "map")), bytes_in_words(whole(bytes, "embeddings")),
-                           bytes_in_words(whole(bytes, "program")));
+void add_built(const Scene& scene, const Body& body, Json& json) {
+  const std::vector<Holding> arrays = footprint_of(body);
+  json["slots"] = slots_json(*body.map);
+  json["embeddings"] = embeddings_json(*body.map);
+  json["interactions"] = interactions_json(*body.program);
+  json["laws"] = laws_json(body);
+  json["arrays"] = arrays_json(arrays);
+  json["bytes"] = bytes_json(arrays);
+  json["left_out"] = left_out_of(scene, body);
+  json["notes"] = body.notes;
+  if (!body.assembly) return;
+  const SolverFigures solver = body.integrator->solver();
+  json["solver"] = {{"blocks", body.assembly->pattern()->blocks()},
+                    {"newton", solver.newton},
+                    {"cg", solver.cg},
+                    {"factorisations", solver.factorisations}};
 }
 
 } // namespace
 
-Json inventory_of(const Session& session) {
-  const Scene& scene = session.scene();
+Json inventory_of(Session& session) {
+  Scene& scene = session.scene();
   Json inventory{{"preset", session.preset_path()}, {"name", scene.name()}};
   if (session.preset().has("thesis")) inventory["thesis"] = session.preset().text("thesis");
   inventory["time"] = time_json(session);
-  inventory["bodies"] = Json::array();
-  std::size_t map = 0, embeddings = 0, program = 0;
-  for (const auto& body : scene.bodies()) {
-    inventory["bodies"].push_back(body_json(*body));
-    const Json& bytes = inventory["bodies"].back()["bytes"];
-    map += whole(bytes, "map");
-    embeddings += whole(bytes, "embeddings");
-    program += whole(bytes, "program");
+  Json bodies = Json::array();
+  for (const auto& body : scene.bodies()) bodies.push_back(cells_json(*body));
+  inventory["first_step"] = nullptr; // or why it could not be made
+  try {
+    scene.step();
+  } catch (const Unstable& error) {
+    inventory["first_step"] = error.what();
   }
-  inventory["bytes"] = {{"map", map}, {"embeddings", embeddings}, {"program", program}};
-  Json left_out = Json::array();
-  if (!scene.world().floor) left_out.push_back("floor: none is drawn");
-  if (scene.world().gravity.isZero(0)) left_out.push_back("gravity: none");
-  inventory["left_out"] = std::move(left_out);
+  std::vector<Holding> arrays = footprint_of(scene);
+  inventory["arrays"] = arrays_json(arrays);
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const Body& body = *scene.bodies()[n];
+    add_built(scene, body, bodies[n]);
+    const std::vector<Holding> more = footprint_of(body);
+    arrays.insert(arrays.end(), more.begin(), more.end());
+  }
+  inventory["bodies"] = std::move(bodies);
+  inventory["bytes"] = bytes_json(arrays);
+  inventory["step"] = passes_of(scene);
+  inventory["left_out"] = left_out_of(scene);
   return inventory;
-}
-
-std::string inventory_in_words(const Json& inventory) {
-  std::string out = text(inventory, "name");
-  if (inventory.contains("thesis")) out += fmt::format(" (thesis, {})", text(inventory, "thesis"));
-  out += '\n';
-  out += time_in_words(inventory["time"]);
-  for (const Json& body : inventory["bodies"]) out += fmt::format("\n{}", body_in_words(body));
-  out += "\n";
-  for (const Json& one : inventory["left_out"]) out += folded("left out  ", one.get<std::string>());
-  const Json& bytes = inventory["bytes"];
-  const std::size_t sum = whole(bytes, "map") + whole(bytes, "embeddings") + whole(bytes, "program");
-  return out + fmt::format("total     {} in all bodies\n", bytes_in_words(sum));
 }
 
 } // namespace rend

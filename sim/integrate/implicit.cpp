@@ -54,6 +54,13 @@ public:
   SolverFigures solver() const override {
     return {newton_, linear_.iterations(), linear_.factorisations(), matrix_.bytes() + linear_.bytes()};
   }
+  std::size_t bytes() const override {
+    std::size_t sum = bytes_of(held_) + load_tangent_.bytes();
+    for (const Records* one : {&position_, &velocity_, &trial_, &reached_position_, &reached_velocity_, &force_,
+                               &momentum_, &before_, &update_})
+      sum += bytes_of(*one);
+    return sum;
+  }
 
 private:
   struct Step {

@@ -37,6 +37,9 @@ public:
                        State& next) = 0;
 
   virtual SolverFigures solver() const { return {}; }
+  virtual std::size_t bytes() const {
+    return 0;
+  } // of its own arrays, which stay between steps, without the solver's
 
   // What one step hands on to the next besides the state of the body, for those who stop and go on later: a scheme made
   // anew and given the same numbers goes on to the bit. `carry` takes what `carried` gave (CHECK).

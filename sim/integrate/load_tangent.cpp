@@ -125,4 +125,11 @@ bool LoadTangent::solve(LinearSolver& linear, const Records& right, Records& upd
   return true;
 }
 
+std::size_t LoadTangent::bytes() const {
+  std::size_t sum = bytes_of(moved_) + bytes_of(moved_velocity_) + bytes_of(image_);
+  for (const Records& one : basis_) sum += bytes_of(one);
+  for (const Records& one : solved_) sum += bytes_of(one);
+  return sum;
+}
+
 } // namespace rend

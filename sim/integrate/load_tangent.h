@@ -36,6 +36,8 @@ public:
   // most, as near as 30 iterations come. False: not solved.
   bool solve(LinearSolver& linear, const Records& right, Records& update, double digits);
 
+  std::size_t bytes() const;
+
   // Whether the last solve() found L to matter.
   bool counted() const { return counted_; }
 

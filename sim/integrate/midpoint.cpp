@@ -34,6 +34,8 @@ class Midpoint final : public Integrator {
   State middle_;
   std::vector<Record> force_; // [N], in the middle
 
+  std::size_t bytes() const override { return middle_.bytes() + bytes_of(force_); }
+
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
     const std::size_t count = system.vertices();

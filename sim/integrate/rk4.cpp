@@ -57,6 +57,10 @@ class RungeKutta4 final : public Integrator {
   std::vector<Record> force_; // [N], of the stage
   Sums sums_;
 
+  std::size_t bytes() const override {
+    return stage_.bytes() + bytes_of(force_) + bytes_of(sums_.velocity) + bytes_of(sums_.acceleration);
+  }
+
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
     const std::size_t count = system.vertices();

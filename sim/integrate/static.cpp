@@ -57,6 +57,13 @@ public:
   SolverFigures solver() const override {
     return {newton_, linear_.iterations(), linear_.factorisations(), matrix_.bytes() + linear_.bytes()};
   }
+  std::size_t bytes() const override {
+    std::size_t sum = bytes_of(held_) + bytes_of(loose_) + bytes_of(stiff_) + load_tangent_.bytes();
+    for (const Records* one : {&position_, &trial_, &start_, &still_, &goal_, &force_, &sum_, &first_sum_,
+                               &lead_, &right_, &update_})
+      sum += bytes_of(*one);
+    return sum;
+  }
   bool moves() const override { return false; }
 
 private:

@@ -2,6 +2,7 @@
 // prescribed.
 #pragma once
 
+#include "sim/base/bytes.h"
 #include "sim/mechanics/law.h"
 #include "sim/program/block_matrix.h"
 
@@ -37,6 +38,7 @@ struct State {
   double motion() const { return probe[0] + probe[1] + probe[2]; }
   bool finite() const { return std::isfinite(motion()); }
   void look(); // the same of what was written without put()
+  std::size_t bytes() const { return bytes_of(position) + bytes_of(velocity); }
   Double4 probe{};
   bool large = false; // more than the caches hold
 };

@@ -30,6 +30,8 @@ REND_CLONES void correct(const System& system, std::size_t count, double step, c
 class VelocityVerlet final : public Integrator {
   std::vector<Record> force_; // [N], at the new positions
 
+  std::size_t bytes() const override { return bytes_of(force_); }
+
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
     const std::size_t count = system.vertices();

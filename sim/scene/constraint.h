@@ -11,6 +11,7 @@
 // free). Which motions a vertex obeys is embedded on it, and every fragment of a split vertex obeys them too.
 #pragma once
 
+#include "sim/base/bytes.h"
 #include "sim/embedding/embedded_map.h"
 
 #include <limits>
@@ -71,7 +72,8 @@ public:
     for (std::size_t k = 0; obeys; ++k, obeys >>= 1)
       if (obeys & 1) f(motions_[k]);
   }
-  bool drives() const; // some motion moves
+  bool drives() const;                                                           // some motion moves
+  std::size_t bytes() const { return bytes_of(motions_) + bytes_of(vertices_); } // besides the embedding
 
 private:
   void list(const EmbeddedMap& map);

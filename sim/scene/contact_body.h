@@ -25,6 +25,7 @@ public:
 
   const ContactSettings& settings() const { return *body->contact; }
   std::size_t vertices() const { return body->vertices(); } // slots
+  std::size_t bytes() const { return faces.bytes() + bytes_of(held_); }
   bool alive(Slot v) const { return body->inverse_mass[v] != 0; }
   // [1/kg] along x, y, z; 0: held, or free slot.
   Vec3 inverse_mass(Slot v) const {

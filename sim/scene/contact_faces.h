@@ -3,6 +3,7 @@
 // after edits.
 #pragma once
 
+#include "sim/base/bytes.h"
 #include "sim/embedding/embedded_map.h"
 
 #include <array>
@@ -24,6 +25,7 @@ public:
     Slot face; // slot of <0,1>
   };
   const std::vector<Triangle>& triangles() const { return triangles_; } // by increasing face
+  std::size_t bytes() const { return bytes_of(triangles_); }
 
 private:
   void list();

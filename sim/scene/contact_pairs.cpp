@@ -203,4 +203,12 @@ bool ContactPairs::joined(const Bodies& bodies, std::size_t entry, ContactPair& 
   return same_fragment(entry, pair) && apart <= 2 * body.settings().thickness;
 }
 
+std::size_t ContactPairs::bytes() const {
+  std::size_t sum = bytes_of(pairs_);
+  for (const Of& of : of_)
+    sum +=
+        bytes_of(of.vertices) + bytes_of(of.vertex_fragment) + bytes_of(of.face_fragment) + bytes_of(of.there);
+  return sum;
+}
+
 } // namespace rend

@@ -37,6 +37,8 @@ public:
     return 0.5 * (a.settings().thickness + b.settings().thickness);
   }
   long searches() const { return searches_; }
+  std::size_t pairs() const { return pairs_.size(); } // of the last search
+  std::size_t bytes() const;
 
 private:
   struct Of {                                   // a body

@@ -27,4 +27,10 @@ void Contacts::advance(double time, double step) {
   }
 }
 
+std::size_t Contacts::bytes() const {
+  std::size_t sum = obstacles_.bytes() + (fragments_ ? fragments_->bytes() : 0);
+  for (const auto& body : bodies_) sum += body->bytes();
+  return sum;
+}
+
 } // namespace rend

@@ -15,6 +15,10 @@ public:
 
   void advance(double time, double step); // [s]: changes the `next` of bodies and spheres
 
+  const std::vector<std::unique_ptr<ContactBody>>& bodies() const { return bodies_; }
+  const FragmentContact* fragments() const { return fragments_.get(); } // null: no body asks for it
+  std::size_t bytes() const;
+
 private:
   explicit Contacts(World& world) : obstacles_(world) {}
   std::vector<std::unique_ptr<ContactBody>> bodies_; // that ask for it, in the order of the scene

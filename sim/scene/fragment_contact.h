@@ -35,6 +35,8 @@ public:
   void advance(const ContactPairs::Bodies& bodies, double step); // step [s]: changes the bodies' `next`
   std::size_t touching() const { return touches_.size(); }       // in the last step
   long searches() const { return pairs_.searches(); }
+  std::size_t pairs() const { return pairs_.pairs(); } // looked at in the last step
+  std::size_t bytes() const { return pairs_.bytes() + bytes_of(touches_); }
 
 private:
   struct Touch {

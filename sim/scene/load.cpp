@@ -154,6 +154,12 @@ void Loads::reserve_for_separations(const EmbeddedMap& map) {
   if (!empty()) sum_.reserve(map.slots_when_separated(Vertex));
 }
 
+std::size_t Loads::bytes() const {
+  std::size_t sum = bytes_of(sum_) + (wind_ ? wind_->bytes() : 0);
+  for (const Load& load : loads_) sum += load.bytes();
+  return sum;
+}
+
 bool Loads::up_to_date(double time) const {
   if (!known_ || wind_) return false;
   for (std::size_t n = 0; n < loads_.size(); ++n)

@@ -41,6 +41,9 @@ public:
   bool constant() const { return settings_.kind == LoadSettings::Kind::Force && !settings_.with_body; }
   const std::vector<Slot>& vertices() const { return patch_.cells().vertices(); } // with repetitions
 
+  std::size_t cells() const { return patch_.cells().size(); }
+  std::size_t bytes() const { return patch_.bytes() + bytes_of(part_) + bytes_of(frame_); }
+
   // Whether a moment can be had at all: not along a straight line of vertices.
   bool possible(const EmbeddedMap& map) const;
 
@@ -70,6 +73,8 @@ public:
   void set(WindLoad wind);
   bool empty() const { return loads_.empty() && !wind_; }
   const std::vector<Load>& loads() const { return loads_; }
+  const std::optional<WindLoad>& wind() const { return wind_; }
+  std::size_t bytes() const; // of lists and of the sum, besides the embeddings
 
   void rebind(const EmbeddedMap& map); // after edits
   void reserve_for_separations(const EmbeddedMap& map);

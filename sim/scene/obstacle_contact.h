@@ -34,6 +34,7 @@ public:
 
   // Spheres from the current state to the end of the step (Sphere::next_*), and what the bodies' `next` meets.
   void advance(const std::vector<std::unique_ptr<ContactBody>>& bodies, double time, double step);
+  std::size_t bytes() const { return bytes_of(touches_) + bytes_of(codes_); }
 
 private:
   struct Touch {

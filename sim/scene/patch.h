@@ -10,6 +10,7 @@
 // ½ Σ x_i × x_{i+1}, and an edge gives half its length to each end.
 #pragma once
 
+#include "sim/base/bytes.h"
 #include "sim/scene/share.h"
 
 #include <span>
@@ -33,6 +34,7 @@ public:
   }
   std::size_t first(std::size_t cell) const { return first_[cell]; } // where its vertices stand in vertices()
   const std::vector<Slot>& vertices() const { return vertices_; }    // of all cells, one after another
+  std::size_t bytes() const { return bytes_of(first_) + bytes_of(vertices_); }
 
 private:
   std::vector<std::size_t> first_{0};
@@ -58,7 +60,8 @@ public:
 
   Of of() const { return of_; }
   const CellList& cells() const { return cells_; }
-  const std::vector<Dart>& darts() const { return darts_; } // one of each cell
+  const std::vector<Dart>& darts() const { return darts_; }               // one of each cell
+  std::size_t bytes() const { return cells_.bytes() + bytes_of(darts_); } // besides the embedding
 
   // What belongs to each of cells().vertices(), at rest: area [m²], length [m], or, of corners, their share of 1.
   std::vector<double> measures(const EmbeddedMap& map) const;

@@ -34,6 +34,8 @@ public:
   const World& world() const { return world_; }
   const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
 
+  const Contacts* contacts() const { return contacts_.get(); } // null: no body meets more than the floor
+
   double time() const; // [s]
   long steps_done() const { return steps_done_; }
   double step_size() const { return step_; } // [s]

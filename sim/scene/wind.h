@@ -25,6 +25,8 @@ public:
   // Adds the force [N] on each vertex; [m], [m/s] and [N], one per vertex slot.
   void add(const Record* position, const Record* velocity, Record* force) const;
   const std::vector<Slot>& vertices() const { return faces_.vertices(); } // that it may act on
+  std::size_t faces() const { return faces_.size(); }
+  std::size_t bytes() const { return faces_.bytes(); }
 
   // How fast it damps a body at rest [1/s], at most: 2 drag |w| A_n/m_n. `inverse_mass` [1/kg], one per vertex slot.
   double damping_rate(const EmbeddedMap& map, const double* inverse_mass) const;

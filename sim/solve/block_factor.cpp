@@ -1,5 +1,6 @@
 #include "sim/solve/block_factor.h"
 
+#include "sim/base/bytes.h"
 #include "sim/base/check.h"
 #include "sim/solve/block_products.h"
 
@@ -206,8 +207,11 @@ void BlockFactor::solve(const Record* b, Record* x) {
 }
 
 std::size_t BlockFactor::bytes() const {
-  return lower_.size() * sizeof(Block3) + (row_.size() + order_.size() * 5) * sizeof(std::uint32_t) +
-         (pivot_.size() * 2 + work_.size()) * sizeof(Block3);
+  std::size_t sum = bytes_of(start_) + bytes_of(solution_);
+  for (const auto* one : {&order_, &inverse_, &parent_, &end_, &row_, &mark_, &stack_, &path_})
+    sum += bytes_of(*one);
+  for (const auto* one : {&lower_, &pivot_, &inverse_pivot_, &work_}) sum += bytes_of(*one);
+  return sum;
 }
 
 } // namespace rend

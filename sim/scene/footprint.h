@@ -1,0 +1,32 @@
+// What a scene holds in memory, array by array.
+//
+// Arrays are counted by what was written to them (base/bytes.h); objects of fixed size, names and the preset are not
+// counted: some kilobytes. What comes with the first step is there after it. A test compares the sum with what the heap
+// has grown by.
+#pragma once
+
+#include "sim/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace rend {
+
+struct Holding {
+  std::string part; // one of footprint_parts()
+  std::string name; // of the array, in words
+  std::string per;  // what it has one of ("vertex"); empty: a list of its own length
+  std::size_t bytes = 0;
+};
+
+// map, slots, embeddings, program, laws, solver, integrator, state, constraints, loads, contact.
+const std::vector<std::string>& footprint_parts();
+
+// Without what has no bytes. Of a body, and of what the bodies of a scene have together.
+std::vector<Holding> footprint_of(const Body& body);
+std::vector<Holding> footprint_of(const Scene& scene);
+
+std::size_t bytes_of_part(const std::vector<Holding>& all, const std::string& part);
+std::size_t bytes_of_all(const Scene& scene);
+
+} // namespace rend
