@@ -3,6 +3,7 @@
 #include "render/output.h"
 #include "sim/base/error.h"
 
+#ifdef REND_PNG
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
@@ -107,6 +108,11 @@ bool read_rows(Reader& reader, Image& image, int passes) {
 
 } // namespace
 
+bool png_available() {
+  return true;
+}
+void require_png() {}
+
 std::vector<std::uint8_t> encode_png(const Image& image) {
   CHECK(image.width > 0 && image.height > 0 && image.pixels.size() == image.stride() * image.height);
   std::vector<std::uint8_t> bytes;
@@ -142,3 +148,30 @@ Image read_png(const std::filesystem::path& path) {
 }
 
 } // namespace rend
+
+#else
+
+namespace rend {
+
+bool png_available() {
+  return false;
+}
+void require_png() {
+  throw UserError(Exit::Usage, {}, "this rend was built without PNG",
+                  "ask for a video alone (--video mp4 --no-png), or build with -DREND_PNG=ON");
+}
+std::vector<std::uint8_t> encode_png(const Image&) {
+  require_png();
+  return {};
+}
+void write_png(const std::filesystem::path&, const Image&) {
+  require_png();
+}
+Image read_png(const std::filesystem::path&) {
+  require_png();
+  return {};
+}
+
+} // namespace rend
+
+#endif

@@ -10,6 +10,11 @@
 
 namespace rend {
 
+// False where rend was built without REND_PNG; all that follows then throws UserError (Usage), and require_png() does
+// nothing else.
+bool png_available();
+void require_png();
+
 // The bytes of a PNG file. The same picture gives the same bytes.
 std::vector<std::uint8_t> encode_png(const Image& image);
 

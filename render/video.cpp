@@ -232,6 +232,7 @@ std::int64_t VideoWriter::Encoder::seek(void* self, std::int64_t offset, int whe
 bool video_available() {
   return true;
 }
+void require_video() {}
 
 VideoWriter::VideoWriter() = default;
 VideoWriter::~VideoWriter() = default;
@@ -272,15 +273,18 @@ struct VideoWriter::Encoder {};
 bool video_available() {
   return false;
 }
+void require_video() {
+  throw UserError(Exit::Usage, {}, "this rend was built without video",
+                  "leave --video out, or build with -DREND_VIDEO=ON");
+}
 
 VideoWriter::VideoWriter() = default;
 VideoWriter::~VideoWriter() = default;
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 
-void VideoWriter::open(const std::filesystem::path& path, int, int, double) {
-  throw UserError(Exit::Usage, {path.string()}, "this rend was built without video.",
-                  "Ask for PNG files only, or build with -DREND_VIDEO=ON.");
+void VideoWriter::open(const std::filesystem::path&, int, int, double) {
+  require_video();
 }
 
 void VideoWriter::add(const Image&) {

@@ -13,8 +13,10 @@
 
 namespace rend {
 
-// False where rend was built without REND_VIDEO: VideoWriter then throws on open.
+// False where rend was built without REND_VIDEO; VideoWriter::open then throws UserError (Usage), and require_video()
+// does nothing else.
 bool video_available();
+void require_video();
 
 class VideoWriter {
 public:

@@ -6,6 +6,8 @@
 #include "render/app/output_folder.h"
 #include "render/app/progress.h"
 #include "render/app/session.h"
+#include "render/png.h"
+#include "render/video.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -71,10 +73,17 @@ Stopped shoot(Session& session, Film& film, long last) {
   return stopped;
 }
 
-Exit render(const RenderOptions& options) {
-  const double start = wall_clock();
+// Before anything slow is done.
+void check_output(const RenderOptions& options) {
   if (options.no_png && options.video.empty())
     throw UserError(Exit::Usage, {}, "--no-png without --video leaves nothing to write", "add --video mp4");
+  if (!options.no_png) require_png();
+  if (!options.video.empty()) require_video();
+}
+
+Exit render(const RenderOptions& options) {
+  const double start = wall_clock();
+  check_output(options);
   const FrameChoice choice = options.frames.empty() ? FrameChoice() : FrameChoice(options.frames);
   if (!options.size.empty()) parse_size(options.size);
   Session session(options.session);

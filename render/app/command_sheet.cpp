@@ -71,6 +71,7 @@ void paste(const Image& tile, int x, int y, Image& sheet) {
 }
 
 Exit make_sheet(const SheetOptions& options) {
+  require_png(); // before anything slow
   const PictureSize size = parse_size(options.size);
   for (const std::string& preset : options.presets)
     load_scene(preset, {}); // what is bad is said before anything slow

@@ -4,6 +4,7 @@
 #include "render/video.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
+#include "tests/render/needs.h"
 #include "tests/render/pictures.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,7 @@ int red_pixels(const Image& image) {
 }
 
 TEST(Pipeline, WritesEveryFrameUnderItsNumber) {
+  NEEDS_PNG;
   const Folder folder;
   for (const int writers : {1, 2}) {
     PipelineOptions options = small(folder / "new/folder"); // made on the way
@@ -58,7 +60,8 @@ TEST(Pipeline, WritesEveryFrameUnderItsNumber) {
 }
 
 TEST(Pipeline, WritesAVideoBesideThePicturesOrAlone) {
-  if (!video_available()) GTEST_SKIP() << "built without video";
+  NEEDS_PNG;
+  NEEDS_VIDEO;
   for (const bool png : {true, false}) {
     const Folder folder;
     PipelineOptions options = small(folder.path());
@@ -73,6 +76,7 @@ TEST(Pipeline, WritesAVideoBesideThePicturesOrAlone) {
 }
 
 TEST(Pipeline, WithoutFinishKeepsPicturesAndRemovesTheVideo) {
+  NEEDS_PNG;
   const Folder folder;
   PipelineOptions options = small(folder.path());
   options.video = video_available();
@@ -87,6 +91,7 @@ TEST(Pipeline, WithoutFinishKeepsPicturesAndRemovesTheVideo) {
 }
 
 TEST(Pipeline, AnErrorOfAWriterComesOutOfPushOrFinish) {
+  NEEDS_PNG;
   const Folder folder;
   std::filesystem::create_directory(folder / "00001.png"); // in the way
   Pipeline pipeline(small(folder.path()));
@@ -115,6 +120,7 @@ TEST(Pipeline, AFrameThatIsNotFiniteIsNotWritten) {
 }
 
 TEST(Pipeline, AFolderThatCannotBeMadeIsTheUsersError) {
+  NEEDS_PNG;
   const Folder folder;
   write_png(folder / "file", pattern(2, 2));
   try {

@@ -1,6 +1,7 @@
 #include "render/png.h"
 
 #include "sim/base/error.h"
+#include "tests/render/needs.h"
 #include "tests/render/pictures.h"
 
 #include <csignal>
@@ -24,6 +25,7 @@ Exit code_of(const auto& action) {
 }
 
 TEST(Png, ReadsBackWhatItWrote) {
+  NEEDS_PNG;
   const Folder folder;
   for (const int channels : {3, 4}) {
     const Image image = pattern(37, 23, channels);
@@ -33,17 +35,20 @@ TEST(Png, ReadsBackWhatItWrote) {
 }
 
 TEST(Png, TheSamePictureGivesTheSameBytes) {
+  NEEDS_PNG;
   EXPECT_EQ(encode_png(pattern(64, 48)), encode_png(pattern(64, 48)));
   EXPECT_NE(encode_png(pattern(64, 48)), encode_png(pattern(64, 48, 3, 1)));
 }
 
 TEST(Png, IntoAFolderThatIsNotThereCannotBeCreatedAndLeavesNothing) {
+  NEEDS_PNG;
   const Folder folder;
   EXPECT_EQ(code_of([&] { write_png(folder / "missing/a.png", pattern(4, 4)); }), Exit::CannotCreate);
   EXPECT_EQ(folder.files(), 0);
 }
 
 TEST(Png, OverAFolderCannotBeCreated) {
+  NEEDS_PNG;
   const Folder folder;
   std::filesystem::create_directory(folder / "a.png");
   EXPECT_EQ(code_of([&] { write_png(folder / "a.png", pattern(4, 4)); }), Exit::CannotCreate);
@@ -52,6 +57,7 @@ TEST(Png, OverAFolderCannotBeCreated) {
 
 // A limit on the size of files stands in for a disk that is full.
 TEST(Png, AFailedWriteLeavesTheOldPictureAndNothingElse) {
+  NEEDS_PNG;
   const Folder folder;
   const Image old = pattern(8, 8);
   write_png(folder / "a.png", old);
@@ -69,11 +75,13 @@ TEST(Png, AFailedWriteLeavesTheOldPictureAndNothingElse) {
 }
 
 TEST(Png, AFileThatIsNotThereIsNoInput) {
+  NEEDS_PNG;
   const Folder folder;
   EXPECT_EQ(code_of([&] { read_png(folder / "a.png"); }), Exit::NoInput);
 }
 
 TEST(Png, AFileThatIsCutOffOrNoPngIsBadInput) {
+  NEEDS_PNG;
   const Folder folder;
   const std::vector<std::uint8_t> bytes = encode_png(pattern(64, 64));
   const auto write = [&](std::size_t count) {

@@ -4,6 +4,7 @@
 #include "render/png.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
+#include "tests/render/needs.h"
 #include "tests/render/pictures.h"
 
 #include <fmt/format.h>
@@ -292,6 +293,7 @@ TEST_F(StageTest, DISABLED_WritesAPicture) {
 }
 
 TEST_F(StageTest, ThePictureIsTheSameForAnyNumberOfThreads) {
+  NEEDS_PNG;
   const Folder folder;
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   for (const int threads : {0, 1, 3}) {

@@ -1,6 +1,7 @@
 #include "render/video.h"
 
 #include "sim/base/error.h"
+#include "tests/render/needs.h"
 #include "tests/render/pictures.h"
 
 #include <cstdio>
@@ -16,9 +17,7 @@ using namespace test;
 
 class VideoTest : public testing::Test {
 protected:
-  void SetUp() override {
-    if (!video_available()) GTEST_SKIP() << "built without video";
-  }
+  void SetUp() override { NEEDS_VIDEO; }
 
   // A video of `count` pictures that change.
   static void write(const std::filesystem::path& path, int width, int height, int count, double fps = 25) {

@@ -2,6 +2,7 @@
 // behind.
 //
 //   <!-- expect CODE at LINE:COLUMN: words of the message or its hint -->
+#include "render/png.h"
 #include "tests/render/app/program_run.h"
 
 #include <regex>
@@ -30,8 +31,9 @@ TEST_P(BadPreset, IsRefusedAsItsFirstLineSays) {
       << first;
   const Place place;
   place.write("bad.xml", text);
-  for (const std::string command :
-       {"run bad.xml --diagnostics d.csv --events e.jsonl", "render bad.xml -o frames"}) {
+  std::vector<std::string> commands{"run bad.xml --diagnostics d.csv --events e.jsonl"};
+  if (png_available()) commands.push_back("render bad.xml -o frames");
+  for (const std::string& command : commands) {
     const Outcome outcome = place.rend(command);
     EXPECT_EQ(outcome.code, std::stoi(expected[1])) << command;
     EXPECT_EQ(outcome.err.rfind("rend: error: bad.xml:" + expected[2].str() + ": ", 0), 0U) << outcome.err;

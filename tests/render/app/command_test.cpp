@@ -1,5 +1,6 @@
 // The program as a user meets it: exit codes, files, figures.
 #include "tests/render/app/program_run.h"
+#include "tests/render/needs.h"
 
 #include <gmock/gmock.h>
 
@@ -57,6 +58,23 @@ TEST_F(Program, RefusesABadCommandLine) {
   expect_nothing_left();
 }
 
+TEST_F(Program, RefusesWhatItWasBuiltWithout) {
+  if (png_available() && video_available()) GTEST_SKIP() << "built with all";
+  if (!png_available()) {
+    for (const char* line : {"render pulled.xml", "sheet pulled.xml -o sheet.png"}) {
+      const Outcome outcome = place.rend(line);
+      EXPECT_EQ(outcome.code, 64) << line;
+      EXPECT_THAT(outcome.err, AllOf(HasSubstr("built without PNG"), HasSubstr("-DREND_PNG=ON"))) << line;
+    }
+  }
+  if (!video_available()) {
+    const Outcome outcome = place.rend("render pulled.xml --video mp4 --no-png");
+    EXPECT_EQ(outcome.code, 64);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("built without video"), HasSubstr("-DREND_VIDEO=ON")));
+  }
+  expect_nothing_left();
+}
+
 TEST_F(Program, SaysWhereASetValueIsBad) {
   const Outcome outcome = place.rend("run pulled.xml --set time.step=x");
   EXPECT_EQ(outcome.code, 65);
@@ -64,6 +82,7 @@ TEST_F(Program, SaysWhereASetValueIsBad) {
 }
 
 TEST_F(Program, SaysThatAPresetIsMissing) {
+  NEEDS_PNG;
   const Outcome outcome = place.rend("render puled.xml");
   EXPECT_EQ(outcome.code, 66);
   EXPECT_THAT(outcome.err, HasSubstr("did you mean 'pulled.xml'?"));
@@ -71,6 +90,7 @@ TEST_F(Program, SaysThatAPresetIsMissing) {
 }
 
 TEST_F(Program, CannotWriteWhereAFileIs) {
+  NEEDS_PNG;
   EXPECT_EQ(place.rend("render pulled.xml -o pulled.xml/frames").code, 73);
   EXPECT_EQ(place.rend("run pulled.xml --diagnostics nowhere/d.csv").code, 73);
   EXPECT_EQ(place.rend("run pulled.xml --json > /dev/full").code, 74);
@@ -84,6 +104,8 @@ TEST_F(Program, SurvivesAClosedPipe) {
 }
 
 TEST_F(Program, LeavesNothingBehindWhereItExplodesAtOnce) {
+  NEEDS_VIDEO;
+  NEEDS_PNG;
   for (const char* step : {"1", "0.1", "0.05"}) {
     const std::string set = std::string(" --set time.step=") + step;
     const Outcome render = place.rend("render pulled.xml -o deep/in/frames --video mp4" + set);
@@ -151,6 +173,8 @@ TEST_F(Program, WalksTheMapToTheSameForces) {
 }
 
 TEST_F(Program, MakesAPictureOfEveryFrame) {
+  NEEDS_VIDEO;
+  NEEDS_PNG;
   const Outcome outcome = place.rend("render pulled.xml -o frames --video mp4");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, StartsWith("7 frames in frames, and frames/pulled.mp4"));
@@ -161,6 +185,7 @@ TEST_F(Program, MakesAPictureOfEveryFrame) {
 }
 
 TEST_F(Program, DrawsAFrameAloneAsInTheWholeClip) {
+  NEEDS_PNG;
   for (const char* by : {"plain", "strain", "force", "fragment"}) {
     const std::string line = std::string(" --quiet --set body.look.by=") + by;
     ASSERT_EQ(place.rend("render pulled.xml -o all" + line).code, 0);
@@ -173,6 +198,7 @@ TEST_F(Program, DrawsAFrameAloneAsInTheWholeClip) {
 }
 
 TEST_F(Program, WritesIntoAFolderCalledAsTheScene) {
+  NEEDS_PNG;
   const Outcome outcome = place.rend("render pulled.xml --frames 0 --size 32x16 --quiet");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
@@ -237,6 +263,8 @@ Outcome stopped_once_there_is(const std::string& file, const std::string& argume
 }
 
 TEST_F(Program, StopsOnASignalAndKeepsWhatIsDone) {
+  NEEDS_VIDEO;
+  NEEDS_PNG;
   const Outcome render = stopped_once_there_is("f/00000.png", "render pulled.xml -o f --video mp4", place);
   EXPECT_EQ(render.code, 143) << render.err;
   EXPECT_THAT(render.err, HasSubstr("stopped by a signal"));

@@ -2,6 +2,7 @@
 // bytes.
 #include "render/app/preset_types.h"
 #include "tests/render/app/program_run.h"
+#include "tests/render/needs.h"
 
 #include <algorithm>
 #include <cctype>
@@ -124,6 +125,7 @@ TEST(Schema, beside_the_presets_is_what_the_program_prints) {
 
 // Frame 0, one with the cloth whipping, and the last.
 TEST(Pictures, of_the_torn_cloth_are_the_same_bytes_twice_and_show_something) {
+  NEEDS_PNG;
   const Place place;
   const std::string render =
       "render '" + (root / "presets/tear/cloth-global-border.xml").string() + "' --size 160x90 --quiet";

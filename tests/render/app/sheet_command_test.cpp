@@ -1,6 +1,7 @@
 // rend sheet, against the pictures of rend render.
 #include "render/png.h"
 #include "tests/render/app/program_run.h"
+#include "tests/render/needs.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -21,6 +22,7 @@ Image part(const Image& sheet, int column, int row, int width, int height) {
 }
 
 TEST(Sheet, shows_the_start_the_tear_and_the_end_as_render_draws_them) {
+  NEEDS_PNG;
   const Place place;
   place.write("pulled.xml", program::pulled);
   const Outcome made = place.rend("sheet pulled.xml pulled.xml -o sheet.png --size 96x54 -q");
@@ -51,6 +53,7 @@ TEST(Sheet, shows_the_start_the_tear_and_the_end_as_render_draws_them) {
 }
 
 TEST(Sheet, leaves_nothing_where_a_preset_is_bad) {
+  NEEDS_PNG;
   const Place place;
   place.write("pulled.xml", program::pulled);
   const Outcome made = place.rend("sheet pulled.xml missing.xml -o sheet.png --size 96x54");

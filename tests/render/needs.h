@@ -1,0 +1,13 @@
+// Tests that a rend built with less skips.
+#pragma once
+
+#include "render/png.h"
+#include "render/video.h"
+
+#include <gtest/gtest.h>
+
+// They return from the test.
+#define NEEDS_PNG                                                                                              \
+  if (!rend::png_available()) GTEST_SKIP() << "built without PNG"
+#define NEEDS_VIDEO                                                                                            \
+  if (!rend::video_available()) GTEST_SKIP() << "built without video"
