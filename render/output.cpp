@@ -19,9 +19,12 @@ std::string reason() {
 } // namespace
 
 // A link is followed: what it points at is replaced, not the link.
-OutputFile::OutputFile(const std::filesystem::path& path)
+OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, {}) {}
+
+OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& temporary)
     : path_(std::filesystem::is_symlink(path) ? std::filesystem::weakly_canonical(path) : path),
-      temporary_(path_.string() + ".part") {
+      temporary_(temporary.empty() ? path_.string() + ".part"
+                                   : (path_.parent_path() / temporary.filename()).string()) {
   if (std::filesystem::is_directory(path_))
     throw UserError(Exit::CannotCreate, {path_.string()}, "a folder of this name is in the way.",
                     "Choose another name for the output.");

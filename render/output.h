@@ -16,6 +16,8 @@ class OutputFile {
 public:
   // Creates the temporary file. Throws UserError (CannotCreate).
   explicit OutputFile(const std::filesystem::path& path);
+  // The same with another temporary name, in the same folder.
+  OutputFile(const std::filesystem::path& path, const std::filesystem::path& temporary);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;

@@ -23,7 +23,7 @@ struct PipelineOptions {
   double fps = 30; // of the video
   bool png = true;
   bool video = false;
-  std::string extension = ".mp4"; // of the video: .mp4 or .mkv
+  std::string extension = ".mp4"; // of the video; see video_format.h
   int png_writers = 1;            // 1 or 2 threads
 };
 

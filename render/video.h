@@ -1,9 +1,11 @@
-// H.264 video in an .mp4 or .mkv file, by libav.
+// Video, by libav: the formats of video_format.h.
 //
-// The same pictures give the same file, byte for byte: a fixed number of encoder threads, the bit-exact flags
-// of codec, container and colour conversion, no dates and no names of programs. Colours are BT.709, limited
-// range, 4:2:0, and tagged so, which every player shows alike; the index stands in front (a browser starts at
-// once). 4:2:0 wants even sides: an odd picture is padded by repeating its last column or row.
+// The same pictures give the same file, byte for byte: a fixed number of threads, the bit-exact flags of codec,
+// container and colour conversion, no dates and no names of programs.
+//
+// While pictures come the video stands beside its place as NAME.part.EXT, written through picture by picture, so that
+// a run that is killed leaves something that plays. At the end it appears under its name, whole: an .mp4, written in
+// fragments until then, once more with its index in front, since a browser then starts at once.
 #pragma once
 
 #include "render/image.h"

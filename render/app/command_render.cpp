@@ -8,6 +8,7 @@
 #include "render/app/session.h"
 #include "render/png.h"
 #include "render/video.h"
+#include "render/video_format.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -103,6 +104,13 @@ Exit render(const RenderOptions& options) {
   return end_of(session, stopped);
 }
 
+std::string video_formats_in_words() {
+  std::string out;
+  for (const VideoFormat& format : video_formats())
+    out += fmt::format("{}{} ({})", out.empty() ? "" : ", ", format.name, format.what);
+  return out;
+}
+
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   add_run_options(app, options->session);
@@ -112,9 +120,9 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("LIST");
   app.add_option("--size", options->size, "of the pictures in pixels, instead of the preset's")
       ->type_name("WxH");
-  app.add_option("--video", options->video, "also a video, called as the scene is")
-      ->type_name("mp4|mkv")
-      ->check(CLI::IsMember({"mp4", "mkv"}));
+  app.add_option("--video", options->video, "also a video, called as the scene is: " + video_formats_in_words())
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember(video_format_names()));
   app.add_flag("--no-png", options->no_png, "the video alone");
   app.add_flag("--json", options->json, "the figures as one JSON object, instead of the closing words");
   return [options] { return render(*options); };

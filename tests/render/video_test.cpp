@@ -1,4 +1,5 @@
 #include "render/video.h"
+#include "render/video_format.h"
 
 #include "sim/base/error.h"
 #include "tests/render/needs.h"
@@ -9,6 +10,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace rend {
 namespace {
@@ -46,16 +49,82 @@ protected:
   }
 };
 
-TEST_F(VideoTest, HasTheSizeTheRateAndAllThePicturesInBothContainers) {
+struct Expected {
+  const char *name, *stream, *colours;
+};
+constexpr std::array<Expected, 5> formats{{{"a.mp4", "h264,96,64,yuv420p", "tv,bt709,bt709,bt709"},
+                                           {"a.webm", "vp9,96,64,yuv420p", "tv,bt709,bt709,bt709"},
+                                           {"a.mkv", "ffv1,96,64,bgr0", "pc,gbr,iec61966-2-1,bt709"},
+                                           {"a.gif", "gif,96,64,bgra", "unknown,unknown,unknown,unknown"},
+                                           {"a.apng", "apng,96,64,rgb24", "pc,unknown,unknown,unknown"}}};
+
+TEST_F(VideoTest, HasTheSizeTheRateAndAllThePicturesInEveryFormat) {
   if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe";
   const Folder folder;
-  for (const char* name : {"a.mp4", "a.mkv"}) {
-    write(folder / name, 96, 64, 13);
-    EXPECT_EQ(probe(folder / name, "codec_name,width,height,pix_fmt"), "h264,96,64,yuv420p");
-    EXPECT_EQ(probe(folder / name, "r_frame_rate"), "25/1");
-    EXPECT_EQ(probe(folder / name, "nb_read_frames"), "13");
-    EXPECT_EQ(probe(folder / name, "color_range,color_space,color_transfer,color_primaries"),
-              "tv,bt709,bt709,bt709");
+  ASSERT_EQ(video_formats().size(), formats.size());
+  for (const Expected& each : formats) {
+    SCOPED_TRACE(each.name);
+    write(folder / each.name, 96, 64, 13);
+    EXPECT_EQ(probe(folder / each.name, "codec_name,width,height,pix_fmt"), each.stream);
+    EXPECT_EQ(probe(folder / each.name, "r_frame_rate"), "25/1");
+    EXPECT_EQ(probe(folder / each.name, "nb_read_frames"), "13");
+    EXPECT_EQ(probe(folder / each.name, "color_range,color_space,color_transfer,color_primaries"),
+              each.colours);
+  }
+}
+
+TEST_F(VideoTest, TheLosslessOneDecodesToThePicturesExactly) {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
+  const Folder folder;
+  write(folder / "a.mkv", 95, 63, 4); // odd sides too
+  const std::string command = fmt::format("ffmpeg -v error -i '{}' -f rawvideo -pix_fmt rgb24 '{}'",
+                                          (folder / "a.mkv").string(), (folder / "raw").string());
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::string expected;
+  for (int k = 0; k < 4; ++k) {
+    const Image image = pattern(95, 63, 3, k);
+    expected.append(image.pixels.begin(), image.pixels.end());
+  }
+  EXPECT_TRUE(bytes(folder / "raw") == expected);
+}
+
+TEST_F(VideoTest, PreviewsAreSmall) {
+  if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe";
+  const Folder folder;
+  for (const char* name : {"a.gif", "a.apng"}) {
+    write(folder / name, 960, 540, 2);
+    EXPECT_EQ(probe(folder / name, "width,height"), "480,270");
+  }
+}
+
+TEST_F(VideoTest, AGifOfMoreThanFiftyPicturesASecondIsSlowedDown) {
+  if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe";
+  const Folder folder;
+  write(folder / "a.gif", 64, 64, 100, 200); // half a second
+  EXPECT_EQ(probe(folder / "a.gif", "r_frame_rate"), "50/1");
+  EXPECT_EQ(probe(folder / "a.gif", "nb_read_frames"), "25");
+}
+
+// What a program that is killed leaves behind can be played, but for its last second or so.
+TEST_F(VideoTest, WhatAKilledRunLeavesCanBePlayed) {
+  if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe";
+  for (const VideoFormat& format : video_formats()) {
+    SCOPED_TRACE(format.name);
+    const Folder folder;
+    const pid_t child = fork();
+    if (child == 0) {
+      VideoWriter video;
+      video.open(folder / ("a." + format.name), 64, 64, 25);
+      for (int k = 0; k < 120; ++k) video.add(pattern(64, 64, 3, k));
+      _exit(0); // nothing is closed
+    }
+    ASSERT_GT(child, 0);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_EQ(status, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / ("a." + format.name)));
+    const std::string pictures = probe(folder / ("a.part." + format.name), "nb_read_frames");
+    EXPECT_GE(std::atoi(pictures.c_str()), 50) << pictures;
   }
 }
 
@@ -68,11 +137,11 @@ TEST_F(VideoTest, AnOddPictureIsPaddedToAnEvenOne) {
 
 TEST_F(VideoTest, TheSamePicturesGiveTheSameBytes) {
   const Folder folder;
-  for (const char* name : {"a.mp4", "b.mp4"}) write(folder / name, 320, 200, 20);
-  EXPECT_FALSE(bytes(folder / "a.mp4").empty());
-  EXPECT_EQ(bytes(folder / "a.mp4"), bytes(folder / "b.mp4"));
-  for (const char* name : {"a.mkv", "b.mkv"}) write(folder / name, 64, 64, 5);
-  EXPECT_EQ(bytes(folder / "a.mkv"), bytes(folder / "b.mkv"));
+  for (const VideoFormat& format : video_formats()) {
+    for (const char* stem : {"a.", "b."}) write(folder / (stem + format.name), 320, 200, 20);
+    EXPECT_FALSE(bytes(folder / ("a." + format.name)).empty());
+    EXPECT_TRUE(bytes(folder / ("a." + format.name)) == bytes(folder / ("b." + format.name))) << format.name;
+  }
 }
 
 TEST_F(VideoTest, TheIndexStandsInFrontOfThePictures) {

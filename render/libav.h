@@ -1,0 +1,48 @@
+// What all files that use libav share: owners of its objects, and its errors in words. Only for builds with video.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavfilter/avfilter.h>
+#include <libavformat/avformat.h>
+}
+
+namespace rend {
+
+struct FreeOfLibav {
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  void operator()(AVFormatContext* format) const { avformat_free_context(format); }
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVFilterGraph* graph) const { avfilter_graph_free(&graph); }
+  void operator()(AVIOContext* io) const {
+    av_freep(&io->buffer);
+    avio_context_free(&io);
+  }
+};
+template <class T> using Owned = std::unique_ptr<T, FreeOfLibav>;
+
+// Throws UserError (ReadWrite) about the file where a result of libav is negative.
+void must_av(int result, const std::filesystem::path& file, const char* doing);
+
+// Options as libav takes them; freed with this, whatever libav left in it.
+class AvOptions {
+public:
+  explicit AvOptions(const std::vector<std::pair<std::string, std::string>>& options);
+  ~AvOptions() { av_dict_free(&dictionary_); }
+  AvOptions(const AvOptions&) = delete;
+  AvOptions& operator=(const AvOptions&) = delete;
+  AVDictionary** get() { return &dictionary_; }
+
+private:
+  AVDictionary* dictionary_ = nullptr;
+};
+
+} // namespace rend
