@@ -5,6 +5,8 @@
 // each side of a triangle is a property of the corner opposite to it, so that a quad shows as a quad.
 #pragma once
 
+#include "render/hud_content.h"
+
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -62,6 +64,7 @@ struct Frame {
   std::optional<Eigen::Vector3d>
       light; // towards the key light, any length; none: over the camera's left shoulder
   std::array<float, 3> background{0.93f, 0.94f, 0.96f}; // sRGB; a soft gradient around it
+  HudContent hud;                                       // written over it all; empty: nothing is
 };
 
 } // namespace rend

@@ -1,6 +1,7 @@
 #include "render/pipeline.h"
 
 #include "render/device.h"
+#include "render/hud.h"
 #include "render/png.h"
 #include "render/queue.h"
 #include "render/stage.h"
@@ -125,11 +126,14 @@ void Pipeline::Stages::spent(double PipelineSeconds::*stage, double since) {
 void Pipeline::Stages::draw() {
   device_->make_current();
   const std::unique_ptr<Stage> stage = std::move(stage_); // frees its OpenGL objects where they are current
+  std::unique_ptr<Hud> hud;                               // made for the first frame that has one
   while (auto frame = frames_.pop()) {
     const double start = now();
     auto picture = std::make_shared<Picture>();
     picture->number = frame->number;
     stage->draw(*frame);
+    if (!frame->hud.empty() && !hud) hud = std::make_unique<Hud>(options_.width, options_.height);
+    if (!frame->hud.empty()) hud->draw(frame->hud);
     picture->image = stage->read();
     spent(&PipelineSeconds::draw, start);
     if (options_.png && !for_png_.push(picture)) break;

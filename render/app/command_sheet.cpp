@@ -51,7 +51,8 @@ private:
 };
 
 Exit run(Session& session, double aspect, Row& row) {
-  PictureMaker maker(session.preset(), session.scene(), aspect, session.clock().duration());
+  PictureMaker maker(session.preset(), session.scene(), aspect, session.clock().duration(),
+                     session.clock().frames());
   const long last = session.clock().frames() - 1;
   Progress progress(session.quiet(), session.last_step(last), session.clock().duration(), 0);
   Session::Calls calls;

@@ -7,7 +7,7 @@ namespace rend {
 Film::Film(Session& session, const PipelineOptions& options, const FrameChoice& choice)
     : session_(session), options_(options), folder_(options.folder), choice_(choice),
       maker_(session.preset(), session.scene(), static_cast<double>(options.width) / options.height,
-             session.clock().duration()) {}
+             session.clock().duration(), session.clock().frames()) {}
 
 Film::~Film() {
   pipeline_.reset(); // before the folder, which goes if nothing was written to it

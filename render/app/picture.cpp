@@ -2,6 +2,8 @@
 
 #include "render/app/obstacle_picture.h"
 #include "render/app/preset_types.h"
+#include "render/app/units.h"
+#include "render/hud.h"
 #include "sim/scene/measure.h"
 #include "sim/topology/count.h"
 #include "sim/topology/orientation.h"
@@ -46,6 +48,8 @@ BodyPicture::BodyPicture(Body& body)
   colour_ = colour_of(look, "colour");
   inside_ = colour_of(look, "inside");
   edges_ = look.flag("edges");
+  given_ = look.given("most");
+  if (given_) scale_ = look.number("most");
   const std::string& by = look.text("by");
   by_ = by == "strain"     ? ShownBy::Strain
         : by == "stress"   ? ShownBy::Stress
@@ -62,6 +66,7 @@ void BodyPicture::observe(std::size_t& fragments_seen) {
   values_ = by_ == ShownBy::Strain   ? vertex_strain(*body_)
             : by_ == ShownBy::Stress ? vertex_stress(*body_)
                                      : vertex_force(*body_);
+  if (given_) return;
   double most = 0;
   for (double value : values_) most = std::max(most, value);
   if (by_ != ShownBy::Strain && most > 0 && scale_ == 0) { // at rest all is round-off, and no colour
@@ -70,6 +75,19 @@ void BodyPicture::observe(std::size_t& fragments_seen) {
   }
   if (by_ == ShownBy::Strain && most < at_rest) most = 0;
   scale_ = std::max(scale_, rounded_up(most));
+}
+
+std::optional<HudLegend> BodyPicture::legend() const {
+  if (by_ == ShownBy::Plain || by_ == ShownBy::Fragment || scale_ == 0) return {};
+  HudLegend legend;
+  legend.title = std::string(by_ == ShownBy::Strain   ? "largest strain"
+                             : by_ == ShownBy::Stress ? "largest principal stress"
+                                                      : "largest force");
+  const char* unit = by_ == ShownBy::Strain ? "" : by_ == ShownBy::Stress ? "Pa" : "N";
+  legend.low = in_units(0, "");
+  legend.high = in_units(scale_, unit);
+  for (int n = 0; n < 64; ++n) legend.colours.push_back(colour_of_share(n / 63.0));
+  return legend;
 }
 
 void BodyPicture::label_fragments(std::size_t& fragments_seen) {
@@ -143,8 +161,9 @@ void BodyPicture::draw_solid(FrameBody& out) {
   });
 }
 
-PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, double duration)
+PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, double duration, long frames)
     : scene_(scene), viewpoint_(preset, scene, aspect, duration) {
+  if (const Node* hud = preset.child("hud"); hud && hud_available()) hud_.emplace(*hud, scene, frames);
   const Colour background = image_settings(preset).background;
   for (std::size_t c = 0; c < 3; ++c) background_[c] = static_cast<float>(background[c]) / 255;
   const double start = now();
@@ -155,6 +174,7 @@ PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, doub
 void PictureMaker::observe() {
   const double start = now();
   for (auto& body : bodies_) body->observe(fragments_seen_);
+  if (hud_) hud_->observe();
   seconds_ += now() - start;
 }
 
@@ -169,8 +189,21 @@ Frame PictureMaker::draw(long number, double time) {
   if (scene_.world().floor) frame.floor = FrameFloor{*scene_.world().floor};
   frame.camera = viewpoint_.at(time);
   frame.background = background_;
+  if (hud_) frame.hud = hud_->content(legends());
   seconds_ += now() - start;
   return frame;
+}
+
+// Each kind of scale once: bodies that share it need not say it twice.
+std::vector<HudLegend> PictureMaker::legends() const {
+  std::vector<HudLegend> all;
+  if (!hud_->wants_legends()) return all;
+  for (const auto& body : bodies_)
+    if (auto legend = body->legend()) {
+      const auto same = [&](const HudLegend& l) { return l.title == legend->title && l.high == legend->high; };
+      if (std::none_of(all.begin(), all.end(), same)) all.push_back(std::move(*legend));
+    }
+  return all;
 }
 
 std::size_t PictureMaker::bytes() const {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "render/app/colour.h"
+#include "render/app/hud_writer.h"
 #include "render/app/viewpoint.h"
 #include "render/frame.h"
 #include "sim/surface/solid_surface.h"
@@ -28,6 +29,7 @@ public:
 
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that were given a colour
   FrameBody draw();                          // of the state that was observed
+  std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
   std::size_t bytes() const { return sheet_ ? sheet_->bytes() : solid_->bytes(); }
 
 private:
@@ -42,7 +44,8 @@ private:
   ShownBy by_ = ShownBy::Plain;
   Colour colour_{}, inside_{};
   bool edges_ = true, orientable_ = true;
-  double scale_ = 0;
+  double scale_ = 0;           // the quantity at the end of the colours
+  bool given_ = false;         // by the preset: it stays
   std::vector<Vec3> normals_;  // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)
   std::vector<double> values_; // of strain or force, one per vertex slot
   std::vector<Colour> vertex_colours_;           // one per vertex slot; empty unless by strain or force
@@ -53,8 +56,8 @@ private:
 
 class PictureMaker {
 public:
-  // aspect: width / height; duration [s] of the clip.
-  PictureMaker(const Node& preset, Scene& scene, double aspect, double duration);
+  // aspect: width / height; duration [s] and frames of the clip.
+  PictureMaker(const Node& preset, Scene& scene, double aspect, double duration, long frames);
 
   void observe(); // the state is that of a frame
   Frame draw(long number,
@@ -64,10 +67,12 @@ public:
   double seconds() const { return seconds_; } // spent in observe() and draw()
 
 private:
+  std::vector<HudLegend> legends() const;
   Scene& scene_;
   Viewpoint viewpoint_;
   std::array<float, 3> background_{};
   std::vector<std::unique_ptr<BodyPicture>> bodies_;
+  std::optional<HudWriter> hud_; // none: nothing is written over the pictures
   std::size_t fragments_seen_ = 0;
   double seconds_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "render/app/preset_types.h"
 
 #include "render/app/colour.h"
+#include "render/app/hud_writer.h"
 #include "sim/scene/scene_types.h"
 
 #include <algorithm>
@@ -88,7 +89,8 @@ const ElementType& scene_type() {
                                  {&world_type(), 0, 1},
                                  {&time_type(), 1, 1},
                                  {&camera_type(), 0, 1},
-                                 {&image_type(), 0, 1}}};
+                                 {&image_type(), 0, 1},
+                                 {&hud_type(), 0, 1}}};
   return type;
 }
 

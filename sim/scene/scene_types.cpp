@@ -22,6 +22,8 @@ const ElementType& look_type() {
             "what the colour shows, on a scale from 0 to the most of the clip so far: the largest "
             "principal strain or stress [Pa] of the elements there (of springs: elongation), or force [N]")
            .otherwise("plain"),
+       number("most", "", "the quantity at the end of the scale; default: the most of the clip so far, rounded up")
+           .above(0),
        flag("edges", "draw the edges of cells").otherwise("yes")},
       {}};
   return type;

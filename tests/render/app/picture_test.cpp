@@ -3,6 +3,7 @@
 #include "render/app/preset_types.h"
 #include "render/app/viewpoint.h"
 #include "render/camera.h"
+#include "render/hud.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Shown {
                             R"(<time step="1e-3" integrator="rk4" duration="1"/>)" + more + "</scene>",
                         "shown.xml");
     scene = std::make_unique<Scene>(*preset, SceneOptions{});
-    maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0);
+    maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0, 31);
   }
   void steps(int count) {
     for (int n = 0; n < count; ++n) scene->step();
@@ -155,7 +156,7 @@ struct ShownBar {
                              "bar.xml");
     scene = std::make_unique<Scene>(*preset, SceneOptions{});
     body().border = &body().map->add(BornBorder(3));
-    maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0);
+    maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0, 31);
   }
   Body& body() { return *scene->bodies()[0]; }
   void part() {
@@ -267,6 +268,39 @@ TEST(Viewpoint, LeavesRoomToFallOrSwingButNotBelowTheFloor) {
   EXPECT_NEAR(room_of(*flat.scene, 1).min().y(), -0.9, 1e-9);
   const Shown floor(quads, "", R"(<world><floor z="-0.1"/></world>)", one_side);
   EXPECT_NEAR(room_of(*floor.scene, 1).min().z(), -0.1, 1e-9);
+}
+
+// The HUD.
+
+TEST(PictureMaker, without_a_hud_nothing_is_written_over_the_picture) {
+  Shown shown(quads);
+  EXPECT_TRUE(shown.frame().hud.empty());
+}
+
+TEST(PictureMaker, a_hud_tells_what_it_is_asked_for) {
+  if (!hud_available()) GTEST_SKIP() << "built without the HUD";
+  Shown shown(quads, R"(<look by="force" most="5"/>)", R"(<hud show="title energy legend time tears"/>)");
+  shown.frame();
+  shown.steps(200);
+  const HudContent hud = shown.frame().hud;
+  EXPECT_EQ(hud.title, "shown");
+  ASSERT_EQ(hud.figures.size(), 3u);
+  EXPECT_EQ(hud.figures[0], "0.200 s");
+  EXPECT_EQ(hud.figures[1], std::to_string(shown.scene->tears()) + " tears");
+  EXPECT_GT(shown.scene->tears(), 1u);
+  ASSERT_EQ(hud.legends.size(), 1u);
+  EXPECT_EQ(hud.legends[0].high, "5 N");
+  ASSERT_EQ(hud.plots.size(), 1u);
+  ASSERT_EQ(hud.plots[0].curves.size(), 4u);
+  EXPECT_FLOAT_EQ(hud.plots[0].curves[2].values[0], 0); // of gravity, since the start
+  EXPECT_EQ(hud.plots[0].frames, 31);
+  EXPECT_EQ(hud.plots[0].curves[0].values,
+            (std::vector<float>{0, static_cast<float>(shown.scene->kinetic_energy())}));
+}
+
+TEST(PictureMaker, a_hud_of_nothing_is_empty) {
+  Shown shown(quads, "", R"(<hud show="legend"/>)"); // plain colours have no scale
+  EXPECT_TRUE(shown.frame().hud.empty());
 }
 
 } // namespace
