@@ -5,6 +5,7 @@
 // each side of a triangle is a property of the corner opposite to it, so that a quad shows as a quad.
 #pragma once
 
+#include "render/finish.h"
 #include "render/hud_content.h"
 
 #include <Eigen/Core>
@@ -43,6 +44,9 @@ struct FrameBody {
   bool two_sided = true; // a sheet; false: a solid, whose triangles run counter-clockwise seen from outside and
                          // are drawn from there alone
   bool sides = true;     // a sheet's far side is a shade darker; false: there is but one side (a Möbius band)
+  std::optional<std::array<std::uint8_t, 3>> back; // sRGB, of a sheet's far side; none: as the near side
+  Finish finish = finishes().front();
+  bool filled = true; // false: only the lines are there, and one sees through (a wire frame)
 };
 
 struct FrameCamera {
@@ -64,7 +68,8 @@ struct Frame {
   std::optional<Eigen::Vector3d>
       light; // towards the key light, any length; none: over the camera's left shoulder
   std::array<float, 3> background{0.93f, 0.94f, 0.96f}; // sRGB; a soft gradient around it
-  HudContent hud;                                       // written over it all; empty: nothing is
+  bool transparent = false; // nothing is behind the bodies, not even the floor: the picture has an alpha
+  HudContent hud;           // written over it all; empty: nothing is
 };
 
 } // namespace rend

@@ -26,6 +26,11 @@ Eigen::Matrix4d to_texture(const Eigen::Matrix4d& clip) {
   return half * clip;
 }
 
+// What was multiplied by its alpha, as it was before: PNG keeps them apart.
+std::uint8_t whole(std::uint8_t part, std::uint8_t alpha) {
+  return alpha == 0 ? 0 : static_cast<std::uint8_t>(std::min(255, (part * 255 + alpha / 2) / alpha));
+}
+
 Eigen::Vector3f colour_of(const std::array<float, 3>& colour) {
   const Eigen::Vector3f value(colour[0], colour[1], colour[2]);
   CHECK(value.allFinite());
@@ -34,35 +39,43 @@ Eigen::Vector3f colour_of(const std::array<float, 3>& colour) {
 
 } // namespace
 
-Stage::Stage(int width, int height, int samples) : width_(width), height_(height), samples_(samples) {
-  CHECK(samples == 1 || samples == 4);
+Stage::Stage(int width, int height, int samples)
+    : width_(width), height_(height), fine_(samples == 16 ? 2 : 1) {
+  CHECK(samples == 1 || samples == 4 || samples == 16);
   GLint largest = 0, most = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   glGetIntegerv(GL_MAX_SAMPLES, &most);
+  largest /= fine_;
   if (width < 1 || height < 1 || width > largest || height > largest)
     throw UserError(Exit::BadInput, {}, fmt::format("a picture of {} x {} cannot be drawn.", width, height),
                     fmt::format("Each side may have from 1 to {} pixels.", largest));
-  if (samples > most)
+  if (std::min(samples, 4) > most)
     throw UserError(Exit::BadInput, {}, "this machine's OpenGL cannot take 4 samples a pixel.",
                     "Set samples=\"1\" and draw a larger picture.");
-  make_targets(samples);
+  make_targets(std::min(samples, 4));
   make_shadow_map();
   make_vertex_array();
   check_gl("Stage");
 }
 
-void Stage::make_targets(int samples) {
-  glBindRenderbuffer(GL_RENDERBUFFER, resolved_colour_.name());
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_, height_);
-  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, resolved_colour_.name());
+void Stage::make_target(const GlFramebuffer& target, const GlRenderbuffer& colour, int width, int height) {
+  glBindRenderbuffer(GL_RENDERBUFFER, colour.name());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour.name());
   check_framebuffer("Stage, resolved picture");
+}
+
+void Stage::make_targets(int samples) {
+  const int width = width_ * fine_, height = height_ * fine_;
+  make_target(resolved_, resolved_colour_, width, height);
+  if (fine_ > 1) make_target(picture_, picture_colour_, width_, height_);
 
   const GLsizei count = samples == 1 ? 0 : samples;
   glBindRenderbuffer(GL_RENDERBUFFER, target_colour_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_RGBA8, width_, height_);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_RGBA8, width, height);
   glBindRenderbuffer(GL_RENDERBUFFER, target_depth_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT24, width_, height_);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT24, width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target_colour_.name());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target_depth_.name());
@@ -111,17 +124,19 @@ void Stage::draw(const Frame& frame) {
 
   glEnable(GL_DEPTH_CLAMP);
   draw_shadow_map(light);
-  if (frame.floor) floor_shadow_.build(frame.floor->z, view.distance, lights.key, lit, [this] { draw_all(); });
+  if (frame.floor && !frame.transparent)
+    floor_shadow_.build(frame.floor->z, view.distance, lights.key, lit, [this] { draw_all(); });
   glDisable(GL_DEPTH_CLAMP);
 
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  glViewport(0, 0, width_, height_);
+  glViewport(0, 0, width_ * fine_, height_ * fine_);
   glEnable(GL_DEPTH_TEST);
   glClearColor(0, 0, 0, 0); // nothing: the studio goes behind
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_bodies(frame, view, lights, light);
   resolve();
-  draw_studio(frame, view, background);
+  transparent_ = frame.transparent;
+  if (!frame.transparent) draw_studio(frame, view, background);
   check_gl("Stage::draw");
 }
 
@@ -132,8 +147,7 @@ void Stage::upload(const Frame& frame) {
     for (const FrameBody& body : *bodies) {
       if (body.corners.empty()) continue;
       const auto first = static_cast<GLint>(packed_.size());
-      draws_.push_back(
-          {first, static_cast<GLsizei>(body.corners.size()), body.edges, body.two_sided, body.sides});
+      draws_.push_back({first, static_cast<GLsizei>(body.corners.size()), &body});
       pack(body, packed_);
     }
   glBindBuffer(GL_ARRAY_BUFFER, corners_buffer_.name());
@@ -146,7 +160,8 @@ void Stage::upload(const Frame& frame) {
 
 void Stage::draw_all() const {
   glBindVertexArray(corners_array_.name());
-  if (!packed_.empty()) glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(packed_.size()));
+  for (const Draw& draw : draws_)
+    if (draw.body->filled) glDrawArrays(GL_TRIANGLES, draw.first, draw.count); // wires throw no shadow
 }
 
 void Stage::draw_shadow_map(const LightView& light) {
@@ -177,7 +192,7 @@ void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& ligh
   body_.set("sky", Eigen::Vector3f(lights.sky.cast<float>()));
   body_.set("shadow_offset", shadow_step_out * texel);
   body_.set("shadow_spread", shadow_spread / shadow_side);
-  body_.set("line_scale", std::max(static_cast<float>(height_) / 720.0f, 0.5f));
+  body_.set("line_scale", std::max(static_cast<float>(height_) / 720.0f, 0.5f) * static_cast<float>(fine_));
   const bool floor_seen = frame.floor && view.eye.z() > frame.floor->z;
   const double hidden_below = floor_seen ? frame.floor->z - sunk * view.distance : -1e30;
   body_.set("hidden_below", static_cast<float>(hidden_below));
@@ -186,22 +201,52 @@ void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& ligh
   glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
   glBindVertexArray(corners_array_.name());
   glEnable(GL_CLIP_DISTANCE0);
-  for (const Draw& draw : draws_) {
-    body_.set("cells", draw.edges ? 1 : 0);
-    body_.set("transmission", draw.two_sided ? 0.16f : 0.0f);
-    body_.set("back_tint", draw.sides ? 0.74f : 1.0f);
-    (draw.two_sided ? glDisable : glEnable)(GL_CULL_FACE);
-    glDrawArrays(GL_TRIANGLES, draw.first, draw.count);
-  }
+  for (const bool filled : {true, false}) // one sees through wires to what is behind them
+    for (const Draw& draw : draws_)
+      if (draw.body->filled == filled) draw_body(draw);
   glDisable(GL_CULL_FACE);
   glDisable(GL_CLIP_DISTANCE0);
 }
 
+void Stage::draw_body(const Draw& draw) const {
+  const FrameBody& body = *draw.body;
+  const Finish& finish = body.finish;
+  body_.set("cells", body.edges ? 1 : 0);
+  body_.set("filled", body.filled ? 1 : 0);
+  body_.set("transmission", body.two_sided ? finish.transmission : 0.0f);
+  body_.set("gloss", finish.gloss);
+  body_.set("sharpness", finish.sharpness);
+  body_.set("rim_light", finish.rim);
+  body_.set("wrap", finish.wrap);
+  body_.set("back_tint", body.sides && !body.back ? 0.74f : 1.0f);
+  const auto share = [&](std::size_t c) {
+    return body.back ? static_cast<float>((*body.back)[c]) / 255.0f : 0.0f;
+  };
+  body_.set("back", Eigen::Vector4f(share(0), share(1), share(2), body.back && body.sides ? 1.0f : 0.0f));
+  const bool culled = !body.two_sided && body.filled;
+  (culled ? glEnable : glDisable)(GL_CULL_FACE);
+  if (!body.filled) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+  }
+  glDrawArrays(GL_TRIANGLES, draw.first, draw.count);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+}
+
 void Stage::resolve() {
+  const int width = width_ * fine_, height = height_ * fine_;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  if (fine_ > 1) { // half as large, the filter lies just between four pixels: their mean
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.name());
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, fine_ > 1 ? picture_.name() : resolved_.name());
+  glViewport(0, 0, width_, height_);
 }
 
 // Puts floor and backdrop behind what is in the resolved picture, by its alpha.
@@ -242,18 +287,17 @@ void Stage::set_floor(const Frame& frame, const View& view) {
 
 Image Stage::read() {
   pixels_.resize(static_cast<std::size_t>(width_) * height_ * 4);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, fine_ > 1 ? picture_.name() : resolved_.name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
   check_gl("Stage::read");
-  Image image(width_, height_, 3);
+  Image image(width_, height_, transparent_ ? 4 : 3);
   for (int y = 0; y < height_; ++y) {
     const std::uint8_t* from = pixels_.data() + static_cast<std::size_t>(height_ - 1 - y) * width_ * 4;
     std::uint8_t* to = image.row(y);
-    for (int x = 0; x < width_; ++x, from += 4, to += 3) {
-      to[0] = from[0];
-      to[1] = from[1];
-      to[2] = from[2];
+    for (int x = 0; x < width_; ++x, from += 4, to += image.channels) {
+      for (std::size_t c = 0; c < 3; ++c) to[c] = transparent_ ? whole(from[c], from[3]) : from[c];
+      if (transparent_) to[3] = from[3];
     }
   }
   return image;

@@ -23,14 +23,14 @@ namespace rend {
 
 class Stage {
 public:
-  // width, height [pixels]; samples a pixel: 1 or 4. Throws UserError (BadInput) for a size that cannot be
-  // drawn.
+  // width, height [pixels]; samples a pixel: 1, 4 or 16 (4 of each of 4 pixels that become one, for fine lines and
+  // gloss). Throws UserError (BadInput) for a size that cannot be drawn.
   Stage(int width, int height, int samples);
 
   // Afterwards the resolved picture is the bound framebuffer: an overlay may draw on it before read().
   // CHECK: all numbers of the frame are finite.
   void draw(const Frame& frame);
-  Image read(); // RGB
+  Image read(); // RGB, or RGBA where the frame is transparent
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -39,7 +39,7 @@ private:
   struct Draw { // a body's corners in the vertex buffer
     GLint first = 0;
     GLsizei count = 0;
-    bool edges = true, two_sided = true, sides = true; // as in FrameBody
+    const FrameBody* body = nullptr; // of the frame at hand
   };
 
   void make_targets(int samples);
@@ -49,19 +49,25 @@ private:
   void draw_all() const;
   void draw_shadow_map(const LightView& light);
   void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light);
+  void draw_body(const Draw& draw) const;
   void resolve();
   void draw_studio(const Frame& frame, const View& view, const Eigen::Vector3f& background);
   void set_floor(const Frame& frame, const View& view);
 
-  int width_, height_, samples_;
+  void make_target(const GlFramebuffer& target, const GlRenderbuffer& colour, int width, int height);
+
+  int width_, height_; // [pixels], of the picture
+  int fine_;           // pixels that are drawn for one of the picture, each way: 1 or 2
+  bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};
   GlProgram body_{"body.vert", "body.frag"};
   GlProgram studio_{"screen.vert", "studio.frag"};
   GlProgram backdrop_{"screen.vert", "backdrop.frag"};
   FloorShadow floor_shadow_;
 
-  GlFramebuffer target_, resolved_, shadow_;
-  GlRenderbuffer target_colour_, target_depth_, resolved_colour_;
+  GlFramebuffer target_, resolved_, picture_,
+      shadow_; // picture_: where fine_ is 2, what resolved_ is brought to
+  GlRenderbuffer target_colour_, target_depth_, resolved_colour_, picture_colour_;
   GlTexture shadow_map_;
   GlVertexArray corners_array_, no_array_; // the second: for passes that make up their own corners
   GlBuffer corners_buffer_;

@@ -13,7 +13,11 @@ uniform sampler2DShadow shadow;
 uniform float shadow_spread; // of the taps, in texture coordinates
 uniform vec3 key, fill, sky; // unit, towards the lights and up
 uniform float back_tint;      // the far side's colour, relative to the near side's
-uniform float transmission;  // of key light through a sheet
+uniform vec4 back;            // the far side's own colour, sRGB; w: 1 if it has one
+uniform float transmission;   // of key light through a sheet
+uniform float gloss, rim_light, wrap; // finish.h
+uniform int sharpness;
+uniform int filled; // 0: lines alone, multiplied by their alpha
 
 out vec4 pixel;
 
@@ -46,24 +50,28 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   float to_key = dot(n, key), up = 0.5 + 0.5 * dot(n, sky), facing = max(dot(n, v), 0.0);
   // At the very rim both sides are the same, or a far side that shows by a sample would speckle it.
-  vec3 surface = albedo * (gl_FrontFacing ? 1.0 : mix(1.0, back_tint, min(4.0 * facing, 1.0)));
+  float behind = gl_FrontFacing ? 0.0 : min(4.0 * facing, 1.0);
+  vec3 surface = mix(albedo * mix(1.0, back_tint, behind), decode(back.rgb), back.w * behind);
   float direct = lit();
 
   vec2 line = lines();
+  if (filled == 0) {
+    float cover = max(line.x, line.y);
+    pixel = vec4(encode(mix(0.6 * surface, vec3(1.0, 0.46, 0.09), line.y / max(cover, 1e-4))) * cover, cover);
+    return;
+  }
   surface *= 1.0 - 0.75 * line.x;
   surface = mix(surface, vec3(1.0, 0.46, 0.09), line.y);
 
   vec3 light = mix(vec3(0.15, 0.135, 0.13), vec3(0.33, 0.36, 0.41), up);
-  light += vec3(1.18, 1.12, 1.02) * (direct * (max(to_key, 0.0) + transmission * max(-to_key, 0.0)));
+  light += vec3(1.18, 1.12, 1.02) * (direct * (max((to_key + wrap) / (1.0 + wrap), 0.0) + transmission * max(-to_key, 0.0)));
   light += vec3(0.17, 0.18, 0.21) * max(dot(n, fill), 0.0);
   light = mix(light, vec3(1.0), 0.8 * line.y); // a torn edge shows in the shade too
 
   float rim = 1.0 - facing;
   rim *= rim * rim;
   float sheen = max(dot(reflect(-v, n), key), 0.0);
-  sheen *= sheen;
-  sheen *= sheen;
-  sheen *= sheen * sheen;
-  vec3 gloss = (0.10 * rim * up) * vec3(0.9, 0.95, 1.0) + (0.07 * sheen * direct);
-  pixel = vec4(encode(surface * (light + rim * 0.25 * up) + gloss * (1.0 - line.x)), 1.0);
+  for (int n = 0; n < sharpness; ++n) sheen *= sheen;
+  vec3 shine = (0.4 * rim_light * rim * up) * vec3(0.9, 0.95, 1.0) + (gloss * sheen * direct);
+  pixel = vec4(encode(surface * (light + rim * rim_light * up) + shine * (1.0 - line.x)), 1.0);
 }

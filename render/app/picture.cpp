@@ -1,5 +1,6 @@
 #include "render/app/picture.h"
 
+#include "render/app/dart_picture.h"
 #include "render/app/obstacle_picture.h"
 #include "render/app/preset_types.h"
 #include "render/app/units.h"
@@ -7,6 +8,8 @@
 #include "sim/scene/measure.h"
 #include "sim/topology/count.h"
 #include "sim/topology/orientation.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -48,6 +51,19 @@ BodyPicture::BodyPicture(Body& body)
   colour_ = colour_of(look, "colour");
   inside_ = colour_of(look, "inside");
   edges_ = look.flag("edges");
+  if (look.given("back")) back_ = colour_of(look, "back");
+  finish_ = finish_called(look.text("finish"));
+  const std::string& as = look.text("as");
+  as_ = as == "wires"      ? DrawnAs::Wires
+        : as == "exploded" ? DrawnAs::Exploded
+        : as == "darts"    ? DrawnAs::Darts
+                           : DrawnAs::Surface;
+  apart_ = look.number("apart");
+  if (as_ == DrawnAs::Darts && body.map->map().dart_count() > most_drawn_darts)
+    look.fail("as",
+              fmt::format("the body has {} darts, and a picture of more than {} tells nothing",
+                          body.map->map().dart_count(), most_drawn_darts),
+              "draw fewer cells, or as=\"exploded\"");
   given_ = look.given("most");
   if (given_) scale_ = look.number("most");
   const std::string& by = look.text("by");
@@ -116,8 +132,23 @@ FrameBody BodyPicture::draw() {
   out.edges = edges_;
   out.two_sided = sheet_.has_value();
   out.sides = orientable_;
-  sheet_ ? draw_sheet(out) : draw_solid(out);
+  out.back = back_;
+  out.finish = finish_;
+  out.filled = as_ != DrawnAs::Wires;
+  if (as_ == DrawnAs::Darts)
+    draw_darts(*body_, out);
+  else if (as_ == DrawnAs::Exploded)
+    draw_exploded(
+        *body_, apart_, [this](const CellCorner& at) { return colour_at(at); }, out);
+  else
+    sheet_ ? draw_sheet(out) : draw_solid(out);
   return out;
+}
+
+Colour BodyPicture::colour_at(const CellCorner& at) const {
+  if (by_ == ShownBy::Fragment) return fragment_colours_[labels_[at.dart.value]];
+  if (!vertex_colours_.empty()) return vertex_colours_[at.vertex];
+  return at.inner ? inside_ : colour_;
 }
 
 void BodyPicture::draw_sheet(FrameBody& out) {
@@ -165,6 +196,7 @@ PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, doub
     : scene_(scene), viewpoint_(preset, scene, aspect, duration) {
   if (const Node* hud = preset.child("hud"); hud && hud_available()) hud_.emplace(*hud, scene, frames);
   const Colour background = image_settings(preset).background;
+  transparent_ = image_settings(preset).transparent;
   for (std::size_t c = 0; c < 3; ++c) background_[c] = static_cast<float>(background[c]) / 255;
   const double start = now();
   for (const auto& body : scene.bodies()) bodies_.push_back(std::make_unique<BodyPicture>(*body));
@@ -189,6 +221,7 @@ Frame PictureMaker::draw(long number, double time) {
   if (scene_.world().floor) frame.floor = FrameFloor{*scene_.world().floor};
   frame.camera = viewpoint_.at(time);
   frame.background = background_;
+  frame.transparent = transparent_;
   if (hud_) frame.hud = hud_->content(legends());
   seconds_ += now() - start;
   return frame;

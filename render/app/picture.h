@@ -7,6 +7,7 @@
 #pragma once
 
 #include "render/app/colour.h"
+#include "render/app/exploded_picture.h"
 #include "render/app/hud_writer.h"
 #include "render/app/viewpoint.h"
 #include "render/frame.h"
@@ -21,6 +22,7 @@
 namespace rend {
 
 enum class ShownBy { Plain, Strain, Stress, Force, Fragment };
+enum class DrawnAs { Surface, Wires, Exploded, Darts };
 
 // How one body is shown, and its surface.
 class BodyPicture {
@@ -37,12 +39,17 @@ private:
   void draw_solid(FrameBody& out);
   void label_fragments(std::size_t& fragments_seen);
   void colour_vertices();
+  Colour colour_at(const CellCorner& at) const;
 
   Body* body_;
   std::optional<Surface> sheet_; // one of the two
   std::optional<SolidSurface> solid_;
   ShownBy by_ = ShownBy::Plain;
+  DrawnAs as_ = DrawnAs::Surface;
   Colour colour_{}, inside_{};
+  std::optional<Colour> back_;
+  Finish finish_;
+  double apart_ = 0; // of exploded cells
   bool edges_ = true, orientable_ = true;
   double scale_ = 0;           // the quantity at the end of the colours
   bool given_ = false;         // by the preset: it stays
@@ -71,6 +78,7 @@ private:
   Scene& scene_;
   Viewpoint viewpoint_;
   std::array<float, 3> background_{};
+  bool transparent_ = false;
   std::vector<std::unique_ptr<BodyPicture>> bodies_;
   std::optional<HudWriter> hud_; // none: nothing is written over the pictures
   std::size_t fragments_seen_ = 0;

@@ -2,6 +2,8 @@
 
 #include "render/app/colour.h"
 #include "render/app/hud_writer.h"
+#include "render/finish.h"
+#include "sim/base/wording.h"
 #include "sim/scene/scene_types.h"
 
 #include <algorithm>
@@ -34,8 +36,11 @@ const ElementType& image_type() {
       "the pictures",
       {integers("size", 2, "width and height in pixels").at_least(16).at_most(8192).otherwise("1280 720"),
        number("fps", "1/s", "pictures a second of simulated time").above(0).at_most(1e6).otherwise("30"),
-       word("samples", {"1", "4"}, "samples a pixel: 4 smooths edges").otherwise("4"),
-       text("background", "#rrggbb").otherwise("#edeff3")},
+       word("samples", {"1", "4", "16"},
+            "samples a pixel: 4 smooths edges; 16 fine lines and gloss too, and takes "
+            "four times as long")
+           .otherwise("4"),
+       text("background", "#rrggbb, or none: transparent, without floor").otherwise("#edeff3")},
       {}};
   return type;
 }
@@ -64,12 +69,22 @@ void check_camera(const Node& camera) {
     camera.fail("eye", "the camera's eye stands at its target", "move it away from there");
 }
 
+void check_look(const Node& look) {
+  colour_of(look, "colour");
+  colour_of(look, "inside");
+  if (look.given("back")) colour_of(look, "back");
+  const std::string& finish = look.text("finish");
+  const auto names = finish_names();
+  if (std::find(names.begin(), names.end(), finish) == names.end())
+    look.fail("finish", "there is no finish " + in_quotes(finish), suggestion(finish, names, "there are"));
+}
+
 // What only pictures need is looked at as well, so that a preset is good or bad for all commands alike.
 std::unique_ptr<Node> checked(std::unique_ptr<Node> scene) {
   check_name(*scene);
   image_settings(*scene); // its colour
   for (const Node* body : scene->all("body"))
-    if (const Node* look = body->child("look")) colour_of(*look, "colour");
+    if (const Node* look = body->child("look")) check_look(*look);
   if (const Node* world = scene->child("world"))
     for (const char* name : {"sphere", "box"})
       for (const Node* obstacle : world->all(name)) colour_of(*obstacle, "colour");
@@ -112,8 +127,9 @@ ImageSettings image_settings(const Node& scene) {
   settings.width = static_cast<int>(image.integers("size")[0]);
   settings.height = static_cast<int>(image.integers("size")[1]);
   settings.fps = image.number("fps");
-  settings.samples = image.text("samples") == "1" ? 1 : 4;
-  settings.background = colour_of(image, "background");
+  settings.samples = std::stoi(image.text("samples"));
+  settings.transparent = image.text("background") == "none";
+  if (!settings.transparent) settings.background = colour_of(image, "background");
   return settings;
 }
 

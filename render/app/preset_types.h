@@ -27,6 +27,7 @@ struct ImageSettings {
   double fps = 0;                           // [1/s]
   int samples = 0;                          // a pixel
   std::array<std::uint8_t, 3> background{}; // sRGB
+  bool transparent = false;                 // there is no background
 };
 ImageSettings image_settings(const Node& scene);
 

@@ -307,5 +307,80 @@ TEST_F(StageTest, ThePictureIsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// More samples bring the picture nearer to one that is drawn four times as large and averaged.
+TEST_F(StageTest, SixteenSamplesAreTheMeanOfALargerPicture) {
+  Frame frame = rich_frame();
+  for (auto* bodies : {&frame.bodies, &frame.obstacles}) // lines are as wide as the picture is high
+    for (FrameBody& body : *bodies)
+      for (Corner& corner : body.corners) corner.line = {};
+  const Image fine = picture(frame, 16);
+  Stage larger(2 * width, 2 * height, 4);
+  larger.draw(frame);
+  const Image large = larger.read();
+  int worst = 0;
+  for (int y = 2; y < height - 2; ++y)
+    for (int x = 2; x < width - 2; ++x) {
+      int low = 255, high = 0, sum = 0;
+      for (int k = 0; k < 4; ++k) {
+        const int value = large.at(2 * x + k % 2, 2 * y + k / 2)[0];
+        low = std::min(low, value);
+        high = std::max(high, value);
+        sum += value;
+      }
+      if (high - low < 3) worst = std::max(worst, std::abs(fine.at(x, y)[0] - sum / 4));
+    }
+  EXPECT_LE(worst, 3);
+}
+
+TEST_F(StageTest, ATransparentPictureHasNothingBehindItsBodies) {
+  Frame frame = front_view();
+  frame.transparent = true;
+  frame.floor = FrameFloor{-0.6};
+  frame.bodies.push_back(screen(0, 0.5, red));
+  const Image image = picture(frame);
+  ASSERT_EQ(image.channels, 4);
+  EXPECT_EQ(image.at(2, 2)[3], 0);
+  EXPECT_EQ(image.at(width / 2, height / 2)[3], 255);
+  frame.transparent = false;
+  const Image whole = picture(frame);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(width / 2, height / 2)[c], whole.at(width / 2, height / 2)[c]);
+}
+
+TEST_F(StageTest, OneSeesThroughAWireFrameButNotThroughItsEdges) {
+  Frame frame = front_view();
+  FrameBody wires = screen(-0.2f, 0.5, green, Line::Border);
+  wires.filled = false;
+  frame.bodies.push_back(screen(0, 0.5, red));
+  const Image behind = picture(frame);
+  frame.bodies.push_back(wires);
+  const Image both = picture(frame);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(both.at(width / 2, height / 2)[c], behind.at(width / 2, height / 2)[c]);
+  EXPECT_NE(both, behind);
+}
+
+TEST_F(StageTest, ASheetsFarSideHasItsOwnColour) {
+  Frame frame = front_view();
+  FrameBody body = screen(0, 0.5, red);
+  body.back = {20, 40, 230};
+  frame.bodies.push_back(body);
+  frame.camera.eye = -frame.camera.eye; // from behind
+  const Image back = picture(frame);
+  frame.camera.eye = -frame.camera.eye;
+  const Image front = picture(frame);
+  const std::uint8_t *b = back.at(width / 2, height / 2), *f = front.at(width / 2, height / 2);
+  EXPECT_TRUE((b[2] > 2 * b[0]) != (f[2] > 2 * f[0])); // one side is blue, the other red
+  EXPECT_TRUE((b[0] > 2 * b[2]) != (f[0] > 2 * f[2]));
+}
+
+// A mirror image of the light is brighter the glossier the surface, and smaller the harder.
+TEST_F(StageTest, AFinishChangesTheLightAndNotTheShape) {
+  Frame frame = rich_frame();
+  const Image cloth = picture(frame);
+  for (const Finish& finish : finishes()) {
+    for (FrameBody& body : frame.bodies) body.finish = finish;
+    EXPECT_EQ(picture(frame) == cloth, finish.name == "cloth") << finish.name;
+  }
+}
+
 } // namespace
 } // namespace rend

@@ -7,6 +7,7 @@
 #include "sim/topology/walk.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -281,6 +282,7 @@ TEST(PictureMaker, a_hud_tells_what_it_is_asked_for) {
   if (!hud_available()) GTEST_SKIP() << "built without the HUD";
   Shown shown(quads, R"(<look by="force" most="5"/>)", R"(<hud show="title energy legend time tears"/>)");
   shown.frame();
+  const double at_start = shown.scene->kinetic_energy();
   shown.steps(200);
   const HudContent hud = shown.frame().hud;
   EXPECT_EQ(hud.title, "shown");
@@ -294,13 +296,57 @@ TEST(PictureMaker, a_hud_tells_what_it_is_asked_for) {
   ASSERT_EQ(hud.plots[0].curves.size(), 4u);
   EXPECT_FLOAT_EQ(hud.plots[0].curves[2].values[0], 0); // of gravity, since the start
   EXPECT_EQ(hud.plots[0].frames, 31);
-  EXPECT_EQ(hud.plots[0].curves[0].values,
-            (std::vector<float>{0, static_cast<float>(shown.scene->kinetic_energy())}));
+  EXPECT_EQ(
+      hud.plots[0].curves[0].values,
+      (std::vector<float>{static_cast<float>(at_start), static_cast<float>(shown.scene->kinetic_energy())}));
 }
 
 TEST(PictureMaker, a_hud_of_nothing_is_empty) {
   Shown shown(quads, "", R"(<hud show="legend"/>)"); // plain colours have no scale
   EXPECT_TRUE(shown.frame().hud.empty());
+}
+
+// Other ways to draw a body.
+
+double volume_of(const FrameBody& body) { // by the divergence theorem
+  double sum = 0;
+  for (std::size_t n = 0; n < body.corners.size(); n += 3)
+    sum +=
+        position(body.corners[n]).dot(position(body.corners[n + 1]).cross(position(body.corners[n + 2]))) / 6;
+  return sum;
+}
+
+TEST(PictureMaker, exploded_cells_are_all_there_whole_and_apart) {
+  for (const char* pattern : {"hexahedra", "tetrahedra", "prisms", "mixed"}) {
+    const auto preset = load_scene_text(
+        fmt::format(R"(<scene name="bar"><body><bar cells="3 2 2" size="3 2 2" pattern="{}"/><mass total="1"/>)"
+                    R"(<springs><stretch k="60"/></springs><look as="exploded" apart="0.5"/></body>)"
+                    R"(<time duration="1"/></scene>)",
+                    pattern),
+        "bar.xml");
+    Scene scene(*preset, {});
+    PictureMaker maker(*preset, scene, 1.5, 1, 31);
+    maker.observe();
+    const Frame frame = maker.draw(0, 0);
+    EXPECT_NEAR(volume_of(frame.bodies[0]), 12, 1e-4) << pattern; // nothing is lost or twice
+    Eigen::AlignedBox3f box;
+    for (const Corner& corner : frame.bodies[0].corners) box.extend(position(corner));
+    if (std::string(pattern) == "hexahedra") { // the outer ones' middles were 2 apart
+      EXPECT_NEAR(box.sizes().x(), 3 + 0.5 * 2, 1e-5);
+    }
+  }
+}
+
+TEST(PictureMaker, every_dart_has_a_dot_and_every_link_a_rod) {
+  Shown shown(R"(<sheet cells="2 1" size="1 1"/>)", R"(<look as="darts"/>)");
+  const Frame frame = shown.frame();
+  // Two quads of 8 darts: a dot each; α0 4 a quad, α1 4 a quad, α2 2 between the quads.
+  constexpr std::size_t dot = 6 * 7 * 7 * 2 * 3, rod = 8 * 3; // corners
+  EXPECT_EQ(frame.bodies[0].corners.size(), 16 * dot + (8 + 8 + 2) * rod);
+}
+
+TEST(PictureMaker, darts_of_a_large_body_are_refused) {
+  EXPECT_THROW(Shown(R"(<sheet cells="60 60" size="1 1"/>)", R"(<look as="darts"/>)"), UserError);
 }
 
 } // namespace
