@@ -89,7 +89,9 @@ Exit make_sheet(const SheetOptions& options) {
     const auto device = make_device();
     Stage stage(size.width, size.height, session.image().samples);
     for (int k = 0; k < columns; ++k) {
-      stage.draw(row.frames()[static_cast<std::size_t>(k)]);
+      Frame frame = row.frames()[static_cast<std::size_t>(k)];
+      frame.transparent = false; // the sheet is paper
+      stage.draw(frame);
       paste(stage.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
     }
   }

@@ -19,20 +19,20 @@ void Film::take(long frame) {
   if (held_ && step != held_step_) release();
   if (!choice_.has(frame)) return;
   if (!held_) held_ = maker_.draw(frame, session_.clock().time_of(frame));
-  numbers_.push_back(frame);
+  showings_.emplace_back(frame, maker_.camera(session_.clock().time_of(frame)));
   held_step_ = step;
 }
 
 void Film::release() {
   if (!held_) return;
-  for (std::size_t n = 0; n < numbers_.size(); ++n) {
-    Frame frame = n + 1 < numbers_.size() ? *held_ : std::move(*held_);
-    frame.number = static_cast<int>(numbers_[n]);
-    frame.camera = maker_.camera(session_.clock().time_of(numbers_[n]));
+  for (std::size_t n = 0; n < showings_.size(); ++n) {
+    Frame frame = n + 1 < showings_.size() ? *held_ : std::move(*held_);
+    frame.number = static_cast<int>(showings_[n].first);
+    frame.camera = showings_[n].second;
     push(std::move(frame));
   }
   held_.reset();
-  numbers_.clear();
+  showings_.clear();
 }
 
 void Film::push(Frame&& frame) {
@@ -55,7 +55,7 @@ void Film::finish() {
 
 void Film::abandon() {
   held_.reset();
-  numbers_.clear();
+  showings_.clear();
   close();
 }
 

@@ -48,7 +48,7 @@ private:
   std::unique_ptr<Pipeline> pipeline_;
   PipelineSeconds seconds_; // once it is closed
   std::optional<Frame> held_;
-  std::vector<long> numbers_; // of the frames that show the held state
+  std::vector<std::pair<long, FrameCamera>> showings_; // the frames that show the held state
   long held_step_ = -1;
   long frames_ = 0;
 };

@@ -207,6 +207,7 @@ void PictureMaker::observe() {
   const double start = now();
   for (auto& body : bodies_) body->observe(fragments_seen_);
   if (hud_) hud_->observe();
+  viewpoint_.observe(scene_);
   seconds_ += now() - start;
 }
 

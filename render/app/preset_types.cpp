@@ -11,6 +11,17 @@
 namespace rend {
 namespace {
 
+const ElementType& key_type() {
+  static const ElementType type{"key",
+                                "where the camera is at a time; between keys it moves smoothly",
+                                {number("at", "s", "when").at_least(0).is_required(),
+                                 numbers("eye", 3, "m", "where the camera stands").is_required(),
+                                 numbers("target", 3, "m", "what it looks at; default: the camera's"),
+                                 number("fov", "degrees", "default: the camera's").at_least(1).at_most(170)},
+                                {}};
+  return type;
+}
+
 const ElementType& camera_type() {
   static const ElementType type{
       "camera",
@@ -23,10 +34,10 @@ const ElementType& camera_type() {
            .at_most(170)
            .otherwise("35"),
        number("turn", "degrees", "how far it goes around the target over the clip").otherwise("0"),
-       word("frame", {"auto", "given"},
+       word("frame", {"auto", "given", "follow"},
             "auto: as near as the bodies allow, seen from the direction of the eye; default where there is no "
-            "eye")},
-      {}};
+            "eye; follow: after the bodies, never losing one out of sight")},
+      {{&key_type(), 0, -1}}};
   return type;
 }
 
@@ -63,6 +74,8 @@ void check_camera(const Node& camera) {
   if (camera.vector("up").norm() == 0)
     camera.fail("up", "the camera's up has no direction", "up=\"0 0 1\" is usual");
   const bool eye = camera.given("eye"), target = camera.given("target");
+  if (!camera.all("key").empty() && camera.has("frame") && camera.text("frame") != "given")
+    camera.fail("frame", "a camera with keys goes where they say", "leave frame out, or the keys");
   if (!eye && camera.has("frame") && camera.text("frame") == "given")
     camera.fail("frame", "a given frame needs an eye", "eye=\"0 -3 1\", or frame=\"auto\"");
   if (eye && target && camera.vector("eye") == camera.vector("target"))

@@ -3,6 +3,10 @@
 #include "render/camera.h"
 #include "sim/base/math.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace rend {
 namespace {
 
@@ -87,7 +91,7 @@ Bounds room_of(const Scene& scene, double duration) {
 }
 
 Viewpoint::Viewpoint(const Node& preset, const Scene& scene, double aspect, double duration)
-    : duration_(duration) {
+    : aspect_(aspect), duration_(duration) {
   const Node* camera = preset.child("camera");
   Bounds start;
   for (const auto& body : scene.bodies()) start.extend(bounds_of(*body));
@@ -105,19 +109,85 @@ Viewpoint::Viewpoint(const Node& preset, const Scene& scene, double aspect, doub
     if (direction.norm() < 1e-9 * (1 + start_.target.norm()))
       camera->fail("eye", "the camera's eye stands at its target", "move it away from there");
   }
-  if (has_eye && !(camera->has("frame") && camera->text("frame") == "auto")) return;
+  if (camera) read_keys(*camera);
+  const std::string frame = camera && camera->has("frame") ? camera->text("frame") : has_eye ? "given" : "auto";
+  follows_ = frame == "follow";
+  direction_ = direction;
+  start_middle_ = start.center();
+  reach_ = 3 * start.sizes().norm();
+  if (frame == "given") return;
   const FrameCamera fitted = frame_auto(room_of(scene, duration), start_.fov, aspect, direction);
   start_.eye = fitted.eye;
   start_.target = fitted.target;
 }
 
-FrameCamera Viewpoint::at(double time) const {
+void Viewpoint::read_keys(const Node& camera) {
+  for (const Node* node : camera.all("key")) {
+    Key key;
+    key.time = node->number("at");
+    key.camera << node->vector("eye"), node->given("target") ? node->vector("target") : start_.target,
+        node->given("fov") ? node->number("fov") : start_.fov;
+    if (key.camera.head<3>() == key.camera.segment<3>(3))
+      node->fail("eye", "the camera's eye stands at its target", "move it away from there");
+    if (!keys_.empty() && key.time <= keys_.back().time)
+      node->fail(
+          "at",
+          fmt::format("this key comes at {:g} s, and the one before it at {:g} s", key.time, keys_.back().time),
+          "put them in the order of time");
+    keys_.push_back(key);
+  }
+}
+
+// Cubic Hermite pieces, whose slopes are those between the neighbours; it stands still before the first and after the
+// last.
+FrameCamera Viewpoint::between_keys(double time) const {
   FrameCamera camera = start_;
+  const auto set = [&](const Eigen::Matrix<double, 7, 1>& at) {
+    camera.eye = at.head<3>();
+    camera.target = at.segment<3>(3);
+    camera.fov = std::clamp(at[6], 1.0, 170.0);
+  };
+  if (time <= keys_.front().time) return set(keys_.front().camera), camera;
+  if (time >= keys_.back().time) return set(keys_.back().camera), camera;
+  std::size_t n = 0;
+  while (keys_[n + 1].time <= time) ++n;
+  const auto slope = [&](std::size_t k) -> Eigen::Matrix<double, 7, 1> {
+    if (k == 0 || k + 1 == keys_.size()) return Eigen::Matrix<double, 7, 1>::Zero();
+    return (keys_[k + 1].camera - keys_[k - 1].camera) / (keys_[k + 1].time - keys_[k - 1].time);
+  };
+  const double span = keys_[n + 1].time - keys_[n].time, t = (time - keys_[n].time) / span;
+  const double a = t * t * (3 - 2 * t), b = t * (1 - t) * (1 - t), c = t * t * (t - 1);
+  set((1 - a) * keys_[n].camera + a * keys_[n + 1].camera + span * (b * slope(n) + c * slope(n + 1)));
+  return camera;
+}
+
+void Viewpoint::observe(const Scene& scene) {
+  if (!follows_) return;
+  constexpr double lag = 0.3; // [s]
+  Bounds box;
+  for (const auto& body : scene.bodies()) box.extend(bounds_of(*body));
+  box =
+      box.intersection(Bounds(start_middle_ - Vec3::Constant(reach_), start_middle_ + Vec3::Constant(reach_)));
+  if (box.isEmpty()) return; // all is far away
+  const double passed = last_ < 0 ? 0 : scene.time() - last_, share = passed / (passed + lag);
+  last_ = scene.time();
+  const double distance = (start_.eye - start_.target).norm();
+  const FrameCamera wanted = frame_auto(box, start_.fov, aspect_, direction_);
+  start_.target += share * (wanted.target - start_.target);
+  Bounds around = box; // with its mirror image, so that the target is its middle
+  around.extend(2 * start_.target - box.min()).extend(2 * start_.target - box.max());
+  const FrameCamera needed = frame_auto(around, start_.fov, aspect_, direction_);
+  const double near = (needed.eye - needed.target).norm(), far = (wanted.eye - wanted.target).norm();
+  start_.eye = start_.target + direction_.normalized() * std::max(distance + share * (far - distance), near);
+}
+
+FrameCamera Viewpoint::at(double time) const {
+  FrameCamera camera = keys_.empty() ? start_ : between_keys(time);
   if (turn_ == 0 || duration_ <= 0) return camera;
   const double angle = turn_ * time / duration_;
   const double c = cosine_of_degrees(angle), s = sine_of_degrees(angle);
-  const Vec3 axis = start_.up.normalized(), arm = start_.eye - start_.target;
-  camera.eye = start_.target + c * arm + s * axis.cross(arm) + (1 - c) * axis.dot(arm) * axis;
+  const Vec3 axis = camera.up.normalized(), arm = camera.eye - camera.target;
+  camera.eye = camera.target + c * arm + s * axis.cross(arm) + (1 - c) * axis.dot(arm) * axis;
   return camera;
 }
 

@@ -1,11 +1,15 @@
-// Where a scene is seen from: what <camera> says, or what fits the bodies. One path for the whole clip,
-// worked out before the first step, so that a frame does not depend on the frames before it.
+// Where a scene is seen from: what <camera> says, or what fits the bodies.
+//
+// A given, fitted, turning or keyed camera has one path for the whole clip, worked out before the first step. One that
+// follows the bodies looks at every frame's state (observe): it goes after their middle as if on a damped spring, and
+// is never so near that one of them leaves the picture.
 #pragma once
 
 #include "render/frame.h"
 #include "sim/scene/scene.h"
 
 #include <Eigen/Geometry>
+#include <vector>
 
 namespace rend {
 
@@ -20,11 +24,25 @@ public:
   // aspect: width / height. UserError where the camera looks at nothing.
   Viewpoint(const Node& preset, const Scene& scene, double aspect, double duration);
 
+  void observe(const Scene& scene);  // the state is that of a frame; only needed by a camera that follows
   FrameCamera at(double time) const; // [s]
 
 private:
+  struct Key {
+    double time;                        // [s]
+    Eigen::Matrix<double, 7, 1> camera; // eye, target [m], fov [degrees]
+  };
+  void read_keys(const Node& camera);
+  FrameCamera between_keys(double time) const;
+
   FrameCamera start_;
-  double turn_ = 0; // [degrees] over the clip
+  std::vector<Key> keys_; // in order of time; empty: start_ holds
+  bool follows_ = false;
+  double aspect_ = 1, reach_ = 0;    // width / height; how far from the start's middle bodies are followed [m]
+  Vec3 start_middle_ = Vec3::Zero(); // [m], of the bodies
+  Vec3 direction_ = Vec3::Zero();    // towards the eye, of a camera that follows
+  double last_ = -1;                 // [s], of the last state observed
+  double turn_ = 0;                  // [degrees] over the clip
   double duration_ = 0;
 };
 
