@@ -3,35 +3,16 @@
 #include "sim/base/error.h"
 #include "sim/base/hash.h"
 
-#include <commit.h> // written by commit.cmake
-
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <ctime>
 #include <fstream>
 #include <iterator>
-#include <sys/utsname.h>
-#include <thread>
 #include <vector>
 
 namespace rend {
 namespace {
-
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown";
-}
-
-std::string kernel() {
-  utsname name{};
-  if (::uname(&name) != 0) return "unknown";
-  return fmt::format("{} {} {}", name.sysname, name.release, name.machine);
-}
 
 // The command line as the system keeps it; the program's own name without its folder.
 std::vector<std::string> command_words() {
@@ -69,13 +50,7 @@ std::string quoted_for_shell(const std::vector<std::string>& words) {
 
 Provenance provenance_of(const std::filesystem::path& preset) {
   Provenance p;
-  p.version = REND_VERSION;
-  p.commit = REND_COMMIT;
-  p.compiler = REND_COMPILER;
-  p.flags = REND_FLAGS;
-  p.machine = processor();
-  p.system = kernel();
-  p.processors = static_cast<int>(std::thread::hardware_concurrency());
+  p.machine = this_machine();
   p.preset = preset.string();
   p.hash = hash_of(preset);
   p.command = quoted_for_shell(command_words());
@@ -84,10 +59,10 @@ Provenance provenance_of(const std::filesystem::path& preset) {
 }
 
 nlohmann::ordered_json json_of(const Provenance& p) {
-  return {{"rend", p.version},          {"commit", p.commit},   {"compiler", p.compiler},
-          {"flags", p.flags},           {"machine", p.machine}, {"system", p.system},
-          {"processors", p.processors}, {"preset", p.preset},   {"preset_hash", p.hash},
-          {"command", p.command},       {"date", p.date}};
+  const Machine& m = p.machine;
+  return {{"rend", m.version},      {"commit", m.commit},   {"compiler", m.compiler},  {"flags", m.flags},
+          {"machine", m.processor}, {"system", m.system},   {"processors", m.threads}, {"preset", p.preset},
+          {"preset_hash", p.hash},  {"command", p.command}, {"date", p.date}};
 }
 
 } // namespace rend

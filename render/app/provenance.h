@@ -1,6 +1,8 @@
 // Where figures come from: machine, build, preset and command line, for reports that others should be able to repeat.
 #pragma once
 
+#include "render/report/machine.h"
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,10 +10,7 @@
 namespace rend {
 
 struct Provenance {
-  std::string version, commit; // of rend; "-dirty": with changes that are not committed
-  std::string compiler, flags; // "GNU 12.2.0", "-O3 ..."
-  std::string machine, system; // processor and kernel, as they name themselves
-  int processors = 0;
+  Machine machine;
   std::string preset, hash; // its path as it was given, and XXH3 of its bytes, 16 hex digits
   std::string command;      // for a shell
   std::string date;         // of the run, UTC: ISO 8601

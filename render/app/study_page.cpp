@@ -268,11 +268,11 @@ std::string page_of(const StudyReport& report, const std::string& name, const st
   body += heading(2, "Where it comes from") +
           facts({{"command", code(p.command)},
                  {"preset", escaped(fmt::format("{}, XXH3 {}", p.preset, p.hash))},
-                 {"rend", escaped(fmt::format("{}, commit {}", p.version, p.commit))},
-                 {"compiler", escaped(p.compiler)},
-                 {"flags", code(p.flags)},
-                 {"machine", escaped(fmt::format("{}, {} processors", p.machine, p.processors))},
-                 {"system", escaped(p.system)},
+                 {"rend", escaped(fmt::format("{}, commit {}", p.machine.version, p.machine.commit))},
+                 {"compiler", escaped(p.machine.compiler)},
+                 {"flags", code(p.machine.flags)},
+                 {"machine", escaped(fmt::format("{}, {} processors", p.machine.processor, p.machine.threads))},
+                 {"system", escaped(p.machine.system)},
                  {"date", escaped(p.date)}});
   return page("Study of " + name, body);
 }

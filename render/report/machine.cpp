@@ -37,8 +37,7 @@ std::string compiler() {
 } // namespace
 
 Machine this_machine() {
-  return {processor(), hardware_threads(), system_name(),
-          compiler(),  REND_FLAGS,         fmt::format("{} ({})", REND_VERSION, rend_commit)};
+  return {processor(), hardware_threads(), system_name(), compiler(), REND_FLAGS, REND_VERSION, rend_commit};
 }
 
 std::vector<std::pair<std::string, std::string>> described(const Machine& machine) {
@@ -46,7 +45,7 @@ std::vector<std::pair<std::string, std::string>> described(const Machine& machin
            fmt::format("{}, {} thread{}", machine.processor, machine.threads, machine.threads == 1 ? "" : "s")},
           {"system", machine.system},
           {"compiler", fmt::format("{}, {}", machine.compiler, machine.flags)},
-          {"rend", machine.version}};
+          {"rend", fmt::format("{} ({})", machine.version, machine.commit)}};
 }
 
 } // namespace rend

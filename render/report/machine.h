@@ -13,7 +13,8 @@ struct Machine {
   std::string system;    // "Linux 6.1.0 x86_64"
   std::string compiler;  // "g++ 12.2.0"
   std::string flags;     // that the program was compiled with
-  std::string version;   // of rend, with its commit: "0.1.0 (1a2b3c4d5e6f)"
+  std::string version;   // of rend
+  std::string commit;    // "1a2b3c4d5e6f"; "-dirty": with changes that are not committed
 };
 Machine this_machine();
 

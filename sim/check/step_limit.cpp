@@ -40,7 +40,7 @@ void take_step(Integrator& integrator, System& system, double step, const State&
 }
 
 double radius_of_mode(const Scheme& scheme, Oscillator& system, double omega, double step) {
-  const auto integrator = scheme.make();
+  const auto integrator = scheme.make({});
   Records force(1);
   Eigen::Matrix2d matrix;
   for (int column = 0; column < 2; ++column) {
@@ -87,7 +87,7 @@ namespace {
 class Amplification {
 public:
   Amplification(const Scheme& scheme, Linearised& body, double omega, double step)
-      : body_(&body), integrator_(scheme.make()), omega_(omega), step_(step), force_(body.vertices()) {
+      : body_(&body), integrator_(scheme.make({})), omega_(omega), step_(step), force_(body.vertices()) {
     from_.resize(body.vertices());
     to_.resize(body.vertices());
     for (std::size_t i = 0; i < body.vertices(); ++i)

@@ -75,7 +75,6 @@ private:
   double stable_step(const Node& time) const;
   double tolerance_of(const Node& time) const;
   double stability_limit() const; // [s]
-  double stability_limit(const Scheme& scheme) const;
   void check() const;
   double tearing_seconds() const;
   void check_resolved(const Body& body, const Record* velocity) const; // [m/s], one per vertex slot
