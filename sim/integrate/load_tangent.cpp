@@ -27,6 +27,15 @@ void LoadTangent::at(System& system, double time, const Records& position, const
   held_ = &held;
   scales_ = scales;
   size_ = system.load ? largest_coordinate(position) : 0;
+  matrix_ = nullptr;
+  shift_ = 0;
+}
+
+void LoadTangent::with_forces(const BlockMatrix& matrix, double shift) {
+  matrix_ = &matrix;
+  shift_ = shift;
+  parts_ = system_->pattern()->parts;
+  size_ = largest_coordinate(*position_);
 }
 
 void LoadTangent::move(double epsilon, const Records& along) {
@@ -34,23 +43,39 @@ void LoadTangent::move(double epsilon, const Records& along) {
   moved_velocity_ = *velocity_;
   add_scaled(parts_, epsilon * scales_.by_position, along, moved_);
   if (scales_.by_velocity != 0) add_scaled(parts_, epsilon * scales_.by_velocity, along, moved_velocity_);
-  system_->outer(time_, moved_.data(), moved_velocity_.data());
+}
+
+// Forces at moved_.
+void LoadTangent::take(Records& out) {
+  out.resize(moved_.size());
+  if (matrix_)
+    system_->forces(time_, moved_.data(), moved_velocity_.data(), out.data());
+  else
+    system_->outer(time_, moved_.data(), moved_velocity_.data());
+  if (!system_->load) return;
+  if (matrix_)
+    for (std::size_t i = 0; i < out.size(); ++i) store(out[i], load(out[i]) + load(system_->load[i]));
+  else
+    std::copy_n(system_->load, out.size(), out.begin());
 }
 
 bool LoadTangent::multiply(const Records& along, Records& out) {
-  const double most = system_->load ? largest_coordinate(along) : 0;
+  const double most = system_->load || matrix_ ? largest_coordinate(along) : 0;
   if (most == 0 || size_ == 0) return false;
   const double epsilon = small_motion * size_ / (most * scales_.by_position);
-  out.resize(along.size());
   move(epsilon, along);
-  std::copy_n(system_->load, along.size(), out.begin());
+  take(force_[0]);
   move(-epsilon, along);
+  take(force_[1]);
+  out.assign(along.size(), Record{});
+  if (matrix_) matrix_->multiply(along.data(), out.data());
   const Double4 share = splat(0.5 * scales_.share / epsilon);
   Double4 sum{};
   for (std::size_t i = 0; i < out.size(); ++i) {
     const bool there = system_->inverse_mass[i] != 0;
-    const Double4 change = there ? load(out[i]) - load(system_->load[i]) : Double4{};
-    const Double4 part = share * free_axes((*held_)[i]) * change;
+    const Double4 kept = splat(shift_ == 0 ? 0 : shift_ / system_->inverse_mass[i]) * load(along[i]);
+    const Double4 change = share * (load(force_[0][i]) - load(force_[1][i])) + load(out[i]) - kept;
+    const Double4 part = there ? free_axes((*held_)[i]) * change : Double4{};
     sum += part * part;
     store(out[i], part);
   }
@@ -104,8 +129,10 @@ void LoadTangent::combine(std::size_t count, Records& update) {
 bool LoadTangent::solve(LinearSolver& linear, const Records& right, Records& update, double digits) {
   if (!linear.solve(right, update, digits)) return false;
   const double whole = std::sqrt(dot(parts_, right, right)), wanted = std::max(digits, most_wanted);
-  counted_ = whole > 0 && multiply(update, image_) && std::sqrt(dot(parts_, image_, image_)) > wanted * whole;
-  if (!counted_) return true;
+  const bool matters =
+      whole > 0 && multiply(update, image_) && std::sqrt(dot(parts_, image_, image_)) > wanted * whole;
+  if (!matrix_) counted_ = matters;
+  if (!matters) return true;
   basis_.resize(most_directions + 1);
   solved_.resize(most_directions);
   column_.resize(most_directions);

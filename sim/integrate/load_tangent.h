@@ -10,6 +10,11 @@
 // rank, and each takes one solution with A and two evaluations of the loads, whose central difference is L δ
 // (Knoll & Keyes, "Jacobian-free Newton-Krylov methods", 2004). Loads that do not change along δ cost nothing
 // more than to see that.
+//
+// Where asked (with_forces), L also has what a symmetrised matrix leaves out of the internal forces f: elements that
+// turn by one mean rotation are no gradient, the less the stiffer their volume is. Then
+//
+//   L δ = A δ + ∂/∂ε (f + load)(x + ε δ, v)
 #pragma once
 
 #include "sim/integrate/system.h"
@@ -29,6 +34,10 @@ public:
   void at(System& system, double time, const Records& position, const Records& velocity,
           const std::vector<std::uint8_t>& held, const Scales& scales);
 
+  // Until the next at(): with the internal forces as well, of a matrix that is their tangent by position, to which
+  // shift M [1/s²] was added (and stays). Not with a by_velocity or a share.
+  void with_forces(const BlockMatrix& matrix, double shift = 0);
+
   // L δ, 0 at held coordinates; false: it is 0 all over, and not written.
   bool multiply(const Records& along, Records& out);
 
@@ -38,24 +47,28 @@ public:
 
   std::size_t bytes() const;
 
-  // Whether the last solve() found L to matter.
+  // Whether the last solve() for loads alone found them to matter.
   bool counted() const { return counted_; }
 
 private:
   void move(double epsilon, const Records& along);
+  void take(Records& out);
   bool add_direction(LinearSolver& linear, std::size_t n, double digits);
   double rotate(std::size_t n);
   void combine(std::size_t count, Records& update);
 
   System* system_ = nullptr;
-  double time_ = 0; // [s]
-  int parts_ = 1;   // threads
+  double time_ = 0;                     // [s]
+  int parts_ = 1;                       // threads
+  const BlockMatrix* matrix_ = nullptr; // null: loads alone
+  double shift_ = 0;                    // [1/s²]
   const Records *position_ = nullptr, *velocity_ = nullptr;
   const std::vector<std::uint8_t>* held_ = nullptr;
   Scales scales_;
   bool counted_ = false;
   double size_ = 0;                     // [m]: of the greatest coordinate
   Records moved_, moved_velocity_;      // [m], [m/s]
+  Records force_[2];                    // [N]: at both ends of a difference
   Records image_;                       // L δ
   std::vector<Records> basis_, solved_; // v_n, orthonormal, and A⁻¹ v_n
 

@@ -3,31 +3,30 @@
 //   F(x) = f(x, 0) + M g + loads = 0       at the free coordinates; v' = 0, and viscosity has no part
 //
 // 1. Newton's method with the exact tangent, symmetrised: K δ = F − K u, where u are the ways of the prescribed
-//    coordinates. A linear model is solved by the first iteration: K u = R. Loads that follow the body have their
-//    own part in it (load_tangent.h): K − L in place of K.
+//    coordinates. A linear model is solved by the first iteration: K u = R. Loads that follow the body have their own
+//    part in it (load_tangent.h): K − L in place of K; after four iterations also what symmetrising left out.
 // 2. Where that fails, it goes a part of the way: half of what is new in prescribed coordinates and forces,
 //    half of that ...: F(x) = (1 − s) F(x_start), s from 0 to 1. No line search here: a slender beam must first
 //    be stretched by the bending that a linear step sees, and loses that in the next.
 // 3. Where no part of the way can be gone (a chain at rest resists nothing sideways, a cloth next to nothing, a
-//    strut buckles), it relaxes: (K⁺ + σ M) δ = F with the definite tangent, from a large σ to a small one as long
-//    as the potential falls along δ. That is implicit Euler with ever longer steps and without memory
-//    (pseudo-transient continuation, Kelley & Keyes 1998). Near the end the exact tangent takes the place of K⁺ where
-//    a σ of its own makes it positive. First under the loads alone, then again part by part after the drives, at last
-//    under all at once.
+//    strut buckles), it relaxes: (K⁺ + σ M) δ = F with the definite tangent, from a large σ to a small one as
+//    long as the potential falls along δ. That is implicit Euler with ever longer steps and without memory
+//    (pseudo-transient continuation, Kelley & Keyes 1998). Near the end the exact tangent takes the place of K⁺
+//    where a σ of its own makes it positive. First under the loads alone, then again part by part after the
+//    drives, at last under all at once.
 //
 // An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. What rounding
 // positions makes of F is taken where F is; far away it could exceed all forces, and anything would count: so
 // it is at most 1e-6 of them, or what it is within the reach of the step under the stiffness at its start (a
-// body without forces has no other measure). Newton's method must also find the tangent positive there: what
-// buckles is not left upright. (Not asked where loads follow the body: a strip bent to a circle by a moment is
-// stable, while the part of its tangent without the load is not positive, and the whole is not symmetric.)
-// Relaxing goes downhill, and stays on a ridge only where symmetry gives it no side. A piece that can move off
-// as a whole is refused, and so is one that can turn in a model of small displacements, where f does not turn
-// with the body: no turn ever meets a resistance. Once the body has stood, what comes off it is no reason to
-// stop: such a piece takes its own shape where it is, without loads.
+// body without forces has no other measure). Newton's method must also find the tangent positive there, or, where it is
+// not symmetric, all motions resisted (least_resistance.h): what buckles is not left upright. (Not asked where loads
+// follow the body, as in a strip that a moment bends to a circle.) Relaxing goes downhill, and stays on a ridge only
+// where symmetry gives it no side. A piece that can move off as a whole is refused, and so is one that can turn in a
+// model of small displacements, where f does not turn with the body: no turn ever meets a resistance. Once the body has
+// stood, what comes off it is no reason to stop: such a piece takes its own shape where it is, without loads.
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
-#include "sim/integrate/load_tangent.h"
+#include "sim/integrate/least_resistance.h"
 
 #include <fmt/format.h>
 
@@ -39,10 +38,10 @@
 namespace rend {
 namespace {
 
-constexpr double wanted = 1e-9, linear_digits = 1e-10, most_noise = 1e-6;                  // of the forces
-constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();                     // of a coordinate
-constexpr int most_newton = 16, most_falling = 60, most_relaxed = 600, most_solved = 3000; // iterations
-constexpr double least_part = 1.0 / 256, least_unstable = 1.0 / 16;                        // of the way
+constexpr double wanted = 1e-9, linear_digits = 1e-10, most_noise = 1e-6; // of the forces
+constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();    // of a coordinate
+constexpr int most_symmetric = 4, most_newton = 16, most_falling = 60, most_relaxed = 600, most_solved = 3000;
+constexpr double least_part = 1.0 / 256, least_unstable = 1.0 / 16; // of the way
 constexpr double most_reach = 4096; // of a linear step, in sizes of the body: no more than as good as singular
 constexpr double first_sigma = 1e-3, least_sigma = 1e-12, near_digits = 1e-4; // σ of the mean stiffness
 constexpr double far_digits = 1e-2; // what is iterated in single precision
@@ -78,6 +77,7 @@ private:
   void aim(double part);
   double digits(int n, double before) const;
   Found newton(double part);
+  bool stands(bool whole);
   bool in_parts_of_the_way();
   bool loads_first();
   bool direction(Tangent tangent, double sigma, double part);
@@ -229,10 +229,18 @@ double StaticSolve::digits(int n, double before) const {
   return std::clamp(std::max(0.5 * fell * fell, 0.3 * wanted * terms_ / norm_), linear_digits, far_digits);
 }
 
+// Whether the equilibrium at trial_ is stable, as far as that is asked.
+bool StaticSolve::stands(bool whole) {
+  if (linear_.factorise() == Definiteness::Positive || load_tangent_.counted()) return true;
+  return whole &&
+         least_resistance({*system_, end_, trial_, still_, held_}, matrix_, linear_, load_tangent_) > 0;
+}
+
 // From position_ to the equilibrium at this part of the way; position_ stays where there is none.
 Found StaticSolve::newton(double part) {
   trial_ = position_;
   double before[2] = {}; // [N]: |F| of the last iteration, and of that before it
+  bool whole = false;    // the tangent, with what is not symmetric of it
   for (int n = 0; n <= most_falling; ++n) {
     evaluate(trial_);
     Double4 left{};
@@ -243,7 +251,7 @@ Found StaticSolve::newton(double part) {
     norm_ = root_of_sum(left);
     if (!std::isfinite(norm_)) return Found::Nothing;
     if (n > 0 && settled()) {
-      if (linear_.factorise() != Definiteness::Positive && !load_tangent_.counted()) return Found::Unstable;
+      if (!stands(whole)) return Found::Unstable;
       position_ = trial_;
       return Found::Equilibrium;
     }
@@ -251,6 +259,8 @@ Found StaticSolve::newton(double part) {
     linearise(trial_, Tangent::Exact);
     aim(part);
     ++newton_;
+    whole = whole || (n >= most_symmetric && norm_ > 0.1 * before[0]);
+    if (whole) load_tangent_.with_forces(matrix_);
     if (!load_tangent_.solve(linear_, right_, update_, digits(n, before[0])))
       return n == 0 ? Found::Singular : Found::Nothing;
     if (n == 0 && largest_coordinate(update_) > most_reach * size_ * part) return Found::Singular; // as good as

@@ -154,7 +154,7 @@ const ElementType& elasticity_type() {
            "linear, stored on vertices and edges")
            .otherwise("corotational"),
        number("young", "Pa", "Young's modulus").above(0).is_required(),
-       number("poisson", "", "Poisson's ratio").at_least(0).at_most(0.499).otherwise("0.3"),
+       number("poisson", "", "Poisson's ratio").at_least(0).at_most(0.4999).otherwise("0.3"),
        number("thickness", "m", "of a sheet").above(0),
        word("rotation", {"polar", "qr"}, "corotational: the closest rotation, or Gram-Schmidt of the edges")
            .otherwise("polar"),
