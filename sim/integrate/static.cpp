@@ -308,11 +308,11 @@ bool StaticSolve::relax(double part) {
   first_sum_.assign(position_.size(), Record{});
   evaluate(position_);
   linearise(position_, Tangent::Definite);
-  const double mean = mean_stiffness(matrix_, system_->inverse_mass, position_.size()),
-               most = first_sigma * mean, least = least_sigma * mean;
-  double far = most, close = 1e-6 * mean; // σ of the definite tangent, and of the exact one [1/s²]
-  double tried = 0.1 * norm_;             // [N]: where Newton's method is tried
-  bool helped = true;                     // the last direction
+  const double mean = mean_stiffness(matrix_, system_->inverse_mass, position_.size());
+  double far = first_sigma * mean,
+         close = 1e-6 * mean; // σ of the definite tangent, and of the exact one [1/s²]
+  double tried = 0.1 * norm_; // [N]: where Newton's method is tried
+  bool helped = true;         // the last direction
   for (int n = 0; n < most_relaxed && newton_ < last_; ++n) {
     const double before = norm_;
     if (n > 0 && settled()) return true;
@@ -335,7 +335,7 @@ bool StaticSolve::relax(double part) {
     if (!kept)
       sigma *= exact ? 10 : 4;
     else if (helped)
-      sigma = std::max(0.3 * sigma, least);
+      sigma = std::max(0.3 * sigma, least_sigma * mean);
     helped = kept;
     if (kept)
       position_.swap(trial_);
