@@ -165,4 +165,24 @@ double mean_stiffness(const BlockMatrix& matrix, const double* inverse_mass, std
   return stiff / mass;
 }
 
+// What was held when the body first stood and is no more came off by tearing, or was let go.
+void Footing::check(System& system, double time, const Records& position, double size, BlockMatrix& matrix) {
+  const BlockPattern& pattern = *system.pattern();
+  loose.assign(position.size(), 0);
+  const auto drift = drift_of(pattern, system.inverse_mass, held);
+  const bool stiff_to_turns = can_turn(pattern, system.inverse_mass, held, position.data()) &&
+                              (keeps_turned || !turns_with_body(system, time, position, size, matrix));
+  if (stood && (drift || stiff_to_turns)) {
+    pin_loose(pattern, system.inverse_mass, position.data(), !stiff_to_turns, held, loose);
+    return;
+  }
+  if (drift)
+    throw Unsolved(*drift + ", and a static solve needs that",
+                   "add <fix>, or use implicit, which needs no hold");
+  if (stiff_to_turns)
+    throw Unsolved(
+        "what is held lets the body turn as a whole, and a model of small displacements resists no turn",
+        "fix more than a point or a line, or use a co-rotational model");
+}
+
 } // namespace rend

@@ -5,7 +5,7 @@
 // Turns are another matter, since a pendulum has an equilibrium.
 #pragma once
 
-#include "sim/integrate/system.h"
+#include "sim/integrate/integrator.h"
 #include "sim/solve/vectors.h"
 
 #include <optional>
@@ -32,6 +32,18 @@ void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Re
 // Whether forces turn with the body, measured at quarter turns about z and x, which are exact in coordinates.
 // `size`: its extent() [m]; the matrix is written.
 bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix);
+
+// What a static solve knows of how its body is held.
+struct Footing {
+  std::vector<std::uint8_t> held;  // axes, one per vertex slot
+  std::vector<std::uint8_t> loose; // 1: of a piece that came off, without loads; one per vertex slot
+  bool stood = false;              // in equilibrium, once
+  bool keeps_turned = false;       // what can turn is loose
+
+  // With `held` as the system has it: holds and marks what came off since the body stood, and refuses (Unsolved) a body
+  // that can move off or turn without resistance. Position and size as above; the matrix is written.
+  void check(System& system, double time, const Records& position, double size, BlockMatrix& matrix);
+};
 
 double stiffness_of(const Block3& diagonal); // the largest diagonal entry [N/m]
 

@@ -153,7 +153,8 @@ bool LoadTangent::solve(LinearSolver& linear, const Records& right, Records& upd
 }
 
 std::size_t LoadTangent::bytes() const {
-  std::size_t sum = bytes_of(moved_) + bytes_of(moved_velocity_) + bytes_of(image_);
+  std::size_t sum = bytes_of(moved_) + bytes_of(moved_velocity_) + bytes_of(image_) + bytes_of(force_[0]) +
+                    bytes_of(force_[1]);
   for (const Records& one : basis_) sum += bytes_of(one);
   for (const Records& one : solved_) sum += bytes_of(one);
   return sum;

@@ -168,6 +168,11 @@ public:
     figures.rejected = rejected_;
     return figures;
   }
+  std::size_t bytes() const override {
+    std::size_t sum = reached_.bytes() + stage_.bytes() + bytes_of(held_);
+    for (const Records& one : acceleration_) sum += bytes_of(one);
+    return sum;
+  }
   std::vector<double> carried() const override { return {pace_, error_}; }
   void carry(std::span<const double> numbers) override {
     CHECK(numbers.size() == 2);

@@ -57,7 +57,8 @@ public:
     return {newton_, linear_.iterations(), linear_.factorisations(), matrix_.bytes() + linear_.bytes()};
   }
   std::size_t bytes() const override {
-    std::size_t sum = bytes_of(held_) + bytes_of(loose_) + bytes_of(stiff_) + load_tangent_.bytes();
+    std::size_t sum =
+        bytes_of(footing_.held) + bytes_of(footing_.loose) + bytes_of(stiff_) + load_tangent_.bytes();
     for (const Records* one : {&position_, &trial_, &start_, &still_, &goal_, &force_, &sum_, &first_sum_,
                                &lead_, &right_, &update_})
       sum += bytes_of(*one);
@@ -67,7 +68,6 @@ public:
 
 private:
   void prepare(System& system, const StateView& now);
-  void check_footing();
   void evaluate(const Records& x);
   double noise(const Records& x) const;
   bool settled() const {
@@ -94,10 +94,7 @@ private:
   Records force_, sum_;                      // [N]: internal; F, 0 at prescribed coordinates
   Records first_sum_;                        // [N]: F at start_
   Records lead_, right_, update_;            // [m], [N], [m]: u, the right side, δ
-  std::vector<std::uint8_t> held_;           // axes
-  std::vector<std::uint8_t> loose_;          // 1: of a piece that came off, without loads
-  bool stood_ = false;                       // in equilibrium, once
-  bool keeps_turned_ = false;                // what can turn is loose
+  Footing footing_;                          // which coordinates are held
   double norm_ = 0, terms_ = 0, noise_ = 0;  // [N]: of F, of its terms, and round-off
   std::vector<double> stiff_;                // [N/m]: the largest of each diagonal block; 0: not known yet
   double noise_of_start_ = -1;               // [N]: at most, within reach_ of the origin; < 0: not known yet
@@ -123,34 +120,13 @@ void StaticSolve::prepare(System& system, const StateView& now) {
   size_ = extent(start_, system.inverse_mass);
   stiff_.assign(count, 0);
   noise_of_start_ = -1;
-  held_.assign(count, 0);
-  system.hold(end_, held_.data());
+  footing_.held.assign(count, 0);
+  system.hold(end_, footing_.held.data());
   goal_ = start_;
   trial_ = still_;
   system.constrain(end_, goal_.data(), trial_.data());
   reach_ = std::max({largest_coordinate(start_), largest_coordinate(goal_), size_});
-  loose_.assign(count, 0);
-  check_footing();
-}
-
-// What was held when the body first stood and is no more came off by tearing, or was let go.
-void StaticSolve::check_footing() {
-  System& system = *system_;
-  const BlockPattern& pattern = *system.pattern();
-  const auto drift = drift_of(pattern, system.inverse_mass, held_);
-  const bool stiff_to_turns = can_turn(pattern, system.inverse_mass, held_, start_.data()) &&
-                              (keeps_turned_ || !turns_with_body(system, end_, start_, size_, matrix_));
-  if (stood_ && (drift || stiff_to_turns)) {
-    pin_loose(pattern, system.inverse_mass, start_.data(), !stiff_to_turns, held_, loose_);
-    return;
-  }
-  if (drift)
-    throw Unsolved(*drift + ", and a static solve needs that",
-                   "add <fix>, or use implicit, which needs no hold");
-  if (stiff_to_turns)
-    throw Unsolved(
-        "what is held lets the body turn as a whole, and a model of small displacements resists no turn",
-        "fix more than a point or a line, or use a co-rotational model");
+  footing_.check(system, end_, start_, size_, matrix_);
 }
 
 // What rounding positions makes of F at x, with the stiffness last seen [N].
@@ -174,9 +150,9 @@ void StaticSolve::evaluate(const Records& x) {
     Double4 whole = f;
     if (inverse == 0)
       whole = Double4{};
-    else if (!loose_[i])
+    else if (!footing_.loose[i])
       whole = system.acceleration(i, f, Double4{}) * splat(1 / inverse);
-    const Double4 free_part = free_axes(held_[i]) * whole;
+    const Double4 free_part = free_axes(footing_.held[i]) * whole;
     store(sum_[i], free_part);
     left += free_part * free_part;
     internal += f * f;
@@ -204,10 +180,10 @@ void StaticSolve::linearise(const Records& x, Tangent tangent) {
 void StaticSolve::aim(double part) {
   const Double4 rest = splat(1 - part);
   bool leads = false;
-  load_tangent_.at(*system_, end_, trial_, still_, held_, {});
+  load_tangent_.at(*system_, end_, trial_, still_, footing_.held, {});
   for (std::size_t i = 0; i < position_.size(); ++i) {
     const Double4 target = load(start_[i]) + splat(part) * (load(goal_[i]) - load(start_[i]));
-    const Double4 u = (Double4{1, 1, 1, 0} - free_axes(held_[i])) * (target - load(trial_[i]));
+    const Double4 u = (Double4{1, 1, 1, 0} - free_axes(footing_.held[i])) * (target - load(trial_[i]));
     store(lead_[i], u);
     leads = leads || u[0] != 0 || u[1] != 0 || u[2] != 0;
     store(right_[i], load(sum_[i]) - rest * load(first_sum_[i]));
@@ -215,10 +191,10 @@ void StaticSolve::aim(double part) {
   if (leads) {
     matrix_.multiply(lead_.data(), update_.data());
     for (std::size_t i = 0; i < position_.size(); ++i)
-      store(right_[i], free_axes(held_[i]) * (load(right_[i]) - load(update_[i])));
+      store(right_[i], free_axes(footing_.held[i]) * (load(right_[i]) - load(update_[i])));
     if (load_tangent_.multiply(lead_, update_)) add_scaled(1, 1, update_, right_);
   }
-  matrix_.hold(held_.data());
+  matrix_.hold(footing_.held.data());
   linear_.take(matrix_);
 }
 
@@ -233,7 +209,7 @@ double StaticSolve::digits(int n, double before) const {
 bool StaticSolve::stands(bool whole) {
   if (linear_.factorise() == Definiteness::Positive || load_tangent_.counted()) return true;
   return whole &&
-         least_resistance({*system_, end_, trial_, still_, held_}, matrix_, linear_, load_tangent_) > 0;
+         least_resistance({*system_, end_, trial_, still_, footing_.held}, matrix_, linear_, load_tangent_) > 0;
 }
 
 // From position_ to the equilibrium at this part of the way; position_ stays where there is none.
@@ -357,9 +333,10 @@ bool StaticSolve::loads_first() {
 // What hangs by a hinge since it tore may find no rest, where a mean rotation leaves moments of its own: from then on
 // it stays as what came off.
 bool StaticSolve::without_turns(const StateView& now) {
-  if (!stood_ || keeps_turned_ || !can_turn(*system_->pattern(), system_->inverse_mass, held_, start_.data()))
+  if (!footing_.stood || footing_.keeps_turned ||
+      !can_turn(*system_->pattern(), system_->inverse_mass, footing_.held, start_.data()))
     return false;
-  keeps_turned_ = true;
+  footing_.keeps_turned = true;
   last_ += most_solved;
   prepare(*system_, now);
   evaluate(start_);
@@ -368,7 +345,7 @@ bool StaticSolve::without_turns(const StateView& now) {
 }
 
 void StaticSolve::give_up() const {
-  const bool turns = can_turn(*system_->pattern(), system_->inverse_mass, held_, start_.data());
+  const bool turns = can_turn(*system_->pattern(), system_->inverse_mass, footing_.held, start_.data());
   const std::string left =
       fmt::format("no equilibrium was found: {:.2g} of the forces are left after {} iterations", norm_ / terms_,
                   newton_ - (last_ - most_solved));
@@ -390,7 +367,7 @@ void StaticSolve::advance(System& system, double time, double step, const StateV
   if (!in_parts_of_the_way() && !loads_first() && !relax(1) && !without_turns(now)) give_up();
   system.constrain(end_, position_.data(), trial_.data()); // to the last bit
   for (std::size_t i = 0; i < position_.size(); ++i) next.put(i, load(position_[i]), Double4{});
-  stood_ = true;
+  footing_.stood = true;
 }
 
 } // namespace

@@ -260,7 +260,7 @@ void Scene::check_sound() const {
 // Neighbours that move against each other by many times their distance at rest in one step are not resolved by it: what
 // explodes passes this bound long before its numbers overflow.
 void Scene::check_resolved(const Body& body, const Record* velocity) const {
-  if (scheme_->solves) return; // what it could not solve, it said
+  if (scheme_->solves || scheme_->adaptive) return; // what it could not solve, it said
   constexpr double rest_lengths = 64;
   const Record* rest = body.map->rest().values().data();
   for (const Binder& binder : body.program->rows()) {

@@ -198,6 +198,31 @@ TEST(RungeKutta45, follows_drives_within_a_step) {
   }
 }
 
+// A sheet in honey that is at rest, struck within 4 ms, and comes to rest again.
+TEST(RungeKutta45, takes_fewer_evaluations_than_fixed_steps_where_something_sudden_happens) {
+  const auto struck = [](const std::string& scheme, double step, const std::string& more = "") {
+    auto s = presets::load(fmt::format(
+        R"(<scene><body><sheet pattern="quads" cells="4 4" size="1 1"/><place rotate="90 0 0"/><mass total="0.1"/>)"
+        R"(<springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>)"
+        R"(<viscosity value="2" per="body"/><fix side="+z"/>)"
+        R"(<drive side="-z" velocity="0 0 -40" from="0.3" until="0.304"/></body>)"
+        R"(<world gravity="0 0 0"/><time step="{}" integrator="{}" duration="1" {}/></scene>)",
+        step, scheme, more));
+    run(*s.scene, 1);
+    return s;
+  };
+  const auto exact = struck("rk4", 2e-5);
+  const auto adaptive = struck("rk45", 0.05, R"(tolerance="1e-7")");
+  const double error = farthest(*adaptive.scene, *exact.scene);
+  for (int steps = 300;; steps += steps / 10) {
+    const auto fixed = struck("rk4", 1.0 / steps);
+    if (farthest(*fixed.scene, *exact.scene) > error) continue;
+    EXPECT_LT(adaptive->evaluations(), fixed->evaluations());
+    RecordProperty("evaluations", fmt::format("{} against {}", adaptive->evaluations(), fixed->evaluations()));
+    break;
+  }
+}
+
 TEST(RungeKutta45, tears_as_small_steps_do) {
   const auto torn = [](const std::string& time) {
     auto s = presets::load(presets::cloth(
