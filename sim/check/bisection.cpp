@@ -5,35 +5,49 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace rend {
 namespace {
 
-constexpr long steps = 4000, looked_at = 50;
-constexpr double growth = 1e6, digits = 5e-4;
+constexpr long steps = 4000;
+constexpr double digits = 1e-3, widest = 1e4;
+constexpr double beats = 1e6; // by how much the energy may swing: 1/(2ε) at ε below the limit, a thousand times
 
 bool stable(const Bench& bench, double step) {
   const Trial trial =
       bench.open({{"time.step", fmt::format("{}", step)}, {"time.duration", fmt::format("{}", steps * step)}});
   for (const auto& body : trial->bodies()) shake(*body, 1e-9 * size_of(*body) / step, 11);
   const double start = trial->kinetic_energy();
+  double early = 0, late = 0; // sums of kinetic energy
   try {
     for (long n = 0; n < steps; ++n) {
       trial->step();
-      if (n % looked_at == 0 && !(trial->kinetic_energy() <= growth * start)) return false;
+      if (n % 4 != 0) continue;
+      const double now = trial->kinetic_energy();
+      if (!(now <= beats * start)) return false;
+      if (n >= steps / 4) (n < steps / 2 ? early : late) += now;
     }
   } catch (const Unstable&) {
     return false;
   }
-  return true;
+  return late <= 2 * 2 * early; // twice as long
 }
 
 } // namespace
 
-double bisected_limit(const Bench& bench, double omega) {
-  double high = 0.01 / omega;
-  while (high * omega < 20 && stable(bench, high)) high *= 1.3;
-  double low = high / 1.3;
+double bisected_limit(const Bench& bench, double guess) {
+  double low = guess / 1.25, high = guess * 1.25;
+  while (!stable(bench, low)) {
+    high = low;
+    low /= 2;
+    if (low * widest < guess) return 0;
+  }
+  while (stable(bench, high)) {
+    low = high;
+    high *= 2;
+    if (high > guess * widest) return std::numeric_limits<double>::infinity();
+  }
   while (high > (1 + digits) * low) {
     const double middle = std::sqrt(low * high);
     (stable(bench, middle) ? low : high) = middle;

@@ -5,9 +5,11 @@
 // and the step is found by bisection. So no formula is taken on trust: those of mechanics ("Time") must come out.
 //
 // A whole body with damping that couples modes has no such formula. There the matrix is that of the linearised body
-// (linearised.h); its eigenvalue of largest modulus comes from Arnoldi's method started near the fastest mode, in the
-// coordinates (ω √m x, √m v), in which an undamped motion turns without growing. Only what has converged counts. With
-// damping of Rayleigh's kind, a combination of mass and stiffness, both agree (a test).
+// (linearised.h), in the coordinates (ω √m x, √m v), in which an undamped motion turns without growing. Its eigenvalues
+// come from Arnoldi's method started at the fastest mode. What stiffness and damping accelerate by less than a tenth of ω times
+// its speed is left out: whole bodies that drift or turn are a double eigenvalue of 1 with one vector, which no iteration tells from
+// growth. A motion counts as growing where it does so by more than its residual. With damping of Rayleigh's kind, a combination of
+// mass and stiffness, both agree (a test).
 #pragma once
 
 #include "sim/check/linearised.h"
@@ -26,7 +28,7 @@ struct StepLimit {
 
 StepLimit step_limit(const Scheme& scheme, Linearised& body);
 
-// The largest modulus among the eigenvalues of the scheme's matrix at this step; less where none converged.
-double spectral_radius(const Scheme& scheme, Linearised& body, const HighestMode& mode, double step);
+// Whether a fast motion of the linearised body grows under the scheme at this step.
+bool grows(const Scheme& scheme, Linearised& body, const HighestMode& mode, double step);
 
 } // namespace rend
