@@ -42,9 +42,10 @@ void write_cases(const fs::path& folder, const std::vector<CheckCase>& cases) {
 
 std::vector<CheckResult> run_cases(const fs::path& folder, const std::vector<CheckCase>& cases, int jobs,
                                    const std::function<void(std::size_t, const CheckResult&)>& done) {
-  const ReadPreset read = [&](const CheckCase& which, const Sets& sets) {
+  const ReadPreset read = [&](const CheckCase& which, const std::string* instead, const Sets& sets) {
     std::vector<Override> overrides;
     for (const auto& [path, value] : sets) overrides.push_back({path, value});
+    if (instead) return load_scene_text(*instead, which.name, overrides);
     return load_scene(folder / (file_name(which.name) + ".xml"), overrides);
   };
   std::vector<std::optional<CheckResult>> results(cases.size());

@@ -45,13 +45,22 @@ bool Finding::holds() const {
 
 Trial Bench::open(const Sets& sets, SceneOptions options) const {
   Trial trial;
-  trial.preset = (*read_)(*case_, sets);
+  trial.preset = (*read_)(*case_, nullptr, sets);
   trial.scene = std::make_unique<Scene>(*trial.preset, options);
   return trial;
 }
 
+Trial Bench::open_text(const std::string& preset) const {
+  Trial trial;
+  trial.preset = (*read_)(*case_, &preset, {});
+  trial.scene = std::make_unique<Scene>(*trial.preset, SceneOptions{});
+  return trial;
+}
+
 const std::vector<CheckFamily>& all_families() {
-  static const std::vector<CheckFamily> list{stiffness_family(), poisson_family(), step_limit_family()};
+  static const std::vector<CheckFamily> list{stiffness_family(), poisson_family(), step_limit_family(),
+                                             long_family(),      shape_family(),   degenerate_family(),
+                                             speed_family(),     size_family()};
   return list;
 }
 

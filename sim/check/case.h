@@ -59,8 +59,9 @@ struct Trial {
 using Sets = std::vector<std::pair<std::string, std::string>>; // as --set PATH=VALUE
 
 struct CheckCase;
-// Reads a case's preset as a user's file. Throws UserError.
-using ReadPreset = std::function<std::unique_ptr<Node>(const CheckCase&, const Sets&)>;
+// Reads a case's preset as a user's file, or another text in its place. Throws UserError.
+using ReadPreset =
+    std::function<std::unique_ptr<Node>(const CheckCase&, const std::string* instead, const Sets&)>;
 
 // What a case runs with.
 class Bench {
@@ -68,6 +69,7 @@ public:
   Bench(const CheckCase& which, const ReadPreset& read) : case_(&which), read_(&read) {}
   // Throws UserError for what is refused.
   Trial open(const Sets& sets = {}, SceneOptions options = {}) const;
+  Trial open_text(const std::string& preset) const; // another than the case's, to compare with
 
 private:
   const CheckCase* case_;

@@ -8,5 +8,10 @@ namespace rend {
 CheckFamily stiffness_family();
 CheckFamily poisson_family();
 CheckFamily step_limit_family();
+CheckFamily long_family();
+CheckFamily shape_family();
+CheckFamily degenerate_family();
+CheckFamily speed_family();
+CheckFamily size_family();
 
 } // namespace rend

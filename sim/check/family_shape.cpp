@@ -1,0 +1,121 @@
+// Bodies in shapes that no material survives: flattened to a plane, a line, a point; inside out; scrambled.
+#include "sim/check/families.h"
+#include "sim/check/sketch.h"
+#include "sim/check/watch.h"
+#include "sim/solve/spectrum.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+constexpr int seeds = 100;
+constexpr long steps = 6000, few_steps = 3000;
+
+const std::vector<std::string> shapes{"plane", "line", "point", "inside out", "scrambled"};
+
+// Where a vertex is put; `seed` for scrambled ones, uniform in the unit cube.
+std::function<Vec3(const Vec3&, std::size_t)> placed(const std::string& shape, const Body& body,
+                                                     std::uint64_t seed) {
+  if (shape == "plane") return [](const Vec3& x, std::size_t) { return Vec3(x.x(), 0, x.z()); };
+  if (shape == "line") return [](const Vec3& x, std::size_t) { return Vec3(x.x(), 0, 0); };
+  if (shape == "point") return [](const Vec3&, std::size_t) { return Vec3(0.4, 0.4, 0); };
+  if (shape == "inside out") return [](const Vec3& x, std::size_t) { return Vec3(-x.x(), x.y(), x.z()); };
+  const std::vector<std::uint8_t> free(body.vertices(), 0);
+  return [at = scattered(body.vertices(), body.program->inverse_mass(), free, seed)](
+             const Vec3&, std::size_t slot) { return Vec3(0.5 * at[slot].vec()); };
+}
+
+struct Tally {
+  int recovered = 0, all = 0;
+  double worst_growth = 0; // of energy, over the start
+  bool finite = true;
+  std::string stopped;
+};
+
+void try_once(const Bench& bench, const Matter& matter, const std::string& shape, std::uint64_t seed,
+              Tally& tally) {
+  const Trial trial = bench.open();
+  Body& body = trial.body();
+  put(body, placed(shape, body, seed));
+  const double start = trial->elastic_energy();
+  const Course course = run(*trial.scene, shape == "scrambled" ? few_steps : steps, 25);
+  tally.finite = tally.finite && is_finite(*trial.scene);
+  tally.worst_growth = std::max(tally.worst_growth, course.most_energy / std::max(start, 1e-300));
+  if (course.stopped) tally.stopped = course.why;
+  const bool rest = matter.small_strain() ? trial->elastic_energy() <= 1e-9 * start
+                                          : distortion(body) <= 1e-3 * size_of(body);
+  tally.recovered += rest && !course.stopped;
+  ++tally.all;
+}
+
+const char* reason(const Matter& matter) {
+  if (matter.model == "springs")
+    return "Springs know lengths alone: what is mirrored or folded has all its lengths, flat they push nowhere "
+           "out of "
+           "their plane, and without length a spring has no direction. So a flattened body stays flat, and a "
+           "tangled one "
+           "stays in the nearest tangle; it neither gains energy nor leaves the numbers. Elements "
+           "(corotational) recover.";
+  return nullptr;
+}
+
+CheckCase shape_case(const Matter& matter, const std::string& shape) {
+  Sketch sketch;
+  sketch.body = matter.shape + "    <mass total=\"1\"/>\n" + matter.matter(1e4, 0.3) +
+                "    <viscosity value=\"60\" per=\"body\"/>\n";
+  if (matter.small_strain() && matter.dimension == 2) sketch.body += "    <fix all=\"yes\" axes=\"z\"/>\n";
+  sketch.time = time_of("symplectic", "auto", 1e3);
+  CheckCase one;
+  one.name = fmt::format("shape/{}/{}", matter.name, shape);
+  const std::string what =
+      shape == "scrambled" ? fmt::format("{} times, each with other random places", seeds) : "set so";
+  one.expectation = fmt::format(
+      "{} (on the scene, {}): no energy is gained, and the body comes back to {}", shape, what,
+      matter.small_strain()
+          ? "a shape without strain energy (1e-9 of the start: a model of small strain takes turns for "
+            "swelling, so the shape itself may differ)"
+          : "its shape (within 1e-3 of its size, wherever it is and however turned)");
+  one.preset = sketch.text();
+  one.row = matter.name;
+  one.column = shape;
+  one.quick = matter.model == "corotational" && shape == "inside out";
+  one.run = [matter, shape](const Bench& bench, Finding& finding) {
+    Tally tally;
+    const int times = shape == "scrambled" ? seeds : 1;
+    for (int n = 0; n < times; ++n) try_once(bench, matter, shape, 100 + static_cast<std::uint64_t>(n), tally);
+    finding.what =
+        tally.stopped.empty() ? fmt::format("{} of {} came back", tally.recovered, tally.all) : tally.stopped;
+    finding.at_least("finite", tally.finite, 1);
+    finding.at_most("energy over its start", tally.worst_growth, 1.05);
+    if (const char* known = reason(matter); known && tally.recovered < tally.all)
+      finding.limit(finding.what, known);
+    else
+      finding.at_least("came back", tally.recovered, times);
+  };
+  return one;
+}
+
+std::vector<CheckCase> cases() {
+  std::vector<CheckCase> all;
+  for (const Matter& matter : all_matters("2 2 2", "1 0.8 0.9", "3 3", "1 0.8"))
+    for (const std::string& shape : shapes) all.push_back(shape_case(matter, shape));
+  return all;
+}
+
+} // namespace
+
+CheckFamily shape_family() {
+  return {"shape", "Flattened, inside out, scrambled",
+          "A free, damped body of every model and element is put where no material would be: onto a plane, a "
+          "line, a point; "
+          "mirrored; with all vertices at random (100 times). With the automatic step it must gain no energy "
+          "and find "
+          "its shape again.",
+          cases};
+}
+
+} // namespace rend
