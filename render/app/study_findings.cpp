@@ -39,19 +39,26 @@ std::vector<Reached> reached(const StudyReport& report, std::size_t group, std::
   return all;
 }
 
+// "3.4", "28", "270": two digits.
+std::string times_in_words(double factor) {
+  return factor < 9.95 ? fmt::format("{:.1f}", factor)
+                       : fmt::format("{:.0f}", factor < 100 ? factor : 10 * std::round(factor / 10));
+}
+
 std::string cheapest(const StudyReport& report, std::size_t group, std::size_t target) {
   const std::vector<Reached> all = reached(report, group, target);
   const std::string to = share_in_words(report.targets[target]);
-  if (all.empty()) return fmt::format("No run reaches {}.", to);
-  std::string out =
-      fmt::format("{} is the cheapest way to {}: {}{}", all.front().curve->integrator, to,
-                  all.front().reach.at_most ? "at most " : "", time_in_words(all.front().reach.seconds));
+  if (all.empty()) return fmt::format("No run comes within {}.", to);
+  const Reached &first = all.front(), &last = all.back();
+  std::string out = fmt::format("To come within {}, {} is the cheapest: {}{}", to, first.curve->integrator,
+                                time_in_words(first.reach.seconds),
+                                first.reach.at_most ? ", already by its largest step that holds" : "");
   if (all.size() == 1) return out + "; no other scheme gets there.";
-  const double second = all[1].reach.seconds / all.front().reach.seconds;
-  out += fmt::format(", {:.2g} times faster than {}", second, all[1].curve->integrator);
+  out += fmt::format("; {} takes {} times as long", all[1].curve->integrator,
+                     times_in_words(all[1].reach.seconds / first.reach.seconds));
   if (all.size() > 2)
-    out += fmt::format(" and {:.2g} times faster than {}", all.back().reach.seconds / all.front().reach.seconds,
-                       all.back().curve->integrator);
+    out += fmt::format(", {} {} times", last.curve->integrator,
+                       times_in_words(last.reach.seconds / first.reach.seconds));
   return out + ".";
 }
 
@@ -94,8 +101,8 @@ std::string failures(const StudyReport& report, std::size_t group) {
       if (!row.above_limit()) ++below;
     }
     if (failed > 0)
-      parts.push_back(fmt::format("{} of {} of {} (down to steps of {:.3g} s)", failed, curve.rows.size(),
-                                  curve.integrator, least));
+      parts.push_back(fmt::format("{} {} of {} (steps of {:.3g} s and more)", curve.integrator, failed,
+                                  curve.rows.size(), least));
   }
   if (parts.empty()) return "No run failed.";
   return fmt::format("Runs that failed: {}; {}.", joined(parts),

@@ -148,6 +148,11 @@ Html reference_table(const StudyReport& report) {
   return html::table(table);
 }
 
+std::string how_it_failed(const StudyRow& row) {
+  if (row.outcome == Outcome::Refused) return row.reason;
+  return row.steps_done < row.steps ? fmt::format("at step {}", row.steps_done) : row.reason;
+}
+
 Html row_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
@@ -198,7 +203,7 @@ Html row_table(const StudyReport& report) {
       row.push_back(value(r.torn_overlap));
     }
     Html mark;
-    if (r.failed()) mark += badge(Tone::Bad, name_of(r.outcome)) + escaped(" ") + muted(r.reason);
+    if (r.failed()) mark += badge(Tone::Bad, name_of(r.outcome)) + escaped(" ") + muted(how_it_failed(r));
     if (r.on_front) mark += badge(Tone::Good, "front");
     if (r.doubtful) mark += badge(Tone::Limit, "within the reference's error");
     if (r.above_limit() && !r.failed()) mark += badge(Tone::Note, "above the limit");

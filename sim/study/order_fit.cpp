@@ -22,7 +22,8 @@ double within(double t, int freedom) {
   return freedom % 2 ? 2 / pi * (theta + sine * sum) : sine * sum;
 }
 
-// The longest row of neighbours whose local orders keep within the spread; indices into `points`.
+// The first row of at least three neighbours, from the smallest step up, whose local orders keep within the spread;
+// indices into `points`.
 std::vector<std::size_t> straight(const std::vector<OrderPoint>& points, const std::vector<std::size_t>& sorted,
                                   double spread) {
   std::vector<double> orders;
@@ -30,23 +31,19 @@ std::vector<std::size_t> straight(const std::vector<OrderPoint>& points, const s
     const OrderPoint &fine = points[sorted[n]], &coarse = points[sorted[n + 1]];
     orders.push_back(std::log(coarse.error / fine.error) / std::log(coarse.step / fine.step));
   }
-  std::size_t best = 0, best_length = 0;
   for (std::size_t first = 0; first < orders.size(); ++first) {
     double low = orders[first], high = low;
-    std::size_t length = 0;
-    while (first + length < orders.size()) {
-      low = std::min(low, orders[first + length]);
-      high = std::max(high, orders[first + length]);
+    std::size_t last = first;
+    for (; last < orders.size(); ++last) {
+      low = std::min(low, orders[last]);
+      high = std::max(high, orders[last]);
       if (high - low > spread) break;
-      ++length;
     }
-    if (length <= best_length) continue; // the first of equals has the smaller steps
-    best = first;
-    best_length = length;
+    if (last - first >= 2)
+      return {sorted.begin() + static_cast<std::ptrdiff_t>(first),
+              sorted.begin() + static_cast<std::ptrdiff_t>(last + 1)};
   }
-  if (best_length == 0) return {};
-  return {sorted.begin() + static_cast<std::ptrdiff_t>(best),
-          sorted.begin() + static_cast<std::ptrdiff_t>(best + best_length + 1)};
+  return {};
 }
 
 } // namespace
@@ -54,9 +51,9 @@ std::vector<std::size_t> straight(const std::vector<OrderPoint>& points, const s
 std::string OrderRule::words() const {
   return fmt::format(
       "A fit leaves out runs that failed, errors above {:g} (nothing is small there) and errors at or "
-      "below {:.2g} (ten times the error bar of the reference); of the rest it takes the longest row of "
-      "neighbouring steps whose local orders stay within {:g} of each other, at least three points, of "
-      "equally long rows that of the smaller steps.",
+      "below {:.2g} (ten times the error bar of the reference); of the rest it takes, from the smallest "
+      "step up, the first row of three or more neighbouring steps whose local orders stay within {:g} of "
+      "each other.",
       largest, smallest, spread);
 }
 

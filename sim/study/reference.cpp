@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace rend {
@@ -46,18 +47,6 @@ std::size_t elements_of(const Scene& scene) {
   return count;
 }
 
-Attempt second_run(const MakeScene& make, const StudyGroup& group, double duration, long finest, long coarse,
-                   const StudyCalls& calls) {
-  Variant variant;
-  if (find_scheme("rk45")) {
-    variant.integrator = "rk45";
-    variant.tolerance = tightest;
-    return attempt(make, group, variant, duration, coarse, calls);
-  }
-  variant.integrator = "verlet";
-  return attempt(make, group, variant, duration, 8 * finest, calls);
-}
-
 } // namespace
 
 Reference make_reference(const MakeScene& make, const StudyGroup& group, double duration, int steps,
@@ -75,10 +64,14 @@ Reference make_reference(const MakeScene& make, const StudyGroup& group, double 
   const long coarse = tears(*probe) ? steps_within(duration, natural_step(*probe, duration)) : study_samples;
 
   if (calls.progress) calls.progress("reference, second scheme", 0);
-  const Attempt second = second_run(make, group, duration, finest, coarse, calls);
+  Variant other = variant;
+  other.integrator = "rk45";
+  other.tolerance = tightest;
+  const Attempt second = attempt(make, group, other, duration, coarse, calls);
   if (second.run.outcome != Outcome::Done) fail(second);
-  figures.second = second.run.trajectory.samples.empty() ? "" : find_scheme("rk45") ? "rk45" : "verlet";
-  figures.second_step = second.step;
+  figures.second = fmt::format("rk45, tolerance {:g}", tightest);
+  figures.second_step =
+      duration / static_cast<double>(std::max(second.run.counts.parts, second.run.steps_done));
   figures.second_first_tear = second.run.trajectory.first_tear;
   figures.scheme = "rk4";
   figures.bar = std::numeric_limits<double>::infinity();

@@ -23,8 +23,12 @@ RunCounts counts_of(const Scene& scene) {
     counts.newton += solver.newton;
     counts.cg += solver.cg;
     counts.factorisations += solver.factorisations;
+    counts.parts += solver.parts;
+    counts.rejected += solver.rejected;
   }
-  counts.evaluations = scene.steps_done() * scene.scheme().evaluations;
+  const long parts = counts.parts + counts.rejected; // the first evaluation of a step serves its first part
+  counts.evaluations = parts > 0 ? scene.steps_done() + (scene.scheme().evaluations - 1) * parts
+                                 : scene.scheme().evaluations * scene.steps_done();
   return counts;
 }
 

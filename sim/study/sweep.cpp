@@ -9,6 +9,7 @@ namespace rend {
 namespace {
 
 constexpr double decades = 2;
+constexpr double loosest = -2, tightest = -9; // powers of ten: tolerances
 
 // The nearest number of steps that meets the samples.
 long meeting(double steps) {
@@ -39,6 +40,23 @@ std::vector<Knob> of_steps(const std::vector<long>& all) {
   return knobs;
 }
 
+bool may_tear(const Scene& scene) {
+  return std::any_of(scene.bodies().begin(), scene.bodies().end(),
+                     [](const auto& body) { return body->tears(); });
+}
+
+// Laws of tearing look at the ends of steps alone: where something may tear they must not be far apart.
+std::vector<Knob> of_tolerances(const Scene& scene, const SweepOptions& options) {
+  const double duration = options.duration;
+  const long steps = may_tear(scene) ? steps_within(duration, natural_step(scene, duration)) : study_samples;
+  std::vector<Knob> knobs;
+  for (int n = 0; n < options.steps; ++n) {
+    const double share = options.steps > 1 ? static_cast<double>(n) / (options.steps - 1) : 0;
+    knobs.push_back({steps, std::pow(10, loosest + share * (tightest - loosest))});
+  }
+  return knobs;
+}
+
 double start_of(const Scheme& scheme, const Scene& scene, double duration) {
   const double own = scene.stability_limit(scheme), natural = natural_step(scene, duration);
   if (std::isinf(own)) return natural;
@@ -61,6 +79,7 @@ double natural_step(const Scene& scene, double duration) {
 }
 
 std::vector<Knob> sweep_of(const Scheme& scheme, const Scene& scene, const SweepOptions& options) {
+  if (scheme.adaptive) return of_tolerances(scene, options);
   if (scheme.solves) return of_steps(spread(4, options.steps + 2, decades + 0.5));
   const long first = steps_within(options.duration, start_of(scheme, scene, options.duration));
   std::vector<Knob> knobs = of_steps(spread(first, options.steps, decades));
