@@ -1,6 +1,8 @@
 // rend study: error against run time.
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/lean_report.h"
+#include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/signals.h"
 #include "render/app/study_options.h"
@@ -12,8 +14,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 namespace rend {
@@ -28,7 +33,7 @@ void write_file(const fs::path& path, const std::string& text) {
 }
 
 // Before anything runs: a folder that cannot be had is said at once.
-fs::path make_folder(const StudyOptions& options, const std::string& name) {
+fs::path make_folder(const StudyOptions& options, const std::string& name, const std::string& file) {
   const fs::path folder =
       options.folder.empty() ? fs::path("out") / (name + "-study") : fs::path(options.folder);
   std::error_code error;
@@ -37,7 +42,7 @@ fs::path make_folder(const StudyOptions& options, const std::string& name) {
     throw UserError(Exit::CannotCreate, {folder.string()},
                     "the folder cannot be created" + (error ? ": " + error.message() : std::string{}) + ".",
                     "Choose another one with -o.");
-  OutputFile probe(folder / "study.csv"); // may it be written to? It goes again by itself
+  OutputFile probe(folder / file); // may it be written to? It goes again by itself
   return folder;
 }
 
@@ -80,9 +85,72 @@ std::vector<DrawnPlot> write_plots(const StudyReport& report, const std::string&
   return drawn;
 }
 
+Exit stopped(Teller& teller) {
+  teller.clear();
+  print_error("the study was stopped by a signal: nothing was written");
+  return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+}
+
+// The preset as it stands in its file.
+std::string text_of(const fs::path& path) {
+  load_scene(path, {}); // says what is wrong with it
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+LeanPlan lean_plan(const StudyOptions& options) {
+  LeanPlan plan;
+  for (const std::string& set : options.session.sets) plan.overrides.push_back(parse_override(set));
+  if (options.quick) {
+    plan.pairs = 7;
+    plan.seconds = 2e-3;
+  }
+  std::vector<std::string> presets = options.further;
+  if (!options.session.preset.empty()) presets.insert(presets.begin(), options.session.preset);
+  for (const std::string& preset : presets)
+    plan.scenes.push_back({fs::path(preset).stem(), text_of(preset), preset});
+  if (presets.empty()) plan.scenes = lean_scenes();
+  return plan;
+}
+
+Exit lean(const StudyOptions& options) {
+  const LeanPlan plan = lean_plan(options);
+  const fs::path folder = make_folder(options, "lean", "lean.csv");
+  Teller teller(options.session.quiet);
+  const StudyCalls calls{[&](const std::string& what, double share) { teller.tell(what, share); },
+                         [] { return stop_signal() == 0; }};
+  std::vector<LeanRow> rows;
+  try {
+    rows = run_lean(plan, calls);
+  } catch (const Interrupted&) {
+    return stopped(teller);
+  }
+  teller.clear();
+  const Provenance provenance = provenance_of_build();
+  const nlohmann::ordered_json json{{"rows", json_of(rows)}, {"provenance", json_of(provenance)}};
+  write_file(folder / "lean.csv", csv_of(rows));
+  write_file(folder / "lean.json", json.dump(2) + "\n");
+  write_file(folder / "index.html", page_of(rows, provenance));
+  print_result(options.json
+                   ? json.dump(2) + "\n"
+                   : table_of(rows) + fmt::format("The page is {}\n", (folder / "index.html").string()));
+  const bool kept = std::all_of(rows.begin(), rows.end(), [](const LeanRow& row) { return row.as_promised(); });
+  return kept ? Exit::Done : Exit::No;
+}
+
+// What is asked for, as far as it does not go together.
+void check_options(const StudyOptions& options) {
+  if (!options.lean && options.session.preset.empty())
+    throw UserError(Exit::Usage, {}, "a preset is missing", "name one: rend study PRESET");
+  if (!options.lean && !options.further.empty())
+    throw UserError(Exit::Usage, {}, "one preset is studied at a time", "several can be given with --lean");
+}
+
 Exit study(const StudyOptions& options) {
+  check_options(options);
+  if (options.lean) return lean(options);
   const StudyTask task = study_task(options);
-  const fs::path folder = make_folder(options, task.name);
+  const fs::path folder = make_folder(options, task.name, "study.csv");
   Teller teller(options.session.quiet);
   StudyCalls calls;
   calls.progress = [&](const std::string& what, double share) { teller.tell(what, share); };
@@ -91,9 +159,7 @@ Exit study(const StudyOptions& options) {
   try {
     report = run_study(task.plan, task.make, calls);
   } catch (const Interrupted&) {
-    teller.clear();
-    print_error("the study was stopped by a signal: nothing was written");
-    return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+    return stopped(teller);
   }
   teller.clear();
   const Provenance provenance = provenance_of(options.session.preset);

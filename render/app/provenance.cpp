@@ -49,10 +49,15 @@ std::string quoted_for_shell(const std::vector<std::string>& words) {
 }
 
 Provenance provenance_of(const std::filesystem::path& preset) {
-  Provenance p;
-  p.machine = this_machine();
+  Provenance p = provenance_of_build();
   p.preset = preset.string();
   p.hash = hash_of(preset);
+  return p;
+}
+
+Provenance provenance_of_build() {
+  Provenance p;
+  p.machine = this_machine();
   p.command = quoted_for_shell(command_words());
   p.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   return p;

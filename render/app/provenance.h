@@ -16,6 +16,8 @@ struct Provenance {
   std::string date;         // of the run, UTC: ISO 8601
 };
 
+Provenance provenance_of_build(); // without a preset
+
 // Throws UserError (ReadWrite) where the preset cannot be read any more.
 Provenance provenance_of(const std::filesystem::path& preset);
 

@@ -160,6 +160,8 @@ std::shared_ptr<Scene> build(const Source& source, const Variant& variant) {
 
 void declare_study(CLI::App& app, StudyOptions& options) {
   add_preset_options(app, options.session);
+  app.get_option("preset")->required(false); // --lean has scenes of its own
+  app.add_option("further", options.further, "more presets, with --lean")->type_name("PRESET...");
   app.add_option("-o,--output", options.folder, "where page, plots and tables go; default: out/NAME-study")
       ->type_name("DIR");
   app.add_option("--integrators", options.integrators, "the schemes to compare; default: all that move in time")
@@ -180,6 +182,9 @@ void declare_study(CLI::App& app, StudyOptions& options) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   app.add_flag("--quick", options.quick, "a first look: four steps of each scheme, three timed runs");
+  app.add_flag(
+      "--lean", options.lean,
+      "instead: each feature off against on, on scenes of its own or on the presets: time, bytes, pixels");
   app.add_flag("--json", options.json, "all numbers as one JSON object on stdout, too");
   app.add_flag("-q,--quiet", options.session.quiet, "no progress");
 }

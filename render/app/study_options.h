@@ -16,6 +16,8 @@ struct StudyOptions {
   std::optional<double> duration;  // [s]
   int reruns = 7;
   bool quick = false, json = false;
+  bool lean = false;                // what features cost, in place of errors
+  std::vector<std::string> further; // presets, with `lean`
 };
 void declare_study(CLI::App& app, StudyOptions& options);
 
