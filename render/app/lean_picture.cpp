@@ -16,7 +16,7 @@ SmallPictures::~SmallPictures() = default;
 
 Image SmallPictures::of(const Node& preset, Scene& scene) {
   Stage& stage = studio_->stage;
-  PictureMaker maker(preset, scene, static_cast<double>(stage.width()) / stage.height(), 1);
+  PictureMaker maker(preset, scene, static_cast<double>(stage.width()) / stage.height(), 1, 1);
   maker.observe();
   stage.draw(maker.draw(0, 0));
   return stage.read();

@@ -158,13 +158,7 @@ std::string page_of(const std::vector<LeanRow>& rows, const Provenance& p) {
             escaped("The first row compares the loop of every scene with one that knows forces, scheme and "
                     "fixed vertices "
                     "alone; its bytes are those of laws, loads, contact and solver in a scene without them.")});
-  body += heading(2, "Where it comes from") +
-          facts({{"command", code(p.command)},
-                 {"rend", escaped(fmt::format("{}, commit {}", p.version, p.commit))},
-                 {"compiler", escaped(p.compiler)},
-                 {"flags", code(p.flags)},
-                 {"machine", escaped(fmt::format("{}, {} processors", p.machine, p.processors))},
-                 {"date", escaped(p.date)}});
+  body += heading(2, "Where it comes from") + facts_of(p);
   return page("What features cost", body);
 }
 

@@ -70,4 +70,13 @@ nlohmann::ordered_json json_of(const Provenance& p) {
           {"preset_hash", p.hash},  {"command", p.command}, {"date", p.date}};
 }
 
+html::Html facts_of(const Provenance& p) {
+  using namespace html;
+  std::vector<std::pair<std::string, Html>> all{{"command", code(p.command)}};
+  if (!p.preset.empty()) all.push_back({"preset", escaped(fmt::format("{}, XXH3 {}", p.preset, p.hash))});
+  for (const auto& [name, value] : described(p.machine)) all.push_back({name, escaped(value)});
+  all.push_back({"date", escaped(p.date)});
+  return facts(all);
+}
+
 } // namespace rend

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/report/machine.h"
+#include "render/report/page.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -22,6 +23,7 @@ Provenance provenance_of_build(); // without a preset
 Provenance provenance_of(const std::filesystem::path& preset);
 
 nlohmann::ordered_json json_of(const Provenance& provenance);
+html::Html facts_of(const Provenance& provenance); // a part of a page
 
 // The words as a shell reads them again.
 std::string quoted_for_shell(const std::vector<std::string>& words);

@@ -270,15 +270,7 @@ std::string page_of(const StudyReport& report, const std::string& name, const st
   body += answer_table(report);
   body += heading(2, "All runs") + row_table(report);
   body += heading(2, "How it was measured") + how_it_was_measured(report);
-  body += heading(2, "Where it comes from") +
-          facts({{"command", code(p.command)},
-                 {"preset", escaped(fmt::format("{}, XXH3 {}", p.preset, p.hash))},
-                 {"rend", escaped(fmt::format("{}, commit {}", p.machine.version, p.machine.commit))},
-                 {"compiler", escaped(p.machine.compiler)},
-                 {"flags", code(p.machine.flags)},
-                 {"machine", escaped(fmt::format("{}, {} processors", p.machine.processor, p.machine.threads))},
-                 {"system", escaped(p.machine.system)},
-                 {"date", escaped(p.date)}});
+  body += heading(2, "Where it comes from") + facts_of(p);
   return page("Study of " + name, body);
 }
 

@@ -11,7 +11,7 @@ struct BareLoop::Bare final : System {
   std::vector<Record> force; // [N], one per vertex slot
   State next;
 
-  Bare(Body& of, const Scheme& scheme) : body(&of), integrator(scheme.make()) {
+  Bare(Body& of, const Scheme& scheme) : body(&of), integrator(scheme.make({})) {
     const Program& program = *of.program;
     inverse_mass = program.inverse_mass();
     drag_rate = program.drag_rate();
