@@ -86,7 +86,11 @@ bool LoadTangent::multiply(const Records& along, Records& out) {
 // modified). False: A could not be solved with.
 bool LoadTangent::add_direction(LinearSolver& linear, std::size_t n, double digits) {
   if (n > 0 && !linear.solve(basis_[n], solved_[n], digits)) return false;
-  basis_[n + 1] = basis_[n];
+  basis_[n + 1].resize(basis_[n].size());
+  if (matrix_)
+    matrix_->multiply(solved_[n].data(), basis_[n + 1].data()); // what was solved, however near
+  else
+    basis_[n + 1] = basis_[n];
   if (multiply(solved_[n], image_)) add_scaled(parts_, -1, image_, basis_[n + 1]);
   column_[n].assign(n + 2, 0);
   for (std::size_t k = 0; k <= n; ++k) {
