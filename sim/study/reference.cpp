@@ -60,7 +60,8 @@ Reference make_reference(const MakeScene& make, const StudyGroup& group, double 
   const auto probe = make(variant);
   figures.elements = elements_of(*probe);
   for (const auto& body : probe->bodies()) figures.vertices += body->map->cells(Vertex).count();
-  const long finest = sweep_of(*find_scheme("rk4"), *probe, {duration, steps, false}).back().steps;
+  const std::vector<Knob> sweep = sweep_of(*find_scheme("rk4"), *probe, {duration, steps, false});
+  const long most = 8 * sweep.back().steps;
   const long coarse = tears(*probe) ? steps_within(duration, natural_step(*probe, duration)) : study_samples;
 
   if (calls.progress) calls.progress("reference, second scheme", 0);
@@ -75,9 +76,10 @@ Reference make_reference(const MakeScene& make, const StudyGroup& group, double 
   figures.second_first_tear = second.run.trajectory.first_tear;
   figures.scheme = "rk4";
   figures.bar = std::numeric_limits<double>::infinity();
-  for (long factor = 2; factor <= 8; factor *= 2) {
-    if (calls.progress) calls.progress(fmt::format("reference, rk4 at {} steps", factor * finest), 0);
-    Attempt first = attempt(make, group, variant, duration, factor * finest, calls);
+  for (long count = 8 * sweep.front().steps; count <= most;
+       count = count < most ? std::min(4 * count, most) : most + 1) {
+    if (calls.progress) calls.progress(fmt::format("reference, rk4 at {} steps", count), 0);
+    Attempt first = attempt(make, group, variant, duration, count, calls);
     if (first.run.outcome != Outcome::Done) fail(first);
     const Scales scales = scales_of(first.run.trajectory);
     const double bar = distance(first.run.trajectory, second.run.trajectory, scales);
