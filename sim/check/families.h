@@ -13,5 +13,6 @@ CheckFamily shape_family();
 CheckFamily degenerate_family();
 CheckFamily speed_family();
 CheckFamily size_family();
+CheckFamily tear_family();
 
 } // namespace rend
