@@ -102,7 +102,8 @@ LeanPlan lean_plan(const StudyOptions& options) {
   LeanPlan plan;
   for (const std::string& set : options.session.sets) plan.overrides.push_back(parse_override(set));
   if (options.quick) {
-    plan.pairs = 7;
+    plan.builds = 5;
+    plan.pairs = 2;
     plan.seconds = 2e-3;
   }
   std::vector<std::string> presets = options.further;

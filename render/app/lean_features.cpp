@@ -64,9 +64,10 @@ std::vector<LeanFeature> all_features() {
   bare.bare = true;
   return {
       {"all that is not asked for",
-       "the loop of every scene against one that knows nothing but forces",
+       "the loop of every scene, with its checks, against one that knows nothing but forces",
        bare,
        {}},
+      {"nothing", "twice the same, for comparison", {}, {}},
       law("global-border"),
       law("atomic-border"),
       law("atomic-vertex"),

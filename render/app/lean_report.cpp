@@ -61,8 +61,8 @@ Json json_of(const std::vector<LeanRow>& rows) {
                    {"ratio_low", number(row.time.low)},
                    {"ratio_high", number(row.time.high)},
                    {"noise", number(row.time.noise)},
-                   {"pairs", row.time.pairs},
-                   {"steps", row.time.steps},
+                   {"builds", row.time.builds},
+                   {"runs", row.time.off.runs},
                    {"must_be_same", row.same == LeanSame::State    ? "state"
                                     : row.same == LeanSame::Pixels ? "pixels"
                                                                    : "nothing"},
@@ -149,15 +149,15 @@ std::string page_of(const std::vector<LeanRow>& rows, const Provenance& p) {
   if (!refused.empty()) body += heading(2, "Not there") + list(refused);
   body +=
       heading(2, "How it was measured") +
-      list({escaped("Short runs of both in turn, by the clock of the thread, one thread; time: the median of "
-                    "the ratios of "
-                    "pairs; noise: two standard errors of it, from the quartiles of the pairs. Bold: more than "
-                    "noise."),
+      list({escaped(
+                "Short runs of both in turn, by the clock of the thread, one thread; both built anew several "
+                "times. Time: the median over builds of the median ratio of pairs; noise: two standard "
+                "errors of it, from the quartiles of the builds. Bold: more than noise."),
+            escaped("Bytes: of all arrays after the runs. State: the hash of positions, velocities, topology."),
             escaped(
-                "Bytes: of all arrays after the runs. State: the hash of positions, velocities and topology."),
-            escaped("The first row compares the loop of every scene with one that knows forces, scheme and "
-                    "fixed vertices "
-                    "alone; its bytes are those of laws, loads, contact and solver in a scene without them.")});
+                "The first row compares the loop of every scene, with the checks that guard each step, with "
+                "one that knows forces, scheme and fixed vertices alone; its bytes are those of laws, loads, "
+                "contact and solver in a scene without them.")});
   body += heading(2, "Where it comes from") + facts_of(p);
   return page("What features cost", body);
 }

@@ -56,6 +56,19 @@ private:
   bool bare_;
 };
 
+// Builds both sides, the one that is built first taking turns: what it takes of memory is where the other begins.
+struct BothSides {
+  BothSides(const LeanFeature& feature, const LeanScene& scene, const LeanPlan& plan, bool off_first) {
+    const auto build = [&](std::unique_ptr<Built>& to, const LeanSide& side) {
+      to = std::make_unique<Built>(scene, side, plan.overrides);
+    };
+    if (off_first) build(off, feature.off);
+    build(on, feature.on);
+    if (!off_first) build(off, feature.off);
+  }
+  std::unique_ptr<Built> off, on;
+};
+
 LeanRow measure(const LeanFeature& feature, const LeanScene& scene, const LeanPlan& plan,
                 SmallPictures& pictures) {
   LeanRow row{.scene = scene.name,
@@ -68,12 +81,18 @@ LeanRow measure(const LeanFeature& feature, const LeanScene& scene, const LeanPl
   try {
     if (!feature.needs.empty() && scene.text.find("<" + feature.needs) == std::string::npos)
       throw UserError(Exit::BadInput, {}, "the scene has no <" + feature.needs + ">");
-    Built off(scene, feature.off, plan.overrides), on(scene, feature.on, plan.overrides);
-    row.time = compare_times([&] { off.step(); }, [&] { on.step(); }, plan.pairs, plan.seconds);
-    row.bytes_off = feature.off.bare ? 0 : off.bytes(false);
-    row.bytes_on = on.bytes(feature.off.bare);
-    row.same_state = off.scene().hash() == on.scene().hash();
-    row.same_pixels = off.picture(pictures).pixels == on.picture(pictures).pixels;
+    std::vector<TimedPairs> builds;
+    row.same_state = row.same_pixels = true;
+    for (int n = 0; n < plan.builds; ++n) {
+      const BothSides sides(feature, scene, plan, n % 2 == 0);
+      Built &off = *sides.off, &on = *sides.on;
+      builds.push_back(time_pairs([&] { off.step(); }, [&] { on.step(); }, plan.pairs, plan.seconds));
+      row.bytes_off = feature.off.bare ? 0 : off.bytes(false);
+      row.bytes_on = on.bytes(feature.off.bare);
+      row.same_state = row.same_state && off.scene().hash() == on.scene().hash();
+      if (n + 1 == plan.builds) row.same_pixels = off.picture(pictures).pixels == on.picture(pictures).pixels;
+    }
+    row.time = comparison_of(builds);
   } catch (const UserError& error) {
     row.refused = error.what();
   }

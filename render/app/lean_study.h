@@ -22,8 +22,9 @@ struct LeanRow {
 struct LeanPlan {
   std::vector<LeanScene> scenes;
   std::vector<Override> overrides; // of all of them
-  int pairs = 31;
-  double seconds = 0.02; // of each run
+  int builds = 9;                  // of both sides
+  int pairs = 4;                   // of runs, of each build
+  double seconds = 0.02;           // of each run
 };
 
 // One row for each feature on each scene. Throws UserError where a scene cannot be built as it is; Interrupted.

@@ -24,33 +24,50 @@ long steps_for(const std::function<void()>& off, const std::function<void()>& on
   }
 }
 
+// Between order statistics, as summary_of().
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
 } // namespace
 
-Comparison compare_times(const std::function<void()>& off, const std::function<void()>& on, int pairs,
-                         double seconds) {
+TimedPairs time_pairs(const std::function<void()>& off, const std::function<void()>& on, int pairs,
+                      double seconds) {
   CHECK(pairs >= 1);
-  Comparison result;
-  result.pairs = pairs;
-  result.steps = steps_for(off, on, seconds);
-  std::vector<double> without, with, ratios;
+  TimedPairs times;
+  times.steps = steps_for(off, on, seconds);
   for (int n = 0; n < pairs; ++n) {
-    const bool first = n % 2 == 0;
-    const double a = seconds_a_step(first ? off : on, result.steps),
-                 b = seconds_a_step(first ? on : off, result.steps);
-    without.push_back(first ? a : b);
-    with.push_back(first ? b : a);
-    ratios.push_back(with.back() / without.back());
+    if (n % 2 == 0) times.off.push_back(seconds_a_step(off, times.steps));
+    times.on.push_back(seconds_a_step(on, times.steps));
+    if (n % 2 != 0) times.off.push_back(seconds_a_step(off, times.steps));
   }
-  result.off = summary_of(without);
-  result.on = summary_of(with);
-  std::sort(ratios.begin(), ratios.end());
-  const auto at = [&](double share) {
-    return ratios[static_cast<std::size_t>(share * static_cast<double>(pairs - 1) + 0.5)];
-  };
-  result.ratio = summary_of(ratios).median;
-  result.low = at(0.25);
-  result.high = at(0.75);
-  result.noise = 2 * 1.25 * 0.74 * (result.high - result.low) / std::sqrt(static_cast<double>(pairs));
+  return times;
+}
+
+Comparison comparison_of(const std::vector<TimedPairs>& builds) {
+  CHECK(!builds.empty());
+  std::vector<double> off, on, ratios, medians;
+  for (const TimedPairs& build : builds) {
+    std::vector<double> own;
+    for (std::size_t n = 0; n < build.off.size(); ++n) own.push_back(build.on[n] / build.off[n]);
+    medians.push_back(quantile(own, 0.5));
+    ratios.insert(ratios.end(), own.begin(), own.end());
+    off.insert(off.end(), build.off.begin(), build.off.end());
+    on.insert(on.end(), build.on.begin(), build.on.end());
+  }
+  Comparison result;
+  result.off = summary_of(off);
+  result.on = summary_of(on);
+  result.ratio = quantile(medians, 0.5);
+  result.low = quantile(ratios, 0.25);
+  result.high = quantile(ratios, 0.75);
+  result.builds = static_cast<int>(builds.size());
+  result.noise = 2 * 1.25 * 0.74 * (quantile(medians, 0.75) - quantile(medians, 0.25)) /
+                 std::sqrt(static_cast<double>(builds.size()));
   return result;
 }
 
