@@ -40,6 +40,7 @@ struct BareLoop::Bare final : System {
 
 std::string more_than_bare(const Scene& scene) {
   if (scene.scheme().solves) return "a scheme that solves";
+  if (scene.scheme().adaptive) return "an adaptive scheme";
   if (scene.contacts()) return "contact";
   for (const auto& body : scene.bodies()) {
     if (body->tears()) return "a law";
