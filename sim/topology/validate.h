@@ -8,13 +8,13 @@
 
 namespace rend {
 
-struct Fault {
+struct BrokenAxiom {
   Dart dart;
   std::string axiom; // "α1 is an involution: α1(α1(7)) = 9"
   std::string text() const;
 };
 
 // The first axiom that does not hold, in order of darts; empty if the map is valid.
-std::optional<Fault> validate(const GMap& map);
+std::optional<BrokenAxiom> validate(const GMap& map);
 
 } // namespace rend
