@@ -63,7 +63,22 @@ Json bytes_json(const Scene& scene, const Costs& costs) {
           {"state", of({"state", "integrator"})},
           {"surroundings", of({"constraints", "loads", "contact"})},
           {"surface", costs.surface_bytes},
+          {"guard", scene.guard_bytes()},
           {"peak_rss", peak_memory()}};
+}
+
+// Steps that were thrown away, and what was done in their place.
+Json guard_json(const Scene& scene) {
+  const GuardFigures& g = scene.guard();
+  return {{"rejected", g.rejected}, {"redone", g.redone},     {"parts", g.most_parts},
+          {"smallest", g.smallest}, {"accepted", g.accepted}, {"looks", g.looks}};
+}
+
+std::string guard_in_words(const Json& guard) {
+  if (guard["rejected"].get<long>() == 0) return "";
+  return fmt::format("  guard      {} steps rejected, {} parts of steps in their place, of {:.3g} s and more\n",
+                     guard["rejected"].get<long>(), guard["redone"].get<long>(),
+                     guard["smallest"].get<double>());
 }
 
 // Live rows of what the integrator evaluates, by interaction.
@@ -277,6 +292,7 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
   figures["answers"] = answers_json(scene);
   if (Json spheres = spheres_json(scene); !spheres.empty()) figures["spheres"] = std::move(spheres);
   figures["bytes"] = bytes_json(scene, costs);
+  figures["guard"] = guard_json(scene);
   figures["rows"] = rows_json(scene);
   if (Json solver = solver_json(scene); !solver.is_null()) figures["solver"] = std::move(solver);
   if (scene.scheme().adaptive) figures["adaptive"] = adaptive_json(scene);
@@ -299,6 +315,7 @@ std::string summary_of(const Json& f) {
   out += laws_in_words(f["laws"]);
   out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n",
                      number("energy", "kinetic"), number("energy", "elastic"), number("energy", "gravity"));
+  out += guard_in_words(f["guard"]);
   out += fmt::format("  forces     evaluated {} times\n", f["evaluations"].get<long>());
   out += "  rows       ";
   for (const auto& [name, rows] : f["rows"].items())
@@ -313,7 +330,7 @@ std::string summary_of(const Json& f) {
     out += fmt::format("\n  adaptive   {} parts of steps, {} more rejected for their error",
                        f["adaptive"]["parts"].get<long>(), f["adaptive"]["rejected"].get<long>());
   std::size_t bytes = 0;
-  for (const char* part : {"map", "embeddings", "program", "state", "surroundings", "surface"})
+  for (const char* part : {"map", "embeddings", "program", "state", "surroundings", "surface", "guard"})
     bytes += f["bytes"][part].get<std::size_t>();
   out += fmt::format("\n  memory     {} for the scene, {} at most in all\n", bytes_in_words(bytes),
                      bytes_in_words(f["bytes"]["peak_rss"].get<std::size_t>()));

@@ -42,6 +42,9 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
                  "flat; or walk: every force by walking the map (slow, for comparison)")
       ->type_name("flat|walk")
       ->check(CLI::IsMember({"flat", "walk"}));
+  app.add_flag(
+      "!--no-guard", options.guard,
+      "stop at a step that goes wrong, in place of redoing it in parts (to find where a step is too large)");
   app.add_flag("-q,--quiet", options.quiet, "no progress and no notes");
 }
 
@@ -53,7 +56,8 @@ Session::Session(const SessionOptions& options) : options_(options) {
   image_ = image_settings(*preset_);
   if (options.fps) image_.fps = *options.fps;
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
-  scene_ = std::make_unique<Scene>(*preset_, SceneOptions{options.kernels == "walk", threads, options.births});
+  scene_ = std::make_unique<Scene>(
+      *preset_, SceneOptions{options.kernels == "walk", threads, options.births, options.guard});
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
@@ -120,10 +124,20 @@ void say_what_is_gone(const Scene& scene) {
                              *body->gone));
 }
 
+void say_what_was_redone(const Scene& scene) {
+  const GuardFigures& guard = scene.guard();
+  if (guard.rejected == 0 || guard.redone == 0) return;
+  print_note(fmt::format("{} of {} steps were redone in parts; a step of {:.3g} s would hold", guard.rejected,
+                         scene.steps_done(), guard.smallest));
+}
+
 } // namespace
 
 Exit end_of(const Session& session, Stopped stopped) {
-  if (!session.quiet()) say_what_is_gone(session.scene());
+  if (!session.quiet()) {
+    say_what_is_gone(session.scene());
+    say_what_was_redone(session.scene());
+  }
   if (stopped == Stopped::No) return Exit::Done;
   if (stopped == Stopped::Unstable) {
     print_error(session.failure()->what(), session.failure()->hint);

@@ -27,6 +27,7 @@ struct SessionOptions {
   std::string kernels = "flat";  // or walk
   bool quiet = false;
   bool allow_path = false; // meshes from anywhere
+  bool guard = true;       // steps that go wrong are redone in parts
   bool births = false;     // events tell how many fragments there are
 };
 void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set

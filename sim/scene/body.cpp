@@ -162,6 +162,12 @@ void Body::advance(double time, double step) {
   constrain(time + step, next.position.data(), next.velocity.data()); // what is prescribed yields to no floor
 }
 
+void Body::go_back(const State& start, double time) {
+  map->position().values() = start.position;
+  map->velocity().values() = start.velocity;
+  time_ = time;
+}
+
 void Body::spoil_next() {
   faulty.spoil(program->inverse_mass(), vertices(), next.velocity.data());
   next.look();

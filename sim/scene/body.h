@@ -90,10 +90,11 @@ struct Body final : System {
 
   // Criteria, changes, rebinding; returns how many changes. Before anything is changed, `sound` may throw.
   int tear(double time, long number, const std::function<void()>& sound);
-  void advance(double time, double step); // the current state to `next`
-  void rebind();                          // program, constraints, laws
-  void commit();                          // takes `next`
-  void spoil_next();                      // as `faulty` says
+  void advance(double time, double step);        // the current state to `next`
+  void rebind();                                 // program, constraints, laws
+  void commit();                                 // takes `next`
+  void go_back(const State& start, double time); // [s]: start becomes the current state, of the same topology
+  void spoil_next();                             // as `faulty` says
 
   double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
   long evaluations = 0; // of the internal forces so far, but for those that probes ask for

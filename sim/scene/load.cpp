@@ -160,6 +160,10 @@ std::size_t Loads::bytes() const {
   return sum;
 }
 
+bool Loads::constant() const {
+  return !wind_ && std::all_of(loads_.begin(), loads_.end(), [](const Load& load) { return load.constant(); });
+}
+
 bool Loads::up_to_date(double time) const {
   if (!known_ || wind_) return false;
   for (std::size_t n = 0; n < loads_.size(); ++n)

@@ -79,6 +79,8 @@ public:
   void rebind(const EmbeddedMap& map); // after edits
   void reserve_for_separations(const EmbeddedMap& map);
 
+  bool constant() const; // neither on time, once they are whole, nor on the state
+
   // The sum [N], one per vertex slot; null if there are none. Stays until the next call.
   const Record* evaluate(const EmbeddedMap& map, double time, const Record* position, const Record* velocity);
 

@@ -4,6 +4,7 @@
 #include "sim/program/frequency.h"
 #include "sim/scene/build_body.h"
 #include "sim/scene/build_world.h"
+#include "sim/scene/guard.h"
 
 #include <fmt/format.h>
 
@@ -18,11 +19,6 @@ namespace {
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-// Reading the clock costs more than the step of a small body: one step in so many is timed, and counted so often.
-constexpr long sampled = 16;
-// One looks every so many steps whether the motion is resolved, and never in a step that is timed.
-constexpr long checked = 32, checked_at = 7;
 
 } // namespace
 
@@ -48,9 +44,12 @@ Scene::Scene(const Node& preset, const SceneOptions& options) : fault_(options.f
   contacts_ = Contacts::of(world_, bodies_);
   for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads, tolerance_of(time));
   build_time(time);
+  guard_ = std::make_unique<Guard>(world_, bodies_, *scheme_, step_, options.guard);
   set_answers();
   seconds_.bind = now() - start - seconds_.build;
 }
+
+Scene::~Scene() = default;
 
 // Contact acts by impulses after the step, which a scheme that solves for the end of the step does not see; nor does
 // an equilibrium tell where what is free goes.
@@ -131,35 +130,6 @@ double Scene::time() const {
   return static_cast<double>(steps_done_) * step_;
 }
 
-void Scene::step() {
-  const bool timed = steps_done_ % sampled == sampled - 1; // not the first, whose caches are cold
-  double last = timed ? now() : 0;
-  const auto lap = [&](double StageSeconds::*stage) {
-    if (!timed) return;
-    const double at = now();
-    seconds_.*stage += at - last;
-    last = at;
-  };
-  if (fault_ && fault_->step <= steps_done_) arm_fault();
-  for (auto& body : bodies_) body->evaluate();
-  lap(&StageSeconds::forces);
-  const double tearing = tearing_seconds();
-  for (auto& body : bodies_) {
-    const auto sound = [&] { check_resolved(*body, body->map->velocity().values().data()); };
-    body->tear(time(), steps_done_, sound);
-  }
-  if (timed) last += tearing_seconds() - tearing; // timed by itself, in every step
-  lap(&StageSeconds::criteria);
-  advance();
-  check(); // all bodies, before one of them moves on: positions and velocities stay whole
-  for (auto& body : bodies_) body->commit();
-  for (Sphere& sphere : world_.spheres) sphere.commit();
-  lap(&StageSeconds::integrate);
-  timed_steps_ += timed;
-  ++steps_done_;
-  if (time() >= next_answer_) measure_answers();
-}
-
 void Scene::check_probes(const Node& preset) const {
   std::set<std::string> names;
   for (const Node* body : preset.all("body"))
@@ -200,39 +170,6 @@ void Scene::measure_answers() {
   }
 }
 
-void Scene::advance() {
-  for (auto& body : bodies_) {
-    try {
-      body->advance(time(), step_);
-    } catch (const Unsolved& error) {
-      stop(*body, error.what(), error.hint);
-    }
-  }
-  if (contacts_) contacts_->advance(time(), step_);
-  for (auto& body : bodies_)
-    if (body->faulty.armed(StepStage::Contact)) body->spoil_next();
-}
-
-// The fault's step begins, or is over.
-void Scene::arm_fault() {
-  const auto has = [&](const std::unique_ptr<Body>& body) {
-    return body->map->map().dart_count() > 0 && (fault_->stage != StepStage::Loads || !body->loads.empty());
-  };
-  const auto body = std::find_if(bodies_.begin(), bodies_.end(), has);
-  const bool now = fault_->step == steps_done_;
-  if (now && body != bodies_.end()) (*body)->faulty.arm(*fault_);
-  if (!now)
-    for (auto& each : bodies_) each->faulty.disarm();
-  if (!now || !fault_->lasting) fault_.reset();
-}
-
-void Scene::check() const {
-  for (const auto& body : bodies_)
-    if (!body->next.finite()) stop(*body, "a number of its state is not finite");
-  if (steps_done_ % checked != checked_at && steps_done_ >= checked_at) return;
-  for (const auto& body : bodies_) check_resolved(*body, body->next.velocity.data());
-}
-
 double Scene::tearing_seconds() const {
   double sum = 0;
   for (const auto& body : bodies_) sum += body->change_seconds + body->rebind_seconds;
@@ -252,56 +189,30 @@ StageSeconds Scene::seconds() const {
   return all;
 }
 
-void Scene::check_sound() const {
-  if (steps_done_ == 0 || scheme_->solves) return;
-  for (const auto& body : bodies_) check_resolved(*body, body->map->velocity().values().data());
-}
-
-// Neighbours that move against each other by many times their distance at rest in one step are not resolved by it: what
-// explodes passes this bound long before its numbers overflow.
-void Scene::check_resolved(const Body& body, const Record* velocity) const {
-  if (scheme_->solves || scheme_->adaptive) return; // what it could not solve, it said
-  constexpr double rest_lengths = 64;
-  const Record* rest = body.map->rest().values().data();
-  for (const Binder& binder : body.program->rows()) {
-    if (binder.interaction()->law->particles() < 2) continue;
-    const PackedRows& rows = binder.rows();
-    bool resolved = true;
-    rows.for_each([&](std::size_t, std::size_t row) {
-      const std::uint32_t i = rows.index(0)[row], j = rows.index(1)[row];
-      const double apart = (rest[j].vec() - rest[i].vec()).norm();
-      const double moved = (velocity[j].vec() - velocity[i].vec()).norm() * step_;
-      resolved = resolved && (apart == 0 || moved <= rest_lengths * apart);
-    });
-    if (!resolved)
-      stop(body, "neighbours joined by " + binder.interaction()->name + " pass each other within a step");
-    break; // the first kind will do: neighbours are neighbours
+// What was measured in steps that are gone again.
+void Scene::forget_answers() {
+  for (auto& body : bodies_) {
+    for (Answer& answer : body->answers) {
+      const double due = answer.at - 1e-6 * step_;
+      if (time() >= due) continue;
+      answer.asked = false;
+      next_answer_ = std::min(next_answer_, due);
+    }
   }
-}
-
-void Scene::stop(const Body& body, const std::string& what) const {
-  const double limit = stability_limit();
-  const std::string hint =
-      std::isinf(limit) ? std::string{}
-      : limit > 0
-          ? fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)",
-                        limit, scheme_->name)
-          : fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme_->name);
-  stop(body, what, hint);
-}
-
-void Scene::stop(const Body& body, const std::string& what, const std::string& hint) const {
-  throw Unstable(
-      Exit::Unstable, step_place_,
-      fmt::format("the simulation was stopped as unstable at {:.6g} s (step {} of {:.3g} s) in body '{}': {}",
-                  time(), steps_done_, step_, body.name, what),
-      hint);
 }
 
 std::size_t Scene::tears() const {
   std::size_t count = 0;
   for (const auto& body : bodies_) count += body->events.size();
   return count;
+}
+
+const GuardFigures& Scene::guard() const {
+  return guard_->figures();
+}
+
+std::size_t Scene::guard_bytes() const {
+  return guard_->bytes();
 }
 
 long Scene::evaluations() const {

@@ -3,6 +3,8 @@
 
 #include "sim/scene/body.h"
 #include "sim/scene/contacts.h"
+#include "sim/scene/trouble.h"
+#include "sim/scene/world.h"
 
 #include <optional>
 
@@ -25,10 +27,13 @@ struct Unstable : UserError {
   using UserError::UserError;
 };
 
+class Guard;
+
 class Scene {
 public:
   // From a checked preset. UserError where it cannot be built.
   Scene(const Node& preset, const SceneOptions& options);
+  ~Scene();
 
   const std::string& name() const { return name_; }
   const World& world() const { return world_; }
@@ -44,12 +49,16 @@ public:
   const std::vector<std::string>& notes() const { return notes_; } // besides those of bodies
   bool automatic_step() const { return automatic_; }
 
-  // One step. Throws Unstable (exit 76) with the positions and velocities before the step still whole; what tore at
-  // its start stays torn.
+  // One step; where that goes wrong the guard has the last ones redone in parts (guard.h). Throws Unstable (exit 76)
+  // where that does not help, with the positions and velocities before the step whole; what tore at its start stays
+  // torn.
   void step();
 
-  // Throws Unstable where the motion of the current state is not resolved by the step: before a state is shown.
+  // Without a guard: throws Unstable where the motion of the current state is not resolved by the step. Before a state is
+  // shown.
   void check_sound() const;
+  const GuardFigures& guard() const;
+  std::size_t guard_bytes() const;
 
   // The largest step [s] that is surely stable with a scheme here; 0: none, infinity: any.
   double stability_limit(const Scheme& scheme) const;
@@ -71,17 +80,26 @@ private:
   void check_probes(const Node& preset) const;
   void set_answers();
   void measure_answers();
+  void forget_answers(); // of later than the present time
   void check_contact(const Node& preset);
   double stable_step(const Node& time) const;
   double tolerance_of(const Node& time) const;
   double stability_limit() const; // [s]
-  void check() const;
   double tearing_seconds() const;
-  void check_resolved(const Body& body, const Record* velocity) const; // [m/s], one per vertex slot
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
-  void advance();
+  Trouble move();
+  Trouble make_part(int part, int parts);
+  Trouble look_at_laws();
+  Trouble advance(double time, double step); // [s]
+  void meet_contacts(double time, double step);
+  bool finite() const;
+  void redo(Trouble trouble, long entry);
+  bool was_set();
+  void go_back(long step);
   void arm_fault();
+  [[noreturn]] void give_up(Trouble trouble, long entry);
+  std::string whose_number(const Body*& body);
 
   std::string name_;
   World world_;
@@ -95,6 +113,9 @@ private:
   std::vector<std::string> notes_;
   Place step_place_; // of time.step in the preset
   StageSeconds seconds_;
+  std::unique_ptr<Guard> guard_;
+  long looked_ = -1;         // steps done when laws last looked
+  std::vector<State> there_; // scratch, one per body
   std::optional<Fault> fault_;
 };
 

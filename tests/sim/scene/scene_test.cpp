@@ -87,7 +87,8 @@ TEST(AutomaticStep, is_close_to_where_the_scene_becomes_unstable) {
         presets::load(preset_of(cloth, std::string(R"(<time integrator=")") + scheme + R"(" duration="1"/>)"));
     const std::string four = std::to_string(4 * scene->step_size());
     const auto fast = presets::load(
-        preset_of(cloth, R"(<time step=")" + four + R"(" integrator=")" + scheme + R"(" duration="1"/>)"));
+        preset_of(cloth, R"(<time step=")" + four + R"(" integrator=")" + scheme + R"(" duration="1"/>)"),
+        {.guard = false});
     EXPECT_THROW(largest_gain(fast, 5000), Unstable) << scheme;
   }
 }
@@ -197,11 +198,12 @@ bool finite(const Scene& scene) {
 
 TEST(Explosion, is_stopped_and_leaves_the_state_before_it) {
   for (const char* scheme : {"symplectic", "explicit", "verlet", "midpoint", "rk4"}) {
-    for (const char* step : {"0.02", "0.1", "10"}) {
+    for (const auto& [step, guard] : {std::pair("0.02", false), {"0.1", false}, {"10", false}, {"1e4", true}}) {
       SCOPED_TRACE(std::string(scheme) + ", " + step);
       const auto scene =
           presets::load(preset_of(cloths(true)[2], std::string(R"(<time step=")") + step + R"(" integrator=")" +
-                                                       scheme + R"(" duration="1e5"/>)"));
+                                                       scheme + R"(" duration="1e5"/>)"),
+                        {.guard = guard});
       std::uint64_t before = 0;
       long done = 0;
       try {
@@ -232,7 +234,8 @@ TEST(Explosion, of_one_body_moves_none_of_the_others) {
            R"("/></springs><fix near="0 0 0"/></body>)";
   };
   const auto scene = presets::load("<scene>" + body("calm", "1") + body("wild", "1e9") +
-                                   R"(<time step="1e-3" duration="1"/></scene>)");
+                                       R"(<time step="1e-3" duration="1"/></scene>)",
+                                   {.guard = false});
   std::uint64_t before = 0;
   const auto run = [&] {
     for (int n = 0; n < 1000; ++n) {

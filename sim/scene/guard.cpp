@@ -1,0 +1,214 @@
+#include "sim/scene/guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rend {
+namespace {
+
+constexpr double factor = 4;        // of energy
+constexpr long period = 64;         // steps of a stretch, at most
+constexpr long exact_period = 4096; // steps, after which B comes down
+constexpr long passing_period = 32; // steps, where speeds alone do not say that neighbours are resolved
+constexpr int most_parts = 1024;
+constexpr double more = 1.25;         // of K, before U is looked at again
+constexpr double least_motion = 1e-6; // rest lengths in a step: less is no explosion
+constexpr long longest_hold = 4096;   // steps
+constexpr double same = 0.9; // of a growth, that is left with half the step: it is no matter of the step
+
+} // namespace
+
+Guard::Guard(World& world, const Stretch::Bodies& bodies, const Scheme& scheme, double step, bool on)
+    : bodies_(bodies), step_(step), energy_(on && !scheme.solves && !scheme.adaptive) {
+  if (!on) return;
+  stretch_.emplace(world, bodies, step);
+  stretch_->reserve_for_separations();
+  if (!energy_) return;
+  least_rest_ = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies) least_rest_ = std::min(least_rest_, least_rest_length(*body));
+}
+
+int Guard::parts(long step) const {
+  return redoing_ && step >= from_ && step < goal_ ? parts_ : usual(step);
+}
+
+Trouble Guard::before_laws(long step) {
+  if (!energy_) return Trouble::None;
+  if (budget_ < 0) {
+    begins_ = true;
+    stretch_->begin(step);
+    const Stretch::Account account = stretch_->account();
+    const double energy = held(account).energy;
+    budget_ = std::isfinite(energy) ? energy : std::numeric_limits<double>::infinity();
+    heaviest_ = account.heaviest;
+    lately_ = account.squared_speeds;
+    settled_ = exactly_ = step;
+  }
+  if (redoing_ || step - stretch_->first() < period) return Trouble::None;
+  const Trouble trouble = settle(step, step - exactly_ >= exact_period);
+  if (trouble == Trouble::None) begins_ = true;
+  return trouble;
+}
+
+Trouble Guard::before_change(long step) {
+  if (!energy_) return Trouble::None;
+  const Trouble trouble = settle(step, false);
+  if (trouble == Trouble::None) begins_ = true;
+  return trouble;
+}
+
+void Guard::after_laws(long step) {
+  if (!stretch_ || !(begins_ || !energy_)) return;
+  stretch_->begin(step);
+  threshold_ = std::max(factor * lately_, heaviest_ > 0 ? 2 * budget_ / heaviest_ : 0);
+  lately_ = 0;
+  begins_ = false;
+  start_.reset();
+  growth_.reset();
+}
+
+Trouble Guard::settle(long step, bool exact) {
+  if (settled_ == step) return Trouble::None;
+  const Stretch::Account account = stretch_->account();
+  if (may_pass() && passing(parts(step))) return Trouble::Passing;
+  if (judge(account, exact) != Trouble::None) return Trouble::Energy;
+  budget_ = std::max(budget_ + account.given, 0.0);
+  heaviest_ = account.heaviest;
+  settled_ = step;
+  if (exact) exactly_ = step;
+  return Trouble::None;
+}
+
+// Round-off moves, too.
+double Guard::allowed(const Stretch::Account& account) const {
+  const double slow = std::isfinite(least_rest_) ? least_motion * least_rest_ / step_ : 0;
+  return std::max(budget_ + account.given, 0.0) + account.headroom + 0.5 * account.mass * slow * slow;
+}
+
+Guard::Held Guard::held(const Stretch::Account& account) {
+  ++figures_.looks;
+  return {account.kinetic + stretch_->elastic_energy(), factor * allowed(account), account.given};
+}
+
+Trouble Guard::judge(const Stretch::Account& account, bool exact) {
+  const bool high = account.kinetic > allowed(account);
+  if (!high) calm_ = 0;
+  if (!exact && (!high || account.kinetic <= more * calm_)) return Trouble::None;
+  const Held now = held(account);
+  if (!(now.energy <= now.limit)) return Trouble::Energy;
+  calm_ = account.kinetic;
+  if (exact) budget_ = std::min(budget_, 2 * now.energy - account.given);
+  return Trouble::None;
+}
+
+// Whether speeds alone do not say that neighbours are resolved.
+bool Guard::may_pass() const {
+  double squares = 0;
+  for (const auto& body : bodies_) squares = std::max(squares, body->next.motion());
+  return 2 * std::sqrt(squares) * step_ > most_rest_lengths * least_rest_;
+}
+
+bool Guard::passing(int parts) const {
+  for (const auto& body : bodies_) {
+    const auto pair = fastest_neighbours(*body, body->map->velocity().values().data());
+    if (pair && pair->rate * step_ > most_rest_lengths * parts) return true;
+  }
+  return false;
+}
+
+Trouble Guard::after_step(long done) {
+  if (!energy_) {
+    if (redoing_ && done == goal_) go_on(done, budget_, true);
+    return Trouble::None;
+  }
+  double motion = 0;
+  for (const auto& body : bodies_) motion += body->next.motion();
+  lately_ = std::max(lately_, motion);
+  const bool above = motion > threshold_;
+  if ((above || done % passing_period == 0) && may_pass() && passing(parts(done - 1))) return Trouble::Passing;
+  if (redoing_) return done == goal_ ? end_redo(done) : Trouble::None;
+  if (!above) return Trouble::None;
+  const Stretch::Account account = stretch_->account();
+  const Trouble trouble = judge(account, false);
+  if (trouble == Trouble::None) threshold_ = factor * motion;
+  return trouble;
+}
+
+// The stretch was gone again: whether it holds.
+Trouble Guard::end_redo(long done) {
+  const Stretch::Account account = stretch_->account();
+  const Held now = held(account);
+  if (now.energy <= now.limit) {
+    const double budget = std::max(budget_ + account.given, 0.0);
+    go_on(done, budget, true);
+    return Trouble::None;
+  }
+  const double growth = now.energy - start_.value_or(0) - now.given;
+  if (growth_ && std::isfinite(growth) && growth >= same * *growth_) {
+    ++figures_.accepted;
+    go_on(done, now.energy, false);
+    return Trouble::None;
+  }
+  growth_ = growth;
+  return Trouble::Energy;
+}
+
+void Guard::go_on(long done, double budget, bool finer_helps) {
+  redoing_ = false;
+  figures_.redone += (done - from_) * parts_;
+  figures_.most_parts = std::max(figures_.most_parts, parts_);
+  const double part = step_ / parts_;
+  figures_.smallest = figures_.smallest > 0 ? std::min(figures_.smallest, part) : part;
+  budget_ = budget;
+  settled_ = done;
+  begins_ = true;
+  const bool soon = from_ - hold_until_ < 2 * period && hold_until_ > 0;
+  hold_length_ = !finer_helps ? 0 : soon ? std::clamp(2 * hold_length_, period, longest_hold) : 0;
+  hold_until_ = done + hold_length_;
+  hold_parts_ = parts_;
+}
+
+std::optional<long> Guard::again(Trouble trouble, long done) {
+  if (!stretch_) return {};
+  if (!redoing_) {
+    from_ = trouble == Trouble::NotFinite ? done : stretch_->first();
+    goal_ = trouble == Trouble::NotFinite ? done + 1 : done;
+    parts_ = usual(from_);
+    figures_.rejected += goal_ - from_;
+    growth_.reset();
+    if (trouble == Trouble::Energy) {
+      const Stretch::Account account = stretch_->account();
+      growth_ = held(account).energy - account.given;
+    }
+  }
+  const bool first = !redoing_;
+  redoing_ = true;
+  parts_ *= 2;
+  if (parts_ > most_parts) {
+    if (from_ <= stretch_->first()) return {};
+    figures_.rejected += from_ - stretch_->first();
+    from_ = stretch_->first();
+    parts_ = 2;
+  }
+  from_ = std::max(from_, stretch_->first());
+  stretch_->restore();
+  if (energy_ && !start_) start_ = stretch_->account().kinetic + stretch_->elastic_energy();
+  if (first && growth_) *growth_ -= *start_;
+  settled_ = stretch_->first();
+  return stretch_->first();
+}
+
+long Guard::go_back() {
+  redoing_ = begins_ = false;
+  stretch_->restore();
+  settled_ = stretch_->first();
+  return stretch_->first();
+}
+
+void Guard::forget() {
+  budget_ = -1;
+  redoing_ = false;
+}
+
+} // namespace rend
