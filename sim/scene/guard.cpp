@@ -15,7 +15,8 @@ constexpr int most_parts = 1024;
 constexpr double more = 1.25;         // of K, before U is looked at again
 constexpr double least_motion = 1e-6; // rest lengths in a step: less is no explosion
 constexpr long longest_hold = 4096;   // steps
-constexpr double same = 0.9; // of a growth, that is left with half the step: it is no matter of the step
+constexpr double same = 0.1;   // of a growth: by how much half a step may change what is no matter of the step
+constexpr double close = 1.25; // of what may be there: what a redo leaves, unless still smaller parts leave it
 
 } // namespace
 
@@ -33,9 +34,8 @@ int Guard::parts(long step) const {
   return redoing_ && step >= from_ && step < goal_ ? parts_ : usual(step);
 }
 
-Trouble Guard::before_laws(long step) {
-  if (!energy_) return Trouble::None;
-  if (budget_ < 0) {
+void Guard::before_laws(long step) {
+  if (energy_ && budget_ < 0) {
     begins_ = true;
     stretch_->begin(step);
     const Stretch::Account account = stretch_->account();
@@ -45,10 +45,6 @@ Trouble Guard::before_laws(long step) {
     lately_ = account.squared_speeds;
     settled_ = exactly_ = step;
   }
-  if (redoing_ || step - stretch_->first() < period) return Trouble::None;
-  const Trouble trouble = settle(step, step - exactly_ >= exact_period);
-  if (trouble == Trouble::None) begins_ = true;
-  return trouble;
 }
 
 Trouble Guard::before_change(long step) {
@@ -128,6 +124,11 @@ Trouble Guard::after_step(long done) {
   const bool above = motion > threshold_;
   if ((above || done % passing_period == 0) && may_pass() && passing(parts(done - 1))) return Trouble::Passing;
   if (redoing_) return done == goal_ ? end_redo(done) : Trouble::None;
+  if (done - stretch_->first() >= period) {
+    const Trouble trouble = settle(done, done - exactly_ >= exact_period);
+    if (trouble == Trouble::None) begins_ = true;
+    return trouble;
+  }
   if (!above) return Trouble::None;
   const Stretch::Account account = stretch_->account();
   const Trouble trouble = judge(account, false);
@@ -139,19 +140,17 @@ Trouble Guard::after_step(long done) {
 Trouble Guard::end_redo(long done) {
   const Stretch::Account account = stretch_->account();
   const Held now = held(account);
-  if (now.energy <= now.limit) {
-    const double budget = std::max(budget_ + account.given, 0.0);
-    go_on(done, budget, true);
-    return Trouble::None;
-  }
   const double growth = now.energy - start_.value_or(0) - now.given;
-  if (growth_ && std::isfinite(growth) && growth >= same * *growth_) {
-    ++figures_.accepted;
-    go_on(done, now.energy, false);
-    return Trouble::None;
+  const bool fits = now.energy <= now.limit, last = 2 * parts_ > most_parts;
+  const bool converged =
+      growth_ && std::isfinite(*growth_) && std::abs(growth - *growth_) <= same * std::abs(*growth_);
+  if (!converged && !(fits && (last || now.energy <= close / factor * now.limit))) {
+    growth_ = growth;
+    return Trouble::Energy;
   }
-  growth_ = growth;
-  return Trouble::Energy;
+  figures_.accepted += !fits;
+  go_on(done, fits ? std::max(budget_ + account.given, 0.0) : now.energy, fits);
+  return Trouble::None;
 }
 
 void Guard::go_on(long done, double budget, bool finer_helps) {

@@ -79,7 +79,7 @@ Trouble Scene::make_part(int part, int parts) {
 
 // A step has its laws looked at once, however often it is made. (Of one that tore, the guard goes back no further.)
 Trouble Scene::look_at_laws() {
-  if (const Trouble trouble = guard_->before_laws(steps_done_); trouble != Trouble::None) return trouble;
+  guard_->before_laws(steps_done_);
   const auto sound = [&] {
     if (const Trouble trouble = guard_->before_change(steps_done_); trouble != Trouble::None)
       throw Distrust{trouble};
