@@ -230,7 +230,7 @@ std::string Scene::whose_number(const Body*& whose) {
 }
 
 void Scene::check_sound() const {
-  if (guard_->on() || steps_done_ == 0 || scheme_->solves) return;
+  if (guard_->on() || steps_done_ == 0 || scheme_->solves || scheme_->adaptive) return;
   for (const auto& body : bodies_) {
     const auto pair = fastest_neighbours(*body, body->map->velocity().values().data());
     if (pair && pair->rate * step_ > most_rest_lengths)
