@@ -153,7 +153,9 @@ struct Source {
 // A scene and the preset that it keeps reading from, gone in this order.
 std::shared_ptr<Scene> build(const Source& source, const Variant& variant) {
   std::shared_ptr<Node> node = source.load(variant);
-  return {new Scene(*node, SceneOptions{}), [node](const Scene* scene) { delete scene; }};
+  SceneOptions options;
+  options.guard = false; // a step that is too large is to be seen as it is
+  return {new Scene(*node, options), [node](const Scene* scene) { delete scene; }};
 }
 
 } // namespace

@@ -20,11 +20,11 @@ constexpr double close = 1.25; // of what may be there: what a redo leaves, unle
 
 } // namespace
 
-Guard::Guard(World& world, const Stretch::Bodies& bodies, const Scheme& scheme, double step, bool on)
+Guard::Guard(World& world, const Rewind::Bodies& bodies, const Scheme& scheme, double step, bool on)
     : bodies_(bodies), step_(step), energy_(on && !scheme.solves && !scheme.adaptive) {
   if (!on) return;
-  stretch_.emplace(world, bodies, step);
-  stretch_->reserve_for_separations();
+  rewind_.emplace(world, bodies, step);
+  rewind_->reserve_for_separations();
   if (!energy_) return;
   least_rest_ = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies) least_rest_ = std::min(least_rest_, least_rest_length(*body));
@@ -37,8 +37,8 @@ int Guard::parts(long step) const {
 void Guard::before_laws(long step) {
   if (energy_ && budget_ < 0) {
     begins_ = true;
-    stretch_->begin(step);
-    const Stretch::Account account = stretch_->account();
+    rewind_->begin(step);
+    const Rewind::Account account = rewind_->account();
     const double energy = held(account).energy;
     budget_ = std::isfinite(energy) ? energy : std::numeric_limits<double>::infinity();
     heaviest_ = account.heaviest;
@@ -55,8 +55,8 @@ Trouble Guard::before_change(long step) {
 }
 
 void Guard::after_laws(long step) {
-  if (!stretch_ || !(begins_ || !energy_)) return;
-  stretch_->begin(step);
+  if (!rewind_ || !(begins_ || !energy_)) return;
+  rewind_->begin(step);
   threshold_ = std::max(factor * lately_, heaviest_ > 0 ? 2 * budget_ / heaviest_ : 0);
   lately_ = 0;
   begins_ = false;
@@ -66,7 +66,7 @@ void Guard::after_laws(long step) {
 
 Trouble Guard::settle(long step, bool exact) {
   if (settled_ == step) return Trouble::None;
-  const Stretch::Account account = stretch_->account();
+  const Rewind::Account account = rewind_->account();
   if (may_pass() && passing(parts(step))) return Trouble::Passing;
   if (judge(account, exact) != Trouble::None) return Trouble::Energy;
   budget_ = std::max(budget_ + account.given, 0.0);
@@ -77,17 +77,17 @@ Trouble Guard::settle(long step, bool exact) {
 }
 
 // Round-off moves, too.
-double Guard::allowed(const Stretch::Account& account) const {
+double Guard::allowed(const Rewind::Account& account) const {
   const double slow = std::isfinite(least_rest_) ? least_motion * least_rest_ / step_ : 0;
   return std::max(budget_ + account.given, 0.0) + account.headroom + 0.5 * account.mass * slow * slow;
 }
 
-Guard::Held Guard::held(const Stretch::Account& account) {
+Guard::Held Guard::held(const Rewind::Account& account) {
   ++figures_.looks;
-  return {account.kinetic + stretch_->elastic_energy(), factor * allowed(account), account.given};
+  return {account.kinetic + rewind_->elastic_energy(), factor * allowed(account), account.given};
 }
 
-Trouble Guard::judge(const Stretch::Account& account, bool exact) {
+Trouble Guard::judge(const Rewind::Account& account, bool exact) {
   const bool high = account.kinetic > allowed(account);
   if (!high) calm_ = 0;
   if (!exact && (!high || account.kinetic <= more * calm_)) return Trouble::None;
@@ -124,13 +124,13 @@ Trouble Guard::after_step(long done) {
   const bool above = motion > threshold_;
   if ((above || done % passing_period == 0) && may_pass() && passing(parts(done - 1))) return Trouble::Passing;
   if (redoing_) return done == goal_ ? end_redo(done) : Trouble::None;
-  if (done - stretch_->first() >= period) {
+  if (done - rewind_->first() >= period) {
     const Trouble trouble = settle(done, done - exactly_ >= exact_period);
     if (trouble == Trouble::None) begins_ = true;
     return trouble;
   }
   if (!above) return Trouble::None;
-  const Stretch::Account account = stretch_->account();
+  const Rewind::Account account = rewind_->account();
   const Trouble trouble = judge(account, false);
   if (trouble == Trouble::None) threshold_ = factor * motion;
   return trouble;
@@ -138,7 +138,7 @@ Trouble Guard::after_step(long done) {
 
 // The stretch was gone again: whether it holds.
 Trouble Guard::end_redo(long done) {
-  const Stretch::Account account = stretch_->account();
+  const Rewind::Account account = rewind_->account();
   const Held now = held(account);
   const double growth = now.energy - start_.value_or(0) - now.given;
   const bool fits = now.energy <= now.limit, last = 2 * parts_ > most_parts;
@@ -169,15 +169,15 @@ void Guard::go_on(long done, double budget, bool finer_helps) {
 }
 
 std::optional<long> Guard::again(Trouble trouble, long done) {
-  if (!stretch_) return {};
+  if (!rewind_) return {};
   if (!redoing_) {
-    from_ = trouble == Trouble::NotFinite ? done : stretch_->first();
+    from_ = trouble == Trouble::NotFinite ? done : rewind_->first();
     goal_ = trouble == Trouble::NotFinite ? done + 1 : done;
     parts_ = usual(from_);
     figures_.rejected += goal_ - from_;
     growth_.reset();
     if (trouble == Trouble::Energy) {
-      const Stretch::Account account = stretch_->account();
+      const Rewind::Account account = rewind_->account();
       growth_ = held(account).energy - account.given;
     }
   }
@@ -185,24 +185,24 @@ std::optional<long> Guard::again(Trouble trouble, long done) {
   redoing_ = true;
   parts_ *= 2;
   if (parts_ > most_parts) {
-    if (from_ <= stretch_->first()) return {};
-    figures_.rejected += from_ - stretch_->first();
-    from_ = stretch_->first();
+    if (from_ <= rewind_->first()) return {};
+    figures_.rejected += from_ - rewind_->first();
+    from_ = rewind_->first();
     parts_ = 2;
   }
-  from_ = std::max(from_, stretch_->first());
-  stretch_->restore();
-  if (energy_ && !start_) start_ = stretch_->account().kinetic + stretch_->elastic_energy();
+  from_ = std::max(from_, rewind_->first());
+  rewind_->restore();
+  if (energy_ && !start_) start_ = rewind_->account().kinetic + rewind_->elastic_energy();
   if (first && growth_) *growth_ -= *start_;
-  settled_ = stretch_->first();
-  return stretch_->first();
+  settled_ = rewind_->first();
+  return rewind_->first();
 }
 
 long Guard::go_back() {
   redoing_ = begins_ = false;
-  stretch_->restore();
-  settled_ = stretch_->first();
-  return stretch_->first();
+  rewind_->restore();
+  settled_ = rewind_->first();
+  return rewind_->first();
 }
 
 void Guard::forget() {

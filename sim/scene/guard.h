@@ -1,6 +1,6 @@
 // The guard: a step too large for what happens in it is not the end of a run, nor does it spoil what follows.
 //
-// Every `period` steps, and at each change of topology, a stretch begins (stretch.h). In each step the guard looks at
+// Every `period` steps, and at each change of topology, a stretch begins (rewind.h). In each step the guard looks at
 // S = Σ |v|², which the integration sums up on its way (State::put): it is not finite where a number of the state is
 // not, and only where it exceeds a threshold, some four times what it was lately, energy is looked at. A body may hold
 //
@@ -24,7 +24,7 @@
 #pragma once
 
 #include "sim/scene/resolved.h"
-#include "sim/scene/stretch.h"
+#include "sim/scene/rewind.h"
 #include "sim/scene/trouble.h"
 
 #include <optional>
@@ -33,10 +33,10 @@ namespace rend {
 
 class Guard {
 public:
-  Guard(World& world, const Stretch::Bodies& bodies, const Scheme& scheme, double step, bool on);
+  Guard(World& world, const Rewind::Bodies& bodies, const Scheme& scheme, double step, bool on);
   const GuardFigures& figures() const { return figures_; }
-  std::size_t bytes() const { return stretch_ ? stretch_->bytes() : 0; }
-  bool on() const { return stretch_.has_value(); }
+  std::size_t bytes() const { return rewind_ ? rewind_->bytes() : 0; }
+  bool on() const { return rewind_.has_value(); }
 
   // What a step tells and asks, in this order; `step`: steps done before it.
   int parts(long step) const;       // it is made in
@@ -44,7 +44,7 @@ public:
   Trouble before_change(long step); // of topology; may be asked again
   void after_laws(long step);
   void after_part() {
-    if (stretch_) stretch_->keep();
+    if (rewind_) rewind_->keep();
   }
   Trouble after_step(long done); // steps done with it
 
@@ -53,8 +53,8 @@ public:
   std::optional<long> again(Trouble trouble, long done);
   bool redoing() const { return redoing_; }
   long go_back(); // to the start of the stretch, to be gone in nominal steps; returns the steps done there
-  bool has_gone(long done) const { return stretch_ && stretch_->first() < done; } // beyond that start
-  void forget(); // all before the present state
+  bool has_gone(long done) const { return rewind_ && rewind_->first() < done; } // beyond that start
+  void forget();                                                                // all before the present state
 
 private:
   struct Held {
@@ -62,18 +62,18 @@ private:
   };
   int usual(long step) const { return step < hold_until_ ? hold_parts_ : 1; }
   Trouble settle(long step, bool exact);
-  Trouble judge(const Stretch::Account& account, bool exact);
-  double allowed(const Stretch::Account& account) const; // [J]
-  Held held(const Stretch::Account& account);
+  Trouble judge(const Rewind::Account& account, bool exact);
+  double allowed(const Rewind::Account& account) const; // [J]
+  Held held(const Rewind::Account& account);
   bool passing(int parts) const;
   bool may_pass() const;
   Trouble end_redo(long done);
   void go_on(long done, double budget, bool finer_helps);
 
-  const Stretch::Bodies& bodies_;
-  double step_;                    // [s]
-  bool energy_ = false;            // is looked at
-  std::optional<Stretch> stretch_; // none: off
+  const Rewind::Bodies& bodies_;
+  double step_;                  // [s]
+  bool energy_ = false;          // is looked at
+  std::optional<Rewind> rewind_; // none: off
   GuardFigures figures_;
 
   double budget_ = -1;                    // [J], B; < 0: not known yet

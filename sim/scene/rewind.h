@@ -25,10 +25,10 @@
 
 namespace rend {
 
-class Stretch {
+class Rewind {
 public:
   using Bodies = std::vector<std::unique_ptr<Body>>;
-  Stretch(World& world, const Bodies& bodies, double step); // step [s]
+  Rewind(World& world, const Bodies& bodies, double step); // step [s]
   void reserve_for_separations();
 
   long first() const { return first_; } // steps done at its start

@@ -1,4 +1,4 @@
-#include "sim/scene/stretch.h"
+#include "sim/scene/rewind.h"
 
 #include "sim/program/frequency.h"
 #include "sim/solve/vectors.h"
@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace rend {
-Stretch::Stretch(World& world, const Bodies& bodies, double step)
+Rewind::Rewind(World& world, const Bodies& bodies, double step)
     : world_(world), bodies_(bodies), step_(step), starts_(bodies.size()), spheres_(world.spheres.size()) {
   for (const Sphere& sphere : world.spheres)
     if (!sphere.falls()) push_ = std::max(push_, sphere.velocity.norm());
@@ -19,11 +19,11 @@ Stretch::Stretch(World& world, const Bodies& bodies, double step)
   }
 }
 
-bool Stretch::pushed(const Body& body) const {
+bool Rewind::pushed(const Body& body) const {
   return push_ > 0 && body.contact && body.contact->obstacles;
 }
 
-void Stretch::reserve_for_separations() {
+void Rewind::reserve_for_separations() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = *bodies_[b];
     if (!body.tears()) continue;
@@ -34,7 +34,7 @@ void Stretch::reserve_for_separations() {
   }
 }
 
-void Stretch::begin(long step) {
+void Rewind::begin(long step) {
   first_ = step;
   aside_ = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -53,7 +53,7 @@ void Stretch::begin(long step) {
     spheres_[s] = {world_.spheres[s].centre, world_.spheres[s].velocity};
 }
 
-void Stretch::keep() {
+void Rewind::keep() {
   if (aside_) return;
   aside_ = true;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -62,7 +62,7 @@ void Stretch::keep() {
   }
 }
 
-void Stretch::restore() {
+void Rewind::restore() {
   if (!aside_) return;
   for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->go_back(starts_[b].state, starts_[b].time);
   for (std::size_t s = 0; s < spheres_.size(); ++s) {
@@ -71,7 +71,7 @@ void Stretch::restore() {
   }
 }
 
-Stretch::Account Stretch::account() {
+Rewind::Account Rewind::account() {
   Account sum;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     add(*bodies_[b], starts_[b], sum);
@@ -89,17 +89,17 @@ Stretch::Account Stretch::account() {
   return sum;
 }
 
-double Stretch::elastic_energy() const {
+double Rewind::elastic_energy() const {
   double sum = 0;
   for (const auto& body : bodies_) sum += body->program->elastic_energy(body->map->position().values().data());
   return sum;
 }
 
-const Record* Stretch::from(const Body& body, const Start& start) const {
+const Record* Rewind::from(const Body& body, const Start& start) const {
   return aside_ ? start.state.position.data() : body.map->position().values().data();
 }
 
-void Stretch::add(const Body& body, const Start& start, Account& sum) const {
+void Rewind::add(const Body& body, const Start& start, Account& sum) const {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   const Record* x0 = from(body, start);
   const double* inverse = body.program->inverse_mass();
@@ -125,7 +125,7 @@ void Stretch::add(const Body& body, const Start& start, Account& sum) const {
 }
 
 // As they were, and as they would be there by now.
-void Stretch::add_loads(Body& body, const Start& start, Account& sum) const {
+void Rewind::add_loads(Body& body, const Start& start, Account& sum) const {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   const Record* x0 = from(body, start);
   const Record* v0 = aside_ ? start.state.velocity.data() : v;
@@ -142,7 +142,7 @@ void Stretch::add_loads(Body& body, const Start& start, Account& sum) const {
   body.outer(body.time(), x, v); // what the present step goes by
 }
 
-void Stretch::add_drives(const Body& body, const Start& start, Account& sum) const {
+void Rewind::add_drives(const Body& body, const Start& start, Account& sum) const {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   const Record* x0 = from(body, start);
   const double* inverse = body.program->inverse_mass();
@@ -155,7 +155,7 @@ void Stretch::add_drives(const Body& body, const Start& start, Account& sum) con
   }
 }
 
-void Stretch::add_pushes(const Body& body, const Start& start, Account& sum) const {
+void Rewind::add_pushes(const Body& body, const Start& start, Account& sum) const {
   const double way = push_ * (body.time() - start.time);
   double mass = 0;
   for (std::size_t i = 0; i < body.vertices(); ++i)
@@ -165,7 +165,7 @@ void Stretch::add_pushes(const Body& body, const Start& start, Account& sum) con
   sum.headroom += 2 * mass * push_ * push_;
 }
 
-std::size_t Stretch::bytes() const {
+std::size_t Rewind::bytes() const {
   std::size_t records = 0;
   for (const Start& start : starts_)
     records +=
