@@ -163,7 +163,7 @@ Exit study(const StudyOptions& options) {
     return stopped(teller);
   }
   teller.clear();
-  const Provenance provenance = provenance_of(options.session.preset);
+  const Provenance provenance = provenance_of(options.session.preset, task.text);
   nlohmann::ordered_json json = json_of(report);
   json["name"] = task.name;
   json["findings"] = findings_of(report);

@@ -63,8 +63,26 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
+void check_version(const RawElement& root) {
+  const RawAttribute* version = root.find("version");
+  if (!version || version->text == preset_version) return;
+  throw UserError(Exit::BadInput, version->place,
+                  fmt::format("the preset is of version {}, and this program reads version {}",
+                              in_quotes(version->text), preset_version));
+}
+
+std::unique_ptr<Node> checked(const RawElement& raw) {
+  auto node = std::make_unique<Node>(*raw.type, raw.place);
+  for (const RawAttribute& attribute : raw.attributes)
+    node->set(*attribute.type, attribute.text, attribute.place);
+  for (const auto& child : raw.children) node->add(checked(*child));
+  return node;
+}
+
+} // namespace
+
 // The size is not asked for first: a pipe has none.
-std::string read_file(const fs::path& path) {
+std::string read_preset_file(const fs::path& path) {
   const Place place{path.string(), 0, 0};
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -89,27 +107,9 @@ std::string read_file(const fs::path& path) {
   return text;
 }
 
-void check_version(const RawElement& root) {
-  const RawAttribute* version = root.find("version");
-  if (!version || version->text == preset_version) return;
-  throw UserError(Exit::BadInput, version->place,
-                  fmt::format("the preset is of version {}, and this program reads version {}",
-                              in_quotes(version->text), preset_version));
-}
-
-std::unique_ptr<Node> checked(const RawElement& raw) {
-  auto node = std::make_unique<Node>(*raw.type, raw.place);
-  for (const RawAttribute& attribute : raw.attributes)
-    node->set(*attribute.type, attribute.text, attribute.place);
-  for (const auto& child : raw.children) node->add(checked(*child));
-  return node;
-}
-
-} // namespace
-
 std::unique_ptr<Node> read_preset(const fs::path& path, const ElementType& root,
                                   std::span<const Override> overrides) {
-  return read_preset_text(read_file(path), path.string(), root, overrides);
+  return read_preset_text(read_preset_file(path), path.string(), root, overrides);
 }
 
 std::unique_ptr<Node> read_preset_text(std::string_view text, const std::string& file, const ElementType& root,

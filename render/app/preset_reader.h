@@ -29,4 +29,7 @@ std::unique_ptr<Node> read_preset(const std::filesystem::path& path, const Eleme
 std::unique_ptr<Node> read_preset_text(std::string_view text, const std::string& file, const ElementType& root,
                                        std::span<const Override> overrides = {});
 
+// The file's text, for those who read it several times. The same errors.
+std::string read_preset_file(const std::filesystem::path& path);
+
 } // namespace rend

@@ -1,6 +1,5 @@
 #include "render/app/provenance.h"
 
-#include "sim/base/error.h"
 #include "sim/base/hash.h"
 
 #include <fmt/chrono.h>
@@ -23,13 +22,6 @@ std::vector<std::string> command_words() {
   return words;
 }
 
-std::string hash_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw UserError(Exit::ReadWrite, {path.string()}, "the preset cannot be read any more");
-  return fmt::format("{:016x}", hash_bytes(bytes.data(), bytes.size()));
-}
-
 } // namespace
 
 std::string quoted_for_shell(const std::vector<std::string>& words) {
@@ -48,10 +40,10 @@ std::string quoted_for_shell(const std::vector<std::string>& words) {
   return out;
 }
 
-Provenance provenance_of(const std::filesystem::path& preset) {
+Provenance provenance_of(const std::filesystem::path& preset, const std::string& text) {
   Provenance p = provenance_of_build();
   p.preset = preset.string();
-  p.hash = hash_of(preset);
+  p.hash = fmt::format("{:016x}", hash_bytes(text.data(), text.size()));
   return p;
 }
 

@@ -19,8 +19,7 @@ struct Provenance {
 
 Provenance provenance_of_build(); // without a preset
 
-// Throws UserError (ReadWrite) where the preset cannot be read any more.
-Provenance provenance_of(const std::filesystem::path& preset);
+Provenance provenance_of(const std::filesystem::path& preset, const std::string& text);
 
 nlohmann::ordered_json json_of(const Provenance& provenance);
 html::Html facts_of(const Provenance& provenance); // a part of a page

@@ -133,8 +133,9 @@ std::vector<StudyGroup> crossed(const std::vector<Values>& dimensions) {
   return groups;
 }
 
+// The preset as it was when the study began: what is edited meanwhile is for the next one.
 struct Source {
-  std::string preset;
+  std::string preset, text;
   std::vector<Override> overrides;
   bool allow_path = false;
 
@@ -144,7 +145,7 @@ struct Source {
     if (!variant.integrator.empty()) all.push_back({"time.integrator", variant.integrator});
     if (variant.step > 0) all.push_back({"time.step", fmt::format("{:.17g}", variant.step)});
     if (variant.tolerance) all.push_back({"time.tolerance", fmt::format("{:.17g}", *variant.tolerance)});
-    std::unique_ptr<Node> node = load_scene(preset, all);
+    std::unique_ptr<Node> node = load_scene_text(text, preset, all);
     if (!allow_path) check_paths(*node);
     return node;
   }
@@ -192,9 +193,11 @@ void declare_study(CLI::App& app, StudyOptions& options) {
 }
 
 StudyTask study_task(const StudyOptions& options) {
-  Source source{options.session.preset, {}, options.session.allow_path};
+  Source source{
+      options.session.preset, read_preset_file(options.session.preset), {}, options.session.allow_path};
   for (const std::string& set : options.session.sets) source.overrides.push_back(parse_override(set));
   StudyTask task;
+  task.text = source.text;
   task.plan.integrators = integrators_of(options);
   const std::unique_ptr<Node> preset = source.load({});
   task.name = preset->text("name");

@@ -12,7 +12,7 @@ struct StudyOptions {
   std::string integrators;         // "a,b"; empty: all
   std::string refine;              // "1,2,4"; empty: the preset's mesh alone
   std::vector<std::string> sweeps; // "PATH=a,b,c"
-  int steps = 8;                   // a scheme
+  int steps = 7;                   // a scheme
   std::optional<double> duration;  // [s]
   int reruns = 7;
   bool quick = false, json = false;
@@ -23,6 +23,7 @@ void declare_study(CLI::App& app, StudyOptions& options);
 
 struct StudyTask {
   std::string name; // of the scene
+  std::string text; // of the preset, as it is studied
   StudyPlan plan;
   MakeScene make;
 };

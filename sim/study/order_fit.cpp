@@ -11,6 +11,8 @@
 namespace rend {
 namespace {
 
+constexpr double least_span = 2; // of steps
+
 // The probability that |t| of Student's distribution is below `t` (Abramowitz & Stegun 26.7.3 and 26.7.4).
 double within(double t, int freedom) {
   const double theta = std::atan(t / std::sqrt(freedom)), cosine = std::cos(theta), sine = std::sin(theta);
@@ -39,7 +41,8 @@ std::vector<std::size_t> straight(const std::vector<OrderPoint>& points, const s
       high = std::max(high, orders[last]);
       if (high - low > spread) break;
     }
-    if (last - first >= 2)
+    const double span = points[sorted[last]].step / points[sorted[first]].step;
+    if (last - first >= 2 && span >= least_span)
       return {sorted.begin() + static_cast<std::ptrdiff_t>(first),
               sorted.begin() + static_cast<std::ptrdiff_t>(last + 1)};
   }
@@ -52,9 +55,10 @@ std::string OrderRule::words() const {
   return fmt::format(
       "A fit leaves out runs that failed, errors above {:g} (nothing is small there) and errors at or "
       "below {:.2g} (ten times the error bar of the reference); of the rest it takes, from the smallest "
-      "step up, the first row of three or more neighbouring steps whose local orders stay within {:g} of "
+      "step up, the first row of three or more neighbouring steps, at least a factor of {:g} wide, whose local "
+      "orders stay within {:g} of "
       "each other.",
-      largest, smallest, spread);
+      largest, smallest, least_span, spread);
 }
 
 std::optional<OrderFit> fit_order(const std::vector<OrderPoint>& points, const OrderRule& rule) {

@@ -9,7 +9,7 @@
 // An order is a statement about small steps. Points that say nothing of it are left out, by one rule for all schemes:
 //   1. runs that failed;
 //   2. errors above `largest` (nothing is small there), and at or below `smallest` (they are the reference's as well);
-//   3. of the rest, from the smallest step up, the first row of at least three neighbours whose local orders,
+//   3. of the rest, from the smallest step up, the first row of at least three neighbours, a factor of two wide, whose local orders,
 //      log(e_i/e_j) / log(h_i/h_j), stay within `spread` of each other.
 #pragma once
 

@@ -26,9 +26,7 @@ RunCounts counts_of(const Scene& scene) {
     counts.parts += solver.parts;
     counts.rejected += solver.rejected;
   }
-  const long parts = counts.parts + counts.rejected; // the first evaluation of a step serves its first part
-  counts.evaluations = parts > 0 ? scene.steps_done() + (scene.scheme().evaluations - 1) * parts
-                                 : scene.scheme().evaluations * scene.steps_done();
+  counts.evaluations = scene.evaluations();
   return counts;
 }
 
