@@ -35,6 +35,7 @@ std::string file_name(const std::string& case_name) {
 
 void write_cases(const fs::path& folder, const std::vector<CheckCase>& cases) {
   for (const CheckCase& each : cases) {
+    if (each.preset.empty()) continue;
     write_file(folder / (file_name(each.name) + ".xml"), each.preset);
     for (const auto& [name, content] : each.files) write_file(folder / name, content);
   }
@@ -46,6 +47,7 @@ std::vector<CheckResult> run_cases(const fs::path& folder, const std::vector<Che
     std::vector<Override> overrides;
     for (const auto& [path, value] : sets) overrides.push_back({path, value});
     if (instead) return load_scene_text(*instead, which.name, overrides);
+    if (which.preset.empty()) return load_scene(which.path, overrides);
     return load_scene(folder / (file_name(which.name) + ".xml"), overrides);
   };
   std::vector<std::optional<CheckResult>> results(cases.size());

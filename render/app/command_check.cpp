@@ -3,9 +3,11 @@
 #include "render/app/check_run.h"
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/signals.h"
 #include "render/output.h"
+#include "sim/check/preset_check.h"
 #include "sim/program/threads.h"
 
 #include <CLI/CLI.hpp>
@@ -23,8 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CheckOptions {
-  std::string folder;            // empty: no files are left
-  std::vector<std::string> only; // patterns of names
+  std::vector<std::string> presets; // empty: the suite
+  std::string folder;               // empty: no files are left
+  std::vector<std::string> only;    // patterns of names
   bool list = false, json = false, quick = false, quiet = false;
   int jobs = 0; // 0: as many as the machine has threads
 };
@@ -54,21 +57,43 @@ private:
 
 // Part of a name is enough: "static" means "*static*".
 bool is_wanted(const CheckCase& which, const CheckOptions& options) {
-  if (options.quick && !which.quick) return false;
+  if (options.quick && options.presets.empty() && !which.quick) return false;
   return options.only.empty() ||
          std::any_of(options.only.begin(), options.only.end(), [&](const std::string& pattern) {
            return fnmatch(("*" + pattern + "*").c_str(), which.name.c_str(), 0) == 0;
          });
 }
 
+CheckChapter chapter_of(const std::string& preset, const CheckOptions& options) {
+  const fs::path path(preset);
+  CheckFamily family{
+      path.stem().string(), preset,
+      "Is it stable as it is, with what margin, at which step does it break, and which scheme would do.",
+      nullptr};
+  CheckChapter chapter{family, {}, {}};
+  for (CheckCase& one : preset_cases(family.name, preset))
+    if (is_wanted(one, options)) chapter.cases.push_back(std::move(one));
+  return chapter;
+}
+
+CheckChapter chapter_of(const CheckFamily& family, const CheckOptions& options) {
+  CheckChapter chapter{family, {}, {}};
+  for (CheckCase& one : family.cases())
+    if (is_wanted(one, options)) chapter.cases.push_back(std::move(one));
+  return chapter;
+}
+
 std::vector<CheckChapter> wanted(const CheckOptions& options) {
   std::vector<CheckChapter> chapters;
-  for (const CheckFamily& family : all_families()) {
-    CheckChapter chapter{family, {}, {}};
-    for (CheckCase& one : family.cases())
-      if (is_wanted(one, options)) chapter.cases.push_back(std::move(one));
+  const auto add = [&](CheckChapter chapter) {
     if (!chapter.cases.empty()) chapters.push_back(std::move(chapter));
+  };
+  for (const std::string& preset : options.presets) {
+    load_scene(preset); // what is bad is said before anything slow
+    add(chapter_of(preset, options));
   }
+  if (options.presets.empty())
+    for (const CheckFamily& family : all_families()) add(chapter_of(family, options));
   if (!chapters.empty()) return chapters;
   std::vector<std::string> names;
   for (const CheckFamily& family : all_families()) names.push_back(family.name);
@@ -166,6 +191,7 @@ Exit check(const CheckOptions& options) {
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<CheckOptions>();
+  app.add_option("presets", options->presets, "scenes to check; none: the suite")->type_name("PRESET...");
   app.add_option("-o,--output", options->folder,
                  "write index.html, check.json and the presets of all cases there")
       ->type_name("DIR");

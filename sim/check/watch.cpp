@@ -2,6 +2,7 @@
 
 #include "sim/solve/spectrum.h"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -29,41 +30,82 @@ void put(Body& body, const std::function<Vec3(const Vec3& rest, std::size_t slot
       body.map->position().values()[i] = Record(place(body.map->rest().values()[i].vec(), i));
 }
 
-double size_of(const Body& body) {
+namespace {
+
+// Calls f(mass [kg], position, rest position, velocity) for every vertex.
+template <class F> void each_vertex(const Body& body, F&& f) {
+  const double* inverse = body.program->inverse_mass();
+  for (std::size_t i = 0; i < body.vertices(); ++i)
+    if (inverse[i] > 0)
+      f(1 / inverse[i], body.map->position().values()[i].vec(), body.map->rest().values()[i].vec(),
+        body.map->velocity().values()[i].vec());
+}
+
+Vec3 sides(const Body& body) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
-  for (std::size_t i = 0; i < body.vertices(); ++i) {
-    if (body.program->inverse_mass()[i] == 0) continue;
-    low = low.cwiseMin(body.map->rest().values()[i].vec());
-    high = high.cwiseMax(body.map->rest().values()[i].vec());
-  }
-  return (high - low).maxCoeff();
+  each_vertex(body, [&](double, const Vec3&, const Vec3& rest, const Vec3&) {
+    low = low.cwiseMin(rest);
+    high = high.cwiseMax(rest);
+  });
+  return high - low;
+}
+
+} // namespace
+
+double size_of(const Body& body) {
+  return sides(body).maxCoeff();
+}
+
+double least_side(const Body& body) {
+  double least = size_of(body);
+  for (const double side : sides(body))
+    if (side > 0) least = std::min(least, side);
+  return least;
+}
+
+void stop_turning(Body& body) {
+  double mass = 0;
+  Vec3 centre = Vec3::Zero(), drift = Vec3::Zero(), turn = Vec3::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  each_vertex(body, [&](double m, const Vec3& x, const Vec3&, const Vec3& v) {
+    mass += m;
+    centre += m * x;
+    drift += m * v;
+  });
+  centre /= mass;
+  each_vertex(body, [&](double m, const Vec3& x, const Vec3&, const Vec3& v) {
+    const Vec3 arm = x - centre;
+    turn += m * arm.cross(v - drift / mass);
+    inertia += m * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+  });
+  const Vec3 spin = inertia.inverse() * turn;
+  for (std::size_t i = 0; i < body.vertices(); ++i)
+    if (body.program->inverse_mass()[i] > 0) {
+      Record& v = body.map->velocity().values()[i];
+      v = Record(Vec3(v.vec() - spin.cross(body.map->position().values()[i].vec() - centre)));
+    }
 }
 
 double distortion(const Body& body) {
-  const auto& x = body.map->position().values();
-  const auto& rest = body.map->rest().values();
-  const double* inverse = body.program->inverse_mass();
   double mass = 0;
   Vec3 here = Vec3::Zero(), there = Vec3::Zero();
-  const auto each = [&](auto&& f) {
-    for (std::size_t i = 0; i < body.vertices(); ++i)
-      if (inverse[i] > 0) f(1 / inverse[i], x[i].vec(), rest[i].vec());
-  };
-  each([&](double m, const Vec3& a, const Vec3& b) {
+  each_vertex(body, [&](double m, const Vec3& x, const Vec3& rest, const Vec3&) {
     mass += m;
-    here += m * a;
-    there += m * b;
+    here += m * x;
+    there += m * rest;
   });
   here /= mass;
   there /= mass;
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-  each([&](double m, const Vec3& a, const Vec3& b) { moment += m * (a - here) * (b - there).transpose(); });
+  each_vertex(body, [&](double m, const Vec3& x, const Vec3& rest, const Vec3&) {
+    moment += m * (x - here) * (rest - there).transpose();
+  });
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant();
   const Eigen::Matrix3d turn = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
   double sum = 0;
-  each([&](double m, const Vec3& a, const Vec3& b) {
-    sum += m * (a - here - turn * (b - there)).squaredNorm();
+  each_vertex(body, [&](double m, const Vec3& x, const Vec3& rest, const Vec3&) {
+    sum += m * (x - here - turn * (rest - there)).squaredNorm();
   });
   return std::sqrt(sum / mass);
 }
