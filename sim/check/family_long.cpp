@@ -28,21 +28,25 @@ CheckCase long_case(const Matter& matter, const Scheme& scheme, long steps) {
   one.expectation = fmt::format(
       "free and shaken (set on the scene{}) with a hundredth of its speed of sound, {:g} steps of {}: "
       "the mean energy of the last tenth {}; momentum to 1e-9{}",
-      matter.small_strain() ? ", without a turn, which small strain takes for swelling" : "",
+      matter.small_strain()
+          ? ", without drift and turn, which small strain takes for a displacement and for swelling"
+          : "",
       static_cast<double>(steps), scheme.solves ? "1 ms" : "half the automatic size",
       keeps ? "lies within 5 % of that of the first" : "is not above that of the first",
       turns && keeps ? ", and angular momentum to 1e-6 of m v L" : "");
   one.preset = sketch.text();
   one.row = matter.name;
   one.column = scheme.name;
-  const bool small = matter.small_strain(); // a turn would go on as growth without end
+  const bool small =
+      matter
+          .small_strain(); // a turn would go on as growth without end, and far from rest displacements round more
   one.run = [=](const Bench& bench, Finding& finding) {
     Trial trial = bench.open();
     const double step = scheme.solves ? trial->step_size() : trial->step_size() / 2;
     if (!scheme.solves) trial = bench.open({{"time.step", fmt::format("{}", step)}});
     constexpr double pace = 1; // [m/s]; sound takes 100
     shake(trial.body(), pace, 3);
-    if (small) stop_turning(trial.body());
+    if (small) stop_as_a_whole(trial.body());
     const Vec3 momentum = trial->momentum(), turn = trial->angular_momentum();
     Mean first, last;
     for (long n = 0; n < steps; ++n) {

@@ -46,9 +46,9 @@ const std::vector<Law>& spring_laws() {
                                     {"atomic-spring", "shear", "delete-element", 0.03},
                                     {"strain", "stretch", "delete-edge", 0.2},
                                     {"atomic-vertex", "", "split-vertex", 0.03},
-                                    {"cumulative-vertex", "", "split-vertex", 0.03},
+                                    {"cumulative-vertex", "", "split-vertex", 0.004},
                                     {"atomic-border", "", "separate", 0.02},
-                                    {"global-border", "", "separate", 0.02}};
+                                    {"global-border", "", "separate", 0.004}};
   return all;
 }
 const std::vector<Law>& element_laws() {

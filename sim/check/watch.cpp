@@ -63,7 +63,7 @@ double least_side(const Body& body) {
   return least;
 }
 
-void stop_turning(Body& body) {
+void stop_as_a_whole(Body& body) {
   double mass = 0;
   Vec3 centre = Vec3::Zero(), drift = Vec3::Zero(), turn = Vec3::Zero();
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
@@ -82,7 +82,7 @@ void stop_turning(Body& body) {
   for (std::size_t i = 0; i < body.vertices(); ++i)
     if (body.program->inverse_mass()[i] > 0) {
       Record& v = body.map->velocity().values()[i];
-      v = Record(Vec3(v.vec() - spin.cross(body.map->position().values()[i].vec() - centre)));
+      v = Record(Vec3(v.vec() - drift / mass - spin.cross(body.map->position().values()[i].vec() - centre)));
     }
 }
 

@@ -12,8 +12,8 @@ double energy(const Scene& scene); // kinetic, elastic and of gravity [J]
 // Adds velocities of up to `speed` [m/s] along each axis, of free coordinates.
 void shake(Body& body, double speed, std::uint64_t seed);
 
-// Takes the turning of the body as a whole out of its velocities.
-void stop_turning(Body& body);
+// Takes the motion of the body as a whole, its drift and its turn, out of its velocities.
+void stop_as_a_whole(Body& body);
 
 // Puts every vertex where `place` has it from its rest position [m]; prescribed ones go back at the next step.
 void put(Body& body, const std::function<Vec3(const Vec3& rest, std::size_t slot)>& place);
