@@ -46,7 +46,7 @@ const std::vector<Law>& spring_laws() {
                                     {"atomic-spring", "shear", "delete-element", 0.03},
                                     {"strain", "stretch", "delete-edge", 0.2},
                                     {"atomic-vertex", "", "split-vertex", 0.03},
-                                    {"cumulative-vertex", "", "split-vertex", 0.004},
+                                    {"cumulative-vertex", "", "split-vertex", 0.001},
                                     {"atomic-border", "", "separate", 0.02},
                                     {"global-border", "", "separate", 0.004}};
   return all;
