@@ -82,7 +82,7 @@ TEST(CheckFamilies, HoldInTheirQuickCases) {
     std::vector<CheckCase> quick;
     for (CheckCase& one : family.cases())
       if (one.quick) quick.push_back(std::move(one));
-    if (family.name != "long") EXPECT_GE(quick.size(), 3u) << family.name;
+    EXPECT_TRUE(quick.size() >= 3 || family.name == "long") << family.name; // a million steps are not quick
     write_cases(folder, quick);
     run_cases(folder, quick, 2, [&](std::size_t n, const CheckResult& result) {
       EXPECT_NE(result.finding.verdict, Verdict::Failed) << quick[n].name << ": " << result.finding.what;
