@@ -57,7 +57,7 @@ PlotSeries series_of(const StudyReport& report, const StudyCurve& curve, const A
     const StudyRow& row = report.rows[n];
     const double x = axes.x(row);
     if (!(x > 0)) continue;
-    if (row.outcome == Outcome::Unstable || row.outcome == Outcome::Unsolved) series.out.push_back(x);
+    if (row.failed() && row.outcome != Outcome::Refused) series.out.push_back(x);
     if (row.failed()) continue;
     const auto y = axes.y(report, row);
     if (!y || !std::isfinite(*y) || (axes.log_y && *y <= 0)) continue;
@@ -79,6 +79,8 @@ Plot plot_of(const StudyReport& report, std::size_t group, const Axes& axes) {
   plot.hollow_name = "within the reference's error";
   for (const StudyCurve& curve : report.curves)
     if (curve.group == group) plot.series.push_back(series_of(report, curve, axes));
+  for (PlotSeries& series : plot.series)
+    if (series.points.empty() && series.out.empty()) series.name.clear(); // not in the legend
   return plot;
 }
 

@@ -47,6 +47,14 @@ std::size_t elements_of(const Scene& scene) {
   return count;
 }
 
+// From the first to the last, each four times the one before.
+std::vector<long> numbers_of_steps(long first, long last) {
+  std::vector<long> all;
+  for (long count = first; count < last; count *= 4) all.push_back(count);
+  all.push_back(last);
+  return all;
+}
+
 } // namespace
 
 Reference make_reference(const MakeScene& make, const StudyGroup& group, double duration, int steps,
@@ -61,7 +69,6 @@ Reference make_reference(const MakeScene& make, const StudyGroup& group, double 
   figures.elements = elements_of(*probe);
   for (const auto& body : probe->bodies()) figures.vertices += body->map->cells(Vertex).count();
   const std::vector<Knob> sweep = sweep_of(*find_scheme("rk4"), *probe, {duration, steps, false});
-  const long most = 8 * sweep.back().steps;
   const long coarse = tears(*probe) ? steps_within(duration, natural_step(*probe, duration)) : study_samples;
 
   if (calls.progress) calls.progress("reference, second scheme", 0);
@@ -76,8 +83,7 @@ Reference make_reference(const MakeScene& make, const StudyGroup& group, double 
   figures.second_first_tear = second.run.trajectory.first_tear;
   figures.scheme = "rk4";
   figures.bar = std::numeric_limits<double>::infinity();
-  for (long count = 8 * sweep.front().steps; count <= most;
-       count = count < most ? std::min(4 * count, most) : most + 1) {
+  for (long count : numbers_of_steps(8 * sweep.front().steps, 8 * sweep.back().steps)) {
     if (calls.progress) calls.progress(fmt::format("reference, rk4 at {} steps", count), 0);
     Attempt first = attempt(make, group, variant, duration, count, calls);
     if (first.run.outcome != Outcome::Done) fail(first);

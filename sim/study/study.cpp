@@ -14,7 +14,7 @@
 namespace rend {
 namespace {
 
-constexpr double hopeless = 10;            // times the motion: no error but a failure
+constexpr double hopeless = 1;             // times the motion: no error but a failure
 constexpr double slow = 1, very_slow = 10; // [s] a run: fewer of them are timed
 constexpr int slow_reruns = 3;
 
@@ -135,7 +135,7 @@ private:
       if (const auto total = compare(run.trajectory, first_, until))
         row.total_error = total->position.over_time / report_.references.front().scales.length;
     if (row.error <= hopeless) return;
-    row.outcome = Outcome::Unstable;
+    row.outcome = Outcome::Astray;
     row.reason = fmt::format("its error is {:.2g} times the motion", row.error);
   }
 
@@ -167,6 +167,8 @@ std::string name_of(Outcome outcome) {
     return "unstable";
   case Outcome::Unsolved:
     return "unsolved";
+  case Outcome::Astray:
+    return "astray";
   case Outcome::Refused:
     break;
   }

@@ -45,7 +45,8 @@ struct StudyPlan {
   bool above_limit = true;              // two steps above the limit, to see them fail
 };
 
-enum class Outcome { Done, Unstable, Unsolved, Refused };
+// Astray: it came to its end, and a body that never moved would be as near to the reference.
+enum class Outcome { Done, Unstable, Unsolved, Astray, Refused };
 std::string name_of(Outcome outcome); // "done", "unstable" ...
 
 // Seconds of the time loop alone, by the clock of the thread that runs it, which stands still while others run.
