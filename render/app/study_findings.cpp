@@ -92,23 +92,22 @@ std::string failures(const StudyReport& report, std::size_t group) {
   for (const StudyCurve& curve : report.curves) {
     if (curve.group != group) continue;
     std::size_t failed = 0;
-    double least = 0;
+    const StudyRow* finest = nullptr; // of those that failed
     for (std::size_t n : curve.rows) {
       const StudyRow& row = report.rows[n];
       if (!row.failed()) continue;
       ++failed;
-      least = least == 0 ? row.step : std::min(least, row.step);
-      if (!row.above_limit()) ++below;
+      finest = &row;
+      below += !row.above_limit() && row.outcome != Outcome::Astray;
     }
-    if (failed > 0)
-      parts.push_back(fmt::format("{} {} of {} (steps of {:.3g} s and more)", curve.integrator, failed,
-                                  curve.rows.size(), least));
+    if (failed == 0) continue;
+    parts.push_back(fmt::format("{} {} of {} ({} and more)", curve.integrator, failed, curve.rows.size(),
+                                finest->tolerance ? fmt::format("a tolerance of {:g}", *finest->tolerance)
+                                                  : fmt::format("steps of {:.3g} s", finest->step)));
   }
   if (parts.empty()) return "No run failed.";
-  return fmt::format("Runs that failed: {}; {}.", joined(parts),
-                     below == 0   ? "all of them with steps above what is predicted to be stable"
-                     : below == 1 ? "one of them within what is predicted to be stable"
-                                  : fmt::format("{} of them within what is predicted to be stable", below));
+  return fmt::format("Runs that failed: {}; {} within what is predicted to be stable.", joined(parts),
+                     below == 0 ? "none of them for steps" : fmt::format("{} of them for steps", below));
 }
 
 std::string trust(const StudyReport& report, std::size_t group) {

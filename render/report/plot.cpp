@@ -113,14 +113,14 @@ public:
     if (!flat.empty()) put(flat, "u 1:2:5:6 w xerrorbars ps 0 lw 1.2 dt solid " + paint, "");
     if (curve && !series.points.empty())
       put(series.points, fmt::format("w lines lw 2 dt {} {}", look.dash, paint), "");
-    if (!full.empty()) put(full, fmt::format("w points pt {} ps 1.35 {}", look.mark, paint), "");
+    if (!full.empty()) put(full, fmt::format("w points pt {} ps mark {}", look.mark, paint), "");
     if (!hollow.empty()) {
-      put(hollow, fmt::format("w points pt {} ps 1.35 lc rgb '#ffffff'", look.mark), "");
-      put(hollow, fmt::format("w points pt {} ps 1.35 lw 1.5 {}", look.hollow, paint), "");
+      put(hollow, fmt::format("w points pt {} ps mark lc rgb '#ffffff'", look.mark), "");
+      put(hollow, fmt::format("w points pt {} ps mark lw 1.5 {}", look.hollow, paint), "");
     }
-    if (!out.empty()) put(out, "w points pt 2 ps 1.3 lw 2 " + paint, "");
+    if (!out.empty()) put(out, "w points pt 2 ps mark lw 2 " + paint, "");
     if (series.name.empty()) return;
-    parts.push_back(fmt::format("keyentry w {} lw 2 dt {} pt {} ps 1.35 {} title {}",
+    parts.push_back(fmt::format("keyentry w {} lw 2 dt {} pt {} ps mark {} title {}",
                                 curve ? "linespoints" : "points", look.dash, look.mark, paint,
                                 quoted(series.name)));
   }
@@ -149,6 +149,7 @@ std::string head_of(const Plot& plot, PlotFormat format) {
   std::string out =
       fmt::format("set encoding utf8\nset terminal {} background rgb '#ffffff' linewidth {} enhanced\n", fonts,
                   format == PlotFormat::Svg ? "1" : "1.5");
+  out += fmt::format("mark = {}\n", format == PlotFormat::Svg ? "0.85" : "1.35"); // as large in both
   if (!plot.title.empty()) out += "set title " + quoted(plot.title) + " noenhanced\n";
   out +=
       "set xlabel " + quoted(plot.x_label) + " noenhanced\nset ylabel " + quoted(plot.y_label) +
@@ -179,10 +180,10 @@ std::string script_of(const Plot& plot, PlotFormat format) {
   Writer writer;
   for (const PlotSeries& series : plot.series) writer.add(series, edge);
   if (out && !plot.out_name.empty())
-    writer.parts.push_back("keyentry w points pt 2 ps 1.3 lw 2 lc rgb '#555555' title " +
+    writer.parts.push_back("keyentry w points pt 2 ps mark lw 2 lc rgb '#555555' title " +
                            quoted(plot.out_name));
   if (hollow && !plot.hollow_name.empty())
-    writer.parts.push_back("keyentry w points pt 6 ps 1.35 lw 1.5 lc rgb '#555555' title " +
+    writer.parts.push_back("keyentry w points pt 6 ps mark lw 1.5 lc rgb '#555555' title " +
                            quoted(plot.hollow_name));
   for (const PlotLevel& level : plot.levels)
     writer.parts.push_back(
