@@ -46,14 +46,18 @@ double mass_of(const Hanging& what) {
 
 CheckCase hang(const Hanging& what, const Scheme& scheme, int exponent) {
   const bool rests = scheme.name == "static";
-  const double duration = rests ? 1 : scheme.solves ? 2 : 40 / what.slowest;
+  const double duration = rests ? 1 : scheme.solves || scheme.adaptive ? 2 : 40 / what.slowest;
   Sketch sketch;
   sketch.gravity = "0 0 -9.81";
   sketch.body =
       what.body +
       fmt::format("    <viscosity value=\"{}\" per=\"body\"/>\n", in_short(2 * what.slowest * mass_of(what))) +
       "    <fix side=\"+z\"/>\n    <probe name=\"end\" side=\"-z\"/>\n";
-  sketch.time = time_of(scheme.name, rests ? "1" : scheme.solves ? "0.01" : "auto", duration);
+  sketch.time = time_of(scheme.name,
+                        rests                              ? "1"
+                        : scheme.solves || scheme.adaptive ? "0.01"
+                                                           : "auto",
+                        duration);
   CheckCase one;
   one.name = fmt::format("stiffness/{}/{}/{}", what.name, scheme.name, decade(exponent));
   sketch.name = fmt::format("stiffness-{}-{}-{}", what.name, scheme.name, decade(exponent));

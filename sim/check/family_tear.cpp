@@ -1,10 +1,10 @@
 // Tearing under strain: every criterion with every change that fits, on bodies that are stiff, tiny, huge, pulled fast,
 // scrambled or bent out of their plane.
-#include "sim/check/axioms.h"
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"
 #include "sim/solve/spectrum.h"
+#include "sim/topology/validate.h"
 
 #include <fmt/format.h>
 
@@ -142,9 +142,9 @@ CheckCase tear_case(const Pulled& body, const Law& law, const Strain& strain) {
     finding.at_most("stopped as unstable", course.stopped, 0);
     finding.at_least("tears", static_cast<double>(trial->tears()), 1);
     finding.at_least("finite", is_finite(*trial.scene), 1);
-    const std::string fault = broken_axiom(it.map->map());
-    finding.at_most(fault.empty() ? "broken axioms of the map" : "broken axioms of the map: " + fault,
-                    !fault.empty(), 0);
+    const auto broken = validate(it.map->map());
+    finding.at_most(broken ? "broken axioms of the map: " + broken->text() : "broken axioms of the map",
+                    broken.has_value(), 0);
     const double rounding = 1e-12 * mass;
     finding.within("mass [kg]", trial->mass(), deletes ? 0 : mass - rounding, mass + rounding);
     double fastest = 0;

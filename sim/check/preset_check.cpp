@@ -1,8 +1,8 @@
 #include "sim/check/preset_check.h"
-#include "sim/check/axioms.h"
 
 #include "sim/check/step_limit.h"
 #include "sim/check/watch.h"
+#include "sim/topology/validate.h"
 
 #include <fmt/format.h>
 
@@ -33,9 +33,9 @@ void ask_for_soundness(const Trial& trial, const Course& course, Finding& findin
   finding.at_most("stopped as unstable", course.stopped, 0);
   finding.at_least("finite", is_finite(*trial.scene), 1);
   for (const auto& body : trial->bodies()) {
-    const std::string fault = broken_axiom(body->map->map());
-    finding.at_most(fault.empty() ? "broken axioms of the map" : "broken axioms of the map: " + fault,
-                    !fault.empty(), 0);
+    const auto broken = validate(body->map->map());
+    finding.at_most(broken ? "broken axioms of the map: " + broken->text() : "broken axioms of the map",
+                    broken.has_value(), 0);
   }
 }
 
@@ -56,7 +56,7 @@ void with_scheme(const Scheme& scheme, const Bench& bench, Finding& finding) {
   Trial trial;
   try {
     Sets automatic = sets;
-    if (!scheme.solves)
+    if (!scheme.solves && !scheme.adaptive)
       automatic.emplace_back("time.step", "auto");
     else if (const Trial own = bench.open(); own->automatic_step()) // as many as pictures
       automatic.emplace_back("time.step", fmt::format("{}", std::max(own->duration() / 100, own->step_size())));
@@ -90,7 +90,7 @@ bool runs_by_itself(const Bench& bench, double step, double time) {
 
 void margin(const Bench& bench, Finding& finding) {
   const Trial trial = bench.open();
-  if (trial->scheme().solves) {
+  if (trial->scheme().solves || trial->scheme().adaptive) {
     finding.what =
         fmt::format("with '{}' every step is stable; its size is a matter of accuracy", trial->scheme().name);
     return;
