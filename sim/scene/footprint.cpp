@@ -45,8 +45,9 @@ void add_program(const Program& program, Gathering& to) {
 } // namespace
 
 const std::vector<std::string>& footprint_parts() {
-  static const std::vector<std::string> all{"map",        "slots", "embeddings",  "program", "laws",   "solver",
-                                            "integrator", "state", "constraints", "loads",   "contact"};
+  static const std::vector<std::string> all{"map",         "slots",  "embeddings", "program",
+                                            "laws",        "solver", "integrator", "state",
+                                            "constraints", "loads",  "contact",    "guard"};
   return all;
 }
 
@@ -69,6 +70,7 @@ std::vector<Holding> footprint_of(const Body& body) {
 std::vector<Holding> footprint_of(const Scene& scene) {
   Gathering to;
   if (scene.contacts()) to.add("contact", "faces, pairs and touches", "", scene.contacts()->bytes());
+  to.add("guard", "a state to go back to", "vertex", scene.guard_bytes());
   return std::move(to.all);
 }
 

@@ -19,7 +19,7 @@ struct Holding {
   std::size_t bytes = 0;
 };
 
-// map, slots, embeddings, program, laws, solver, integrator, state, constraints, loads, contact.
+// map, slots, embeddings, program, laws, solver, integrator, state, constraints, loads, contact, guard.
 const std::vector<std::string>& footprint_parts();
 
 // Without what has no bytes. Of a body, and of what the bodies of a scene have together.

@@ -46,7 +46,7 @@ TEST_F(Program, RefusesABadCommandLine) {
        {"", "rnder pulled.xml", "render", "render pulled.xml other.xml", "render pulled.xml --frame 3",
         "run pulled.xml --steps -1", "run pulled.xml --steps 1.5", "run pulled.xml --kernels fast",
         "run pulled.xml --threads 0", "run pulled.xml --fps 0", "render pulled.xml --size 12",
-        "render pulled.xml --frames 5-3", "render pulled.xml --frames 100-200", "render pulled.xml --video gif",
+        "render pulled.xml --frames 5-3", "render pulled.xml --frames 100-200", "render pulled.xml --video avi",
         "render pulled.xml --no-png", "run pulled.xml --set time", "run pulled.xml --set time.stpe=1",
         "help nothing", "help render frames"}) {
     const Outcome outcome = place.rend(line);

@@ -262,9 +262,12 @@ TEST_F(Export, of_a_state_that_several_frames_show_is_one_file) {
 }
 
 TEST_F(Export, of_a_run_that_went_wrong_ends_with_the_last_good_state) {
-  place.write("scene.xml", bar);
-  const Outcome outcome =
-      place.rend("run scene.xml --quiet --export vtu -o states --fps 1000 --set time.step=0.004");
+  std::string torn_off = bar; // faster than any part of a step resolves
+  torn_off.replace(torn_off.find("<probe"), 0, R"(<drive side="+x" velocity="1e12 0 0" from="0.05"/>)");
+  torn_off.erase(torn_off.find("<load"),
+                 torn_off.find("/>", torn_off.find("<load")) + 2 - torn_off.find("<load"));
+  place.write("scene.xml", torn_off);
+  const Outcome outcome = place.rend("run scene.xml --quiet --export vtu -o states --fps 100");
   EXPECT_EQ(outcome.code, 76);
   const auto files = place.files();
   ASSERT_GT(files.size(), 3u);
