@@ -127,8 +127,10 @@ void say_what_is_gone(const Scene& scene) {
 void say_what_was_redone(const Scene& scene) {
   const GuardFigures& guard = scene.guard();
   if (guard.rejected == 0 || guard.redone == 0) return;
-  print_note(fmt::format("{} of {} steps were redone in parts; a step of {:.3g} s would hold", guard.rejected,
-                         scene.steps_done(), guard.smallest));
+  print_note(fmt::format(
+      "{} steps were thrown away, and {} parts of steps made in place of steps that were too large; "
+      "a step of {:.3g} s would hold",
+      guard.rejected, guard.redone, guard.smallest));
 }
 
 } // namespace

@@ -118,6 +118,7 @@ Trouble Guard::after_step(long done) {
     if (redoing_ && done == goal_) go_on(done, budget_, true);
     return Trouble::None;
   }
+  if (!redoing_ && done <= hold_until_) figures_.redone += hold_parts_;
   double motion = 0;
   for (const auto& body : bodies_) motion += body->next.motion();
   lately_ = std::max(lately_, motion);

@@ -17,8 +17,9 @@
 //
 // A redo holds where energy is close to what may be there, or where half the step leaves the same growth (by a tenth).
 // Growth beyond the bound that smaller parts do not change is no matter of the step: contact that pushes out, a strain
-// that was there; it is accepted, and B follows. Who sets a state between steps is noticed, and not undone. A time scheme that solves, or is adaptive, keeps its energy and parts its steps
-// itself: only whether numbers are finite is looked at there.
+// that was there; it is accepted, and B follows. Who sets a state between steps is noticed, and not undone. A time
+// scheme that solves, or is adaptive, keeps its energy and parts its steps itself: only whether numbers are finite is
+// looked at there.
 //
 // All hangs on numbers of steps and sums in a fixed order: the same on any number of threads, whatever is shown.
 #pragma once

@@ -114,8 +114,9 @@ private:
   Place step_place_; // of time.step in the preset
   StageSeconds seconds_;
   std::unique_ptr<Guard> guard_;
-  long looked_ = -1;         // steps done when laws last looked
-  std::vector<State> there_; // scratch, one per body
+  std::optional<Unsolved> unsolved_; // why the last try of the step failed; none: it did not, or by its numbers
+  long looked_ = -1;                 // steps done when laws last looked
+  std::vector<State> there_;         // scratch, one per body
   std::optional<Fault> fault_;
 };
 

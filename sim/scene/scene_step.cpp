@@ -47,6 +47,7 @@ Trouble Scene::move() {
   for (int part = 0; part < parts; ++part)
     if (const Trouble trouble = make_part(part, parts); trouble != Trouble::None) return trouble;
   ++steps_done_;
+  unsolved_.reset();
   return guard_->after_step(steps_done_);
 }
 
@@ -99,8 +100,9 @@ Trouble Scene::advance(double time, double step) {
     try {
       body->advance(time, step);
     } catch (const Unsolved& error) {
-      if (guard_->redoing()) return Trouble::NotFinite;
-      stop(*body, error.what(), error.hint);
+      if (!guard_->redoing() && (scheme_->solves || !guard_->on())) stop(*body, error.what(), error.hint);
+      unsolved_ = error; // a scheme that solves has parted the step as far as it helps
+      return Trouble::NotFinite;
     }
   }
   return Trouble::None;
@@ -195,6 +197,7 @@ void Scene::give_up(Trouble trouble, long entry) {
     while (steps_done_ < entry && move() == Trouble::None) continue;
   }
   const std::string parts = guard_->on() ? ", in 1024 parts of the step as well" : "";
+  if (trouble == Trouble::NotFinite && unsolved_) stop(*body, unsolved_->what() + parts, unsolved_->hint);
   if (trouble == Trouble::NotFinite) what = whose_number(body) + parts;
   if (trouble == Trouble::Energy)
     what = "its energy grows beyond what gravity, loads and drives give it" + parts + what;
