@@ -53,7 +53,7 @@ CheckCase fault_case(const Scheme& scheme, StepStage stage, bool lasting) {
     finding.at_most("stopped as unstable", course.stopped, 0);
     finding.at_most("difference of the end over its way", (end(trial) - end(sound)).norm() / end(sound).norm(),
                     1e-2);
-    finding.what = fmt::format("{} steps redone", trial->guard().rejected);
+    finding.what = course.stopped ? course.why : fmt::format("{} steps redone", trial->guard().rejected);
   };
   return one;
 }
