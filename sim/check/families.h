@@ -7,6 +7,7 @@ namespace rend {
 
 CheckFamily stiffness_family();
 CheckFamily poisson_family();
+CheckFamily mass_family();
 CheckFamily step_limit_family();
 CheckFamily long_family();
 CheckFamily shape_family();
