@@ -122,7 +122,8 @@ std::vector<CheckCase> cases() {
   std::vector<CheckCase> all;
   for (const Scheme& scheme : all_schemes())
     for (const int exponent : {-2, -4, -6})
-      if (scheme.solves || scheme.adaptive || scheme.limit({1, 1, 1}) > 0)
+      if (exponent == -2 || scheme.solves ||
+          scheme.limit({1, 0, 0}) > 0) // what lives on damping takes 1e8 steps
         all.push_back(ladder_case(scheme, exponent));
   for (const int exponent : {0, 2, 4, 6}) all.push_back(ball_case(exponent));
   return all;

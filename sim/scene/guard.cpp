@@ -35,6 +35,7 @@ int Guard::parts(long step) const {
 }
 
 void Guard::before_laws(long step) {
+  if (rewind_ && !rewind_->fits()) forget();
   if (energy_ && budget_ < 0) {
     begins_ = true;
     rewind_->begin(step);

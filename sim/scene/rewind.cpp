@@ -62,6 +62,12 @@ void Rewind::keep() {
   }
 }
 
+bool Rewind::fits() const {
+  for (std::size_t b = 0; aside_ && b < bodies_.size(); ++b)
+    if (starts_[b].state.position.size() != bodies_[b]->vertices()) return false;
+  return true;
+}
+
 void Rewind::restore() {
   if (!aside_) return;
   for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->go_back(starts_[b].state, starts_[b].time);

@@ -34,6 +34,7 @@ public:
   long first() const { return first_; } // steps done at its start
   void begin(long step);                // here; forces and loads are those of the present state
   void keep();                          // after each commit: puts the start aside, if it is not yet
+  bool fits() const;                    // false: somebody has changed the topology since, other than by laws
   void restore();                       // to the start; bodies and spheres
 
   struct Account {
