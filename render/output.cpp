@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <string>
 #include <unistd.h>
 
 namespace rend {
@@ -70,6 +69,12 @@ void OutputFile::commit() {
   if (!kept)
     throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why + ".",
                     "Check that the folder is still there and has room.");
+}
+
+void write_whole(const std::filesystem::path& path, const std::string& bytes) {
+  OutputFile file(path);
+  file.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  file.commit();
 }
 
 } // namespace rend

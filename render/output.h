@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace rend {
 
@@ -33,5 +34,8 @@ private:
   std::filesystem::path path_, temporary_;
   int file_ = -1; // descriptor; -1 once it is closed
 };
+
+// The whole file at once. Throws as OutputFile does.
+void write_whole(const std::filesystem::path& path, const std::string& bytes);
 
 } // namespace rend

@@ -12,17 +12,8 @@
 #include <thread>
 
 namespace rend {
-namespace {
 
 namespace fs = std::filesystem;
-
-void write_file(const fs::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  file.commit();
-}
-
-} // namespace
 
 std::string file_name(const std::string& case_name) {
   std::string name;
@@ -36,8 +27,8 @@ std::string file_name(const std::string& case_name) {
 void write_cases(const fs::path& folder, const std::vector<CheckCase>& cases) {
   for (const CheckCase& each : cases) {
     if (each.preset.empty()) continue;
-    write_file(folder / (file_name(each.name) + ".xml"), each.preset);
-    for (const auto& [name, content] : each.files) write_file(folder / name, content);
+    write_whole(folder / (file_name(each.name) + ".xml"), each.preset);
+    for (const auto& [name, content] : each.files) write_whole(folder / name, content);
   }
 }
 

@@ -141,12 +141,6 @@ void run_all(std::vector<CheckChapter>& chapters, const fs::path& folder, const 
     for (std::size_t n = 0; n < chapter.cases.size(); ++n) chapter.results.push_back(std::move(*next++));
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  file.commit();
-}
-
 std::string summary_of(const std::vector<CheckChapter>& chapters, double seconds, const std::string& folder) {
   const CheckCounts counts = count(chapters);
   std::string out = fmt::format(
@@ -182,8 +176,8 @@ Exit check(const CheckOptions& options) {
   const double seconds = wall_clock() - start;
   const nlohmann::ordered_json json = check_json(chapters, seconds);
   if (!options.folder.empty()) {
-    write_text(fs::path(options.folder) / "check.json", json.dump(2) + "\n");
-    write_text(fs::path(options.folder) / "index.html", check_page(chapters, seconds, true));
+    write_whole(fs::path(options.folder) / "check.json", json.dump(2) + "\n");
+    write_whole(fs::path(options.folder) / "index.html", check_page(chapters, seconds, true));
   }
   print_result(options.json ? json.dump(2) + "\n" : summary_of(chapters, seconds, options.folder));
   return count(chapters).failed > 0 ? Exit::No : Exit::Done;

@@ -36,10 +36,7 @@ Exit convert(const MeshOptions& options) {
   const MeshBody body = sew(read_mesh(std::filesystem::path(options.in)));
   for (const std::string& note : body.notes) print_note(note);
   if (moka && !body.groups.empty()) print_note("groups are left out: .moka has none");
-  const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
-  OutputFile file(out);
-  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  file.commit();
+  write_whole(out, moka ? moka_text(*body.map) : msh_text(body, options.in));
   return Exit::Done;
 }
 

@@ -26,12 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_file(const fs::path& path, const std::string& text) {
-  OutputFile file(path);
-  file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  file.commit();
-}
-
 // Before anything runs: a folder that cannot be had is said at once.
 fs::path make_folder(const StudyOptions& options, const std::string& name, const std::string& file) {
   const fs::path folder =
@@ -78,8 +72,8 @@ std::vector<DrawnPlot> write_plots(const StudyReport& report, const std::string&
       print_note("gnuplot is not installed (Debian: gnuplot-nox): the study has its numbers and no plots");
       return {};
     }
-    write_file(folder / (plot.file + ".svg"), *svg);
-    write_file(folder / (plot.file + ".png"), *draw(plot.plot, PlotFormat::Png));
+    write_whole(folder / (plot.file + ".svg"), *svg);
+    write_whole(folder / (plot.file + ".png"), *draw(plot.plot, PlotFormat::Png));
     drawn.push_back({*svg, plot.caption});
   }
   return drawn;
@@ -129,9 +123,9 @@ Exit lean(const StudyOptions& options) {
   teller.clear();
   const Provenance provenance = provenance_of_build();
   const nlohmann::ordered_json json{{"rows", json_of(rows)}, {"provenance", json_of(provenance)}};
-  write_file(folder / "lean.csv", csv_of(rows));
-  write_file(folder / "lean.json", json.dump(2) + "\n");
-  write_file(folder / "index.html", page_of(rows, provenance));
+  write_whole(folder / "lean.csv", csv_of(rows));
+  write_whole(folder / "lean.json", json.dump(2) + "\n");
+  write_whole(folder / "index.html", page_of(rows, provenance));
   print_result(options.json
                    ? json.dump(2) + "\n"
                    : table_of(rows) + fmt::format("The page is {}\n", (folder / "index.html").string()));
@@ -168,10 +162,10 @@ Exit study(const StudyOptions& options) {
   json["name"] = task.name;
   json["findings"] = findings_of(report);
   json["provenance"] = json_of(provenance);
-  write_file(folder / "study.csv", csv_of(report));
-  write_file(folder / "study.json", json.dump(2) + "\n");
-  write_file(folder / "index.html",
-             page_of(report, task.name, write_plots(report, task.name, folder), provenance));
+  write_whole(folder / "study.csv", csv_of(report));
+  write_whole(folder / "study.json", json.dump(2) + "\n");
+  write_whole(folder / "index.html",
+              page_of(report, task.name, write_plots(report, task.name, folder), provenance));
   if (options.json) {
     print_result(json.dump(2) + "\n");
   } else {

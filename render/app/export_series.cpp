@@ -33,9 +33,7 @@ void ExportSeries::release() {
 
 void ExportSeries::write(const std::string& name, const std::string& bytes) {
   folder_.make();
-  OutputFile file(folder_.path() / name);
-  file.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  file.commit();
+  write_whole(folder_.path() / name, bytes);
   bytes_ += bytes.size();
 }
 

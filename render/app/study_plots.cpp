@@ -106,13 +106,17 @@ void name_orders(const StudyReport& report, std::size_t group, Plot& plot) {
 
 constexpr const char* error_label = "error of position / motion";
 
+void add_error_bar(const StudyReport& report, std::size_t group, Plot& plot) {
+  const double bar = report.references[group].bar;
+  if (bar > 0 && std::isfinite(bar)) plot.levels.push_back({bar, "error bar of the reference"});
+}
+
 NamedPlot work_precision(const StudyReport& report, std::size_t group) {
   Plot plot = plot_of(report, group, {seconds, error, true, true, true});
   plot.x_label = "run time [s]";
   plot.y_label = error_label;
   plot.series.insert(plot.series.begin(), front_of(report, group));
-  const double bar = report.references[group].bar;
-  if (bar > 0 && std::isfinite(bar)) plot.levels.push_back({bar, "error bar of the reference"});
+  add_error_bar(report, group, plot);
   return {"work-precision",
           "Error against run time: the further down and to the left, the better. Bars span the fastest and the "
           "slowest "
@@ -125,8 +129,7 @@ NamedPlot error_of_step(const StudyReport& report, std::size_t group) {
   plot.x_label = "step [s]";
   plot.y_label = error_label;
   name_orders(report, group, plot);
-  const double bar = report.references[group].bar;
-  if (bar > 0 && std::isfinite(bar)) plot.levels.push_back({bar, "error bar of the reference"});
+  add_error_bar(report, group, plot);
   return {"order",
           "Error against step; of an adaptive scheme, its mean step. The legend has the fitted order of each "
           "with the "

@@ -76,7 +76,7 @@ std::optional<OrderFit> fit_order(const std::vector<OrderPoint>& points, const O
     x.push_back(std::log(points[n].step));
     y.push_back(std::log(points[n].error));
   }
-  const Line line = least_squares(x, y);
+  const StraightLine line = least_squares(x, y);
   const double half = student_t(0.975, static_cast<int>(x.size()) - 2) * line.slope_error;
   fit.order = line.slope;
   fit.low = line.slope - half;
@@ -85,7 +85,7 @@ std::optional<OrderFit> fit_order(const std::vector<OrderPoint>& points, const O
   return fit;
 }
 
-Line least_squares(const std::vector<double>& x, const std::vector<double>& y) {
+StraightLine least_squares(const std::vector<double>& x, const std::vector<double>& y) {
   CHECK(x.size() == y.size() && x.size() >= 3);
   const auto count = static_cast<double>(x.size());
   double mean_x = 0, mean_y = 0;
@@ -99,7 +99,7 @@ Line least_squares(const std::vector<double>& x, const std::vector<double>& y) {
     xy += (x[n] - mean_x) * (y[n] - mean_y);
   }
   CHECK(xx > 0);
-  Line line;
+  StraightLine line;
   line.slope = xy / xx;
   line.at_zero = mean_y - line.slope * mean_x;
   for (std::size_t n = 0; n < x.size(); ++n) {

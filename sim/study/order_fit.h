@@ -41,11 +41,11 @@ struct OrderFit {
 // None: fewer than three points are left.
 std::optional<OrderFit> fit_order(const std::vector<OrderPoint>& points, const OrderRule& rule);
 
-struct Line {
+struct StraightLine {
   double slope = 0, at_zero = 0;
   double slope_error = 0; // standard error of the slope
 };
-Line least_squares(const std::vector<double>& x, const std::vector<double>& y); // at least 3 (CHECK)
+StraightLine least_squares(const std::vector<double>& x, const std::vector<double>& y); // at least 3 (CHECK)
 
 // t such that Student's variable with so many degrees of freedom (≥ 1) is below it with this probability (0.5 to 1).
 double student_t(double probability, int freedom);
