@@ -8,6 +8,7 @@
 #include "render/app/session.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
@@ -30,7 +31,7 @@ void check_export(const RunOptions& options) {
   }
   if (!options.folder.empty() || !options.frames.empty())
     throw UserError(Exit::Usage, {}, "-o and --frames say where and when states are exported, and none are",
-                    "add --export vtu, or make pictures with rend render");
+                    "add --export vtu (or ply, or obj), or make pictures with rend render");
 }
 
 std::unique_ptr<ExportSeries> export_of(const Session& session, const RunOptions& options) {
@@ -91,6 +92,13 @@ Exit run(const RunOptions& options) {
   return end == Exit::Done && !answers_hold(session.scene()) ? Exit::No : end;
 }
 
+std::string export_formats_in_words() {
+  std::string out;
+  for (const ExportFormat& format : all_export_formats())
+    out += fmt::format("{}{} ({})", out.empty() ? "" : "; ", format.name, format.what);
+  return out;
+}
+
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   add_run_options(app, options->session);
@@ -100,7 +108,8 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--events", options->events, "every topological change, one JSON object a line")
       ->type_name("FILE");
-  app.add_option("--export", options->format, "the state at every frame as a file for other programs: vtu")
+  app.add_option("--export", options->format,
+                 "the state at every frame as a file for other programs: " + export_formats_in_words())
       ->type_name("FORMAT");
   app.add_option("-o,--output", options->folder, "folder of these files; default: out/ and the scene's name")
       ->type_name("DIR");

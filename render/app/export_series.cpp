@@ -16,19 +16,20 @@ void ExportSeries::take(long frame) {
   const double start = wall_clock();
   const long step = session_.scene().steps_done();
   if (step != held_step_) release();
-  if (choice_.has(frame) && step != held_step_) {
-    held_ = exporter_->state();
-    held_file_ = {session_.scene().time(), fmt::format("{:05d}{}", frame, format_.extension)};
+  if (choice_.has(frame) && (step != held_step_ || format_.every_frame)) {
+    if (step != held_step_) held_ = exporter_->state();
+    held_files_.push_back({session_.scene().time(), fmt::format("{:05d}{}", frame, format_.extension)});
     held_step_ = step;
   }
   seconds_ += wall_clock() - start;
 }
 
 void ExportSeries::release() {
-  if (held_.empty()) return;
-  write(held_file_.name, held_);
-  files_.push_back(std::move(held_file_));
-  held_.clear();
+  for (ExportedFile& file : held_files_) {
+    write(file.name, held_);
+    files_.push_back(std::move(file));
+  }
+  held_files_.clear();
 }
 
 void ExportSeries::write(const std::string& name, const std::string& bytes) {
@@ -40,25 +41,27 @@ void ExportSeries::write(const std::string& name, const std::string& bytes) {
 void ExportSeries::finish() {
   const double start = wall_clock();
   release();
-  if (!files_.empty()) write(index_name(), exporter_->index(files_));
+  if (!files_.empty() && !index_name().empty()) write(index_name(), exporter_->index(files_));
   seconds_ += wall_clock() - start;
 }
 
 void ExportSeries::abandon() {
-  held_.clear();
+  held_files_.clear();
   finish();
 }
 
 nlohmann::ordered_json ExportSeries::figures() const {
-  return {{"format", format_.name}, {"folder", folder_.path().string()},
-          {"index", index_name()},  {"files", files_.size()},
-          {"bytes", bytes_},        {"seconds", seconds_}};
+  nlohmann::ordered_json out{{"format", format_.name}, {"folder", folder_.path().string()}};
+  if (!index_name().empty()) out["index"] = index_name();
+  out["files"] = files_.size();
+  out["bytes"] = bytes_;
+  out["seconds"] = seconds_;
+  return out;
 }
 
 const ExportFormat& export_format(const std::string& name) {
   if (const ExportFormat* format = find_export_format(name)) return *format;
-  std::vector<std::string> names;
-  for (const ExportFormat& format : all_export_formats()) names.push_back(format.name);
+  const std::vector<std::string> names = export_format_names();
   throw UserError(Exit::Usage, {}, fmt::format("--export {}: there is no such format", in_quotes(name)),
                   suggestion(name, names, "formats"));
 }

@@ -1,7 +1,8 @@
 // The states of a run on their way to files, one a frame, numbered as pictures are.
 //
 // A state is held back until the simulation has gone on, or has ended well, as pictures are (film.h). A state that
-// several frames show is written once, under the number of the first. The index comes last, and lists what there is.
+// several frames show is written once, under the number of the first, unless the format is one whose readers go by the
+// numbers alone. The index comes last, and lists what there is.
 #pragma once
 
 #include "render/app/output_folder.h"
@@ -27,22 +28,25 @@ public:
   void finish();         // the end was reached, or a signal came
   void abandon();        // the state went wrong: what is held is dropped
 
-  nlohmann::ordered_json figures() const; // format, folder, index, files, bytes, seconds
+  nlohmann::ordered_json figures() const; // format, folder, index (if any), files, bytes, seconds
 
 private:
   void release();
   void write(const std::string& name, const std::string& bytes);
-  std::string index_name() const { return session_.scene().name() + format_.index_extension; }
+  // Empty: the format has no index.
+  std::string index_name() const {
+    return format_.index_extension.empty() ? "" : session_.scene().name() + format_.index_extension;
+  }
 
   const Session& session_;
   const ExportFormat& format_;
   OutputFolder folder_;
   FrameChoice choice_;
   std::unique_ptr<Exporter> exporter_;
-  std::string held_;                // bytes of a file; empty: none is held
-  ExportedFile held_file_{0, {}};   // what it is going to be
-  long held_step_ = -1;             // of the state taken last
-  std::vector<ExportedFile> files_; // that were written
+  std::string held_;                     // bytes of a file; empty: none is held
+  std::vector<ExportedFile> held_files_; // what it is going to be: one, or one for each frame that shows it
+  long held_step_ = -1;                  // of the state taken last
+  std::vector<ExportedFile> files_;      // that were written
   std::size_t bytes_ = 0;
   double seconds_ = 0;
 };

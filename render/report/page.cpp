@@ -1,6 +1,7 @@
 #include "render/report/page.h"
 
 #include "render/report/page_style.h"
+#include "sim/base/base64.h"
 #include "sim/base/check.h"
 
 #include <fmt/format.h>
@@ -78,20 +79,6 @@ const char* name_of(Tone tone) {
     break;
   }
   return "plain";
-}
-
-// RFC 4648.
-std::string base64(std::string_view bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t n = 0; n < 3; ++n)
-      group = group << 8 | (at + n < bytes.size() ? static_cast<unsigned char>(bytes[at + n]) : 0u);
-    for (std::size_t n = 0; n < 4; ++n) out += at + n > bytes.size() ? '=' : digits[group >> (18 - 6 * n) & 63];
-  }
-  return out;
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 namespace rend {
 
 const std::vector<ExportFormat>& all_export_formats() {
-  static const std::vector<ExportFormat> all{vtu_format()};
+  static const std::vector<ExportFormat> all{vtu_format(), ply_format(), obj_format()};
   return all;
 }
 
@@ -13,6 +13,12 @@ const ExportFormat* find_export_format(const std::string& name) {
   const auto& all = all_export_formats();
   const auto at = std::find_if(all.begin(), all.end(), [&](const ExportFormat& f) { return f.name == name; });
   return at == all.end() ? nullptr : &*at;
+}
+
+std::vector<std::string> export_format_names() {
+  std::vector<std::string> names;
+  for (const ExportFormat& format : all_export_formats()) names.push_back(format.name);
+  return names;
 }
 
 } // namespace rend

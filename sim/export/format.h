@@ -22,19 +22,23 @@ class Exporter {
 public:
   virtual ~Exporter() = default;
   virtual std::string state() const = 0; // the bytes of a file with the present state
-  // The bytes of the file that lists the others.
-  virtual std::string index(std::span<const ExportedFile> files) const = 0;
+  // The bytes of the file that lists the others; of a format that has one.
+  virtual std::string index(std::span<const ExportedFile>) const { return {}; }
 };
 
 struct ExportFormat {
-  std::string name, what;                                // "vtu", one line
-  std::string extension, index_extension;                // ".vtu", ".pvd"
+  std::string name, what;                 // "vtu", one line
+  std::string extension, index_extension; // ".vtu", ".pvd"; empty: no index
+  bool every_frame; // its readers go by numbers: a state that several frames show is written for each of them
   std::unique_ptr<Exporter> (*make)(const Scene& scene); // of the scene's first state; the scene outlives it
 };
 
 const std::vector<ExportFormat>& all_export_formats();
 const ExportFormat* find_export_format(const std::string& name); // null: there is none
+std::vector<std::string> export_format_names();
 
 ExportFormat vtu_format();
+ExportFormat ply_format();
+ExportFormat obj_format();
 
 } // namespace rend

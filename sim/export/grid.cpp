@@ -1,13 +1,14 @@
 #include "sim/export/grid.h"
 
+#include "sim/export/element_stress.h"
+#include "sim/mechanics/element.h"
 #include "sim/mechanics/winding.h"
 #include "sim/mesh/cell_shapes.h"
-#include "sim/program/continuum.h"
+#include "sim/scene/probe.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace rend {
@@ -28,12 +29,6 @@ struct OnCells {
 
 void append(std::vector<double>& to, const Vec3& v) {
   to.insert(to.end(), {v.x(), v.y(), v.z()});
-}
-
-// √(3/2 s:s), s the deviator of σ (von Mises 1913).
-double von_mises(const Eigen::Matrix3d& stress) {
-  const Eigen::Matrix3d s = stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
-  return std::sqrt(1.5 * s.cwiseProduct(s).sum());
 }
 
 CellKind cell_kind(ElementKind kind) {
@@ -189,25 +184,14 @@ void BodyCells::close(GridCell kind) {
   grid_.face_ends.push_back(kind == GridCell::Polyhedron ? static_cast<std::int64_t>(grid_.faces.size()) : -1);
 }
 
-// The mean over the continua that an element belongs to: usually one.
 void BodyCells::add_stress(OnCells& on) const {
-  const Continuum continuum(map_, body_.interactions);
   const std::size_t before = on.element.size() - elements_.size();
-  if (continuum.empty() && on.stress.empty()) return;
+  if (on.stress.empty() && !has_stress(body_)) return;
   on.stress.resize(9 * before, 0);
   on.equivalent.resize(before, 0);
-  for (const Dart first : elements_) {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    int count = 0;
-    continuum.each_of(first, map_.position().values().data(), nullptr,
-                      [&](const Continuum::Part& part, const UnitNow& element) {
-                        sum += stress_of(part, element);
-                        ++count;
-                      });
-    if (count > 0) sum /= count;
-    if (!sum.allFinite()) sum.setZero();
-    for (int row = 0; row < 3; ++row) append(on.stress, sum.row(row));
-    on.equivalent.push_back(von_mises(sum));
+  for (const Eigen::Matrix3d& stress : stress_of_elements(body_, elements_)) {
+    for (int row = 0; row < 3; ++row) append(on.stress, stress.row(row));
+    on.equivalent.push_back(von_mises(stress));
   }
 }
 

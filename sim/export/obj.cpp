@@ -1,0 +1,82 @@
+// Wavefront's object file (.obj): one object per body, and in a body that may tear one group per fragment. Wavefront, "B1.
+// Object Files", Advanced Visualizer Manual (1992).
+//
+// Numbers are the shortest that read back as the same double. There are no normals: programs reckon their own.
+#include "sim/export/format.h"
+#include "sim/export/skin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace rend {
+namespace {
+
+// A name in one word: blanks part the names of several groups.
+std::string one_word(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
+  return name.empty() ? "_" : name;
+}
+
+class ObjFile {
+public:
+  explicit ObjFile(const Skin& skin) : skin_(skin) {}
+
+  std::string text() {
+    add("# time {} s, lengths in m, z is up\n", skin_.time);
+    SkinOfBody last;
+    for (const SkinOfBody& body : skin_.bodies) {
+      const std::string name = one_word(body.name);
+      add("o {}\n", name);
+      for (std::size_t p = last.points_end; p < body.points_end; ++p)
+        add("v {} {} {}\n", skin_.points[3 * p], skin_.points[3 * p + 1], skin_.points[3 * p + 2]);
+      for (std::size_t f = last.faces_end; f < body.faces_end; ++f) {
+        const bool first = f == last.faces_end || skin_.fragment[f] != skin_.fragment[f - 1];
+        if (body.tears && first) add("g {}_{}\n", name, skin_.fragment[f]);
+        add_face(f);
+      }
+      last = body;
+    }
+    return std::move(out_);
+  }
+
+private:
+  template <class... T> void add(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
+  }
+
+  void add_face(std::size_t face) {
+    const auto begin = face == 0 ? 0 : static_cast<std::size_t>(skin_.ends[face - 1]);
+    out_ += 'f';
+    for (std::size_t c = begin; c < static_cast<std::size_t>(skin_.ends[face]); ++c)
+      add(" {}", skin_.corners[c] + 1); // counted from 1
+    out_ += '\n';
+  }
+
+  const Skin& skin_;
+  std::string out_;
+};
+
+class ObjExporter final : public Exporter {
+public:
+  explicit ObjExporter(const Scene& scene) : maker_(scene) {}
+  std::string state() const override { return ObjFile(maker_.skin()).text(); }
+
+private:
+  SkinMaker maker_;
+};
+
+} // namespace
+
+ExportFormat obj_format() {
+  return {"obj",
+          "the surface as polygons, an object per body, a group per fragment, text; one file a frame",
+          ".obj",
+          "",
+          true,
+          [](const Scene& scene) -> std::unique_ptr<Exporter> { return std::make_unique<ObjExporter>(scene); }};
+}
+
+} // namespace rend

@@ -1,0 +1,158 @@
+#include "sim/export/skin.h"
+
+#include "sim/export/element_stress.h"
+#include "sim/mechanics/winding.h"
+#include "sim/scene/measure.h"
+#include "sim/scene/probe.h"
+#include "sim/topology/count.h"
+#include "sim/topology/walk.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+struct DrawnFace {
+  Dart first;             // the smallest
+  Dart start;             // where it is walked from, by to_next_side
+  Dart element;           // the smallest dart of its cell
+  std::uint32_t fragment; // in the body
+};
+
+// Puts one body behind what the skin has already.
+class BodySkin {
+public:
+  BodySkin(const Body& body, const Sides& sides, Skin& skin)
+      : body_(body), map_(*body.map), links_(map_.map()), sides_(sides), skin_(skin),
+        number_(static_cast<std::int32_t>(skin.bodies.size())) {}
+
+  // `fragments`: how many there are in the bodies before; grows by those of this one.
+  void add(bool stress, bool bare, std::int32_t& fragments);
+
+private:
+  void collect_faces();
+  void add_points();
+  void add_faces(std::int32_t fragments);
+  void add_stress();
+  void add_bare();
+
+  const Body& body_;
+  const EmbeddedMap& map_;
+  const GMap& links_;
+  const Sides& sides_;
+  Skin& skin_;
+  std::int32_t number_;
+  std::vector<DrawnFace> faces_;
+  std::uint32_t fragments_ = 0;
+  std::vector<std::int32_t> point_; // of each vertex slot; -1: not on the surface
+};
+
+void BodySkin::add(bool stress, bool bare, std::int32_t& fragments) {
+  collect_faces();
+  add_points();
+  add_faces(fragments);
+  if (stress) add_stress();
+  if (bare) add_bare();
+  fragments += static_cast<std::int32_t>(fragments_);
+  skin_.bodies.push_back({body_.name, body_.tears(), skin_.points.size() / 3, skin_.ends.size()});
+}
+
+void BodySkin::collect_faces() {
+  const bool sheet = map_.dimension() == 2;
+  const std::vector<std::uint32_t> labels = label_fragments(links_);
+  std::vector<bool> seen(links_.capacity(), false);               // darts of elements that were walked
+  std::vector<bool> walked(sheet ? 0 : links_.capacity(), false); // darts of faces that were walked
+  std::vector<Dart> darts;
+  const auto add = [&](Dart first, Dart element, bool along) {
+    faces_.push_back({first, along ? first : links_.alpha(1, first), element, labels[first.value]});
+    fragments_ = std::max(fragments_, labels[first.value] + 1);
+  };
+  links_.for_each_dart([&](Dart element) {
+    if (seen[element.value]) return;
+    darts.clear();
+    collect(links_, element_orbit(map_.dimension()), element, darts);
+    for (const Dart d : darts) seen[d.value] = true;
+    if (sheet) return add(element, element, sides_.of_dart[element.value] == 1);
+    std::sort(darts.begin(), darts.end()); // so that a face is met at its smallest dart
+    for (const Dart d : darts) {
+      if (!links_.is_free(3, d) || walked[d.value]) continue;
+      walk_two(links_, 0, 1, d, [&](Dart e) { walked[e.value] = true; });
+      add(d, element, winds_outward(map_, d));
+    }
+  });
+  std::sort(faces_.begin(), faces_.end(), [](const DrawnFace& a, const DrawnFace& b) {
+    return a.fragment != b.fragment ? a.fragment < b.fragment : a.first < b.first;
+  });
+}
+
+void BodySkin::add_points() {
+  point_.assign(map_.cells(Vertex).slots(), -1);
+  for (const DrawnFace& face : faces_) {
+    Dart at = face.start;
+    do {
+      point_[map_.vertex(at)] = 0;
+      at = links_.follow(at, to_next_side);
+    } while (at != face.start);
+  }
+  for (Slot v = 0; v < point_.size(); ++v) {
+    if (point_[v] < 0) continue;
+    point_[v] = static_cast<std::int32_t>(skin_.vertex.size());
+    const Vec3 x = map_.position()[v].vec(), speed = map_.velocity()[v].vec();
+    skin_.points.insert(skin_.points.end(), {x.x(), x.y(), x.z()});
+    skin_.velocity.insert(skin_.velocity.end(), {speed.x(), speed.y(), speed.z()});
+    skin_.vertex.push_back(static_cast<std::int32_t>(v));
+    skin_.body_of_point.push_back(number_);
+  }
+}
+
+void BodySkin::add_faces(std::int32_t fragments) {
+  for (const DrawnFace& face : faces_) {
+    Dart at = face.start;
+    do {
+      skin_.corners.push_back(point_[map_.vertex(at)]);
+      at = links_.follow(at, to_next_side);
+    } while (at != face.start);
+    skin_.ends.push_back(static_cast<std::int64_t>(skin_.corners.size()));
+    skin_.body_of_face.push_back(number_);
+    skin_.fragment.push_back(fragments + static_cast<std::int32_t>(face.fragment));
+    skin_.element.push_back(face.element.value);
+  }
+}
+
+void BodySkin::add_stress() {
+  std::vector<Dart> elements;
+  for (const DrawnFace& face : faces_) elements.push_back(face.element);
+  for (const Eigen::Matrix3d& stress : stress_of_elements(body_, elements))
+    skin_.equivalent.push_back(von_mises(stress));
+  const std::vector<double> largest = vertex_stress(body_);
+  for (Slot v = 0; v < point_.size(); ++v)
+    if (point_[v] >= 0) skin_.largest_stress.push_back(largest[v]);
+}
+
+void BodySkin::add_bare() {
+  const bool known = body_.border && map_.dimension() == 3;
+  for (const DrawnFace& face : faces_)
+    skin_.bare.push_back(known && (*body_.border)[map_.slot(FaceOfVolume, face.first)] == 0 ? 1 : 0);
+}
+
+} // namespace
+
+SkinMaker::SkinMaker(const Scene& scene) : scene_(&scene) {
+  for (const auto& body : scene.bodies()) {
+    const bool sheet = body->map->dimension() == 2;
+    sides_.push_back(sheet ? sides_of(body->map->map()) : Sides{});
+    stress_ = stress_ || has_stress(*body);
+    bare_ = bare_ || (!sheet && body->border);
+  }
+}
+
+Skin SkinMaker::skin() const {
+  Skin skin;
+  skin.time = scene_->time();
+  std::int32_t fragments = 0;
+  for (std::size_t n = 0; n < sides_.size(); ++n)
+    BodySkin(*scene_->bodies()[n], sides_[n], skin).add(stress_, bare_, fragments);
+  return skin;
+}
+
+} // namespace rend
