@@ -24,6 +24,9 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
     : path_(std::filesystem::is_symlink(path) ? std::filesystem::weakly_canonical(path) : path),
       temporary_(temporary.empty() ? path_.string() + ".part"
                                    : (path_.parent_path() / temporary.filename()).string()) {
+  if (path_ == "-")
+    throw UserError(Exit::Usage, {}, "'-' is no file, and what is written there appears whole or not at all",
+                    "name a file; ./- is one of that name");
   if (std::filesystem::is_directory(path_))
     throw UserError(Exit::CannotCreate, {path_.string()}, "a folder of this name is in the way.",
                     "Choose another name for the output.");

@@ -15,7 +15,7 @@ namespace rend {
 
 class OutputFile {
 public:
-  // Creates the temporary file. Throws UserError (CannotCreate).
+  // Creates the temporary file. Throws UserError (CannotCreate; Usage for "-").
   explicit OutputFile(const std::filesystem::path& path);
   // The same with another temporary name, in the same folder.
   OutputFile(const std::filesystem::path& path, const std::filesystem::path& temporary);

@@ -9,6 +9,7 @@
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <fmt/format.h>
@@ -31,6 +32,15 @@ double now() {
 }
 
 } // namespace
+
+void check_pipeline(const PipelineOptions& options) {
+  constexpr int surely = 4096; // pixels each way that every OpenGL 3.3 can draw: it is started for more alone
+  if (options.video) require_video(options.extension);
+  const int fine = options.samples == 16 ? 2 : 1;
+  if (fine * std::max(options.width, options.height) <= surely) return;
+  const std::unique_ptr<Device> device = make_device();
+  const Stage stage(options.width, options.height, options.samples);
+}
 
 struct Pipeline::Stages {
   explicit Stages(const PipelineOptions& options);

@@ -32,6 +32,11 @@ struct PipelineSeconds {
   double draw = 0, png = 0, video = 0; // png: the sum of its writers
 };
 
+// Whether a Pipeline could start on this machine, before hours of simulation lead up to its first frame: the encoder is
+// there, and OpenGL can hold a picture that is large. Throws what Pipeline would; writes nothing. As make_device() it is
+// not to be called while other threads read the environment.
+void check_pipeline(const PipelineOptions& options);
+
 class Pipeline {
 public:
   // Starts OpenGL, makes the folder and opens the video: throws UserError (CannotCreate, Usage) before any

@@ -40,7 +40,7 @@ Eigen::Vector3f colour_of(const std::array<float, 3>& colour) {
 } // namespace
 
 Stage::Stage(int width, int height, int samples)
-    : width_(width), height_(height), fine_(samples == 16 ? 2 : 1) {
+    : width_(width), height_(height), samples_(samples), fine_(samples == 16 ? 2 : 1) {
   CHECK(samples == 1 || samples == 4 || samples == 16);
   GLint largest = 0, most = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
@@ -58,12 +58,23 @@ Stage::Stage(int width, int height, int samples)
   check_gl("Stage");
 }
 
+// Of the framebuffer bound: what is larger than the machine's OpenGL can hold is known only by trying.
+void Stage::must_hold() const {
+  const bool full = glGetError() == GL_OUT_OF_MEMORY;
+  if (!full && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  throw UserError(
+      Exit::BadInput, {},
+      fmt::format("a picture of {} x {} with {} samples a pixel is more than this machine's OpenGL can hold",
+                  width_, height_, samples_),
+      "draw a smaller one, or take fewer samples: --set image.samples=1");
+}
+
 void Stage::make_target(const GlFramebuffer& target, const GlRenderbuffer& colour, int width, int height) {
   glBindRenderbuffer(GL_RENDERBUFFER, colour.name());
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour.name());
-  check_framebuffer("Stage, resolved picture");
+  must_hold();
 }
 
 void Stage::make_targets(int samples) {
@@ -79,7 +90,7 @@ void Stage::make_targets(int samples) {
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target_colour_.name());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target_depth_.name());
-  check_framebuffer("Stage, picture");
+  must_hold();
 }
 
 void Stage::make_shadow_map() {

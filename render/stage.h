@@ -43,6 +43,7 @@ private:
   };
 
   void make_targets(int samples);
+  void must_hold() const; // UserError (BadInput) where OpenGL has no room for what was asked for
   void make_shadow_map();
   void make_vertex_array();
   void upload(const Frame& frame);
@@ -57,6 +58,7 @@ private:
   void make_target(const GlFramebuffer& target, const GlRenderbuffer& colour, int width, int height);
 
   int width_, height_; // [pixels], of the picture
+  int samples_;        // a pixel, as asked for
   int fine_;           // pixels that are drawn for one of the picture, each way: 1 or 2
   bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};

@@ -9,6 +9,8 @@
 #include "render/video_filter.h"
 #include "render/video_sink.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -74,12 +76,8 @@ VideoWriter::Encoder::Encoder(const std::filesystem::path& path, const VideoForm
 }
 
 void VideoWriter::Encoder::open_codec(AVRational rate) {
+  require_encoder(kind_);
   const AVCodec* codec = avcodec_find_encoder_by_name(kind_.encoder.c_str());
-  if (codec == nullptr)
-    throw UserError(Exit::CannotCreate, {sink_.file().path().string()},
-                    "this machine's FFmpeg libraries cannot write " + kind_.name + " (they lack " +
-                        kind_.encoder + ")",
-                    "install libavcodec with it, or choose another format");
   codec_.reset(avcodec_alloc_context3(codec));
   CHECK(codec_ != nullptr);
   codec_->width = filter_.width();
@@ -154,7 +152,33 @@ void VideoWriter::Encoder::close() {
 bool video_available() {
   return true;
 }
-void require_video() {}
+
+namespace {
+
+bool can_encode(const VideoFormat& format) {
+  return avcodec_find_encoder_by_name(format.encoder.c_str()) &&
+         av_guess_format(format.muxer.c_str(), nullptr, nullptr);
+}
+
+} // namespace
+
+void require_encoder(const VideoFormat& format) {
+  if (can_encode(format)) return;
+  std::vector<std::string> others;
+  for (const VideoFormat& other : video_formats())
+    if (can_encode(other)) others.push_back(other.name);
+  throw UserError(
+      Exit::CannotCreate, {},
+      fmt::format("this machine's FFmpeg libraries cannot write {}: they lack {}", format.name, format.encoder),
+      others.empty() ? "install libavcodec with it, or make PNG files alone"
+                     : "install libavcodec with it, or take one that they can write: " + listed(others));
+}
+
+void require_video(const std::string& name) {
+  if (const VideoFormat* format = find_video_format(name)) return require_encoder(*format);
+  throw UserError(Exit::Usage, {}, fmt::format("{} is no kind of video that is known here", in_quotes(name)),
+                  suggestion(name, video_format_names(), "there are"));
+}
 
 VideoWriter::VideoWriter() = default;
 VideoWriter::~VideoWriter() = default;
@@ -164,10 +188,8 @@ VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 void VideoWriter::open(const std::filesystem::path& path, int width, int height, double fps) {
   CHECK(encoder_ == nullptr && width > 0 && height > 0 && std::isfinite(fps) && fps > 0);
   av_log_set_level(AV_LOG_QUIET);
+  require_video(path.extension().string());
   const VideoFormat* format = find_video_format(path.extension().string());
-  if (format == nullptr)
-    throw UserError(Exit::Usage, {path.string()}, "this kind of video is not known",
-                    "there are: " + listed(video_format_names()));
   encoder_ = std::make_unique<Encoder>(path, *format, width, height, fps);
 }
 
@@ -197,9 +219,13 @@ struct VideoWriter::Encoder {};
 bool video_available() {
   return false;
 }
-void require_video() {
+void require_video(const std::string&) {
   throw UserError(Exit::Usage, {}, "this rend was built without video",
                   "leave --video out, or build with -DREND_VIDEO=ON");
+}
+
+void require_encoder(const VideoFormat&) {
+  require_video({});
 }
 
 VideoWriter::VideoWriter() = default;
@@ -208,7 +234,7 @@ VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 
 void VideoWriter::open(const std::filesystem::path&, int, int, double) {
-  require_video();
+  require_video({});
 }
 
 void VideoWriter::add(const Image&) {

@@ -12,13 +12,18 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace rend {
 
-// False where rend was built without REND_VIDEO; VideoWriter::open then throws UserError (Usage), and require_video()
-// does nothing else.
+// False where rend was built without REND_VIDEO; VideoWriter::open then throws UserError (Usage).
 bool video_available();
-void require_video();
+
+// Whether a kind of video, by its name or its file's extension, can be written. Throws UserError: Usage where there is no
+// such kind or rend was built without video, CannotCreate where this machine's FFmpeg libraries lack what it takes.
+void require_video(const std::string& name);
+struct VideoFormat;
+void require_encoder(const VideoFormat& format); // the last part of that
 
 class VideoWriter {
 public:

@@ -45,7 +45,7 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   out.fps = session.image().fps;
   out.png = !options.no_png;
   out.video = !options.video.empty();
-  if (out.video) out.extension = "." + options.video;
+  if (out.video) out.extension = "." + find_video_format(options.video)->name;
   return out;
 }
 
@@ -83,7 +83,7 @@ void check_output(const RenderOptions& options) {
   if (options.no_png && options.video.empty())
     throw UserError(Exit::Usage, {}, "--no-png without --video leaves nothing to write", "add --video mp4");
   if (!options.no_png) require_png();
-  if (!options.video.empty()) require_video();
+  if (!options.video.empty()) require_video(options.video);
 }
 
 Exit render(const RenderOptions& options) {
@@ -125,8 +125,7 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option("--size", options->size, "of the pictures in pixels, instead of the preset's")
       ->type_name("WxH");
   app.add_option("--video", options->video, "also a video, called as the scene is: " + video_formats_in_words())
-      ->type_name("FORMAT")
-      ->check(CLI::IsMember(video_format_names()));
+      ->type_name("FORMAT");
   app.add_flag("--no-png", options->no_png, "the video alone");
   app.add_flag("--json", options->json, "the figures as one JSON object, instead of the closing words");
   return [options] { return render(*options); };

@@ -1,5 +1,7 @@
 #include "render/app/film.h"
 
+#include "render/app/console.h"
+
 #include <utility>
 
 namespace rend {
@@ -7,7 +9,11 @@ namespace rend {
 Film::Film(Session& session, const PipelineOptions& options, const FrameChoice& choice)
     : session_(session), options_(options), folder_(options.folder), choice_(choice),
       maker_(session.preset(), session.scene(), static_cast<double>(options.width) / options.height,
-             session.clock().duration(), session.clock().frames()) {}
+             session.clock().duration(), session.clock().frames()) {
+  check_pipeline(options);
+  if (session.quiet()) return;
+  for (const std::string& note : session.picture_notes()) print_note(note);
+}
 
 Film::~Film() {
   pipeline_.reset(); // before the folder, which goes if nothing was written to it

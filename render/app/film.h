@@ -20,7 +20,8 @@ namespace rend {
 
 class Film {
 public:
-  // Throws UserError (CannotCreate) where the folder could not be made.
+  // Throws UserError where the folder could not be made, or the machine could not draw or encode. Tells what pictures
+  // will not show.
   Film(Session& session, const PipelineOptions& options, const FrameChoice& choice);
   ~Film();
   Film(const Film&) = delete;

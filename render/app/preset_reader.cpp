@@ -1,5 +1,7 @@
 #include "render/app/preset_reader.h"
 
+#include "render/app/mesh_name.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -104,6 +106,11 @@ std::string read_preset_file(const fs::path& path) {
   }
   if (std::ferror(file.get()))
     throw UserError(Exit::ReadWrite, place, fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (is_mesh_name(path) && !text.starts_with('<'))
+    throw UserError(
+        Exit::BadInput, place, "this is a mesh, and a preset is a scene in XML",
+        fmt::format("rend mesh info {0} tells about it; <mesh file={0}/> makes it a body of a preset",
+                    in_quotes(path.string())));
   return text;
 }
 

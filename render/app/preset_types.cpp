@@ -92,12 +92,32 @@ void check_look(const Node& look) {
     look.fail("finish", "there is no finish " + in_quotes(finish), suggestion(finish, names, "there are"));
 }
 
+// Colours show what elements or springs know.
+void check_colours(const Node& body, const Node& look) {
+  const std::string& by = look.text("by");
+  const bool springs = body.child("springs"), elements = body.child("elasticity");
+  const std::string name = in_quotes(body.text("name"));
+  if (by == "stress" && !elements)
+    look.fail("by",
+              "the body " + name + " has no stress to be shown: " +
+                  (springs ? "it is made of springs, and has no elements that know theirs"
+                           : "nothing of it is elastic"),
+              springs ? "springs have by=\"strain\" and by=\"force\"; elements come with <elasticity>"
+                      : "give it <elasticity>");
+  if ((by == "strain" || by == "force") && !springs && !elements)
+    look.fail("by", "the body " + name + " has no " + by + " to be shown: nothing of it is elastic",
+              "give it <springs> or <elasticity>, or show by=\"fragment\" or \"plain\"");
+}
+
 // What only pictures need is looked at as well, so that a preset is good or bad for all commands alike.
 std::unique_ptr<Node> checked(std::unique_ptr<Node> scene) {
   check_name(*scene);
   image_settings(*scene); // its colour
   for (const Node* body : scene->all("body"))
-    if (const Node* look = body->child("look")) check_look(*look);
+    if (const Node* look = body->child("look")) {
+      check_look(*look);
+      check_colours(*body, *look);
+    }
   if (const Node* world = scene->child("world"))
     for (const char* name : {"sphere", "box"})
       for (const Node* obstacle : world->all(name)) colour_of(*obstacle, "colour");

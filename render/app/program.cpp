@@ -1,5 +1,6 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/mesh_name.h"
 #include "render/app/signals.h"
 #include "sim/base/check.h"
 #include "sim/base/wording.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -45,6 +47,13 @@ void check_command(int count, const char* const* arguments) {
   if (first.empty())
     throw UserError(Exit::Usage, {}, "no command is given",
                     "there are: " + listed(names) + "; rend --help says more");
+  const std::string extension = std::filesystem::path(first).extension().string();
+  if (first.front() != '-' && (extension == ".xml" || is_mesh_name(first)))
+    throw UserError(
+        Exit::Usage, {}, "no command is given, only " + in_quotes(first),
+        extension == ".xml"
+            ? fmt::format("rend render {0} makes pictures of it, rend run {0} its figures", in_quotes(first))
+            : fmt::format("rend mesh info {} tells about it", in_quotes(first)));
   if (first.front() != '-' && std::find(names.begin(), names.end(), first) == names.end())
     throw UserError(Exit::Usage, {}, "there is no command " + in_quotes(first),
                     suggestion(first, names, "there are"));

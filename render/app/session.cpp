@@ -2,6 +2,7 @@
 
 #include "render/app/console.h"
 #include "render/app/paths.h"
+#include "render/app/picture_check.h"
 #include "render/app/signals.h"
 #include "sim/program/threads.h"
 
@@ -62,6 +63,8 @@ Session::Session(const SessionOptions& options) : options_(options) {
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
   clock_ = std::make_unique<FrameClock>(duration, step, image_.fps);
+  picture_notes_ =
+      check_pictures(*preset_, *scene_, static_cast<double>(image_.width) / image_.height, *clock_);
   if (options.quiet) return;
   for (const std::string& note : scene_->notes()) print_note(note);
   for (const auto& body : scene_->bodies())

@@ -2,7 +2,7 @@
 //
 // Nearness is Damerau's edit distance in its restricted form (insert, delete, replace, swap two neighbours),
 // with capitals counting as small letters. A third of the shorter name may differ, or one letter of two; a name
-// that the other one begins with is near as well ("thick" and "thickness").
+// that the other begins or ends with is near as well ("thick" and "thickness", "stress" and "vertex-stress").
 #pragma once
 
 #include <span>

@@ -162,6 +162,19 @@ TEST_F(VideoTest, AWriterThatIsNotClosedLeavesNoFile) {
   EXPECT_EQ(folder.files(), 0);
 }
 
+TEST_F(VideoTest, AnEncoderThatIsNotThereIsSaidWithThoseThatAre) {
+  VideoFormat lacking = video_formats().front();
+  lacking.encoder = "libnothing";
+  try {
+    require_encoder(lacking);
+    FAIL() << "it was not refused";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code, Exit::CannotCreate);
+    EXPECT_NE(std::string(error.what()).find("cannot write mp4: they lack libnothing"), std::string::npos);
+    EXPECT_NE(error.hint.find("mkv"), std::string::npos);
+  }
+}
+
 TEST_F(VideoTest, AFileThatCannotBeMadeOrIsNotKnownIsTheUsersError) {
   const Folder folder;
   VideoWriter video;

@@ -58,6 +58,54 @@ TEST_F(Program, RefusesABadCommandLine) {
   expect_nothing_left();
 }
 
+TEST_F(Program, TellsWhatWasMeantByAFileInAWrongPlace) {
+  place.write("box.obj", "v 0 0 0\n");
+  EXPECT_THAT(place.rend("pulled.xml").err, HasSubstr("rend render 'pulled.xml' makes pictures of it"));
+  EXPECT_THAT(place.rend("box.obj").err, HasSubstr("rend mesh info 'box.obj'"));
+  EXPECT_THAT(place.rend("run pulled.xml --set body.tear.criterion=stress").err,
+              HasSubstr("did you mean 'vertex-stress'?"));
+  const Outcome mesh = place.rend("run box.obj");
+  EXPECT_EQ(mesh.code, 65);
+  EXPECT_THAT(mesh.err, AllOf(HasSubstr("this is a mesh"), HasSubstr("<mesh file='box.obj'/>")));
+  for (const char* option : {"--events", "--diagnostics"}) {
+    const Outcome outcome = place.rend(std::string("run pulled.xml --steps 1 ") + option + " -");
+    EXPECT_EQ(outcome.code, 64);
+    EXPECT_THAT(outcome.err, HasSubstr("'-' is no file"));
+  }
+  EXPECT_EQ(place.files(), (std::vector<std::string>{"box.obj", "pulled.xml"}));
+}
+
+TEST_F(Program, RefusesAPictureThatThisMachineCannotDrawBeforeTheFirstStep) {
+  NEEDS_PNG;
+  const Outcome outcome = place.rend("render pulled.xml -o frames --size 8192x8192 --set image.samples=16");
+  EXPECT_EQ(outcome.code, 65);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("a picture of 8192 x 8192"), HasSubstr("fewer samples")));
+  expect_nothing_left();
+}
+
+TEST_F(Program, RefusesAKindOfVideoThatIsNotThere) {
+  NEEDS_VIDEO;
+  for (const char* kind : {"mpeg4", "clip.mp4", "mp"}) {
+    const Outcome outcome = place.rend(std::string("render pulled.xml -o frames --video ") + kind);
+    EXPECT_EQ(outcome.code, 64) << kind;
+    EXPECT_THAT(outcome.err, HasSubstr("mp4, webm, mkv, gif, apng")) << kind;
+  }
+  EXPECT_THAT(place.rend("render pulled.xml --video clip.mp4").err, HasSubstr("did you mean 'mp4'?"));
+  expect_nothing_left();
+}
+
+TEST_F(Program, NotesThatPicturesWillShowNothing) {
+  NEEDS_PNG;
+  const std::string line = "render pulled.xml --steps 0 -o frames ";
+  const std::string away = "--set camera.eye='0 0 3' --set camera.target='0 0 6'";
+  EXPECT_THAT(place.rend(line + away).err, AllOf(HasSubstr("the camera sees nothing of any body"),
+                                                 HasSubstr("body 'cloth' is between (0, ")));
+  const std::string near =
+      "--set camera.eye='0.45 0.01 0.45' --set camera.target='0.45 0 0.45'"; // within a cell
+  EXPECT_THAT(place.rend(line + near).err, testing::Not(HasSubstr("sees nothing")));
+  EXPECT_EQ(place.rend(line + away + " --quiet").err, "");
+}
+
 TEST_F(Program, RefusesWhatItWasBuiltWithout) {
   if (png_available() && video_available()) GTEST_SKIP() << "built with all";
   if (!png_available()) {

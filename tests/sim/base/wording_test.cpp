@@ -17,6 +17,15 @@ TEST(Wording, FindsTheNearestName) {
   EXPECT_EQ(nearest("ey", words), "eye");
 }
 
+TEST(Wording, KnowsANameByItsLastPart) {
+  const std::vector<std::string> names = {"strain", "vertex-stress", "mp4", "ab"};
+  EXPECT_EQ(nearest("stress", names), "vertex-stress");
+  EXPECT_EQ(nearest("clip.mp4", names), "mp4");
+  EXPECT_EQ(nearest(".mp4", names), "mp4");
+  EXPECT_EQ(nearest("x.ab", names), "");
+  EXPECT_EQ(nearest("distress", names), "");
+}
+
 TEST(Wording, FindsNothingWhereNothingIsNear) {
   EXPECT_EQ(nearest("viscosity", words), "");
   EXPECT_EQ(nearest("g", words), ""); // every name of one letter is one letter away

@@ -1,0 +1,21 @@
+// Whether pictures of a scene would show anything: asked before the first step, of the bodies as they are at the start.
+//
+// An eye inside of a solid sees nothing but the backs of its faces, which are not drawn: an error, where the clip begins
+// there. A body that is not in sight at the start may come into it, and a moving camera may meet the place of a body that
+// is there no more: these are told, and the clip is made.
+#pragma once
+
+#include "render/app/clock.h"
+#include "render/app/viewpoint.h"
+
+#include <string>
+#include <vector>
+
+namespace rend {
+
+// UserError with the camera's place where its eye is inside of a solid in the first picture. Notes on the rest.
+// aspect: width / height.
+std::vector<std::string> check_pictures(const Node& preset, const Scene& scene, double aspect,
+                                        const FrameClock& clock);
+
+} // namespace rend
