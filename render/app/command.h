@@ -28,6 +28,7 @@ Command mesh_command();
 Command sheet_command();
 Command check_command();
 Command study_command();
+Command diff_command();
 Command help_command();
 
 // Parses the command line, runs a command, prints what went wrong. The program's exit code.

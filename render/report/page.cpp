@@ -163,11 +163,15 @@ Html tiles(const std::vector<Tile>& all) {
 
 Html figure(PictureFormat format, std::string_view bytes, std::string_view alternative, const Html& caption) {
   // As an image, not as elements: the names within one plot must not meet those of another.
-  std::string out =
-      fmt::format("<figure><img alt=\"{}\" src=\"data:image/{};base64,{}\"/>", escaped_text(alternative),
-                  format == PictureFormat::Svg ? "svg+xml" : "png", base64(bytes));
+  std::string out = fmt::format("<figure><img alt=\"{}\" src=\"{}\"/>", escaped_text(alternative),
+                                data_address(format, bytes));
   if (!caption.text.empty()) out += "<figcaption>" + caption.text + "</figcaption>";
   return {out + "</figure>\n"};
+}
+
+std::string data_address(PictureFormat format, std::string_view bytes) {
+  return fmt::format("data:image/{};base64,{}", format == PictureFormat::Svg ? "svg+xml" : "png",
+                     base64(bytes));
 }
 
 std::string in_digits(double value, int digits) {
@@ -176,7 +180,7 @@ std::string in_digits(double value, int digits) {
   return fmt::format("{:.{}g}", value, digits);
 }
 
-std::string page(std::string_view title, const Html& body) {
+std::string page(std::string_view title, const Html& body, std::string_view style, std::string_view script) {
   const std::string name = escaped_text(title);
   return fmt::format(R"(<!DOCTYPE html>
 <html lang="en">
@@ -185,17 +189,17 @@ std::string page(std::string_view title, const Html& body) {
 <meta name="viewport" content="width=device-width, initial-scale=1"/>
 <meta name="color-scheme" content="light dark"/>
 <title>{}</title>
-<style>{}</style>
+<style>{}{}</style>
 </head>
 <body>
 <main>
 <h1>{}</h1>
 {}</main>
-<script>{}</script>
+<script>{}{}</script>
 </body>
 </html>
 )",
-                     name, page_style, name, body.text, page_script);
+                     name, page_style, style, name, body.text, page_script, script);
 }
 
 } // namespace rend::html

@@ -76,11 +76,14 @@ Html tiles(const std::vector<Tile>& all);
 enum class PictureFormat { Svg, Png };
 Html figure(PictureFormat format, std::string_view bytes, std::string_view alternative,
             const Html& caption = {});
+// The same bytes as the address of a picture: "data:image/png;base64,...".
+std::string data_address(PictureFormat format, std::string_view bytes);
 
 // A value with as many digits as one reads: 0.0123, 1.23e-05, 42.
 std::string in_digits(double value, int digits = 3);
 
-// The whole page.
-std::string page(std::string_view title, const Html& body);
+// The whole page. `style` and `script` stand after its own: of blocks that bring some.
+std::string page(std::string_view title, const Html& body, std::string_view style = {},
+                 std::string_view script = {});
 
 } // namespace rend::html

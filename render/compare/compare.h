@@ -1,0 +1,48 @@
+// One case compared: read, measured, judged.
+#pragma once
+
+#include "render/compare/cases.h"
+#include "render/compare/limits.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+enum class State {
+  Match,      // every figure within its limit
+  Differ,     // one is not
+  Size,       // width or height differ: nothing is measured
+  Missing,    // expected, and not there
+  New,        // there, and not expected
+  Unreadable, // one of the two is no picture that can be read
+};
+const char* name_of(State state); // "match", "differ", ...
+const std::vector<State>& all_states();
+
+struct Compared {
+  CasePaths paths;
+  State state = State::Match;
+  std::vector<std::string> why;   // sentences or figures: what is not as it should be
+  std::vector<std::string> notes; // what was converted
+  int width = 0, height = 0;      // [pixels] of the expected picture, or of the one there is
+  std::optional<Metrics> metrics; // of Match and Differ; without the maps
+  Tolerance tolerance;
+  std::vector<std::uint8_t> heat; // a PNG of FLIP's map, of Differ where it was asked for
+};
+
+struct CompareOptions {
+  Tolerance tolerance;
+  std::filesystem::path mask; // a PNG; empty: all pixels count
+  bool heat = false;          // make that map
+  int threads = 1;
+};
+
+// Pictures that cannot be read are a state. Throws UserError (BadInput, NoInput) for a mask that cannot be used.
+Compared compare_case(const CasePaths& paths, const CompareOptions& options);
+
+// A file's bytes. Throws UserError: NoInput where it cannot be opened, ReadWrite.
+std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path);
+
+} // namespace rend

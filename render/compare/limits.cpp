@@ -1,0 +1,58 @@
+#include "render/compare/limits.h"
+
+#include "sim/base/check.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace rend {
+
+const std::vector<Limit>& all_limits() {
+  using M = Metrics;
+  static const std::vector<Limit> limits{
+      {"max", "levels", "largest difference of any channel", false, 0, 255,
+       [](const M& m) { return m.difference.max; }},
+      {"mean", "levels", "mean difference", false, 0, 255, [](const M& m) { return m.difference.mean; }},
+      {"rmse", "levels", "root of the mean squared difference", false, 0, 255,
+       [](const M& m) { return m.difference.rmse; }},
+      {"psnr", "dB", "peak signal-to-noise ratio", true, 0, 1e3, [](const M& m) { return m.difference.psnr; }},
+      {"ssim", "", "structural similarity", true, -1, 1, [](const M& m) { return m.ssim; }},
+      {"flip", "", "mean of FLIP", false, 0, 1, [](const M& m) { return m.flip.mean; }},
+      {"flip-median", "", "weighted median of FLIP", false, 0, 1, [](const M& m) { return m.flip.median; }},
+      {"flip-max", "", "largest FLIP", false, 0, 1, [](const M& m) { return m.flip.max; }},
+      {"share", "", "share of the pixels over the threshold", false, 0, 1,
+       [](const M& m) { return m.over.share; }},
+      {"window", "", "the same within the densest window", false, 0, 1,
+       [](const M& m) { return m.over.dense; }},
+  };
+  return limits;
+}
+
+const Limit* find_limit(const std::string& name) {
+  const auto& all = all_limits();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Limit& limit) { return limit.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string Excess::text() const {
+  const std::string unit = limit->unit.empty() ? "" : " " + limit->unit;
+  return fmt::format("{} {:.4g}, at {} {:.4g}{}", limit->name, got, limit->least ? "least" : "most", asked,
+                     unit);
+}
+
+std::vector<Excess> excesses(const Tolerance& tolerance, const Metrics& metrics) {
+  static const std::map<std::string, double> equal{{"max", 0}};
+  const auto& asked = tolerance.limits.empty() ? equal : tolerance.limits;
+  for (const auto& [name, value] : asked) CHECK_NOTE(find_limit(name), name);
+  std::vector<Excess> out;
+  for (const Limit& limit : all_limits()) {
+    const auto found = asked.find(limit.name);
+    if (found == asked.end()) continue;
+    const double got = limit.figure(metrics);
+    if (limit.least ? got < found->second : got > found->second) out.push_back({&limit, found->second, got});
+  }
+  return out;
+}
+
+} // namespace rend

@@ -1,0 +1,53 @@
+#include "render/compare/metrics.h"
+
+#include "render/compare/flip.h"
+#include "render/compare/percentile.h"
+#include "render/compare/ssim.h"
+#include "sim/base/check.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+FlipFigures flip_figures(const Plane& map, const Mask& mask) {
+  std::vector<float> counted;
+  counted.reserve(map.size());
+  for (std::size_t n = 0; n < map.size(); ++n)
+    if (mask[n]) counted.push_back(map[n]);
+  if (counted.empty()) return {};
+  FlipFigures out;
+  double sum = 0;
+  for (const float value : counted) sum += value;
+  out.mean = sum / static_cast<double>(counted.size());
+  out.max = *std::max_element(counted.begin(), counted.end());
+  constexpr double percents[] = {25, 50, 75};
+  const std::vector<float> found = weighted_percentiles(counted, percents);
+  out.quartile = found[0];
+  out.median = found[1];
+  out.upper = found[2];
+  return out;
+}
+
+} // namespace
+
+Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& options) {
+  CHECK(a.width == b.width && a.height == b.height);
+  if (a.alpha || b.alpha) {
+    make_alpha(a);
+    make_alpha(b);
+  }
+  leave_out(mask, a, b);
+  Metrics out;
+  out.difference = difference_of(a, b, mask, options.threads);
+  out.over = over_threshold(out.difference, a.width, a.height, options.threshold, options.window_side);
+  if (out.difference.differing == 0) return out; // SSIM is 1, FLIP 0
+  a = over_white(std::move(a));
+  b = over_white(std::move(b));
+  out.ssim = ssim_of(a, b, mask, options.threads);
+  out.flip_map = flip_map(a, b, options.threads);
+  out.flip = flip_figures(out.flip_map, mask);
+  return out;
+}
+
+} // namespace rend

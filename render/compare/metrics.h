@@ -1,0 +1,31 @@
+// All that is measured between two pictures, each in a file of its own beside this one.
+#pragma once
+
+#include "render/compare/difference.h"
+#include "render/compare/window.h"
+
+namespace rend {
+
+struct FlipFigures {
+  double mean = 0, max = 0;                   // over the pixels that count
+  double quartile = 0, median = 0, upper = 0; // weighted percentiles 25, 50, 75
+};
+
+struct Metrics {
+  Difference difference;
+  OverThreshold over;
+  double ssim = 1;
+  FlipFigures flip;
+  Plane flip_map; // height x width; empty where the pictures are equal
+};
+
+struct MeasureOptions {
+  double threshold = 0; // [levels] above it a pixel counts as over
+  int window_side = 16; // [pixels]
+  int threads = 1;
+};
+
+// Two pictures of one size (CHECK). What the mask leaves out is in no figure. The same on any number of threads.
+Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& options);
+
+} // namespace rend

@@ -1,0 +1,259 @@
+// Defects that pictures have had, in this program or in others: each is put into a picture of a preset, a frame of it or
+// its scene, and the tolerances of the goldens must not let it pass. And the same picture again must always pass.
+#include "render/app/diff_tolerances.h"
+#include "render/app/picture.h"
+#include "render/app/session.h"
+#include "render/device.h"
+#include "render/stage.h"
+#include "tests/render/app/program_run.h"
+#include "tests/render/needs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = REND_ROOT;
+constexpr int width = 160, height = 90;
+
+// Frames 0 to `last` of a preset.
+std::vector<Frame> frames_of(const std::string& preset, long last, const std::vector<std::string>& sets = {}) {
+  SessionOptions options;
+  options.preset = (root / "presets" / preset).string();
+  options.sets = sets;
+  options.quiet = true;
+  Session session(options);
+  PictureMaker maker(session.preset(), session.scene(), static_cast<double>(width) / height,
+                     session.clock().duration(), session.clock().frames());
+  std::vector<Frame> frames;
+  Session::Calls calls;
+  calls.frame = [&](long frame) {
+    maker.observe();
+    frames.push_back(maker.draw(frame, session.clock().time_of(frame)));
+  };
+  session.run(last, calls);
+  return frames;
+}
+
+constexpr const char* cloth = "tear/cloth-global-border.xml";
+constexpr const char* bar = "fracture/pulled-bar.xml";
+constexpr long cloth_frame = 15, bar_frame = 2; // the cloth has torn in frame 15
+
+class Defects : public testing::Test {
+protected:
+  static void SetUpTestSuite() {
+    device_ = make_device();
+    frames_ = frames_of(cloth, cloth_frame);
+    solid_ = frames_of(bar, bar_frame);
+  }
+  static void TearDownTestSuite() {
+    frames_.clear();
+    solid_.clear();
+    device_.reset();
+  }
+
+  static Image drawn(const Frame& frame, int samples = 4) {
+    Stage stage(width, height, samples);
+    stage.draw(frame);
+    return stage.read();
+  }
+  static Picture picture(const Image& image) {
+    DeepImage deep;
+    deep.width = image.width;
+    deep.height = image.height;
+    deep.channels = image.channels;
+    deep.samples.assign(image.pixels.begin(), image.pixels.end());
+    return picture_of(deep);
+  }
+  static bool passes(const Image& expected, const Image& now) {
+    static const Tolerances tolerances(root / "tests/goldens/tolerances.xml");
+    const Tolerance tolerance = tolerances.of("tear/cloth-global-border-15.png").tolerance;
+    return excesses(tolerance, measure(picture(expected), picture(now), {}, {})).empty();
+  }
+
+  static const Frame& torn() { return frames_.back(); }
+  static const Frame& solid() { return solid_.back(); }
+
+  // Of the picture, of the torn cloth's frame, of the bar's frame, of the cloth's preset.
+  void expect_caught(const char* what, const std::function<void(Image&)>& defect) {
+    const Image good = drawn(torn());
+    Image bad = good;
+    defect(bad);
+    EXPECT_FALSE(passes(good, bad)) << what;
+    ++count_;
+  }
+  void expect_caught_in_frame(const char* what, const Frame& frame, const std::function<void(Frame&)>& defect) {
+    Frame bad = frame;
+    defect(bad);
+    EXPECT_FALSE(passes(drawn(frame), drawn(bad))) << what;
+    ++count_;
+  }
+  void expect_caught_in_scene(const char* what, const std::vector<std::string>& sets) {
+    EXPECT_FALSE(passes(drawn(torn()), drawn(frames_of(cloth, cloth_frame, sets).back()))) << what;
+    ++count_;
+  }
+
+  static std::unique_ptr<Device> device_;
+  static std::vector<Frame> frames_, solid_;
+  int count_ = 0;
+};
+std::unique_ptr<Device> Defects::device_;
+std::vector<Frame> Defects::frames_, Defects::solid_;
+
+void each_level(Image& image, const std::function<double(double)>& curve) {
+  for (std::uint8_t& level : image.pixels)
+    level = static_cast<std::uint8_t>(std::clamp(std::lround(curve(level)), 0L, 255L));
+}
+
+// The middle of the picture shows the cloth.
+std::uint8_t* middle(Image& image) {
+  return image.row(image.height / 2) + static_cast<std::size_t>(3) * (image.width / 2);
+}
+
+void shift(Image& image, std::ptrdiff_t bytes) {
+  std::rotate(image.pixels.begin(), image.pixels.end() - bytes, image.pixels.end());
+}
+
+TEST_F(Defects, of_pictures_are_caught) {
+  expect_caught("all shifted by a pixel to the right", [](Image& i) { shift(i, 3); });
+  expect_caught("all shifted by a row", [](Image& i) { shift(i, static_cast<std::ptrdiff_t>(i.stride())); });
+  expect_caught("one pixel shifted", [](Image& i) {
+    // At the first edge there is.
+    for (std::size_t n = 0; n + 3 < i.pixels.size(); n += 3)
+      if (std::abs(i.pixels[n] - i.pixels[n + 3]) > 20)
+        return std::swap_ranges(&i.pixels[n], &i.pixels[n + 3], &i.pixels[n + 3]);
+  });
+  expect_caught("one pixel two levels off",
+                [](Image& i) { middle(i)[1] = static_cast<std::uint8_t>(middle(i)[1] ^ 2); });
+  expect_caught("gamma of 1.02",
+                [](Image& i) { each_level(i, [](double v) { return 255 * std::pow(v / 255, 1 / 1.02); }); });
+  expect_caught("linear written as sRGB",
+                [](Image& i) { each_level(i, [](double v) { return 255 * std::pow(v / 255, 2.2); }); });
+  expect_caught("all one level brighter", [](Image& i) { each_level(i, [](double v) { return v + 1; }); });
+  expect_caught("less contrast by one percent",
+                [](Image& i) { each_level(i, [](double v) { return 127.5 + 0.99 * (v - 127.5); }); });
+  expect_caught("red and blue exchanged", [](Image& i) {
+    for (std::size_t n = 0; n < i.pixels.size(); n += 3) std::swap(i.pixels[n], i.pixels[n + 2]);
+  });
+  expect_caught("upside down", [](Image& i) {
+    for (int y = 0; y < i.height / 2; ++y)
+      std::swap_ranges(i.row(y), i.row(y) + i.stride(), i.row(i.height - 1 - y));
+  });
+  expect_caught("a row twice", [](Image& i) { std::copy_n(i.row(44), i.stride(), i.row(45)); });
+  expect_caught("the last rows not read", [](Image& i) {
+    std::fill(i.pixels.end() - static_cast<std::ptrdiff_t>(2 * i.stride()), i.pixels.end(), 0);
+  });
+  expect_caught("6 bits a channel",
+                [](Image& i) { each_level(i, [](double v) { return 4 * std::floor(v / 4) + 2; }); });
+  EXPECT_EQ(count_, 13);
+}
+
+// Every n-th corner of the body.
+void each_corner(Frame& frame, const std::function<void(Corner&)>& action) {
+  for (Corner& corner : frame.bodies.at(0).corners) action(corner);
+}
+
+TEST_F(Defects, of_frames_are_caught) {
+  const auto caught = [&](const char* what, const auto& defect) {
+    expect_caught_in_frame(what, torn(), defect);
+  };
+  caught("a lost triangle", [](Frame& f) {
+    f.bodies[0].corners.erase(f.bodies[0].corners.begin() + 90, f.bodies[0].corners.begin() + 93);
+  });
+  caught("a lost body", [](Frame& f) { f.bodies.clear(); });
+  caught("the surface from before the tear", [](Frame& f) {
+    // Corners of the old surface follow their places, but the torn edges hang together: as a surface that was not rebuilt.
+    const auto first = std::find_if(frames_.rbegin(), frames_.rend(), [](const Frame& old) {
+      const auto& corners = old.bodies[0].corners;
+      return std::none_of(corners.begin(), corners.end(), [](const Corner& c) {
+        return std::find(c.line.begin(), c.line.end(), static_cast<std::uint8_t>(Line::Torn)) != c.line.end();
+      });
+    });
+    ASSERT_NE(first, frames_.rend());
+    f.bodies = first->bodies;
+  });
+  caught("the bodies of the frame before", [](Frame& f) { f.bodies = frames_[frames_.size() - 2].bodies; });
+  caught("torn edges without their lines", [](Frame& f) {
+    each_corner(f, [](Corner& c) {
+      std::replace(c.line.begin(), c.line.begin() + 3, static_cast<std::uint8_t>(Line::Torn),
+                   static_cast<std::uint8_t>(Line::None));
+    });
+  });
+  caught("diagonals of quads as edges", [](Frame& f) {
+    each_corner(f, [](Corner& c) {
+      std::replace(c.line.begin(), c.line.begin() + 3, static_cast<std::uint8_t>(Line::None),
+                   static_cast<std::uint8_t>(Line::Cell));
+    });
+  });
+  caught("no edges", [](Frame& f) { f.bodies[0].edges = false; });
+  caught("flat triangles", [](Frame& f) { each_corner(f, [](Corner& c) { c.normal = {0, 0, 0}; }); });
+  caught("another colour, four levels off", [](Frame& f) {
+    each_corner(f, [](Corner& c) { c.colour[1] = static_cast<std::uint8_t>(c.colour[1] + 4); });
+  });
+  caught("no floor", [](Frame& f) { f.floor.reset(); });
+  caught("the floor a centimetre lower", [](Frame& f) { f.floor->z -= 0.01; });
+  caught("an angle of view half a degree wider", [](Frame& f) { f.camera.fov += 0.5; });
+  caught("the camera a centimetre aside", [](Frame& f) { f.camera.eye.x() += 0.01; });
+  caught("another background", [](Frame& f) { f.background[2] -= 0.02f; });
+  caught("light from elsewhere", [](Frame& f) { f.light = Eigen::Vector3d(-1, 0, 1); });
+  caught("mirrored", [](Frame& f) { each_corner(f, [](Corner& c) { c.position[0] = -c.position[0]; }); });
+  expect_caught_in_frame("a swapped normal", solid(), [](Frame& f) {
+    // Of a triangle that is seen: one of the front, in the middle.
+    auto& corners = f.bodies[0].corners;
+    for (std::size_t n = 0; n < corners.size(); n += 3)
+      if (corners[n].normal[1] < -0.9f) {
+        for (std::size_t k = 0; k < 3; ++k) corners[n + k].normal = {0, 0, 1};
+        return;
+      }
+  });
+  expect_caught_in_frame("triangles wound the wrong way", solid(), [](Frame& f) {
+    auto& corners = f.bodies[0].corners;
+    for (std::size_t n = 0; n < corners.size(); n += 3) std::swap(corners[n + 1], corners[n + 2]);
+  });
+  EXPECT_FALSE(passes(drawn(torn()), drawn(torn(), 1))) << "edges that are not smoothed";
+  EXPECT_EQ(count_, 18);
+}
+
+TEST_F(Defects, of_scenes_are_caught) {
+  expect_caught_in_scene("a threshold 20 % higher", {"body.tear.threshold=0.144"});
+  expect_caught_in_scene("no law of tearing before the end", {"body.tear.until=0.01"});
+  expect_caught_in_scene("gravity one percent less", {"world.gravity=0 0 -9.71"});
+  expect_caught_in_scene("springs one percent stiffer", {"body.springs.stretch.k=60.6"});
+  expect_caught_in_scene("another pattern of cells", {"body.sheet.pattern=triangles"});
+  expect_caught_in_scene("without the air", {"body.viscosity.value=0"});
+  EXPECT_EQ(count_, 6);
+}
+
+TEST_F(Defects, are_not_seen_where_there_is_none) {
+  const Image good = drawn(torn());
+  EXPECT_TRUE(passes(good, good));
+  EXPECT_TRUE(passes(good, drawn(torn())));
+}
+
+// The whole way, from preset to file and through `rend diff`; 200 times with REND_WHOLE in the environment.
+TEST(RepeatedRenders, raise_no_false_alarm) {
+  NEEDS_PNG;
+  const program::Place place;
+  const std::string render =
+      "render '" + (root / "presets" / cloth).string() + "' --frames 15 --size 160x90 -q -o ";
+  ASSERT_EQ(place.rend(render + "first").code, 0);
+  const int turns = std::getenv("REND_WHOLE") ? 200 : 5;
+  for (int turn = 0; turn < turns; ++turn) {
+    // As other machines would do it: other threads, other widths of llvmpipe's vectors.
+    const std::string threads = std::to_string(1 + turn % 4), width_of_vectors = turn % 2 ? "128" : "256";
+    const auto rendered = place.shell("LP_NATIVE_VECTOR_WIDTH=" + width_of_vectors +
+                                      " LP_NUM_THREADS=" + std::to_string(turn % 3) + " " + REND_PROGRAM + " " +
+                                      render + "again --threads " + threads);
+    ASSERT_EQ(rendered.code, 0) << rendered.err;
+    const auto outcome =
+        place.rend("diff first again -t '" + (root / "tests/goldens/tolerances.xml").string() + "'");
+    ASSERT_EQ(outcome.code, 0) << "turn " << turn << ": " << outcome.out;
+  }
+}
+
+} // namespace
+} // namespace rend
