@@ -18,17 +18,17 @@ using namespace html;
 
 constexpr std::size_t most_bytes = 100'000'000; // of pictures in a page
 
-Tone tone_of(State state) {
+Tone tone_of(CaseState state) {
   switch (state) {
-  case State::Match:
+  case CaseState::Match:
     return Tone::Good;
-  case State::New:
+  case CaseState::New:
     return Tone::Note;
-  case State::Missing:
-  case State::Size:
+  case CaseState::Missing:
+  case CaseState::Size:
     return Tone::Limit;
-  case State::Differ:
-  case State::Unreadable:
+  case CaseState::Differ:
+  case CaseState::Unreadable:
     break;
   }
   return Tone::Bad;
@@ -74,7 +74,7 @@ std::string mark_of(std::size_t n) {
 }
 
 Html state_of(const DiffReport& report, std::size_t n) {
-  const State state = report.cases[n].state;
+  const CaseState state = report.cases[n].state;
   return report.updated[n] ? badge(Tone::Note, "updated") : badge(tone_of(state), name_of(state));
 }
 
@@ -145,16 +145,16 @@ Html Chapters::chapter(std::size_t n) {
     line += escaped(" ") + strong(why) + escaped(&why == &one.why.back() ? "" : ";");
   out += paragraph(line);
   for (const std::string& note : one.notes) out += paragraph(muted(note));
-  if (one.state != State::Unreadable) out += pictures(one);
+  if (one.state != CaseState::Unreadable) out += pictures(one);
   if (one.metrics) out += details(escaped("Figures"), figures_of(one), true);
   return out;
 }
 
 Html counts_of(const DiffReport& report) {
   std::vector<Tile> all;
-  for (const State state : all_states()) {
+  for (const CaseState state : all_states()) {
     const std::size_t number = count(report, state);
-    if (number == 0 && state != State::Match && state != State::Differ) continue;
+    if (number == 0 && state != CaseState::Match && state != CaseState::Differ) continue;
     all.push_back({std::to_string(number), name_of(state), number == 0 ? Tone::Plain : tone_of(state)});
   }
   if (const std::size_t number = updated(report); number > 0)
@@ -174,7 +174,7 @@ std::string diff_page(const DiffReport& report) {
   Chapters chapters(report);
   for (const std::size_t n : failures_first(report)) {
     const Compared& one = report.cases[n];
-    const bool shown = one.state != State::Match;
+    const bool shown = one.state != CaseState::Match;
     const Html name = shown ? link(fmt::format("#{}", mark_of(n)), one.paths.name) : escaped(one.paths.name);
     (failed(report, n) ? failures : rest).rows.push_back(row_of(one, name, state_of(report, n)));
     if (shown) pictures += chapters.chapter(n);

@@ -12,14 +12,14 @@ namespace rend {
 using Json = nlohmann::ordered_json;
 
 bool failed(const DiffReport& report, std::size_t n) {
-  return report.cases[n].state != State::Match && !report.updated[n];
+  return report.cases[n].state != CaseState::Match && !report.updated[n];
 }
 
 std::size_t updated(const DiffReport& report) {
   return static_cast<std::size_t>(std::count(report.updated.begin(), report.updated.end(), true));
 }
 
-std::size_t count(const DiffReport& report, State state) {
+std::size_t count(const DiffReport& report, CaseState state) {
   std::size_t out = 0;
   for (std::size_t n = 0; n < report.cases.size(); ++n)
     if (report.cases[n].state == state && !report.updated[n]) ++out;
@@ -31,7 +31,7 @@ std::vector<std::size_t> failures_first(const DiffReport& report) {
   for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
   const auto rank = [&](std::size_t n) {
     const auto& all = all_states();
-    const State state = failed(report, n) ? report.cases[n].state : State::Match;
+    const CaseState state = failed(report, n) ? report.cases[n].state : CaseState::Match;
     return std::find(all.begin(), all.end(), state) - all.begin();
   };
   const auto flip = [&](std::size_t n) {
@@ -44,7 +44,7 @@ std::vector<std::size_t> failures_first(const DiffReport& report) {
 }
 
 Exit exit_of(const DiffReport& report) {
-  if (count(report, State::Unreadable) > 0) return Exit::Trouble;
+  if (count(report, CaseState::Unreadable) > 0) return Exit::Trouble;
   for (std::size_t n = 0; n < report.cases.size(); ++n)
     if (failed(report, n)) return Exit::No;
   return Exit::Done;
@@ -129,7 +129,7 @@ Json case_json(const Compared& one, bool updated) {
 
 Json diff_json(const DiffReport& report) {
   Json counts, cases = Json::array();
-  for (const State state : all_states()) counts[name_of(state)] = count(report, state);
+  for (const CaseState state : all_states()) counts[name_of(state)] = count(report, state);
   counts["updated"] = updated(report);
   for (std::size_t n = 0; n < report.cases.size(); ++n)
     cases.push_back(case_json(report.cases[n], report.updated[n]));
@@ -152,7 +152,7 @@ std::string diff_text(const DiffReport& report) {
   }
   out += fmt::format("{} pictures:", report.cases.size());
   std::string counts;
-  for (const State state : all_states())
+  for (const CaseState state : all_states())
     if (const std::size_t number = count(report, state); number > 0)
       counts += fmt::format("{} {} {}", counts.empty() ? "" : ",", number, name_of(state));
   if (const std::size_t number = updated(report); number > 0)
@@ -162,7 +162,7 @@ std::string diff_text(const DiffReport& report) {
 
 std::string diff_junit(const DiffReport& report) {
   const auto text = [](const std::string& any) { return html::escaped(any).text; };
-  const std::size_t errors = count(report, State::Unreadable);
+  const std::size_t errors = count(report, CaseState::Unreadable);
   std::size_t failures = 0;
   std::string cases;
   for (std::size_t n = 0; n < report.cases.size(); ++n) {
@@ -175,8 +175,8 @@ std::string diff_junit(const DiffReport& report) {
       cases += "/>\n";
       continue;
     }
-    const char* element = one.state == State::Unreadable ? "error" : "failure";
-    if (one.state != State::Unreadable) ++failures;
+    const char* element = one.state == CaseState::Unreadable ? "error" : "failure";
+    if (one.state != CaseState::Unreadable) ++failures;
     cases +=
         fmt::format(">\n      <{0} type=\"{1}\" message=\"{1}: {2}\">expected: {3}\nnow: {4}\n{5}</{0}>\n    "
                     "</testcase>\n",

@@ -17,25 +17,25 @@ namespace rend {
 
 namespace fs = std::filesystem;
 
-const std::vector<State>& all_states() {
-  static const std::vector<State> states{State::Unreadable, State::Size,   State::Missing,
-                                         State::New,        State::Differ, State::Match};
+const std::vector<CaseState>& all_states() {
+  static const std::vector<CaseState> states{CaseState::Unreadable, CaseState::Size,   CaseState::Missing,
+                                             CaseState::New,        CaseState::Differ, CaseState::Match};
   return states;
 }
 
-const char* name_of(State state) {
+const char* name_of(CaseState state) {
   switch (state) {
-  case State::Match:
+  case CaseState::Match:
     return "match";
-  case State::Differ:
+  case CaseState::Differ:
     return "differ";
-  case State::Size:
+  case CaseState::Size:
     return "size";
-  case State::Missing:
+  case CaseState::Missing:
     return "missing";
-  case State::New:
+  case CaseState::New:
     return "new";
-  case State::Unreadable:
+  case CaseState::Unreadable:
     break;
   }
   return "unreadable";
@@ -121,8 +121,8 @@ void judge(const std::array<Side, 2>& sides, bool equal, const CompareOptions& o
                             {options.tolerance.threshold, options.tolerance.window_side, options.threads});
   for (const Excess& excess : excesses(options.tolerance, metrics)) out.why.push_back(excess.text());
   if (metrics.difference.counted == 0) out.notes.push_back("the mask leaves no pixel to compare");
-  out.state = out.why.empty() ? State::Match : State::Differ;
-  if (options.heat && out.state == State::Differ && !metrics.flip_map.empty())
+  out.state = out.why.empty() ? CaseState::Match : CaseState::Differ;
+  if (options.heat && out.state == CaseState::Differ && !metrics.flip_map.empty())
     out.heat = encode_png(heat_of(metrics.flip_map, out.width, out.height, mask));
   metrics.flip_map = {};
   metrics.difference.largest = {};
@@ -136,7 +136,7 @@ void look_at_one(const fs::path& path, Compared& out) {
   out.width = side.image.width;
   out.height = side.image.height;
   if (side.trouble.empty()) return;
-  out.state = State::Unreadable;
+  out.state = CaseState::Unreadable;
   out.why = {side.trouble};
 }
 
@@ -147,7 +147,7 @@ Compared compare_case(const CasePaths& paths, const CompareOptions& options) {
   out.paths = paths;
   out.tolerance = options.tolerance;
   if (paths.a.empty() || paths.b.empty()) {
-    out.state = paths.a.empty() ? State::New : State::Missing;
+    out.state = paths.a.empty() ? CaseState::New : CaseState::Missing;
     out.why = {paths.a.empty() ? "nothing is expected of this name" : "it is expected, and not there"};
     look_at_one(paths.a.empty() ? paths.b : paths.a, out);
     return out;
@@ -157,7 +157,7 @@ Compared compare_case(const CasePaths& paths, const CompareOptions& options) {
   for (const Side& side : sides)
     if (!side.trouble.empty() && (out.why.empty() || !equal)) out.why.push_back(side.trouble);
   if (!out.why.empty()) {
-    out.state = State::Unreadable;
+    out.state = CaseState::Unreadable;
     return out;
   }
   const DeepImage &a = sides[0].image, &b = sides[1].image;
@@ -165,7 +165,7 @@ Compared compare_case(const CasePaths& paths, const CompareOptions& options) {
   out.height = a.height;
   note_kinds(a, b, out);
   if (a.width != b.width || a.height != b.height) {
-    out.state = State::Size;
+    out.state = CaseState::Size;
     out.why = {fmt::format("{} x {} pixels are expected, and there are {} x {}", a.width, a.height, b.width,
                            b.height)};
     return out;

@@ -10,7 +10,7 @@
 
 namespace rend {
 
-enum class State {
+enum class CaseState {
   Match,      // every figure within its limit
   Differ,     // one is not
   Size,       // width or height differ: nothing is measured
@@ -18,12 +18,12 @@ enum class State {
   New,        // there, and not expected
   Unreadable, // one of the two is no picture that can be read
 };
-const char* name_of(State state); // "match", "differ", ...
-const std::vector<State>& all_states();
+const char* name_of(CaseState state); // "match", "differ", ...
+const std::vector<CaseState>& all_states();
 
 struct Compared {
   CasePaths paths;
-  State state = State::Match;
+  CaseState state = CaseState::Match;
   std::vector<std::string> why;   // sentences or figures: what is not as it should be
   std::vector<std::string> notes; // what was converted
   int width = 0, height = 0;      // [pixels] of the expected picture, or of the one there is

@@ -21,7 +21,7 @@ struct Difference {
   std::size_t counted = 0;            // pixels that count
   std::size_t differing = 0;          // those of them that differ at all
   Pixel worst;                        // the first pixel whose difference is `max`
-  Plane largest; // [levels] the largest d of each pixel over its channels; 0 where it does not count
+  Levels largest; // [levels] the largest d of each pixel over its channels; 0 where it does not count
 };
 
 // Pictures of one size, both with alpha or neither (CHECK).

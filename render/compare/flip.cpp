@@ -17,9 +17,9 @@ using Row = std::vector<float>;
 // One picture after the filters along its rows.
 struct Filtered {
   // Of YCxCz: luminance, red-green, and blue-yellow twice.
-  Plane luminance, red_green, blue_narrow, blue_wide;
+  Levels luminance, red_green, blue_narrow, blue_wide;
   // Of Y, 0 to 1: by each of the feature filters.
-  Plane gaussian, edge, point;
+  Levels gaussian, edge, point;
 
   explicit Filtered(std::size_t pixels)
       : luminance(pixels), red_green(pixels), blue_narrow(pixels), blue_wide(pixels), gaussian(pixels),
@@ -72,7 +72,7 @@ void Flip::along_rows(std::size_t picture, int y) {
     cx[x] = ycxcz[1];
     cz[x] = ycxcz[2];
   }
-  const auto filter = [&](const Filter& by, const Row& row, Plane& out) {
+  const auto filter = [&](const Filter& by, const Row& row, Levels& out) {
     filter_row(by, row.data(), width_, scratch, out.data() + start);
   };
   filter(colours_.luminance, luma, to.luminance);
@@ -87,7 +87,7 @@ void Flip::along_rows(std::size_t picture, int y) {
 
 Flip::Seen Flip::seen(const Filtered& filtered, int y) const {
   const auto width = static_cast<std::size_t>(width_);
-  const auto column = [&](const Filter& by, const Plane& plane) {
+  const auto column = [&](const Filter& by, const Levels& plane) {
     Row out(width);
     filter_column(by, plane, width_, height_, y, out.data());
     return out;
@@ -128,14 +128,14 @@ void Flip::along_columns(int y, float* out) const {
 
 } // namespace
 
-Plane flip_map(const Picture& a, const Picture& b, int threads) {
+Levels flip_map(const Picture& a, const Picture& b, int threads) {
   CHECK(a.width == b.width && a.height == b.height && !a.alpha && !b.alpha);
   Flip flip(a, b);
   const auto height = static_cast<std::size_t>(a.height);
   in_parts(threads, 2 * height, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) flip.along_rows(n % 2, static_cast<int>(n / 2));
   });
-  Plane map(a.pixels());
+  Levels map(a.pixels());
   in_parts(threads, height, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y)
       flip.along_columns(static_cast<int>(y), map.data() + y * static_cast<std::size_t>(a.width));

@@ -22,6 +22,6 @@ constexpr double pixels_per_degree = 67.0206;
 
 // The map, height x width. Opaque pictures of one size (CHECK); neither is the reference more than the other. The same
 // on any number of threads.
-Plane flip_map(const Picture& a, const Picture& b, int threads);
+Levels flip_map(const Picture& a, const Picture& b, int threads);
 
 } // namespace rend

@@ -8,6 +8,6 @@
 namespace rend {
 
 // What the mask leaves out is grey.
-Image heat_of(const Plane& map, int width, int height, const Mask& mask);
+Image heat_of(const Levels& map, int width, int height, const Mask& mask);
 
 } // namespace rend

@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-FlipFigures flip_figures(const Plane& map, const Mask& mask) {
+FlipFigures flip_figures(const Levels& map, const Mask& mask) {
   std::vector<float> counted;
   counted.reserve(map.size());
   for (std::size_t n = 0; n < map.size(); ++n)

@@ -16,7 +16,7 @@ struct Metrics {
   OverThreshold over;
   double ssim = 1;
   FlipFigures flip;
-  Plane flip_map; // height x width; empty where the pictures are equal
+  Levels flip_map; // height x width; empty where the pictures are equal
 };
 
 struct MeasureOptions {

@@ -14,7 +14,7 @@ Picture picture_of(const DeepImage& image) {
   const float unit = image.bits == 16 ? 257.f : 1.f; // of a level
   const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t c = 0; c < channels; ++c) {
-    Plane& plane = out.planes[c];
+    Levels& plane = out.planes[c];
     plane.resize(out.pixels());
     const std::uint16_t* from = image.samples.data() + c;
     for (std::size_t n = 0; n < plane.size(); ++n) plane[n] = static_cast<float>(from[n * channels]) / unit;

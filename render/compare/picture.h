@@ -14,12 +14,12 @@
 
 namespace rend {
 
-using Plane = std::vector<float>; // height x width, row 0 is the top
+using Levels = std::vector<float>; // height x width, row 0 is the top
 
 struct Picture {
   int width = 0, height = 0; // [pixels]
   bool alpha = false;
-  std::array<Plane, 4> planes; // red, green, blue, alpha (empty where `alpha` is false), 0 to 255
+  std::array<Levels, 4> planes; // red, green, blue, alpha (empty where `alpha` is false), 0 to 255
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
 };

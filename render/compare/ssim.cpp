@@ -54,7 +54,7 @@ struct Window {
 };
 
 // The windows whose uppermost row is y.
-Total total_of(const Plane& a, const Plane& b, const Mask& mask, int width, int y, const Window& window) {
+Total total_of(const Levels& a, const Levels& b, const Mask& mask, int width, int y, const Window& window) {
   const auto row = static_cast<std::size_t>(width);
   Sums sums(row);
   std::vector<double> scratch(row);

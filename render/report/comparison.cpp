@@ -39,7 +39,7 @@ std::string ways(bool heat) {
 }
 
 std::string zooms(bool heat) {
-  std::string out = "<div class=\"zooms\">";
+  std::string out = "<div class=\"near\"><div class=\"zooms\">";
   for (const auto& [of, word] : {std::pair{"a", "expected"}, {"b", "now"}, {"heat", "heat map"}})
     if (heat || std::string_view(of) != "heat")
       out += fmt::format("<figure><canvas width=\"448\" height=\"448\" data-of=\"{}\"></canvas>"
@@ -47,7 +47,8 @@ std::string zooms(bool heat) {
                          of, word);
   return out +
          "</div>\n<p class=\"muted\">32 × 32 pixels from (<span class=\"place\"></span>); a click into the "
-         "picture shows another place. <button type=\"button\" class=\"worst\">the worst place</button></p>\n";
+         "picture shows another place. <button type=\"button\" class=\"worst\">the worst "
+         "place</button></p></div>\n";
 }
 
 } // namespace
@@ -60,9 +61,10 @@ Html compare(const Compare& all) {
                         size, pictures(all))};
   return {
       fmt::format("<div class=\"compare\" data-way=\"side\" data-width=\"{}\" data-height=\"{}\" data-x=\"{}\" "
-                  "data-y=\"{}\">\n{}<div class=\"stack{}\">\n{}<span class=\"edge\"></span><span "
-                  "class=\"mark\"></span></div>\n<input type=\"range\" min=\"0\" max=\"100\" step=\"0.25\" "
-                  "value=\"50\" aria-label=\"where the two pictures meet\"/>\n{}</div>\n",
+                  "data-y=\"{}\">\n{}<div class=\"look\"><div><div class=\"stack{}\">\n{}<span "
+                  "class=\"edge\"></span><span class=\"mark\"></span></div>\n<input type=\"range\" min=\"0\" "
+                  "max=\"100\" step=\"0.25\" value=\"50\" aria-label=\"where the two pictures "
+                  "meet\"/></div>\n{}</div></div>\n",
                   all.width, all.height, all.x, all.y, ways(!all.heat.empty()), size, pictures(all),
                   zooms(!all.heat.empty()))};
 }

@@ -37,8 +37,11 @@ inline constexpr std::string_view comparison_style = R"(
 [data-way=side] .mark, [data-way=side] .edge { display:none; }
 .compare input[type=range] { width:min(640px, 100%); display:block; margin:6px 0; accent-color:#ff2fb3; }
 .compare:not([data-way=slider]) input[type=range] { display:none; }
-.zooms { display:flex; flex-wrap:wrap; gap:10px; margin:8px 0; }
-.zooms figure { margin:0; } .zooms canvas { display:block; width:224px; height:224px; border:1px solid var(--line);
+.look { display:flex; flex-wrap:wrap; gap:4px 18px; align-items:flex-start; } .look > div:first-child { max-width:100%; }
+.near { flex:1 1 300px; } .near p { margin:2px 0; font-size:13.5px; }
+[data-way=side] .look > div:first-child { flex:1 1 100%; }
+.zooms { display:flex; flex-wrap:wrap; gap:8px 10px; margin:0 0 6px; }
+.zooms figure { margin:0; } .zooms canvas { display:block; width:208px; height:208px; border:1px solid var(--line);
   border-radius:4px; image-rendering:pixelated; background:var(--panel); }
 .zooms figcaption { font-size:13px; }
 @media print { .compare .bar, .compare input[type=range] { display:none; } }

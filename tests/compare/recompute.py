@@ -112,8 +112,8 @@ class Table:
         self.agrees = True
         print(f"{'what':<44}{'rend':>16}{'here':>16}{'difference':>12}{'allowed':>10}")
 
-    def add(self, what, rend, here, allowed):
-        difference = abs(rend - here)
+    def add(self, what, rend, here, allowed, scale=1):
+        difference = abs(rend - here) / scale
         self.agrees = self.agrees and difference <= allowed
         print(f"{what:<44}{rend:>16.9g}{here:>16.9g}{difference:>12.1e}{allowed:>10.0e}"
               f"{'' if difference <= allowed else '  DISAGREES'}")
@@ -174,8 +174,10 @@ def main():
             table.add(f"{name}: SSIM", found["ssim"], metrics.structural_similarity(a, b, channel_axis=-1, data_range=255),
                       1e-6)
             if "alpha" not in name: # where alpha counts as a channel of its own
-                table.add(f"{name}: RMSE", found["rmse"], np.sqrt(metrics.mean_squared_error(a, b)), 1e-6)
-                table.add(f"{name}: PSNR", found["psnr"], metrics.peak_signal_noise_ratio(a, b, data_range=255), 1e-6)
+                rmse = np.sqrt(metrics.mean_squared_error(a, b))
+                psnr = metrics.peak_signal_noise_ratio(a, b, data_range=255)
+                table.add(f"{name}: RMSE", found["rmse"], rmse, 1e-6, scale=rmse) # relative: levels and dB
+                table.add(f"{name}: PSNR", found["psnr"], psnr, 1e-6, scale=psnr)
             map_ = flip(a, b)
             table.add(f"{name}: FLIP", found["flip"]["mean"], map_.mean(), 5e-5)
             table.add(f"{name}: largest FLIP", found["flip"]["max"], map_.max(), 5e-5)

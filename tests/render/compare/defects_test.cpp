@@ -125,7 +125,7 @@ TEST_F(Defects, of_pictures_are_caught) {
     // At the first edge there is.
     for (std::size_t n = 0; n + 3 < i.pixels.size(); n += 3)
       if (std::abs(i.pixels[n] - i.pixels[n + 3]) > 20)
-        return std::swap_ranges(&i.pixels[n], &i.pixels[n + 3], &i.pixels[n + 3]);
+        return void(std::swap_ranges(&i.pixels[n], &i.pixels[n + 3], &i.pixels[n + 3]));
   });
   expect_caught("one pixel two levels off",
                 [](Image& i) { middle(i)[1] = static_cast<std::uint8_t>(middle(i)[1] ^ 2); });
