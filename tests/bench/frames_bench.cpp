@@ -1,0 +1,203 @@
+// Frames a second of the whole way from a Frame to PNG files and an .mp4 at once, and what each part of it takes.
+//
+// A cloth of 5,000 or 200,000 triangles that waves, so that no frame is like the last, fills most of the picture: 1280 x
+// 720, four samples, key light's shadow, floor, HUD. Frames are made beforehand: what is measured is what follows a
+// simulation. Parts are measured by processor time of all threads, which neighbours on the machine disturb little.
+#include "render/device.h"
+#include "render/hud.h"
+#include "render/pipeline.h"
+#include "render/png.h"
+#include "render/stage.h"
+#include "render/video.h"
+#include "tests/render/pictures.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace rend {
+namespace {
+
+constexpr int width = 1280, height = 720;
+constexpr int phases = 16; // frames of one wave
+
+HudContent figures(int number) {
+  HudContent hud;
+  hud.title = "waving cloth";
+  hud.figures = {fmt::format("{:.3f} s", number / 30.0), "12 tears"};
+  HudPlot plot;
+  plot.title = "energy";
+  plot.frames = 120;
+  plot.high = 1;
+  plot.curves = {{"kinetic", {0, 114, 178}, {}}, {"elastic", {213, 94, 0}, {}}};
+  for (int n = 0; n <= number % 120; ++n)
+    for (HudCurve& curve : plot.curves)
+      curve.values.push_back(0.5f + 0.4f * std::sin(0.1f * static_cast<float>(n)));
+  hud.plots.push_back(plot);
+  HudLegend legend{"largest strain", "0", "0.2", {}};
+  for (int n = 0; n < 64; ++n) legend.colours.push_back({static_cast<std::uint8_t>(4 * n), 80, 120});
+  hud.legends.push_back(legend);
+  return hud;
+}
+
+// A unit square of `across` x `along` cells of two triangles each.
+FrameBody cloth(int across, int along, double phase) {
+  const auto vertex = [&](int i, int j, Corner& corner) {
+    const double x = 2.0 * i / across - 1, y = 2.0 * j / along - 1;
+    const double z = 0.12 * std::sin(4 * x + phase) + 0.08 * std::cos(5 * y - x + phase);
+    const double dx = 0.48 * std::cos(4 * x + phase) + 0.08 * std::sin(5 * y - x + phase);
+    const double dy = -0.4 * std::sin(5 * y - x + phase);
+    corner.position = as_floats({x, y, 0.7 + z - 0.25 * y});
+    corner.normal = as_floats(Eigen::Vector3d(-dx, -dy + 0.25, 1).normalized());
+    corner.colour = {40, static_cast<std::uint8_t>(110 + 60 * x), 140, 255};
+  };
+  FrameBody body;
+  constexpr auto cell = static_cast<std::uint8_t>(Line::Cell);
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < along; ++j)
+      for (const bool upper : {false, true}) {
+        Corner corners[3] = {};
+        vertex(i + (upper ? 1 : 0), j + (upper ? 1 : 0), corners[0]);
+        vertex(i + (upper ? 0 : 1), j + (upper ? 1 : 0), corners[1]);
+        vertex(i + (upper ? 0 : 1), j + (upper ? 0 : 1), corners[2]);
+        if (upper) vertex(i, j, corners[2]);
+        for (Corner& corner : corners) corner.line = {0, cell, cell, 0};
+        body.corners.insert(body.corners.end(), std::begin(corners), std::end(corners));
+      }
+  return body;
+}
+
+const std::vector<Frame>& frames(int triangles) {
+  static std::map<int, std::vector<Frame>> all;
+  std::vector<Frame>& out = all[triangles];
+  if (!out.empty()) return out;
+  const int across = triangles == 200'000 ? 250 : 50, along = triangles / 2 / across;
+  for (int number = 0; number < phases; ++number) {
+    Frame frame;
+    frame.camera = {{0.6, -3.4, 2.5}, {0, 0, 0.55}, {0, 0, 1}, 35};
+    frame.floor = FrameFloor{0};
+    frame.bodies.push_back(cloth(across, along, 2 * M_PI * number / phases));
+    frame.hud = figures(number);
+    out.push_back(std::move(frame));
+  }
+  return out;
+}
+
+// The whole way, frames as fast as they are taken: `frames` in the counters is frames a second.
+void pipeline(benchmark::State& state) {
+  const auto& clip = frames(static_cast<int>(state.range(0)));
+  const long count = state.range(0) > 10'000 ? 24 : 120;
+  for (auto _ : state) {
+    state.PauseTiming(); // without the start of OpenGL
+    const test::Folder folder;
+    PipelineOptions options;
+    options.folder = folder.path();
+    options.name = "clip";
+    options.video = true;
+    Pipeline files(options);
+    state.ResumeTiming();
+    for (int number = 0; number < count; ++number) {
+      Frame frame = clip[static_cast<std::size_t>(number % phases)];
+      frame.number = number;
+      files.push(std::move(frame));
+    }
+    files.finish();
+    const PipelineSeconds at_work = files.seconds();
+    state.counters["draw_ms"] = 1e3 * at_work.draw / static_cast<double>(count);
+    state.counters["png_ms"] = 1e3 * at_work.png / static_cast<double>(count);
+    state.counters["video_ms"] = 1e3 * at_work.video / static_cast<double>(count);
+  }
+  state.counters["frames"] =
+      benchmark::Counter(static_cast<double>(count * state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(pipeline)
+    ->Arg(5'000)
+    ->Arg(200'000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
+
+// Drawing alone, with what is named taken away.
+void draw(benchmark::State& state, const std::string& without) {
+  const std::unique_ptr<Device> device = make_device();
+  Stage stage(width, height, without == "samples" ? 1 : 4);
+  std::vector<Frame> clip = frames(static_cast<int>(state.range(0)));
+  for (Frame& frame : clip) {
+    if (without == "floor") frame.floor.reset();
+    if (without == "bodies") frame.bodies.clear();
+  }
+  std::size_t number = 0;
+  for (auto _ : state) {
+    stage.draw(clip[number++ % phases]);
+    benchmark::DoNotOptimize(stage.read());
+  }
+}
+BENCHMARK_CAPTURE(draw, all, "")
+    ->Arg(5'000)
+    ->Arg(200'000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(draw, without_floor, "floor")
+    ->Arg(5'000)
+    ->Arg(200'000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(draw, without_samples, "samples")
+    ->Arg(5'000)
+    ->Arg(200'000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(draw, without_bodies, "bodies")
+    ->Arg(5'000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+
+void hud(benchmark::State& state) {
+  const std::unique_ptr<Device> device = make_device();
+  Stage stage(width, height, 4);
+  stage.draw(frames(5'000).front());
+  Hud hud(width, height);
+  int number = 0;
+  for (auto _ : state) {
+    hud.draw(figures(number++));
+    benchmark::DoNotOptimize(stage.read());
+  }
+}
+BENCHMARK(hud)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+std::vector<Image> pictures() {
+  const std::unique_ptr<Device> device = make_device();
+  Stage stage(width, height, 4);
+  Hud hud(width, height);
+  std::vector<Image> out;
+  for (const Frame& frame : frames(5'000)) {
+    stage.draw(frame);
+    hud.draw(frame.hud);
+    out.push_back(stage.read());
+  }
+  return out;
+}
+
+void png(benchmark::State& state) {
+  const std::vector<Image> clip = pictures();
+  std::size_t number = 0, bytes = 0;
+  for (auto _ : state) bytes += encode_png(clip[number++ % phases]).size();
+  state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(number);
+}
+BENCHMARK(png)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+void video(benchmark::State& state) {
+  const std::vector<Image> clip = pictures();
+  const test::Folder folder;
+  VideoWriter writer;
+  writer.open(folder / "clip.mp4", width, height, 30);
+  std::size_t number = 0;
+  for (auto _ : state) writer.add(clip[number++ % phases]);
+  writer.close();
+}
+BENCHMARK(video)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+} // namespace
+} // namespace rend
