@@ -63,6 +63,36 @@ View view_of(const FrameCamera& camera, const Eigen::AlignedBox3d& bounds, doubl
   return view;
 }
 
+PixelBox covered_by(const Eigen::AlignedBox3d& bounds, const View& view, int width, int height) {
+  CHECK(!bounds.isEmpty());
+  const PixelBox whole{0, 0, width, height};
+  Eigen::AlignedBox2d seen; // in [-1, 1]² of the picture
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d corner = bounds.corner(Eigen::AlignedBox3d::CornerType(i));
+    const Eigen::Vector4d clip = view.world_to_clip() * corner.homogeneous();
+    if (clip.w() < 1e-6 * view.distance) return whole; // behind the eye or beside it
+    seen.extend(Eigen::Vector2d(clip.head<2>() / clip.w()));
+  }
+  constexpr int block = 16;
+  const auto low = [](double at, int size) { // a pixel of margin for rounding
+    const double pixel = std::clamp((0.5 * at + 0.5) * size - 1, 0.0, static_cast<double>(size));
+    return static_cast<int>(pixel) / block * block;
+  };
+  const auto high = [](double at, int size) {
+    const double pixel = std::clamp((0.5 * at + 0.5) * size + 1, 0.0, static_cast<double>(size));
+    return std::min((static_cast<int>(pixel) / block + 1) * block, size);
+  };
+  const int x = low(seen.min().x(), width), y = low(seen.min().y(), height);
+  return {x, y, high(seen.max().x(), width) - x, high(seen.max().y(), height) - y};
+}
+
+PixelBox both(const PixelBox& a, const PixelBox& b) {
+  if (a.width == 0 || a.height == 0) return b;
+  if (b.width == 0 || b.height == 0) return a;
+  const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+  return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
+
 FrameCamera frame_auto(const Eigen::AlignedBox3d& bounds, double fov, double aspect,
                        const Eigen::Vector3d& direction) {
   CHECK(!bounds.isEmpty() && direction.allFinite() && direction.norm() > 0);

@@ -21,6 +21,15 @@ struct View {
 // replaced. CHECK: finite numbers, eye apart from target, 0 < fov < 180.
 View view_of(const FrameCamera& camera, const Eigen::AlignedBox3d& bounds, double aspect);
 
+// A rectangle of a picture [pixels]; x and y of its lower left corner, from the picture's.
+struct PixelBox {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+// What `bounds` (not empty) can cover of a picture of that size, in whole blocks of 16 pixels.
+PixelBox covered_by(const Eigen::AlignedBox3d& bounds, const View& view, int width, int height);
+PixelBox both(const PixelBox& a, const PixelBox& b); // the least that holds the two
+
 // A camera that looks at the middle of `bounds` from `direction` (from the box towards the eye, any length) and
 // is as near as it can be with the whole box in sight and a margin around it. fov: vertical angle [degrees].
 FrameCamera frame_auto(const Eigen::AlignedBox3d& bounds, double fov, double aspect,

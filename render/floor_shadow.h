@@ -37,7 +37,7 @@ public:
   // floor.
   void build(double floor_z, double scale, const Eigen::Vector3d& towards_key, const Eigen::AlignedBox3d& lit,
              const std::function<void()>& draw);
-  // x: the share of key light kept away, y: of all light. 512² texels: the square of build(), seen along the
+  // x: the share of key light kept away, y: of all light. 256² texels: the square of build(), seen along the
   // key.
   GLuint shade() const { return shade_.name(); }
   // From (x, y, 1) on the floor [m] to shade's texture coordinates.

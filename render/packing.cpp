@@ -32,11 +32,9 @@ void wind(Corner* corner, bool wound) {
 
 } // namespace
 
-Eigen::AlignedBox3d bounds_of(const Frame& frame) {
+Eigen::AlignedBox3d bounds_of(const FrameBody& body) {
   Eigen::AlignedBox3f bounds;
-  for (const auto* bodies : {&frame.bodies, &frame.obstacles})
-    for (const FrameBody& body : *bodies)
-      for (const Corner& corner : body.corners) bounds.extend(ConstMap(corner.position.data()));
+  for (const Corner& corner : body.corners) bounds.extend(ConstMap(corner.position.data()));
   return bounds.isEmpty() ? Eigen::AlignedBox3d() : bounds.cast<double>();
 }
 

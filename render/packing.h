@@ -13,8 +13,8 @@
 
 namespace rend {
 
-// Bounds of all corners of the frame, bodies and obstacles; empty if there are none. [m]
-Eigen::AlignedBox3d bounds_of(const Frame& frame);
+// Bounds of its corners; empty if there are none. [m]
+Eigen::AlignedBox3d bounds_of(const FrameBody& body);
 
 // Appends the corners of `body` to `packed`. Triangles without area keep a zero normal.
 // CHECK: three corners a triangle, and all numbers finite.

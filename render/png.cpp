@@ -4,16 +4,59 @@
 #include "sim/base/error.h"
 
 #ifdef REND_PNG
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
+#include <libdeflate.h>
 #include <memory>
 #include <new>
 #include <png.h>
-
-// libpng reports errors by longjmp: the functions that call setjmp below hold nothing that has a destructor.
+#include <span>
 
 namespace rend {
 namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+void append(Bytes& out, std::uint32_t number) { // in network byte order
+  for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<std::uint8_t>(number >> shift));
+}
+
+void append_chunk(Bytes& out, const char* kind, std::span<const std::uint8_t> content) {
+  append(out, static_cast<std::uint32_t>(content.size()));
+  const std::size_t first = out.size();
+  out.insert(out.end(), kind, kind + 4);
+  out.insert(out.end(), content.begin(), content.end());
+  append(out, libdeflate_crc32(0, out.data() + first, out.size() - first));
+}
+
+// Each row behind the number of its filter: 1, SUB, what a pixel differs by from the one before it.
+Bytes filtered(const Image& image) {
+  const std::size_t step = static_cast<std::size_t>(image.channels), stride = image.stride();
+  Bytes rows((stride + 1) * image.height);
+  std::uint8_t* to = rows.data();
+  for (int y = 0; y < image.height; ++y, to += stride) {
+    const std::uint8_t* from = image.row(y);
+    *to++ = 1;
+    std::copy(from, from + step, to);
+    for (std::size_t x = step; x < stride; ++x) to[x] = static_cast<std::uint8_t>(from[x] - from[x - step]);
+  }
+  return rows;
+}
+
+Bytes deflated(const Bytes& bytes) {
+  struct Free {
+    void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
+  };
+  const std::unique_ptr<libdeflate_compressor, Free> compressor(libdeflate_alloc_compressor(1));
+  if (!compressor) throw std::bad_alloc();
+  Bytes out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(), out.size()));
+  CHECK(!out.empty());
+  return out;
+}
+
+// libpng reports errors by longjmp: the functions that call setjmp below hold nothing that has a destructor.
 
 struct Message {
   char text[200] = {};
@@ -26,47 +69,6 @@ void on_error(png_structp png, png_const_charp text) {
 }
 
 void on_warning(png_structp, png_const_charp) {}
-
-void append(png_structp png, png_bytep data, size_t count) {
-  auto* bytes = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
-  bool stored = true;
-  try {
-    bytes->insert(bytes->end(), data, data + count);
-  } catch (const std::bad_alloc&) {
-    stored = false;
-  }
-  if (!stored) png_error(png, "out of memory");
-}
-
-struct Writer {
-  Message message;
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-  Writer() {
-    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning);
-    if (png != nullptr) info = png_create_info_struct(png);
-    if (info == nullptr) throw std::bad_alloc();
-  }
-  ~Writer() { png_destroy_write_struct(&png, &info); }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-};
-
-// False: message says why.
-bool write_rows(Writer& writer, const Image& image, std::vector<std::uint8_t>* bytes) {
-  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
-  png_set_write_fn(writer.png, bytes, append, nullptr);
-  png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
-               static_cast<png_uint_32>(image.height), 8,
-               image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_compression_level(writer.png, 1);
-  png_set_filter(writer.png, 0, PNG_FILTER_SUB);
-  png_write_info(writer.png, writer.info);
-  for (int y = 0; y < image.height; ++y) png_write_row(writer.png, image.row(y));
-  png_write_end(writer.png, nullptr);
-  return true;
-}
 
 struct Reader {
   Message message;
@@ -115,11 +117,15 @@ void require_png() {}
 
 std::vector<std::uint8_t> encode_png(const Image& image) {
   CHECK(image.width > 0 && image.height > 0 && image.pixels.size() == image.stride() * image.height);
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(image.pixels.size() / 4);
-  Writer writer;
-  CHECK_NOTE(write_rows(writer, image, &bytes), writer.message.text);
-  return bytes;
+  Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}, head;
+  append(head, static_cast<std::uint32_t>(image.width));
+  append(head, static_cast<std::uint32_t>(image.height));
+  const std::uint8_t colours = image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB;
+  head.insert(head.end(), {8, colours, 0, 0, 0}); // bits; deflated, filtered by rows, not interlaced
+  append_chunk(out, "IHDR", head);
+  append_chunk(out, "IDAT", deflated(filtered(image)));
+  append_chunk(out, "IEND", {});
+  return out;
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {

@@ -85,11 +85,12 @@ void Stage::make_targets(int samples) {
   const GLsizei count = samples == 1 ? 0 : samples;
   glBindRenderbuffer(GL_RENDERBUFFER, target_colour_.name());
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_RGBA8, width, height);
-  glBindRenderbuffer(GL_RENDERBUFFER, target_depth_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT24, width, height);
+  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, target_depth_.name());
+  glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_DEPTH_COMPONENT24, width, height, GL_TRUE);
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target_colour_.name());
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target_depth_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE, target_depth_.name(),
+                         0);
   must_hold();
 }
 
@@ -127,7 +128,8 @@ void Stage::draw(const Frame& frame) {
   const Eigen::Vector3f background = colour_of(frame.background);
   upload(frame);
   const double aspect = static_cast<double>(width_) / height_;
-  const Eigen::AlignedBox3d bounds = bounds_of(frame);
+  Eigen::AlignedBox3d bounds;
+  for (const Draw& draw : draws_) bounds.extend(draw.bounds);
   const View view = view_of(frame.camera, bounds, aspect);
   const Lights lights = lights_of(frame);
   const Eigen::AlignedBox3d lit = lit_bounds(frame.camera, aspect, bounds);
@@ -145,7 +147,9 @@ void Stage::draw(const Frame& frame) {
   glClearColor(0, 0, 0, 0); // nothing: the studio goes behind
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_bodies(frame, view, lights, light);
-  resolve();
+  const PixelBox covered = covered_by_bodies(view);
+  resolve(covered);
+  if (frame.occlusion) occlude(frame, view, covered);
   transparent_ = frame.transparent;
   if (!frame.transparent) draw_studio(frame, view, background);
   check_gl("Stage::draw");
@@ -158,7 +162,7 @@ void Stage::upload(const Frame& frame) {
     for (const FrameBody& body : *bodies) {
       if (body.corners.empty()) continue;
       const auto first = static_cast<GLint>(packed_.size());
-      draws_.push_back({first, static_cast<GLsizei>(body.corners.size()), &body});
+      draws_.push_back({first, static_cast<GLsizei>(body.corners.size()), &body, bounds_of(body)});
       pack(body, packed_);
     }
   glBindBuffer(GL_ARRAY_BUFFER, corners_buffer_.name());
@@ -246,18 +250,36 @@ void Stage::draw_body(const Draw& draw) const {
   glDepthMask(GL_TRUE);
 }
 
-void Stage::resolve() {
-  const int width = width_ * fine_, height = height_ * fine_;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
-  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  if (fine_ > 1) { // half as large, the filter lies just between four pixels: their mean
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.name());
-    glBlitFramebuffer(0, 0, width, height, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_LINEAR);
-  }
-  glBindFramebuffer(GL_FRAMEBUFFER, fine_ > 1 ? picture_.name() : resolved_.name());
+PixelBox Stage::covered_by_bodies(const View& view) const {
+  PixelBox all;
+  for (const Draw& draw : draws_) all = both(all, covered_by(draw.bounds, view, width_, height_));
+  return all;
+}
+
+void Stage::resolve(const PixelBox& covered) {
+  const GLint left = covered.x, right = covered.x + covered.width;
+  const GLint low = covered.y, high = covered.y + covered.height;
+  const auto copy = [&](const GlFramebuffer& from, const GlFramebuffer& to, int size, int size_after,
+                        GLenum filter) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
+    glClear(GL_COLOR_BUFFER_BIT);
+    glBlitFramebuffer(left * size, low * size, right * size, high * size, left * size_after, low * size_after,
+                      right * size_after, high * size_after, GL_COLOR_BUFFER_BIT, filter);
+  };
+  copy(target_, resolved_, fine_, fine_, GL_NEAREST);
+  // Half as large, the filter lies just between four pixels: their mean.
+  if (fine_ > 1) copy(resolved_, picture_, fine_, 1, GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, result().name());
   glViewport(0, 0, width_, height_);
+}
+
+void Stage::occlude(const Frame& frame, const View& view, const PixelBox& covered) {
+  if (covered.width == 0) return;
+  if (!occlusion_) occlusion_.emplace(width_, height_);
+  const bool floor = frame.floor && !frame.transparent && view.eye.z() > frame.floor->z;
+  occlusion_->apply(result().name(), target_depth_.name(), fine_, view, covered,
+                    floor ? std::optional(frame.floor->z) : std::nullopt);
 }
 
 // Puts floor and backdrop behind what is in the resolved picture, by its alpha.
@@ -298,7 +320,7 @@ void Stage::set_floor(const Frame& frame, const View& view) {
 
 Image Stage::read() {
   pixels_.resize(static_cast<std::size_t>(width_) * height_ * 4);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, fine_ > 1 ? picture_.name() : resolved_.name());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, result().name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
   check_gl("Stage::read");

@@ -1,11 +1,13 @@
 // The stage: draws a Frame into a picture.
 //
-// Passes: shadow map from the key light ─▶ floor's shadows ─▶ bodies (with samples) ─▶ resolve ─▶ studio.
+// Passes: shadow map from the key light ─▶ floor's shadows ─▶ bodies (with samples) ─▶ resolve ─▶ occlusion ─▶
+// studio.
 //
 // Bodies are drawn over nothing, and the studio (floor and backdrop) is put behind them afterwards, once a
-// pixel: it has no edges that samples would smooth, and covers most of the picture. What is under the floor is
-// clipped away. Both sides of a sheet are lit; of a solid, only the outside is drawn. Lines along cells are worked out in the fragment shader,
-// from barycentric coordinates, so they cost no geometry and are smooth at any size.
+// pixel: it has no edges that samples would smooth, and covers most of the picture. Only the part of the picture
+// that bodies can cover is resolved. What is under the floor is clipped away. Both sides of a sheet are lit; of a
+// solid, only the outside is drawn. Lines along cells are worked out in the fragment shader, from barycentric
+// coordinates, so they cost no geometry and are smooth at any size.
 //
 // The picture is a pure function of the frame, the size and the number of samples: the same on every run, for
 // any number of threads.
@@ -18,6 +20,9 @@
 #include "render/gl.h"
 #include "render/image.h"
 #include "render/light.h"
+#include "render/occlusion.h"
+
+#include <optional>
 
 namespace rend {
 
@@ -40,6 +45,7 @@ private:
     GLint first = 0;
     GLsizei count = 0;
     const FrameBody* body = nullptr; // of the frame at hand
+    Eigen::AlignedBox3d bounds;      // [m]
   };
 
   void make_targets(int samples);
@@ -51,7 +57,10 @@ private:
   void draw_shadow_map(const LightView& light);
   void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light);
   void draw_body(const Draw& draw) const;
-  void resolve();
+  PixelBox covered_by_bodies(const View& view) const;
+  void resolve(const PixelBox& covered);
+  void occlude(const Frame& frame, const View& view, const PixelBox& covered);
+  const GlFramebuffer& result() const { return fine_ > 1 ? picture_ : resolved_; }
   void draw_studio(const Frame& frame, const View& view, const Eigen::Vector3f& background);
   void set_floor(const Frame& frame, const View& view);
 
@@ -63,14 +72,15 @@ private:
   bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};
   GlProgram body_{"body.vert", "body.frag"};
-  GlProgram studio_{"screen.vert", "studio.frag"};
+  GlProgram studio_{"studio.vert", "studio.frag"};
   GlProgram backdrop_{"screen.vert", "backdrop.frag"};
   FloorShadow floor_shadow_;
+  std::optional<Occlusion> occlusion_; // made for the first frame that has it
 
   GlFramebuffer target_, resolved_, picture_,
       shadow_; // picture_: where fine_ is 2, what resolved_ is brought to
-  GlRenderbuffer target_colour_, target_depth_, resolved_colour_, picture_colour_;
-  GlTexture shadow_map_;
+  GlRenderbuffer target_colour_, resolved_colour_, picture_colour_;
+  GlTexture target_depth_, shadow_map_;    // the first has samples, too
   GlVertexArray corners_array_, no_array_; // the second: for passes that make up their own corners
   GlBuffer corners_buffer_;
   std::size_t capacity_ = 0; // of that buffer [corners]

@@ -70,13 +70,12 @@ TEST(Packing, RefusesNumbersThatAreNotFinite) {
     }
 }
 
-TEST(Packing, BoundsHoldBodiesAndObstacles) {
-  Frame frame;
-  EXPECT_TRUE(bounds_of(frame).isEmpty());
-  frame.bodies.push_back(screen(-2, 1, red));
-  frame.obstacles.push_back(screen(5, 3, grey));
-  EXPECT_EQ(bounds_of(frame).min(), Eigen::Vector3d(-3, -2, -3));
-  EXPECT_EQ(bounds_of(frame).max(), Eigen::Vector3d(3, 5, 3));
+TEST(Packing, BoundsHoldAllCorners) {
+  EXPECT_TRUE(bounds_of(FrameBody()).isEmpty());
+  FrameBody body = screen(-2, 1, red);
+  add_triangle(body, {0, 0, 0}, {3, 0, 0}, {0, 5, 4}, grey);
+  EXPECT_EQ(bounds_of(body).min(), Eigen::Vector3d(-1, -2, -1));
+  EXPECT_EQ(bounds_of(body).max(), Eigen::Vector3d(3, 5, 4));
 }
 
 } // namespace

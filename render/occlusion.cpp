@@ -1,0 +1,133 @@
+#include "render/occlusion.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+constexpr double reach_share = 0.06; // how far away things still keep light, in distances from eye to target
+constexpr int longest = 64;          // that reach is at most so long [pixels of half size]
+
+void make_target(const GlTexture& texture, const GlFramebuffer& target, GLint format, GLenum channels,
+                 int width, int height) {
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, channels, GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
+  check_framebuffer("Occlusion");
+}
+
+void bind(int unit, GLenum kind, GLuint texture) {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(kind, texture);
+}
+
+void draw_over(const PixelBox& box) {
+  glScissor(box.x, box.y, box.width, box.height);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+double reach(const View& view) {
+  return reach_share * view.distance;
+}
+
+// 1 over the depth that keeps neighbours apart [1/m]: a quarter of the reach.
+float tolerance(const View& view) {
+  return static_cast<float>(4 / reach(view));
+}
+
+// 1 / depth = x + y * what the depth buffer holds.
+Eigen::Vector2f to_nearness(const View& view) {
+  const Eigen::Matrix4d& clip = view.eye_to_clip;
+  return Eigen::Vector2d((clip(2, 2) - 1) / clip(2, 3), 2 / clip(2, 3)).cast<float>();
+}
+
+} // namespace
+
+Occlusion::Occlusion(int width, int height)
+    : width_(width), height_(height), half_width_((width + 1) / 2), half_height_((height + 1) / 2) {
+  make_target(depths_, depths_target_, GL_R32F, GL_RED, half_width_, half_height_);
+  make_target(visibility_, visibility_target_, GL_RG32F, GL_RG, half_width_, half_height_);
+  make_target(blurred_, blurred_target_, GL_RG32F, GL_RG, half_width_, half_height_);
+}
+
+void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, const PixelBox& covered,
+                      std::optional<double> floor_z) {
+  const auto grown = [&](int margin) { // of half size
+    const int x = std::max(covered.x / 2 - margin, 0), y = std::max(covered.y / 2 - margin, 0);
+    return PixelBox{x, y, std::min((covered.x + covered.width + 1) / 2 + margin, half_width_) - x,
+                    std::min((covered.y + covered.height + 1) / 2 + margin, half_height_) - y};
+  };
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glEnable(GL_SCISSOR_TEST);
+  glViewport(0, 0, half_width_, half_height_);
+  read_depths(depth, fine, view, grown(longest + 2), floor_z);
+  find_visibility(view, grown(2));
+  blur(view, grown(1));
+
+  glBindFramebuffer(GL_FRAMEBUFFER, picture);
+  glViewport(0, 0, width_, height_);
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+  apply_program_.use();
+  apply_program_.set("depth", 0);
+  apply_program_.set("visibility", 1);
+  apply_program_.set("stride", fine);
+  apply_program_.set("to_nearness", to_nearness(view));
+  apply_program_.set("tolerance", tolerance(view));
+  bind(1, GL_TEXTURE_2D, blurred_.name());
+  bind(0, GL_TEXTURE_2D_MULTISAMPLE, depth);
+  draw_over(covered);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Occlusion::read_depths(GLuint depth, int fine, const View& view, const PixelBox& box,
+                            std::optional<double> floor_z) {
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero(); // its nearness over the half-sized picture
+  if (floor_z) {
+    const Eigen::Vector3d up = view.world_to_eye.topLeftCorner<3, 3>().col(2); // in the eye's axes
+    const double x = up.x() / view.eye_to_clip(0, 0), y = up.y() / view.eye_to_clip(1, 1);
+    const double odd_x = 2.0 * half_width_ / width_, odd_y = 2.0 * half_height_ / height_;
+    floor = {x * odd_x, y * odd_y, x * (odd_x - 1) + y * (odd_y - 1) - up.z()};
+    floor /= *floor_z - view.eye.z();
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, depths_target_.name());
+  depths_program_.use();
+  depths_program_.set("floor_plane", Eigen::Vector3f(floor.cast<float>()));
+  depths_program_.set("depth", 0);
+  depths_program_.set("stride", 2 * fine);
+  depths_program_.set("to_nearness", to_nearness(view));
+  bind(0, GL_TEXTURE_2D_MULTISAMPLE, depth);
+  draw_over(box);
+}
+
+void Occlusion::find_visibility(const View& view, const PixelBox& box) {
+  const double across = 1 / view.eye_to_clip(0, 0), up = 1 / view.eye_to_clip(1, 1);
+  const Eigen::Vector4d ray((2.0 / width_ - 1) * across, (2.0 / height_ - 1) * up, 4.0 / width_ * across,
+                            4.0 / height_ * up);
+  glBindFramebuffer(GL_FRAMEBUFFER, visibility_target_.name());
+  visibility_program_.use();
+  visibility_program_.set("depths", 0);
+  visibility_program_.set("ray", Eigen::Vector4f(ray.cast<float>()));
+  visibility_program_.set("reach", static_cast<float>(reach(view)));
+  visibility_program_.set("pixels", static_cast<float>(1 / ray.w()));
+  visibility_program_.set("longest", static_cast<float>(longest));
+  bind(0, GL_TEXTURE_2D, depths_.name());
+  draw_over(box);
+}
+
+void Occlusion::blur(const View& view, const PixelBox& box) {
+  glBindFramebuffer(GL_FRAMEBUFFER, blurred_target_.name());
+  blur_program_.use();
+  blur_program_.set("visibility", 0);
+  blur_program_.set("tolerance", tolerance(view));
+  bind(0, GL_TEXTURE_2D, visibility_.name());
+  draw_over(box);
+}
+
+} // namespace rend

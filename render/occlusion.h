@@ -1,0 +1,55 @@
+// Ambient occlusion: how much of the light from all around is kept from a place by what stands near it. It darkens folds,
+// cracks and the gaps of a heap, where shadows of lamps are not enough.
+//
+// Found in the picture itself, from the depths that the bodies left, at half its size each way:
+//
+//   depths ─▶ visibility ─▶ blur over 4 x 4 ─▶ multiplied into the picture of the bodies
+//
+// The visibility of a place is the cosine-weighted share of its hemisphere that is free. For one slice of the hemisphere
+// through the eye, with n the angle of the normal in it and h1 ≤ n ≤ h2 the angles of the two horizons, it is
+//
+//   V = |n'| / 4 Σ (cos n + 2 h sin n - cos(2 h - n)),   n': the normal projected into the slice,
+//
+// and a horizon is the highest of four depths along the slice; what is farther than the reach does not count, what
+// is near to that counts less. Neighbours in a block of 4 x 4 take 16 slices and 4 offsets along them, always the same,
+// and the blur, which stops where depths do, brings them together: 64 depths for a place. A plane and a convex body alone
+// keep no light from themselves.
+//
+// Source: Jimenez, Wu, Pesce and Jarabo, Practical real-time strategies for accurate indirect occlusion, 2016.
+//
+// A Device must be current, from construction to destruction.
+#pragma once
+
+#include "render/camera.h"
+#include "render/gl.h"
+
+#include <optional>
+
+namespace rend {
+
+class Occlusion {
+public:
+  Occlusion(int width, int height); // [pixels], of the picture
+
+  // Darkens what is in `picture`, a framebuffer of that size with colours multiplied by their alpha, and leaves it bound.
+  // depth: a multisampled texture, `fine` times as large each way; covered: by bodies; floor_z: of a floor that is seen
+  // [m].
+  void apply(GLuint picture, GLuint depth, int fine, const View& view, const PixelBox& covered,
+             std::optional<double> floor_z);
+
+private:
+  void read_depths(GLuint depth, int fine, const View& view, const PixelBox& box,
+                   std::optional<double> floor_z);
+  void find_visibility(const View& view, const PixelBox& box);
+  void blur(const View& view, const PixelBox& box);
+
+  int width_, height_, half_width_, half_height_; // [pixels]
+  GlProgram depths_program_{"occlusion.vert", "occlusion_depth.frag"};
+  GlProgram visibility_program_{"screen.vert", "occlusion.frag"};
+  GlProgram blur_program_{"screen.vert", "occlusion_blur.frag"};
+  GlProgram apply_program_{"screen.vert", "occlusion_apply.frag"};
+  GlTexture depths_, visibility_, blurred_; // half size: depth [m]; the other two: visibility, depth [m]
+  GlFramebuffer depths_target_, visibility_target_, blurred_target_;
+};
+
+} // namespace rend

@@ -1,0 +1,8 @@
+// One triangle that covers the picture, and where the floor lies behind it.
+uniform vec3 floor_plane; // dot(floor_plane, (place, 1)) is the inverse of the floor's depth [1/m]; 0: there is none
+noperspective out float floor_nearness;
+void main() {
+  vec2 place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  floor_nearness = dot(floor_plane, vec3(place, 1.0));
+  gl_Position = vec4(place, 1.0, 1.0);
+}

@@ -1,0 +1,29 @@
+// What the picture's colours are multiplied by: the visibility of the four nearest places, of those that are as deep.
+uniform sampler2DMS depth;
+uniform sampler2D visibility;
+uniform int stride;         // from a pixel of the picture to one of `depth`
+uniform vec2 to_nearness; // see occlusion_depth.frag
+uniform float tolerance;  // [1/m]
+out vec4 pixel;
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  float stored = 1.0; // of a pixel on an edge, the nearest: the farther part is darkened on its other pixels
+  for (int k = 0; k < 4; ++k) stored = min(stored, texelFetch(depth, at * stride, k).x);
+  float deep = 1.0 / (to_nearness.x + to_nearness.y * stored);
+
+  // Place i is taken at pixel 2 i, and its blur reaches from i - 2 to i + 1, whose middle is pixel 2 i - 1.
+  vec2 from = 0.5 * vec2(at) + 0.5;
+  ivec2 first = ivec2(floor(from)), last = textureSize(visibility, 0) - 1;
+  vec2 share = from - vec2(first);
+  float sum = 0.0, weights = 0.0;
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      vec2 other = texelFetch(visibility, clamp(first + ivec2(i, j), ivec2(0), last), 0).xy;
+      float weight = (i == 0 ? 1.0 - share.x : share.x) * (j == 0 ? 1.0 - share.y : share.y) + 0.01;
+      weight *= max(1.0 - abs(other.y - deep) * tolerance, 0.0) + 1e-4;
+      sum += weight * other.x;
+      weights += weight;
+    }
+  pixel = vec4(vec3(encode(vec3(sum / weights))), 1.0);
+}
