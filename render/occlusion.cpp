@@ -5,13 +5,19 @@
 namespace rend {
 namespace {
 
-constexpr double reach_share = 0.06; // how far away things still keep light, in distances from eye to target
-constexpr int longest = 64;          // that reach is at most so long [pixels of half size]
+constexpr double reach_share = 0.11;   // how far away things still keep light, in distances from eye to target
+constexpr double longest_share = 0.18; // that reach seems at most so long, in heights of the picture
+
+constexpr float very_far = 1e9f; // [m]
 
 void make_target(const GlTexture& texture, const GlFramebuffer& target, GLint format, GLenum channels,
                  int width, int height) {
   glBindTexture(GL_TEXTURE_2D, texture.name());
   glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, channels, GL_FLOAT, nullptr);
+  const float far_away[4] = {channels == GL_RED ? very_far : 0, very_far, 0, 0}; // what is beyond the picture
+  glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, far_away);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -50,12 +56,13 @@ Eigen::Vector2f to_nearness(const View& view) {
 Occlusion::Occlusion(int width, int height)
     : width_(width), height_(height), half_width_((width + 1) / 2), half_height_((height + 1) / 2) {
   make_target(depths_, depths_target_, GL_R32F, GL_RED, half_width_, half_height_);
-  make_target(visibility_, visibility_target_, GL_RG32F, GL_RG, half_width_, half_height_);
+  make_target(kept_, kept_target_, GL_RG32F, GL_RG, half_width_, half_height_);
   make_target(blurred_, blurred_target_, GL_RG32F, GL_RG, half_width_, half_height_);
 }
 
 void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, const PixelBox& covered,
                       std::optional<double> floor_z) {
+  const auto longest = static_cast<int>(longest_share * half_height_);
   const auto grown = [&](int margin) { // of half size
     const int x = std::max(covered.x / 2 - margin, 0), y = std::max(covered.y / 2 - margin, 0);
     return PixelBox{x, y, std::min((covered.x + covered.width + 1) / 2 + margin, half_width_) - x,
@@ -65,8 +72,8 @@ void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, 
   glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
   glViewport(0, 0, half_width_, half_height_);
-  read_depths(depth, fine, view, grown(longest + 2), floor_z);
-  find_visibility(view, grown(2));
+  read_depths(depth, fine, view, grown(longest + 5), floor_z);
+  find_kept(view, grown(3));
   blur(view, grown(1));
 
   glBindFramebuffer(GL_FRAMEBUFFER, picture);
@@ -75,7 +82,8 @@ void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, 
   glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
   apply_program_.use();
   apply_program_.set("depth", 0);
-  apply_program_.set("visibility", 1);
+  apply_program_.set("kept", 1);
+  apply_program_.set("texel", texel());
   apply_program_.set("stride", fine);
   apply_program_.set("to_nearness", to_nearness(view));
   apply_program_.set("tolerance", tolerance(view));
@@ -106,17 +114,17 @@ void Occlusion::read_depths(GLuint depth, int fine, const View& view, const Pixe
   draw_over(box);
 }
 
-void Occlusion::find_visibility(const View& view, const PixelBox& box) {
+void Occlusion::find_kept(const View& view, const PixelBox& box) {
   const double across = 1 / view.eye_to_clip(0, 0), up = 1 / view.eye_to_clip(1, 1);
-  const Eigen::Vector4d ray((2.0 / width_ - 1) * across, (2.0 / height_ - 1) * up, 4.0 / width_ * across,
-                            4.0 / height_ * up);
-  glBindFramebuffer(GL_FRAMEBUFFER, visibility_target_.name());
-  visibility_program_.use();
-  visibility_program_.set("depths", 0);
-  visibility_program_.set("ray", Eigen::Vector4f(ray.cast<float>()));
-  visibility_program_.set("reach", static_cast<float>(reach(view)));
-  visibility_program_.set("pixels", static_cast<float>(1 / ray.w()));
-  visibility_program_.set("longest", static_cast<float>(longest));
+  const Eigen::Vector4d ray(-across, -up, 4.0 / width_ * across, 4.0 / height_ * up);
+  glBindFramebuffer(GL_FRAMEBUFFER, kept_target_.name());
+  kept_program_.use();
+  kept_program_.set("depths", 0);
+  kept_program_.set("texel", texel());
+  kept_program_.set("ray", Eigen::Vector4f(ray.cast<float>()));
+  kept_program_.set("reach", static_cast<float>(reach(view)));
+  kept_program_.set("pixels", static_cast<float>(1 / ray.w()));
+  kept_program_.set("longest", static_cast<float>(longest_share * half_height_));
   bind(0, GL_TEXTURE_2D, depths_.name());
   draw_over(box);
 }
@@ -124,9 +132,10 @@ void Occlusion::find_visibility(const View& view, const PixelBox& box) {
 void Occlusion::blur(const View& view, const PixelBox& box) {
   glBindFramebuffer(GL_FRAMEBUFFER, blurred_target_.name());
   blur_program_.use();
-  blur_program_.set("visibility", 0);
+  blur_program_.set("kept", 0);
+  blur_program_.set("texel", texel());
   blur_program_.set("tolerance", tolerance(view));
-  bind(0, GL_TEXTURE_2D, visibility_.name());
+  bind(0, GL_TEXTURE_2D, kept_.name());
   draw_over(box);
 }
 

@@ -3,17 +3,18 @@
 //
 // Found in the picture itself, from the depths that the bodies left, at half its size each way:
 //
-//   depths ─▶ visibility ─▶ blur over 4 x 4 ─▶ multiplied into the picture of the bodies
+//   depths ─▶ what is kept along a slice ─▶ mean over 4 x 4 ─▶ multiplied into the picture of the bodies
 //
 // The visibility of a place is the cosine-weighted share of its hemisphere that is free. For one slice of the hemisphere
 // through the eye, with n the angle of the normal in it and h1 ≤ n ≤ h2 the angles of the two horizons, it is
 //
 //   V = |n'| / 4 Σ (cos n + 2 h sin n - cos(2 h - n)),   n': the normal projected into the slice,
 //
-// and a horizon is the highest of four depths along the slice; what is farther than the reach does not count, what
-// is near to that counts less. Neighbours in a block of 4 x 4 take 16 slices and 4 offsets along them, always the same,
-// and the blur, which stops where depths do, brings them together: 64 depths for a place. A plane and a convex body alone
-// keep no light from themselves.
+// and what is kept is V without horizons less V with them. A horizon is what rises highest over the surface at four
+// depths along the slice; it counts less the farther it is, up to the reach. Neighbours in a block of 4 x 4 take 16 slices
+// and 4 offsets along them, always the same, and the mean over those that lie on the same surface brings them together: 128
+// depths for a place. A plane and a convex body alone keep nothing from themselves. What is hidden or out of the picture
+// keeps nothing either.
 //
 // Source: Jimenez, Wu, Pesce and Jarabo, Practical real-time strategies for accurate indirect occlusion, 2016.
 //
@@ -40,16 +41,19 @@ public:
 private:
   void read_depths(GLuint depth, int fine, const View& view, const PixelBox& box,
                    std::optional<double> floor_z);
-  void find_visibility(const View& view, const PixelBox& box);
+  void find_kept(const View& view, const PixelBox& box);
   void blur(const View& view, const PixelBox& box);
+  Eigen::Vector2f texel() const {
+    return {1.0f / static_cast<float>(half_width_), 1.0f / static_cast<float>(half_height_)};
+  }
 
   int width_, height_, half_width_, half_height_; // [pixels]
   GlProgram depths_program_{"occlusion.vert", "occlusion_depth.frag"};
-  GlProgram visibility_program_{"screen.vert", "occlusion.frag"};
+  GlProgram kept_program_{"screen.vert", "occlusion.frag"};
   GlProgram blur_program_{"screen.vert", "occlusion_blur.frag"};
   GlProgram apply_program_{"screen.vert", "occlusion_apply.frag"};
-  GlTexture depths_, visibility_, blurred_; // half size: depth [m]; the other two: visibility, depth [m]
-  GlFramebuffer depths_target_, visibility_target_, blurred_target_;
+  GlTexture depths_, kept_, blurred_; // half size: depth [m]; the other two: what is kept, depth [m]
+  GlFramebuffer depths_target_, kept_target_, blurred_target_;
 };
 
 } // namespace rend

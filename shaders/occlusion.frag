@@ -1,15 +1,13 @@
-// Visibility of one pixel along one slice: x; y: its depth [m]. See render/occlusion.h.
+// Of one pixel along one slice, x: what is kept from it; y: its depth [m]. See render/occlusion.h.
 uniform sampler2D depths;
-uniform vec4 ray;    // of pixel (x, y) at depth 1 [m]: ray.xy + (x, y) * ray.zw
-uniform float reach; // [m]
+uniform vec2 texel;    // in texture coordinates
+uniform vec4 ray;      // of pixel (x, y) at depth 1 [m]: ray.xy + (x, y) * ray.zw
+uniform float reach;   // [m]
 uniform float pixels;  // that 1 m at depth 1 m spans
 uniform float longest; // that the reach may span [pixels]
 out vec4 pixel;
 
-vec3 place(ivec2 at) {
-  float depth = texelFetch(depths, at, 0).x;
-  return depth * vec3(ray.xy + vec2(at) * ray.zw, 1.0);
-}
+vec3 place(vec2 at) { return texture(depths, at * texel).x * vec3(ray.xy + at * ray.zw, 1.0); }
 
 // Abramowitz and Stegun 4.4.45, off by less than 7e-5.
 float arccos(float x) {
@@ -23,18 +21,20 @@ vec3 along(vec3 before, vec3 here, vec3 after) {
   return abs(after.z - here.z) < abs(here.z - before.z) ? after - here : here - before;
 }
 
-// From the horizon's cosine: the integral over one side.
-float arc(float cosine, float side, float cos_n, float sin_n) {
-  float h = side * arccos(cosine), sine = side * sqrt(max(1.0 - cosine * cosine, 0.0));
+// The integral over one side (1 or -1), whose horizon rises above the surface by an angle of that sine.
+float arc(float rise, float side, float cos_n, float sin_n) {
+  float cosine = clamp(cos_n * rise - side * sin_n * sqrt(1.0 - rise * rise), -1.0, 1.0);
+  float h = side * arccos(cosine), sine = side * sqrt(1.0 - cosine * cosine);
   float cos_2h = 2.0 * cosine * cosine - 1.0, sin_2h = 2.0 * sine * cosine;
   return 0.25 * (cos_n + 2.0 * h * sin_n - (cos_2h * cos_n + sin_2h * sin_n));
 }
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(depths, 0) - 1;
-  vec3 here = place(at);
-  vec3 x = along(place(max(at - ivec2(1, 0), ivec2(0))), here, place(min(at + ivec2(1, 0), last)));
-  vec3 y = along(place(max(at - ivec2(0, 1), ivec2(0))), here, place(min(at + ivec2(0, 1), last)));
+  vec2 middle = gl_FragCoord.xy;
+  ivec2 at = ivec2(middle);
+  vec3 here = place(middle);
+  vec3 x = along(place(middle - vec2(1.0, 0.0)), here, place(middle + vec2(1.0, 0.0)));
+  vec3 y = along(place(middle - vec2(0.0, 1.0)), here, place(middle + vec2(0.0, 1.0)));
   vec3 eye = -normalize(here), n = normalize(cross(x, y));
   if (dot(n, eye) < 0.0) n = -n;
 
@@ -47,17 +47,19 @@ void main() {
   float size = max(length(projected), 1e-4);
   float sin_n = dot(projected, tangent) / size, cos_n = clamp(dot(projected, eye) / size, 0.0, 1.0);
 
+  // Horizons are measured from the surface: a pixel beside the slice then does not make a plane occlude itself.
   float span = min(reach * pixels / here.z, longest), fall = 1.0 / (reach * reach);
-  float ahead = -sin_n, behind = sin_n; // cosines of the horizons: those of the surface itself
+  float ahead = 0.0, behind = 0.0; // sines
   for (int k = 0; k < 4; ++k) {
     float t = (float(k) + offset) * 0.25;
-    vec2 away = direction * max(t * t * span, float(k) + 1.0);
-    vec3 a = place(clamp(ivec2(gl_FragCoord.xy + away), ivec2(0), last)) - here;
-    vec3 b = place(clamp(ivec2(gl_FragCoord.xy - away), ivec2(0), last)) - here;
+    vec2 away = floor(direction * max(t * t * span, float(k) + 1.0) + 0.5);
+    vec3 a = place(middle + away) - here;
+    vec3 b = place(middle - away) - here;
     float aa = dot(a, a) + 1e-20, bb = dot(b, b) + 1e-20;
-    ahead = max(ahead, mix(-sin_n, dot(a, eye) * inversesqrt(aa), clamp(1.0 - aa * fall, 0.0, 1.0)));
-    behind = max(behind, mix(sin_n, dot(b, eye) * inversesqrt(bb), clamp(1.0 - bb * fall, 0.0, 1.0)));
+    ahead = max(ahead, dot(a, n) * inversesqrt(aa) * max(1.0 - aa * fall, 0.0));
+    behind = max(behind, dot(b, n) * inversesqrt(bb) * max(1.0 - bb * fall, 0.0));
   }
-  float visible = size * (arc(min(ahead, 1.0), 1.0, cos_n, sin_n) + arc(min(behind, 1.0), -1.0, cos_n, sin_n));
-  pixel = vec4(visible, here.z, 0.0, 1.0);
+  float free = cos_n + arccos(cos_n) * abs(sin_n); // where nothing rises
+  float seen = arc(min(ahead / size, 1.0), 1.0, cos_n, sin_n) + arc(min(behind / size, 1.0), -1.0, cos_n, sin_n);
+  pixel = vec4(size * (free - seen), here.z, 0.0, 1.0);
 }

@@ -1,6 +1,8 @@
-// What the picture's colours are multiplied by: the visibility of the four nearest places, of those that are as deep.
+// What the picture's encoded colours are multiplied by, so their light by its square, for within so short a reach the
+// plain share is hardly seen: what the four nearest places are left with, of those that are as deep.
 uniform sampler2DMS depth;
-uniform sampler2D visibility;
+uniform sampler2D kept;
+uniform vec2 texel;         // of `kept`, in texture coordinates
 uniform int stride;         // from a pixel of the picture to one of `depth`
 uniform vec2 to_nearness; // see occlusion_depth.frag
 uniform float tolerance;  // [1/m]
@@ -14,16 +16,15 @@ void main() {
 
   // Place i is taken at pixel 2 i, and its blur reaches from i - 2 to i + 1, whose middle is pixel 2 i - 1.
   vec2 from = 0.5 * vec2(at) + 0.5;
-  ivec2 first = ivec2(floor(from)), last = textureSize(visibility, 0) - 1;
-  vec2 share = from - vec2(first);
+  vec2 first = floor(from), share = from - first;
   float sum = 0.0, weights = 0.0;
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 2; ++i) {
-      vec2 other = texelFetch(visibility, clamp(first + ivec2(i, j), ivec2(0), last), 0).xy;
+      vec2 other = texture(kept, (first + vec2(i, j) + 0.5) * texel).xy;
       float weight = (i == 0 ? 1.0 - share.x : share.x) * (j == 0 ? 1.0 - share.y : share.y) + 0.01;
       weight *= max(1.0 - abs(other.y - deep) * tolerance, 0.0) + 1e-4;
       sum += weight * other.x;
       weights += weight;
     }
-  pixel = vec4(vec3(encode(vec3(sum / weights))), 1.0);
+  pixel = vec4(vec3(1.0 - sum / weights), 1.0);
 }

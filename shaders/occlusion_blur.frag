@@ -1,14 +1,22 @@
-// The mean over a block of 4 x 4, whose pixels have all slices and offsets among them, of what is as deep: x; y: depth.
-uniform sampler2D visibility;
-uniform float tolerance; // [1/m]: 1 over the depth that keeps neighbours apart
+// The mean over a block of 4 x 4, whose pixels have all slices and offsets among them, of those that lie on the same
+// surface: x; y: depth.
+uniform sampler2D kept;
+uniform vec2 texel; // in texture coordinates
+uniform float tolerance; // [1/m]: 1 over the distance from the surface that is too much
 out vec4 pixel;
+
+
+vec2 at(vec2 away) { return texture(kept, (gl_FragCoord.xy + away) * texel).xy; }
+float nearer(float before, float after) { return abs(after) < abs(before) ? after : before; }
+
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(visibility, 0) - 1;
-  float depth = texelFetch(visibility, at, 0).y, sum = 0.0, weights = 0.0;
+  float depth = at(vec2(0.0)).y, sum = 0.0, weights = 0.0;
+  vec2 slope = vec2(nearer(depth - at(vec2(-1.0, 0.0)).y, at(vec2(1.0, 0.0)).y - depth),
+                    nearer(depth - at(vec2(0.0, -1.0)).y, at(vec2(0.0, 1.0)).y - depth));
   for (int j = -2; j < 2; ++j)
     for (int i = -2; i < 2; ++i) {
-      vec2 other = texelFetch(visibility, clamp(at + ivec2(i, j), ivec2(0), last), 0).xy;
-      float weight = max(1.0 - abs(other.y - depth) * tolerance, 0.0);
+      vec2 other = at(vec2(i, j));
+      float weight = max(1.0 - abs(other.y - depth - dot(slope, vec2(i, j))) * tolerance, 0.0);
       sum += weight * other.x;
       weights += weight;
     }

@@ -197,6 +197,7 @@ PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, doub
   if (const Node* hud = preset.child("hud"); hud && hud_available()) hud_.emplace(*hud, scene, frames);
   const Colour background = image_settings(preset).background;
   transparent_ = image_settings(preset).transparent;
+  occlusion_ = image_settings(preset).occlusion;
   for (std::size_t c = 0; c < 3; ++c) background_[c] = static_cast<float>(background[c]) / 255;
   const double start = now();
   for (const auto& body : scene.bodies()) bodies_.push_back(std::make_unique<BodyPicture>(*body));
@@ -223,6 +224,7 @@ Frame PictureMaker::draw(long number, double time) {
   frame.camera = viewpoint_.at(time);
   frame.background = background_;
   frame.transparent = transparent_;
+  frame.occlusion = occlusion_;
   if (hud_) frame.hud = hud_->content(legends());
   seconds_ += now() - start;
   return frame;

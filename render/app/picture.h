@@ -78,7 +78,7 @@ private:
   Scene& scene_;
   Viewpoint viewpoint_;
   std::array<float, 3> background_{};
-  bool transparent_ = false;
+  bool transparent_ = false, occlusion_ = true;
   std::vector<std::unique_ptr<BodyPicture>> bodies_;
   std::optional<HudWriter> hud_; // none: nothing is written over the pictures
   std::size_t fragments_seen_ = 0;

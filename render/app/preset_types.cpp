@@ -51,7 +51,9 @@ const ElementType& image_type() {
             "samples a pixel: 4 smooths edges; 16 fine lines and gloss too, and takes "
             "four times as long")
            .otherwise("4"),
-       text("background", "#rrggbb, or none: transparent, without floor").otherwise("#edeff3")},
+       text("background", "#rrggbb, or none: transparent, without floor").otherwise("#edeff3"),
+       flag("occlusion", "what stands near a place keeps light from it: darker folds, cracks and gaps")
+           .otherwise("yes")},
       {}};
   return type;
 }
@@ -162,6 +164,7 @@ ImageSettings image_settings(const Node& scene) {
   settings.fps = image.number("fps");
   settings.samples = std::stoi(image.text("samples"));
   settings.transparent = image.text("background") == "none";
+  settings.occlusion = image.flag("occlusion");
   if (!settings.transparent) settings.background = colour_of(image, "background");
   return settings;
 }

@@ -28,6 +28,7 @@ struct ImageSettings {
   int samples = 0;                          // a pixel
   std::array<std::uint8_t, 3> background{}; // sRGB
   bool transparent = false;                 // there is no background
+  bool occlusion = true;                    // ambient occlusion
 };
 ImageSettings image_settings(const Node& scene);
 
