@@ -5,6 +5,7 @@
 namespace rend {
 namespace {
 
+constexpr int part = 3;                // of the picture's pixels, each way, one is looked at
 constexpr double reach_share = 0.11;   // how far away things still keep light, in distances from eye to target
 constexpr double longest_share = 0.18; // that reach seems at most so long, in heights of the picture
 
@@ -54,24 +55,25 @@ Eigen::Vector2f to_nearness(const View& view) {
 } // namespace
 
 Occlusion::Occlusion(int width, int height)
-    : width_(width), height_(height), half_width_((width + 1) / 2), half_height_((height + 1) / 2) {
-  make_target(depths_, depths_target_, GL_R32F, GL_RED, half_width_, half_height_);
-  make_target(kept_, kept_target_, GL_RG32F, GL_RG, half_width_, half_height_);
-  make_target(blurred_, blurred_target_, GL_RG32F, GL_RG, half_width_, half_height_);
+    : width_(width), height_(height), small_width_((width + part - 1) / part),
+      small_height_((height + part - 1) / part) {
+  make_target(depths_, depths_target_, GL_R32F, GL_RED, small_width_, small_height_);
+  make_target(kept_, kept_target_, GL_RG32F, GL_RG, small_width_, small_height_);
+  make_target(blurred_, blurred_target_, GL_RG32F, GL_RG, small_width_, small_height_);
 }
 
 void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, const PixelBox& covered,
                       std::optional<double> floor_z) {
-  const auto longest = static_cast<int>(longest_share * half_height_);
-  const auto grown = [&](int margin) { // of half size
-    const int x = std::max(covered.x / 2 - margin, 0), y = std::max(covered.y / 2 - margin, 0);
-    return PixelBox{x, y, std::min((covered.x + covered.width + 1) / 2 + margin, half_width_) - x,
-                    std::min((covered.y + covered.height + 1) / 2 + margin, half_height_) - y};
+  const auto longest = static_cast<int>(longest_share * small_height_);
+  const auto grown = [&](int margin) { // small
+    const int x = std::max(covered.x / part - margin, 0), y = std::max(covered.y / part - margin, 0);
+    return PixelBox{x, y, std::min((covered.x + covered.width) / part + 1 + margin, small_width_) - x,
+                    std::min((covered.y + covered.height) / part + 1 + margin, small_height_) - y};
   };
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
-  glViewport(0, 0, half_width_, half_height_);
+  glViewport(0, 0, small_width_, small_height_);
   read_depths(depth, fine, view, grown(longest + 5), floor_z);
   find_kept(view, grown(3));
   blur(view, grown(1));
@@ -84,6 +86,8 @@ void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, 
   apply_program_.set("depth", 0);
   apply_program_.set("kept", 1);
   apply_program_.set("texel", texel());
+  apply_program_.set("part", static_cast<float>(part));
+  apply_program_.set("back", 0.5f * part - part / 2);
   apply_program_.set("stride", fine);
   apply_program_.set("to_nearness", to_nearness(view));
   apply_program_.set("tolerance", tolerance(view));
@@ -96,11 +100,11 @@ void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, 
 
 void Occlusion::read_depths(GLuint depth, int fine, const View& view, const PixelBox& box,
                             std::optional<double> floor_z) {
-  Eigen::Vector3d floor = Eigen::Vector3d::Zero(); // its nearness over the half-sized picture
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero(); // its nearness over the small picture
   if (floor_z) {
     const Eigen::Vector3d up = view.world_to_eye.topLeftCorner<3, 3>().col(2); // in the eye's axes
     const double x = up.x() / view.eye_to_clip(0, 0), y = up.y() / view.eye_to_clip(1, 1);
-    const double odd_x = 2.0 * half_width_ / width_, odd_y = 2.0 * half_height_ / height_;
+    const double odd_x = 1.0 * part * small_width_ / width_, odd_y = 1.0 * part * small_height_ / height_;
     floor = {x * odd_x, y * odd_y, x * (odd_x - 1) + y * (odd_y - 1) - up.z()};
     floor /= *floor_z - view.eye.z();
   }
@@ -108,7 +112,8 @@ void Occlusion::read_depths(GLuint depth, int fine, const View& view, const Pixe
   depths_program_.use();
   depths_program_.set("floor_plane", Eigen::Vector3f(floor.cast<float>()));
   depths_program_.set("depth", 0);
-  depths_program_.set("stride", 2 * fine);
+  depths_program_.set("part", part);
+  depths_program_.set("stride", fine);
   depths_program_.set("to_nearness", to_nearness(view));
   bind(0, GL_TEXTURE_2D_MULTISAMPLE, depth);
   draw_over(box);
@@ -116,7 +121,7 @@ void Occlusion::read_depths(GLuint depth, int fine, const View& view, const Pixe
 
 void Occlusion::find_kept(const View& view, const PixelBox& box) {
   const double across = 1 / view.eye_to_clip(0, 0), up = 1 / view.eye_to_clip(1, 1);
-  const Eigen::Vector4d ray(-across, -up, 4.0 / width_ * across, 4.0 / height_ * up);
+  const Eigen::Vector4d ray(-across, -up, 2.0 * part / width_ * across, 2.0 * part / height_ * up);
   glBindFramebuffer(GL_FRAMEBUFFER, kept_target_.name());
   kept_program_.use();
   kept_program_.set("depths", 0);
@@ -124,7 +129,7 @@ void Occlusion::find_kept(const View& view, const PixelBox& box) {
   kept_program_.set("ray", Eigen::Vector4f(ray.cast<float>()));
   kept_program_.set("reach", static_cast<float>(reach(view)));
   kept_program_.set("pixels", static_cast<float>(1 / ray.w()));
-  kept_program_.set("longest", static_cast<float>(longest_share * half_height_));
+  kept_program_.set("longest", static_cast<float>(longest_share * small_height_));
   bind(0, GL_TEXTURE_2D, depths_.name());
   draw_over(box);
 }

@@ -16,7 +16,7 @@ VideoFormat mp4() {
           "mp4",
           "libx264",
           to_video,
-          {{"preset", "veryfast"}, {"crf", "18"}},
+          {{"preset", "veryfast"}, {"subq", "1"}, {"crf", "18"}},
           {{"movflags", "+frag_keyframe+empty_moov+default_base_moof"}},
           true,
           true,

@@ -3,6 +3,7 @@
 uniform sampler2DMS depth;
 uniform sampler2D kept;
 uniform vec2 texel;         // of `kept`, in texture coordinates
+uniform float part, back;   // pixels of the picture that are one of `kept`; half of that less its whole part
 uniform int stride;         // from a pixel of the picture to one of `depth`
 uniform vec2 to_nearness; // see occlusion_depth.frag
 uniform float tolerance;  // [1/m]
@@ -14,8 +15,7 @@ void main() {
   for (int k = 0; k < 4; ++k) stored = min(stored, texelFetch(depth, at * stride, k).x);
   float deep = 1.0 / (to_nearness.x + to_nearness.y * stored);
 
-  // Place i is taken at pixel 2 i, and its blur reaches from i - 2 to i + 1, whose middle is pixel 2 i - 1.
-  vec2 from = 0.5 * vec2(at) + 0.5;
+  vec2 from = (vec2(at) + back) / part; // the blur of place i reaches from i - 2 to i + 1, with i - 1/2 in its middle
   vec2 first = floor(from), share = from - first;
   float sum = 0.0, weights = 0.0;
   for (int j = 0; j < 2; ++j)
