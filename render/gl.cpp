@@ -16,9 +16,9 @@ std::string log_of(GLuint name, decltype(glGetShaderiv) get, decltype(glGetShade
   return text;
 }
 
-GLuint compile(GLenum kind, const std::string& file) {
+GLuint compile(GLenum kind, const std::string& file, const std::string& definitions) {
   const GLuint name = glCreateShader(kind);
-  const std::string header = "#version 330 core\n";
+  const std::string header = "#version 330 core\n" + definitions;
   const std::string common(shader_source("common.glsl"));
   const std::string own(shader_source(file));
   const std::array<const char*, 3> texts{header.c_str(), common.c_str(), own.c_str()};
@@ -32,8 +32,10 @@ GLuint compile(GLenum kind, const std::string& file) {
 
 } // namespace
 
-GlProgram::GlProgram(const std::string& vertex, const std::string& fragment) : name_(glCreateProgram()) {
-  for (const GLuint shader : {compile(GL_VERTEX_SHADER, vertex), compile(GL_FRAGMENT_SHADER, fragment)}) {
+GlProgram::GlProgram(const std::string& vertex, const std::string& fragment, const std::string& definitions)
+    : name_(glCreateProgram()) {
+  for (const GLuint shader :
+       {compile(GL_VERTEX_SHADER, vertex, definitions), compile(GL_FRAGMENT_SHADER, fragment, definitions)}) {
     glAttachShader(name_, shader);
     glDeleteShader(shader); // lives as long as the program
   }

@@ -42,7 +42,8 @@ using GlVertexArray = GlObject<glGenVertexArrays, glDeleteVertexArrays>;
 // A vertex and a fragment shader out of shaders/, each with common.glsl in front.
 class GlProgram {
 public:
-  GlProgram(const std::string& vertex, const std::string& fragment); // names as in shaders/
+  // Names as in shaders/; definitions: lines of #define for both.
+  GlProgram(const std::string& vertex, const std::string& fragment, const std::string& definitions = "");
   ~GlProgram();
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;

@@ -1,6 +1,7 @@
 #include "render/occlusion.h"
 
 #include <algorithm>
+#include <string>
 
 namespace rend {
 namespace {
@@ -46,6 +47,10 @@ float tolerance(const View& view) {
   return static_cast<float>(4 / reach(view));
 }
 
+std::string define(int samples) {
+  return "#define SAMPLES " + std::to_string(samples) + "\n";
+}
+
 // 1 / depth = x + y * what the depth buffer holds.
 Eigen::Vector2f to_nearness(const View& view) {
   const Eigen::Matrix4d& clip = view.eye_to_clip;
@@ -54,9 +59,11 @@ Eigen::Vector2f to_nearness(const View& view) {
 
 } // namespace
 
-Occlusion::Occlusion(int width, int height)
-    : width_(width), height_(height), small_width_((width + part - 1) / part),
-      small_height_((height + part - 1) / part) {
+Occlusion::Occlusion(int width, int height, int samples)
+    : depth_kind_(samples == 1 ? GL_TEXTURE_2D : GL_TEXTURE_2D_MULTISAMPLE), width_(width), height_(height),
+      small_width_((width + part - 1) / part), small_height_((height + part - 1) / part),
+      depths_program_("occlusion.vert", "occlusion_depth.frag", define(samples)),
+      apply_program_("screen.vert", "occlusion_apply.frag", define(samples)) {
   make_target(depths_, depths_target_, GL_R32F, GL_RED, small_width_, small_height_);
   make_target(kept_, kept_target_, GL_RG32F, GL_RG, small_width_, small_height_);
   make_target(blurred_, blurred_target_, GL_RG32F, GL_RG, small_width_, small_height_);
@@ -92,7 +99,7 @@ void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, 
   apply_program_.set("to_nearness", to_nearness(view));
   apply_program_.set("tolerance", tolerance(view));
   bind(1, GL_TEXTURE_2D, blurred_.name());
-  bind(0, GL_TEXTURE_2D_MULTISAMPLE, depth);
+  bind(0, depth_kind_, depth);
   draw_over(covered);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
@@ -115,7 +122,7 @@ void Occlusion::read_depths(GLuint depth, int fine, const View& view, const Pixe
   depths_program_.set("part", part);
   depths_program_.set("stride", fine);
   depths_program_.set("to_nearness", to_nearness(view));
-  bind(0, GL_TEXTURE_2D_MULTISAMPLE, depth);
+  bind(0, depth_kind_, depth);
   draw_over(box);
 }
 

@@ -30,11 +30,12 @@ namespace rend {
 
 class Occlusion {
 public:
-  Occlusion(int width, int height); // [pixels], of the picture
+  // width, height [pixels], of the picture; samples: 1 or 4, of its depths.
+  Occlusion(int width, int height, int samples);
 
-  // Darkens what is in `picture`, a framebuffer of that size with colours multiplied by their alpha, and leaves it bound.
-  // depth: a multisampled texture, `fine` times as large each way; covered: by bodies; floor_z: of a floor that is seen
-  // [m].
+  // Darkens what is in `picture`, a framebuffer of that size with colours multiplied by their alpha, and leaves it
+  // bound. depth: a texture with those samples, `fine` times as large each way; covered: by bodies; floor_z: of a
+  // floor that is seen [m].
   void apply(GLuint picture, GLuint depth, int fine, const View& view, const PixelBox& covered,
              std::optional<double> floor_z);
 
@@ -47,11 +48,11 @@ private:
     return {1.0f / static_cast<float>(small_width_), 1.0f / static_cast<float>(small_height_)};
   }
 
+  GLenum depth_kind_;                               // of texture
   int width_, height_, small_width_, small_height_; // [pixels]
-  GlProgram depths_program_{"occlusion.vert", "occlusion_depth.frag"};
+  GlProgram depths_program_, apply_program_;
   GlProgram kept_program_{"screen.vert", "occlusion.frag"};
   GlProgram blur_program_{"screen.vert", "occlusion_blur.frag"};
-  GlProgram apply_program_{"screen.vert", "occlusion_apply.frag"};
   GlTexture depths_, kept_, blurred_; // small: depth [m]; the other two: what is kept, depth [m]
   GlFramebuffer depths_target_, kept_target_, blurred_target_;
 };

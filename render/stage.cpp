@@ -40,7 +40,8 @@ Eigen::Vector3f colour_of(const std::array<float, 3>& colour) {
 } // namespace
 
 Stage::Stage(int width, int height, int samples)
-    : width_(width), height_(height), samples_(samples), fine_(samples == 16 ? 2 : 1) {
+    : width_(width), height_(height), samples_(samples), fine_(samples == 16 ? 2 : 1),
+      taken_(std::min(samples, 4)) {
   CHECK(samples == 1 || samples == 4 || samples == 16);
   GLint largest = 0, most = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
@@ -49,10 +50,10 @@ Stage::Stage(int width, int height, int samples)
   if (width < 1 || height < 1 || width > largest || height > largest)
     throw UserError(Exit::BadInput, {}, fmt::format("a picture of {} x {} cannot be drawn.", width, height),
                     fmt::format("Each side may have from 1 to {} pixels.", largest));
-  if (std::min(samples, 4) > most)
+  if (taken_ > most)
     throw UserError(Exit::BadInput, {}, "this machine's OpenGL cannot take 4 samples a pixel.",
                     "Set samples=\"1\" and draw a larger picture.");
-  make_targets(std::min(samples, 4));
+  make_targets();
   make_shadow_map();
   make_vertex_array();
   check_gl("Stage");
@@ -77,20 +78,22 @@ void Stage::make_target(const GlFramebuffer& target, const GlRenderbuffer& colou
   must_hold();
 }
 
-void Stage::make_targets(int samples) {
+void Stage::make_targets() {
   const int width = width_ * fine_, height = height_ * fine_;
   make_target(resolved_, resolved_colour_, width, height);
   if (fine_ > 1) make_target(picture_, picture_colour_, width_, height_);
 
-  const GLsizei count = samples == 1 ? 0 : samples;
   glBindRenderbuffer(GL_RENDERBUFFER, target_colour_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_RGBA8, width, height);
-  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, target_depth_.name());
-  glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_DEPTH_COMPONENT24, width, height, GL_TRUE);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, taken_ == 1 ? 0 : taken_, GL_RGBA8, width, height);
+  const GLenum kind = taken_ == 1 ? GL_TEXTURE_2D : GL_TEXTURE_2D_MULTISAMPLE;
+  glBindTexture(kind, target_depth_.name());
+  if (taken_ == 1)
+    glTexImage2D(kind, 0, GL_DEPTH_COMPONENT24, width, height, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  else
+    glTexImage2DMultisample(kind, taken_, GL_DEPTH_COMPONENT24, width, height, GL_TRUE);
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target_colour_.name());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D_MULTISAMPLE, target_depth_.name(),
-                         0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, kind, target_depth_.name(), 0);
   must_hold();
 }
 
@@ -276,7 +279,7 @@ void Stage::resolve(const PixelBox& covered) {
 
 void Stage::occlude(const Frame& frame, const View& view, const PixelBox& covered) {
   if (covered.width == 0) return;
-  if (!occlusion_) occlusion_.emplace(width_, height_);
+  if (!occlusion_) occlusion_.emplace(width_, height_, taken_);
   const bool floor = frame.floor && !frame.transparent && view.eye.z() > frame.floor->z;
   occlusion_->apply(result().name(), target_depth_.name(), fine_, view, covered,
                     floor ? std::optional(frame.floor->z) : std::nullopt);

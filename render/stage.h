@@ -48,7 +48,7 @@ private:
     Eigen::AlignedBox3d bounds;      // [m]
   };
 
-  void make_targets(int samples);
+  void make_targets();
   void must_hold() const; // UserError (BadInput) where OpenGL has no room for what was asked for
   void make_shadow_map();
   void make_vertex_array();
@@ -69,6 +69,7 @@ private:
   int width_, height_; // [pixels], of the picture
   int samples_;        // a pixel, as asked for
   int fine_;           // pixels that are drawn for one of the picture, each way: 1 or 2
+  int taken_;          // samples of each of those: 1 or 4
   bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};
   GlProgram body_{"body.vert", "body.frag"};

@@ -49,17 +49,19 @@ void main() {
 
   // Horizons are measured from the surface: a pixel beside the slice then does not make a plane occlude itself.
   float span = min(reach * pixels / here.z, longest), fall = 1.0 / (reach * reach);
-  float ahead = 0.0, behind = 0.0; // sines
+  float ahead = 0.0, behind = 0.0; // squares of sines, less what is lost by distance
   for (int k = 0; k < 4; ++k) {
     float t = (float(k) + offset) * 0.25;
     vec2 away = floor(direction * max(t * t * span, float(k) + 1.0) + 0.5);
     vec3 a = place(middle + away) - here;
     vec3 b = place(middle - away) - here;
-    float aa = dot(a, a) + 1e-20, bb = dot(b, b) + 1e-20;
-    ahead = max(ahead, dot(a, n) * inversesqrt(aa) * max(1.0 - aa * fall, 0.0));
-    behind = max(behind, dot(b, n) * inversesqrt(bb) * max(1.0 - bb * fall, 0.0));
+    float up_a = max(dot(a, n), 0.0), up_b = max(dot(b, n), 0.0);
+    ahead = max(ahead, up_a * up_a * (1.0 / (dot(a, a) + 1e-20) - fall));
+    behind = max(behind, up_b * up_b * (1.0 / (dot(b, b) + 1e-20) - fall));
   }
+  ahead = min(sqrt(ahead) / size, 1.0);
+  behind = min(sqrt(behind) / size, 1.0);
   float free = cos_n + arccos(cos_n) * abs(sin_n); // where nothing rises
-  float seen = arc(min(ahead / size, 1.0), 1.0, cos_n, sin_n) + arc(min(behind / size, 1.0), -1.0, cos_n, sin_n);
+  float seen = arc(ahead, 1.0, cos_n, sin_n) + arc(behind, -1.0, cos_n, sin_n);
   pixel = vec4(size * (free - seen), here.z, 0.0, 1.0);
 }

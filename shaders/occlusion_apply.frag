@@ -1,6 +1,9 @@
-// What the picture's encoded colours are multiplied by, so their light by its square, for within so short a reach the
-// plain share is hardly seen: what the four nearest places are left with, of those that are as deep.
+// What the picture is multiplied by: the light that the four nearest places are left with, of those that are as deep.
+#if SAMPLES == 1
+uniform sampler2D depth;
+#else
 uniform sampler2DMS depth;
+#endif
 uniform sampler2D kept;
 uniform vec2 texel;         // of `kept`, in texture coordinates
 uniform float part, back;   // pixels of the picture that are one of `kept`; half of that less its whole part
@@ -12,7 +15,7 @@ out vec4 pixel;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   float stored = 1.0; // of a pixel on an edge, the nearest: the farther part is darkened on its other pixels
-  for (int k = 0; k < 4; ++k) stored = min(stored, texelFetch(depth, at * stride, k).x);
+  for (int k = 0; k < SAMPLES; ++k) stored = min(stored, texelFetch(depth, at * stride, k).x);
   float deep = 1.0 / (to_nearness.x + to_nearness.y * stored);
 
   vec2 from = (vec2(at) + back) / part; // the blur of place i reaches from i - 2 to i + 1, with i - 1/2 in its middle
@@ -26,5 +29,5 @@ void main() {
       sum += weight * other.x;
       weights += weight;
     }
-  pixel = vec4(vec3(1.0 - sum / weights), 1.0);
+  pixel = vec4(encode(vec3(1.0 - sum / weights)), 1.0);
 }

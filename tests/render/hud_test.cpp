@@ -103,6 +103,34 @@ TEST_F(HudTest, EachPartStandsInItsCorner) {
   EXPECT_GT(box_of(legend)[1], 0.5);
 }
 
+// Of each part alone the box that it changes; of all together nothing outside of these.
+TEST_F(HudTest, NothingChangesOutsideOfItsBoxes) {
+  const HudContent all = rich_content();
+  std::array<HudContent, 4> parts;
+  parts[0].title = all.title;
+  parts[0].subtitle = all.subtitle;
+  parts[1].figures = all.figures;
+  parts[2].plots = all.plots;
+  parts[3].legends = all.legends;
+  constexpr int width = 640, height = 360;
+  const Image bare = picture(width, height, nullptr), full = picture(width, height, &all);
+  std::array<std::array<double, 4>, 4> boxes;
+  double area = 0;
+  for (std::size_t n = 0; n < 4; ++n) {
+    boxes[n] = changed(bare, picture(width, height, &parts[n]));
+    area += (boxes[n][2] - boxes[n][0]) * (boxes[n][3] - boxes[n][1]);
+  }
+  EXPECT_LT(area, 0.35); // of the picture
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double at_x = (x + 0.5) / width, at_y = (y + 0.5) / height;
+      const bool inside = std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) {
+        return at_x > box[0] && at_y > box[1] && at_x < box[2] && at_y < box[3];
+      });
+      ASSERT_TRUE(inside || std::equal(bare.at(x, y), bare.at(x, y) + 3, full.at(x, y))) << x << ' ' << y;
+    }
+}
+
 TEST_F(HudTest, ALegendShowsItsColoursFromLowToHigh) {
   HudContent content;
   content.legends = rich_content().legends;
