@@ -11,10 +11,11 @@
 //   V = |n'| / 4 Σ (cos n + 2 h sin n - cos(2 h - n)),   n': the normal projected into the slice,
 //
 // and what is kept is V without horizons less V with them. A horizon is what rises highest over the surface at four
-// depths along the slice; it counts less the farther it is, up to the reach. Neighbours in a block of 4 x 4 take 16 slices
-// and 4 offsets along them, always the same, and the mean over those that lie on the same surface brings them together: 128
-// depths for a place. A plane and a convex body alone keep nothing from themselves. What is hidden or out of the picture
-// keeps nothing either.
+// depths along the slice; its squared sine counts in full up to 0.6 of the reach, and falls to nothing there, which comes
+// within 0.03 of rays whose hits count less with the squared distance. Neighbours in a block of 4 x 4 take 16 slices and 4
+// offsets along them, always the same, and the mean over those that lie on the same surface brings them together: 128 depths
+// for a place. A plane keeps nothing from itself, nor does a convex body but for 2 % along sharp edges. What is hidden or out
+// of the picture keeps nothing either.
 //
 // Source: Jimenez, Wu, Pesce and Jarabo, Practical real-time strategies for accurate indirect occlusion, 2016.
 //

@@ -55,9 +55,10 @@ void main() {
     vec2 away = floor(direction * max(t * t * span, float(k) + 1.0) + 0.5);
     vec3 a = place(middle + away) - here;
     vec3 b = place(middle - away) - here;
-    float up_a = max(dot(a, n), 0.0), up_b = max(dot(b, n), 0.0);
-    ahead = max(ahead, up_a * up_a * (1.0 / (dot(a, a) + 1e-20) - fall));
-    behind = max(behind, up_b * up_b * (1.0 / (dot(b, b) + 1e-20) - fall));
+    float up_a = max(dot(a, n), 0.0), near_a = 1.0 / (dot(a, a) + 1e-20);
+    float up_b = max(dot(b, n), 0.0), near_b = 1.0 / (dot(b, b) + 1e-20);
+    ahead = max(ahead, up_a * up_a * min(near_a, 1.5 * (near_a - fall)));
+    behind = max(behind, up_b * up_b * min(near_b, 1.5 * (near_b - fall)));
   }
   ahead = min(sqrt(ahead) / size, 1.0);
   behind = min(sqrt(behind) / size, 1.0);
