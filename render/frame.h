@@ -69,7 +69,7 @@ struct Frame {
       light; // towards the key light, any length; none: over the camera's left shoulder
   std::array<float, 3> background{0.93f, 0.94f, 0.96f}; // sRGB; a soft gradient around it
   bool transparent = false; // nothing is behind the bodies, not even the floor: the picture has an alpha
-  bool occlusion = true;    // what stands near a place keeps light from it: ambient occlusion
+  bool occlusion = false;   // what stands near a place keeps light from it: ambient occlusion
   HudContent hud;           // written over it all; empty: nothing is
 };
 

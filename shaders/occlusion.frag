@@ -64,5 +64,7 @@ void main() {
   behind = min(sqrt(behind) / size, 1.0);
   float free = cos_n + arccos(cos_n) * abs(sin_n); // where nothing rises
   float seen = arc(ahead, 1.0, cos_n, sin_n) + arc(behind, -1.0, cos_n, sin_n);
-  pixel = vec4(size * (free - seen), here.z, 0.0, 1.0);
+  float kept = size * (free - seen);
+  // Where neighbours are as thin as a pixel, directions vanish: what then is no number fails the comparison.
+  pixel = vec4(kept > 0.0 ? min(kept, 1.0) : 0.0, here.z, 0.0, 1.0);
 }

@@ -52,8 +52,9 @@ const ElementType& image_type() {
             "four times as long")
            .otherwise("4"),
        text("background", "#rrggbb, or none: transparent, without floor").otherwise("#edeff3"),
-       flag("occlusion", "what stands near a place keeps light from it: darker folds, cracks and gaps")
-           .otherwise("yes")},
+       flag("occlusion", "what stands near a place keeps light from it: darker folds, cracks and gaps; a fifth "
+                         "of the time of a picture")
+           .otherwise("no")},
       {}};
   return type;
 }

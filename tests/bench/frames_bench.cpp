@@ -87,7 +87,8 @@ const std::vector<Frame>& frames(int triangles) {
   return out;
 }
 
-// The whole way, frames as fast as they are taken: `frames` in the counters is frames a second.
+// The whole way, frames as fast as they are taken: `frames` in the counters is frames a second. The second argument:
+// with ambient occlusion.
 void pipeline(benchmark::State& state) {
   const auto& clip = frames(static_cast<int>(state.range(0)));
   const long count = state.range(0) > 10'000 ? 24 : 120;
@@ -103,6 +104,7 @@ void pipeline(benchmark::State& state) {
     for (int number = 0; number < count; ++number) {
       Frame frame = clip[static_cast<std::size_t>(number % phases)];
       frame.number = number;
+      frame.occlusion = state.range(1) != 0;
       files.push(std::move(frame));
     }
     files.finish();
@@ -115,13 +117,15 @@ void pipeline(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(count * state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(pipeline)
-    ->Arg(5'000)
-    ->Arg(200'000)
+    ->Args({5'000, 0})
+    ->Args({5'000, 1})
+    ->Args({200'000, 0})
+    ->Args({200'000, 1})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->MeasureProcessCPUTime();
 
-// Drawing alone, with what is named taken away.
+// Drawing alone, with what is named taken away, or occlusion added.
 void draw(benchmark::State& state, const std::string& without) {
   const std::unique_ptr<Device> device = make_device();
   Stage stage(width, height, without == "samples" ? 1 : 4);
@@ -129,6 +133,7 @@ void draw(benchmark::State& state, const std::string& without) {
   for (Frame& frame : clip) {
     if (without == "floor") frame.floor.reset();
     if (without == "bodies") frame.bodies.clear();
+    frame.occlusion = without == "nothing";
   }
   stage.draw(clip.front()); // compiles the shaders
   stage.read();
@@ -141,6 +146,10 @@ void draw(benchmark::State& state, const std::string& without) {
 BENCHMARK_CAPTURE(draw, all, "")
     ->Arg(5'000)
     ->Arg(200'000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(draw, with_occlusion, "nothing")
+    ->Arg(5'000)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
 BENCHMARK_CAPTURE(draw, without_floor, "floor")
