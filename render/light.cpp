@@ -55,7 +55,7 @@ Lights lights_of(const Frame& frame) {
 
 Eigen::AlignedBox3d lit_bounds(const FrameCamera& camera, double aspect, const Eigen::AlignedBox3d& bounds) {
   const double distance = (camera.eye - camera.target).norm();
-  const double reach = 2 * distance * std::tan(camera.fov * std::numbers::pi / 360) * std::max(aspect, 1.0);
+  const double reach = 1.3 * distance * std::tan(camera.fov * std::numbers::pi / 360) * std::max(aspect, 1.0);
   const Vector3d corner = Vector3d::Constant(reach);
   const Eigen::AlignedBox3d seen(camera.target - corner, camera.target + corner);
   const Eigen::AlignedBox3d lit = bounds.intersection(seen);
