@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <exception>
@@ -62,7 +63,8 @@ private:
 std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tolerances& tolerances,
                                   const DiffOptions& options) {
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
-  const int jobs = cases.size() >= 2 * static_cast<std::size_t>(threads) ? threads : 1;
+  // A picture of two million pixels takes 0.3 GB while it is compared: not as many at once as a large machine has threads.
+  const int jobs = cases.size() >= 2 * static_cast<std::size_t>(threads) ? std::min(threads, 8) : 1;
   std::vector<std::optional<Compared>> results(cases.size());
   InOrder in_order(results, options.json_lines && options.update.empty());
   std::atomic<std::size_t> next = 0;
@@ -72,7 +74,7 @@ std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tol
       for (std::size_t n = next++; n < cases.size() && stop_signal() == 0; n = next++) {
         CompareOptions one = tolerances.of(cases[n].name);
         one.heat = !options.folder.empty();
-        one.threads = jobs > 1 ? 1 : threads;
+        one.threads = std::max(1, threads / jobs);
         in_order.put(n, compare_case(cases[n], one));
       }
     } catch (...) {

@@ -1,14 +1,11 @@
 #include "render/app/diff_page.h"
 
-#include "render/app/console.h"
 #include "render/output.h"
 #include "render/report/comparison.h"
 #include "render/report/page.h"
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
-
-#include <cmath>
 
 namespace rend {
 namespace {
@@ -95,12 +92,6 @@ Html figures_of(const Compared& one) {
                             m.over.height, m.over.corner.x, m.over.corner.y, 100 * m.over.dense))}});
 }
 
-// Where to look: the densest window, or the worst pixel where nothing is over the threshold.
-Pixel worst_place(const Metrics& m) {
-  if (m.over.pixels == 0) return m.difference.worst;
-  return {m.over.corner.x + m.over.width / 2, m.over.corner.y + m.over.height / 2};
-}
-
 class Chapters {
 public:
   explicit Chapters(const DiffReport& report) : report_(report) {}
@@ -130,9 +121,8 @@ Html Chapters::pictures(const Compared& one) {
   all.height = one.height;
   all.same_size = one.metrics.has_value();
   if (one.metrics) {
-    const Pixel at = worst_place(*one.metrics);
-    all.x = at.x;
-    all.y = at.y;
+    all.x = one.metrics->worst.x;
+    all.y = one.metrics->worst.y;
   }
   return compare(all);
 }

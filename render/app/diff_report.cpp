@@ -75,7 +75,8 @@ Json figures_json(const Metrics& m) {
        {{"share", o.dense}, {"x", o.corner.x}, {"y", o.corner.y}, {"width", o.width}, {"height", o.height}}},
       {"differing", d.differing},
       {"counted", d.counted},
-      {"worst", {{"x", d.worst.x}, {"y", d.worst.y}}}};
+      {"worst_pixel", {{"x", d.worst.x}, {"y", d.worst.y}}},
+      {"worst_place", {{"x", m.worst.x}, {"y", m.worst.y}}}};
 }
 
 std::string joined(const std::vector<std::string>& parts) {

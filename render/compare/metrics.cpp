@@ -47,6 +47,9 @@ Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& op
   out.ssim = ssim_of(a, b, mask, options.threads);
   out.flip_map = flip_map(a, b, options.threads);
   out.flip = flip_figures(out.flip_map, mask);
+  constexpr int side = 16;
+  const Pixel corner = brightest_window(out.flip_map, a.width, a.height, side);
+  out.worst = {corner.x + std::min(side, a.width) / 2, corner.y + std::min(side, a.height) / 2};
   return out;
 }
 

@@ -16,6 +16,7 @@ struct Metrics {
   OverThreshold over;
   double ssim = 1;
   FlipFigures flip;
+  Pixel worst;     // middle of the 16 x 16 pixels in which FLIP is largest: where to look
   Levels flip_map; // height x width; empty where the pictures are equal
 };
 

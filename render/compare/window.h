@@ -19,4 +19,8 @@ struct OverThreshold {
 // `threshold` in levels; `side`: N, at least 1 (CHECK).
 OverThreshold over_threshold(const Difference& difference, int width, int height, double threshold, int side);
 
+// The upper left corner of the window of side x side pixels in which a map's sum is largest: where an eye would look. The
+// window is as narrow or low as the picture where that is smaller.
+Pixel brightest_window(const Levels& map, int width, int height, int side);
+
 } // namespace rend

@@ -35,7 +35,7 @@ inline constexpr std::string_view comparison_style = R"(
   background:none; cursor:default; }
 [data-way=side] .stack img { grid-area:auto; width:100%; max-width:640px; border:1px solid var(--line); }
 [data-way=side] .mark, [data-way=side] .edge { display:none; }
-.compare input[type=range] { width:min(640px, 100%); display:block; margin:6px 0; accent-color:#ff2fb3; }
+.compare input[type=range] { width:100%; display:block; margin:6px 0; accent-color:#ff2fb3; }
 .compare:not([data-way=slider]) input[type=range] { display:none; }
 .look { display:flex; flex-wrap:wrap; gap:4px 18px; align-items:flex-start; } .look > div:first-child { max-width:100%; }
 .near { flex:1 1 300px; } .near p { margin:2px 0; font-size:13.5px; }

@@ -261,7 +261,8 @@ TEST_F(Diff, updates_all_that_is_named_or_nothing) {
   EXPECT_EQ(content(place.path() / "a/differ.png"), before);
   // A disk that is full, by a limit on the size of files: 512 bytes.
   Image noise(40, 30);
-  for (std::size_t n = 0; n < noise.pixels.size(); ++n) noise.pixels[n] = static_cast<std::uint8_t>(n * n * n >> 5);
+  for (std::size_t n = 0; n < noise.pixels.size(); ++n)
+    noise.pixels[n] = static_cast<std::uint8_t>(n * n * n >> 5);
   put("b/differ.png", noise);
   const Outcome full = place.shell("ulimit -f 1; trap '' XFSZ; " + std::string(REND_PROGRAM) +
                                    " diff a b --update differ --update size -q");

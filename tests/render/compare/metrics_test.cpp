@@ -66,6 +66,18 @@ TEST(Window, is_the_densest_of_all) {
   }
 }
 
+TEST(Window, in_which_a_map_is_brightest_is_where_its_sum_is_largest) {
+  Levels map(30 * 20);
+  for (std::size_t n = 0; n < map.size(); ++n) map[n] = n % 7 == 0 ? 0.25f : 0.f;
+  for (int y = 12; y < 16; ++y)
+    for (int x = 21; x < 25; ++x) map[static_cast<std::size_t>(y * 30 + x)] = 1;
+  const Pixel corner = brightest_window(map, 30, 20, 4);
+  EXPECT_EQ(corner.x, 21);
+  EXPECT_EQ(corner.y, 12);
+  const Pixel whole = brightest_window(map, 30, 20, 64);
+  EXPECT_EQ(whole.x + whole.y, 0);
+}
+
 TEST(WeightedPercentiles, are_those_of_the_sorted_values) {
   std::mt19937 random(4);
   const double percents[] = {1, 25, 50, 75, 99.5, 100};
