@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <fmt/format.h>
 #include <thread>
@@ -42,10 +43,20 @@ void check_pipeline(const PipelineOptions& options) {
   const Stage stage(options.width, options.height, options.samples);
 }
 
+std::string png_name(long number) {
+  return fmt::format("{:05d}.png", number);
+}
+
+PngText png_mark(const std::string& mark, long number) {
+  if (mark.empty()) return {};
+  return {"rend:scene", fmt::format("{} {}", mark, number)};
+}
+
 struct Pipeline::Stages {
   explicit Stages(const PipelineOptions& options);
   ~Stages();
   void push(Frame&& frame);
+  void drain();
   void finish();
   PipelineSeconds seconds() const;
 
@@ -55,6 +66,7 @@ private:
   void write_video();
   template <class Work> void start(Work work);
   void fail(std::exception_ptr error);
+  void note_done();
   void rethrow() const;
   void join();
   void spent(double PipelineSeconds::*stage, double since);
@@ -69,6 +81,8 @@ private:
   std::exception_ptr error_; // the first of any thread
   PipelineSeconds seconds_;
   int last_number_ = -1;
+  long pushed_ = 0, done_ = 0; // frames; done_ is drawn, and written if PNGs are
+  std::condition_variable one_done_;
   bool finished_ = false;
   std::vector<std::thread> threads_;
 };
@@ -112,10 +126,25 @@ void Pipeline::Stages::fail(std::exception_ptr error) {
   {
     const std::lock_guard lock(mutex_);
     if (!error_) error_ = error;
+    one_done_.notify_all();
   }
   frames_.abandon();
   for_png_.abandon();
   for_video_.abandon();
+}
+
+void Pipeline::Stages::note_done() {
+  const std::lock_guard lock(mutex_);
+  ++done_;
+  one_done_.notify_all();
+}
+
+void Pipeline::Stages::drain() {
+  {
+    std::unique_lock lock(mutex_);
+    one_done_.wait(lock, [this] { return done_ == pushed_ || error_; });
+  }
+  rethrow();
 }
 
 void Pipeline::Stages::rethrow() const {
@@ -146,6 +175,7 @@ void Pipeline::Stages::draw() {
     if (!frame->hud.empty()) hud->draw(frame->hud);
     picture->image = stage->read();
     spent(&PipelineSeconds::draw, start);
+    if (!options_.png) note_done();
     if (options_.png && !for_png_.push(picture)) break;
     if (options_.video && !for_video_.push(picture)) break;
   }
@@ -156,8 +186,10 @@ void Pipeline::Stages::draw() {
 void Pipeline::Stages::write_png_files() {
   while (auto picture = for_png_.pop()) {
     const double start = now();
-    write_png(options_.folder / fmt::format("{:05d}.png", (*picture)->number), (*picture)->image);
+    const int number = (*picture)->number;
+    write_png(options_.folder / png_name(number), (*picture)->image, png_mark(options_.mark, number));
     spent(&PipelineSeconds::png, start);
+    note_done();
   }
 }
 
@@ -174,6 +206,7 @@ void Pipeline::Stages::push(Frame&& frame) {
   CHECK(frame.number > last_number_);
   rethrow();
   last_number_ = frame.number;
+  ++pushed_;
   if (!frames_.push(std::move(frame))) rethrow();
 }
 
@@ -199,6 +232,9 @@ Pipeline::Pipeline(const PipelineOptions& options) : stages_(std::make_unique<St
 Pipeline::~Pipeline() = default;
 void Pipeline::push(Frame&& frame) {
   stages_->push(std::move(frame));
+}
+void Pipeline::drain() {
+  stages_->drain();
 }
 void Pipeline::finish() {
   stages_->finish();

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "render/frame.h"
+#include "render/png.h"
 
 #include <filesystem>
 #include <memory>
@@ -25,7 +26,12 @@ struct PipelineOptions {
   bool video = false;
   std::string extension = ".mp4"; // of the video; see video_format.h
   int png_writers = 1;            // 1 or 2 threads
+  std::string mark;               // in each PNG, under "rend:scene", before its number; empty: none
 };
+
+// How frame `number` is called, and what it is marked with (PipelineOptions::mark).
+std::string png_name(long number);
+PngText png_mark(const std::string& mark, long number);
 
 // Seconds that each stage was at work (not waiting), over all pictures so far.
 struct PipelineSeconds {
@@ -49,6 +55,8 @@ public:
 
   // Frames come with growing numbers; frame 7 is written to 00007.png. Throws what a stage has thrown.
   void push(Frame&& frame);
+  // Waits until all that was pushed is drawn, and written as PNG. Throws what a stage has thrown.
+  void drain();
   // Waits until all is written and the video has its name. Throws what a stage has thrown.
   void finish();
 

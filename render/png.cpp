@@ -115,7 +115,7 @@ bool png_available() {
 }
 void require_png() {}
 
-std::vector<std::uint8_t> encode_png(const Image& image) {
+std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
   CHECK(image.width > 0 && image.height > 0 && image.pixels.size() == image.stride() * image.height);
   Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'}, head;
   append(head, static_cast<std::uint32_t>(image.width));
@@ -123,14 +123,20 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
   const std::uint8_t colours = image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB;
   head.insert(head.end(), {8, colours, 0, 0, 0}); // bits; deflated, filtered by rows, not interlaced
   append_chunk(out, "IHDR", head);
+  if (!text.keyword.empty()) {
+    Bytes content(text.keyword.begin(), text.keyword.end());
+    content.push_back(0);
+    content.insert(content.end(), text.text.begin(), text.text.end());
+    append_chunk(out, "tEXt", content);
+  }
   append_chunk(out, "IDAT", deflated(filtered(image)));
   append_chunk(out, "IEND", {});
   return out;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) {
+void write_png(const std::filesystem::path& path, const Image& image, const PngText& text) {
   OutputFile file(path);
-  file.write(encode_png(image));
+  file.write(encode_png(image, text));
   file.commit();
 }
 
@@ -166,11 +172,11 @@ void require_png() {
   throw UserError(Exit::Usage, {}, "this rend was built without PNG",
                   "ask for a video alone (--video mp4 --no-png), or build with -DREND_PNG=ON");
 }
-std::vector<std::uint8_t> encode_png(const Image&) {
+std::vector<std::uint8_t> encode_png(const Image&, const PngText&) {
   require_png();
   return {};
 }
-void write_png(const std::filesystem::path&, const Image&) {
+void write_png(const std::filesystem::path&, const Image&, const PngText&) {
   require_png();
 }
 Image read_png(const std::filesystem::path&) {

@@ -4,8 +4,9 @@
 #include "render/app/figures.h"
 #include "render/app/film.h"
 #include "render/app/output_folder.h"
-#include "render/app/progress.h"
 #include "render/app/session.h"
+#include "render/app/shard.h"
+#include "render/app/shoot.h"
 #include "render/png.h"
 #include "render/video.h"
 #include "render/video_format.h"
@@ -22,7 +23,9 @@ namespace {
 struct RenderOptions {
   SessionOptions session;
   std::string folder, frames, size, video; // empty: not given
-  bool no_png = false, json = false;
+  std::string shard;                       // i/n; empty: not given
+  double checkpoint_every = ShootOptions{}.checkpoint_every;
+  bool no_png = false, json = false, resume = false;
 };
 
 PipelineOptions pipeline_options(const RenderOptions& options, const Session& session) {
@@ -49,33 +52,15 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   return out;
 }
 
-std::string closing_words(const Film& film, const PipelineOptions& files, double seconds) {
-  if (film.frames() == 0) return "no frame was written\n";
-  std::string out = fmt::format("{} frame{}", film.frames(), film.frames() == 1 ? "" : "s");
+std::string closing_words(const Shoot& shoot, const PipelineOptions& files, double seconds) {
+  if (shoot.made() + shoot.kept() == 0) return "no frame was written\n";
+  std::string out = fmt::format("{} frame{}", shoot.made(), shoot.made() == 1 ? "" : "s");
   if (files.png) out += " in " + files.folder.string();
   if (files.video)
     out +=
         std::string(files.png ? ", and " : " in ") + (files.folder / (files.name + files.extension)).string();
+  if (shoot.kept() > 0) out += fmt::format("; {} were there already", shoot.kept());
   return out + fmt::format(", in {}\n", seconds_in_words(seconds));
-}
-
-Stopped shoot(Session& session, Film& film, long last) {
-  Progress progress(session.quiet(), session.last_step(last), session.clock().time_of(last), last + 1);
-  long frame = 0;
-  Session::Calls calls;
-  const auto tell = [&] { progress.update(session.scene().steps_done(), session.scene().time(), frame); };
-  calls.frame = [&](long number) {
-    film.take(number);
-    frame = number + 1;
-    tell();
-  };
-  calls.step = tell;
-  const Stopped stopped = session.run(last, calls);
-  if (stopped == Stopped::Unstable)
-    film.abandon();
-  else
-    film.finish();
-  return stopped;
 }
 
 // Before anything slow is done.
@@ -84,28 +69,53 @@ void check_output(const RenderOptions& options) {
     throw UserError(Exit::Usage, {}, "--no-png without --video leaves nothing to write", "add --video mp4");
   if (!options.no_png) require_png();
   if (!options.video.empty()) require_video(options.video);
+  if (!options.frames.empty()) FrameChoice{options.frames};
+  if (!options.size.empty()) parse_size(options.size);
+  if (!shard_for(options.shard).whole() && !options.video.empty())
+    throw UserError(Exit::Usage, {}, "a shard makes pictures, and a video is of all of them",
+                    "leave --video out; when all shards are done, --shard 1/1 --resume --video " +
+                        options.video + " makes the video of what they made");
+}
+
+ShootOptions shoot_options(const RenderOptions& options, const Session& session) {
+  ShootOptions out;
+  out.files = pipeline_options(options, session);
+  if (!options.frames.empty()) out.choice = FrameChoice(options.frames);
+  out.shard = shard_for(options.shard);
+  out.resume = options.resume;
+  out.checkpoint_every = options.checkpoint_every;
+  if (!out.shard.whole() && options.shard.empty() && !session.quiet())
+    print_note(fmt::format("makes part {} of the frames, as Slurm says of its array task (--shard 1/1: all)",
+                           out.shard.text()));
+  return out;
+}
+
+void print_figures(const RenderOptions& options, const Session& session, const Shoot& shoot, Stopped stopped,
+                   const PipelineOptions& files, double total) {
+  if (options.json) {
+    const Film& film = shoot.film();
+    nlohmann::ordered_json figures =
+        figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()});
+    figures["frames"] = shoot.made();
+    figures["kept"] = shoot.kept();
+    print_result(figures.dump(2) + "\n");
+  } else if (!session.quiet()) {
+    print_result(closing_words(shoot, files, total));
+  }
 }
 
 Exit render(const RenderOptions& options) {
   const double start = wall_clock();
   check_output(options);
-  const FrameChoice choice = options.frames.empty() ? FrameChoice() : FrameChoice(options.frames);
-  if (!options.size.empty()) parse_size(options.size);
   Session session(options.session);
-  const long last = last_chosen(choice, session.clock());
-  const PipelineOptions files = pipeline_options(options, session);
-  Film film(session, files, choice);
-  const Stopped stopped = shoot(session, film, last);
-  const double total = wall_clock() - start;
-  if (options.json) {
-    nlohmann::ordered_json figures =
-        figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()});
-    figures["frames"] = film.frames();
-    print_result(figures.dump(2) + "\n");
-  } else if (!session.quiet()) {
-    print_result(closing_words(film, files, total));
-  }
-  return end_of(session, stopped);
+  const ShootOptions wanted = shoot_options(options, session);
+  Shoot shoot(session, wanted);
+  const Stopped stopped = shoot.run();
+  print_figures(options, session, shoot, stopped, wanted.files, wall_clock() - start);
+  const Exit end = end_of(session, stopped);
+  if (shoot.left_checkpoint() && !session.quiet())
+    print_note("the same command with --resume goes on from here");
+  return end;
 }
 
 std::string video_formats_in_words() {
@@ -127,6 +137,18 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option("--video", options->video, "also a video, called as the scene is: " + video_formats_in_words())
       ->type_name("FORMAT");
   app.add_flag("--no-png", options->no_png, "the video alone");
+  app.add_flag("--resume", options->resume,
+               "keep the pictures that are there and whole, and go on from where a run was stopped");
+  app.add_option(
+         "--shard", options->shard,
+         "of the frames only part I of N that follow each other; default: as Slurm says of an array task")
+      ->type_name("I/N");
+  app.add_option(
+         "--checkpoint-every", options->checkpoint_every,
+         "seconds on the clock after which the run's state is stored for --resume; 0: only when a signal comes")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
   app.add_flag("--json", options->json, "the figures as one JSON object, instead of the closing words");
   return [options] { return render(*options); };
 }

@@ -1,13 +1,15 @@
 #include "render/app/film.h"
 
 #include "render/app/console.h"
+#include "sim/base/archive.h"
+#include "sim/base/check.h"
 
 #include <utility>
 
 namespace rend {
 
-Film::Film(Session& session, const PipelineOptions& options, const FrameChoice& choice)
-    : session_(session), options_(options), folder_(options.folder), choice_(choice),
+Film::Film(Session& session, const PipelineOptions& options, const FramePlan& plan)
+    : session_(session), options_(options), folder_(options.folder), plan_(plan),
       maker_(session.preset(), session.scene(), static_cast<double>(options.width) / options.height,
              session.clock().duration(), session.clock().frames()) {
   check_pipeline(options);
@@ -22,8 +24,11 @@ Film::~Film() {
 void Film::take(long frame) {
   maker_.observe();
   const long step = session_.scene().steps_done();
-  if (held_ && step != held_step_) release();
-  if (!choice_.has(frame)) return;
+  if (step != held_step_) {
+    release();
+    early_.clear();
+  }
+  if (!plan_.has(frame)) return;
   if (!held_) held_ = maker_.draw(frame, session_.clock().time_of(frame));
   showings_.emplace_back(frame, maker_.camera(session_.clock().time_of(frame)));
   held_step_ = step;
@@ -39,6 +44,26 @@ void Film::release() {
   }
   held_.reset();
   showings_.clear();
+}
+
+bool Film::settle() {
+  if (held_ && session_.scene().steps_done() == held_step_) return false;
+  release();
+  if (pipeline_) pipeline_->drain();
+  return true;
+}
+
+void Film::pause() {
+  for (const auto& [frame, camera] : showings_) early_.push_back(frame);
+  release();
+  if (pipeline_) pipeline_->drain();
+  folder_.make();
+}
+
+void Film::store(Archive& archive) {
+  CHECK(!held_);
+  maker_.store(archive);
+  archive(early_, held_step_);
 }
 
 void Film::push(Frame&& frame) {
@@ -63,6 +88,8 @@ void Film::abandon() {
   held_.reset();
   showings_.clear();
   close();
+  std::error_code error;
+  for (long frame : early_) std::filesystem::remove(options_.folder / png_name(frame), error);
 }
 
 PipelineSeconds Film::seconds() const {

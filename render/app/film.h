@@ -4,8 +4,12 @@
 // that explodes at once leaves nothing behind, and no picture shows the state that was about to explode.
 // OpenGL is started and the folder made when the first frame is let go; a folder that was made here and stays
 // empty is removed.
+//
+// A run that a signal stops lets go what it holds, and remembers that in its checkpoint: should the simulation explode
+// before the next frame once it goes on, those pictures are removed again, as if it had never been stopped.
 #pragma once
 
+#include "render/app/frame_plan.h"
 #include "render/app/output_folder.h"
 #include "render/app/picture.h"
 #include "render/app/session.h"
@@ -22,12 +26,19 @@ class Film {
 public:
   // Throws UserError where the folder could not be made, or the machine could not draw or encode. Tells what pictures
   // will not show.
-  Film(Session& session, const PipelineOptions& options, const FrameChoice& choice);
+  Film(Session& session, const PipelineOptions& options, const FramePlan& plan);
   ~Film();
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
   void take(long frame); // of the present state
+  // Before take() of a frame: brings all frames before it to the disk. False where one of them shows the present state,
+  // and is held.
+  bool settle();
+  void make_folder() const { folder_.make(); }
+  void pause();                 // a signal came: brings all there is to the disk; the folder is there
+  void store(Archive& archive); // what pictures follow; after settle() or pause()
+
   void finish();  // the end was reached, or a signal came: what is held goes out too, and files are closed
   void abandon(); // the state went wrong: what is held is dropped; frames before it stay, files are closed
 
@@ -44,13 +55,14 @@ private:
   Session& session_;
   PipelineOptions options_;
   OutputFolder folder_;
-  FrameChoice choice_;
+  FramePlan plan_;
   PictureMaker maker_;
   std::unique_ptr<Pipeline> pipeline_;
   PipelineSeconds seconds_; // once it is closed
   std::optional<Frame> held_;
   std::vector<std::pair<long, FrameCamera>> showings_; // the frames that show the held state
   long held_step_ = -1;
+  std::vector<long> early_; // frames that pause() let go, though the simulation had not gone on
   long frames_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "render/app/colour.h"
 #include "render/app/figures.h"
 #include "render/app/units.h"
+#include "sim/base/archive.h"
 
 #include <fmt/format.h>
 
@@ -56,6 +57,11 @@ void HudWriter::observe() {
     high_ = std::max(high_, rounded_up(now[n]));
     low_ = std::min(low_, -rounded_up(-now[n]));
   }
+}
+
+void HudWriter::store(Archive& archive) {
+  for (auto& curve : energies_) archive(curve);
+  archive(gravity_at_start_, low_, high_);
 }
 
 HudPlot HudWriter::energy_plot() const {

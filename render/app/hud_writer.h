@@ -23,6 +23,7 @@ public:
   void observe(); // the state is that of a frame
   HudContent content(std::vector<HudLegend> legends) const;
   bool wants_legends() const { return legend_; }
+  void store(Archive& archive); // the curves so far
 
 private:
   HudPlot energy_plot() const;

@@ -5,6 +5,7 @@
 #include "render/app/preset_types.h"
 #include "render/app/units.h"
 #include "render/hud.h"
+#include "sim/base/archive.h"
 #include "sim/scene/measure.h"
 #include "sim/topology/count.h"
 #include "sim/topology/orientation.h"
@@ -240,6 +241,19 @@ std::vector<HudLegend> PictureMaker::legends() const {
       if (std::none_of(all.begin(), all.end(), same)) all.push_back(std::move(*legend));
     }
   return all;
+}
+
+void BodyPicture::store(Archive& archive) {
+  archive(scale_, numbers_);
+}
+
+void PictureMaker::store(Archive& archive) {
+  archive.mark("pictures");
+  archive.same(hud_ ? 1 : 0, "whether something is written over the pictures");
+  for (auto& body : bodies_) body->store(archive);
+  if (hud_) hud_->store(archive);
+  viewpoint_.store(archive);
+  archive(fragments_seen_);
 }
 
 std::size_t PictureMaker::bytes() const {

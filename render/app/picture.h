@@ -33,6 +33,7 @@ public:
   FrameBody draw();                          // of the state that was observed
   std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
   std::size_t bytes() const { return sheet_ ? sheet_->bytes() : solid_->bytes(); }
+  void store(Archive& archive); // what it has seen
 
 private:
   void draw_sheet(FrameBody& out);
@@ -72,6 +73,7 @@ public:
   FrameCamera camera(double time) const { return viewpoint_.at(time); }
   std::size_t bytes() const;                  // of surfaces
   double seconds() const { return seconds_; } // spent in observe() and draw()
+  void store(Archive& archive);               // what it has seen, of the frames so far
 
 private:
   std::vector<HudLegend> legends() const;

@@ -3,14 +3,21 @@
 #include "render/app/console.h"
 #include "render/app/paths.h"
 #include "render/app/picture_check.h"
+#include "render/app/preset_reader.h"
 #include "render/app/signals.h"
+#include "render/report/machine.h"
+#include "sim/base/hash.h"
 #include "sim/program/threads.h"
+#include "sim/scene/shape.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 namespace rend {
@@ -49,10 +56,22 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
   app.add_flag("-q,--quiet", options.quiet, "no progress and no notes");
 }
 
+namespace {
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+} // namespace
+
 Session::Session(const SessionOptions& options) : options_(options) {
   std::vector<Override> overrides;
   for (const std::string& set : options.sets) overrides.push_back(parse_override(set));
-  preset_ = load_scene(options.preset, overrides);
+  const NothingToKeep building;
+  const std::string text = read_preset_file(options.preset);
+  text_hash_ = hash_bytes(text.data(), text.size());
+  preset_ = load_scene_text(text, options.preset, overrides);
   if (!options.allow_path) check_paths(*preset_);
   image_ = image_settings(*preset_);
   if (options.fps) image_.fps = *options.fps;
@@ -71,6 +90,21 @@ Session::Session(const SessionOptions& options) : options_(options) {
     for (const std::string& note : body->notes) print_note(fmt::format("body '{}': {}", body->name, note));
 }
 
+std::uint64_t Session::key() const {
+  const Machine machine = this_machine();
+  std::string words = fmt::format("rend {} {}\n{:016x}\n", machine.version, machine.commit, text_hash_);
+  for (const std::string& set : options_.sets) words += "set " + set + "\n";
+  words += fmt::format("steps {} fps {} kernels {} guard {}\n", options_.steps.value_or(-1),
+                       options_.fps.value_or(-1), options_.kernels, options_.guard);
+  for (const Node* body : preset_->all("body")) {
+    for (const Node* mesh : body->all("mesh")) {
+      const std::string content = content_of(mesh_path(*mesh));
+      words += fmt::format("mesh {:016x}\n", hash_bytes(content.data(), content.size()));
+    }
+  }
+  return hash_bytes(words.data(), words.size());
+}
+
 void Session::check_counts() const {
   constexpr double most = std::numeric_limits<int>::max() / 2;
   const double step = scene_->step_size();
@@ -81,12 +115,12 @@ void Session::check_counts() const {
       fmt::format("{:g} s at {:g} pictures a second are more than {:.0f} frames", duration, image_.fps, most));
 }
 
-Stopped Session::run(long last_frame, const Calls& calls) {
+Stopped Session::run(long last_frame, const Calls& calls, long first_frame) {
   const double start = wall_clock();
   double away = 0; // [s] in the calls at frames
   Stopped stopped = Stopped::No;
   try {
-    stopped = loop(last_frame, calls, away);
+    stopped = loop(first_frame, last_frame, calls, away);
   } catch (const Unstable& error) {
     failure_ = error;
     stopped = Stopped::Unstable;
@@ -100,15 +134,17 @@ long Session::last_step(long last_frame) const {
   return to_the_end ? clock_->steps() : clock_->step_of(last_frame);
 }
 
-Stopped Session::loop(long last_frame, const Calls& calls, double& away) {
+Stopped Session::loop(long first_frame, long last_frame, const Calls& calls, double& away) {
+  constexpr long never = std::numeric_limits<long>::max();
   const long last_step = this->last_step(last_frame);
-  long frame = 0, due = 0; // the next frame, and the step that it waits for
+  long frame = first_frame;                                        // the next
+  long due = frame <= last_frame ? clock_->step_of(frame) : never; // the step that it waits for
   while (true) {
     if (scene_->steps_done() >= due || scene_->steps_done() >= last_step) scene_->check_sound();
     if (scene_->steps_done() >= due) {
       const double since = wall_clock();
       for (; frame <= last_frame && clock_->step_of(frame) <= scene_->steps_done(); ++frame) calls.frame(frame);
-      due = frame <= last_frame ? clock_->step_of(frame) : std::numeric_limits<long>::max();
+      due = frame <= last_frame ? clock_->step_of(frame) : never;
       away += wall_clock() - since;
     }
     if (scene_->steps_done() >= last_step) return Stopped::No;

@@ -42,6 +42,9 @@ public:
   explicit Session(const SessionOptions& options);
 
   const Node& preset() const { return *preset_; }
+  // Of all that the states of this run hang on: the preset's text, what was set, meshes, how it is run, and this rend.
+  // Reads the meshes once more.
+  std::uint64_t key() const;
   const std::string& preset_path() const { return options_.preset; }
   Scene& scene() { return *scene_; }
   const Scene& scene() const { return *scene_; }
@@ -58,17 +61,18 @@ public:
   // How many steps run() does for this last frame.
   long last_step(long last_frame) const;
   // Steps until frame `last_frame`, or the end if it is the last of all; or until a signal or an instability.
-  // failure() then says what went wrong.
-  Stopped run(long last_frame, const Calls& calls);
+  // failure() then says what went wrong. The state is that of a scene that was stored when `first_frame` was next.
+  Stopped run(long last_frame, const Calls& calls, long first_frame = 0);
 
   const std::optional<Unstable>& failure() const { return failure_; }
   double step_seconds() const { return step_seconds_; } // in the loop, without the calls at frames
 
 private:
-  Stopped loop(long last_frame, const Calls& calls, double& away);
+  Stopped loop(long first_frame, long last_frame, const Calls& calls, double& away);
   void check_counts() const;
 
   SessionOptions options_;
+  std::uint64_t text_hash_ = 0; // of the preset, as it was read
   std::unique_ptr<Node> preset_;
   std::unique_ptr<Scene> scene_; // reads from the preset for as long as it lives
   std::unique_ptr<FrameClock> clock_;

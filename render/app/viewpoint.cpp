@@ -1,6 +1,7 @@
 #include "render/app/viewpoint.h"
 
 #include "render/camera.h"
+#include "sim/base/archive.h"
 #include "sim/base/math.h"
 
 #include <fmt/format.h>
@@ -179,6 +180,10 @@ void Viewpoint::observe(const Scene& scene) {
   const FrameCamera needed = frame_auto(around, start_.fov, aspect_, direction_);
   const double near = (needed.eye - needed.target).norm(), far = (wanted.eye - wanted.target).norm();
   start_.eye = start_.target + direction_.normalized() * std::max(distance + share * (far - distance), near);
+}
+
+void Viewpoint::store(Archive& archive) {
+  archive(start_.eye, start_.target, last_);
 }
 
 FrameCamera Viewpoint::at(double time) const {

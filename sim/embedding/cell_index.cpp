@@ -1,5 +1,6 @@
 #include "sim/embedding/cell_index.h"
 
+#include "sim/base/archive.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -35,6 +36,10 @@ CellIndex::CellIndex(const GMap& map, Orbit orbit) : orbit_(orbit), slot_of_dart
     first_dart_.push_back(first); // darts come in increasing order: the first is the smallest
   });
   first_dart_.shrink_to_fit();
+}
+
+void CellIndex::store(Archive& archive) {
+  archive(slot_of_dart_, first_dart_, free_);
 }
 
 std::size_t CellIndex::bytes() const {

@@ -48,6 +48,8 @@ public:
   // Brings the slots up to date after the changes of `journal`, from the darts that it names alone.
   void update(const GMap& map, const Journal& journal, SlotEvents& events);
 
+  void store(Archive& archive); // all of it (base/archive.h), of the map as it is then
+
 private:
   struct Fragment;
   void settle(Fragment& fragment, SlotEvents& events);

@@ -22,7 +22,9 @@
 #include "sim/base/record.h"
 #include "sim/embedding/cell_index.h"
 
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace rend {
@@ -38,6 +40,7 @@ public:
   virtual std::size_t bytes() const = 0;
 
   // For EmbeddedMap alone.
+  virtual std::span<std::byte> raw() = 0; // the values as they lie in memory, one per slot
   virtual void resize(std::size_t slots) = 0;
   virtual void reserve(std::size_t slots) = 0;
   virtual void apply(const EmbeddedMap& map, const CellIndex& cells, const SlotEvents& events) = 0;
@@ -62,6 +65,9 @@ public:
   std::vector<Value>& values() { return values_; }
   const std::vector<Value>& values() const { return values_; }
 
+  // So every column is stored without a word of its own.
+  static_assert(std::is_trivially_copyable_v<Value>, "a value is stored as it lies in memory");
+  std::span<std::byte> raw() override { return std::as_writable_bytes(std::span(values_)); }
   void resize(std::size_t slots) override { values_.resize(slots); }
   void reserve(std::size_t slots) override { values_.reserve(slots); }
 

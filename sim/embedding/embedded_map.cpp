@@ -1,5 +1,6 @@
 #include "sim/embedding/embedded_map.h"
 
+#include "sim/base/archive.h"
 #include "sim/base/check.h"
 #include "sim/topology/validate.h"
 #include "sim/topology/walk.h"
@@ -15,7 +16,7 @@ void Changes::clear() {
   for (auto& list : touched) list.clear();
   for (auto& list : moved) list.clear();
   for (auto& list : slots) list.clear();
-  any = false;
+  any = whole = false;
 }
 
 EmbeddedMap::EmbeddedMap(int dimension) : EmbeddedMap(GMap(dimension), [](Dart) { return Point{}; }) {}
@@ -162,6 +163,27 @@ std::size_t EmbeddedMap::bytes() const {
     if (index) total += index->bytes();
   for (const auto& column : columns_) total += column->bytes();
   return total;
+}
+
+void EmbeddedMap::store(Archive& archive) {
+  archive.mark("map");
+  map_.store(archive);
+  for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
+    archive.same(cells_[mask] ? 1 : 0, "whether orbits have slots");
+    if (cells_[mask]) cells_[mask]->store(archive);
+  }
+  archive.same(columns_.size(), "number of embeddings");
+  for (const auto& column : columns_) {
+    archive.mark(column->name());
+    column->resize(cells_[column->orbit().mask]->slots());
+    archive.same(column->bytes(), "bytes of an embedding");
+    archive.raw(column->raw().data(), column->raw().size());
+  }
+  if (!archive.reading()) return;
+  for (Changes* changes : readers_) {
+    changes->clear();
+    changes->any = changes->whole = true;
+  }
 }
 
 std::uint32_t Edit::add_point(const Point& point) {

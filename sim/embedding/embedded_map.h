@@ -47,10 +47,12 @@ struct Changes {
   std::array<std::vector<Slot>, orbit_kinds>
       slots; // [orbit]: slots of touched orbits, dead ones, and values born again
   bool any = false;
+  bool whole = false; // the map was replaced: all of it may differ, and the lists say nothing
   void clear();
 };
 
 class Edit;
+class Archive;
 
 class EmbeddedMap {
 public:
@@ -104,6 +106,10 @@ public:
   std::size_t slots_when_separated(Orbit orbit) const; // with every element by itself
 
   std::size_t bytes() const; // of slots and columns; the map has its own
+
+  // All of it (base/archive.h): links, slots with their order and free ones, and every column. Readers then find all of
+  // it changed. ArchiveError: it was of a map with other columns, or whose other orbits have slots.
+  void store(Archive& archive);
 
 private:
   void adopt(std::unique_ptr<ColumnBase> column);

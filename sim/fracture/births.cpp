@@ -1,5 +1,6 @@
 #include "sim/fracture/births.h"
 
+#include "sim/base/archive.h"
 #include "sim/base/check.h"
 #include "sim/topology/count.h"
 
@@ -7,6 +8,10 @@
 #include <numeric>
 
 namespace rend {
+
+void TearEvent::store(Archive& archive) {
+  archive(time, step, law, value, dart, place, fragments, born);
+}
 
 void Births::begin() {
   touched_.fill(0);

@@ -18,6 +18,8 @@
 
 namespace rend {
 
+class Archive;
+
 // One applied change.
 struct TearEvent {
   double time = 0; // [s]
@@ -28,6 +30,8 @@ struct TearEvent {
   Vec3 place = Vec3::Zero(); // [m], the middle of the cell
   long fragments = -1;       // of the body after this change; -1: nobody asked
   long born = 0;             // how many more that are than before; below 0 where whole pieces were deleted
+
+  void store(Archive& archive);
 };
 
 class Births {

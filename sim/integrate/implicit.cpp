@@ -20,6 +20,7 @@
 //
 // Prescribed coordinates are where they will be from the start, and their rows and columns are those of the
 // identity. Order 1. An undamped oscillator loses the factor 1/√(1 + ω²h²) a step (design: verify).
+#include "sim/base/check.h"
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/load_tangent.h"
 
@@ -60,6 +61,12 @@ public:
                                &momentum_, &before_, &update_})
       sum += bytes_of(*one);
     return sum;
+  }
+
+  std::vector<double> carried() const override { return carried_of(newton_, linear_); }
+  void carry(std::span<const double> numbers) override {
+    CHECK(numbers.size() == carried_numbers);
+    newton_ = carry_into(linear_, numbers);
   }
 
 private:

@@ -1,6 +1,7 @@
 #include "sim/integrate/integrator.h"
 
 #include "sim/base/check.h"
+#include "sim/solve/linear_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,18 @@ namespace rend {
 
 void Integrator::carry(std::span<const double> numbers) {
   CHECK(numbers.empty());
+}
+
+std::vector<double> carried_of(long newton, const LinearSolver& solver) {
+  const LinearSolver::Carried from = solver.carried();
+  return {static_cast<double>(newton), static_cast<double>(from.hard), static_cast<double>(from.iterations),
+          static_cast<double>(from.factorisations)};
+}
+
+long carry_into(LinearSolver& solver, std::span<const double> numbers) {
+  const auto whole = [&](std::size_t n) { return static_cast<long>(numbers[n]); };
+  solver.carry({static_cast<int>(whole(1)), whole(2), whole(3)});
+  return whole(0);
 }
 
 const std::vector<Scheme>& all_schemes() {

@@ -42,7 +42,7 @@ public:
   } // of its own arrays, which stay between steps, without the solver's
 
   // What one step hands on to the next besides the state of the body, for those who stop and go on later: a scheme made
-  // anew and given the same numbers goes on to the bit. `carry` takes what `carried` gave (CHECK).
+  // anew and given the same numbers goes on to the bit, and counts on. `carry` takes what `carried` gave (CHECK).
   virtual std::vector<double> carried() const { return {}; }
   virtual void carry(std::span<const double> numbers);
 
@@ -84,6 +84,12 @@ Scheme runge_kutta_4();
 Scheme runge_kutta_45();
 Scheme implicit_euler();
 Scheme static_solve();
+
+// What schemes that solve carry: how many iterations they made, and what their solver does.
+class LinearSolver;
+constexpr std::size_t carried_numbers = 4;
+std::vector<double> carried_of(long newton, const LinearSolver& solver);
+long carry_into(LinearSolver& solver, std::span<const double> numbers); // returns the iterations
 
 // Limits that schemes share. With ω and d = ξω bounded separately, since they belong to different modes:
 double limit_symplectic(const StabilityBounds& bounds); // 2/(√(ω²+d²) + d)

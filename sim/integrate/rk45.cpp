@@ -173,11 +173,15 @@ public:
     for (const Records& one : acceleration_) sum += bytes_of(one);
     return sum;
   }
-  std::vector<double> carried() const override { return {pace_, error_}; }
+  std::vector<double> carried() const override {
+    return {pace_, error_, static_cast<double>(parts_), static_cast<double>(rejected_)};
+  }
   void carry(std::span<const double> numbers) override {
-    CHECK(numbers.size() == 2);
+    CHECK(numbers.size() == 4);
     pace_ = numbers[0];
     error_ = numbers[1];
+    parts_ = static_cast<long>(numbers[2]);
+    rejected_ = static_cast<long>(numbers[3]);
   }
 
 private:

@@ -24,6 +24,7 @@
 // where symmetry gives it no side. A piece that can move off as a whole is refused, and so is one that can turn in a
 // model of small displacements, where f does not turn with the body: no turn ever meets a resistance. Once the body has
 // stood, what comes off it is no reason to stop: such a piece takes its own shape where it is, without loads.
+#include "sim/base/check.h"
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/least_resistance.h"
@@ -65,6 +66,18 @@ public:
     return sum;
   }
   bool moves() const override { return false; }
+  std::vector<double> carried() const override {
+    std::vector<double> numbers = carried_of(newton_, linear_);
+    numbers.push_back(footing_.stood);
+    numbers.push_back(footing_.keeps_turned);
+    return numbers;
+  }
+  void carry(std::span<const double> numbers) override {
+    CHECK(numbers.size() == carried_numbers + 2);
+    newton_ = carry_into(linear_, numbers);
+    footing_.stood = numbers[carried_numbers] != 0;
+    footing_.keeps_turned = numbers[carried_numbers + 1] != 0;
+  }
 
 private:
   void prepare(System& system, const StateView& now);

@@ -1,5 +1,6 @@
 #include "sim/integrate/system.h"
 
+#include "sim/base/archive.h"
 #include "sim/base/check.h"
 
 namespace rend {
@@ -10,6 +11,11 @@ void State::look() {
     const Double4 v = load(velocity[i]);
     probe += v * v + 0.0 * load(position[i]);
   }
+}
+
+void State::store(Archive& archive) {
+  archive(position, velocity, large);
+  archive.raw(&probe, sizeof probe);
 }
 
 std::shared_ptr<const BlockPattern> System::pattern() {

@@ -12,6 +12,8 @@
 
 namespace rend {
 
+class Archive;
+
 // Positions [m] and velocities [m/s], one per vertex slot.
 struct State {
   std::vector<Record> position, velocity;
@@ -28,8 +30,8 @@ struct State {
       stream(position[i], x);
       stream(velocity[i], v);
     } else {
-      store(position[i], x);
-      store(velocity[i], v);
+      rend::store(position[i], x); // not the one of archives
+      rend::store(velocity[i], v);
     }
     probe += v * v + 0.0 * x;
   }
@@ -39,6 +41,7 @@ struct State {
   bool finite() const { return std::isfinite(motion()); }
   void look(); // the same of what was written without put()
   std::size_t bytes() const { return bytes_of(position) + bytes_of(velocity); }
+  void store(Archive& archive);
   Double4 probe{};
   bool large = false; // more than the caches hold
 };

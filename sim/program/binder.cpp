@@ -222,6 +222,7 @@ void Binder::add_folding(std::vector<Slot>& owners) {
 
 void Binder::rebind(const Changes& changes) {
   if (!changes.any) return;
+  if (changes.whole) return bind();
   thread_local std::vector<Slot> owners;
   owners.clear();
   owners_seen.clear();

@@ -24,8 +24,7 @@ Program::Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction
   }
   for (Binder& binder : folded_) binder.bind();
   for (Binder& binder : elementary_) binder.bind();
-  weigh_all();
-  if (options.elementary) place_corners();
+  weigh_again();
   map.subscribe(changes_);
 }
 
@@ -76,6 +75,16 @@ void Program::rebind() {
   if (!changes_.any) return;
   for (Binder& binder : folded_) binder.rebind(changes_);
   for (Binder& binder : elementary_) binder.rebind(changes_);
+  changes_.whole ? weigh_again() : weigh_changed();
+  changes_.clear();
+}
+
+void Program::weigh_again() {
+  weigh_all();
+  if (options_.elementary) place_corners();
+}
+
+void Program::weigh_changed() {
   inverse_mass_.resize(map_->cells(Vertex).slots(), 0);
   if (drag_) drag_rate_.resize(inverse_mass_.size(), 0);
   for (Slot v : changes_.slots[Vertex.mask]) weigh(v);
@@ -89,7 +98,6 @@ void Program::rebind() {
     for (Dart d : changes_.moved[Vertex.mask])
       if (map_->map().alive(d)) corner_vertex_[corners.slot(d)] = map_->vertex(d);
   }
-  changes_.clear();
 }
 
 KernelArguments Program::arguments(const Binder& binder, const Record* position, const Record* velocity,

@@ -69,6 +69,8 @@ private:
   KernelArguments arguments(const Binder& binder, const Record* position, const Record* velocity,
                             Record* force) const; // all blocks, all vertices
   void run_folded(bool sums, const Record* position, const Record* velocity, Record* force) const;
+  void weigh_again(); // all masses, and the vertices of corners
+  void weigh_changed();
   void weigh_all();
   void weigh(Slot vertex);
   void place_corners();

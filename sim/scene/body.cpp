@@ -1,5 +1,6 @@
 #include "sim/scene/body.h"
 
+#include "sim/base/archive.h"
 #include "sim/integrate/footing.h"
 
 #include <algorithm>
@@ -182,6 +183,22 @@ void Body::rebind() {
   loads.rebind(*map);
   for (TearLaw& law : laws) law.rebind(changes);
   changes.clear();
+}
+
+// What is bound to the map is bound again; forces are evaluated at the start of the next step.
+void Body::store(Archive& archive) {
+  archive.mark(name);
+  map->store(archive);
+  std::vector<double> numbers = integrator->carried();
+  archive(events, gone, evaluations, time_, next, numbers);
+  for (Answer& answer : answers) archive(answer.asked, answer.measured);
+  if (!archive.reading()) return;
+  integrator->carry(numbers);
+  rebind();
+  inverse_mass = program->inverse_mass();
+  drag_rate = program->drag_rate();
+  force.resize(vertices());
+  outer(time_, map->position().values().data(), map->velocity().values().data());
 }
 
 void Body::commit() {

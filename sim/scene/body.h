@@ -95,6 +95,7 @@ struct Body final : System {
   void commit();                                 // takes `next`
   void go_back(const State& start, double time); // [s]: start becomes the current state, of the same topology
   void spoil_next();                             // as `faulty` says
+  void store(Archive& archive);                  // between steps: all that a later one depends on
 
   double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
   long evaluations = 0; // of the internal forces so far, but for those that probes ask for

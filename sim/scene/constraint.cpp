@@ -68,6 +68,7 @@ void Constraints::list(const EmbeddedMap& map) {
 
 void Constraints::rebind(const EmbeddedMap& map, const Changes& changes) {
   if (!obedience_ || !changes.any) return;
+  if (changes.whole) return list(map);
   for (Slot v : changes.slots[Vertex.mask]) {
     const auto at = std::lower_bound(vertices_.begin(), vertices_.end(), v);
     const bool listed = at != vertices_.end() && *at == v;

@@ -1,5 +1,6 @@
 #include "sim/scene/contact_pairs.h"
 
+#include "sim/base/archive.h"
 #include "sim/scene/obstacle.h"
 #include "sim/topology/count.h"
 
@@ -201,6 +202,18 @@ bool ContactPairs::joined(const Bodies& bodies, std::size_t entry, ContactPair& 
   const double apart = apart_at_rest(body, pair.vertex, body.faces.triangles()[pair.triangle]);
   pair.neighbours = apart <= body.settings().thickness;
   return same_fragment(entry, pair) && apart <= 2 * body.settings().thickness;
+}
+
+void ContactPair::store(Archive& archive) {
+  archive(body, vertex, face_body, triangle, neighbours);
+}
+
+void ContactPairs::Of::store(Archive& archive) {
+  archive(vertices, vertex_fragment, face_fragment, there, several);
+}
+
+void ContactPairs::store(Archive& archive) {
+  archive(of_, pairs_, skin_, listed_, searches_);
 }
 
 std::size_t ContactPairs::bytes() const {

@@ -21,6 +21,8 @@ struct ContactPair {
   std::uint32_t face_body = 0;
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
   bool neighbours = false;    // at rest they are nearer than the thickness
+
+  void store(Archive& archive);
 };
 
 class ContactPairs {
@@ -39,6 +41,7 @@ public:
   long searches() const { return searches_; }
   std::size_t pairs() const { return pairs_.size(); } // of the last search
   std::size_t bytes() const;
+  void store(Archive& archive); // of the same faces
 
 private:
   struct Of {                                   // a body
@@ -47,6 +50,8 @@ private:
     std::vector<std::uint32_t> face_fragment;   // one per triangle
     std::vector<Vec3> there;                    // [m], at the last search, one per entry of `vertices`
     bool several = false;                       // fragments
+
+    void store(Archive& archive);
   };
   void list(const ContactBody& body, Of& of) const;
   bool anything(const Bodies& bodies) const;

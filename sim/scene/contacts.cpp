@@ -1,5 +1,7 @@
 #include "sim/scene/contacts.h"
 
+#include "sim/base/archive.h"
+
 namespace rend {
 
 std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::unique_ptr<Body>>& bodies) {
@@ -25,6 +27,15 @@ void Contacts::advance(double time, double step) {
     if (body.floor_contact) body.floor_contact->apply(body.next, step);
     body.constrain(time + step, body.next.position.data(), body.next.velocity.data());
   }
+}
+
+void Contacts::store(Archive& archive) {
+  archive.mark("contacts");
+  for (auto& body : bodies_) {
+    if (archive.reading()) body->faces.update();
+    archive(body->changed);
+  }
+  if (fragments_) fragments_->store(archive);
 }
 
 std::size_t Contacts::bytes() const {

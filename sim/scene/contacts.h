@@ -18,6 +18,7 @@ public:
   const std::vector<std::unique_ptr<ContactBody>>& bodies() const { return bodies_; }
   const FragmentContact* fragments() const { return fragments_.get(); } // null: no body asks for it
   std::size_t bytes() const;
+  void store(Archive& archive); // after the bodies: what is near what, as it was last looked for
 
 private:
   explicit Contacts(World& world) : obstacles_(world) {}

@@ -1,5 +1,7 @@
 #include "sim/scene/guard.h"
 
+#include "sim/base/archive.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -205,6 +207,18 @@ long Guard::go_back() {
   rewind_->restore();
   settled_ = rewind_->first();
   return rewind_->first();
+}
+
+void GuardFigures::store(Archive& archive) {
+  archive(rejected, redone, looks, accepted, most_parts, smallest);
+}
+
+void Guard::store(Archive& archive) {
+  archive.mark("guard");
+  archive.same(on() ? 1 : 0, "whether steps are guarded");
+  if (rewind_) rewind_->store(archive);
+  archive(figures_, budget_, threshold_, lately_, heaviest_, calm_, least_rest_, begins_, settled_, exactly_);
+  archive(redoing_, from_, goal_, parts_, start_, growth_, hold_until_, hold_length_, hold_parts_);
 }
 
 void Guard::forget() {

@@ -56,6 +56,7 @@ public:
   long go_back(); // to the start of the stretch, to be gone in nominal steps; returns the steps done there
   bool has_gone(long done) const { return rewind_ && rewind_->first() < done; } // beyond that start
   void forget();                                                                // all before the present state
+  void store(Archive& archive);
 
 private:
   struct Held {

@@ -1,5 +1,7 @@
 #include "sim/scene/obstacle.h"
 
+#include "sim/base/archive.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,6 +11,10 @@ namespace rend {
 void Sphere::predict(double time, double step, const Vec3& gravity) {
   next_velocity = falls() ? Vec3(velocity + step * gravity) : velocity;
   next_centre = falls() ? Vec3(centre + step * next_velocity) : Vec3(start + time * velocity);
+}
+
+void Sphere::store(Archive& archive) {
+  archive(centre, velocity, next_centre, next_velocity);
 }
 
 void Sphere::commit() {

@@ -20,6 +20,8 @@
 
 namespace rend {
 
+class Archive;
+
 // The half-space n·x ≥ offset.
 struct Plane {
   Vec3 normal = Vec3::UnitZ(); // unit
@@ -42,6 +44,7 @@ struct Sphere {
   // Where it goes if nothing stops it; `time` [s] at the end of the step.
   void predict(double time, double step, const Vec3& gravity);
   void commit();
+  void store(Archive& archive); // what changes of it
 
   // For a point that went from → to [m] in the step, relative to the centre at its start and end; `reach` [m]
   // is the radius and what is kept from it. None: it is outside.

@@ -1,5 +1,6 @@
 #include "sim/scene/rewind.h"
 
+#include "sim/base/archive.h"
 #include "sim/program/frequency.h"
 #include "sim/solve/vectors.h"
 
@@ -169,6 +170,18 @@ void Rewind::add_pushes(const Body& body, const Start& start, Account& sum) cons
   sum.given += (start.forces + mass * world_.gravity.norm()) * way;
   sum.given += 0.5 * mass * start.omega_squared * way * way;
   sum.headroom += 2 * mass * push_ * push_;
+}
+
+void Rewind::Start::store(Archive& archive) {
+  archive(state, time, load, force, forces, omega_squared);
+}
+
+void Rewind::SphereStart::store(Archive& archive) {
+  archive(centre, velocity);
+}
+
+void Rewind::store(Archive& archive) {
+  archive(first_, aside_, starts_, spheres_);
 }
 
 std::size_t Rewind::bytes() const {

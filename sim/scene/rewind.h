@@ -48,6 +48,7 @@ public:
   double elastic_energy() const; // [J], of the present state; some twenty times the price of the forces
 
   std::size_t bytes() const;
+  void store(Archive& archive);
 
 private:
   struct Start { // of a body
@@ -57,9 +58,11 @@ private:
     std::vector<Record> force; // [N], internal, one for each of Constraints::vertices()
     double forces = 0;         // [N], Σ |F| over all vertices where spheres push; else 0
     double omega_squared = 0;  // [1/s²]; 0: nothing drives the body
+    void store(Archive& archive);
   };
   struct SphereStart {
     Vec3 centre, velocity;
+    void store(Archive& archive);
   };
   void add(const Body& body, const Start& start, Account& sum) const;
   void add_loads(Body& body, const Start& start, Account& sum) const;

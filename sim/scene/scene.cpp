@@ -1,5 +1,6 @@
 #include "sim/scene/scene.h"
 
+#include "sim/base/archive.h"
 #include "sim/base/hash.h"
 #include "sim/program/frequency.h"
 #include "sim/scene/build_body.h"
@@ -256,6 +257,27 @@ Vec3 Scene::angular_momentum() const {
   for (const auto& body : bodies_) sum += total_angular_momentum(*body->map, *body->mass);
   for (const Sphere& s : world_.spheres) sum += s.mass * s.centre.cross(s.velocity);
   return sum;
+}
+
+void StageSeconds::store(Archive& archive) {
+  archive(build, bind, forces, criteria, change, rebind, integrate);
+}
+
+// A fault on purpose (fault.h) is no part of a run that is gone on with.
+void Scene::store(Archive& archive) {
+  archive.mark("scene");
+  double step = step_;
+  archive(step, steps_done_, next_answer_, looked_);
+  if (step != step_) throw ArchiveError("its steps have another length");
+  archive.same(bodies_.size(), "number of bodies");
+  for (auto& body : bodies_) body->store(archive);
+  archive.same(world_.spheres.size(), "number of spheres");
+  for (Sphere& sphere : world_.spheres) sphere.store(archive);
+  if (contacts_) contacts_->store(archive);
+  guard_->store(archive);
+  archive.mark("seconds"); // the last, since they differ from run to run
+  archive(seconds_, timed_steps_);
+  for (auto& body : bodies_) archive(body->change_seconds, body->rebind_seconds);
 }
 
 std::uint64_t Scene::hash() const {

@@ -21,6 +21,7 @@ struct SceneOptions {
 // Wall-clock seconds by stage; those of step() are sampled every few steps and scaled up.
 struct StageSeconds {
   double build = 0, bind = 0, forces = 0, criteria = 0, change = 0, rebind = 0, integrate = 0;
+  void store(Archive& archive);
 };
 
 struct Unstable : UserError {
@@ -74,6 +75,10 @@ public:
   Vec3 angular_momentum() const;
   std::uint64_t hash() const; // of positions, velocities and topology, and of spheres that move
   StageSeconds seconds() const;
+
+  // Between steps: all that a later step, event or figure depends on, to a scene of the same preset and options and back
+  // (base/archive.h). It then goes on to the bit. Throws ArchiveError where it was of another scene; this one is spoilt.
+  void store(Archive& archive);
 
 private:
   void build_time(const Node& time);

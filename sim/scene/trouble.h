@@ -3,6 +3,8 @@
 
 namespace rend {
 
+class Archive;
+
 enum class Trouble {
   None,
   NotFinite, // a number of the state
@@ -17,6 +19,8 @@ struct GuardFigures {
   long accepted = 0;   // growths of energy that no smaller step changes
   int most_parts = 1;  // of a step
   double smallest = 0; // [s], of these parts; 0: none
+
+  void store(Archive& archive);
 };
 
 } // namespace rend

@@ -28,6 +28,18 @@ public:
   bool direct() const;
   Definiteness definiteness() const { return factored_ ? definiteness_ : Definiteness::Positive; }
 
+  // What one solution hands on to the next: the way that is taken, and what is counted (see Integrator::carried).
+  struct Carried {
+    int hard = 0;
+    long iterations = 0, factorisations = 0;
+  };
+  Carried carried() const { return {hard_, iterations_, factorisations_}; }
+  void carry(const Carried& from) {
+    hard_ = from.hard;
+    iterations_ = from.iterations;
+    factorisations_ = from.factorisations;
+  }
+
   long iterations() const { return iterations_; }
   long factorisations() const { return factorisations_; }
   std::size_t bytes() const { return factor_.bytes() + preconditioner_.bytes() + gradient_.bytes(); }

@@ -39,6 +39,11 @@ void SolidSurface::rebuild() {
 
 void SolidSurface::update() {
   if (!changes_.any) return;
+  if (changes_.whole) {
+    changes_.clear();
+    drawn_ = {};
+    return rebuild();
+  }
   const GMap& map = body_.map->map();
   drawn_.resize(map.capacity());
   queue_.clear();

@@ -109,6 +109,10 @@ void Surface::write_corners(Slot vertex) {
 
 void Surface::update() {
   if (!changes_.any) return;
+  if (changes_.whole) {
+    changes_.clear();
+    return rebuild();
+  }
   const EmbeddedMap& map = *body_.map;
   thread_local IndexSet faces_seen, vertices_seen;
   faces_seen.clear();

@@ -17,6 +17,8 @@
 
 namespace rend {
 
+class Archive;
+
 class GMap {
 public:
   // 2: a sheet, whose darts all stay α3-free, so that <1,2> is a vertex; 3: a solid.
@@ -43,6 +45,8 @@ public:
     for (std::uint32_t i = 0; i < links_.size(); ++i)
       if (links_[i][0] != Dart::none_value) f(Dart{i});
   }
+
+  void store(Archive& archive); // all of it (base/archive.h); ArchiveError: it was of another dimension
 
 private:
   friend class MapEdit;

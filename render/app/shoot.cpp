@@ -1,0 +1,118 @@
+#include "render/app/shoot.h"
+
+#include "render/app/console.h"
+#include "render/app/progress.h"
+#include "render/app/signals.h"
+#include "render/video.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rend {
+
+namespace fs = std::filesystem;
+
+Shoot::Shoot(Session& session, const ShootOptions& options)
+    : session_(session), options_(options), plan_(options.choice, session.clock(), options.shard),
+      checkpoint_(checkpoint_path(options.files.folder, options.files.name, options.shard)) {
+  PipelineOptions& files = options_.files;
+  files.mark = picture_key(session, files.width, files.height, files.samples);
+  options_.resume = options.resume && files.png;
+  if (options.resume && !files.png && !session.quiet())
+    print_note("without PNG files there is nothing to go on from: the video is made anew");
+  if (options_.resume) plan_.leave_out_whole(files.folder, files.mark);
+  kept_ = static_cast<long>(plan_.all().size() - plan_.to_make().size());
+  video_at_end_ = files.video && kept_ > 0;
+  PipelineOptions now = files;
+  now.video = files.video && !video_at_end_;
+  film_.emplace(session, now, plan_);
+  begin();
+}
+
+// From the best checkpoint there is; a run that begins anew has no use for those of others.
+void Shoot::begin() {
+  if (!options_.resume) return remove_checkpoint();
+  if (plan_.to_make().empty()) return;
+  const auto found = find_checkpoint(checkpoint_, options_.files.mark, plan_.first());
+  if (!found) return;
+  read_checkpoint(found->path, session_, *film_);
+  first_ = found->head.next;
+  if (!session_.quiet())
+    print_note(fmt::format("goes on at {:.6g} s, from {}", session_.scene().time(), found->path.string()));
+}
+
+Stopped Shoot::run() {
+  Stopped stopped = plan_.to_make().empty() ? Stopped::No : simulate();
+  if (stopped != Stopped::Interrupted && video_at_end_ && video_of_files() == Stopped::Interrupted)
+    stopped = Stopped::Interrupted;
+  if (stopped != Stopped::Interrupted) remove_checkpoint();
+  return stopped;
+}
+
+// And what a run that was killed left of one.
+void Shoot::remove_checkpoint() const {
+  if (!keeps_checkpoints()) return;
+  std::error_code error;
+  fs::remove(checkpoint_, error);
+  fs::remove(checkpoint_.string() + ".part", error);
+}
+
+void Shoot::checkpoint(long next) {
+  write_checkpoint(checkpoint_, options_.files.mark, next, session_, *film_);
+}
+
+// Between frames: a checkpoint takes no more than a twentieth of the time.
+void Shoot::checkpoint_if_due(long next) {
+  constexpr double most_share = 20;
+  const double start = wall_clock();
+  if (start < due_ || !keeps_checkpoints() || !film_->settle()) return;
+  film_->make_folder();
+  checkpoint(next);
+  due_ = wall_clock() + std::max(options_.checkpoint_every, most_share * (wall_clock() - start));
+}
+
+Stopped Shoot::simulate() {
+  const long last = plan_.last();
+  Progress progress(session_.quiet(), session_.last_step(last), session_.clock().time_of(last), last + 1);
+  long next = first_;
+  if (options_.checkpoint_every > 0) due_ = wall_clock() + options_.checkpoint_every;
+  Session::Calls calls;
+  const auto tell = [&] { progress.update(session_.scene().steps_done(), session_.scene().time(), next); };
+  calls.frame = [&](long frame) {
+    if (frame > first_) checkpoint_if_due(frame);
+    film_->take(frame);
+    next = frame + 1;
+    tell();
+  };
+  calls.step = tell;
+  const Stopped stopped = session_.run(last, calls, first_);
+  if (stopped == Stopped::Unstable) {
+    film_->abandon();
+    return stopped;
+  }
+  if (stopped == Stopped::Interrupted && keeps_checkpoints()) {
+    film_->pause();
+    checkpoint(next);
+    left_checkpoint_ = true;
+  }
+  film_->finish();
+  return stopped;
+}
+
+// Of those that are there: an unstable run has no more.
+Stopped Shoot::video_of_files() {
+  const PipelineOptions& files = options_.files;
+  VideoWriter video;
+  video.open(files.folder / (files.name + files.extension), files.width, files.height, files.fps);
+  for (long frame : plan_.all()) {
+    if (stop_signal() != 0) return Stopped::Interrupted;
+    const fs::path path = files.folder / png_name(frame);
+    if (text_of_whole_png(path, png_mark(files.mark, frame).keyword) != png_mark(files.mark, frame).text) break;
+    video.add(read_png(path));
+  }
+  video.close();
+  return Stopped::No;
+}
+
+} // namespace rend

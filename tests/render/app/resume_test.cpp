@@ -1,0 +1,277 @@
+// Runs that are killed, stopped, or share their frames leave the bytes of one that was left alone.
+//
+// By default at a few moments each; with REND_WHOLE in the environment at fifty (tests/run --all).
+#include "render/png.h"
+#include "tests/render/app/program_run.h"
+#include "tests/render/needs.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <map>
+
+namespace rend {
+namespace {
+
+using program::content;
+using program::Outcome;
+using program::Place;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// All that pictures follow over a clip: a scale, colours of fragments, curves, a camera that goes after the body.
+constexpr const char* followed = R"(<scene name="clip">
+  <body name="cloth">
+    <sheet cells="8 8" size="1 1"/><place rotate="90 0 0"/><mass total="0.1"/>
+    <springs><stretch k="60"/><shear kind="isotropic" k="43"/><bend kind="provot" k="10"/></springs>
+    <viscosity value="0.1" per="body"/>
+    <fix side="-x"/><drive side="+x" velocity="4 0 0"/>
+    <tear criterion="global-border" threshold="2" max-per-step="1"/>
+    <look by="fragment"/>
+  </body>
+  <body name="other">
+    <sheet cells="3 3" size="0.5 0.5"/><place translate="0 0 -1"/><mass total="0.1"/>
+    <springs><stretch k="60"/></springs>
+    <look by="force"/>
+  </body>
+  <time step="2e-4" integrator="rk4" duration="0.3"/>
+  <camera frame="follow"/>
+  <image size="64 48" fps="100" samples="1"/>
+  <hud show="time energy tears legend"/>
+</scene>
+)";
+
+using Files = std::map<std::string, std::string>; // name → bytes
+
+bool whole() {
+  return std::getenv("REND_WHOLE") != nullptr;
+}
+
+class Resume : public testing::Test {
+protected:
+  Resume() { place.write("clip.xml", followed); }
+
+  Files in(const std::string& folder) const {
+    Files all;
+    std::error_code error;
+    for (fs::directory_iterator at(place.path() / folder, error), end; !error && at != end; at.increment(error))
+      all[at->path().filename().string()] = content(at->path());
+    return all;
+  }
+  // Of a run that was left alone, and how long it takes [s].
+  Files alone(const std::string& more = "") {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(place.rend("render clip.xml -q -o alone " + more).code, 0);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return in("alone");
+  }
+  Outcome stopped(const char* signal, double after, const std::string& arguments) const {
+    return place.shell(
+        fmt::format("timeout --preserve-status -s {} {:.3f} {} {}", signal, after, REND_PROGRAM, arguments));
+  }
+  double moment() { return 0.02 + seconds * std::uniform_real_distribution<>(0, 1)(random); }
+
+  // Stops runs into a folder earlier and earlier, until one leaves its checkpoint there.
+  void stop_on_the_way(const std::string& folder) const {
+    for (double after = 0.6 * seconds; !in(folder).contains("clip.checkpoint") && after > 0.01; after *= 0.8) {
+      fs::remove_all(place.path() / folder);
+      stopped("TERM", after, "render clip.xml -q -o " + folder);
+    }
+    ASSERT_TRUE(in(folder).contains("clip.checkpoint"));
+  }
+
+  static void expect_part_of(const Files& some, const Files& all, const std::string& note) {
+    for (const auto& [name, bytes] : some) {
+      if (!name.ends_with(".png")) continue;
+      ASSERT_TRUE(all.contains(name)) << note;
+      EXPECT_TRUE(bytes == all.at(name)) << name << " " << note;
+    }
+  }
+  static void expect_same(const Files& some, const Files& all, const std::string& note) {
+    expect_part_of(some, all, note);
+    for (const auto& [name, bytes] : all)
+      EXPECT_TRUE(some.contains(name) && some.at(name) == bytes) << name << note;
+    for (const auto& [name, bytes] : some) EXPECT_TRUE(all.contains(name)) << name << " is left over" << note;
+  }
+
+  const Place place;
+  double seconds = 0;
+  std::mt19937 random{7};
+};
+
+TEST_F(Resume, after_a_kill_at_any_moment_no_picture_is_partial_and_all_bytes_come_out_equal) {
+  NEEDS_PNG;
+  const Files all = alone();
+  ASSERT_EQ(all.size(), 31u);
+  for (int trial = 0; trial < (whole() ? 50 : 3); ++trial) {
+    const std::string folder = fmt::format("killed-{}", trial), note = fmt::format(" trial {}", trial);
+    const std::string line = "render clip.xml -q --resume --checkpoint-every 0.03 -o " + folder;
+    const double first = moment();
+    stopped("KILL", first, line);
+    expect_part_of(in(folder), all, fmt::format("{}, killed after {:.3f} s", note, first));
+    stopped("KILL", moment(), line); // and again, on its way from there
+    expect_part_of(in(folder), all, note + ", killed twice");
+    const Outcome last = place.rend(line);
+    EXPECT_EQ(last.code, 0) << last.err;
+    expect_same(in(folder), all, note);
+  }
+}
+
+TEST_F(Resume, a_signal_leaves_a_checkpoint_and_going_on_equals_never_having_stopped) {
+  NEEDS_PNG;
+  const Files all = alone();
+  for (int trial = 0; trial < (whole() ? 50 : 3); ++trial) {
+    const std::string folder = fmt::format("stopped-{}", trial), note = fmt::format(" trial {}", trial);
+    const std::string line = "render clip.xml --resume --checkpoint-every 0 -o " + folder;
+    const bool by_term = trial % 2 == 0;
+    const Outcome first = stopped(by_term ? "TERM" : "INT", moment(), line);
+    const Files there = in(folder);
+    expect_part_of(there, all, note);
+    if (there.contains("clip.checkpoint")) {
+      EXPECT_EQ(first.code, by_term ? 143 : 130) << first.err;
+      EXPECT_THAT(first.err, HasSubstr("--resume"));
+      const Outcome last = place.rend(line);
+      EXPECT_THAT(last.err, HasSubstr("goes on at")) << "not from the start";
+      EXPECT_EQ(last.code, 0) << last.err;
+    } else {
+      EXPECT_EQ(place.rend(line).code, 0); // it was building, or done
+    }
+    expect_same(in(folder), all, note);
+  }
+  stop_on_the_way("surely");
+  expect_part_of(in("surely"), all, "");
+  const Outcome last = place.rend("render clip.xml --resume -o surely");
+  EXPECT_THAT(last.err, HasSubstr("goes on at"));
+  EXPECT_EQ(last.code, 0);
+  expect_same(in("surely"), all, "");
+}
+
+TEST_F(Resume, a_video_is_that_of_a_run_that_was_never_stopped) {
+  NEEDS_PNG;
+  NEEDS_VIDEO;
+  const Files all = alone("--video mkv");
+  stop_on_the_way("stopped");
+  EXPECT_EQ(place.rend("render clip.xml -q --resume -o stopped --video mkv").code, 0);
+  expect_same(in("stopped"), all, "");
+}
+
+TEST_F(Resume, makes_again_what_is_missing_or_wrong_and_touches_nothing_else) {
+  NEEDS_PNG;
+  const Files all = alone();
+  const fs::path folder = place.path() / "alone";
+  const auto date = fs::last_write_time(folder / "00000.png");
+  fs::remove(folder / "00003.png");
+  fs::copy_file(folder / "00001.png", folder / "00005.png", fs::copy_options::overwrite_existing);
+  std::string flipped = all.at("00007.png"), cut = all.at("00009.png");
+  flipped[flipped.size() / 2] ^= 1;
+  cut.resize(cut.size() - 20);
+  place.write("alone/00007.png", flipped);
+  place.write("alone/00009.png", cut);
+  place.write("alone/00011.png", "");
+  const Outcome outcome = place.rend("render clip.xml --resume -o alone --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["frames"], 5);
+  EXPECT_EQ(outcome.json()["kept"], 26);
+  expect_same(in("alone"), all, "");
+  EXPECT_EQ(fs::last_write_time(folder / "00000.png"), date);
+}
+
+TEST_F(Resume, pictures_of_another_scene_are_made_again) {
+  NEEDS_PNG;
+  const Files all = alone();
+  EXPECT_EQ(place.rend("render clip.xml -q --set body[cloth].mass.total=0.2 -o other").code, 0);
+  EXPECT_EQ(place.rend("render clip.xml -q --resume -o other").code, 0);
+  expect_same(in("other"), all, "");
+}
+
+TEST_F(Resume, a_checkpoint_of_something_else_is_refused_and_nothing_is_lost) {
+  NEEDS_PNG;
+  alone();
+  stop_on_the_way("c");
+  const Files before = in("c");
+  for (const char* other : {"--set body[cloth].mass.total=0.2", "--size 80x60", "--kernels walk", "--fps 50"}) {
+    const Outcome outcome = place.rend(std::string("render clip.xml -q --resume -o c ") + other);
+    EXPECT_EQ(outcome.code, 65) << other;
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("c/clip.checkpoint"), HasSubstr("of another preset"),
+                                            HasSubstr("without --resume")));
+    EXPECT_TRUE(in("c") == before) << other;
+  }
+  std::string damaged = before.at("clip.checkpoint");
+  damaged[damaged.size() / 2] ^= 1;
+  place.write("c/clip.checkpoint", damaged);
+  EXPECT_THAT(place.rend("render clip.xml -q --resume -o c").err, HasSubstr("damaged"));
+  place.write("c/clip.checkpoint", "hello");
+  EXPECT_EQ(place.rend("render clip.xml -q --resume -o c").code, 65);
+  EXPECT_EQ(place.rend("render clip.xml -q -o c").code, 0) << "begins anew";
+  EXPECT_FALSE(in("c").contains("clip.checkpoint"));
+}
+
+TEST_F(Resume, shards_make_the_bytes_of_one_run) {
+  NEEDS_PNG;
+  const Files all = alone();
+  for (int count : {1, 2, 3, 7, 40}) {
+    const std::string folder = fmt::format("shards-{}", count);
+    for (int n = 1; n <= count; ++n) {
+      if (count == 40 && n > 6 && n < 35) continue; // some of them have nothing to do
+      EXPECT_EQ(place.rend(fmt::format("render clip.xml -q -o {} --shard {}/{}", folder, n, count)).code, 0);
+    }
+    count < 40 ? expect_same(in(folder), all, folder) : expect_part_of(in(folder), all, folder);
+  }
+}
+
+TEST_F(Resume, a_shard_is_what_slurm_says_of_its_task) {
+  NEEDS_PNG;
+  const Files all = alone();
+  for (int task : {10, 12, 14})
+    EXPECT_EQ(place
+                  .shell(fmt::format("SLURM_ARRAY_TASK_ID={} SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_MIN=10 "
+                                     "SLURM_ARRAY_TASK_STEP=2 {} render clip.xml -q -o slurm",
+                                     task, REND_PROGRAM))
+                  .code,
+              0);
+  expect_same(in("slurm"), all, "");
+}
+
+TEST_F(Resume, refuses_what_is_no_shard_and_frames_that_run_backwards) {
+  NEEDS_PNG;
+  for (const char* words : {"--shard 5/3", "--shard 0/3", "--shard 3", "--shard 1/0", "--shard a/b",
+                            "--shard -1/3", "--shard 1/2/3", "--frames 10-1", "--checkpoint-every -1"}) {
+    const Outcome outcome = place.rend(std::string("render clip.xml -o x ") + words);
+    EXPECT_EQ(outcome.code, 64) << words;
+    EXPECT_THAT(outcome.err, HasSubstr("\n  hint: ")) << words;
+    EXPECT_TRUE(in("x").empty()) << words;
+  }
+}
+
+TEST_F(Resume, a_full_disk_leaves_whole_pictures_alone_and_going_on_makes_the_rest) {
+  NEEDS_PNG;
+  const Files all = alone();
+  std::size_t least = std::string::npos, most = 0;
+  for (const auto& [name, bytes] : all) {
+    least = std::min(least, bytes.size());
+    most = std::max(most, bytes.size());
+  }
+  const std::size_t blocks = most / 512 - (most % 512 == 0 ? 1 : 0); // of sh: less than the largest picture
+  const Outcome outcome =
+      place.shell(fmt::format("(ulimit -f {}; exec {} render clip.xml -q -o full)", blocks, REND_PROGRAM));
+  EXPECT_EQ(outcome.code, 74) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("writing failed"));
+  const Files there = in("full");
+  expect_part_of(there, all, "");
+  EXPECT_LT(there.size(), all.size());
+  for (const auto& [name, bytes] : there) EXPECT_TRUE(name.ends_with(".png")) << name;
+  EXPECT_EQ(place.rend("render clip.xml -q --resume -o full").code, 0);
+  expect_same(in("full"), all, "");
+}
+
+TEST_F(Resume, while_a_scene_is_built_a_signal_ends_at_once_and_leaves_nothing) {
+  NEEDS_PNG;
+  const Outcome outcome =
+      stopped("TERM", 0.2, "render clip.xml -o x --set 'body[cloth].sheet.cells=900 900' --set time.step=1e-6");
+  EXPECT_EQ(outcome.code, 143);
+  EXPECT_TRUE(in("x").empty());
+}
+
+} // namespace
+} // namespace rend
