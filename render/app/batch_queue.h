@@ -1,0 +1,74 @@
+// Jobs of a batch in parallel, as many as there is room for.
+//
+// What a job takes is not known before it ran: what another job of the same preset took is expected of it, else the mean
+// of all so far. One more is begun where what runs and what is expected of it fit into the budget; one always runs. Where
+// what runs outgrows the budget nevertheless, the job begun last is stopped with a checkpoint (SIGTERM), and goes on from
+// there when there is room.
+#pragma once
+
+#include "render/app/batch_jobs.h"
+#include "render/app/child.h"
+
+#include <deque>
+#include <functional>
+#include <list>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+struct BatchLimits {
+  int jobs = 1;           // at once
+  std::size_t memory = 0; // [bytes], of all together
+};
+
+struct BatchResult {
+  bool ran = false;     // to its end, whatever that was
+  int code = 0;         // exit code
+  double seconds = 0;   // on the clock, of all its tries
+  std::size_t peak = 0; // [bytes]
+  std::string out, err;
+};
+
+std::size_t available_memory(); // [bytes], by the system's word
+
+class BatchQueue {
+public:
+  // `command`: the arguments of a job's program; `again`: it was stopped for want of room.
+  using CommandOf = std::function<std::vector<std::string>(const BatchJob& job, bool again)>;
+  using Done = std::function<void(std::size_t job, const BatchResult& result)>;
+  BatchQueue(const std::vector<BatchJob>& jobs, const BatchLimits& limits, CommandOf command, Done done);
+
+  // Until all ran, or a signal came: then those that run are stopped, and waited for.
+  std::vector<BatchResult> run();
+
+private:
+  struct Running {
+    std::size_t job;
+    Child child;
+    double since;         // [s]
+    std::size_t most = 0; // [bytes], seen so far
+    bool stopped = false; // to make room
+  };
+  std::size_t expected(const std::string& preset) const;
+  std::size_t taken() const; // by what runs, now or later
+  bool room_for_next() const;
+  void begin_next();
+  void collect();
+  void watch_memory();
+  void stop_all(int signal);
+  void finish(Running& one);
+
+  const std::vector<BatchJob>& jobs_;
+  BatchLimits limits_;
+  CommandOf command_;
+  Done done_;
+  std::deque<std::size_t> waiting_;
+  std::list<Running> running_; // in the order in which they were begun
+  std::vector<BatchResult> results_;
+  std::vector<bool> again_;                  // of each job
+  std::map<std::string, std::size_t> peaks_; // [bytes], of a preset
+};
+
+} // namespace rend

@@ -1,0 +1,211 @@
+// rend batch: many presets, beside each other.
+#include "render/app/batch_page.h"
+#include "render/app/batch_queue.h"
+#include "render/app/command.h"
+#include "render/app/console.h"
+#include "render/app/output_folder.h"
+#include "render/app/session.h"
+#include "render/app/shard.h"
+#include "render/app/signals.h"
+#include "render/output.h"
+#include "render/png.h"
+#include "render/video.h"
+#include "sim/program/threads.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <csignal>
+#include <memory>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BatchOptions {
+  std::vector<std::string> inputs, sets, sweeps;
+  std::string folder = "out/batch", shard, memory;
+  std::string frames, size, fps, video, checkpoint_every;
+  int jobs = 0, threads = 0; // 0: not given
+  bool no_png = false, allow_path = false, resume = false, json = false, quiet = false;
+};
+
+// "800M", "4G": bytes.
+std::size_t parse_memory(const std::string& text) {
+  const std::string units = "kMG";
+  std::size_t used = 0;
+  double number = 0;
+  try {
+    number = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  const std::size_t unit = used + 1 == text.size() ? units.find(text.back()) : std::string::npos;
+  if (used == 0 || !(number > 0) || number > 1e15 || (used < text.size() && unit == std::string::npos))
+    throw UserError(Exit::Usage, {}, fmt::format("--memory '{}' is no amount of memory", text),
+                    "an amount is such as 800M or 4G");
+  for (std::size_t n = 0; unit != std::string::npos && n <= unit; ++n) number *= 1024;
+  return static_cast<std::size_t>(number);
+}
+
+BatchLimits limits_of(const BatchOptions& options) {
+  BatchLimits limits;
+  limits.jobs = options.jobs > 0 ? options.jobs : hardware_threads();
+  limits.memory = options.memory.empty() ? available_memory() / 10 * 8 : parse_memory(options.memory);
+  return limits;
+}
+
+// Those of this shard. Where there are fewer jobs than shards, all of them: then each makes its part of their frames.
+std::vector<BatchJob> jobs_of(const BatchOptions& options, const Shard& shard, bool& frames_are_shared) {
+  std::vector<Sweep> sweeps;
+  for (const std::string& text : options.sweeps) sweeps.push_back(parse_sweep(text));
+  const std::vector<BatchJob> all = batch_jobs(options.inputs, sweeps);
+  frames_are_shared = !shard.whole() && static_cast<long>(all.size()) < shard.count;
+  if (frames_are_shared) return all;
+  std::vector<BatchJob> ours;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (static_cast<long>(n) % shard.count == shard.number - 1) ours.push_back(all[n]);
+  return ours;
+}
+
+std::vector<std::string> arguments_of(const BatchOptions& options, const BatchLimits& limits,
+                                      const BatchJob& job, const Shard& frames, bool resume) {
+  std::vector<std::string> words{
+      "render", job.preset, "-o",      (fs::path(options.folder) / job.name).string(),
+      "--json", "-q",       "--shard", frames.text()};
+  const auto pass = [&](const char* name, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {name, value});
+  };
+  for (const std::string& set : options.sets) pass("--set", set);
+  for (const std::string& set : job.sets) pass("--set", set);
+  pass("--frames", options.frames);
+  pass("--size", options.size);
+  pass("--fps", options.fps);
+  pass("--video", options.video);
+  pass("--checkpoint-every", options.checkpoint_every);
+  const int threads = options.threads > 0 ? options.threads : limits.jobs > 1 ? 1 : 0;
+  if (threads > 0) pass("--threads", std::to_string(threads));
+  if (options.no_png) words.push_back("--no-png");
+  if (options.allow_path) words.push_back("--allow-path");
+  if (resume) words.push_back("--resume");
+  return words;
+}
+
+void check(const BatchOptions& options) {
+  if (!options.video.empty()) require_video(options.video);
+  if (!options.no_png) require_png();
+  if (options.no_png && options.video.empty())
+    throw UserError(Exit::Usage, {}, "--no-png without --video leaves nothing to write", "add --video mp4");
+}
+
+std::string closing_words(const BatchReport& report, const fs::path& page) {
+  std::size_t done = 0;
+  for (const BatchResult& result : report.results) done += state_of(result) == "done";
+  std::string out =
+      fmt::format("{} of {} job{} done, in {}; see {}\n", done, report.jobs.size(),
+                  report.jobs.size() == 1 ? "" : "s", seconds_in_words(report.seconds), page.string());
+  for (std::size_t n = 0; n < report.jobs.size(); ++n)
+    if (failed(report.results[n]))
+      out += fmt::format("{}: {}: {}\n", state_of(report.results[n]), report.jobs[n].name,
+                         line_of(report.jobs[n], report.results[n]).value("message", "no reason was given"));
+  return out;
+}
+
+Exit end_of(const BatchReport& report) {
+  if (stop_signal() != 0) return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  const bool bad = std::any_of(report.results.begin(), report.results.end(), failed);
+  return bad ? Exit::No : Exit::Done;
+}
+
+Exit batch(const BatchOptions& options) {
+  const double start = wall_clock();
+  check(options);
+  const Shard shard = shard_for(options.shard);
+  bool frames_are_shared = false;
+  BatchReport report{options.folder, jobs_of(options, shard, frames_are_shared), {}, limits_of(options), 0};
+  if (frames_are_shared && !options.video.empty())
+    throw UserError(Exit::Usage, {},
+                    "there are fewer jobs than shards, so that these share frames; a video is of all",
+                    "use at most as many shards as jobs, or leave --video out");
+  const Shard frames = frames_are_shared ? shard : Shard{};
+  const OutputFolder folder(options.folder);
+  folder.make();
+  std::size_t finished = 0;
+  BatchQueue queue(
+      report.jobs, report.limits,
+      [&](const BatchJob& job, bool again) {
+        return arguments_of(options, report.limits, job, frames, options.resume || again);
+      },
+      [&](std::size_t n, const BatchResult& result) {
+        ++finished;
+        if (options.json) print_result(line_of(report.jobs[n], result).dump() + "\n");
+        if (!options.quiet)
+          fmt::print(stderr, "{:>3} of {}  {:8}  {:>8}  {}\n", finished, report.jobs.size(), state_of(result),
+                     seconds_in_words(result.seconds), report.jobs[n].name);
+      });
+  report.results = queue.run();
+  report.seconds = wall_clock() - start;
+  const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
+  const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
+  write_whole(page, batch_page(report));
+  if (!options.json) print_result(closing_words(report, page));
+  return end_of(report);
+}
+
+void declare_passed_on(CLI::App& app, BatchOptions& options) {
+  app.add_option("--frames", options.frames, "only these: 7, 0-100, 0-100x5, 10-, or several with commas")
+      ->type_name("LIST");
+  app.add_option("--size", options.size, "of the pictures in pixels, instead of the presets'")
+      ->type_name("WxH");
+  app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the presets'")
+      ->type_name("N");
+  app.add_option("--video", options.video, "also a video of each job")
+      ->type_name("FORMAT");
+  app.add_flag("--no-png", options.no_png, "the videos alone");
+  app.add_option("--threads", options.threads,
+                 "threads of each simulation; default: one, where jobs run in parallel")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  app.add_option("--checkpoint-every", options.checkpoint_every, "as of rend render")->type_name("S");
+  app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the presets' folders, too");
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<BatchOptions>();
+  app.add_option("inputs", options->inputs, "presets, and folders of them")->required()->type_name("PRESET...");
+  app.add_option("-o,--output", options->folder, "folder of all jobs' folders, and of index.html")
+      ->type_name("DIR")
+      ->capture_default_str();
+  app.add_option("--set", options->sets, "replace an attribute in all jobs (any number of times)")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--sweep", options->sweeps,
+                 "one job for each of these values of an attribute; several sweeps are crossed")
+      ->type_name("PATH=V,V,...")
+      ->allow_extra_args(false);
+  app.add_option("-j,--jobs", options->jobs, "jobs at once; default: as many as the machine has threads")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--memory", options->memory,
+                 "that all jobs together may take, such as 4G; default: 80 % of what is available")
+      ->type_name("SIZE");
+  app.add_option(
+         "--shard", options->shard,
+         "of the jobs only part I of N; default: as Slurm says of an array task. With fewer jobs than shards: "
+         "a part of each job's frames")
+      ->type_name("I/N");
+  app.add_flag("--resume", options->resume, "keep the pictures that are there and whole, and make the rest");
+  declare_passed_on(app, *options);
+  app.add_flag("--json", options->json, "one JSON object a line for each job, as it ends");
+  app.add_flag("-q,--quiet", options->quiet, "no progress");
+  return [options] { return batch(*options); };
+}
+
+} // namespace
+
+Command batch_command() {
+  return {"batch", "render many presets in parallel, with a page of what came of them", declare};
+}
+
+} // namespace rend
