@@ -14,6 +14,7 @@
 
 Prints both values of each and the difference; exits 1 where they disagree by more than the tolerance stated.
 """
+import base64
 import csv
 import json
 import math
@@ -46,17 +47,14 @@ class State:
     """One .vtu file: every array by its name; x, rest and velocity as n x 3."""
 
     def __init__(self, path):
-        raw = Path(path).read_bytes()
-        head, tail = raw.split(b'<AppendedData encoding="raw">\n_', 1)
-        text = head.decode()
+        text = Path(path).read_text()
         self.time = float(re.search(r'Name="TimeValue"[^>]*>([^<]*)<', text)[1])
         self.arrays = {}
-        for kind, name, width, offset in re.findall(
-                r'<DataArray type="(\w+)" Name="([^"]+)"(?: NumberOfComponents="(\d+)")? format="appended" '
-                r'offset="(\d+)"/>', text):
-            start = int(offset)
-            size = int(np.frombuffer(tail, np.uint64, 1, start)[0])
-            values = np.frombuffer(tail, TYPES[kind], size // np.dtype(TYPES[kind]).itemsize, start + 8)
+        for kind, name, width, content in re.findall(
+                r'<DataArray type="(\w+)" Name="([^"]+)"(?: NumberOfComponents="(\d+)")? format="binary">([^<]*)<', text):
+            raw = base64.b64decode(content)
+            values = np.frombuffer(raw, TYPES[kind], offset=8)  # behind the number of bytes
+            assert values.nbytes == int(np.frombuffer(raw, np.uint64, 1)[0])
             self.arrays[name] = values.reshape(-1, int(width)) if width else values
         self.x, self.rest, self.velocity = (self.arrays[n] for n in ("Points", "rest", "velocity"))
         self.mass = self.arrays["mass"]
