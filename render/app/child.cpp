@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -36,14 +37,18 @@ std::string content_of(int file) {
   return text;
 }
 
-// In the new process, up to the other program. Where that cannot be had, 127 as of a shell.
-[[noreturn]] void become(const std::vector<char*>& words, int parent, int out, int err) {
+constexpr const char* itself = "/proc/self/exe";
+
+// In the new process, up to the other program: by its own name, which others see, or where its file has gone since, by
+// the system's. Where neither can be had, 127 as of a shell.
+[[noreturn]] void become(const char* program, const std::vector<char*>& words, int parent, int out, int err) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(127); // it is gone already
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
-  ::execv("/proc/self/exe", words.data());
+  ::execv(program, words.data());
+  ::execv(itself, words.data());
   ::_exit(127);
 }
 
@@ -58,9 +63,11 @@ Child::Child(const std::vector<std::string>& arguments,
   for (std::string& word : kept) words.push_back(word.data());
   words.push_back(nullptr);
   for (const auto& [name, value] : variables) ::setenv(name.c_str(), value.c_str(), 1);
+  std::error_code error;
+  const std::string program = std::filesystem::read_symlink(itself, error).string();
   const int parent = ::getpid();
   process_ = ::fork();
-  if (process_ == 0) become(words, parent, out_, err_);
+  if (process_ == 0) become(program.c_str(), words, parent, out_, err_);
   if (process_ < 0)
     throw UserError(Exit::CannotCreate, {}, fmt::format("a job could not be started: {}", std::strerror(errno)),
                     "run fewer at once: --jobs");
