@@ -3,7 +3,7 @@
 //   rend checkpoint, a line of text             so that `head -1` tells what it is
 //   key, next frame                             64 bits each
 //   the numbers of the scene and its pictures   sim/base/archive.h
-//   their XXH3, piece after piece               64 bits
+//   XXH3 of all that, piece after piece         64 bits
 //
 // It stands in the folder of the pictures while a run is under way, appears whole or not at all, and goes when the run is
 // complete. All frames before the next one are in that folder when it is written.
@@ -37,20 +37,24 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& key,
 // None: there is no such file. UserError (BadInput): it is no checkpoint, or of another rend; damaged.
 std::optional<CheckpointHead> read_checkpoint_head(const std::filesystem::path& path);
 
-// Takes the state of a run whose session and film are of the same key. UserError (BadInput).
-void read_checkpoint(const std::filesystem::path& path, Session& session, Film& film);
+// Takes the state of a run whose session and film are of the same key, and tells the head of the very bytes that it took:
+// of others' checkpoints another may stand there by now. None, and nothing was taken: it is gone, or no longer of this key
+// with a next frame that is not after `first`. UserError (BadInput): it is no checkpoint, or damaged.
+std::optional<CheckpointHead> read_checkpoint(const std::filesystem::path& path, const std::string& key,
+                                              long first, Session& session, Film& film);
 
 // Where a run leaves its checkpoint: NAME.checkpoint, or NAME.2-of-7.checkpoint.
 std::filesystem::path checkpoint_path(const std::filesystem::path& folder, const std::string& name,
                                       const Shard& shard);
 
-// Of all in the folder with this key, the one whose next frame is the last that is not after `first`. None: there is none.
-// UserError (BadInput) where the run's `own` is there and of another key, or damaged.
+// Those to go on from, the best first, all with this key and a next frame that is not after `first`: the run's `own`,
+// which alone tells what that run had let go early (film.h), then the others of the folder, the latest first.
+// UserError (BadInput) where `own` is there and of another key, or no checkpoint.
 struct FoundCheckpoint {
   std::filesystem::path path;
   CheckpointHead head;
 };
-std::optional<FoundCheckpoint> find_checkpoint(const std::filesystem::path& own, const std::string& key,
-                                               long first);
+std::vector<FoundCheckpoint> find_checkpoints(const std::filesystem::path& own, const std::string& key,
+                                              long first);
 
 } // namespace rend

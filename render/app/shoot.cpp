@@ -34,12 +34,14 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
 void Shoot::begin() {
   if (!options_.resume) return remove_checkpoint();
   if (plan_.to_make().empty()) return;
-  const auto found = find_checkpoint(checkpoint_, options_.files.mark, plan_.first());
-  if (!found) return;
-  read_checkpoint(found->path, session_, *film_);
-  first_ = found->head.next;
-  if (!session_.quiet())
-    print_note(fmt::format("goes on at {:.6g} s, from {}", session_.scene().time(), found->path.string()));
+  for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, options_.files.mark, plan_.first())) {
+    const auto head = read_checkpoint(found.path, options_.files.mark, plan_.first(), session_, *film_);
+    if (!head) continue; // it went meanwhile: its shard is done
+    first_ = head->next;
+    if (!session_.quiet())
+      print_note(fmt::format("goes on at {:.6g} s, from {}", session_.scene().time(), found.path.string()));
+    return;
+  }
 }
 
 Stopped Shoot::run() {

@@ -1,7 +1,11 @@
 // Runs that are killed, stopped, or share their frames leave the bytes of one that was left alone.
 //
 // By default at a few moments each; with REND_WHOLE in the environment at fifty (tests/run --all).
+#include "render/app/checkpoint.h"
+#include "render/app/film.h"
+#include "render/app/session.h"
 #include "render/png.h"
+#include "sim/base/error.h"
 #include "tests/render/app/program_run.h"
 #include "tests/render/needs.h"
 
@@ -205,6 +209,73 @@ TEST_F(Resume, a_checkpoint_of_something_else_is_refused_and_nothing_is_lost) {
   EXPECT_EQ(place.rend("render clip.xml -q --resume -o c").code, 65);
   EXPECT_EQ(place.rend("render clip.xml -q -o c").code, 0) << "begins anew";
   EXPECT_FALSE(in("c").contains("clip.checkpoint"));
+}
+
+// A run in this process, its pictures left out.
+struct Run {
+  Session session;
+  Film film;
+  std::string key;
+  explicit Run(const Place& place)
+      : session({.preset = (place.path() / "clip.xml").string(), .quiet = true}),
+        film(session, files_in(place), FramePlan{}), key(picture_key(session, 64, 48, 1)) {}
+  static PipelineOptions files_in(const Place& place) {
+    PipelineOptions files;
+    files.folder = place.path() / "c";
+    files.width = 64;
+    files.height = 48;
+    files.png = false;
+    return files;
+  }
+};
+
+TEST_F(Resume, a_checkpoint_s_next_frame_and_state_are_of_the_same_bytes) {
+  const fs::path path = place.path() / "one.checkpoint";
+  Run from(place), to(place);
+  from.session.run(5, {[](long) {}, {}});
+  write_checkpoint(path, from.key, 6, from.session, from.film);
+  const std::uint64_t fresh = to.session.scene().hash();
+  EXPECT_FALSE(read_checkpoint(path, to.key, 5, to.session, to.film)) << "rewritten since it was found";
+  EXPECT_FALSE(read_checkpoint(path, "1", 30, to.session, to.film));
+  EXPECT_FALSE(read_checkpoint(place.path() / "gone.checkpoint", to.key, 30, to.session, to.film));
+  EXPECT_EQ(to.session.scene().hash(), fresh);
+  const auto head = read_checkpoint(path, to.key, 30, to.session, to.film);
+  ASSERT_TRUE(head);
+  EXPECT_EQ(head->next, 6);
+  EXPECT_EQ(to.session.scene().hash(), from.session.scene().hash());
+
+  const std::string bytes = content(path);
+  for (std::size_t n = bytes.find('\n') + 1, end = n + 16; n < end; ++n) { // key, next frame
+    std::string other = bytes;
+    other[n] = static_cast<char>(other[n] ^ 1);
+    place.write("one.checkpoint", other);
+    EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.film), UserError) << "byte " << n;
+  }
+  write_checkpoint(path, from.key, 7, from.session, from.film); // of a state before frame 6
+  EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.film), UserError);
+}
+
+TEST_F(Resume, the_best_checkpoint_is_the_run_s_own_then_the_latest_of_the_others) {
+  Run run(place);
+  fs::create_directories(place.path() / "c");
+  const auto write = [&](const char* name, long next) {
+    write_checkpoint(place.path() / "c" / name, run.key, next, run.session, run.film);
+  };
+  const auto found = [&](long first) {
+    std::vector<std::string> names;
+    for (const auto& one : find_checkpoints(place.path() / "c/own.checkpoint", run.key, first))
+      names.push_back(one.path.filename().string());
+    return names;
+  };
+  EXPECT_TRUE(found(30).empty());
+  write("a.checkpoint", 3);
+  write("b.checkpoint", 9);
+  write("c.checkpoint", 20);
+  place.write("c/d.checkpoint", "hello");
+  EXPECT_THAT(found(10), testing::ElementsAre("b.checkpoint", "a.checkpoint"));
+  write("own.checkpoint", 5);
+  EXPECT_THAT(found(10), testing::ElementsAre("own.checkpoint", "b.checkpoint", "a.checkpoint"));
+  EXPECT_THAT(found(4), testing::ElementsAre("a.checkpoint"));
 }
 
 TEST_F(Resume, shards_make_the_bytes_of_one_run) {
