@@ -28,10 +28,11 @@ void Film::take(long frame) {
     release();
     early_.clear();
   }
+  held_step_ = step;
+  if (plan_.keeps(frame)) early_.push_back(frame);
   if (!plan_.has(frame)) return;
   if (!held_) held_ = maker_.draw(frame, session_.clock().time_of(frame));
   showings_.emplace_back(frame, maker_.camera(session_.clock().time_of(frame)));
-  held_step_ = step;
 }
 
 void Film::release() {

@@ -62,7 +62,7 @@ private:
   std::optional<Frame> held_;
   std::vector<std::pair<long, FrameCamera>> showings_; // the frames that show the held state
   long held_step_ = -1;
-  std::vector<long> early_; // frames that pause() let go, though the simulation had not gone on
+  std::vector<long> early_; // frames that show the state of held_step_, and are files: pause() let them go
   long frames_ = 0;
 };
 

@@ -28,4 +28,8 @@ bool FramePlan::has(long frame) const {
   return std::binary_search(to_make_.begin(), to_make_.end(), frame);
 }
 
+bool FramePlan::keeps(long frame) const {
+  return std::binary_search(all_.begin(), all_.end(), frame) && !has(frame);
+}
+
 } // namespace rend

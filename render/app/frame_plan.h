@@ -24,6 +24,7 @@ public:
   void leave_out_whole(const std::filesystem::path& folder, const std::string& mark);
 
   bool has(long frame) const;                                   // is to be made
+  bool keeps(long frame) const;                                 // is this run's, and there already
   const std::vector<long>& to_make() const { return to_make_; } // increasing
   const std::vector<long>& all() const { return all_; }         // with those that are there; increasing
   long last() const { return to_make_.empty() ? -1 : to_make_.back(); }

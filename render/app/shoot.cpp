@@ -32,10 +32,14 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
 
 // From the best checkpoint there is; a run that begins anew has no use for those of others.
 void Shoot::begin() {
+  last_ = plan_.last();
   if (!options_.resume) return remove_checkpoint();
-  if (plan_.to_make().empty()) return;
-  for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, options_.files.mark, plan_.first())) {
-    const auto head = read_checkpoint(found.path, options_.files.mark, plan_.first(), session_, *film_);
+  if (read_checkpoint_head(checkpoint_)) last_ = plan_.all().back();
+  if (!simulates()) return;
+  const std::string& key = options_.files.mark;
+  const long first = plan_.to_make().empty() ? std::numeric_limits<long>::max() : plan_.first();
+  for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, key, first)) {
+    const auto head = read_checkpoint(found.path, key, first, session_, *film_);
     if (!head) continue; // it went meanwhile: its shard is done
     first_ = head->next;
     if (!session_.quiet())
@@ -45,7 +49,7 @@ void Shoot::begin() {
 }
 
 Stopped Shoot::run() {
-  Stopped stopped = plan_.to_make().empty() ? Stopped::No : simulate();
+  Stopped stopped = simulates() ? simulate() : Stopped::No;
   if (stopped != Stopped::Interrupted && video_at_end_ && video_of_files() == Stopped::Interrupted)
     stopped = Stopped::Interrupted;
   if (stopped != Stopped::Interrupted) remove_checkpoint();
@@ -75,8 +79,7 @@ void Shoot::checkpoint_if_due(long next) {
 }
 
 Stopped Shoot::simulate() {
-  const long last = plan_.last();
-  Progress progress(session_.quiet(), session_.last_step(last), session_.clock().time_of(last), last + 1);
+  Progress progress(session_.quiet(), session_.last_step(last_), session_.clock().time_of(last_), last_ + 1);
   long next = first_;
   if (options_.checkpoint_every > 0) due_ = wall_clock() + options_.checkpoint_every;
   Session::Calls calls;
@@ -88,7 +91,7 @@ Stopped Shoot::simulate() {
     tell();
   };
   calls.step = tell;
-  const Stopped stopped = session_.run(last, calls, first_);
+  const Stopped stopped = session_.run(last_, calls, first_);
   if (stopped == Stopped::Unstable) {
     film_->abandon();
     return stopped;

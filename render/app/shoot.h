@@ -1,7 +1,9 @@
 // The pictures of a run, from its first frame or from where an earlier run was stopped.
 //
 // What is there already is found out picture by picture (frame_plan.h). The simulation begins at the checkpoint whose next
-// frame is the last that is not after the first one missing, and at the start where there is none. A video is made of the
+// frame is the last that is not after the first one missing, and at the start where there is none. Where this run has a
+// checkpoint it was not at its end: it goes on to there even if no picture is missing, since it might explode on the way,
+// and then keeps no picture of the state that did (film.h). A video is made of the
 // pictures as they come; where some were there before, of the files at the end: encoders go through a clip once, and
 // pictures lose nothing in a PNG, so that the bytes are those of a run that was never stopped.
 #pragma once
@@ -32,6 +34,7 @@ public:
 
   long made() const { return film_ ? film_->frames() : 0; } // frames
   long kept() const { return kept_; }                       // that were there
+  bool simulates() const { return last_ >= 0; } // false: all was there, and the scene is as it was built
   bool left_checkpoint() const { return left_checkpoint_; }
   const Film& film() const { return *film_; }
 
@@ -49,7 +52,8 @@ private:
   FramePlan plan_;
   std::filesystem::path checkpoint_;
   bool video_at_end_ = false, left_checkpoint_ = false;
-  long kept_ = 0, first_ = 0;                            // frames that are there; the next frame when it begins
+  long kept_ = 0, first_ = 0,
+       last_ = -1; // frames that are there; the next when it begins; the last, or -1: none
   double due_ = std::numeric_limits<double>::infinity(); // [s], on the clock: the next checkpoint
   std::optional<Film> film_;
 };
