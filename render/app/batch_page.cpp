@@ -87,7 +87,8 @@ std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
   Html words = link(job.name + "/", job.name) + Html{"<br>"} + muted(job.preset);
   if (!message.empty()) words += paragraph(escaped(message));
   const auto number = [&](const char* name) {
-    return Cell{escaped(line.contains(name) ? line[name].dump() : "")};
+    const bool known = line.contains(name) && !line[name].is_null();
+    return Cell{escaped(known ? line[name].dump() : line.contains(name) ? "–" : "")};
   };
   return {{thumbnail(report.folder / job.name, job.name), job.name},
           {words, job.name},

@@ -96,6 +96,7 @@ void print_figures(const RenderOptions& options, const Session& session, const S
     const Film& film = shoot.film();
     nlohmann::ordered_json figures =
         figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()});
+    if (!shoot.simulates()) leave_out_state(figures);
     figures["frames"] = shoot.made();
     figures["kept"] = shoot.kept();
     print_result(figures.dump(2) + "\n");

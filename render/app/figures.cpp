@@ -300,6 +300,31 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
   return figures;
 }
 
+void leave_out_state(Json& figures) {
+  for (const char* name : {"steps",
+                           "evaluations",
+                           "time",
+                           "vertices",
+                           "elements",
+                           "darts",
+                           "fragments",
+                           "tears",
+                           "laws",
+                           "energy",
+                           "mass",
+                           "momentum",
+                           "angular_momentum",
+                           "probes",
+                           "answers",
+                           "spheres",
+                           "guard",
+                           "rows",
+                           "solver",
+                           "adaptive",
+                           "hash"})
+    if (figures.contains(name)) figures[name] = nullptr;
+}
+
 std::string summary_of(const Json& f) {
   const auto number = [&](const char* group, const char* name) { return f[group][name].get<double>(); };
   const auto count = [&](const char* name) { return f[name].get<std::size_t>(); };

@@ -21,6 +21,9 @@ struct Costs {
 // Of the present state: the last good one where the run was stopped.
 nlohmann::ordered_json figures_of(const Session& session, Stopped stopped, const Costs& costs);
 
+// Of a run that made no step, and tells nothing of what one would come to: null.
+void leave_out_state(nlohmann::ordered_json& figures);
+
 std::string summary_of(const nlohmann::ordered_json& figures);
 std::string profile_of(const nlohmann::ordered_json& figures); // seconds by stage, as a table
 
