@@ -17,7 +17,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 
 namespace rend {
@@ -58,9 +57,14 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
 
 namespace {
 
-std::string content_of(const std::filesystem::path& path) {
+// Of its content, piece after piece; of nothing where it cannot be read.
+std::uint64_t hash_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::vector<char> piece(std::size_t{1} << 20U);
+  std::uint64_t hash = 0;
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0)
+    hash = hash_bytes(piece.data(), static_cast<std::size_t>(file.gcount()), hash);
+  return hash;
 }
 
 } // namespace
@@ -91,16 +95,16 @@ Session::Session(const SessionOptions& options) : options_(options) {
 }
 
 std::uint64_t Session::key() const {
+  // The program itself: a commit is not enough, where there is none (a tarball) or a tree has changes.
   const Machine machine = this_machine();
-  std::string words = fmt::format("rend {} {}\n{:016x}\n", machine.version, machine.commit, text_hash_);
+  std::string words = fmt::format("rend {} {} {:016x}\n{:016x}\n", machine.version, machine.commit,
+                                  hash_of("/proc/self/exe"), text_hash_);
   for (const std::string& set : options_.sets) words += "set " + set + "\n";
   words += fmt::format("steps {} fps {} kernels {} guard {}\n", options_.steps.value_or(-1),
                        options_.fps.value_or(-1), options_.kernels, options_.guard);
   for (const Node* body : preset_->all("body")) {
-    for (const Node* mesh : body->all("mesh")) {
-      const std::string content = content_of(mesh_path(*mesh));
-      words += fmt::format("mesh {:016x}\n", hash_bytes(content.data(), content.size()));
-    }
+    for (const Node* mesh : body->all("mesh"))
+      words += fmt::format("mesh {:016x}\n", hash_of(mesh_path(*mesh)));
   }
   return hash_bytes(words.data(), words.size());
 }
