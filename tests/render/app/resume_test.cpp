@@ -76,11 +76,23 @@ protected:
   }
   double moment() { return 0.02 + seconds * std::uniform_real_distribution<>(0, 1)(random); }
 
-  // Stops runs into a folder earlier and earlier, until one leaves its checkpoint there.
-  void stop_on_the_way(const std::string& folder) const {
-    for (double after = 0.6 * seconds; !in(folder).contains("clip.checkpoint") && after > 0.01; after *= 0.8) {
+  // Stops it as soon as `ready`, a condition of the shell in which $pid is the program's, holds.
+  Outcome stopped_when(const std::string& ready, const std::string& arguments) const {
+    return place.shell(fmt::format("{} {} & pid=$!; until {} || ! kill -0 $pid; do sleep 0.005; done; "
+                                   "kill -TERM $pid; wait $pid",
+                                   REND_PROGRAM, arguments, ready));
+  }
+
+  // Stops runs into a folder at moments between too early and too late, until one leaves its checkpoint there.
+  void stop_on_the_way(const std::string& folder, const std::string& line = "render clip.xml -q") const {
+    double early = 0, late = 1.2 * seconds;
+    for (int n = 0; n < 20 && !in(folder).contains("clip.checkpoint"); ++n) {
       fs::remove_all(place.path() / folder);
-      stopped("TERM", after, "render clip.xml -q -o " + folder);
+      const double after = 0.5 * (early + late);
+      const Outcome outcome = stopped("TERM", after, line + " -o " + folder);
+      (outcome.code == 143 ? early : late) = after;
+      early *= 0.9; // machines are not always as fast
+      late *= 1.1;
     }
     ASSERT_TRUE(in(folder).contains("clip.checkpoint"));
   }
@@ -151,6 +163,56 @@ TEST_F(Resume, a_signal_leaves_a_checkpoint_and_going_on_equals_never_having_sto
   expect_same(in("surely"), all, "");
 }
 
+TEST_F(Resume, a_signal_after_the_first_picture_leaves_a_checkpoint) {
+  NEEDS_PNG;
+  const std::string line = "render clip.xml --resume --set time.step=5e-5 -o ";
+  EXPECT_EQ(place.rend(line + "alone").code, 0);
+  const Outcome first = stopped_when("[ -e c/00000.png ]", line + "c");
+  EXPECT_EQ(first.code, 143) << first.err;
+  EXPECT_TRUE(in("c").contains("clip.checkpoint"));
+  expect_part_of(in("c"), in("alone"), "");
+  EXPECT_THAT(place.rend(line + "c").err, HasSubstr("goes on at"));
+  expect_same(in("c"), in("alone"), "");
+}
+
+// All that its only picture shows is the start.
+TEST_F(Resume, a_run_that_is_stopped_before_it_goes_wrong_keeps_no_more_than_one_that_is_not) {
+  NEEDS_PNG;
+  const std::string line = "render clip.xml -q --no-guard --set 'body[cloth].sheet.cells=100 100' "
+                           "--set time.integrator=explicit --set time.step=1e-3 --fps 0.01";
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(place.rend(line + " -o alone").code, 76);
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_TRUE(in("alone").empty());
+  stop_on_the_way("c", line);
+  ASSERT_TRUE(in("c").contains("00000.png"));
+  const Outcome last = place.rend(line + " --resume -o c");
+  EXPECT_EQ(last.code, 76) << last.err;
+  EXPECT_TRUE(in("c").empty());
+}
+
+TEST_F(Resume, where_all_pictures_are_there_nothing_is_said_of_a_simulation) {
+  NEEDS_PNG;
+  alone();
+  const Outcome outcome = place.rend("render clip.xml -q --resume -o alone --json");
+  EXPECT_EQ(outcome.code, 0);
+  const auto figures = outcome.json();
+  EXPECT_EQ(figures["kept"], 31);
+  for (const char* name : {"steps", "time", "tears", "hash", "energy", "evaluations", "fragments"})
+    EXPECT_TRUE(figures.contains(name) && figures[name].is_null()) << name;
+}
+
+TEST_F(Resume, another_build_of_the_same_commit_makes_pictures_of_its_own) {
+  NEEDS_PNG;
+  const Files all = alone();
+  const auto date = fs::last_write_time(place.path() / "alone/00000.png");
+  EXPECT_EQ(place.shell(fmt::format("cp {} other && echo built anew >> other", REND_PROGRAM)).code, 0);
+  const Outcome outcome = place.shell("./other render clip.xml -q --resume -o alone --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["kept"], 0);
+  EXPECT_NE(fs::last_write_time(place.path() / "alone/00000.png"), date);
+}
+
 TEST_F(Resume, a_video_is_that_of_a_run_that_was_never_stopped) {
   NEEDS_PNG;
   NEEDS_VIDEO;
@@ -217,8 +279,14 @@ struct Run {
   Film film;
   std::string key;
   explicit Run(const Place& place)
-      : session({.preset = (place.path() / "clip.xml").string(), .quiet = true}),
-        film(session, files_in(place), FramePlan{}), key(picture_key(session, 64, 48, 1)) {}
+      : session(quietly(place)), film(session, files_in(place), FramePlan{}),
+        key(picture_key(session, 64, 48, 1)) {}
+  static SessionOptions quietly(const Place& place) {
+    SessionOptions options;
+    options.preset = (place.path() / "clip.xml").string();
+    options.quiet = true;
+    return options;
+  }
   static PipelineOptions files_in(const Place& place) {
     PipelineOptions files;
     files.folder = place.path() / "c";
@@ -338,8 +406,9 @@ TEST_F(Resume, a_full_disk_leaves_whole_pictures_alone_and_going_on_makes_the_re
 
 TEST_F(Resume, while_a_scene_is_built_a_signal_ends_at_once_and_leaves_nothing) {
   NEEDS_PNG;
-  const Outcome outcome =
-      stopped("TERM", 0.2, "render clip.xml -o x --set 'body[cloth].sheet.cells=900 900' --set time.step=1e-6");
+  const std::string handled = "[ $((0x$(sed -n 's/^SigCgt:[^0-9a-f]*//p' /proc/$pid/status) & 0x4000)) -ne 0 ]";
+  const Outcome outcome = stopped_when(
+      handled, "render clip.xml -o x --set 'body[cloth].sheet.cells=900 900' --set time.step=1e-6");
   EXPECT_EQ(outcome.code, 143);
   EXPECT_TRUE(in("x").empty());
 }
