@@ -98,9 +98,14 @@ void store(Archive& archive, Session& session, Film& film) {
 } // namespace
 
 std::string picture_key(const Session& session, int width, int height, int samples) {
-  const std::string words =
-      fmt::format("{:016x} {}x{} {} {}", session.key(), width, height, samples, hud_available());
+  const bool hud = session.preset().child("hud") != nullptr && hud_available();
+  const std::string words = fmt::format("{:016x} {}x{} {} {}", session.key(), width, height, samples, hud);
   return fmt::format("{:016x}", hash_bytes(words.data(), words.size()));
+}
+
+std::string checkpoint_key(const std::string& picture_key) {
+  const std::vector<std::uint8_t> program = first_bytes("/proc/self/exe").value_or(std::vector<std::uint8_t>{});
+  return fmt::format("{:016x}", hash_bytes(program.data(), program.size(), number_of(picture_key)));
 }
 
 void write_checkpoint(const fs::path& path, const std::string& key, long next, Session& session, Film& film) {

@@ -23,13 +23,17 @@ struct Shard;
 
 // What a checkpoint says of itself.
 struct CheckpointHead {
-  std::uint64_t key = 0; // of the scene and its pictures: picture_key()
+  std::uint64_t key = 0; // checkpoint_key()
   long next = 0;         // frame
 };
 
 // Of all that a picture's bytes hang on but for its number: Session::key(), its size in pixels and samples, and whether
-// this rend can write over it. 16 hex digits.
+// a HUD that it should have can be drawn. 16 hex digits. It stands in the pictures, so other builds of a version leave the
+// same bytes.
 std::string picture_key(const Session& session, int width, int height, int samples);
+// The same for a stored state, which this very program alone can read: a commit does not tell two builds of a changed
+// tree apart.
+std::string checkpoint_key(const std::string& picture_key);
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& key, long next, Session& session,
                       Film& film); // UserError (CannotCreate, ReadWrite)

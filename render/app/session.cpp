@@ -95,10 +95,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
 }
 
 std::uint64_t Session::key() const {
-  // The program itself: a commit is not enough, where there is none (a tarball) or a tree has changes.
-  const Machine machine = this_machine();
-  std::string words = fmt::format("rend {} {} {:016x}\n{:016x}\n", machine.version, machine.commit,
-                                  hash_of("/proc/self/exe"), text_hash_);
+  std::string words = fmt::format("rend {}\n{:016x}\n", this_machine().version, text_hash_);
   for (const std::string& set : options_.sets) words += "set " + set + "\n";
   words += fmt::format("steps {} fps {} kernels {} guard {}\n", options_.steps.value_or(-1),
                        options_.fps.value_or(-1), options_.kernels, options_.guard);

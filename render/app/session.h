@@ -42,7 +42,7 @@ public:
   explicit Session(const SessionOptions& options);
 
   const Node& preset() const { return *preset_; }
-  // Of all that the states of this run hang on: the preset's text, what was set, meshes, how it is run, and this rend.
+  // Of all that the states of this run hang on: the preset's text, what was set, meshes, how it is run, rend's version.
   // Reads the meshes once more.
   std::uint64_t key() const;
   const std::string& preset_path() const { return options_.preset; }

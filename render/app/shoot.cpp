@@ -18,6 +18,7 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
       checkpoint_(checkpoint_path(options.files.folder, options.files.name, options.shard)) {
   PipelineOptions& files = options_.files;
   files.mark = picture_key(session, files.width, files.height, files.samples);
+  key_ = checkpoint_key(files.mark);
   options_.resume = options.resume && files.png;
   if (options.resume && !files.png && !session.quiet())
     print_note("without PNG files there is nothing to go on from: the video is made anew");
@@ -36,10 +37,9 @@ void Shoot::begin() {
   if (!options_.resume) return remove_checkpoint();
   if (read_checkpoint_head(checkpoint_)) last_ = plan_.all().back();
   if (!simulates()) return;
-  const std::string& key = options_.files.mark;
   const long first = plan_.to_make().empty() ? std::numeric_limits<long>::max() : plan_.first();
-  for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, key, first)) {
-    const auto head = read_checkpoint(found.path, key, first, session_, *film_);
+  for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, key_, first)) {
+    const auto head = read_checkpoint(found.path, key_, first, session_, *film_);
     if (!head) continue; // it went meanwhile: its shard is done
     first_ = head->next;
     if (!session_.quiet())
@@ -65,7 +65,7 @@ void Shoot::remove_checkpoint() const {
 }
 
 void Shoot::checkpoint(long next) {
-  write_checkpoint(checkpoint_, options_.files.mark, next, session_, *film_);
+  write_checkpoint(checkpoint_, key_, next, session_, *film_);
 }
 
 // Between frames: a checkpoint takes no more than a twentieth of the time.

@@ -51,6 +51,7 @@ private:
   ShootOptions options_;
   FramePlan plan_;
   std::filesystem::path checkpoint_;
+  std::string key_; // of it
   bool video_at_end_ = false, left_checkpoint_ = false;
   long kept_ = 0, first_ = 0,
        last_ = -1; // frames that are there; the next when it begins; the last, or -1: none
