@@ -21,4 +21,10 @@ std::vector<std::string> export_format_names() {
   return names;
 }
 
+std::string one_word(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
+  return name.empty() ? "_" : name;
+}
+
 } // namespace rend

@@ -7,18 +7,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 
 namespace rend {
 namespace {
-
-// A name in one word: blanks part the names of several groups.
-std::string one_word(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
-  return name.empty() ? "_" : name;
-}
 
 class ObjFile {
 public:

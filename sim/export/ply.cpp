@@ -89,7 +89,7 @@ private:
     out_ += fmt::format("ply\nformat binary_little_endian 1.0\ncomment time {} s, lengths in m, z is up\n",
                         skin_.time);
     for (std::size_t b = 0; b < skin_.bodies.size(); ++b)
-      out_ += fmt::format("comment body {} is {}\n", b, skin_.bodies[b].name);
+      out_ += fmt::format("comment body {} is {}\n", b, one_word(skin_.bodies[b].name));
     out_ += fmt::format("element vertex {}\n", skin_.vertex.size());
     add_properties(on_points_);
     out_ += fmt::format("element face {}\nproperty list {} int vertex_indices\n", skin_.ends.size(),

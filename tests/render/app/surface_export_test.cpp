@@ -88,7 +88,7 @@ TEST_F(SurfaceExport, as_ply_tells_of_its_points_and_faces_what_vtu_tells_of_ver
   run(bar, "--export vtu -o states");
   run(bar, "--export ply -o states");
   const Json ply = this->ply("states/00002.ply"), vtu = read("vtu_to_json.py", "states/00002.vtu");
-  EXPECT_THAT(ply["comments"], ElementsAre("time 0.2 s, lengths in m, z is up", "body 0 is a bar"));
+  EXPECT_THAT(ply["comments"], ElementsAre("time 0.2 s, lengths in m, z is up", "body 0 is a_bar"));
   std::map<int, std::size_t> row_of; // of vtu
   for (std::size_t p = 0; p < vtu["points"].size(); ++p) row_of[vtu["point_data"]["vertex"][p]] = p;
   const Json& vertex = ply["vertex"];
@@ -120,6 +120,17 @@ TEST_F(SurfaceExport, as_obj_is_that_of_ply_to_the_last_bit) {
     ASSERT_EQ(obj.GetShapes().size(), 1u);
     EXPECT_EQ(obj.GetShapes()[0].name, "a_bar");
   }
+}
+
+TEST_F(SurfaceExport, keeps_its_form_whatever_a_body_is_called) {
+  std::string named = bar;
+  named.replace(named.find("a bar"), 5, "c&#10;end_header&#10;v 1 1 1&#13;&#9;\u00e9");
+  run(named, "--export ply -o states");
+  run(named, "--export obj -o states");
+  const Json ply = this->ply("states/00002.ply");
+  EXPECT_EQ(ply["comments"][1], "body 0 is c_end_header_v_1_1_1__\u00e9");
+  EXPECT_EQ(points_as_written(content(place.path() / "states/00002.obj")), points_of(ply));
+  EXPECT_EQ(obj("states/00002.obj").GetShapes()[0].name, "c_end_header_v_1_1_1__\u00e9");
 }
 
 TEST_F(SurfaceExport, as_obj_has_an_object_per_body_and_a_group_per_fragment_of_one_that_tears) {
