@@ -5,7 +5,6 @@ uniform vec2 texel; // in texture coordinates
 uniform float tolerance; // [1/m]: 1 over the distance from the surface that is too much
 out vec4 pixel;
 
-
 vec2 at(vec2 away) { return texture(kept, (gl_FragCoord.xy + away) * texel).xy; }
 float nearer(float before, float after) { return abs(after) < abs(before) ? after : before; }
 

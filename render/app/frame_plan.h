@@ -2,7 +2,7 @@
 // there yet.
 //
 // A shard's frames follow each other, so that all but the last shard end their simulation early. A picture is there where
-// its file is whole and was made of this scene (png.h, scene_key.h), whatever its name or date say.
+// its file is whole and was made of this scene (png.h), whatever its name or date say.
 #pragma once
 
 #include "render/app/clock.h"

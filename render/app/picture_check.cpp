@@ -20,14 +20,6 @@ std::string in_words(const Vec3& x) {
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", x.x(), x.y(), x.z());
 }
 
-Bounds bounds_of(const Body& body) {
-  Bounds box;
-  const CellIndex& cells = body.map->cells(Vertex);
-  for (Slot v = 0; v < cells.slots(); ++v)
-    if (cells.alive(v)) box.extend(body.map->position()[v].vec());
-  return box;
-}
-
 // The solid angle that a triangle fills, as its corners are seen from an eye in the origin (Van Oosterom and Strackee
 // 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {

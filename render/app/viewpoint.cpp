@@ -17,14 +17,6 @@ Vec3 corner_of(const Bounds& box, int n) {
   return box.corner(static_cast<Bounds::CornerType>(n));
 }
 
-Bounds bounds_of(const Body& body) {
-  Bounds box;
-  const CellIndex& cells = body.map->cells(Vertex);
-  for (Slot v = 0; v < cells.slots(); ++v)
-    if (cells.alive(v)) box.extend(body.map->position()[v].vec());
-  return box;
-}
-
 // Whether prescribed vertices hold the body on all sides: then it sags, but does not swing down.
 bool held_all_around(const Body& body, const Bounds& box, int vertical) {
   Bounds held;
@@ -75,6 +67,14 @@ Bounds room_of(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, 
 }
 
 } // namespace
+
+Bounds bounds_of(const Body& body) {
+  Bounds box;
+  const CellIndex& cells = body.map->cells(Vertex);
+  for (Slot v = 0; v < cells.slots(); ++v)
+    if (cells.alive(v)) box.extend(body.map->position()[v].vec());
+  return box;
+}
 
 Bounds room_of(const Scene& scene, double duration) {
   Bounds start, room;

@@ -13,6 +13,9 @@
 
 namespace rend {
 
+// The box around a body's vertices as they are [m]; empty if it has none.
+Eigen::AlignedBox3d bounds_of(const Body& body);
+
 // A box that the bodies and obstacles hardly leave: where they are, where they are driven to by `duration`, and
 // room below them to hang or fall (as deep as they are wide where nothing holds them up on all sides, but not
 // below the floor). Of a sphere that moves, only what it passes between the start and the end of the bodies'

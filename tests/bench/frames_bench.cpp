@@ -24,6 +24,16 @@ namespace {
 constexpr int width = 1280, height = 720;
 constexpr int phases = 16; // frames of one wave
 
+void in_processor_time(benchmark::internal::Benchmark* bench) {
+  bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+}
+void small(benchmark::internal::Benchmark* bench) { // cloth
+  bench->Arg(5'000)->Apply(in_processor_time);
+}
+void small_and_large(benchmark::internal::Benchmark* bench) {
+  bench->Arg(5'000)->Arg(200'000)->Apply(in_processor_time);
+}
+
 HudContent figures(int number) {
   HudContent hud;
   hud.title = "waving cloth";
@@ -121,9 +131,8 @@ BENCHMARK(pipeline)
     ->Args({5'000, 1})
     ->Args({200'000, 0})
     ->Args({200'000, 1})
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+    ->Apply(in_processor_time)
+    ->UseRealTime();
 
 // Drawing alone, with what is named taken away, or occlusion added.
 void draw(benchmark::State& state, const std::string& without) {
@@ -143,29 +152,11 @@ void draw(benchmark::State& state, const std::string& without) {
     benchmark::DoNotOptimize(stage.read());
   }
 }
-BENCHMARK_CAPTURE(draw, all, "")
-    ->Arg(5'000)
-    ->Arg(200'000)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(draw, with_occlusion, "nothing")
-    ->Arg(5'000)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(draw, without_floor, "floor")
-    ->Arg(5'000)
-    ->Arg(200'000)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(draw, without_samples, "samples")
-    ->Arg(5'000)
-    ->Arg(200'000)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(draw, without_bodies, "bodies")
-    ->Arg(5'000)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(draw, all, "")->Apply(small_and_large);
+BENCHMARK_CAPTURE(draw, with_occlusion, "nothing")->Apply(small);
+BENCHMARK_CAPTURE(draw, without_floor, "floor")->Apply(small_and_large);
+BENCHMARK_CAPTURE(draw, without_samples, "samples")->Apply(small_and_large);
+BENCHMARK_CAPTURE(draw, without_bodies, "bodies")->Apply(small);
 
 void hud(benchmark::State& state) {
   const std::unique_ptr<Device> device = make_device();
@@ -178,7 +169,7 @@ void hud(benchmark::State& state) {
     benchmark::DoNotOptimize(stage.read());
   }
 }
-BENCHMARK(hud)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+BENCHMARK(hud)->Apply(in_processor_time);
 
 std::vector<Image> pictures() {
   const std::unique_ptr<Device> device = make_device();
@@ -199,7 +190,7 @@ void png(benchmark::State& state) {
   for (auto _ : state) bytes += encode_png(clip[number++ % phases]).size();
   state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(number);
 }
-BENCHMARK(png)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+BENCHMARK(png)->Apply(in_processor_time);
 
 void video(benchmark::State& state) {
   const std::vector<Image> clip = pictures();
@@ -210,7 +201,7 @@ void video(benchmark::State& state) {
   for (auto _ : state) writer.add(clip[number++ % phases]);
   writer.close();
 }
-BENCHMARK(video)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+BENCHMARK(video)->Apply(in_processor_time);
 
 } // namespace
 } // namespace rend
