@@ -202,15 +202,22 @@ TEST_F(Resume, where_all_pictures_are_there_nothing_is_said_of_a_simulation) {
     EXPECT_TRUE(figures.contains(name) && figures[name].is_null()) << name;
 }
 
-TEST_F(Resume, another_build_of_the_same_commit_makes_pictures_of_its_own) {
+// Its pictures are the same bytes, but the state that it stored is no other program's.
+TEST_F(Resume, another_build_of_the_same_commit_keeps_pictures_and_no_state) {
   NEEDS_PNG;
   const Files all = alone();
-  const auto date = fs::last_write_time(place.path() / "alone/00000.png");
   EXPECT_EQ(place.shell(fmt::format("cp {} other && echo built anew >> other", REND_PROGRAM)).code, 0);
-  const Outcome outcome = place.shell("./other render clip.xml -q --resume -o alone --json");
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.json()["kept"], 0);
-  EXPECT_NE(fs::last_write_time(place.path() / "alone/00000.png"), date);
+  const Outcome whole = place.shell("./other render clip.xml -q --resume -o alone --json");
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_EQ(whole.json()["kept"], all.size());
+  expect_same(in("alone"), all, "");
+
+  stop_on_the_way("stopped");
+  const Files before = in("stopped");
+  const Outcome refused = place.shell("./other render clip.xml -q --resume -o stopped");
+  EXPECT_EQ(refused.code, 65);
+  EXPECT_THAT(refused.err, HasSubstr("another rend"));
+  expect_same(in("stopped"), before, "");
 }
 
 TEST_F(Resume, a_video_is_that_of_a_run_that_was_never_stopped) {
@@ -274,11 +281,11 @@ TEST_F(Resume, a_checkpoint_of_something_else_is_refused_and_nothing_is_lost) {
 }
 
 // A run in this process, its pictures left out.
-struct Run {
+struct StoredRun {
   Session session;
   Film film;
   std::string key;
-  explicit Run(const Place& place)
+  explicit StoredRun(const Place& place)
       : session(quietly(place)), film(session, files_in(place), FramePlan{}),
         key(picture_key(session, 64, 48, 1)) {}
   static SessionOptions quietly(const Place& place) {
@@ -299,7 +306,7 @@ struct Run {
 
 TEST_F(Resume, a_checkpoint_s_next_frame_and_state_are_of_the_same_bytes) {
   const fs::path path = place.path() / "one.checkpoint";
-  Run from(place), to(place);
+  StoredRun from(place), to(place);
   from.session.run(5, {[](long) {}, {}});
   write_checkpoint(path, from.key, 6, from.session, from.film);
   const std::uint64_t fresh = to.session.scene().hash();
@@ -324,7 +331,7 @@ TEST_F(Resume, a_checkpoint_s_next_frame_and_state_are_of_the_same_bytes) {
 }
 
 TEST_F(Resume, the_best_checkpoint_is_the_run_s_own_then_the_latest_of_the_others) {
-  Run run(place);
+  StoredRun run(place);
   fs::create_directories(place.path() / "c");
   const auto write = [&](const char* name, long next) {
     write_checkpoint(place.path() / "c" / name, run.key, next, run.session, run.film);
