@@ -139,6 +139,7 @@ float Hud::Context::plot(const HudPlot& plot, float bottom) {
   const float pad = at(padding), line = text_->FontSize * 1.35f;
   float across = at(plot_width), named = 0; // as wide as the curves' names need
   for (const HudCurve& curve : plot.curves) named += size_of(text_, curve.name).x + 1.95f * text_->FontSize;
+  named += size_of(text_, plot.low_text).x; // behind them
   across = std::max(across, named);
   const float width = across + 2 * pad, height = at(plot_height) + 2 * line + 2 * pad;
   const float left = at(margin), top = bottom - height;
@@ -149,18 +150,20 @@ float Hud::Context::plot(const HudPlot& plot, float bottom) {
   list_->AddLine({low.x, high.y}, {high.x, high.y}, hair, 1);
   curves(plot, low, high);
   write(text_, high.x - size_of(text_, plot.high_text).x, top + pad, faint, plot.high_text);
-  write(text_, high.x - size_of(text_, plot.low_text).x, low.y - line, faint, plot.low_text);
+  write(text_, high.x - size_of(text_, plot.low_text).x, low.y + 0.3f * line, faint, plot.low_text);
   names(plot, low.x, low.y + 0.3f * line);
   return top;
 }
 
 float Hud::Context::legend(const HudLegend& legend, float bottom) {
   const float pad = at(padding), line = text_->FontSize * 1.35f;
-  const float width = at(bar_width) + 2 * pad, height = at(bar_height) + 2 * line + 2 * pad;
+  const float words = size_of(text_, legend.low).x + text_->FontSize + size_of(text_, legend.high).x;
+  const float across = std::max({at(bar_width), size_of(text_, legend.title).x, words}); // as its words need
+  const float width = across + 2 * pad, height = at(bar_height) + 2 * line + 2 * pad;
   const float left = width_ - at(margin) - width, top = bottom - height;
   panel(left, top, width, height);
   write(text_, left + pad, top + pad, ink, legend.title);
-  const float bar = top + pad + line, step = at(bar_width) / static_cast<float>(legend.colours.size());
+  const float bar = top + pad + line, step = across / static_cast<float>(legend.colours.size());
   for (std::size_t n = 0; n < legend.colours.size(); ++n)
     list_->AddRectFilled({left + pad + step * static_cast<float>(n), bar},
                          {left + pad + step * static_cast<float>(n + 1), bar + at(bar_height)},

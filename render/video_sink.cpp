@@ -78,10 +78,14 @@ void remux(const std::filesystem::path& from, const std::filesystem::path& to, c
   sink.begin({{"movflags", "+faststart"}});
   const Owned<AVPacket> packet(av_packet_alloc());
   CHECK(packet != nullptr);
+  std::int64_t start = AV_NOPTS_VALUE; // of what is seen: decoding began earlier, where pictures look ahead
   while (true) {
     const int result = av_read_frame(source.get(), packet.get());
     if (result == AVERROR_EOF) break;
     must_av(result, from, doing);
+    if (start == AV_NOPTS_VALUE) start = packet->pts;
+    packet->pts -= start;
+    packet->dts -= start;
     av_packet_rescale_ts(packet.get(), in->time_base, out->time_base);
     packet->pos = -1;
     sink.write(packet.get());

@@ -43,7 +43,7 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   out.samples = session.image().samples;
   if (session.image().transparent && !options.video.empty())
     throw UserError(Exit::Usage, session.preset().child("image")->place("background"),
-                    "a transparent background is for PNG files: videos have no alpha",
+                    "a transparent background is for PNG files: rend writes videos without alpha",
                     "leave --video out, or add --set image.background=#ffffff");
   out.fps = session.image().fps;
   out.png = !options.no_png;

@@ -73,6 +73,9 @@ void paste(const Image& tile, int x, int y, Image& sheet) {
 
 Exit make_sheet(const SheetOptions& options) {
   require_png(); // before anything slow
+  if (std::filesystem::path(options.file).extension() != ".png")
+    throw UserError(Exit::Usage, {}, fmt::format("-o {}: a contact sheet is a PNG", in_quotes(options.file)),
+                    "a name that ends in .png");
   const PictureSize size = parse_size(options.size);
   for (const std::string& preset : options.presets)
     load_scene(preset, {}); // what is bad is said before anything slow

@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 namespace {
 
+constexpr double nothing = 1e-15; // [J], what is left of a sum that is zero; no axis is made for it
 constexpr std::array<const char*, 4> names{"kinetic", "elastic", "gravity", "sum"};
 // Told apart by hue and by lightness (Okabe and Ito 2008).
 constexpr std::array<Colour, 4> colours{{{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {60, 60, 60}}};
@@ -53,6 +55,7 @@ void HudWriter::observe() {
                             scene_.gravity_energy() - gravity_at_start_, 0};
   now[3] = now[0] + now[1] + now[2];
   for (std::size_t n = 0; n < now.size(); ++n) {
+    if (std::abs(now[n]) < nothing) now[n] = 0;
     energies_[n].push_back(static_cast<float>(now[n]));
     high_ = std::max(high_, rounded_up(now[n]));
     low_ = std::min(low_, -rounded_up(-now[n]));

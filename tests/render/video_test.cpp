@@ -97,6 +97,18 @@ TEST_F(VideoTest, PreviewsAreSmall) {
   }
 }
 
+// Pictures that look ahead are decoded earlier, but none is shown later: videos can be cut together.
+TEST_F(VideoTest, EveryVideoStartsAtZero) {
+  if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe";
+  for (const VideoFormat& format : video_formats()) {
+    SCOPED_TRACE(format.name);
+    const Folder folder;
+    const std::string name = "a." + format.name;
+    write(folder / name, 64, 64, 10, 20);
+    EXPECT_EQ(std::atof(probe(folder / name, "start_time").c_str()), 0);
+  }
+}
+
 TEST_F(VideoTest, AGifOfMoreThanFiftyPicturesASecondIsSlowedDown) {
   if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe";
   const Folder folder;
