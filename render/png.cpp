@@ -5,8 +5,6 @@
 
 #ifdef REND_PNG
 #include <algorithm>
-#include <csetjmp>
-#include <cstdio>
 #include <libdeflate.h>
 #include <memory>
 #include <new>
@@ -56,58 +54,6 @@ Bytes deflated(const Bytes& bytes) {
   return out;
 }
 
-// libpng reports errors by longjmp: the functions that call setjmp below hold nothing that has a destructor.
-
-struct Message {
-  char text[200] = {};
-};
-
-void on_error(png_structp png, png_const_charp text) {
-  auto* message = static_cast<Message*>(png_get_error_ptr(png));
-  std::snprintf(message->text, sizeof message->text, "%s", text);
-  png_longjmp(png, 1);
-}
-
-void on_warning(png_structp, png_const_charp) {}
-
-struct Reader {
-  Message message;
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-  Reader() {
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, on_error, on_warning);
-    if (png != nullptr) info = png_create_info_struct(png);
-    if (info == nullptr) throw std::bad_alloc();
-  }
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-};
-
-// Reads up to the pixels, and says how large they are once brought to 8 bits. False: message says why.
-bool read_header(Reader& reader, std::FILE* file, int& width, int& height, int& channels, int& passes) {
-  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
-  png_init_io(reader.png, file);
-  png_read_info(reader.png, reader.info);
-  png_set_expand(reader.png);
-  png_set_strip_16(reader.png);
-  png_set_gray_to_rgb(reader.png);
-  passes = png_set_interlace_handling(reader.png);
-  png_read_update_info(reader.png, reader.info);
-  width = static_cast<int>(png_get_image_width(reader.png, reader.info));
-  height = static_cast<int>(png_get_image_height(reader.png, reader.info));
-  channels = png_get_channels(reader.png, reader.info);
-  return true;
-}
-
-bool read_rows(Reader& reader, Image& image, int passes) {
-  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
-  for (int pass = 0; pass < passes; ++pass)
-    for (int y = 0; y < image.height; ++y) png_read_row(reader.png, image.row(y), nullptr);
-  png_read_end(reader.png, nullptr);
-  return true;
-}
-
 } // namespace
 
 bool png_available() {
@@ -140,25 +86,6 @@ void write_png(const std::filesystem::path& path, const Image& image, const PngT
   file.commit();
 }
 
-Image read_png(const std::filesystem::path& path) {
-  const Place place{path.string()};
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw UserError(Exit::NoInput, place, "the picture cannot be opened.");
-  Reader reader;
-  const auto refuse = [&] {
-    throw UserError(Exit::BadInput, place,
-                    std::string("this is not a PNG that can be read: ") + reader.message.text);
-  };
-  int width = 0, height = 0, channels = 0, passes = 0;
-  if (!read_header(reader, file.get(), width, height, channels, passes)) refuse();
-  Image image(width, height, channels);
-  if (!read_rows(reader, image, passes)) refuse();
-  return image;
-}
-
 } // namespace rend
 
 #else
@@ -178,10 +105,6 @@ std::vector<std::uint8_t> encode_png(const Image&, const PngText&) {
 }
 void write_png(const std::filesystem::path&, const Image&, const PngText&) {
   require_png();
-}
-Image read_png(const std::filesystem::path&) {
-  require_png();
-  return {};
 }
 
 } // namespace rend

@@ -35,7 +35,7 @@ void write_png(const std::filesystem::path& path, const Image& image, const PngT
 // has none. None: there is no such file, or it is not whole. Nothing is decoded: a millisecond for a megabyte.
 std::optional<std::string> text_of_whole_png(const std::filesystem::path& path, const std::string& keyword);
 
-// Any PNG, brought to 8-bit RGB, or RGBA if it has transparency. Throws UserError: NoInput, BadInput.
+// Any PNG, brought to 8-bit RGB, or RGBA if it has transparency. Throws UserError: NoInput, ReadWrite, BadInput.
 Image read_png(const std::filesystem::path& path);
 
 } // namespace rend

@@ -3,11 +3,41 @@
 #include "render/png.h"
 #include "sim/base/error.h"
 
-#ifdef REND_PNG
-#include <bit>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
+#include <memory>
+
+namespace rend {
+
+std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  const Place place{path.string()};
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw UserError(Exit::NoInput, place, "this is a folder, and no picture");
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw UserError(Exit::NoInput, place, "this is no ordinary file");
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+  if (!file)
+    throw UserError(Exit::NoInput, place, fmt::format("it cannot be opened: {}", std::strerror(errno)));
+  std::vector<std::uint8_t> bytes(std::filesystem::file_size(path, error));
+  if (error) throw UserError(Exit::ReadWrite, place, "its size cannot be read: " + error.message());
+  const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get());
+  if (std::ferror(file.get()))
+    throw UserError(Exit::ReadWrite, place, fmt::format("it cannot be read: {}", std::strerror(errno)));
+  bytes.resize(count);
+  return bytes;
+}
+
+} // namespace rend
+
+#ifdef REND_PNG
+#include <bit>
+#include <csetjmp>
 #include <new>
 #include <png.h>
 #include <string_view>
@@ -113,9 +143,14 @@ void check_signature(std::span<const std::uint8_t> bytes, const Place& place) {
                   other.empty() ? "this is no PNG" : "this is " + other + ", and no PNG");
 }
 
-} // namespace
+// A picture as libpng gives it: RGB or RGBA, of 8 bits a channel, or of 16 in the machine's order of bytes.
+struct Decoded {
+  int width = 0, height = 0, channels = 0, bits = 0;
+  std::vector<std::uint8_t> bytes; // height rows, one after another
+  std::string kind;
+};
 
-DeepImage read_deep_png(std::span<const std::uint8_t> bytes, const std::string& name) {
+Decoded decode(std::span<const std::uint8_t> bytes, const std::string& name) {
   const Place place{name};
   check_signature(bytes, place);
   Reader reader(bytes);
@@ -123,26 +158,47 @@ DeepImage read_deep_png(std::span<const std::uint8_t> bytes, const std::string& 
     return {Exit::BadInput, place, std::string("the PNG cannot be read: ") + reader.message};
   };
   if (!read_header(reader)) throw refuse();
-  DeepImage image;
-  image.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
-  image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
-  image.kind = kind_of(reader);
-  if (static_cast<long>(image.width) * image.height > max_png_pixels)
+  Decoded out;
+  out.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
+  out.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
+  out.kind = kind_of(reader);
+  if (static_cast<long>(out.width) * out.height > max_png_pixels)
     throw UserError(Exit::BadInput, place,
-                    fmt::format("it says that it has {} x {} pixels, and at most {} are read", image.width,
-                                image.height, max_png_pixels));
+                    fmt::format("it says that it has {} x {} pixels, and at most {} are read", out.width,
+                                out.height, max_png_pixels));
   int passes = 0;
   if (!prepare(reader, passes)) throw refuse();
-  image.channels = png_get_channels(reader.png, reader.info);
-  image.bits = png_get_bit_depth(reader.png, reader.info);
+  out.channels = png_get_channels(reader.png, reader.info);
+  out.bits = png_get_bit_depth(reader.png, reader.info);
   const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
-  std::vector<std::uint8_t> rows(stride * static_cast<std::size_t>(image.height));
-  if (!read_rows(reader, rows.data(), stride, image.height, passes)) throw refuse();
-  if (image.bits == 8) {
-    image.samples.assign(rows.begin(), rows.end());
+  out.bytes.resize(stride * static_cast<std::size_t>(out.height));
+  if (!read_rows(reader, out.bytes.data(), stride, out.height, passes)) throw refuse();
+  return out;
+}
+
+std::vector<std::uint16_t> samples_of(const Decoded& from) {
+  if (from.bits == 8) return {from.bytes.begin(), from.bytes.end()};
+  std::vector<std::uint16_t> out(from.bytes.size() / 2);
+  std::memcpy(out.data(), from.bytes.data(), from.bytes.size());
+  return out;
+}
+
+} // namespace
+
+DeepImage read_deep_png(std::span<const std::uint8_t> bytes, const std::string& name) {
+  const Decoded from = decode(bytes, name);
+  return {from.width, from.height, from.channels, from.bits, samples_of(from), from.kind};
+}
+
+Image read_png(const std::filesystem::path& path) {
+  Decoded from = decode(file_bytes(path), path.string());
+  Image image(from.width, from.height, from.channels);
+  if (from.bits == 8) {
+    image.pixels = std::move(from.bytes);
   } else {
-    image.samples.resize(rows.size() / 2);
-    std::memcpy(image.samples.data(), rows.data(), rows.size());
+    const std::vector<std::uint16_t> samples = samples_of(from);
+    for (std::size_t n = 0; n < samples.size(); ++n)
+      image.pixels[n] = static_cast<std::uint8_t>(samples[n] >> 8);
   }
   return image;
 }
@@ -154,6 +210,10 @@ DeepImage read_deep_png(std::span<const std::uint8_t> bytes, const std::string& 
 namespace rend {
 
 DeepImage read_deep_png(std::span<const std::uint8_t>, const std::string&) {
+  require_png();
+  return {};
+}
+Image read_png(const std::filesystem::path&) {
   require_png();
   return {};
 }

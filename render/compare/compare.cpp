@@ -7,11 +7,7 @@
 #include "sim/program/threads.h"
 
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <fmt/format.h>
-#include <memory>
 
 namespace rend {
 
@@ -39,27 +35,6 @@ const char* name_of(CaseState state) {
     break;
   }
   return "unreadable";
-}
-
-std::vector<std::uint8_t> file_bytes(const fs::path& path) {
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  const Place place{path.string()};
-  std::error_code error;
-  if (fs::is_directory(path, error)) throw UserError(Exit::NoInput, place, "this is a folder, and no picture");
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    throw UserError(Exit::NoInput, place, "this is no ordinary file");
-  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-  if (!file)
-    throw UserError(Exit::NoInput, place, fmt::format("it cannot be opened: {}", std::strerror(errno)));
-  std::vector<std::uint8_t> bytes(fs::file_size(path, error));
-  if (error) throw UserError(Exit::ReadWrite, place, "its size cannot be read: " + error.message());
-  const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get());
-  if (std::ferror(file.get()))
-    throw UserError(Exit::ReadWrite, place, fmt::format("it cannot be read: {}", std::strerror(errno)));
-  bytes.resize(count);
-  return bytes;
 }
 
 namespace {

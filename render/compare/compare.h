@@ -42,7 +42,4 @@ struct CompareOptions {
 // Pictures that cannot be read are a state. Throws UserError (BadInput, NoInput) for a mask that cannot be used.
 Compared compare_case(const CasePaths& paths, const CompareOptions& options);
 
-// A file's bytes. Throws UserError: NoInput where it cannot be opened, ReadWrite.
-std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path);
-
 } // namespace rend

@@ -94,5 +94,28 @@ TEST(Png, AFileThatIsCutOffOrNoPngIsBadInput) {
   }
 }
 
+TEST(Png, WhatCannotBeReadIsSaidAsInComparisons) {
+  NEEDS_PNG;
+  const Folder folder;
+  const auto said = [&](const std::string& bytes) -> std::string {
+    std::ofstream(folder / "a.png", std::ios::binary) << bytes;
+    try {
+      read_png(folder / "a.png");
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(said("\xff\xd8\xff\xe0 JFIF").find("a JPEG"), std::string::npos);
+  const std::vector<std::uint8_t> png = encode_png(pattern(64, 64));
+  std::string bytes(png.begin(), png.end());
+  EXPECT_NE(said(bytes.substr(0, bytes.size() - 12)).find("cut off"), std::string::npos);
+  // A header that claims 2^32 pixels, with its CRC: nothing of that size is asked for.
+  bytes = bytes.substr(0, 16) + std::string("\0\1\0\0\0\1\0\0\10\2\0\0\0"
+                                            "\xe3\xe6\xa7\xb4",
+                                            17);
+  EXPECT_NE(said(bytes).find("65536 x 65536"), std::string::npos);
+}
+
 } // namespace
 } // namespace rend
