@@ -20,23 +20,48 @@ bool is_png(const fs::path& path) {
 
 using Found = std::map<std::string, CasePaths>;
 
-void walk(const fs::path& folder, fs::path CasePaths::*side, Found& found, std::size_t& left_out) {
-  std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    std::error_code gone; // a link that leads nowhere is a picture that cannot be read
-    if (entry->is_directory(gone)) continue;
-    if (!is_png(entry->path())) {
-      ++left_out;
-      continue;
-    }
-    const std::string name = entry->path().lexically_relative(folder).generic_string();
-    CasePaths& one = found[name];
-    one.name = name;
-    one.*side = entry->path();
+// All pictures of one side, by their names within its folder.
+class Walk {
+public:
+  Walk(const fs::path& folder, fs::path CasePaths::*side, Cases& cases, Found& found)
+      : side_(side), cases_(cases), found_(found) {
+    into(folder, "");
   }
-  if (error) throw UserError(Exit::Trouble, {folder.string()}, "the folder cannot be read: " + error.message());
-}
+
+private:
+  void into(const fs::path& folder, const std::string& prefix) { // "tear/"
+    std::error_code error;
+    const fs::path real = fs::canonical(folder, error);
+    if (std::find(above_.begin(), above_.end(), real) != above_.end())
+      throw UserError(Exit::Trouble, {folder.string()},
+                      "this link leads back to a folder that it is in, " + in_quotes(real.string()),
+                      "links to other folders are followed; remove this one");
+    above_.push_back(real);
+    fs::directory_iterator entry(folder, error), end;
+    for (; !error && entry != end; entry.increment(error)) put(*entry, prefix);
+    if (error)
+      throw UserError(Exit::Trouble, {folder.string()}, "the folder cannot be read: " + error.message());
+    above_.pop_back();
+  }
+
+  void put(const fs::directory_entry& entry, const std::string& prefix) {
+    const std::string name = prefix + entry.path().filename().string();
+    std::error_code gone; // a link that leads nowhere is a picture that cannot be read
+    if (entry.is_directory(gone)) return into(entry.path(), name + "/");
+    if (!is_png(entry.path())) {
+      ++cases_.left_out;
+      return;
+    }
+    CasePaths& one = found_[name];
+    one.name = name;
+    one.*side_ = entry.path();
+  }
+
+  fs::path CasePaths::*side_;
+  Cases& cases_;
+  Found& found_;
+  std::vector<fs::path> above_; // the folders that the present one is in, and itself, without links
+};
 
 bool is_folder(const fs::path& path) {
   std::error_code error;
@@ -60,8 +85,8 @@ Cases cases_of(const fs::path& a, const fs::path& b) {
     return cases;
   }
   Found found;
-  walk(a, &CasePaths::a, found, cases.left_out);
-  walk(b, &CasePaths::b, found, cases.left_out);
+  Walk(a, &CasePaths::a, cases, found);
+  Walk(b, &CasePaths::b, cases, found);
   for (auto& [name, one] : found) cases.all.push_back(std::move(one));
   if (cases.all.empty())
     throw UserError(Exit::Trouble, {}, "there is no picture in either folder",

@@ -151,6 +151,27 @@ TEST_F(Diff, refuses_what_cannot_be_compared) {
   EXPECT_EQ(diff("a b -o file/report").code, 73);
 }
 
+TEST_F(Diff, follows_links_to_folders_and_refuses_those_that_lead_back) {
+  put_both("one.png", picture());
+  put("a/in/two.png", picture());
+  put("b/in/two.png", touched());
+  for (const char* side : {"a", "b"}) { // the folders that differ are elsewhere, and linked to
+    fs::rename(place.path() / side / "in", place.path() / (side + std::string("-in")));
+    fs::create_directory_symlink("../" + std::string(side) + "-in", place.path() / side / "sub");
+    fs::create_directory_symlink("sub", place.path() / side / "again"); // twice the same is no loop
+  }
+  const std::map<std::string, std::string> expected{
+      {"one.png", "match"}, {"sub/two.png", "differ"}, {"again/two.png", "differ"}};
+  EXPECT_EQ(states("a b", 1), expected);
+  EXPECT_EQ(diff("a b --update sub --update again").code, 0); // the same file
+  EXPECT_EQ(diff("a b").code, 0);
+  fs::create_directory_symlink("../b", place.path() / "b-in/back");
+  const Outcome outcome = diff("a b");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("back"));
+  EXPECT_THAT(outcome.err, HasSubstr("leads back"));
+}
+
 TEST_F(Diff, takes_limits_from_the_command_line) {
   put("a/one.png", picture());
   put("b/one.png", touched(5));
