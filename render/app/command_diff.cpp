@@ -96,10 +96,9 @@ std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tol
 }
 
 std::vector<std::string> remarks_of(const Cases& cases, const Tolerances& tolerances) {
-  std::vector<std::string> names, out;
+  std::vector<std::string> names;
   for (const CasePaths& one : cases.all) names.push_back(one.name);
-  for (const std::string& pattern : tolerances.unused(names))
-    out.push_back("the tolerances name " + in_quotes(pattern) + ", and no picture is called so");
+  std::vector<std::string> out = tolerances.remarks(names);
   if (cases.left_out > 0)
     out.push_back(fmt::format("{} file{} in the folders {} not called .png, and left out", cases.left_out,
                               cases.left_out == 1 ? "" : "s", cases.left_out == 1 ? "is" : "are"));

@@ -122,7 +122,7 @@ Json case_json(const Compared& one, bool updated) {
   out["height"] = one.height;
   out["why"] = one.why;
   out["notes"] = one.notes;
-  out["limits"] = one.tolerance.limits;
+  out["limits"] = limits_of(one.tolerance);
   out["threshold"] = one.tolerance.threshold;
   if (one.metrics) out["figures"] = figures_json(*one.metrics);
   return out;

@@ -51,11 +51,27 @@ void apply(const Node& node, const std::filesystem::path& folder, CompareOptions
   if (node.given("mask")) options.mask = node.text("mask").empty() ? "" : folder / node.text("mask");
   for (const Limit& limit : all_limits()) {
     if (!node.given(limit.name)) continue;
-    if (node.is_word(limit.name))
+    if (node.is_word(limit.name)) {
       options.tolerance.limits.erase(limit.name);
-    else
+      options.tolerance.lifted = true;
+    } else
       options.tolerance.limits[limit.name] = node.number(limit.name);
   }
+}
+
+// "name" where a node gives it, and it does nothing: neither of `limits` holds for any picture that the node fits.
+bool idle(const Tolerances& all, const Node& node, const char* setting,
+          std::initializer_list<const char*> limits, const std::vector<std::string>& names) {
+  if (!node.given(setting)) return false;
+  bool fits_one = false;
+  for (const std::string& name : names) {
+    if (!fits(node, name)) continue;
+    fits_one = true;
+    const Tolerance tolerance = all.of(name).tolerance;
+    for (const char* limit : limits)
+      if (tolerance.limits.contains(limit)) return false;
+  }
+  return fits_one;
 }
 
 // A setting of the command line as it would stand in a <default/>.
@@ -106,6 +122,22 @@ CompareOptions Tolerances::of(const std::string& name) const {
   for (const auto& [what, value] : settings_) apply(*node_of(what, value), {}, options);
   if (!mask_.empty()) options.mask = mask_;
   return options;
+}
+
+std::vector<std::string> Tolerances::remarks(const std::vector<std::string>& names) const {
+  std::vector<std::string> out;
+  for (const std::string& pattern : unused(names))
+    out.push_back("the tolerances name " + in_quotes(pattern) + ", and no picture is called so");
+  const auto look_at = [&](const Node& node, const std::string& where) {
+    if (idle(*this, node, "threshold", {"share", "window"}, names))
+      out.push_back(where + " gives a threshold, which changes nothing without a limit on share or window");
+    if (idle(*this, node, "window-size", {"window"}, names))
+      out.push_back(where + " gives a window-size, which changes nothing without a limit on window");
+  };
+  if (file_)
+    for (const auto& child : file_->children()) look_at(*child, child->place().text());
+  for (const auto& [what, value] : settings_) look_at(*node_of(what, value), "--limit");
+  return out;
 }
 
 std::vector<std::string> Tolerances::unused(const std::vector<std::string>& names) const {

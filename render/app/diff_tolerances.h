@@ -8,7 +8,7 @@
 //
 // It is read as presets are: misspelt names and values out of range are refused with their place. `name` is a pattern of
 // the shell (* and ? stand for anything, / too). Every case that fits applies, in the order of the file; what a later one
-// says replaces what was said before. The attributes are the names of all_limits(), and threshold, window-size, mask.
+// says replaces what was said before, and "any" is no limit: where no other is left, anything of the right size matches. The attributes are the names of all_limits(), and threshold, window-size, mask.
 #pragma once
 
 #include "render/compare/compare.h"
@@ -36,10 +36,13 @@ public:
 
   // What holds for the picture of that name; `heat` and `threads` are left as they are by default.
   CompareOptions of(const std::string& name) const;
-  // Patterns of the file that fit none of `names`: most likely a slip.
-  std::vector<std::string> unused(const std::vector<std::string>& names) const;
+  // What is most likely a slip, as sentences: patterns of the file that fit none of `names`, a threshold or window-size
+  // where nothing is limited that they are for.
+  std::vector<std::string> remarks(const std::vector<std::string>& names) const;
 
 private:
+  std::vector<std::string> unused(const std::vector<std::string>& names) const;
+
   std::shared_ptr<const Node> file_;
   std::filesystem::path folder_; // of the file: masks are named from there
   std::vector<std::pair<std::string, std::string>> settings_;

@@ -41,9 +41,13 @@ std::string Excess::text() const {
                      unit);
 }
 
-std::vector<Excess> excesses(const Tolerance& tolerance, const Metrics& metrics) {
+const std::map<std::string, double>& limits_of(const Tolerance& tolerance) {
   static const std::map<std::string, double> equal{{"max", 0}};
-  const auto& asked = tolerance.limits.empty() ? equal : tolerance.limits;
+  return tolerance.limits.empty() && !tolerance.lifted ? equal : tolerance.limits;
+}
+
+std::vector<Excess> excesses(const Tolerance& tolerance, const Metrics& metrics) {
+  const auto& asked = limits_of(tolerance);
   for (const auto& [name, value] : asked) CHECK_NOTE(find_limit(name), name);
   std::vector<Excess> out;
   for (const Limit& limit : all_limits()) {

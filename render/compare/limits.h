@@ -26,8 +26,11 @@ const Limit* find_limit(const std::string& name); // null if there is none
 struct Tolerance {
   double threshold = 0;                 // [levels] see MeasureOptions
   int window_side = 16;                 // [pixels]
-  std::map<std::string, double> limits; // by name; none at all: pictures must be equal
+  std::map<std::string, double> limits; // by name
+  bool lifted = false;                  // "any" was said of a limit: where no other is left, anything matches
 };
+// Those that hold, by name: where none was ever spoken of pictures must be equal.
+const std::map<std::string, double>& limits_of(const Tolerance& tolerance);
 
 // A figure outside its limit.
 struct Excess {

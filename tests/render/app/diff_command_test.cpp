@@ -186,6 +186,44 @@ TEST_F(Diff, takes_limits_from_the_command_line) {
   EXPECT_EQ(diff("a b --limit max=255 --limit flip-max=0").code, 1);
 }
 
+TEST_F(Diff, takes_any_as_no_limit_and_not_as_equality) {
+  put("a/one.png", picture());
+  put("b/one.png", touched(5));
+  for (const char* limit : {"max=any", "share=any"}) {
+    const Outcome outcome = diff(std::string("a b --json --limit ") + limit);
+    EXPECT_EQ(outcome.code, 0) << limit;
+    EXPECT_TRUE(outcome.json()["cases"][0]["limits"].empty());
+  }
+  EXPECT_EQ(diff("a b --limit max=any --limit flip-max=0").code, 1); // another holds
+  EXPECT_EQ(diff("a b --limit max=any --limit max=4").code, 1);
+  place.write("t.xml", R"(<tolerances><default max="any"/><case name="in/*" max="0"/></tolerances>)");
+  put("a/in/two.png", picture());
+  put("b/in/two.png", touched(5));
+  const auto found = states("a b -t t.xml", 1);
+  EXPECT_EQ(found.at("one.png"), "match");
+  EXPECT_EQ(found.at("in/two.png"), "differ");
+  put("b/one.png", picture(0, 8, 8));
+  EXPECT_EQ(diff("a/one.png b/one.png --limit max=any").code, 1); // a size is none of the limits
+  EXPECT_EQ(diff("a/in b/in --json").json()["cases"][0]["limits"], nlohmann::json({{"max", 0}}));
+}
+
+TEST_F(Diff, notes_thresholds_that_nothing_is_measured_by) {
+  put("a/one.png", picture());
+  put("b/one.png", touched(5));
+  const Outcome idle = diff("a b --limit threshold=255 --limit window-size=8");
+  EXPECT_EQ(idle.code, 1);
+  EXPECT_THAT(idle.err, HasSubstr("--limit gives a threshold, which changes nothing"));
+  EXPECT_THAT(idle.err, HasSubstr("--limit gives a window-size, which changes nothing"));
+  EXPECT_EQ(diff("a b --limit threshold=255 --limit window-size=8 --limit window=0").err, "");
+  EXPECT_THAT(diff("a b --limit window-size=8 --limit share=0").err, HasSubstr("window-size"));
+  place.write("t.xml",
+              "<tolerances>\n <default threshold=\"9\"/>\n <case name=\"two*\" share=\"0\"/></tolerances>");
+  put_both("one.png", picture());
+  EXPECT_THAT(diff("a b -t t.xml").err, HasSubstr("t.xml:2:"));
+  put_both("two.png", picture());
+  EXPECT_EQ(diff("a b -t t.xml").err, "");
+}
+
 TEST_F(Diff, takes_tolerances_by_picture_from_a_file) {
   for (const char* name : {"one.png", "in/one.png", "in/two.png"}) {
     put("a/" + std::string(name), picture());
