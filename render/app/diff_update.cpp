@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <memory>
+#include <map>
 
 namespace rend {
 
@@ -46,21 +46,60 @@ void check_source(const Compared& one) {
   read_deep_png(file_bytes(one.paths.b), one.paths.b.string());
 }
 
+// Files that lie complete beside those that they are to replace; what has not taken its place goes. None is held open, so
+// that there can be any number.
+class Parts {
+public:
+  Parts() = default;
+  ~Parts() {
+    std::error_code error;
+    for (const auto& [path, from] : from_) fs::remove(part(path), error);
+  }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
+  void add(const fs::path& to, const fs::path& from) {
+    const std::vector<std::uint8_t> bytes = file_bytes(from);
+    std::error_code error;
+    fs::create_directories(to.parent_path(), error);
+    { const OutputFile any(to); } // whether it can be made at all
+    const fs::path path = fs::weakly_canonical(to);
+    const auto other = from_.find(path); // two names of one file, by a link
+    if (other != from_.end() && file_bytes(other->second) != bytes)
+      throw UserError(Exit::Trouble, {to.string()},
+                      fmt::format("--update: this file has two names, and would become both {} and {}",
+                                  in_quotes(other->second.string()), in_quotes(from.string())),
+                      "name one of them; nothing was updated");
+    if (!from_.emplace(path, from).second) return;
+    OutputFile file(part(path));
+    file.write(bytes);
+    file.commit();
+  }
+  void commit() {
+    for (; !from_.empty(); from_.erase(from_.begin())) {
+      const fs::path& path = from_.begin()->first;
+      std::error_code error;
+      fs::rename(part(path), path, error);
+      if (error) throw UserError(Exit::ReadWrite, {path.string()}, "it cannot be replaced: " + error.message());
+    }
+  }
+
+private:
+  static fs::path part(const fs::path& path) { return path.string() + ".update.part"; }
+  std::map<fs::path, fs::path> from_; // what is replaced, without links, and what by
+};
+
 } // namespace
 
 void update_expected(const std::vector<Compared>& results, const std::set<std::size_t>& which,
                      const fs::path& expected) {
   for (const std::size_t n : which) check_source(results[n]);
-  std::vector<std::unique_ptr<OutputFile>> files;
+  Parts parts;
   for (const std::size_t n : which) {
     const CasePaths& paths = results[n].paths;
-    const fs::path to = paths.a.empty() ? expected / paths.name : paths.a;
-    std::error_code error;
-    fs::create_directories(to.parent_path(), error);
-    files.push_back(std::make_unique<OutputFile>(to));
-    files.back()->write(file_bytes(paths.b));
+    parts.add(paths.a.empty() ? expected / paths.name : paths.a, paths.b);
   }
-  for (const auto& file : files) file->commit();
+  parts.commit();
 }
 
 } // namespace rend

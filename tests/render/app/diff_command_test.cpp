@@ -330,6 +330,34 @@ TEST_F(Diff, updates_all_that_is_named_or_nothing) {
   for (const std::string& name : place.files()) EXPECT_FALSE(name.ends_with(".part")) << name;
 }
 
+TEST_F(Diff, updates_more_pictures_than_files_can_be_open) {
+  put("a/one.png", picture());
+  put("b/one.png", touched());
+  for (int n = 0; n < 100; ++n)
+    for (const char* side : {"a", "b"})
+      fs::copy_file(place.path() / side / "one.png", place.path() / side / "in" / (std::to_string(n) + ".png"));
+  const Outcome outcome =
+      place.shell("ulimit -n 40; " + std::string(REND_PROGRAM) + " diff a b --update in -q");
+  EXPECT_EQ(outcome.code, 1) << outcome.err; // one.png
+  EXPECT_EQ(diff("a/in b/in").code, 0);
+  EXPECT_EQ(place.files().size(), 2 * 103u); // nothing is left behind
+}
+
+TEST_F(Diff, updates_a_file_that_has_two_names_once) {
+  put("a/in/one.png", picture());
+  fs::create_directory_symlink("in", place.path() / "a/same");
+  put("b/in/one.png", touched(1));
+  put("b/same/one.png", touched(2));
+  const std::string before = content(place.path() / "a/in/one.png");
+  const Outcome outcome = diff("a b --update in --update same");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("two names"));
+  EXPECT_EQ(content(place.path() / "a/in/one.png"), before);
+  put("b/same/one.png", touched(1));
+  EXPECT_EQ(diff("a b --update in --update same").code, 0);
+  EXPECT_EQ(diff("a b").code, 0);
+}
+
 TEST_F(Diff, takes_names_with_anything_in_them) {
   put_both("a <b> & \"c\".png", picture());
   put("b/caf\xe9.png", picture());
