@@ -6,7 +6,6 @@
 #include "render/app/diff_tolerances.h"
 #include "render/app/diff_update.h"
 #include "render/app/signals.h"
-#include "render/output.h"
 #include "render/png.h"
 #include "sim/program/threads.h"
 
@@ -127,6 +126,7 @@ Exit diff(const DiffOptions& options) {
   report.a = options.a;
   report.b = options.b;
   report.remarks = remarks_of(cases, tolerances);
+  DiffFiles files(options.folder, options.junit);
   report.cases = compare_all(cases.all, tolerances, options);
   if (report.cases.empty()) {
     print_error("stopped by a signal: nothing is reported");
@@ -136,8 +136,7 @@ Exit diff(const DiffOptions& options) {
   for (const std::size_t n : chosen) report.updated[n] = true;
   const std::string page = options.folder.empty() ? "" : diff_page(report); // shows what was expected until now
   update_expected(report.cases, chosen, options.a);
-  if (!options.junit.empty()) write_whole(options.junit, diff_junit(report));
-  if (!options.folder.empty()) write_diff_folder(options.folder, page, report);
+  files.write(page, report);
   if (!options.quiet)
     for (const std::string& remark : report.remarks) print_note(remark);
   print_report(options, report);

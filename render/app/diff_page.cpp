@@ -1,6 +1,5 @@
 #include "render/app/diff_page.h"
 
-#include "render/output.h"
 #include "render/report/comparison.h"
 #include "render/report/page.h"
 #include "sim/base/error.h"
@@ -181,24 +180,39 @@ std::string diff_page(const DiffReport& report) {
   return page("rend diff", body, compare_style, compare_script);
 }
 
-void write_diff_folder(const fs::path& folder, const std::string& page, const DiffReport& report) {
-  const auto make = [](const fs::path& path) {
-    std::error_code error;
-    fs::create_directories(path, error);
-    if (error)
-      throw UserError(Exit::CannotCreate, {path.string()}, "the folder cannot be made: " + error.message());
-  };
-  make(folder);
+DiffFiles::DiffFiles(const std::string& folder, const std::string& junit) {
+  if (!folder.empty()) {
+    folder_.emplace(folder);
+    maps_.emplace(folder_->path() / "maps");
+    folder_->make();
+    json_.emplace(folder_->path() / "diff.json");
+    page_.emplace(folder_->path() / "index.html");
+  }
+  if (!junit.empty()) junit_.emplace(junit);
+}
+
+void DiffFiles::write_maps(const DiffReport& report) const {
   for (const Compared& one : report.cases) {
     if (one.heat.empty()) continue;
-    const fs::path path = folder / "maps" / one.paths.name;
-    make(path.parent_path());
+    const fs::path path = maps_->path() / one.paths.name;
+    const OutputFolder into(path.parent_path());
+    into.make();
     OutputFile file(path);
     file.write(one.heat);
     file.commit();
   }
-  write_whole(folder / "diff.json", text_of(diff_json(report), 2) + "\n");
-  write_whole(folder / "index.html", page);
+}
+
+void DiffFiles::write(const std::string& page, const DiffReport& report) {
+  const auto write = [](OutputFile& file, const std::string& text) {
+    file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    file.commit();
+  };
+  if (junit_) write(*junit_, diff_junit(report));
+  if (!folder_) return;
+  write_maps(report);
+  write(*json_, text_of(diff_json(report), 2) + "\n");
+  write(*page_, page);
 }
 
 } // namespace rend

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "render/app/diff_report.h"
+#include "render/app/output_folder.h"
+#include "render/output.h"
 
-#include <filesystem>
+#include <optional>
 #include <string>
 
 namespace rend {
@@ -12,7 +14,20 @@ namespace rend {
 // left out, and so are the pictures of further cases once the page has 100 MB of them (it says so).
 std::string diff_page(const DiffReport& report);
 
-// index.html (`page`), diff.json, and for what differs maps/NAME.png. Throws UserError: CannotCreate, ReadWrite.
-void write_diff_folder(const std::filesystem::path& folder, const std::string& page, const DiffReport& report);
+// What is left on the disk: a folder with index.html, diff.json, and for what differs maps/NAME.png; and JUnit's XML. That
+// they can be written is known before anything is compared, and none is there before it is whole.
+class DiffFiles {
+public:
+  // Of an empty name nothing is written. Throws UserError: CannotCreate.
+  DiffFiles(const std::string& folder, const std::string& junit);
+  // `page`: what diff_page() gave. Throws UserError: CannotCreate, ReadWrite.
+  void write(const std::string& page, const DiffReport& report);
+
+private:
+  void write_maps(const DiffReport& report) const;
+
+  std::optional<OutputFolder> folder_, maps_;
+  std::optional<OutputFile> json_, page_, junit_;
+};
 
 } // namespace rend

@@ -358,6 +358,24 @@ TEST_F(Diff, updates_a_file_that_has_two_names_once) {
   EXPECT_EQ(diff("a b").code, 0);
 }
 
+TEST_F(Diff, knows_that_its_reports_can_be_written_before_it_compares_or_updates) {
+  put("a/one.png", picture());
+  put("b/one.png", touched());
+  const std::string before = content(place.path() / "a/one.png");
+  place.write("file", "");
+  fs::create_directories(place.path() / "taken/index.html");
+  fs::create_directories(place.path() / "folder");
+  for (const char* bad : {"-o file", "-o file/report", "-o taken", "--junit nowhere/j.xml", "--junit folder",
+                          "-o report --junit nowhere/j.xml"}) {
+    const Outcome outcome = diff("a b --json-lines --update one " + std::string(bad));
+    EXPECT_EQ(outcome.code, 73) << bad;
+    EXPECT_EQ(diff("a b --json-lines " + std::string(bad)).out, "") << bad; // nothing was compared
+    EXPECT_EQ(content(place.path() / "a/one.png"), before) << bad;
+    EXPECT_FALSE(fs::exists(place.path() / "report")) << bad; // made, empty and removed again
+  }
+  for (const std::string& name : place.files()) EXPECT_FALSE(name.ends_with(".part")) << name;
+}
+
 TEST_F(Diff, takes_names_with_anything_in_them) {
   put_both("a <b> & \"c\".png", picture());
   put("b/caf\xe9.png", picture());
