@@ -60,4 +60,7 @@ function(rend_library FOLDER)
     target_link_libraries(rend_${name} INTERFACE rend_flags ${libraries} ${ARG_LINKS})
   endif()
   add_dependencies(rend_${name} layers_${name})
+  string(REGEX MATCH "^[a-z]+" part ${FOLDER}) # sim, render
+  string(TOUPPER ${part} part)
+  set_property(GLOBAL APPEND PROPERTY REND_${part}_LIBRARIES rend_${name})
 endfunction()

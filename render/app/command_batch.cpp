@@ -7,9 +7,11 @@
 #include "render/app/session.h"
 #include "render/app/shard.h"
 #include "render/app/signals.h"
+#include "render/app/usage.h"
 #include "render/output.h"
 #include "render/png.h"
 #include "render/video.h"
+#include "render/video_format.h"
 #include "sim/program/threads.h"
 
 #include <CLI/CLI.hpp>
@@ -161,7 +163,7 @@ void declare_passed_on(CLI::App& app, BatchOptions& options) {
   app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the presets'")
       ->type_name("N");
   app.add_option("--video", options.video, "also a video of each job")
-      ->type_name("FORMAT");
+      ->type_name(choices(video_format_names()));
   app.add_flag("--no-png", options.no_png, "the videos alone");
   app.add_option("--threads", options.threads,
                  "threads of each simulation; default: one, where jobs run in parallel")

@@ -7,6 +7,7 @@
 #include "render/app/session.h"
 #include "render/app/shard.h"
 #include "render/app/shoot.h"
+#include "render/app/usage.h"
 #include "render/png.h"
 #include "render/video.h"
 #include "render/video_format.h"
@@ -136,7 +137,7 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option("--size", options->size, "of the pictures in pixels, instead of the preset's")
       ->type_name("WxH");
   app.add_option("--video", options->video, "also a video, called as the scene is: " + video_formats_in_words())
-      ->type_name("FORMAT");
+      ->type_name(choices(video_format_names()));
   app.add_flag("--no-png", options->no_png, "the video alone");
   app.add_flag("--resume", options->resume,
                "keep the pictures that are there and whole, and go on from where a run was stopped");

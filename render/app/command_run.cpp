@@ -6,6 +6,7 @@
 #include "render/app/progress.h"
 #include "render/app/records.h"
 #include "render/app/session.h"
+#include "render/app/usage.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -110,7 +111,7 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--export", options->format,
                  "the state at every frame as a file for other programs: " + export_formats_in_words())
-      ->type_name("FORMAT");
+      ->type_name(choices(export_format_names()));
   app.add_option("-o,--output", options->folder, "folder of these files; default: out/ and the scene's name")
       ->type_name("DIR");
   app.add_option("--frames", options->frames,

@@ -113,6 +113,8 @@ bool matches(const TableEntry& entry, const std::string& root, const std::string
   });
 }
 
+} // namespace
+
 std::string introduction(const ElementType& root) {
   return fmt::format(
       "A preset is an XML file with one <{0}>. Elements may stand in any order. Units are SI; vectors "
@@ -120,8 +122,6 @@ std::string introduction(const ElementType& root) {
       "a path is written as below without \"{0}.\", and ends with the attribute's name.",
       root.name);
 }
-
-} // namespace
 
 std::string help_preset(const ElementType& root, const std::optional<std::string>& element, bool colour) {
   const Style style{colour};

@@ -13,4 +13,7 @@ namespace rend {
 // element.
 std::string help_preset(const ElementType& root, const std::optional<std::string>& element, bool colour);
 
+// What a preset is, in a few sentences.
+std::string introduction(const ElementType& root);
+
 } // namespace rend

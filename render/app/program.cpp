@@ -2,6 +2,7 @@
 #include "render/app/console.h"
 #include "render/app/mesh_name.h"
 #include "render/app/signals.h"
+#include "render/app/version.h"
 #include "sim/base/check.h"
 #include "sim/base/wording.h"
 
@@ -27,7 +28,7 @@ namespace {
 
 std::unique_ptr<CLI::App> make_app(std::function<Exit()>& chosen) {
   auto app = std::make_unique<CLI::App>("rend: pictures of things that tear and break.", "rend");
-  app->set_version_flag("--version", "rend " REND_VERSION, "print the version");
+  app->set_version_flag("--version", version_in_words, "print the version, its commit, and those of libraries");
   app->set_help_flag("-h,--help", "print this page");
   app->require_subcommand(1);
   app->footer("rend COMMAND --help tells a command's options; rend help preset, what a preset may hold.");

@@ -1,6 +1,7 @@
 #include "render/app/study_options.h"
 
 #include "render/app/paths.h"
+#include "render/app/usage.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -168,7 +169,7 @@ void declare_study(CLI::App& app, StudyOptions& options) {
   app.add_option("-o,--output", options.folder, "where page, plots and tables go; default: out/NAME-study")
       ->type_name("DIR");
   app.add_option("--integrators", options.integrators, "the schemes to compare; default: all that move in time")
-      ->type_name("a,b,c");
+      ->type_name(choices(schemes_that_move()) + ",...");
   app.add_option("--steps", options.steps, "steps of each scheme below its limit, over two decades")
       ->type_name("N")
       ->capture_default_str()

@@ -37,7 +37,8 @@ std::string compiler() {
 } // namespace
 
 Machine this_machine() {
-  return {processor(), hardware_threads(), system_name(), compiler(), REND_FLAGS, REND_VERSION, rend_commit};
+  return {processor(), hardware_threads(), system_name(), compiler(),
+          REND_FLAGS,  REND_VERSION,       rend_commit,   rend_commit_date};
 }
 
 std::vector<std::pair<std::string, std::string>> described(const Machine& machine) {

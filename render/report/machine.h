@@ -15,6 +15,7 @@ struct Machine {
   std::string flags;     // that the program was compiled with
   std::string version;   // of rend
   std::string commit;    // "1a2b3c4d5e6f"; "-dirty": with changes that are not committed
+  std::string date;      // of the commit: "2026-11-22"; empty: there is none
 };
 Machine this_machine();
 

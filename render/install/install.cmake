@@ -1,0 +1,87 @@
+# What cmake --install puts where, in two components:
+#   program      rend, its manual, completions, presets, the schema and the README
+#   development  libraries, headers, the CMake package and pkg-config files
+# The manual and the completions are printed by the program itself, while it is installed: a build does not wait for them.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(install_source ${CMAKE_CURRENT_LIST_DIR})
+set(install_made ${PROJECT_BINARY_DIR}/install)
+get_property(sim_libraries GLOBAL PROPERTY REND_SIM_LIBRARIES)
+get_property(render_libraries GLOBAL PROPERTY REND_RENDER_LIBRARIES)
+
+# The program.
+install(TARGETS rend RUNTIME COMPONENT program)
+set(REND_MADE ${install_made})
+foreach(directory BINDIR MANDIR DATADIR)
+  set(REND_${directory} ${CMAKE_INSTALL_${directory}})
+endforeach()
+configure_file(${install_source}/pages.cmake.in ${install_made}/pages.cmake @ONLY)
+install(SCRIPT ${install_made}/pages.cmake COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/rend/presets COMPONENT program
+        FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd" PATTERN "*.msh" PATTERN "*.obj" PATTERN "*.off" PATTERN "*.moka"
+        PATTERN gallery EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
+# The libraries: rend::sim, rend::render, and rend::rend, which is all with the reader of presets. Those of one folder are
+# called after it: rend::topology.
+add_library(rend_sim INTERFACE)
+target_link_libraries(rend_sim INTERFACE rend_surface rend_export rend_check rend_study)
+add_library(rend_rend INTERFACE)
+target_link_libraries(rend_rend INTERFACE rend_app rend_sim)
+target_compile_features(rend_flags INTERFACE cxx_std_20)
+target_include_directories(rend_flags INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/rend>)
+foreach(library IN ITEMS ${sim_libraries} ${render_libraries} rend_flags rend_sim rend_rend)
+  string(REGEX REPLACE "^rend_" "" name ${library})
+  set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
+endforeach()
+install(TARGETS rend_flags rend_sim ${sim_libraries} EXPORT rend-sim ARCHIVE COMPONENT development)
+install(TARGETS rend_rend ${render_libraries} EXPORT rend-render ARCHIVE COMPONENT development)
+foreach(folder sim render)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rend COMPONENT development
+          FILES_MATCHING PATTERN "*.h" PATTERN install EXCLUDE)
+endforeach()
+
+# find_package(rend)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/rend)
+foreach(part sim render)
+  install(EXPORT rend-${part} NAMESPACE rend:: DESTINATION ${package_dir} COMPONENT development)
+endforeach()
+set(hud OFF) # which may be left out for want of a font
+if(TARGET rend_imgui)
+  set(hud ON)
+endif()
+configure_package_config_file(${install_source}/rend-config.cmake.in ${install_made}/rend-config.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${install_made}/rend-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${install_made}/rend-config.cmake ${install_made}/rend-config-version.cmake DESTINATION ${package_dir}
+        COMPONENT development)
+
+# pkg-config. A linker goes through static libraries once, from left to right: those that need others come first, as they
+# were made bottom to top. All are static, so that what they need is needed by everybody, and nothing is private.
+function(rend_pkg_config name)
+  set(libraries "")
+  foreach(library IN LISTS ARGN)
+    get_target_property(type ${library} TYPE)
+    if(type STREQUAL STATIC_LIBRARY)
+      string(PREPEND libraries " -l${library}")
+    endif()
+  endforeach()
+  file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /) # from the file, so that what is installed can be moved
+  configure_file(${install_source}/${name}.pc.in ${install_made}/${name}.pc @ONLY)
+  install(FILES ${install_made}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endfunction()
+set(pictures "osmesa")
+if(REND_PNG)
+  string(APPEND pictures ", libpng, libdeflate")
+endif()
+if(REND_VIDEO)
+  string(APPEND pictures ", libavfilter, libavformat, libavcodec, libavutil")
+endif()
+if(TARGET rend_imgui)
+  string(APPEND pictures ", imgui")
+endif()
+rend_pkg_config(rend-sim ${sim_libraries})
+rend_pkg_config(rend ${render_libraries})
+
+include(${install_source}/package.cmake)
