@@ -1,7 +1,7 @@
 // Completion for bash, without the package bash-completion.
 //
-// Bash splits words at = and :, which stand in what rend takes (--set time.step=1e-3): the script puts them together
-// again, and offers only what stands behind the last =, as bash then replaces no more.
+// Bash splits words at = and :, which stand in what rend takes (--set time.step=1e-3): the script puts them
+// together again, and offers only what stands behind the last =, as bash then replaces no more.
 #include "render/app/completion.h"
 
 #include <fmt/format.h>

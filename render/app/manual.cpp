@@ -40,7 +40,7 @@ std::string item(const std::string& label, const std::string& text) {
 
 std::string head(const std::string& name, int number, const std::string& what, const std::string& version,
                  const std::string& date) {
-  return fmt::format(".TH {} {} \"{}\" \"rend {}\"\n.nh\n.ad l\n", name, number, date, version) +
+  return fmt::format(".TH {0} {1} \"{2}\" \"{0} {3}\"\n.nh\n.ad l\n", name, number, date, version) +
          section("NAME") + fmt::format("{} \\- {}\n", plain(name), plain(what));
 }
 
@@ -135,7 +135,7 @@ std::string element_section(const TableEntry& entry) {
 
 std::string manual(const CommandUsage& program, const std::string& version, const std::string& date) {
   const std::string what = program.what.substr(program.what.find(": ") + 2); // "rend: pictures of ..."
-  std::string out = head("rend", 1, what, version, date) + section("SYNOPSIS");
+  std::string out = head(program.name, 1, what, version, date) + section("SYNOPSIS");
   std::string commands;
   for (const CommandUsage& command : program.commands) {
     out +=

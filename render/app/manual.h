@@ -1,5 +1,5 @@
-// The manual as troff, for man(1): rend(1) from the command line's own declarations, rend-preset(5) from the parameter
-// table. What they say stands in one place, which is not here.
+// The manual as troff, for man(1): rend(1) from the command line's own declarations, rend-preset(5) from the
+// parameter table. What they say stands in one place, which is not here.
 #pragma once
 
 #include "render/app/usage.h"

@@ -19,18 +19,16 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS gnuplot-nox)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, paraview")
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "deformable bodies that tear, from a preset to pictures
-rend turns a preset, a scene in XML, into image sequences and videos of
- sheets and solids that deform, tear and break. It simulates them on a
- 3-dimensional generalized map, and draws without a display. It also
- compares pictures, and studies how time schemes trade error for time.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "rend turns a preset, a scene in XML, into image sequences and videos
+of sheets and solids that deform, tear and break. It simulates them on a
+3-dimensional generalized map, and draws without a display. It also
+compares pictures, and studies how time schemes trade error for time.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME librend-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "cmake, pkg-config")
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "simulation of deformable bodies that tear: libraries
-The libraries that rend is made of, static, with their headers, a CMake
- package and pkg-config files: generalized maps, rules that edit them,
- mechanics, fracture, surfaces and pictures.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "The libraries that rend is made of, static, with their headers, a CMake
+package and pkg-config files: generalized maps, rules that edit them,
+mechanics, fracture, surfaces and pictures.")
 set(needed libeigen3-dev libfmt-dev libtbb-dev libtinyobjloader-dev libosmesa6-dev libexpat1-dev libcli11-dev
     nlohmann-json3-dev)
 if(REND_PNG)
@@ -39,7 +37,7 @@ endif()
 if(REND_VIDEO)
   list(APPEND needed libavcodec-dev libavformat-dev libavfilter-dev libavutil-dev)
 endif()
-if(TARGET rend_imgui)
+if(hud)
   list(APPEND needed libimgui-dev)
 endif()
 string(JOIN ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ${needed})
