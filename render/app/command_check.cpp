@@ -3,6 +3,7 @@
 #include "render/app/check_run.h"
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/json_text.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/signals.h"
@@ -176,10 +177,10 @@ Exit check(const CheckOptions& options) {
   const double seconds = wall_clock() - start;
   const nlohmann::ordered_json json = check_json(chapters, seconds);
   if (!options.folder.empty()) {
-    write_whole(fs::path(options.folder) / "check.json", json.dump(2) + "\n");
+    write_whole(fs::path(options.folder) / "check.json", text_of(json, 2) + "\n");
     write_whole(fs::path(options.folder) / "index.html", check_page(chapters, seconds, true));
   }
-  print_result(options.json ? json.dump(2) + "\n" : summary_of(chapters, seconds, options.folder));
+  print_result(options.json ? text_of(json, 2) + "\n" : summary_of(chapters, seconds, options.folder));
   return count(chapters).failed > 0 ? Exit::No : Exit::Done;
 }
 

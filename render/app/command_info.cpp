@@ -2,6 +2,7 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/inventory.h"
+#include "render/app/json_text.h"
 
 #include <CLI/CLI.hpp>
 
@@ -19,7 +20,7 @@ Exit info(InfoOptions options) {
   options.session.quiet = true; // notes are part of the answer
   Session session(options.session);
   const nlohmann::ordered_json inventory = inventory_of(session);
-  print_result(options.json ? inventory.dump(2) + "\n" : inventory_in_words(inventory));
+  print_result(options.json ? text_of(inventory, 2) + "\n" : inventory_in_words(inventory));
   return Exit::Done;
 }
 

@@ -3,6 +3,7 @@
 #include "render/app/console.h"
 #include "render/app/figures.h"
 #include "render/app/film.h"
+#include "render/app/json_text.h"
 #include "render/app/output_folder.h"
 #include "render/app/session.h"
 #include "render/app/shard.h"
@@ -100,7 +101,7 @@ void print_figures(const RenderOptions& options, const Session& session, const S
     if (!shoot.simulates()) leave_out_state(figures);
     figures["frames"] = shoot.made();
     figures["kept"] = shoot.kept();
-    print_result(figures.dump(2) + "\n");
+    print_result(text_of(figures, 2) + "\n");
   } else if (!session.quiet()) {
     print_result(closing_words(shoot, files, total));
   }

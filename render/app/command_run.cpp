@@ -3,6 +3,7 @@
 #include "render/app/console.h"
 #include "render/app/export_series.h"
 #include "render/app/figures.h"
+#include "render/app/json_text.h"
 #include "render/app/progress.h"
 #include "render/app/records.h"
 #include "render/app/session.h"
@@ -86,7 +87,7 @@ Exit run(const RunOptions& options) {
   nlohmann::ordered_json figures = figures_of(session, stopped, costs);
   if (series) figures["export"] = series->figures();
   if (options.json)
-    print_result(figures.dump(2) + "\n");
+    print_result(text_of(figures, 2) + "\n");
   else
     print_result(summary_of(figures) + (options.profile ? profile_of(figures) : ""));
   const Exit end = end_of(session, stopped);

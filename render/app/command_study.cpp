@@ -1,6 +1,7 @@
 // rend study: error against run time.
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/json_text.h"
 #include "render/app/lean_report.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
@@ -86,7 +87,7 @@ Exit stopped(Teller& teller) {
 }
 
 // The preset as it stands in its file.
-std::string text_of(const fs::path& path) {
+std::string content_of(const fs::path& path) {
   load_scene(path, {}); // says what is wrong with it
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -103,7 +104,7 @@ LeanPlan lean_plan(const StudyOptions& options) {
   std::vector<std::string> presets = options.further;
   if (!options.session.preset.empty()) presets.insert(presets.begin(), options.session.preset);
   for (const std::string& preset : presets)
-    plan.scenes.push_back({fs::path(preset).stem(), text_of(preset), preset});
+    plan.scenes.push_back({fs::path(preset).stem(), content_of(preset), preset});
   if (presets.empty()) plan.scenes = lean_scenes();
   return plan;
 }
@@ -124,10 +125,10 @@ Exit lean(const StudyOptions& options) {
   const Provenance provenance = provenance_of_build();
   const nlohmann::ordered_json json{{"rows", json_of(rows)}, {"provenance", json_of(provenance)}};
   write_whole(folder / "lean.csv", csv_of(rows));
-  write_whole(folder / "lean.json", json.dump(2) + "\n");
+  write_whole(folder / "lean.json", text_of(json, 2) + "\n");
   write_whole(folder / "index.html", page_of(rows, provenance));
   print_result(options.json
-                   ? json.dump(2) + "\n"
+                   ? text_of(json, 2) + "\n"
                    : table_of(rows) + fmt::format("The page is {}\n", (folder / "index.html").string()));
   const bool kept = std::all_of(rows.begin(), rows.end(), [](const LeanRow& row) { return row.as_promised(); });
   return kept ? Exit::Done : Exit::No;
@@ -163,11 +164,11 @@ Exit study(const StudyOptions& options) {
   json["findings"] = findings_of(report);
   json["provenance"] = json_of(provenance);
   write_whole(folder / "study.csv", csv_of(report));
-  write_whole(folder / "study.json", json.dump(2) + "\n");
+  write_whole(folder / "study.json", text_of(json, 2) + "\n");
   write_whole(folder / "index.html",
               page_of(report, task.name, write_plots(report, task.name, folder), provenance));
   if (options.json) {
-    print_result(json.dump(2) + "\n");
+    print_result(text_of(json, 2) + "\n");
   } else {
     std::string out = fmt::format("{}: {} runs of {:.4g} s\n", task.name, report.rows.size(), report.duration);
     for (const std::string& line : findings_of(report)) out += "  " + line + "\n";

@@ -138,10 +138,6 @@ Json diff_json(const DiffReport& report) {
           {"counts", counts},     {"remarks", report.remarks}, {"cases", cases}};
 }
 
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string diff_text(const DiffReport& report) {
   std::string out;
   for (const std::size_t n : failures_first(report))

@@ -1,6 +1,7 @@
 // What a comparison found: as text, JSON, JSON lines and JUnit.
 #pragma once
 
+#include "render/app/json_text.h"
 #include "render/compare/compare.h"
 #include "sim/base/error.h"
 
@@ -32,8 +33,6 @@ Exit exit_of(const DiffReport& report);
 // Name, state, figures, reasons. psnr is null where the pictures are equal (it would be infinite).
 nlohmann::ordered_json case_json(const Compared& one, bool updated);
 nlohmann::ordered_json diff_json(const DiffReport& report);
-// On one line, or indented. What is no character of UTF-8 (a name may hold any byte) becomes U+FFFD.
-std::string text_of(const nlohmann::ordered_json& json, int indent = -1);
 
 // One line a failure, then a summary; of a single pair its figures.
 std::string diff_text(const DiffReport& report);

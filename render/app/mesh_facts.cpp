@@ -1,5 +1,6 @@
 #include "render/app/mesh_facts.h"
 
+#include "render/app/json_text.h"
 #include "sim/base/wording.h"
 #include "sim/mechanics/mass.h"
 #include "sim/mesh/dart_order.h"
@@ -63,7 +64,7 @@ nlohmann::ordered_json mesh_facts(const MeshBody& mesh, const std::string& file)
 }
 
 std::string facts_in_json(const nlohmann::ordered_json& facts) {
-  return facts.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return text_of(facts, 2) + "\n";
 }
 
 std::string facts_in_words(const nlohmann::ordered_json& f) {

@@ -1,6 +1,7 @@
 #include "render/app/records.h"
 
 #include "render/app/figures.h"
+#include "render/app/json_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -108,7 +109,7 @@ void EventFile::write(const Scene& scene) {
                     {"position", {event->place.x(), event->place.y(), event->place.z()}},
                     {"fragments", event->fragments},
                     {"born", event->born}};
-    text += line.dump() + "\n";
+    text += text_of(line) + "\n";
   }
   write_text(file_, text);
   file_.commit();

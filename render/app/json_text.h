@@ -1,0 +1,13 @@
+// JSON as it is written: names of files come from outside, and may hold bytes that are no UTF-8, which JSON must be.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace rend {
+
+// On one line, or indented. What is no character of UTF-8 becomes U+FFFD.
+std::string text_of(const nlohmann::ordered_json& json, int indent = -1);
+
+} // namespace rend
