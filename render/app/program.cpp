@@ -82,6 +82,7 @@ Exit run_command_line(int count, const char* const* arguments) {
 } // namespace
 
 int run_program(int count, const char* const* arguments) {
+  keep_standard_streams();
   catch_signals();
   const auto end = [](Exit code) { return static_cast<int>(code); };
   try {
