@@ -25,20 +25,35 @@ std::string shown(const RawElement& element) {
 // One --set on its way down the tree.
 class Path {
 public:
-  Path(RawElement& root, const Override& override)
-      : root_(root), value_(override.value), place_{"--set " + override.path + "=" + override.value, 0, 0},
+  explicit Path(const Override& override)
+      : value_(override.value), place_{"--set " + override.path + "=" + override.value, 0, 0},
         parts_(split(override.path)) {}
 
-  void apply() {
-    std::size_t first = 0;
-    const bool names_root = parts_.size() > 1 && parts_[0].name == root_.type->name && !parts_[0].which;
-    if (names_root) first = 1;
-    RawElement* element = &root_;
-    for (std::size_t i = first; i + 1 < parts_.size(); ++i) element = &step(*element, parts_[i]);
+  void apply(RawElement& root) const {
+    RawElement* element = &root;
+    for (std::size_t i = first_below(*root.type); i + 1 < parts_.size(); ++i)
+      element = &step(*element, parts_[i]);
     element->set(attribute(*element->type, parts_.back()), value_, place_);
   }
 
+  // As far as the table alone can tell.
+  const ElementType& element(const ElementType& root) const {
+    const ElementType* element = &root;
+    for (std::size_t i = first_below(root); i + 1 < parts_.size(); ++i)
+      element = child_type(*element, parts_[i].name).type;
+    return *element;
+  }
+  const AttributeType& attribute(const ElementType& element) const { return attribute(element, parts_.back()); }
+  void check(const ElementType& root) const {
+    const ElementType& type = element(root);
+    Node(type, place_).set(attribute(type), value_, place_);
+  }
+
 private:
+  std::size_t first_below(const ElementType& root) const { // the root's own name may come first
+    return parts_.size() > 1 && parts_[0].name == root.name && !parts_[0].which ? 1 : 0;
+  }
+
   [[noreturn]] void fail(const std::string& what, const std::string& hint = {}) const {
     throw UserError(Exit::Usage, place_, what, hint);
   }
@@ -142,7 +157,6 @@ private:
                        : suggestion(part.name, names, fmt::format("<{}> has", element.name)));
   }
 
-  RawElement& root_;
   const std::string& value_;
   Place place_; // the command line's words
   std::vector<Part> parts_;
@@ -162,7 +176,16 @@ Override parse_override(std::string_view text) {
 }
 
 void apply_overrides(RawElement& root, std::span<const Override> overrides) {
-  for (const Override& one : overrides) Path(root, one).apply();
+  for (const Override& one : overrides) Path(one).apply(root);
+}
+
+const AttributeType& overridden(const ElementType& root, const Override& one) {
+  const Path path(one);
+  return path.attribute(path.element(root));
+}
+
+void check_override(const ElementType& root, const Override& one) {
+  Path(one).check(root);
 }
 
 } // namespace rend
