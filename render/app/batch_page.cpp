@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstring>
 
 namespace rend {
 namespace {
@@ -70,11 +72,15 @@ Tone tone_of(const std::string& state) {
                                : Tone::Bad;
 }
 
-// The first line of what it said went wrong.
+// The first line of what it said went wrong; of one that was ended from outside, by what.
 std::string message_of(const BatchResult& result) {
   const std::string mark = "rend: error: ";
   const std::size_t at = result.err.rfind(mark);
-  if (at == std::string::npos) return {};
+  if (at == std::string::npos) {
+    const int signal = result.code - 128;
+    if (!result.ran || signal <= 0 || signal >= NSIG) return {};
+    return fmt::format("it was ended by signal {} ({}), not by this batch", signal, ::strsignal(signal));
+  }
   const std::size_t begin = at + mark.size();
   return result.err.substr(begin, result.err.find('\n', begin) - begin);
 }
@@ -113,9 +119,9 @@ bool failed(const BatchResult& result) {
 }
 
 Json line_of(const BatchJob& job, const BatchResult& result) {
-  Json line{{"job", job.name},           {"preset", job.preset}, {"set", job.sets},
-            {"state", state_of(result)}, {"code", result.code},  {"seconds", result.seconds},
-            {"peak_bytes", result.peak}};
+  Json line{{"job", job.name},           {"preset", job.preset},     {"set", job.sets},
+            {"state", state_of(result)}, {"code", result.code},      {"tries", result.tries},
+            {"seconds", result.seconds}, {"peak_bytes", result.peak}};
   const Json figures = Json::parse(result.out, nullptr, false);
   if (figures.is_object())
     for (const char* name : {"frames", "kept", "steps", "time", "tears", "hash"})

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <thread>
 
 namespace rend {
@@ -17,14 +16,6 @@ constexpr std::size_t unknown = std::size_t{200}
 constexpr std::chrono::milliseconds pause_between(10); // looks
 
 } // namespace
-
-std::size_t available_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string name;
-  for (std::size_t kilobytes = 0; file >> name >> kilobytes; file.ignore(64, '\n'))
-    if (name == "MemAvailable:") return kilobytes * 1024;
-  return std::size_t{1} << 30U;
-}
 
 BatchQueue::BatchQueue(const std::vector<BatchJob>& jobs, const BatchLimits& limits, CommandOf command,
                        Done done)
@@ -69,12 +60,15 @@ void BatchQueue::finish(Running& one) {
   const std::string& preset = jobs_[one.job].preset;
   peaks_[preset] = std::max(peaks_[preset], result.peak);
   const bool stopped = one.child.code() == 128 + SIGTERM || one.child.code() == 128 + SIGINT;
-  if (stopped && one.stopped && stop_signal() == 0) { // goes on when there is room
-    again_[one.job] = true;
+  ++result.tries;
+  // To go on when there is room: from its checkpoint, if it wrote one. It did where it told its figures, and did not where
+  // it was still building its scene; a checkpoint that is there all the same is of an earlier batch.
+  if (stopped && one.stopped && stop_signal() == 0) {
+    again_[one.job] = again_[one.job] || !one.child.out().empty();
     waiting_.push_back(one.job);
     return;
   }
-  result.ran = !stopped;
+  result.ran = !(stopped && stop_signal() != 0);
   result.code = one.child.code();
   result.out = one.child.out();
   result.err = one.child.err();

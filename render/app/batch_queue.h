@@ -24,18 +24,17 @@ struct BatchLimits {
 };
 
 struct BatchResult {
-  bool ran = false;     // to its end, whatever that was
+  bool ran = false;     // to its end, whatever that was; not: it was stopped with the batch, or not begun
+  int tries = 0;        // how often it was begun: more than once where it had to make room
   int code = 0;         // exit code
   double seconds = 0;   // on the clock, of all its tries
   std::size_t peak = 0; // [bytes]
   std::string out, err;
 };
 
-std::size_t available_memory(); // [bytes], by the system's word
-
 class BatchQueue {
 public:
-  // `command`: the arguments of a job's program; `again`: it was stopped for want of room.
+  // `command`: the arguments of a job's program; `again`: it was stopped for want of room, and left a checkpoint.
   using CommandOf = std::function<std::vector<std::string>(const BatchJob& job, bool again)>;
   using Done = std::function<void(std::size_t job, const BatchResult& result)>;
   BatchQueue(const std::vector<BatchJob>& jobs, const BatchLimits& limits, CommandOf command, Done done);

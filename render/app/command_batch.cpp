@@ -1,9 +1,13 @@
 // rend batch: many presets, beside each other.
+#include "render/app/available_memory.h"
 #include "render/app/batch_page.h"
 #include "render/app/batch_queue.h"
+#include "render/app/clock.h"
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/json_text.h"
 #include "render/app/output_folder.h"
+#include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/shard.h"
 #include "render/app/signals.h"
@@ -12,11 +16,13 @@
 #include "render/png.h"
 #include "render/video.h"
 #include "render/video_format.h"
+#include "sim/base/wording.h"
 #include "sim/program/threads.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <csignal>
 #include <memory>
 
@@ -33,22 +39,20 @@ struct BatchOptions {
   bool no_png = false, allow_path = false, resume = false, json = false, quiet = false;
 };
 
-// "800M", "4G": bytes.
+// "800M", "4G", "1.5G": bytes.
 std::size_t parse_memory(const std::string& text) {
   const std::string units = "kMG";
-  std::size_t used = 0;
-  double number = 0;
-  try {
-    number = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  const std::size_t unit = used + 1 == text.size() ? units.find(text.back()) : std::string::npos;
-  if (used == 0 || !(number > 0) || number > 1e15 || (used < text.size() && unit == std::string::npos))
-    throw UserError(Exit::Usage, {}, fmt::format("--memory '{}' is no amount of memory", text),
+  constexpr double most = 1e18; // [bytes], within what a size_t holds
+  double bytes = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data(), end, bytes, std::chars_format::fixed);
+  const std::size_t unit = after + 1 == end ? units.find(*after) : std::string::npos;
+  const bool whole = error == std::errc() && (after == end || unit != std::string::npos);
+  for (std::size_t n = 0; unit != std::string::npos && n <= unit; ++n) bytes *= 1024;
+  if (!whole || !(bytes >= 1 && bytes <= most)) // nor what is no number
+    throw UserError(Exit::Usage, {}, fmt::format("--memory {} is no amount of memory", in_quotes(text)),
                     "an amount is such as 800M or 4G");
-  for (std::size_t n = 0; unit != std::string::npos && n <= unit; ++n) number *= 1024;
-  return static_cast<std::size_t>(number);
+  return static_cast<std::size_t>(bytes);
 }
 
 BatchLimits limits_of(const BatchOptions& options) {
@@ -59,10 +63,9 @@ BatchLimits limits_of(const BatchOptions& options) {
 }
 
 // Those of this shard. Where there are fewer jobs than shards, all of them: then each makes its part of their frames.
-std::vector<BatchJob> jobs_of(const BatchOptions& options, const Shard& shard, bool& frames_are_shared) {
-  std::vector<Sweep> sweeps;
-  for (const std::string& text : options.sweeps) sweeps.push_back(parse_sweep(text));
-  const std::vector<BatchJob> all = batch_jobs(options.inputs, sweeps);
+std::vector<BatchJob> jobs_of(const BatchOptions& options, const BatchSettings& settings, const Shard& shard,
+                              bool& frames_are_shared) {
+  const std::vector<BatchJob> all = batch_jobs(options.inputs, settings.sweeps);
   frames_are_shared = !shard.whole() && static_cast<long>(all.size()) < shard.count;
   if (frames_are_shared) return all;
   std::vector<BatchJob> ours;
@@ -71,15 +74,16 @@ std::vector<BatchJob> jobs_of(const BatchOptions& options, const Shard& shard, b
   return ours;
 }
 
-std::vector<std::string> arguments_of(const BatchOptions& options, const BatchLimits& limits,
-                                      const BatchJob& job, const Shard& frames, bool resume) {
+std::vector<std::string> arguments_of(const BatchOptions& options, const BatchSettings& settings,
+                                      const BatchLimits& limits, const BatchJob& job, const Shard& frames,
+                                      bool resume) {
   std::vector<std::string> words{
       "render", job.preset, "-o",      (fs::path(options.folder) / job.name).string(),
       "--json", "-q",       "--shard", frames.text()};
   const auto pass = [&](const char* name, const std::string& value) {
     if (!value.empty()) words.insert(words.end(), {name, value});
   };
-  for (const std::string& set : options.sets) pass("--set", set);
+  for (const std::string& set : settings.sets) pass("--set", set);
   for (const std::string& set : job.sets) pass("--set", set);
   pass("--frames", options.frames);
   pass("--size", options.size);
@@ -94,7 +98,10 @@ std::vector<std::string> arguments_of(const BatchOptions& options, const BatchLi
   return words;
 }
 
+// What every job would find out, each for itself.
 void check(const BatchOptions& options) {
+  if (!options.frames.empty()) FrameChoice{options.frames};
+  if (!options.size.empty()) parse_size(options.size);
   if (!options.video.empty()) require_video(options.video);
   if (!options.no_png) require_png();
   if (options.no_png && options.video.empty())
@@ -116,16 +123,19 @@ std::string closing_words(const BatchReport& report, const fs::path& page) {
 
 Exit end_of(const BatchReport& report) {
   if (stop_signal() != 0) return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
-  const bool bad = std::any_of(report.results.begin(), report.results.end(), failed);
-  return bad ? Exit::No : Exit::Done;
+  const bool all = std::all_of(report.results.begin(), report.results.end(),
+                               [](const BatchResult& result) { return state_of(result) == "done"; });
+  return all ? Exit::Done : Exit::No;
 }
 
 Exit batch(const BatchOptions& options) {
   const double start = wall_clock();
   check(options);
+  const BatchSettings settings = batch_settings(scene_type(), options.sets, options.sweeps);
   const Shard shard = shard_for(options.shard);
   bool frames_are_shared = false;
-  BatchReport report{options.folder, jobs_of(options, shard, frames_are_shared), {}, limits_of(options), 0};
+  BatchReport report{
+      options.folder, jobs_of(options, settings, shard, frames_are_shared), {}, limits_of(options), 0};
   if (frames_are_shared && !options.video.empty())
     throw UserError(Exit::Usage, {},
                     "there are fewer jobs than shards, so that these share frames; a video is of all",
@@ -137,11 +147,11 @@ Exit batch(const BatchOptions& options) {
   BatchQueue queue(
       report.jobs, report.limits,
       [&](const BatchJob& job, bool again) {
-        return arguments_of(options, report.limits, job, frames, options.resume || again);
+        return arguments_of(options, settings, report.limits, job, frames, options.resume || again);
       },
       [&](std::size_t n, const BatchResult& result) {
         ++finished;
-        if (options.json) print_result(line_of(report.jobs[n], result).dump() + "\n");
+        if (options.json) print_result(text_of(line_of(report.jobs[n], result)) + "\n");
         if (!options.quiet)
           fmt::print(stderr, "{:>3} of {}  {:8}  {:>8}  {}\n", finished, report.jobs.size(), state_of(result),
                      seconds_in_words(result.seconds), report.jobs[n].name);
@@ -161,7 +171,8 @@ void declare_passed_on(CLI::App& app, BatchOptions& options) {
   app.add_option("--size", options.size, "of the pictures in pixels, instead of the presets'")
       ->type_name("WxH");
   app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the presets'")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(CLI::Range(1e-6, 1e6));
   app.add_option("--video", options.video, "also a video of each job")
       ->type_name(choices(video_format_names()));
   app.add_flag("--no-png", options.no_png, "the videos alone");
@@ -169,7 +180,9 @@ void declare_passed_on(CLI::App& app, BatchOptions& options) {
                  "threads of each simulation; default: one, where jobs run in parallel")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
-  app.add_option("--checkpoint-every", options.checkpoint_every, "as of rend render")->type_name("S");
+  app.add_option("--checkpoint-every", options.checkpoint_every, "as of rend render")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e9));
   app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the presets' folders, too");
 }
 
@@ -179,11 +192,14 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option("-o,--output", options->folder, "folder of all jobs' folders, and of index.html")
       ->type_name("DIR")
       ->capture_default_str();
-  app.add_option("--set", options->sets, "replace an attribute in all jobs (any number of times)")
+  app.add_option(
+         "--set", options->sets,
+         "replace an attribute in all jobs (any number of times); several values with commas are a sweep, "
+         "unless the attribute is a free text")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   app.add_option("--sweep", options->sweeps,
-                 "one job for each of these values of an attribute; several sweeps are crossed")
+                 "one job for each of these values of an attribute, free texts too; several sweeps are crossed")
       ->type_name("PATH=V,V,...")
       ->allow_extra_args(false);
   app.add_option("-j,--jobs", options->jobs, "jobs at once; default: as many as the machine has threads")
