@@ -1,5 +1,7 @@
 #include "render/app/available_memory.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <limits>
@@ -64,7 +66,7 @@ std::vector<Mount> mounts_of(const fs::path& root) {
     }
     words >> type >> source >> options;
     mount.is_2 = type == "cgroup2";
-    const bool is_1 = type == "cgroup" && ("," + options + ",").find(",memory,") != std::string::npos;
+    const bool is_1 = type == "cgroup" && fmt::format(",{},", options).find(",memory,") != std::string::npos;
     if (mount.is_2 || is_1) all.push_back(mount);
   }
   return all;
@@ -94,7 +96,7 @@ std::size_t room_of_groups(const fs::path& root) {
   for (std::string line; std::getline(file, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
     const bool is_2 = controllers == ",,", is_1 = controllers.find(",memory,") != std::string::npos;
     for (const Mount& mount : mounts)
       if (mount.is_2 ? is_2 : is_1) least = std::min(least, room_below(root, mount, line.substr(second + 1)));

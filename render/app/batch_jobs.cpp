@@ -152,7 +152,7 @@ std::vector<BatchJob> batch_jobs(const std::vector<std::string>& inputs, const s
   for (const Input& input : presets_of(inputs)) {
     for (const auto& sets : crossed(sweeps)) {
       std::string name = input.name;
-      for (const std::string& set : sets) name += "_" + words_of(set);
+      for (const std::string& set : sets) name += fmt::format("_{}", words_of(set));
       std::string own = folder_of(name);
       for (int n = 2; !names.insert(own).second; ++n) own = folder_of(fmt::format("{}-{}", name, n));
       jobs.push_back({own, input.file, sets});

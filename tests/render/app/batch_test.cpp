@@ -353,9 +353,11 @@ TEST_F(Batch, several_values_of_a_set_are_a_sweep_where_a_comma_is_no_part_of_a_
       scene_type(), {"time.step=1e-3,2e-3", "name=a,b", "time.duration=1", "image.samples=1,4"}, {"name=c,d"});
   EXPECT_THAT(settings.sets, ElementsAre("name=a,b", "time.duration=1"));
   std::vector<std::string> swept;
-  for (const Sweep& sweep : settings.sweeps)
-    swept.push_back(fmt::format("{}={}", sweep.path, fmt::join(sweep.values, "|")));
-  EXPECT_THAT(swept, ElementsAre("time.step=1e-3|2e-3", "image.samples=1|4", "name=c|d"));
+  for (const Sweep& sweep : settings.sweeps) {
+    swept.push_back(sweep.path);
+    swept.insert(swept.end(), sweep.values.begin(), sweep.values.end());
+  }
+  EXPECT_THAT(swept, ElementsAre("time.step", "1e-3", "2e-3", "image.samples", "1", "4", "name", "c", "d"));
 }
 
 } // namespace
