@@ -6,13 +6,49 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace rend {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string reason() {
   return std::strerror(errno);
+}
+
+// "x.2.part" of "x.part".
+fs::path numbered(const fs::path& temporary, int n) {
+  if (n == 1) return temporary;
+  return temporary.parent_path() /
+         (temporary.stem().string() + "." + std::to_string(n) + temporary.extension().string());
+}
+
+// Whether a file that was opened still has that name: who had it before may have renamed it meanwhile.
+bool is_called(int file, const fs::path& path) {
+  struct stat ours {
+  }, there{};
+  return ::fstat(file, &ours) == 0 && ::stat(path.c_str(), &there) == 0 && ours.st_ino == there.st_ino &&
+         ours.st_dev == there.st_dev;
+}
+
+// A descriptor of a temporary file that no running program writes to, and empty; -1, with errno. Where files cannot be
+// locked (some network file systems) it is the first.
+int open_free(const fs::path& wanted, fs::path& temporary) {
+  constexpr int most = 1000; // programs that write the same file at once, or change it while we look
+  for (int n = 1, tries = 0; tries < most; ++tries) {
+    temporary = numbered(wanted, n);
+    const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0) return -1;
+    const bool taken = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!taken && is_called(file, temporary) && ::ftruncate(file, 0) == 0) return file;
+    ::close(file);
+    n += taken;
+  }
+  errno = EBUSY;
+  return -1;
 }
 
 } // namespace
@@ -34,7 +70,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
     throw UserError(
         Exit::CannotCreate, {path_.string()}, "this is no ordinary file, and would be replaced by one.",
         "Name a file; what is written appears whole or not at all, which a pipe or device cannot do.");
-  file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  file_ = open_free(fs::path(temporary_), temporary_);
   if (file_ < 0)
     throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",
                     "Check that the folder is there and may be written to.");
@@ -42,8 +78,8 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
 
 OutputFile::~OutputFile() {
   if (file_ < 0) return;
+  ::unlink(temporary_.c_str()); // while it is ours
   ::close(file_);
-  ::unlink(temporary_.c_str());
 }
 
 void OutputFile::write(std::span<const std::uint8_t> bytes) {
@@ -72,6 +108,14 @@ void OutputFile::commit() {
   if (!kept)
     throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why + ".",
                     "Check that the folder is still there and has room.");
+}
+
+void remove_leftover(const fs::path& path) {
+  const fs::path temporary = path.string() + ".part";
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) return;
+  if (::flock(file, LOCK_EX | LOCK_NB) == 0 && is_called(file, temporary)) ::unlink(temporary.c_str());
+  ::close(file);
 }
 
 void write_whole(const std::filesystem::path& path, const std::string& bytes) {

@@ -3,7 +3,8 @@
 // It is written under a temporary name in the same folder (only a rename within one file system is atomic),
 // brought to the disk, and renamed. Until commit() the old file, if any, is untouched; without commit() the
 // temporary file is removed. The temporary name is fixed (name + ".part"), so that what a killed run leaves
-// behind is overwritten by the next and never piles up.
+// behind is overwritten by the next and never piles up. It is locked while it is written (flock(2), which ends with the
+// program): should two programs write the same file at once, the second takes NAME.2.part, and the last to end wins.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +35,9 @@ private:
   std::filesystem::path path_, temporary_;
   int file_ = -1; // descriptor; -1 once it is closed
 };
+
+// Removes the temporary file of a run that was killed; one that is being written stays.
+void remove_leftover(const std::filesystem::path& path);
 
 // The whole file at once. Throws as OutputFile does.
 void write_whole(const std::filesystem::path& path, const std::string& bytes);

@@ -3,6 +3,7 @@
 #include "render/app/console.h"
 #include "render/app/progress.h"
 #include "render/app/signals.h"
+#include "render/output.h"
 #include "render/video.h"
 
 #include <fmt/format.h>
@@ -61,7 +62,7 @@ void Shoot::remove_checkpoint() const {
   if (!keeps_checkpoints()) return;
   std::error_code error;
   fs::remove(checkpoint_, error);
-  fs::remove(checkpoint_.string() + ".part", error);
+  remove_leftover(checkpoint_);
 }
 
 void Shoot::checkpoint(long next) {

@@ -29,6 +29,33 @@ TEST(OutputFile, LeavesNothingWhenItIsGivenUp) {
   EXPECT_EQ(folder.files(), 0);
 }
 
+TEST(OutputFile, TwoThatWriteTheSameFileAtOnceDoNotDisturbEachOther) {
+  const test::Folder folder;
+  OutputFile first(folder / "x");
+  first.write(bytes);
+  {
+    OutputFile second(folder / "x"), third(folder / "x");
+    EXPECT_EQ(first.temporary(), folder / "x.part");
+    EXPECT_EQ(second.temporary(), folder / "x.2.part");
+    EXPECT_EQ(third.temporary(), folder / "x.3.part");
+    remove_leftover(folder / "x"); // it is none
+    second.write(bytes);
+    second.write(bytes);
+    second.commit();
+    EXPECT_EQ(std::filesystem::file_size(folder / "x"), 6u);
+  }
+  first.commit();
+  EXPECT_EQ(std::filesystem::file_size(folder / "x"), 3u);
+  EXPECT_EQ(folder.files(), 1);
+}
+
+TEST(OutputFile, ALeftoverGoes) {
+  const test::Folder folder;
+  write_whole(folder / "x.part", "of a killed run");
+  remove_leftover(folder / "x");
+  EXPECT_EQ(folder.files(), 0);
+}
+
 TEST(OutputFile, OverwritesWhatAKilledRunLeftBehind) {
   const test::Folder folder;
   for (int run = 0; run < 2; ++run) {

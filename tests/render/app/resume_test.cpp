@@ -281,11 +281,11 @@ TEST_F(Resume, a_checkpoint_of_something_else_is_refused_and_nothing_is_lost) {
 }
 
 // A run in this process, its pictures left out.
-struct StoredRun {
+struct Made {
   Session session;
   Film film;
   std::string key;
-  explicit StoredRun(const Place& place)
+  explicit Made(const Place& place)
       : session(quietly(place)), film(session, files_in(place), FramePlan{}),
         key(picture_key(session, 64, 48, 1)) {}
   static SessionOptions quietly(const Place& place) {
@@ -306,7 +306,7 @@ struct StoredRun {
 
 TEST_F(Resume, a_checkpoint_s_next_frame_and_state_are_of_the_same_bytes) {
   const fs::path path = place.path() / "one.checkpoint";
-  StoredRun from(place), to(place);
+  Made from(place), to(place);
   from.session.run(5, {[](long) {}, {}});
   write_checkpoint(path, from.key, 6, from.session, from.film);
   const std::uint64_t fresh = to.session.scene().hash();
@@ -331,7 +331,7 @@ TEST_F(Resume, a_checkpoint_s_next_frame_and_state_are_of_the_same_bytes) {
 }
 
 TEST_F(Resume, the_best_checkpoint_is_the_run_s_own_then_the_latest_of_the_others) {
-  StoredRun run(place);
+  Made run(place);
   fs::create_directories(place.path() / "c");
   const auto write = [&](const char* name, long next) {
     write_checkpoint(place.path() / "c" / name, run.key, next, run.session, run.film);
