@@ -1,6 +1,7 @@
 #include "render/app/film.h"
 
 #include "render/app/console.h"
+#include "render/app/picture_check.h"
 #include "sim/base/archive.h"
 #include "sim/base/check.h"
 
@@ -14,7 +15,9 @@ Film::Film(Session& session, const PipelineOptions& options, const FramePlan& pl
              session.clock().duration(), session.clock().frames()) {
   check_pipeline(options);
   if (session.quiet()) return;
-  for (const std::string& note : session.picture_notes()) print_note(note);
+  const double aspect = static_cast<double>(options.width) / options.height;
+  for (const std::string& note : picture_notes(session.preset(), session.scene(), aspect, session.clock()))
+    print_note(note);
 }
 
 Film::~Film() {

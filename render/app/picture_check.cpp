@@ -73,12 +73,16 @@ public:
   Check(const Node& preset, const Scene& scene, double aspect, const FrameClock& clock)
       : scene_(scene), camera_(preset.child("camera")), viewpoint_(preset, scene, aspect, clock.duration()),
         clock_(clock), aspect_(aspect), skin_(scene) {
-    for (const auto& body : scene.bodies()) bounds_.push_back(bounds_of(*body));
+    if (has_eye())
+      for (const auto& body : scene.bodies()) bounds_.push_back(bounds_of(*body));
+  }
+
+  void check_camera() {
+    if (has_eye()) check_first_eye();
   }
 
   std::vector<std::string> notes() {
-    if (camera_ && (camera_->given("eye") || !camera_->all("key").empty())) {
-      check_first_eye();
+    if (has_eye()) {
       look_from_first();
       follow_the_way();
     }
@@ -87,6 +91,8 @@ public:
   }
 
 private:
+  bool has_eye() const { return camera_ && (camera_->given("eye") || !camera_->all("key").empty()); }
+
   // The first solid around an eye.
   std::optional<std::size_t> around(const Vec3& eye) {
     for (std::size_t n = 0; n < bounds_.size(); ++n)
@@ -175,8 +181,12 @@ private:
 
 } // namespace
 
-std::vector<std::string> check_pictures(const Node& preset, const Scene& scene, double aspect,
-                                        const FrameClock& clock) {
+void check_camera(const Node& preset, const Scene& scene, double aspect, const FrameClock& clock) {
+  if (preset.child("camera")) Check(preset, scene, aspect, clock).check_camera();
+}
+
+std::vector<std::string> picture_notes(const Node& preset, const Scene& scene, double aspect,
+                                       const FrameClock& clock) {
   return Check(preset, scene, aspect, clock).notes();
 }
 

@@ -13,9 +13,12 @@
 
 namespace rend {
 
-// UserError with the camera's place where its eye is inside of a solid in the first picture. Notes on the rest.
-// aspect: width / height.
-std::vector<std::string> check_pictures(const Node& preset, const Scene& scene, double aspect,
-                                        const FrameClock& clock);
+// UserError with the camera's place where there is no way to look, or the first picture's eye, if it is given, is inside
+// of a solid. Cheap, and of no picture's size: asked of every preset.
+void check_camera(const Node& preset, const Scene& scene, double aspect, const FrameClock& clock);
+
+// What is to be told to who makes pictures. aspect: width / height.
+std::vector<std::string> picture_notes(const Node& preset, const Scene& scene, double aspect,
+                                       const FrameClock& clock);
 
 } // namespace rend

@@ -86,8 +86,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
   clock_ = std::make_unique<FrameClock>(duration, step, image_.fps);
-  picture_notes_ =
-      check_pictures(*preset_, *scene_, static_cast<double>(image_.width) / image_.height, *clock_);
+  check_camera(*preset_, *scene_, static_cast<double>(image_.width) / image_.height, *clock_);
   if (options.quiet) return;
   for (const std::string& note : scene_->notes()) print_note(note);
   for (const auto& body : scene_->bodies())

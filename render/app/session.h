@@ -51,7 +51,6 @@ public:
   const FrameClock& clock() const { return *clock_; }
   const ImageSettings& image() const { return image_; }
   bool quiet() const { return options_.quiet; }
-  const std::vector<std::string>& picture_notes() const { return picture_notes_; } // of those who make pictures
 
   // Called in the time loop.
   struct Calls {
@@ -77,7 +76,6 @@ private:
   std::unique_ptr<Scene> scene_; // reads from the preset for as long as it lives
   std::unique_ptr<FrameClock> clock_;
   ImageSettings image_;
-  std::vector<std::string> picture_notes_;
   std::optional<Unstable> failure_;
   double step_seconds_ = 0;
 };

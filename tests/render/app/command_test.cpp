@@ -100,6 +100,9 @@ TEST_F(Program, NotesThatPicturesWillShowNothing) {
   const std::string away = "--set camera.eye='0 0 3' --set camera.target='0 0 6'";
   EXPECT_THAT(place.rend(line + away).err, AllOf(HasSubstr("the camera sees nothing of any body"),
                                                  HasSubstr("body 'cloth' is between (0, ")));
+  const std::string beside = "--set camera.eye='2 -3 0.5' --set camera.target='2 0 0.5' --set camera.fov=20 ";
+  EXPECT_THAT(place.rend(line + beside).err, HasSubstr("the camera sees nothing of any body"));
+  EXPECT_THAT(place.rend(line + beside + "--size 256x48").err, testing::Not(HasSubstr("sees nothing")));
   const std::string near =
       "--set camera.eye='0.45 0.01 0.45' --set camera.target='0.45 0 0.45'"; // within a cell
   EXPECT_THAT(place.rend(line + near).err, testing::Not(HasSubstr("sees nothing")));
