@@ -109,17 +109,19 @@ TEST(Store, a_scene_goes_on_from_any_step_with_every_scheme) {
     const std::string xml = presets::cloth(
         "quads", 4, R"(<tear criterion="global-border" threshold="0.3" max-per-step="1"/>)", time);
     const auto one = presets::load(xml);
+    int compared = 0;
     try {
-      for (int n = 0; n < 12; ++n) {
+      for (; compared < 12; ++compared) {
         const auto other = presets::load(xml);
         restore(*other.scene, stored(*one.scene));
         go(*one.scene, 1);
         go(*other.scene, 1);
         expect_same(*one.scene, *other.scene);
       }
-    } catch (const Unstable&) { // explicit and static may not get along with this cloth
-      EXPECT_TRUE(scheme.name == "explicit" || scheme.name == "static") << scheme.name;
+    } catch (const Unstable&) { // static may not get along with a cloth that tears
+      EXPECT_EQ(scheme.name, "static");
     }
+    EXPECT_GE(compared, scheme.name == "static" ? 1 : 12) << scheme.name;
   }
 }
 
