@@ -114,6 +114,7 @@ TEST(Png, WhatCannotBeReadIsSaidAsInComparisons) {
   bytes = bytes.substr(0, 16) + std::string("\0\1\0\0\0\1\0\0\10\2\0\0\0"
                                             "\xe3\xe6\xa7\xb4",
                                             17);
+  bytes += std::string("\0\0\0\0IDAT", 8);
   EXPECT_NE(said(bytes).find("65536 x 65536"), std::string::npos);
 }
 

@@ -347,6 +347,7 @@ TEST_F(Diff, updates_a_file_that_has_two_names_once) {
   put("a/in/one.png", picture());
   fs::create_directory_symlink("in", place.path() / "a/same");
   put("b/in/one.png", touched(1));
+  fs::create_directories(place.path() / "b/same");
   put("b/same/one.png", touched(2));
   const std::string before = content(place.path() / "a/in/one.png");
   const Outcome outcome = diff("a b --update in --update same");
