@@ -72,7 +72,7 @@ _rend_plain() {
 }
 
 _rend_attributes() { # WORD
-  local head plain values= value
+  local head plain value values=''
   if [[ $1 == *=* ]]; then
     _rend_plain "${1%%=*}"
     _rend_values "$plain"

@@ -41,7 +41,10 @@ std::string action(const Offer& offer) {
 // '*'{-o,--output}'[folder]:DIR:_files -/': a star where it may stand again, else the names that exclude each other.
 std::string option_words(const OptionUsage& option, const CommandUsage& program) {
   std::string names;
-  for (const std::string& name : option.names) names += fmt::format("{}{}", names.empty() ? "" : ",", name);
+  for (const std::string& name : option.names) {
+    const char* tail = option.value.empty() ? "" : name.starts_with("--") ? "=" : "+"; // --size=1x1, -o1
+    names += fmt::format("{}{}{}", names.empty() ? "" : ",", name, tail);
+  }
   if (option.names.size() > 1) names = fmt::format("{{{}}}", names);
   const std::string before = option.repeated ? "*" : fmt::format("({})", in_a_row(option.names));
   std::string takes;
