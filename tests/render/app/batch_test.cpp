@@ -243,7 +243,7 @@ class TightBatch : public Batch {
 protected:
   TightBatch() {
     std::string text = program::pulled;
-    text.replace(text.find("64 48"), 5, "1600 1200");
+    text.replace(text.find("64 48"), 5, "4800 3600");
     place.write("large.xml", text);
     const Outcome alone =
         place.rend("batch presets/a.xml large.xml -o whole -q --json --jobs 1 --set time.duration=0.15");
@@ -255,21 +255,6 @@ protected:
   }
   std::size_t small_ = 0, large_ = 0; // [bytes]
 };
-
-TEST_F(TightBatch, a_job_that_made_room_goes_on_to_the_same_pictures) {
-  NEEDS_PNG;
-  const Outcome outcome = place.rend(fmt::format("batch presets/a.xml large.xml large.xml -o tight -q --json "
-                                                 "--jobs 2 --set time.duration=0.15 --memory {}",
-                                                 large_ * 11 / 10));
-  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
-  int tries = 0;
-  for (const auto& line : lines(outcome.out)) {
-    EXPECT_EQ(line["state"], "done") << line;
-    tries += line["tries"].get<int>();
-  }
-  EXPECT_GE(tries, 4) << "none was stopped: " << outcome.out;
-  for (const char* name : {"tight/large", "tight/large-2"}) EXPECT_EQ(pictures(name), pictures("whole/large"));
-}
 
 TEST_F(TightBatch, a_job_that_made_room_before_it_had_a_checkpoint_begins_anew) {
   NEEDS_PNG;
