@@ -275,6 +275,31 @@ TEST_F(TightBatch, a_job_that_made_room_before_it_had_a_checkpoint_begins_anew) 
   EXPECT_EQ(pictures("tight/pipe"), pictures("whole/a"));
 }
 
+// The large one waits for its preset until the one begun after it is on its way, and then takes more than there is.
+TEST_F(TightBatch, a_job_that_made_room_goes_on_from_its_checkpoint) {
+  NEEDS_PNG;
+  std::string text = program::pulled;
+  text.replace(text.find("step=\"1e-3\""), 11, "step=\"2e-7\"");
+  place.write("slow.xml", text);
+  EXPECT_EQ(place.rend("render slow.xml -q -o alone --set time.duration=0.15").code, 0);
+  const std::string checkpoint = "[ -e tight/slow/pulled.checkpoint ]";
+  const Outcome outcome = place.shell(
+      fmt::format("mkfifo pipe.xml; {} batch presets/a.xml pipe.xml slow.xml -o tight -q --json --jobs 2 "
+                  "--set time.duration=0.15 --memory {} & batch=$!; ",
+                  REND_PROGRAM, large_ * 8 / 10) +
+      until("[ -e tight/slow/00000.png ]") + "timeout 20 cat large.xml > pipe.xml; " + until(checkpoint) +
+      checkpoint + " && touch it_was_there; wait $batch");
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  EXPECT_TRUE(fs::exists(place.path() / "it_was_there"));
+  for (const auto& line : lines(outcome.out)) {
+    EXPECT_EQ(line["tries"], line["job"] == "slow" ? 2 : 1) << line;
+    if (line["job"] == "slow") {
+      EXPECT_GE(line["kept"], 1) << line;
+    }
+  }
+  EXPECT_EQ(pictures("tight/slow"), pictures("alone"));
+}
+
 TEST_F(Batch, refuses_a_bad_command_line) {
   for (const auto& [line, code] :
        std::vector<std::pair<const char*, int>>{{"batch", 64},

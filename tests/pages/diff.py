@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Clicks through the page of `rend diff` in a real browser (Debian: chromium, chromium-driver, python3-selenium).
 
-    page.py REND [DIR]     DIR: screenshots are left there
+    diff.py REND [DIR]     DIR: screenshots are left there
 
 Three pictures differ, one of each other state; every way of looking is clicked, the slider moved, the worst place and
 another one enlarged, a table sorted. What is seen is read back from the screen, as pixels. Exits 1 with what is wrong.
@@ -15,8 +15,9 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
+
+from browser import browser, check, screenshots
 
 WIDTH, HEIGHT = 320, 180
 
@@ -44,16 +45,6 @@ def pictures(folder):
     (folder / "b/torn.png").write_bytes((folder / "a/torn.png").read_bytes()[:60])
 
 
-def browser():
-    options = webdriver.ChromeOptions()
-    for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1240,1000",
-                 "--force-device-scale-factor=1", "--hide-scrollbars"):
-        options.add_argument(word)
-    options.binary_location = "/usr/bin/chromium"
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-
-
 def shot(element):
     return np.asarray(Image.open(io.BytesIO(element.screenshot_as_png)).convert("RGB")).astype(int)
 
@@ -68,14 +59,6 @@ def is_like(pixel, colour):
 
 
 BLUE, RED, BLACK = (30, 60, 200), (220, 40, 30), (0, 0, 0)
-
-
-def check(what, holds):
-    print(("ok      " if holds else "WRONG   ") + what)
-    check.all = check.all and bool(holds)
-
-
-check.all = True
 
 
 def first_of_two(driver):
@@ -145,7 +128,7 @@ def tables(driver):
 
 def main():
     if len(sys.argv) not in (2, 3):
-        sys.exit("usage: page.py REND [DIR]")
+        sys.exit("usage: diff.py REND [DIR]")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         pictures(folder)
@@ -163,19 +146,6 @@ def main():
         finally:
             driver.quit()
     sys.exit(0 if check.all else 1)
-
-
-def screenshots(driver, page, folder):
-    folder.mkdir(parents=True, exist_ok=True)
-    driver.get(page.as_uri())
-    height = driver.execute_script("return document.body.scrollHeight")
-    driver.set_window_size(1240, min(height + 100, 6000))
-    driver.save_screenshot(str(folder / "page.png"))
-    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
-    driver.save_screenshot(str(folder / "page-dark.png"))
-    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                           {"width": 420, "height": 2400, "deviceScaleFactor": 1, "mobile": True})
-    driver.save_screenshot(str(folder / "page-narrow.png"))
 
 
 main()
