@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <unsupported/Eigen/BVH>
 
@@ -14,10 +15,7 @@ namespace {
 
 using Bounds = Eigen::AlignedBox3d;
 
-struct Leaf {
-  std::uint32_t body, triangle;
-};
-using Tree = Eigen::KdBVH<double, 3, Leaf>;
+using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;
 
 // Where it is in the step.
 Bounds around(const ContactBody& body, Slot v) {
@@ -34,16 +32,15 @@ Bounds grown(const Bounds& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
-// Faces whose boxes meet one box.
-struct Query {
-  Bounds box;
-  std::vector<Leaf>& found;
-  bool intersectVolume(const Bounds& volume) const { return volume.intersects(box); }
-  bool intersectObject(const Leaf& face) const {
-    found.push_back(face);
-    return false; // go on
-  }
-};
+// Calls f(object) for objects of a tree below a node, unless a box around them is apart from this one.
+template <class F> void meet(const Tree& tree, Tree::Index node, const Bounds& box, const F& f) {
+  Tree::VolumeIterator below{}, below_end{};
+  Tree::ObjectIterator object{}, object_end{};
+  tree.getChildren(node, below, below_end, object, object_end);
+  for (; below != below_end; ++below)
+    if (tree.getVolume(*below).intersects(box)) meet(tree, *below, box, f);
+  for (; object != object_end; ++object) f(*object);
+}
 
 // Whether they may come as near as `thickness` before one of them has moved by half the skin: by how far they
 // are apart at the end of the step, and how far they moved against each other in it.
@@ -71,6 +68,58 @@ double apart_at_rest(const ContactBody& body, Slot v, const ContactFaces::Triang
   const Weights w = nearest_in_triangle(x, rest[v]);
   return (rest[v].vec() - w[0] * x[0] - w[1] * x[1] - w[2] * x[2]).norm();
 }
+
+// All faces, those of each fragment in a tree of their own, and those trees in one: most faces near a vertex are those of
+// its own fragment, and are not even looked at.
+class FaceTrees {
+public:
+  struct Face {
+    std::uint32_t body, fragment, triangle;
+  };
+  FaceTrees(std::vector<Face>&& faces, const ContactPairs::Bodies& bodies, double margin)
+      : faces_(std::move(faces)) {
+    std::stable_sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) {
+      return std::tie(a.body, a.fragment) < std::tie(b.body, b.fragment);
+    });
+    for (const Face& face : faces_)
+      boxes_.push_back(
+          grown(around(*bodies[face.body], bodies[face.body]->faces.triangles()[face.triangle]), margin));
+    std::vector<std::uint32_t> each(faces_.size());
+    std::iota(each.begin(), each.end(), 0U);
+    std::vector<Bounds> whole; // of each fragment
+    for (std::size_t begin = 0, end = 0; begin < faces_.size(); begin = end) {
+      Bounds box;
+      while (end < faces_.size() && faces_[end].body == faces_[begin].body &&
+             faces_[end].fragment == faces_[begin].fragment)
+        box.extend(boxes_[end++]);
+      const auto at = static_cast<std::ptrdiff_t>(begin), to = static_cast<std::ptrdiff_t>(end);
+      trees_.emplace_back(each.begin() + at, each.begin() + to, boxes_.begin() + at, boxes_.begin() + to);
+      first_.push_back(static_cast<std::uint32_t>(begin));
+      whole.push_back(box);
+    }
+    fragments_ = Tree(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(trees_.size()), whole.begin(),
+                      whole.end());
+    whole_ = std::move(whole);
+  }
+
+  // Calls f(face) for all whose boxes meet this one, but for those of fragments for which skip(face), of any face of it.
+  template <class Skip, class F> void each_near(const Bounds& box, const Skip& skip, const F& f) const {
+    if (faces_.empty()) return;
+    meet(fragments_, fragments_.getRootIndex(), box, [&](std::uint32_t n) {
+      if (skip(faces_[first_[n]]) || !whole_[n].intersects(box)) return;
+      meet(trees_[n], trees_[n].getRootIndex(), box, [&](std::uint32_t face) {
+        if (boxes_[face].intersects(box)) f(faces_[face]);
+      });
+    });
+  }
+
+private:
+  std::vector<Face> faces_;           // sorted by body and fragment
+  std::vector<Bounds> boxes_, whole_; // [m], one per face, one per fragment
+  std::vector<Tree> trees_;           // one per fragment
+  std::vector<std::uint32_t> first_;  // one per fragment: its first face
+  Tree fragments_;
+};
 
 } // namespace
 
@@ -140,48 +189,47 @@ bool ContactPairs::stale(const Bodies& bodies) const {
 
 void ContactPairs::search(const Bodies& bodies) {
   ++searches_;
-  std::vector<Leaf> faces;
-  std::vector<Bounds> boxes;
+  std::vector<FaceTrees::Face> faces;
   double thickness = 0, sizes = 0;
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     if (!bodies[b]->settings().fragments) continue;
     thickness = std::max(thickness, bodies[b]->settings().thickness);
     const auto& triangles = bodies[b]->faces.triangles();
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-      faces.push_back({b, t});
-      boxes.push_back(around(*bodies[b], triangles[t]));
-      sizes += boxes.back().diagonal().norm();
+      faces.push_back({b, of_[b].face_fragment[t], t});
+      sizes += around(*bodies[b], triangles[t]).diagonal().norm();
     }
   }
   pairs_.clear();
   if (faces.empty()) return;
   skin_ = std::max(2 * thickness, 0.25 * sizes / static_cast<double>(faces.size()));
-  for (Bounds& box : boxes) box = grown(box, skin_ + thickness);
-  const Tree tree(faces.begin(), faces.end(), boxes.begin(), boxes.end());
-  std::vector<Leaf> found;
-  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
-    Of& of = of_[b];
-    of.there.clear();
-    for (std::size_t n = 0; n < of.vertices.size(); ++n) {
-      const Slot v = of.vertices[n];
-      of.there.push_back(bodies[b]->position(v));
-      found.clear();
-      Query query{around(*bodies[b], v), found};
-      Eigen::BVIntersect(tree, query);
-      for (const Leaf& face : found) {
-        ContactPair pair{b, v, face.body, face.triangle};
-        const ContactFaces::Triangle& triangle = bodies[face.body]->faces.triangles()[face.triangle];
-        if (allowed(bodies, n, pair) &&
-            may_meet(*bodies[b], v, *bodies[face.body], triangle, skin_ + thickness) &&
-            !joined(bodies, n, pair))
-          pairs_.push_back(pair);
-      }
-    }
+  const FaceTrees trees(std::move(faces), bodies, skin_ + thickness);
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) search_for(bodies, b, trees, skin_ + thickness);
+}
+
+template <class Trees>
+void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const Trees& trees, double reach) {
+  Of& of = of_[b];
+  of.there.clear();
+  for (std::size_t n = 0; n < of.vertices.size(); ++n) {
+    const Slot v = of.vertices[n];
+    of.there.push_back(bodies[b]->position(v));
+    const std::size_t begin = pairs_.size();
+    const auto own = [&](const FaceTrees::Face& face) {
+      return face.body == b && face.fragment == of.vertex_fragment[n] && !bodies[b]->settings().self;
+    };
+    trees.each_near(around(*bodies[b], v), own, [&](const FaceTrees::Face& face) {
+      ContactPair pair{b, v, face.body, face.triangle};
+      const ContactFaces::Triangle& triangle = bodies[face.body]->faces.triangles()[face.triangle];
+      if (allowed(bodies, n, pair) && may_meet(*bodies[b], v, *bodies[face.body], triangle, reach) &&
+          !joined(bodies, n, pair))
+        pairs_.push_back(pair);
+    });
+    std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(begin), pairs_.end(),
+              [](const ContactPair& a, const ContactPair& other) {
+                return std::tie(a.face_body, a.triangle) < std::tie(other.face_body, other.triangle);
+              });
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const ContactPair& a, const ContactPair& b) {
-    return std::tie(a.body, a.vertex, a.face_body, a.triangle) <
-           std::tie(b.body, b.vertex, b.face_body, b.triangle);
-  });
 }
 
 bool ContactPairs::same_fragment(std::size_t entry, const ContactPair& pair) const {

@@ -57,6 +57,8 @@ private:
   bool anything(const Bodies& bodies) const;
   bool stale(const Bodies& bodies) const;
   void search(const Bodies& bodies);
+  template <class Trees>
+  void search_for(const Bodies& bodies, std::uint32_t b, const Trees& trees, double reach); // body b's vertices
   bool same_fragment(std::size_t entry, const ContactPair& pair) const; // entry: of the vertex in Of::vertices
   bool allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const;
   bool joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const;

