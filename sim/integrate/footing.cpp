@@ -17,8 +17,9 @@ using Piece = std::vector<std::uint32_t>; // its vertex slots, as they are reach
 
 // Calls f(piece) for every piece, in the order of their smallest slots, until f returns true.
 template <class F> bool any_piece(const BlockPattern& pattern, const double* inverse_mass, F&& f) {
-  std::vector<bool> seen(pattern.rows(), false);
-  Piece piece;
+  thread_local std::vector<bool> seen; // kept, so that a step asks for no memory
+  thread_local Piece piece;
+  seen.assign(pattern.rows(), false);
   for (std::uint32_t first = 0; first < pattern.rows(); ++first) {
     if (seen[first] || inverse_mass[first] == 0) continue;
     piece.assign(1, first);

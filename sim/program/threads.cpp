@@ -9,7 +9,7 @@
 
 namespace rend {
 
-void in_parts(int parts, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+void in_parts(int parts, std::size_t count, PartWork work) {
   if (parts <= 1) return work(0, count);
   const auto n = static_cast<std::size_t>(parts);
   tbb::task_arena arena(std::min(parts, tbb::info::default_concurrency())); // more, and oneTBB warns on stderr

@@ -26,7 +26,7 @@ void WindLoad::rebind(const EmbeddedMap& map) {
 }
 
 void WindLoad::add(const Record* position, const Record* velocity, Record* force) const {
-  std::vector<Vec3> x, area;
+  std::vector<Vec3>&x = corners_, &area = areas_;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const std::span<const Slot> vertices = faces_[f];
     x.clear();

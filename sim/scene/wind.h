@@ -34,7 +34,8 @@ public:
 private:
   Wind wind_;
   bool sheet_;
-  CellList faces_; // of a solid, counterclockwise as seen from outside
+  CellList faces_;                            // of a solid, counterclockwise as seen from outside
+  mutable std::vector<Vec3> corners_, areas_; // [m], [m²]: scratch, one per corner of a face
 };
 
 } // namespace rend

@@ -1,0 +1,110 @@
+// A steady step asks for no memory: 100 steps after as many to warm up, of every preset of the house and every scheme.
+//
+// Steady: nothing tears and the guard throws no step away meanwhile.
+#include "render/app/preset_types.h"
+#include "sim/allocations.h"
+#include "sim/presets.h"
+#include "sim/scene/guard.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = fs::path(REND_ROOT) / "presets";
+
+std::vector<std::string> all_presets() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(root))
+    if (entry.path().extension() == ".xml")
+      names.push_back(fs::relative(entry.path(), root).replace_extension().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+constexpr long steps = 100;
+constexpr int windows = 4; // of so many steps
+
+// What makes a step another than the one before it.
+struct Events {
+  std::size_t tears;
+  long rejected, searches;
+  bool operator==(const Events&) const = default;
+  static Events of(const Scene& scene) {
+    const FragmentContact* fragments = scene.contacts() ? scene.contacts()->fragments() : nullptr;
+    return {scene.tears(), scene.guard().rejected, fragments ? fragments->searches() : 0};
+  }
+};
+
+// Who asks for memory in the steady ones among the next steps, and how often; empty: nobody.
+std::string askers(Scene& scene) {
+  long asked = 0, steady = 0;
+  std::string who;
+  for (long n = 0; n < steps; ++n) {
+    const Events before = Events::of(scene);
+    const long here = allocations::in([&] { scene.step(); });
+    if (!(Events::of(scene) == before)) continue;
+    ++steady;
+    if (here == 0) continue;
+    if (asked == 0) who = fmt::format("in step {}, {}", scene.steps_done(), allocations::who());
+    asked += here;
+  }
+  if (steady == 0) return "no step was steady";
+  return asked == 0 ? "" : fmt::format("{} times, {}", asked, who);
+}
+
+// Where something is touched for the first time, scratch arrays double: so one window of a few has to do without.
+void expect_none(Scene& scene) {
+  if (!allocations::counted) GTEST_SKIP() << "AddressSanitizer has its own allocator";
+  for (long n = 0; n < steps; ++n) scene.step();
+  std::string found = "not looked yet";
+  for (int window = 0; window < windows && !found.empty(); ++window) found = askers(scene);
+  EXPECT_EQ(found, "");
+}
+
+class SteadyPreset : public testing::TestWithParam<std::string> {};
+
+TEST_P(SteadyPreset, asks_for_no_memory) {
+  const auto preset = load_scene(root / (GetParam() + ".xml"));
+  Scene scene(*preset, SceneOptions{.threads = 2});
+  expect_none(scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SteadyPreset, testing::ValuesIn(all_presets()), [](const auto& one) {
+  std::string name = one.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+});
+
+std::vector<std::string> schemes() {
+  std::vector<std::string> names;
+  for (const Scheme& scheme : all_schemes()) names.push_back(scheme.name);
+  return names;
+}
+
+class SteadyScheme : public testing::TestWithParam<std::string> {};
+
+// Springs of every kind, a law that looks at all of them, a corner that is led, wind, and a floor below (which the static
+// solve knows not).
+TEST_P(SteadyScheme, asks_for_no_memory) {
+  const std::string contact = GetParam() == "static" ? "" : R"(<contact with="floor"/>)";
+  const std::string time = R"(<time step="1e-4" integrator=")" + GetParam() + R"(" duration="1"/>)";
+  const std::string world = R"(<world gravity="0 0 -9.81"><floor z="-1"/><wind velocity="0 1 0"/></world>)";
+  const presets::Loaded scene =
+      presets::load(presets::cloth("quads", 8, R"(<tear criterion="global-border" threshold="1e9"/>)" + contact,
+                                   world + time),
+                    {.threads = 2});
+  expect_none(*scene.scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SteadyScheme, testing::ValuesIn(schemes()));
+
+} // namespace
+} // namespace rend
