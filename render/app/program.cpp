@@ -4,6 +4,7 @@
 #include "render/app/signals.h"
 #include "render/app/version.h"
 #include "sim/base/check.h"
+#include "sim/base/simd_width.h"
 #include "sim/base/wording.h"
 
 #include <CLI/CLI.hpp>
@@ -61,6 +62,7 @@ void check_command(int count, const char* const* arguments) {
 }
 
 Exit run_command_line(int count, const char* const* arguments) {
+  simd_width(); // a wrong REND_SIMD is refused before anything is done
   check_command(count, arguments);
   std::function<Exit()> chosen;
   const std::unique_ptr<CLI::App> app = make_app(chosen);

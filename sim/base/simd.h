@@ -1,11 +1,11 @@
 // Four doubles at once, with the same bits on every processor.
 //
 // GCC's vector types are lowered to whatever the target has (two SSE registers, one AVX register); every operation
-// is the IEEE one on each lane, so that the width never shows in a result. REND_CLONES compiles a function for
-// plain x86-64 and for AVX2 and picks one when the program starts.
+// is the IEEE one on each lane, so that the width never shows in a result. simd_width.h says which target runs.
 #pragma once
 
 #include "sim/base/record.h"
+#include "sim/base/simd_width.h"
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -15,13 +15,6 @@ namespace rend {
 
 using Double4 = double __attribute__((vector_size(32)));
 using Long4 = long long __attribute__((vector_size(32)));
-
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define REND_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define REND_CLONES
-#endif
-#define REND_INLINE __attribute__((always_inline)) inline
 
 REND_INLINE Double4 load(const Record& r) {
   return *reinterpret_cast<const Double4*>(&r);

@@ -115,39 +115,20 @@ template <class Shape> REND_INLINE void run(const Scan& scan) {
   }
 }
 
-REND_CLONES void triangles(const Scan& scan) {
-  run<SimplexLanes<2>>(scan);
-}
-REND_CLONES void quads(const Scan& scan) {
-  run<QuadLanes>(scan);
-}
-REND_CLONES void tetrahedra(const Scan& scan) {
-  run<SimplexLanes<3>>(scan);
-}
-REND_CLONES void hexahedra(const Scan& scan) {
-  run<HexahedronLanes>(scan);
-}
-REND_CLONES void prisms(const Scan& scan) {
-  run<TableLanes<ElementKind::Prism, 6, 6>>(scan);
-}
-REND_CLONES void pyramids(const Scan& scan) {
-  run<TableLanes<ElementKind::Pyramid, 5, 8>>(scan);
-}
-
 void run_kind(ElementKind kind, const Scan& scan) {
   switch (kind) {
   case ElementKind::Triangle:
-    return triangles(scan);
+    return at_width<run<SimplexLanes<2>>>(scan);
   case ElementKind::Quad:
-    return quads(scan);
+    return at_width<run<QuadLanes>>(scan);
   case ElementKind::Tetrahedron:
-    return tetrahedra(scan);
+    return at_width<run<SimplexLanes<3>>>(scan);
   case ElementKind::Hexahedron:
-    return hexahedra(scan);
+    return at_width<run<HexahedronLanes>>(scan);
   case ElementKind::Prism:
-    return prisms(scan);
+    return at_width<run<TableLanes<ElementKind::Prism, 6, 6>>>(scan);
   case ElementKind::Pyramid:
-    return pyramids(scan);
+    return at_width<run<TableLanes<ElementKind::Pyramid, 5, 8>>>(scan);
   }
 }
 

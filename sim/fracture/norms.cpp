@@ -6,8 +6,9 @@
 #include <cmath>
 
 namespace rend {
+namespace {
 
-REND_CLONES double norms(const Record* force, std::size_t count, double* norm) {
+REND_INLINE double norms_of(const Record* force, std::size_t count, double* norm) {
   const Double4 axes{1, 1, 1, 0}; // the fourth lane may carry something else
   Double4 largest{};
   std::size_t v = 0;
@@ -24,6 +25,12 @@ REND_CLONES double norms(const Record* force, std::size_t count, double* norm) {
     largest[0] = std::max(largest[0], norm[v]);
   }
   return std::max(std::max(largest[0], largest[1]), std::max(largest[2], largest[3]));
+}
+
+} // namespace
+
+double norms(const Record* force, std::size_t count, double* norm) {
+  return at_width<norms_of>(force, count, norm);
 }
 
 } // namespace rend

@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-REND_CLONES void halfway(const System& system, std::size_t count, double step, const StateView& now,
+REND_INLINE void halfway(const System& system, std::size_t count, double step, const StateView& now,
                          const Record* force, State& middle) {
   const Double4 half = splat(0.5 * step);
   for (std::size_t i = 0; i < count; ++i) {
@@ -20,7 +20,7 @@ REND_CLONES void halfway(const System& system, std::size_t count, double step, c
   }
 }
 
-REND_CLONES void across(const System& system, std::size_t count, double step, const StateView& now,
+REND_INLINE void across(const System& system, std::size_t count, double step, const StateView& now,
                         const Record* force, const State& middle, State& next) {
   const Double4 h = splat(step);
   for (std::size_t i = 0; i < count; ++i) {
@@ -41,10 +41,10 @@ class Midpoint final : public Integrator {
     const std::size_t count = system.vertices();
     force_.resize(count);
     middle_.resize(count);
-    halfway(system, count, step, now, force, middle_);
+    at_width<halfway>(system, count, step, now, force, middle_);
     system.constrain(time + 0.5 * step, middle_.position.data(), middle_.velocity.data());
     system.forces(time + 0.5 * step, middle_.position.data(), middle_.velocity.data(), force_.data());
-    across(system, count, step, now, force_.data(), middle_, next);
+    at_width<across>(system, count, step, now, force_.data(), middle_, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

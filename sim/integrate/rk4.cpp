@@ -34,15 +34,15 @@ REND_INLINE void collect(const System& system, std::size_t count, const Record* 
     store(stage.velocity[i], load(now.velocity[i]) + h * a);
   }
 }
-REND_CLONES void collect_first(const System& system, std::size_t count, const Record* force,
+REND_INLINE void collect_first(const System& system, std::size_t count, const Record* force,
                                const StateView& now, double ahead, Sums& sums, State& stage) {
   collect<true>(system, count, force, now.velocity, 1, now, ahead, sums, stage);
 }
-REND_CLONES void collect_middle(const System& system, std::size_t count, const Record* force,
+REND_INLINE void collect_middle(const System& system, std::size_t count, const Record* force,
                                 const StateView& now, double ahead, Sums& sums, State& stage) {
   collect<false>(system, count, force, stage.velocity.data(), 2, now, ahead, sums, stage);
 }
-REND_CLONES void finish(const System& system, std::size_t count, const Record* force, const StateView& now,
+REND_INLINE void finish(const System& system, std::size_t count, const Record* force, const StateView& now,
                         double step, const Sums& sums, const State& stage, State& next) {
   const Double4 sixth = splat(step / 6);
   for (std::size_t i = 0; i < count; ++i) {
@@ -68,13 +68,13 @@ class RungeKutta4 final : public Integrator {
     stage_.resize(count);
     sums_.velocity.resize(count);
     sums_.acceleration.resize(count);
-    collect_first(system, count, force, now, 0.5 * step, sums_, stage_);
+    at_width<collect_first>(system, count, force, now, 0.5 * step, sums_, stage_);
     evaluate(system, time + 0.5 * step);
-    collect_middle(system, count, force_.data(), now, 0.5 * step, sums_, stage_);
+    at_width<collect_middle>(system, count, force_.data(), now, 0.5 * step, sums_, stage_);
     evaluate(system, time + 0.5 * step);
-    collect_middle(system, count, force_.data(), now, step, sums_, stage_);
+    at_width<collect_middle>(system, count, force_.data(), now, step, sums_, stage_);
     evaluate(system, time + step);
-    finish(system, count, force_.data(), now, step, sums_, stage_, next);
+    at_width<finish>(system, count, force_.data(), now, step, sums_, stage_, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 

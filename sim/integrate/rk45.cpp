@@ -111,7 +111,7 @@ REND_INLINE void go_to(std::size_t count, double h, const StateView& from, const
     store(to.velocity[i], v + step * sum_of<stage>(of_v, a, i));
   }
 }
-REND_CLONES void go_to_stage(int stage, std::size_t count, double h, const StateView& from, const Stages& a,
+REND_INLINE void go_to_stage(int stage, std::size_t count, double h, const StateView& from, const Stages& a,
                              State& to) {
   switch (stage) {
   case 1:
@@ -130,7 +130,7 @@ REND_CLONES void go_to_stage(int stage, std::size_t count, double h, const State
 }
 
 // From forces [N] to accelerations [m/s²], in place where both are one; none along held axes.
-REND_CLONES void accelerate(const System& system, std::size_t count, const Record* force,
+REND_INLINE void accelerate(const System& system, std::size_t count, const Record* force,
                             const Record* velocity, const std::uint8_t* held, Record* out) {
   for (std::size_t i = 0; i < count; ++i) {
     const Double4 a = system.acceleration(i, load(force[i]), load(velocity[i]));
@@ -142,7 +142,7 @@ struct ErrorSums {
   Double4 position{}, velocity{}; // Σ m e_x² [kg m²], Σ m e_v² [kg m²/s²], by coordinate
   double mass = 0;                // [kg]
 };
-REND_CLONES void sum_errors(const double* inverse_mass, std::size_t count, double h, const Stages& a,
+REND_INLINE void sum_errors(const double* inverse_mass, std::size_t count, double h, const Stages& a,
                             ErrorSums& sums) {
   const Double4 step = splat(h), square = splat(h * h);
   for (std::size_t i = 0; i < count; ++i) {
@@ -214,7 +214,7 @@ void RungeKutta45::derive(System& system, double time, const Record* force, cons
                           std::size_t stage) {
   std::fill(held_.begin(), held_.end(), std::uint8_t{0});
   system.hold(time, held_.data());
-  accelerate(system, held_.size(), force, velocity, held_.data(), acceleration_[stage].data());
+  at_width<accelerate>(system, held_.size(), force, velocity, held_.data(), acceleration_[stage].data());
 }
 
 // To the end of a part, into stage_, from the first acceleration.
@@ -222,7 +222,8 @@ void RungeKutta45::cross(System& system, const Part& part) {
   for (std::size_t n = 1; n < stages; ++n) {
     const double time = nodes[n] == 1 ? part.end : part.start + nodes[n] * part.size;
     Record* force = acceleration_[n].data();
-    go_to_stage(static_cast<int>(n), system.vertices(), part.size, part.from, accelerations(), stage_);
+    at_width<go_to_stage>(static_cast<int>(n), system.vertices(), part.size, part.from, accelerations(),
+                          stage_);
     system.constrain(time, stage_.position.data(), stage_.velocity.data());
     system.forces(time, stage_.position.data(), stage_.velocity.data(), force);
     derive(system, time, force, stage_.velocity.data(), n);
@@ -231,7 +232,7 @@ void RungeKutta45::cross(System& system, const Part& part) {
 
 double RungeKutta45::error_of(const System& system, const Part& part, double step) const {
   ErrorSums sums;
-  sum_errors(system.inverse_mass, system.vertices(), part.size, accelerations(), sums);
+  at_width<sum_errors>(system.inverse_mass, system.vertices(), part.size, accelerations(), sums);
   if (sums.mass == 0) return 0; // nothing is left of the body
   const double square = (sum3(sums.position) + step * step * sum3(sums.velocity)) / sums.mass;
   return std::sqrt(square) / (settings_.tolerance * settings_.size);

@@ -8,7 +8,7 @@
 namespace rend {
 namespace {
 
-REND_CLONES void move(const System& system, std::size_t count, double step, const StateView& now,
+REND_INLINE void move(const System& system, std::size_t count, double step, const StateView& now,
                       const Record* force, State& next) {
   const Double4 h = splat(step);
   for (std::size_t i = 0; i < count; ++i) {
@@ -21,7 +21,7 @@ REND_CLONES void move(const System& system, std::size_t count, double step, cons
 class SymplecticEuler final : public Integrator {
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
-    move(system, system.vertices(), step, now, force, next);
+    at_width<move>(system, system.vertices(), step, now, force, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

@@ -6,7 +6,7 @@
 namespace rend {
 namespace {
 
-REND_CLONES void predict(const System& system, std::size_t count, double step, const StateView& now,
+REND_INLINE void predict(const System& system, std::size_t count, double step, const StateView& now,
                          const Record* force, State& next) {
   const Double4 h = splat(step), half_square = splat(0.5 * step * step);
   for (std::size_t i = 0; i < count; ++i) {
@@ -17,7 +17,7 @@ REND_CLONES void predict(const System& system, std::size_t count, double step, c
 }
 
 // With w = v + dt a as predicted, v + dt/2 a is (v + w)/2: the loads of the start are not there any more.
-REND_CLONES void correct(const System& system, std::size_t count, double step, const StateView& now,
+REND_INLINE void correct(const System& system, std::size_t count, double step, const StateView& now,
                          const Record* force_there, State& next) {
   const Double4 half = splat(0.5), half_step = splat(0.5 * step);
   for (std::size_t i = 0; i < count; ++i) {
@@ -36,10 +36,10 @@ class VelocityVerlet final : public Integrator {
                State& next) override {
     const std::size_t count = system.vertices();
     force_.resize(count);
-    predict(system, count, step, now, force, next);
+    at_width<predict>(system, count, step, now, force, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
     system.forces(time + step, next.position.data(), next.velocity.data(), force_.data());
-    correct(system, count, step, now, force_.data(), next);
+    at_width<correct>(system, count, step, now, force_.data(), next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

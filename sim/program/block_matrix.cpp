@@ -74,7 +74,7 @@ void BlockMatrix::add_diagonal(std::size_t row, double s) {
 
 namespace {
 
-REND_CLONES void multiply_rows(const BlockPattern& p, const Block3* value, std::size_t begin, std::size_t end,
+REND_INLINE void multiply_rows(const BlockPattern& p, const Block3* value, std::size_t begin, std::size_t end,
                                const Record* x, Record* y) {
   for (std::size_t i = begin; i < end; ++i) {
     Double4 first{}, second{}, third{};
@@ -92,7 +92,7 @@ REND_CLONES void multiply_rows(const BlockPattern& p, const Block3* value, std::
 
 void BlockMatrix::multiply(const Record* x, Record* y) const {
   in_parts(pattern_->parts, rows(), [&](std::size_t begin, std::size_t end) {
-    multiply_rows(*pattern_, value_.data(), begin, end, x, y);
+    at_width<multiply_rows>(*pattern_, value_.data(), begin, end, x, y);
   });
 }
 

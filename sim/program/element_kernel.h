@@ -185,7 +185,7 @@ REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMateri
     run_blocks<ElementLanes<Shape, turning, Damping::No>, corners>(a, m);
 }
 
-// What a law asks for, with the loop inside: to be called from a function with REND_CLONES.
+// What a law asks for, with the loop inside: to be run by at_width.
 template <class Shape, bool corners> REND_INLINE void run_elements(const KernelArguments& a) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
   if (law.model() == ElasticModel::Linear)

@@ -2,12 +2,12 @@
 
 namespace rend::lanes {
 
-REND_CLONES void hexahedra(const KernelArguments& a) {
-  run_elements<HexahedronLanes, false>(a);
+void hexahedra(const KernelArguments& a) {
+  at_width<run_elements<HexahedronLanes, false>>(a);
 }
 
-REND_CLONES void hexahedron_corners(const KernelArguments& a) {
-  run_elements<HexahedronLanes, true>(a);
+void hexahedron_corners(const KernelArguments& a) {
+  at_width<run_elements<HexahedronLanes, true>>(a);
 }
 
 } // namespace rend::lanes

@@ -6,12 +6,12 @@ namespace {
 using Prism = TableLanes<ElementKind::Prism, 6, 6>;
 }
 
-REND_CLONES void prisms(const KernelArguments& a) {
-  run_elements<Prism, false>(a);
+void prisms(const KernelArguments& a) {
+  at_width<run_elements<Prism, false>>(a);
 }
 
-REND_CLONES void prism_corners(const KernelArguments& a) {
-  run_elements<Prism, true>(a);
+void prism_corners(const KernelArguments& a) {
+  at_width<run_elements<Prism, true>>(a);
 }
 
 } // namespace rend::lanes

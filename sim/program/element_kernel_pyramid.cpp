@@ -6,12 +6,12 @@ namespace {
 using Pyramid = TableLanes<ElementKind::Pyramid, 5, 8>;
 }
 
-REND_CLONES void pyramids(const KernelArguments& a) {
-  run_elements<Pyramid, false>(a);
+void pyramids(const KernelArguments& a) {
+  at_width<run_elements<Pyramid, false>>(a);
 }
 
-REND_CLONES void pyramid_corners(const KernelArguments& a) {
-  run_elements<Pyramid, true>(a);
+void pyramid_corners(const KernelArguments& a) {
+  at_width<run_elements<Pyramid, true>>(a);
 }
 
 } // namespace rend::lanes

@@ -2,12 +2,12 @@
 
 namespace rend::lanes {
 
-REND_CLONES void quads(const KernelArguments& a) {
-  run_elements<QuadLanes, false>(a);
+void quads(const KernelArguments& a) {
+  at_width<run_elements<QuadLanes, false>>(a);
 }
 
-REND_CLONES void quad_corners(const KernelArguments& a) {
-  run_elements<QuadLanes, true>(a);
+void quad_corners(const KernelArguments& a) {
+  at_width<run_elements<QuadLanes, true>>(a);
 }
 
 } // namespace rend::lanes

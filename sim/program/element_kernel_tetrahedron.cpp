@@ -2,12 +2,12 @@
 
 namespace rend::lanes {
 
-REND_CLONES void tetrahedra(const KernelArguments& a) {
-  run_elements<SimplexLanes<3>, false>(a);
+void tetrahedra(const KernelArguments& a) {
+  at_width<run_elements<SimplexLanes<3>, false>>(a);
 }
 
-REND_CLONES void tetrahedron_corners(const KernelArguments& a) {
-  run_elements<SimplexLanes<3>, true>(a);
+void tetrahedron_corners(const KernelArguments& a) {
+  at_width<run_elements<SimplexLanes<3>, true>>(a);
 }
 
 } // namespace rend::lanes

@@ -2,12 +2,12 @@
 
 namespace rend::lanes {
 
-REND_CLONES void triangles(const KernelArguments& a) {
-  run_elements<SimplexLanes<2>, false>(a);
+void triangles(const KernelArguments& a) {
+  at_width<run_elements<SimplexLanes<2>, false>>(a);
 }
 
-REND_CLONES void triangle_corners(const KernelArguments& a) {
-  run_elements<SimplexLanes<2>, true>(a);
+void triangle_corners(const KernelArguments& a) {
+  at_width<run_elements<SimplexLanes<2>, true>>(a);
 }
 
 } // namespace rend::lanes

@@ -145,25 +145,16 @@ template <bool damped, bool corners> REND_INLINE void run(const KernelArguments&
   }
 }
 
-REND_CLONES void run_undamped(const KernelArguments& a) {
-  run<false, false>(a);
-}
-REND_CLONES void run_damped(const KernelArguments& a) {
-  run<true, false>(a);
-}
-REND_CLONES void run_corners_undamped(const KernelArguments& a) {
-  run<false, true>(a);
-}
-REND_CLONES void run_corners_damped(const KernelArguments& a) {
-  run<true, true>(a);
-}
-
 } // namespace
 
 Kernel hinge_kernel() {
   return {[](const Law& law) { return &law == hinge_law().get(); },
-          [](const KernelArguments& a) { a.damped ? run_damped(a) : run_undamped(a); },
-          [](const KernelArguments& a) { a.damped ? run_corners_damped(a) : run_corners_undamped(a); }};
+          [](const KernelArguments& a) {
+            a.damped ? at_width<run<true, false>>(a) : at_width<run<false, false>>(a);
+          },
+          [](const KernelArguments& a) {
+            a.damped ? at_width<run<true, true>>(a) : at_width<run<false, true>>(a);
+          }};
 }
 
 } // namespace rend

@@ -70,7 +70,7 @@ REND_INLINE void fetch_ahead(const PackedRows& rows, std::size_t block) {
   }
 }
 
-template <bool damped, bool summed = false> REND_INLINE void run(const KernelArguments& a) {
+template <bool damped, bool summed> REND_INLINE void run(const KernelArguments& a) {
   for (std::size_t block = a.first; block < a.last; ++block) {
     fetch_ahead(a.rows, block);
     const PackedRows::Range range = a.rows.range(block);
@@ -100,35 +100,20 @@ template <bool damped> REND_INLINE void run_corners(const KernelArguments& a) {
   }
 }
 
-REND_CLONES void run_undamped(const KernelArguments& a) {
-  run<false>(a);
-}
-REND_CLONES void run_damped(const KernelArguments& a) {
-  run<true>(a);
-}
-REND_CLONES void run_summed_undamped(const KernelArguments& a) {
-  run<false, true>(a);
-}
-REND_CLONES void run_summed_damped(const KernelArguments& a) {
-  run<true, true>(a);
-}
-REND_CLONES void run_corners_undamped(const KernelArguments& a) {
-  run_corners<false>(a);
-}
-REND_CLONES void run_corners_damped(const KernelArguments& a) {
-  run_corners<true>(a);
-}
-
 } // namespace
 
 void spring_forces_with_sums(const KernelArguments& a) {
-  a.damped ? run_summed_damped(a) : run_summed_undamped(a);
+  a.damped ? at_width<run<true, true>>(a) : at_width<run<false, true>>(a);
 }
 
 Kernel spring_kernel() {
   return {[](const Law& law) { return &law == spring_law().get(); },
-          [](const KernelArguments& a) { a.damped ? run_damped(a) : run_undamped(a); },
-          [](const KernelArguments& a) { a.damped ? run_corners_damped(a) : run_corners_undamped(a); }};
+          [](const KernelArguments& a) {
+            a.damped ? at_width<run<true, false>>(a) : at_width<run<false, false>>(a);
+          },
+          [](const KernelArguments& a) {
+            a.damped ? at_width<run_corners<true>>(a) : at_width<run_corners<false>>(a);
+          }};
 }
 
 } // namespace rend

@@ -62,25 +62,16 @@ template <int particles, bool corners> REND_INLINE void run(const KernelArgument
     run_blocks<particles, false, corners>(a);
 }
 
-REND_CLONES void vertices(const KernelArguments& a) {
-  run<1, false>(a);
-}
-REND_CLONES void pairs(const KernelArguments& a) {
-  run<2, false>(a);
-}
-REND_CLONES void vertex_corners(const KernelArguments& a) {
-  run<1, true>(a);
-}
-REND_CLONES void pair_corners(const KernelArguments& a) {
-  run<2, true>(a);
-}
-
 } // namespace
 
 Kernel tensor_kernel() {
   return {[](const Law& law) { return dynamic_cast<const MassTensorLaw*>(&law) != nullptr; },
-          [](const KernelArguments& a) { a.law.particles() == 1 ? vertices(a) : pairs(a); },
-          [](const KernelArguments& a) { a.law.particles() == 1 ? vertex_corners(a) : pair_corners(a); }};
+          [](const KernelArguments& a) {
+            a.law.particles() == 1 ? at_width<run<1, false>>(a) : at_width<run<2, false>>(a);
+          },
+          [](const KernelArguments& a) {
+            a.law.particles() == 1 ? at_width<run<1, true>>(a) : at_width<run<2, true>>(a);
+          }};
 }
 
 } // namespace rend

@@ -83,7 +83,7 @@ REND_INLINE Block3 product(const Block3& b, const Block3& c) {
 }
 
 // Takes what is known of row k: of column j at `y`, whose blocks above row k are `count`; leaves L_kj.
-REND_CLONES void eliminate(const Block3* column, const std::uint32_t* row, std::size_t count,
+REND_INLINE void eliminate(const Block3* column, const std::uint32_t* row, std::size_t count,
                            const Block3& pivot, Block3* work, const Block3& y, Block3& lower,
                            Block3& diagonal) {
   for (std::size_t n = 0; n < count; ++n) subtract_product(work[row[n]], y, column[n]);
@@ -163,8 +163,8 @@ Definiteness BlockFactor::factorise(const BlockMatrix& matrix) {
       const Block3 y = work_[j];
       work_[j] = Block3{};
       const std::size_t place = start_[j] + end_[j];
-      eliminate(lower_.data() + start_[j], row_.data() + start_[j], end_[j], inverse_pivot_[j], work_.data(), y,
-                lower_[place], diagonal);
+      at_width<eliminate>(lower_.data() + start_[j], row_.data() + start_[j], end_[j], inverse_pivot_[j],
+                          work_.data(), y, lower_[place], diagonal);
       row_[place] = k;
       ++end_[j];
     }
@@ -178,7 +178,7 @@ Definiteness BlockFactor::factorise(const BlockMatrix& matrix) {
 
 namespace {
 
-REND_CLONES void substitute(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& row,
+REND_INLINE void substitute(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& row,
                             const std::vector<Block3>& lower, const std::vector<Block3>& inverse_pivot,
                             Record* x) {
   const std::size_t n = inverse_pivot.size();
@@ -202,7 +202,7 @@ void BlockFactor::solve(const Record* b, Record* x) {
   const std::size_t n = pattern_->rows();
   solution_.resize(n);
   for (std::size_t k = 0; k < n; ++k) solution_[k] = b[order_[k]];
-  substitute(start_, row_, lower_, inverse_pivot_, solution_.data());
+  at_width<substitute>(start_, row_, lower_, inverse_pivot_, solution_.data());
   for (std::size_t k = 0; k < n; ++k) x[order_[k]] = solution_[k];
 }
 

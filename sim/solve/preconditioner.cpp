@@ -189,29 +189,31 @@ REND_INLINE void down_and_add(const Preconditioner::Part& lower, const Block* va
 
 } // namespace
 
-REND_CLONES void Preconditioner::forward(std::size_t begin, std::size_t end, const Record* r, Record* y) const {
+void Preconditioner::forward(std::size_t begin, std::size_t end, const Record* r, Record* y) const {
   if (precision_ == Precision::Single)
-    down(lower_, lower_.narrow.data(), inverse_pivot_.data(), begin, end, r, y);
+    at_width<down<Narrow>>(lower_, lower_.narrow.data(), inverse_pivot_.data(), begin, end, r, y);
   else
-    down(lower_, lower_.wide.data(), inverse_pivot_.data(), begin, end, r, y);
+    at_width<down<Block3>>(lower_, lower_.wide.data(), inverse_pivot_.data(), begin, end, r, y);
 }
 
-REND_CLONES void Preconditioner::backward(std::size_t begin, std::size_t end, const Record* p, Record* t,
-                                          Record* rest) const {
+void Preconditioner::backward(std::size_t begin, std::size_t end, const Record* p, Record* t,
+                              Record* rest) const {
   if (precision_ == Precision::Single)
-    up(upper_, upper_.narrow.data(), inverse_pivot_.data(), gap_.data(), begin, end, p, t, rest);
+    at_width<up<Narrow>>(upper_, upper_.narrow.data(), inverse_pivot_.data(), gap_.data(), begin, end, p, t,
+                         rest);
   else
-    up(upper_, upper_.wide.data(), inverse_pivot_.data(), gap_.data(), begin, end, p, t, rest);
+    at_width<up<Block3>>(upper_, upper_.wide.data(), inverse_pivot_.data(), gap_.data(), begin, end, p, t,
+                         rest);
 }
 
-REND_CLONES void Preconditioner::finish(std::size_t begin, std::size_t end, const Record* t, Record* y,
-                                        Record* image) const {
+void Preconditioner::finish(std::size_t begin, std::size_t end, const Record* t, Record* y,
+                            Record* image) const {
   if (precision_ == Precision::Single)
-    down_and_add(lower_, lower_.narrow.data(), across_, across_.narrow.data(), inverse_pivot_.data(), begin,
-                 end, t, y, image);
+    at_width<down_and_add<Narrow>>(lower_, lower_.narrow.data(), across_, across_.narrow.data(),
+                                   inverse_pivot_.data(), begin, end, t, y, image);
   else
-    down_and_add(lower_, lower_.wide.data(), across_, across_.wide.data(), inverse_pivot_.data(), begin, end, t,
-                 y, image);
+    at_width<down_and_add<Block3>>(lower_, lower_.wide.data(), across_, across_.wide.data(),
+                                   inverse_pivot_.data(), begin, end, t, y, image);
 }
 
 void Preconditioner::forward(const Records& r, Records& y) const {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t stretch = 1024; // records
 
-REND_CLONES double sum_products(const Record* a, const Record* b, std::size_t begin, std::size_t end) {
+REND_INLINE double sum_products(const Record* a, const Record* b, std::size_t begin, std::size_t end) {
   Double4 even{}, odd{};
   std::size_t i = begin;
   for (; i + 1 < end; i += 2) {
@@ -22,12 +22,12 @@ REND_CLONES double sum_products(const Record* a, const Record* b, std::size_t be
   return sum[0] + sum[1] + sum[2];
 }
 
-REND_CLONES void add_scaled(double s, const Record* x, Record* y, std::size_t begin, std::size_t end) {
+REND_INLINE void add_scaled_range(double s, const Record* x, Record* y, std::size_t begin, std::size_t end) {
   const Double4 factor = splat(s);
   for (std::size_t i = begin; i < end; ++i) store(y[i], load(y[i]) + factor * load(x[i]));
 }
 
-REND_CLONES void scale_and_add(double s, const Record* x, Record* y, std::size_t begin, std::size_t end) {
+REND_INLINE void scale_and_add_range(double s, const Record* x, Record* y, std::size_t begin, std::size_t end) {
   const Double4 factor = splat(s);
   for (std::size_t i = begin; i < end; ++i) store(y[i], load(x[i]) + factor * load(y[i]));
 }
@@ -50,7 +50,7 @@ double dot(int parts, const Records& a, const Records& b) {
   double* const sums = partial.data();
   in_parts(parts, stretches, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      sums[n] = sum_products(a.data(), b.data(), n * stretch, std::min(a.size(), (n + 1) * stretch));
+      sums[n] = at_width<sum_products>(a.data(), b.data(), n * stretch, std::min(a.size(), (n + 1) * stretch));
   });
   double sum = 0;
   for (double part : partial) sum += part;
@@ -58,13 +58,15 @@ double dot(int parts, const Records& a, const Records& b) {
 }
 
 void add_scaled(int parts, double s, const Records& x, Records& y) {
-  in_parts(parts, x.size(),
-           [&](std::size_t begin, std::size_t end) { add_scaled(s, x.data(), y.data(), begin, end); });
+  in_parts(parts, x.size(), [&](std::size_t begin, std::size_t end) {
+    at_width<add_scaled_range>(s, x.data(), y.data(), begin, end);
+  });
 }
 
 void scale_and_add(int parts, double s, const Records& x, Records& y) {
-  in_parts(parts, x.size(),
-           [&](std::size_t begin, std::size_t end) { scale_and_add(s, x.data(), y.data(), begin, end); });
+  in_parts(parts, x.size(), [&](std::size_t begin, std::size_t end) {
+    at_width<scale_and_add_range>(s, x.data(), y.data(), begin, end);
+  });
 }
 
 } // namespace rend

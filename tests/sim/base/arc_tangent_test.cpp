@@ -13,7 +13,7 @@
 namespace rend {
 namespace {
 
-REND_CLONES void in_lanes(const double* y, const double* x, double* angle, std::size_t count) {
+REND_INLINE void in_lanes(const double* y, const double* x, double* angle, std::size_t count) {
   for (std::size_t n = 0; n < count; n += 4) {
     Double4 ys, xs;
     __builtin_memcpy(&ys, y + n, sizeof ys);
@@ -27,7 +27,7 @@ void expect_same_bits(std::vector<double> y, std::vector<double> x) {
   y.resize((y.size() + 3) / 4 * 4);
   x.resize(y.size());
   std::vector<double> angle(y.size());
-  in_lanes(y.data(), x.data(), angle.data(), y.size());
+  at_width<in_lanes>(y.data(), x.data(), angle.data(), y.size());
   for (std::size_t n = 0; n < y.size(); ++n) {
     const double one = arc_tangent(y[n], x[n]);
     if (std::isnan(one))

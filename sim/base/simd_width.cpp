@@ -1,0 +1,69 @@
+#include "sim/base/simd_width.h"
+
+#include "sim/base/error.h"
+#include "sim/base/wording.h"
+
+#include <array>
+#include <cstdlib>
+#include <vector>
+
+namespace rend {
+namespace {
+
+constexpr std::array all_widths{SimdWidth::Sse2, SimdWidth::Avx2, SimdWidth::Avx512}; // narrowest first
+
+SimdWidth widest() {
+  SimdWidth width = SimdWidth::Sse2;
+  for (SimdWidth one : all_widths)
+    if (has_width(one)) width = one;
+  return width;
+}
+
+SimdWidth chosen() {
+  const char* word = std::getenv("REND_SIMD");
+  if (!word || !*word) return widest();
+  std::vector<std::string> here;
+  for (SimdWidth one : all_widths)
+    if (has_width(one)) here.push_back(name_of(one));
+  for (SimdWidth one : all_widths) {
+    if (name_of(one) != word) continue;
+    if (has_width(one)) return one;
+    throw UserError(Exit::Usage, {"REND_SIMD"}, "this processor has no " + name_of(one),
+                    "there are: " + listed(here));
+  }
+  throw UserError(Exit::Usage, {"REND_SIMD"}, "there is no vector unit " + in_quotes(word),
+                  suggestion(word, here, "there are"));
+}
+
+} // namespace
+
+SimdWidth simd_width() {
+  static const SimdWidth width = chosen();
+  return width;
+}
+
+std::string name_of(SimdWidth width) {
+  switch (width) {
+  case SimdWidth::Avx512:
+    return "avx512";
+  case SimdWidth::Avx2:
+    return "avx2";
+  case SimdWidth::Sse2:
+    break;
+  }
+  return "sse2";
+}
+
+bool has_width(SimdWidth width) {
+#ifdef __x86_64__
+  __builtin_cpu_init();
+  const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+  if (width == SimdWidth::Avx2) return avx2;
+  if (width == SimdWidth::Avx512)
+    return avx2 && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
+           __builtin_cpu_supports("avx512dq") != 0;
+#endif
+  return width == SimdWidth::Sse2;
+}
+
+} // namespace rend
