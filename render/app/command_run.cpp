@@ -4,10 +4,12 @@
 #include "render/app/export_series.h"
 #include "render/app/figures.h"
 #include "render/app/json_text.h"
+#include "render/app/profile_report.h"
 #include "render/app/progress.h"
 #include "render/app/records.h"
 #include "render/app/session.h"
 #include "render/app/usage.h"
+#include "sim/base/profile.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,7 +22,7 @@ namespace {
 
 struct RunOptions {
   SessionOptions session;
-  bool json = false, profile = false;
+  bool json = false;
   std::string diagnostics, events;    // files; empty: none
   std::string format, folder, frames; // of what is exported; empty: not given
 };
@@ -51,12 +53,16 @@ Stopped simulate(Session& session, const RunOptions& options, ExportSeries* seri
   if (!options.events.empty()) events.emplace(options.events);
   Progress progress(session.quiet(), session.clock().steps(), session.clock().duration(), 0);
   Session::Calls calls;
+  Profile* const profile = session.scene().profile();
   calls.frame = [&](long frame) {
+    const Within within(profile, Stage::Output);
     if (diagnostics) diagnostics->add(frame, session.scene());
     if (series) series->take(frame);
   };
   calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
+  if (profile) profile->restart();
   const Stopped stopped = session.run(session.clock().frames() - 1, calls);
+  const Within within(profile, Stage::Output);
   if (diagnostics && stopped == Stopped::Unstable)
     diagnostics->abandon();
   else if (diagnostics)
@@ -86,10 +92,12 @@ Exit run(const RunOptions& options) {
   costs.total = wall_clock() - start;
   nlohmann::ordered_json figures = figures_of(session, stopped, costs);
   if (series) figures["export"] = series->figures();
+  const bool profile = wanted.profile && session.scene().steps_done() > 0;
+  if (profile) figures["profile"] = profile_json(session);
   if (options.json)
     print_result(text_of(figures, 2) + "\n");
   else
-    print_result(summary_of(figures) + (options.profile ? profile_of(figures) : ""));
+    print_result(summary_of(figures) + (profile ? profile_in_words(figures["profile"]) : ""));
   const Exit end = end_of(session, stopped);
   return end == Exit::Done && !answers_hold(session.scene()) ? Exit::No : end;
 }
@@ -105,7 +113,8 @@ std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   add_run_options(app, options->session);
   app.add_flag("--json", options->json, "the figures as one JSON object");
-  app.add_flag("--profile", options->profile, "the seconds of each stage as well");
+  app.add_flag("--profile", options->session.profile,
+               "as well where time and bytes went, by stage and by interaction, and what the machine can do");
   app.add_option("--diagnostics", options->diagnostics, "energies, momenta and counts at every frame, as CSV")
       ->type_name("FILE");
   app.add_option("--events", options->events, "every topological change, one JSON object a line")

@@ -369,17 +369,4 @@ std::string summary_of(const Json& f) {
   return out;
 }
 
-std::string profile_of(const Json& figures) {
-  std::string out = "  seconds    ";
-  const double total = figures["seconds"]["total"].get<double>();
-  bool first = true;
-  for (const auto& [stage, seconds] : figures["seconds"].items()) {
-    const double s = seconds.get<double>();
-    out += fmt::format("{}{:<10} {:>10.4f}  {:5.1f}%\n", first ? "" : "             ", stage, s,
-                       total > 0 ? 100 * s / total : 0);
-    first = false;
-  }
-  return out;
-}
-
 } // namespace rend

@@ -25,7 +25,6 @@ nlohmann::ordered_json figures_of(const Session& session, Stopped stopped, const
 void leave_out_state(nlohmann::ordered_json& figures);
 
 std::string summary_of(const nlohmann::ordered_json& figures);
-std::string profile_of(const nlohmann::ordered_json& figures); // seconds by stage, as a table
 
 std::size_t fragments_of(const Scene& scene);
 

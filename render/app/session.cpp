@@ -81,7 +81,8 @@ Session::Session(const SessionOptions& options) : options_(options) {
   if (options.fps) image_.fps = *options.fps;
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
   scene_ = std::make_unique<Scene>(
-      *preset_, SceneOptions{options.kernels == "walk", threads, options.births, options.guard});
+      *preset_,
+      SceneOptions{options.kernels == "walk", threads, options.births, options.guard, {}, options.profile});
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();

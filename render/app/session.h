@@ -29,6 +29,7 @@ struct SessionOptions {
   bool allow_path = false; // meshes from anywhere
   bool guard = true;       // steps that go wrong are redone in parts
   bool births = false;     // events tell how many fragments there are
+  bool profile = false;    // where the time of steps goes is asked for
 };
 void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set
 void add_run_options(CLI::App& app, SessionOptions& options);    // those, and how it is run

@@ -4,6 +4,7 @@
 #include "sim/base/simd.h"
 #include "sim/mechanics/spring_law.h"
 #include "sim/program/gathered.h"
+#include "sim/program/row_times.h"
 #include "sim/program/spring_sums.h"
 #include "sim/program/threads.h"
 #include "sim/program/walk_forces.h"
@@ -24,6 +25,8 @@ Program::Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction
   }
   for (Binder& binder : folded_) binder.bind();
   for (Binder& binder : elementary_) binder.bind();
+  if (options.timed && !folded_.empty()) folded_times_ = std::make_unique<RowTimes>(folded_.size());
+  if (options.timed && !elementary_.empty()) elementary_times_ = std::make_unique<RowTimes>(elementary_.size());
   weigh_again();
   map.subscribe(changes_);
 }
@@ -33,7 +36,7 @@ Program::~Program() {
 }
 
 int Program::parts() const {
-  return vertices() < 4096 ? 1 : options_.threads;
+  return vertices() < 4096 && !options_.small_in_parts ? 1 : options_.threads;
 }
 
 void Program::weigh(Slot vertex) {
@@ -140,7 +143,10 @@ void Program::forces_with_sums(const Record* position, const Record* velocity, R
 void Program::run_folded(bool sums, const Record* position, const Record* velocity, Record* force) const {
   const std::vector<Binder>& binders = rows();
   const std::size_t tiles = vertices() / tile_vertices + 1;
+  RowTimes* const times = folded_.empty() ? elementary_times_.get() : folded_times_.get();
+  if (times) times->count();
   in_parts(parts(), vertices(), [&](std::size_t begin, std::size_t end) {
+    RowTimes::Laps laps(times);
     std::size_t cleared = begin; // forces are set to 0 just before the first tile that adds to them
     const auto clear_to = [&](std::size_t to) {
       if (to <= cleared) return;
@@ -153,6 +159,7 @@ void Program::run_folded(bool sums, const Record* position, const Record* veloci
         for (std::size_t block = blocks * tile / tiles; block < blocks * (tile + 1) / tiles; ++block)
           clear_to(std::min<std::size_t>(end, binder.rows().range(block).high + std::size_t{1}));
       }
+      laps.begin();
       for (std::size_t n = 0; n < binders.size(); ++n) {
         const std::size_t blocks = binders[n].rows().blocks();
         KernelArguments part = arguments(binders[n], position, velocity, force);
@@ -161,6 +168,7 @@ void Program::run_folded(bool sums, const Record* position, const Record* veloci
         part.first = blocks * tile / tiles;
         part.last = blocks * (tile + 1) / tiles;
         sums ? spring_forces_with_sums(part) : kernels_[n]->forces(part);
+        laps.end(n);
       }
     }
     clear_to(end);
@@ -174,6 +182,9 @@ void Program::corner_forces(const Record* position, const Record* velocity, Reco
   std::memset(static_cast<void*>(corner), 0, corner_vertex_.size() * sizeof(Record));
   std::memset(static_cast<void*>(force), 0, vertices() * sizeof(Record));
   const std::size_t tiles = vertices() / corner_tile_vertices + 1;
+  if (elementary_times_) elementary_times_->count();
+  RowTimes::Laps laps(elementary_times_.get());
+  laps.begin();
   for (std::size_t tile = 0; tile < tiles; ++tile) {
     for (std::size_t n = 0; n < elementary_.size(); ++n) {
       const std::size_t blocks = elementary_[n].rows().blocks();
@@ -181,6 +192,7 @@ void Program::corner_forces(const Record* position, const Record* velocity, Reco
       part.first = blocks * tile / tiles;
       part.last = blocks * (tile + 1) / tiles;
       kernels_[n]->corner_forces(part);
+      laps.end(n);
     }
   }
   for (Slot c = 0; c < corner_vertex_.size(); ++c) {
@@ -215,7 +227,7 @@ void Program::corner_forces_at(const std::vector<std::uint8_t>& mark, const Reco
 
 double Program::elastic_energy(const Record* x) const {
   double sum = 0;
-  Gathered g;
+  thread_local Gathered g; // keeps its room: the guard asks in the midst of a run
   for (const Binder& binder : rows()) {
     const Law& law = *binder.interaction()->law;
     binder.rows().for_each([&](std::size_t, std::size_t row) {

@@ -18,12 +18,16 @@
 
 namespace rend {
 
+class RowTimes;
+
 struct ProgramOptions {
   bool folded = true;
   bool elementary = false;
   bool fold = true;  // in the folded set: false (cumulated="no") gives every unit its own row
   bool walk = false; // evaluate by walking the map, as the thesis did: the slow reference
   int threads = 1;
+  bool timed = false;          // what the rows of each interaction take
+  bool small_in_parts = false; // as many parts as threads however small the body: for tests
 };
 
 class Program {
@@ -61,6 +65,8 @@ public:
   const std::vector<Binder>& elementary() const { return elementary_; }
   const std::vector<Binder>& rows() const { return folded_.empty() ? elementary_ : folded_; } // of either set
   const ProgramOptions& options() const { return options_; }
+  RowTimes* folded_times() const { return folded_times_.get(); } // null: nobody asks, or there are none
+  RowTimes* elementary_times() const { return elementary_times_.get(); }
   int parts() const; // threads that a step of this size is worth
   std::size_t bytes() const;
   bool same_as(const Program& other) const; // byte for byte
@@ -82,8 +88,9 @@ private:
   ProgramOptions options_;
   Changes changes_;
   std::vector<Binder> folded_, elementary_;
-  std::vector<const Kernel*> kernels_; // of each interaction
-  std::vector<double> inverse_mass_;   // [1/kg], one per vertex slot
+  std::vector<const Kernel*> kernels_;                        // of each interaction
+  std::unique_ptr<RowTimes> folded_times_, elementary_times_; // null: nobody asks
+  std::vector<double> inverse_mass_;                          // [1/kg], one per vertex slot
   std::vector<Slot>
       corner_vertex_;             // of every element corner slot; no_slot: free; empty without elementary rows
   std::vector<double> drag_rate_; // γ/m [1/s], one per vertex slot; empty without drag

@@ -1,6 +1,7 @@
 #include "sim/scene/body.h"
 
 #include "sim/base/archive.h"
+#include "sim/base/profile.h"
 #include "sim/integrate/footing.h"
 
 #include <algorithm>
@@ -33,6 +34,8 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads, double toleranc
           });
   options.folded = !elementary || scheme.evaluations > 1 || sums_;
   options.threads = threads;
+  options.timed = profile != nullptr;
+  options.small_in_parts = small_in_parts;
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
   const double size = extent(map->rest().values(), program->inverse_mass());
@@ -52,13 +55,17 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads, double toleranc
 }
 
 void Body::forces(double time, const Record* position, const Record* velocity, Record* out) {
-  program->forces(position, velocity, out);
+  {
+    const Within within(profile, Stage::Forces);
+    program->forces(position, velocity, out);
+  }
   ++evaluations;
   if (faulty.armed(StepStage::Forces)) faulty.spoil(program->inverse_mass(), vertices(), out);
   outer(time, position, velocity);
 }
 
 void Body::outer(double time, const Record* position, const Record* velocity) {
+  const Within within(loads.empty() ? nullptr : profile, Stage::Loads);
   load = loads.evaluate(*map, time, position, velocity);
   if (load && faulty.armed(StepStage::Loads))
     load = faulty.spoil_copy(program->inverse_mass(), vertices(), load);
@@ -70,6 +77,7 @@ void Body::constrain(double time, Record* position, Record* velocity) {
 
 void Body::add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
                          double by_velocity, BlockMatrix& out) {
+  const Within within(profile, Stage::Stiffness);
   assembly->add(position, velocity, tangent, by_position, by_velocity, out);
 }
 
@@ -78,6 +86,7 @@ void Body::hold(double time, std::uint8_t* axes) {
 }
 
 void Body::evaluate() {
+  const Within within(profile, Stage::Forces);
   inverse_mass = program->inverse_mass(); // rebinding may have moved them
   drag_rate = program->drag_rate();
   force.resize(vertices());
@@ -128,6 +137,7 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
   if (laws[number].find(now).empty()) return 0;
   sound();
   if (witness) witness(false);
+  const Within within(profile, Stage::Changes);
   const double start = seconds_now();
   const std::size_t before = events.size();
   const int made = laws[number].apply(*map, now, events, births.get());
@@ -150,6 +160,7 @@ void Body::follow_changes() {
 }
 
 void Body::advance(double time, double step) {
+  const Within within(profile, Stage::Integration);
   if (sums_) clear_sums();
   next.resize(vertices());
   next.probe = Double4{};
@@ -159,6 +170,7 @@ void Body::advance(double time, double step) {
   if (faulty.armed(StepStage::Integration)) spoil_next();
   if (next.large) finish_streams(); // other threads are going to read them
   if (!floor_contact) return;
+  const Within contact_within(profile, Stage::Contact);
   floor_contact->apply(next, step);
   constrain(time + step, next.position.data(), next.velocity.data()); // what is prescribed yields to no floor
 }
@@ -176,6 +188,7 @@ void Body::spoil_next() {
 
 void Body::rebind() {
   if (!changes.any) return;
+  const Within within(profile, Stage::Rebinding);
   program->rebind();
   if (assembly) assembly->rebind();
   if (!corner_force.empty()) corner_force.resize(map->cells(mass->orbit()).slots());

@@ -18,6 +18,8 @@
 
 namespace rend {
 
+class Profile;
+
 // Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was a border when its
 // element was born: what is a border now and was none then is torn.
 struct BornBorder {
@@ -100,6 +102,10 @@ struct Body final : System {
   double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
   long evaluations = 0; // of the internal forces so far, but for those that probes ask for
   FaultySpot faulty;
+
+  // Before prepare().
+  Profile* profile = nullptr;  // null: nobody asks
+  bool small_in_parts = false; // ProgramOptions
 
 private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);

@@ -22,8 +22,9 @@ constexpr double close = 1.25; // of what may be there: what a redo leaves, unle
 
 } // namespace
 
-Guard::Guard(World& world, const Rewind::Bodies& bodies, const Scheme& scheme, double step, bool on)
-    : bodies_(bodies), step_(step), energy_(on && !scheme.solves && !scheme.adaptive) {
+Guard::Guard(World& world, const Rewind::Bodies& bodies, const Scheme& scheme, double step, bool on,
+             Profile* profile)
+    : bodies_(bodies), profile_(profile), step_(step), energy_(on && !scheme.solves && !scheme.adaptive) {
   if (!on) return;
   rewind_.emplace(world, bodies, step);
   rewind_->reserve_for_separations();
@@ -37,6 +38,7 @@ int Guard::parts(long step) const {
 }
 
 void Guard::before_laws(long step) {
+  const Within within(profile_, Stage::Guard);
   if (rewind_ && !rewind_->fits()) forget();
   if (energy_ && budget_ < 0) {
     begins_ = true;
@@ -51,6 +53,7 @@ void Guard::before_laws(long step) {
 }
 
 Trouble Guard::before_change(long step) {
+  const Within within(profile_, Stage::Guard);
   if (!energy_) return Trouble::None;
   const Trouble trouble = settle(step, false);
   if (trouble == Trouble::None) begins_ = true;
@@ -58,6 +61,7 @@ Trouble Guard::before_change(long step) {
 }
 
 void Guard::after_laws(long step) {
+  const Within within(profile_, Stage::Guard);
   if (!rewind_ || !(begins_ || !energy_)) return;
   rewind_->begin(step);
   threshold_ = std::max(factor * lately_, heaviest_ > 0 ? 2 * budget_ / heaviest_ : 0);
@@ -117,6 +121,7 @@ bool Guard::passing(int parts) const {
 }
 
 Trouble Guard::after_step(long done) {
+  const Within within(profile_, Stage::Guard);
   if (!energy_) {
     if (redoing_ && done == goal_) go_on(done, budget_, true);
     return Trouble::None;

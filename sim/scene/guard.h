@@ -24,6 +24,7 @@
 // All hangs on numbers of steps and sums in a fixed order: the same on any number of threads, whatever is shown.
 #pragma once
 
+#include "sim/base/profile.h"
 #include "sim/scene/resolved.h"
 #include "sim/scene/rewind.h"
 #include "sim/scene/trouble.h"
@@ -34,7 +35,8 @@ namespace rend {
 
 class Guard {
 public:
-  Guard(World& world, const Rewind::Bodies& bodies, const Scheme& scheme, double step, bool on);
+  Guard(World& world, const Rewind::Bodies& bodies, const Scheme& scheme, double step, bool on,
+        Profile* profile = nullptr);
   const GuardFigures& figures() const { return figures_; }
   std::size_t bytes() const { return rewind_ ? rewind_->bytes() : 0; }
   bool on() const { return rewind_.has_value(); }
@@ -45,7 +47,9 @@ public:
   Trouble before_change(long step); // of topology; may be asked again
   void after_laws(long step);
   void after_part() {
-    if (rewind_) rewind_->keep();
+    if (!rewind_) return;
+    const Within within(profile_, Stage::Guard);
+    rewind_->keep();
   }
   Trouble after_step(long done); // steps done with it
 
@@ -73,6 +77,7 @@ private:
   void go_on(long done, double budget, bool finer_helps);
 
   const Rewind::Bodies& bodies_;
+  Profile* profile_;             // null: nobody asks
   double step_;                  // [s]
   bool energy_ = false;          // is looked at
   std::optional<Rewind> rewind_; // none: off

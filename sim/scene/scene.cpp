@@ -23,7 +23,8 @@ double now() {
 
 } // namespace
 
-Scene::Scene(const Node& preset, const SceneOptions& options) : fault_(options.fault) {
+Scene::Scene(const Node& preset, const SceneOptions& options)
+    : profile_(options.profile ? std::make_unique<Profile>() : nullptr), fault_(options.fault) {
   const double start = now();
   name_ = preset.text("name");
   world_ = build_world(preset.child("world"));
@@ -34,6 +35,8 @@ Scene::Scene(const Node& preset, const SceneOptions& options) : fault_(options.f
                       fmt::format("two bodies are called '{}'", node->text("name")),
                       "give each a name of its own");
     bodies_.push_back(build_body(*node, world_));
+    bodies_.back()->profile = profile_.get();
+    bodies_.back()->small_in_parts = options.small_in_parts;
     if (options.births) bodies_.back()->births = std::make_unique<Births>();
     if (world_.wind) bodies_.back()->loads.set(WindLoad(*bodies_.back()->map, *world_.wind));
   }
@@ -45,7 +48,7 @@ Scene::Scene(const Node& preset, const SceneOptions& options) : fault_(options.f
   contacts_ = Contacts::of(world_, bodies_);
   for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads, tolerance_of(time));
   build_time(time);
-  guard_ = std::make_unique<Guard>(world_, bodies_, *scheme_, step_, options.guard);
+  guard_ = std::make_unique<Guard>(world_, bodies_, *scheme_, step_, options.guard, profile_.get());
   set_answers();
   seconds_.bind = now() - start - seconds_.build;
 }

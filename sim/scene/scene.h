@@ -16,6 +16,8 @@ struct SceneOptions {
   bool births = false; // events tell how many fragments there are
   bool guard = true;   // false: what goes wrong is not redone; what is not finite still stops the run
   std::optional<Fault> fault = {};
+  bool profile = false;        // where the time of steps goes is asked for
+  bool small_in_parts = false; // ProgramOptions
 };
 
 // Wall-clock seconds by stage; those of step() are sampled every few steps and scaled up.
@@ -75,6 +77,7 @@ public:
   Vec3 angular_momentum() const;
   std::uint64_t hash() const; // of positions, velocities and topology, and of spheres that move
   StageSeconds seconds() const;
+  Profile* profile() const { return profile_.get(); } // null: not asked for
 
   // Between steps: all that a later step, event or figure depends on, to a scene of the same preset and options and back
   // (base/archive.h). It then goes on to the bit. Throws ArchiveError where it was of another scene; this one is spoilt.
@@ -108,6 +111,7 @@ private:
 
   std::string name_;
   World world_;
+  std::unique_ptr<Profile> profile_; // null: nobody asks
   std::vector<std::unique_ptr<Body>> bodies_;
   std::unique_ptr<Contacts> contacts_; // null: no body meets more than the floor
   const Scheme* scheme_ = nullptr;

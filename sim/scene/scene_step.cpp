@@ -80,6 +80,7 @@ Trouble Scene::make_part(int part, int parts) {
 
 // A step has its laws looked at once, however often it is made. (Of one that tore, the guard goes back no further.)
 Trouble Scene::look_at_laws() {
+  const Within within(profile_.get(), Stage::Criteria);
   guard_->before_laws(steps_done_);
   const auto sound = [&] {
     if (const Trouble trouble = guard_->before_change(steps_done_); trouble != Trouble::None)
@@ -109,6 +110,7 @@ Trouble Scene::advance(double time, double step) {
 }
 
 void Scene::meet_contacts(double time, double step) {
+  const Within within(contacts_ ? profile_.get() : nullptr, Stage::Contact);
   if (contacts_) contacts_->advance(time, step);
   for (auto& body : bodies_) {
     if (body->faulty.armed(StepStage::Contact)) body->spoil_next();

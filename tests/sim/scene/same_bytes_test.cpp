@@ -1,0 +1,108 @@
+// The same bytes of every preset of the house, whatever the number of threads, and whether what is built upon the map is
+// brought up to date after a change or built anew.
+//
+// Small bodies, which run on one thread otherwise, are parted here as well. By default the first steps, and those with
+// laws to their first tears where that is cheap; with REND_WHOLE in the environment whole clips (tests/run --all). Vector
+// units: tests/render/app/presets_test.cpp; builds and other processors: tests/same-states.
+#include "render/app/preset_types.h"
+#include "sim/scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = fs::path(REND_ROOT) / "presets";
+
+std::vector<std::string> all_presets() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(root))
+    if (entry.path().extension() == ".xml")
+      names.push_back(fs::relative(entry.path(), root).replace_extension().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Played {
+  std::unique_ptr<Node> preset;
+  Scene scene;
+  Played(const std::string& name, int threads)
+      : preset(load_scene(root / (name + ".xml"))),
+        scene(*preset, SceneOptions{.threads = threads, .small_in_parts = true}) {}
+  long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
+  void go_to(long step) {
+    while (scene.steps_done() < step) scene.step();
+  }
+  bool has_laws() const {
+    return std::any_of(scene.bodies().begin(), scene.bodies().end(),
+                       [](const auto& body) { return body->tears(); });
+  }
+};
+
+void expect_same(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.hash(), b.hash());
+  EXPECT_EQ(a.tears(), b.tears());
+  EXPECT_EQ(a.kinetic_energy(), b.kinetic_energy());
+  EXPECT_EQ(a.elastic_energy(), b.elastic_energy());
+}
+
+// How far a run goes here.
+void play(Played& run) {
+  constexpr long few = 40, after_tears = 20, affordable = 500'000; // steps, and steps times vertices
+  if (std::getenv("REND_WHOLE")) return run.go_to(run.steps());
+  std::size_t vertices = 0;
+  for (const auto& body : run.scene.bodies()) vertices += body->vertices();
+  const long most = run.has_laws() ? affordable / static_cast<long>(std::max<std::size_t>(vertices, 100)) : 0;
+  run.go_to(std::min(few, run.steps()));
+  while (run.scene.tears() == 0 && run.scene.steps_done() < std::min(most, run.steps())) run.scene.step();
+  if (run.scene.tears() > 0) run.go_to(std::min(run.scene.steps_done() + after_tears, run.steps()));
+}
+
+void build_anew(Body& body) {
+  body.program = std::make_unique<Program>(*body.map, body.interactions, *body.mass, body.drag,
+                                           ProgramOptions(body.program->options()));
+  if (body.assembly) body.assembly = std::make_unique<Assembly>(*body.map, *body.program);
+  for (TearLaw& law : body.laws) {
+    const LawSettings settings = law.settings();
+    law = TearLaw(body.request_for(settings), settings);
+  }
+  body.evaluate();
+}
+
+class SameBytes : public testing::TestWithParam<std::string> {};
+
+TEST_P(SameBytes, on_any_number_of_threads_and_with_everything_built_anew_at_each_change) {
+  Played one(GetParam(), 1);
+  play(one);
+  for (const int threads : {2, 4}) {
+    Played other(GetParam(), threads);
+    other.go_to(one.scene.steps_done());
+    SCOPED_TRACE(threads);
+    expect_same(one.scene, other.scene);
+  }
+  if (one.scene.tears() == 0) return;
+  Played anew(GetParam(), 1);
+  for (const auto& body : anew.scene.bodies())
+    body->witness = [&body = *body](bool made) {
+      if (made) build_anew(body);
+    };
+  anew.go_to(one.scene.steps_done());
+  SCOPED_TRACE("built anew");
+  expect_same(one.scene, anew.scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SameBytes, testing::ValuesIn(all_presets()), [](const auto& one) {
+  std::string name = one.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+});
+
+} // namespace
+} // namespace rend
