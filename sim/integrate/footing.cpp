@@ -130,9 +130,11 @@ double extent(const Records& x, const double* inverse_mass) {
   return (high - low).maxCoeff();
 }
 
-bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix) {
-  Records still(position.size()), turned_position(position.size()), force(position.size()),
-      after(position.size());
+bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix,
+                     TurningRoom& room) {
+  auto& [still, turned_position, force, after] = room;
+  for (Records* each : {&turned_position, &force, &after}) each->resize(position.size());
+  still.assign(position.size(), Record{});
   system.forces(time, position.data(), still.data(), force.data());
   matrix.reset(system.pattern());
   system.add_stiffness(position.data(), still.data(), Tangent::Definite, 1, 0, matrix);
@@ -172,7 +174,7 @@ void Footing::check(System& system, double time, const Records& position, double
   loose.assign(position.size(), 0);
   const auto drift = drift_of(pattern, system.inverse_mass, held);
   const bool stiff_to_turns = can_turn(pattern, system.inverse_mass, held, position.data()) &&
-                              (keeps_turned || !turns_with_body(system, time, position, size, matrix));
+                              (keeps_turned || !turns_with_body(system, time, position, size, matrix, room));
   if (stood && (drift || stiff_to_turns)) {
     pin_loose(pattern, system.inverse_mass, position.data(), !stiff_to_turns, held, loose);
     return;

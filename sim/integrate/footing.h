@@ -8,6 +8,7 @@
 #include "sim/integrate/integrator.h"
 #include "sim/solve/vectors.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,8 +31,10 @@ void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Re
                std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& loose);
 
 // Whether forces turn with the body, measured at quarter turns about z and x, which are exact in coordinates.
-// `size`: its extent() [m]; the matrix is written.
-bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix);
+// `size`: its extent() [m]; the matrix and `room` are written.
+using TurningRoom = std::array<Records, 4>; // one record per vertex slot each
+bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix,
+                     TurningRoom& room);
 
 // What a static solve knows of how its body is held.
 struct Footing {
@@ -39,6 +42,7 @@ struct Footing {
   std::vector<std::uint8_t> loose; // 1: of a piece that came off, without loads; one per vertex slot
   bool stood = false;              // in equilibrium, once
   bool keeps_turned = false;       // what can turn is loose
+  TurningRoom room;                // scratch; empty until something can turn
 
   // With `held` as the system has it: holds and marks what came off since the body stood, and refuses (Unsolved) a body
   // that can move off or turn without resistance. Position and size as above; the matrix is written.

@@ -120,7 +120,8 @@ double LoadTangent::rotate(std::size_t n) {
 }
 
 void LoadTangent::combine(std::size_t count, Records& update) {
-  std::vector<double> part(count, 0);
+  std::vector<double>& part = share_;
+  part.assign(count, 0);
   for (std::size_t k = count; k-- > 0;) {
     double sum = rest_[k];
     for (std::size_t n = k + 1; n < count; ++n) sum -= column_[n][k] * part[n];

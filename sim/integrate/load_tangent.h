@@ -75,6 +75,7 @@ private:
   // The least squares problem: columns of the Hessenberg matrix as rotations have made them triangular.
   std::vector<std::vector<double>> column_;
   std::vector<double> cosine_, sine_, rest_;
+  std::vector<double> share_; // scratch: of each of solved_ in the solution
 };
 
 } // namespace rend

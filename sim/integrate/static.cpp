@@ -60,6 +60,7 @@ public:
   std::size_t bytes() const override {
     std::size_t sum =
         bytes_of(footing_.held) + bytes_of(footing_.loose) + bytes_of(stiff_) + load_tangent_.bytes();
+    for (const Records& one : footing_.room) sum += bytes_of(one);
     for (const Records* one : {&position_, &trial_, &start_, &still_, &goal_, &force_, &sum_, &first_sum_,
                                &lead_, &right_, &update_})
       sum += bytes_of(*one);

@@ -13,8 +13,8 @@ namespace {
 constexpr double add = 3, scale = 3, dot = 5, cross = 9; // of vectors
 
 double spring_operations(bool damped) {
-  const double factor = add + dot + 6,
-               velocities = add + dot + 3; // root, two quotients, length − rest, two products
+  const double factor = add + dot + 5; // root, 1/l, l − rest, times k, times 1/l
+  const double velocities = add + dot + 3;
   return factor + (damped ? velocities : 0) + scale + 2 * add;
 }
 
