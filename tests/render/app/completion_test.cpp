@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 
 namespace rend {
 namespace {
@@ -95,6 +96,7 @@ TEST_F(Completion, of_fish_offers_commands_options_choices_and_files) {
 // A zsh that types: its completion works on a terminal only.
 TEST_F(Completion, of_zsh_offers_commands_options_choices_and_files) {
   if (!has("zsh")) GTEST_SKIP() << "zsh is not installed";
+  if (::access("/dev/pts/ptmx", F_OK) != 0) GTEST_SKIP() << "there are no pseudo-terminals here";
   ASSERT_EQ(place.rend("help completion zsh > _rend").code, 0);
   EXPECT_EQ(place.shell("zsh -n _rend").err, "");
   place.write("type", R"zsh(zmodload zsh/zpty
