@@ -1,7 +1,8 @@
 #include "sim/embedding/cell_index.h"
 
 #include "sim/base/archive.h"
-#include "sim/topology/walk.h"
+#include "sim/topology/append_orbit.h"
+#include "sim/topology/dart_sort.h"
 
 #include <algorithm>
 
@@ -16,24 +17,39 @@ void SlotEvents::clear() {
   moved.clear();
 }
 
-CellIndex::CellIndex(const GMap& map, Orbit orbit) : orbit_(orbit), slot_of_dart_(map.capacity(), no_slot) {
-  std::vector<Dart>
-      darts; // of one orbit; those that were reached have their slot, so that none is marked besides
+CellIndex::CellIndex(const GMap& map, Orbit orbit) : orbit_(orbit), slot_of_dart_(map.capacity()) {
+  number(map);
+  if (!orbit.has(map.dimension())) slot_of_dart_.pack();
+}
+
+namespace {
+
+// Who has a slot was there.
+struct Numbered {
+  SlotTable& slots;
+  Slot next;
+  bool has(std::uint32_t d) const { return slots[Dart{d}] != no_slot; }
+  void set(std::uint32_t d) { slots.set(Dart{d}, next); }
+  bool insert(std::uint32_t d) {
+    if (has(d)) return false;
+    set(d);
+    return true;
+  }
+};
+
+} // namespace
+
+// Darts come in increasing order: the first of an orbit that is met is the smallest.
+void CellIndex::number(const GMap& map) {
+  std::vector<Dart> darts;
+  Numbered seen{slot_of_dart_, 0};
   map.for_each_dart([&](Dart first) {
-    if (slot_of_dart_[first.value] != no_slot) return;
-    const Slot slot = static_cast<Slot>(first_dart_.size());
-    slot_of_dart_[first.value] = slot;
-    darts.assign(1, first);
-    for (std::size_t n = 0; n < darts.size(); ++n) {
-      for (int i = 0; i < 4; ++i) {
-        if (!orbit_.has(i)) continue;
-        const Dart next = map.alpha(i, darts[n]);
-        if (slot_of_dart_[next.value] != no_slot) continue;
-        slot_of_dart_[next.value] = slot;
-        darts.push_back(next);
-      }
-    }
-    first_dart_.push_back(first); // darts come in increasing order: the first is the smallest
+    if (seen.has(first.value)) return;
+    darts.clear();
+    if (!append_orbit(map, orbit_, first, darts, seen))
+      for (const Dart d : darts) seen.set(d.value);
+    first_dart_.push_back(first);
+    ++seen.next;
   });
   first_dart_.shrink_to_fit();
 }
@@ -43,7 +59,7 @@ void CellIndex::store(Archive& archive) {
 }
 
 std::size_t CellIndex::bytes() const {
-  return (slot_of_dart_.size() + first_dart_.size() + free_.size()) * sizeof(Slot);
+  return slot_of_dart_.bytes() + (first_dart_.size() + free_.size()) * sizeof(Slot);
 }
 
 Slot CellIndex::new_slot() {
@@ -59,19 +75,21 @@ Slot CellIndex::new_slot() {
 // An orbit, after the edit, that holds a dart the edit touched.
 struct CellIndex::Fragment {
   Dart smallest;
-  std::size_t begin, end; // its darts, in Scratch::darts
+  std::uint32_t begin, end; // its darts, in Scratch::darts
+  Slot old;                 // that all its darts had before; no_slot: they had several, or one of them had none
 };
 
 namespace {
 
 // Kept between edits so that a steady run allocates nothing.
 struct Scratch {
-  std::vector<Dart> darts;     // of all fragments, one after another
-  std::vector<Slot> affected;  // slots that may have lost all their darts
-  std::vector<Slot> old_slots; // of one fragment, each once, in the order of its darts
-  IndexSet seen;               // darts that were collected
-  IndexSet met;                // old slots of one fragment
-  IndexSet claimed;            // slots that live on
+  std::vector<Dart> darts;          // of all fragments, one after another
+  std::vector<std::uint64_t> order; // smallest dart, and number of its fragment
+  std::vector<Slot> affected;       // slots that may have lost all their darts
+  std::vector<Slot> old_slots;      // of one fragment, each once, in the order of its darts
+  Marks reached;                    // darts that were collected
+  Marks met;                        // old slots of one fragment
+  Marks claimed;                    // slots that live on
 };
 thread_local Scratch scratch;
 
@@ -80,95 +98,125 @@ thread_local Scratch scratch;
 void CellIndex::update(const GMap& map, const Journal& journal, SlotEvents& events) {
   events.clear();
   scratch.affected.clear();
-  scratch.claimed.clear();
   for (Dart d : journal.removed) {
     if (d.value >= slot_of_dart_.size()) continue; // created and removed by the same edit
-    if (slot_of_dart_[d.value] != no_slot) scratch.affected.push_back(slot_of_dart_[d.value]);
-    slot_of_dart_[d.value] = no_slot;
+    if (slot_of_dart_[d] != no_slot) scratch.affected.push_back(slot_of_dart_[d]);
+    slot_of_dart_.set(d, no_slot);
   }
-  if (slot_of_dart_.size() < map.capacity()) slot_of_dart_.resize(map.capacity(), no_slot);
+  slot_of_dart_.resize(map.capacity());
 
   thread_local std::vector<Fragment> fragments;
   fragments.clear();
-  scratch.darts.clear();
-  scratch.seen.clear();
-  // Marks every dart, or one of each pair {d, α1(d)}.
-  const auto marked = [&](Dart d) { return (orbit_.has(1) ? std::min(d, map.alpha(1, d)) : d).value; };
+  find_fragments(map, journal, fragments);
+  scratch.claimed.fit(first_dart_.size() + fragments.size());
+  scratch.met.fit(first_dart_.size() + fragments.size());
+  sort_by_dart(scratch.order);
+  for (const std::uint64_t key : scratch.order) settle(fragments[key & 0xffffffffu], events);
+  bury(events);
+
+  for (const Dart d : scratch.darts) scratch.reached.take_around(d.value);
+  for (const Slot slot : events.settled) scratch.claimed.take_around(slot);
+}
+
+void CellIndex::find_fragments(const GMap& map, const Journal& journal, std::vector<Fragment>& fragments) {
+  Scratch& my = scratch;
+  my.darts.clear();
+  my.order.clear();
+  my.reached.fit(map.capacity());
   const auto visit = [&](Dart d) {
-    if (!map.alive(d) || scratch.seen.contains(marked(d))) return;
-    const std::size_t begin = scratch.darts.size();
-    collect(map, orbit_, d, scratch.darts);
-    Dart smallest = d;
-    for (std::size_t n = begin; n < scratch.darts.size(); ++n) {
-      const Dart e = scratch.darts[n];
-      if (marked(e) == e.value) scratch.seen.insert(e.value);
-      smallest = std::min(smallest, e);
-    }
-    fragments.push_back({smallest, begin, scratch.darts.size()});
+    if (my.reached.has(d.value) || !map.alive(d)) return;
+    fragments.push_back(fragment_at(map, d));
+    my.order.push_back(std::uint64_t{fragments.back().smallest.value} << 32 | (fragments.size() - 1));
   };
   for (int i = 0; i < 4; ++i)
     if (orbit_.has(i))
-      for (Dart d : journal.touched[static_cast<std::size_t>(i)]) visit(d);
-  for (Dart d : journal.created) visit(d);
-
-  std::sort(fragments.begin(), fragments.end(),
-            [](const Fragment& a, const Fragment& b) { return a.smallest < b.smallest; });
-  for (Fragment& fragment : fragments) settle(fragment, events);
-
-  // What nobody claimed was absorbed (named in merges already) or is gone.
-  std::sort(scratch.affected.begin(), scratch.affected.end());
-  scratch.affected.erase(std::unique(scratch.affected.begin(), scratch.affected.end()), scratch.affected.end());
-  std::erase_if(events.merges, [](const auto& merge) { return scratch.claimed.contains(merge.second); });
-  for (Slot slot : scratch.affected) {
-    if (scratch.claimed.contains(slot)) continue;
-    first_dart_[slot] = Dart{};
-    free_.push_back(slot);
-    events.deaths.push_back(slot);
-  }
+      for (const Dart d : journal.touched[static_cast<std::size_t>(i)]) visit(d);
+  for (const Dart d : journal.created) visit(d);
 }
 
-// Gives a fragment its slot. Fragments come by increasing smallest dart, so that the first to ask keeps the
-// slot.
-void CellIndex::settle(Fragment& fragment, SlotEvents& events) {
-  Dart* const begin = scratch.darts.data() + fragment.begin;
-  Dart* const end = scratch.darts.data() + fragment.end;
-  Dart oldest; // the smallest dart that had a slot
-  Slot last = no_slot;
-  scratch.old_slots.clear();
-  scratch.met.clear();
-  for (Dart* d = begin; d != end; ++d) {
-    const Slot old = slot_of_dart_[d->value];
-    if (old == no_slot) continue;
-    if (!oldest || *d < oldest) oldest = *d;
-    if (old == last) continue; // mostly
-    last = old;
-    if (scratch.met.insert(old)) scratch.old_slots.push_back(old);
+CellIndex::Fragment CellIndex::fragment_at(const GMap& map, Dart d) const {
+  Scratch& my = scratch;
+  const std::size_t begin = my.darts.size();
+  collect_marked(map, orbit_, d, my.darts, my.reached);
+  Fragment fragment{d, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(my.darts.size()),
+                    slot_of_dart_[d]};
+  for (const Dart e : std::span(my.darts).subspan(begin)) {
+    fragment.smallest = std::min(fragment.smallest, e);
+    if (slot_of_dart_[e] != fragment.old) fragment.old = no_slot;
   }
-  scratch.affected.insert(scratch.affected.end(), scratch.old_slots.begin(), scratch.old_slots.end());
+  return fragment;
+}
+
+// Gives a fragment its slot. Fragments come by increasing smallest dart, so that the first to ask keeps the slot.
+void CellIndex::settle(const Fragment& fragment, SlotEvents& events) {
+  Scratch& my = scratch;
+  const std::span<const Dart> darts(my.darts.data() + fragment.begin, fragment.end - fragment.begin);
+  Slot slot = fragment.old;
+  if (slot == no_slot) {
+    slot = slot_for(fragment, events);
+    for (const Dart d : darts) {
+      if (slot_of_dart_[d] == slot) continue;
+      slot_of_dart_.set(d, slot);
+      events.moved.push_back(d);
+    }
+  } else if (!my.claimed.insert(slot)) { // a piece of what was one orbit, as nearly all are
+    slot = new_slot();
+    my.claimed.set(slot);
+    events.splits.push_back({fragment.old, slot});
+    for (const Dart d : darts) {
+      slot_of_dart_.set(d, slot);
+      events.moved.push_back(d);
+    }
+  }
+  events.settled.push_back(slot);
+  first_dart_[slot] = fragment.smallest;
+}
+
+// The slot of a fragment whose darts had several, or some of them none.
+Slot CellIndex::slot_for(const Fragment& fragment, SlotEvents& events) {
+  const std::span<const Dart> darts(scratch.darts.data() + fragment.begin, fragment.end - fragment.begin);
+  Dart oldest; // the smallest dart that had a slot
+  auto& old_slots = scratch.old_slots;
+  old_slots.clear();
+  for (const Dart d : darts) {
+    const Slot old = slot_of_dart_[d];
+    if (old == no_slot) continue;
+    if (!oldest || d < oldest) oldest = d;
+    if (scratch.met.insert(old)) old_slots.push_back(old);
+  }
+  for (const Slot old : old_slots) scratch.met.take_around(old);
+  scratch.affected.insert(scratch.affected.end(), old_slots.begin(), old_slots.end());
 
   Slot slot = no_slot;
-  if (oldest && !scratch.claimed.contains(slot_of_dart_[oldest.value])) slot = slot_of_dart_[oldest.value];
+  if (oldest && !scratch.claimed.has(slot_of_dart_[oldest])) slot = slot_of_dart_[oldest];
   if (slot == no_slot) {
-    for (Slot old : scratch.old_slots)
-      if (!scratch.claimed.contains(old)) slot = std::min(slot, old); // no_slot is the largest
+    for (const Slot old : old_slots)
+      if (!scratch.claimed.has(old)) slot = std::min(slot, old); // no_slot is the largest
   }
   if (slot == no_slot) {
     slot = new_slot();
     if (oldest)
-      events.splits.push_back({slot_of_dart_[oldest.value], slot});
+      events.splits.push_back({slot_of_dart_[oldest], slot});
     else
       events.births.push_back(slot);
   }
-  scratch.claimed.insert(slot);
-  events.settled.push_back(slot);
-  for (Slot old : scratch.old_slots)
-    if (old != slot && !scratch.claimed.contains(old)) events.merges.push_back({slot, old});
+  scratch.claimed.set(slot);
+  for (const Slot old : old_slots)
+    if (old != slot && !scratch.claimed.has(old)) events.merges.push_back({slot, old});
+  return slot;
+}
 
-  first_dart_[slot] = fragment.smallest;
-  for (Dart* d = begin; d != end; ++d) {
-    if (slot_of_dart_[d->value] == slot) continue;
-    slot_of_dart_[d->value] = slot;
-    events.moved.push_back(*d);
+// What nobody claimed was absorbed (named in merges already) or is gone.
+void CellIndex::bury(SlotEvents& events) {
+  auto& affected = scratch.affected;
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  std::erase_if(events.merges, [](const auto& merge) { return scratch.claimed.has(merge.second); });
+  for (const Slot slot : affected) {
+    if (scratch.claimed.has(slot)) continue;
+    first_dart_[slot] = Dart{};
+    free_.push_back(slot);
+    events.deaths.push_back(slot);
   }
 }
 

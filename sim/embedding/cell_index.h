@@ -6,6 +6,7 @@
 // smallest dart.
 #pragma once
 
+#include "sim/embedding/slot_table.h"
 #include "sim/topology/gmap.h"
 #include "sim/topology/map_edit.h"
 
@@ -13,9 +14,6 @@
 #include <vector>
 
 namespace rend {
-
-using Slot = std::uint32_t;
-constexpr Slot no_slot = Dart::none_value;
 
 // What one edit did to the slots of one kind of orbit, in the order in which it is to be applied.
 struct SlotEvents {
@@ -34,7 +32,7 @@ public:
   CellIndex(const GMap& map, Orbit orbit);
 
   Orbit orbit() const { return orbit_; }
-  Slot slot(Dart d) const { return slot_of_dart_[d.value]; }
+  Slot slot(Dart d) const { return slot_of_dart_[d]; }
   Slot find(Dart d) const {
     return d.value < slot_of_dart_.size() ? slot(d) : no_slot;
   }                                                        // for darts too new to have one
@@ -52,13 +50,18 @@ public:
 
 private:
   struct Fragment;
-  void settle(Fragment& fragment, SlotEvents& events);
+  void number(const GMap& map);
+  void find_fragments(const GMap& map, const Journal& journal, std::vector<Fragment>& fragments);
+  Fragment fragment_at(const GMap& map, Dart d) const;
+  void settle(const Fragment& fragment, SlotEvents& events);
+  Slot slot_for(const Fragment& fragment, SlotEvents& events);
+  void bury(SlotEvents& events);
   Slot new_slot();
 
   Orbit orbit_;
-  std::vector<Slot> slot_of_dart_; // one per dart; no_slot: removed
-  std::vector<Dart> first_dart_;   // one per slot
-  std::vector<Slot> free_;         // reused from the back
+  SlotTable slot_of_dart_;       // no_slot: removed
+  std::vector<Dart> first_dart_; // one per slot
+  std::vector<Slot> free_;       // reused from the back
 };
 
 } // namespace rend

@@ -38,8 +38,9 @@ double signed_volume(const CellMesh& mesh, std::size_t cell) {
       sixfold -= at(ring[0]).dot(at(ring[1]).cross(at(ring[2])));
       continue;
     }
-    const Vec3 centre = 0.25 * (at(ring[0]) + at(ring[1]) + at(ring[2]) + at(ring[3]));
-    for (std::size_t s = 0; s < n; ++s) sixfold -= centre.dot(at(ring[s]).cross(at(ring[(s + 1) % n])));
+    // Σ a × b over the sides of a quad is the product of its diagonals.
+    const Vec3 a = at(ring[0]), b = at(ring[1]), c = at(ring[2]), d = at(ring[3]);
+    sixfold -= 0.25 * (a + b + c + d).dot((c - a).cross(d - b));
   }
   return sixfold / 6;
 }
@@ -103,23 +104,20 @@ struct Cells {
   std::size_t cell_of(Dart d) const {
     return static_cast<std::size_t>(std::upper_bound(dart.begin(), dart.end(), d.value) - dart.begin()) - 1;
   }
-  std::uint32_t point_of(Dart d) const {
-    const std::size_t c = cell_of(d);
-    return corner(c, shape_of(mesh.kinds[c]).corner[d.value - dart[c]]);
-  }
 };
 
+// α0 to α2 of a cell, from its first dart on; every dart is α3-free.
+std::vector<GMap::Links> links_of(const CellShape& shape) {
+  std::vector<GMap::Links> links;
+  for (std::uint32_t d = 0; d < static_cast<std::uint32_t>(shape.darts); ++d)
+    links.push_back({d ^ 1U, shape.alpha1[d], shape.alpha2[d], d});
+  return links;
+}
+
 void link_cells(MapEdit& edit, const Cells& cells) {
-  for (std::size_t c = 0; c < cells.mesh.cells(); ++c) {
-    const CellShape& shape = shape_of(cells.mesh.kinds[c]);
-    const std::uint32_t begin = cells.dart[c];
-    for (int n = 0; n < shape.darts; ++n) edit.add_dart();
-    for (std::uint32_t n = 0; n < static_cast<std::uint32_t>(shape.darts); ++n) {
-      if (n % 2 == 0) edit.link(0, Dart{begin + n}, Dart{begin + n + 1});
-      if (n < shape.alpha1[n]) edit.link(1, Dart{begin + n}, Dart{begin + shape.alpha1[n]});
-      if (n < shape.alpha2[n]) edit.link(2, Dart{begin + n}, Dart{begin + shape.alpha2[n]});
-    }
-  }
+  std::array<std::vector<GMap::Links>, cell_shapes::all.size()> links;
+  for (std::size_t kind = 0; kind < links.size(); ++kind) links[kind] = links_of(cell_shapes::all[kind]);
+  for (const CellKind kind : cells.mesh.kinds) edit.add_linked(links[static_cast<std::size_t>(kind)]);
 }
 
 // A face as its ring of points, told from the smallest on towards its smaller neighbour: two faces have the same ring
@@ -189,8 +187,8 @@ void sew_faces(MapEdit& edit, const Cells& cells, std::uint32_t smallest, const 
     const std::size_t mine = cells.cell_of(Dart{one.dart}), theirs = cells.cell_of(Dart{other.dart});
     refuse(cells.mesh, std::max(mine, theirs),
            fmt::format("overlaps {} {}: both lie on the same side of the face with the points {}",
-                       shape_of(cells.mesh.kinds[std::min(mine, theirs)]).name, std::min(mine, theirs),
-                       ring_text(cells.mesh, smallest, one)));
+                       shape_of(cells.mesh.kinds[std::min(mine, theirs)]).name,
+                       cells.mesh.cell_name(std::min(mine, theirs)), ring_text(cells.mesh, smallest, one)));
   }
   Dart d{one.dart}, e{other.dart};
   for (int n = 0; n < (one.triangle() ? 6 : 8); ++n) {
@@ -213,8 +211,8 @@ void check_open(const Cells& cells, std::uint32_t smallest, std::span<const Side
       refuse(
           cells.mesh, mine,
           fmt::format("has a face with the points {}, on which {} {} lies with its face {}: they do not match",
-                      ring_text(cells.mesh, smallest, quad), shape_of(cells.mesh.kinds[theirs]).name, theirs,
-                      ring_text(cells.mesh, smallest, *found)));
+                      ring_text(cells.mesh, smallest, quad), shape_of(cells.mesh.kinds[theirs]).name,
+                      cells.mesh.cell_name(theirs), ring_text(cells.mesh, smallest, *found)));
     };
     refuse_beside(quad.next, quad.before, Dart::none_value);
     refuse_beside(quad.next, quad.across, Dart::none_value);
@@ -256,8 +254,10 @@ SewnSolid sew_cells(const CellMesh& mesh) {
   sew_all(edit, cells, Buckets(cells));
   SewnSolid solid;
   solid.turned = cells.turned;
-  solid.map = std::make_unique<EmbeddedMap>(std::move(map), [&](Dart d) {
-    solid.point.push_back(cells.point_of(d));
+  std::size_t cell = 0;
+  solid.map = std::make_unique<EmbeddedMap>(std::move(map), [&](Dart d) { // by increasing darts
+    while (cells.dart[cell + 1] <= d.value) ++cell;
+    solid.point.push_back(cells.corner(cell, shape_of(mesh.kinds[cell]).corner[d.value - cells.dart[cell]]));
     const Vec3& x = mesh.points[solid.point.back()];
     return Point{x, x, Vec3::Zero()};
   });

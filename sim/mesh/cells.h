@@ -17,12 +17,14 @@
 namespace rend {
 
 struct CellMesh {
-  std::vector<Vec3> points;           // [m]
-  std::vector<CellKind> kinds;        // one per cell
-  std::vector<std::uint32_t> corners; // point indices of all cells, one cell after another, in Gmsh's order
-  std::vector<std::uint32_t> first;   // where each cell starts in `corners`; one more entry closes the last
-  std::vector<std::uint64_t> names;   // what messages call each point; empty: its index
+  std::vector<Vec3> points;              // [m]
+  std::vector<CellKind> kinds;           // one per cell
+  std::vector<std::uint32_t> corners;    // point indices of all cells, one cell after another, in Gmsh's order
+  std::vector<std::uint32_t> first;      // where each cell starts in `corners`; one more entry closes the last
+  std::vector<std::uint64_t> names;      // what messages call each point; empty: its index
+  std::vector<std::uint64_t> cell_names; // what messages call each cell; empty: its index
   std::uint64_t name(std::uint32_t p) const { return p < names.size() ? names[p] : p; }
+  std::uint64_t cell_name(std::size_t cell) const { return cell < cell_names.size() ? cell_names[cell] : cell; }
   std::size_t cells() const { return kinds.size(); }
   std::span<const std::uint32_t> corners_of(std::size_t cell) const {
     return {corners.data() + first[cell], first[cell + 1] - first[cell]};

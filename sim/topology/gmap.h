@@ -21,6 +21,8 @@ class Archive;
 
 class GMap {
 public:
+  using Links = std::array<std::uint32_t, 4>; // α0(d) .. α3(d)
+
   // 2: a sheet, whose darts all stay α3-free, so that <1,2> is a vertex; 3: a solid.
   explicit GMap(int dimension);
 
@@ -50,7 +52,6 @@ public:
 
 private:
   friend class MapEdit;
-  using Links = std::array<std::uint32_t, 4>; // α0(d) .. α3(d)
 
   int dimension_;
   std::vector<Links> links_;        // one per dart; α0 = none: removed

@@ -3,9 +3,6 @@
 #include <algorithm>
 
 namespace rend {
-namespace {
-constexpr std::uint32_t golden = 0x9e3779b1u; // 2^32 / φ
-} // namespace
 
 void IndexMap::clear() {
   size_ = 0;
@@ -25,42 +22,10 @@ void IndexMap::grow() {
     if (entry.stamp == stamp_) place(entry.index) = entry;
 }
 
-IndexMap::Entry& IndexMap::place(std::uint32_t index) {
-  if (2 * (size_ + 1) > table_.size()) grow();
-  const std::size_t mask = table_.size() - 1;
-  std::size_t at = (index * golden) >> shift_;
-  while (table_[at].stamp == stamp_ && table_[at].index != index) at = (at + 1) & mask;
-  return table_[at];
-}
-
-std::uint32_t IndexMap::insert(std::uint32_t index, std::uint32_t value) {
-  Entry& entry = place(index);
-  if (entry.stamp == stamp_) return entry.value;
-  entry = {index, value, stamp_};
-  ++size_;
-  return value;
-}
-
 void IndexMap::assign(std::uint32_t index, std::uint32_t value) {
   Entry& entry = place(index);
   if (entry.stamp != stamp_) ++size_;
   entry = {index, value, stamp_};
-}
-
-std::uint32_t IndexMap::find(std::uint32_t index) const {
-  if (size_ == 0) return none;
-  const std::size_t mask = table_.size() - 1;
-  for (std::size_t at = (index * golden) >> shift_;; at = (at + 1) & mask) {
-    const Entry& entry = table_[at];
-    if (entry.stamp != stamp_) return none;
-    if (entry.index == index) return entry.value;
-  }
-}
-
-bool IndexSet::insert(std::uint32_t index) {
-  const std::size_t before = map_.size();
-  map_.insert(index, 0);
-  return map_.size() != before;
 }
 
 } // namespace rend

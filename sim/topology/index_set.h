@@ -27,7 +27,10 @@ private:
     std::uint32_t index = 0, value = 0, stamp = 0; // of an older stamp: empty
   };
   Entry& place(std::uint32_t index); // where it is, or would be; makes room for one more
+  std::size_t home(std::uint32_t index) const { return (index * golden) >> shift_; }
   void grow();
+
+  static constexpr std::uint32_t golden = 0x9e3779b1u; // 2^32 / φ
 
   std::vector<Entry> table_; // size a power of two
   std::size_t size_ = 0;
@@ -44,5 +47,37 @@ public:
 private:
   IndexMap map_;
 };
+
+inline IndexMap::Entry& IndexMap::place(std::uint32_t index) {
+  if (2 * (size_ + 1) > table_.size()) grow();
+  const std::size_t mask = table_.size() - 1;
+  std::size_t at = home(index);
+  while (table_[at].stamp == stamp_ && table_[at].index != index) at = (at + 1) & mask;
+  return table_[at];
+}
+
+inline std::uint32_t IndexMap::insert(std::uint32_t index, std::uint32_t value) {
+  Entry& entry = place(index);
+  if (entry.stamp == stamp_) return entry.value;
+  entry = {index, value, stamp_};
+  ++size_;
+  return value;
+}
+
+inline std::uint32_t IndexMap::find(std::uint32_t index) const {
+  if (size_ == 0) return none;
+  const std::size_t mask = table_.size() - 1;
+  for (std::size_t at = home(index);; at = (at + 1) & mask) {
+    const Entry& entry = table_[at];
+    if (entry.stamp != stamp_) return none;
+    if (entry.index == index) return entry.value;
+  }
+}
+
+inline bool IndexSet::insert(std::uint32_t index) {
+  const std::size_t before = map_.size();
+  map_.insert(index, 0);
+  return map_.size() != before;
+}
 
 } // namespace rend

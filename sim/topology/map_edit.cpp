@@ -1,6 +1,6 @@
 #include "sim/topology/map_edit.h"
 
-#include "sim/base/check.h"
+#include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 
 namespace rend {
@@ -40,31 +40,18 @@ void MapEdit::remove_dart(Dart d) {
   if (journal_) journal_->removed.push_back(d);
 }
 
-void MapEdit::link(int i, Dart a, Dart b) {
-  CHECK(map_.alive(a) && map_.alive(b));
-  CHECK(map_.is_free(i, a) && map_.is_free(i, b));
-  CHECK_NOTE(i < 3 || map_.dimension() == 3, "the darts of a sheet stay α3-free");
-  if (a == b) return;
-  map_.links_[a.value][static_cast<std::size_t>(i)] = b.value;
-  map_.links_[b.value][static_cast<std::size_t>(i)] = a.value;
-  if (!journal_) return;
-  journal_->touched[static_cast<std::size_t>(i)].push_back(a);
-  journal_->touched[static_cast<std::size_t>(i)].push_back(b);
-}
-
-void MapEdit::unlink(int i, Dart a) {
-  CHECK(map_.alive(a));
-  const Dart b = map_.alpha(i, a);
-  CHECK(a != b);
-  map_.links_[a.value][static_cast<std::size_t>(i)] = a.value;
-  map_.links_[b.value][static_cast<std::size_t>(i)] = b.value;
-  if (!journal_) return;
-  journal_->touched[static_cast<std::size_t>(i)].push_back(a);
-  journal_->touched[static_cast<std::size_t>(i)].push_back(b);
-}
-
 void MapEdit::reserve(std::size_t darts) {
   map_.links_.reserve(darts);
+}
+
+Dart MapEdit::add_linked(std::span<const GMap::Links> links) {
+  CHECK(!journal_ && map_.free_.empty());
+  const std::size_t first = map_.links_.size();
+  CHECK_NOTE(first + links.size() < Dart::none_value, "a map holds at most 2^32 - 1 darts");
+  map_.links_.insert(map_.links_.end(), links.begin(), links.end());
+  for (std::size_t d = first; d < map_.links_.size(); ++d)
+    for (std::uint32_t& link : map_.links_[d]) link += static_cast<std::uint32_t>(first);
+  return Dart{first};
 }
 
 namespace {
@@ -115,11 +102,30 @@ bool sew(MapEdit& edit, int i, Dart d, Dart e) {
 bool unsew(MapEdit& edit, int i, Dart d) {
   const GMap& map = edit.map();
   if (map.is_free(i, d)) return false;
-  thread_local std::vector<Dart> darts;
-  darts.clear();
-  collect(map, parallel_to(i), d, darts);
-  for (Dart a : darts)
-    if (!map.is_free(i, a)) edit.unlink(i, a);
+  std::array<Dart, 16> pairs; // to be noted a face at a time
+  std::size_t count = 0;
+  const auto open = [&](Dart a) {
+    if (map.is_free(i, a)) return; // where the orbit is sewn to itself, its other dart was unlinked
+    pairs[count++] = a;
+    pairs[count++] = edit.cut(i, a);
+    if (count < pairs.size()) return;
+    edit.note(i, pairs);
+    count = 0;
+  };
+  switch (i) { // parallel_to(i), none of whose links is αi
+  case 0:
+    walk_two(map, 2, 3, d, open);
+    break;
+  case 1:
+    walk_two(map, 3, 3, d, open);
+    break;
+  case 2:
+    walk_two(map, 0, 0, d, open);
+    break;
+  default:
+    walk_two(map, 0, 1, d, open);
+  }
+  edit.note(i, std::span(pairs).first(count));
   return true;
 }
 

@@ -2,12 +2,12 @@
 //
 // Orbits of at most two links are a path or a cycle and are walked without marks. So are <0,2,3> and <0,1,3>:
 // α0 commutes with α2 and α3, hence <0,2,3>(d) = <2,3>(d) ∪ α0<2,3>(d); and α3 with α0 and α1. The others need
-// to know where they have been: a small hash set that is cleared by counting up. It holds every second dart of <0,1,2>
-// and <1,2,3>, which are walked face by face and corner by corner. A walk's order depends on the map and the first dart alone.
+// to know where they have been (marks.h); <0,1,2> and <1,2,3> are walked face by face and corner by corner. A walk's
+// order depends on the map and the first dart alone.
 #pragma once
 
 #include "sim/topology/gmap.h"
-#include "sim/topology/index_set.h"
+#include "sim/topology/marks.h"
 
 #include <span>
 #include <vector>
@@ -17,29 +17,36 @@ namespace rend {
 // Appends the darts of orbit(d) to `out`, d first.
 void collect(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out);
 
+// The same, and leaves a mark on each of them. `marks` has room for the map's darts, and none of them is marked.
+void collect_marked(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out, Marks& marks);
+
 std::vector<Dart> darts_of(const GMap& map, Orbit orbit, Dart d);
 Dart smallest_dart(const GMap& map, Orbit orbit, Dart d);
 bool same_cell(const GMap& map, Orbit orbit, Dart a, Dart b);
 
-// Follows αi, αj, αi, .. from d and calls f on every dart of <i,j>(d), d first.
+// Follows αi, αj, αi, .. from d and calls f on every dart of <i,j>(d), d first; of <i>(d), if i = j.
 template <class F> void walk_two(const GMap& map, int i, int j, Dart d, F&& f) {
   f(d);
-  int link = i;
   for (Dart at = d;;) {
-    const Dart next = map.alpha(link, at);
+    Dart next = map.alpha(i, at);
     if (next == at) break; // the end of a path: the rest lies the other way
-    if (next == d) return; // once around
     f(next);
     at = next;
-    link = i + j - link;
+    next = map.alpha(j, at);
+    if (next == at) break;
+    if (next == d) return; // once around: always by αj
+    f(next);
+    at = next;
   }
-  link = j;
   for (Dart at = d;;) {
-    const Dart next = map.alpha(link, at);
+    Dart next = map.alpha(j, at);
     if (next == at) return;
     f(next);
     at = next;
-    link = i + j - link;
+    next = map.alpha(i, at);
+    if (next == at) return;
+    f(next);
+    at = next;
   }
 }
 

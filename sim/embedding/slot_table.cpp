@@ -1,0 +1,56 @@
+#include "sim/embedding/slot_table.h"
+
+#include "sim/base/archive.h"
+
+#include <algorithm>
+
+namespace rend {
+
+void SlotTable::pack() {
+  std::vector<Slot> least((wide_.size() + group - 1) / group, no_slot);
+  for (std::size_t d = 0; d < wide_.size(); ++d) least[d / group] = std::min(least[d / group], wide_[d]);
+  std::vector<std::uint8_t> step(wide_.size(), no_step);
+  for (std::size_t d = 0; d < wide_.size(); ++d) {
+    if (wide_[d] == no_slot) continue;
+    const Slot above = wide_[d] - least[d / group];
+    if (above >= no_step) return;
+    step[d] = static_cast<std::uint8_t>(above);
+  }
+  least_ = std::move(least);
+  step_ = std::move(step);
+  wide_ = {};
+}
+
+void SlotTable::unpack() {
+  std::vector<Slot> wide(step_.size());
+  for (std::size_t d = 0; d < wide.size(); ++d) wide[d] = (*this)[Dart{d}];
+  wide_ = std::move(wide);
+  least_ = {};
+  step_ = {};
+}
+
+bool SlotTable::set_step(Dart d, Slot slot) {
+  const Slot above = slot == no_slot ? no_step : slot - least_[d.value / group]; // below it: a large number
+  if (slot == no_slot || above < no_step) {
+    step_[d.value] = static_cast<std::uint8_t>(above);
+    return true;
+  }
+  unpack();
+  return false;
+}
+
+void SlotTable::resize(std::size_t darts) {
+  if (darts == size()) return;
+  if (wide_.empty()) unpack();
+  wide_.resize(darts, no_slot);
+}
+
+std::size_t SlotTable::bytes() const {
+  return (wide_.size() + least_.size()) * sizeof(Slot) + step_.size();
+}
+
+void SlotTable::store(Archive& archive) {
+  archive(wide_, least_, step_);
+}
+
+} // namespace rend
