@@ -2,6 +2,7 @@
 
 #include "sim/base/check.h"
 #include "sim/surface/hull.h"
+#include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -31,10 +32,10 @@ SolidSurface::~SolidSurface() {
 void SolidSurface::rebuild() {
   const GMap& map = body_.map->map();
   drawn_.resize(map.capacity());
-  queue_.clear();
-  queued_.clear();
+  queued_.fit(map.capacity());
   map.for_each_dart([&](Dart d) { queue(d); });
   bind();
+  empty_queue();
 }
 
 void SolidSurface::update() {
@@ -46,9 +47,8 @@ void SolidSurface::update() {
   }
   const GMap& map = body_.map->map();
   drawn_.resize(map.capacity());
-  queue_.clear();
-  queued_.clear();
-  volumes_.clear();
+  queued_.fit(map.capacity());
+  in_volumes_.fit(map.capacity());
   for (const auto& touched : changes_.touched)
     for (Dart d : touched) drawn_.erase(d); // if it is a key: it may be one no more
   for (std::size_t i = 0; i < 4; ++i)
@@ -62,15 +62,24 @@ void SolidSurface::update() {
     if (map.alive(d)) queue_volume(d);
   changes_.clear();
   bind();
+  empty_queue();
+}
+
+void SolidSurface::empty_queue() {
+  for (const Dart first : queue_)
+    walk_two(body_.map->map(), 0, 1, first, [&](Dart d) { queued_.take_around(d.value); });
+  for (const Dart d : volumes_) in_volumes_.take_around(d.value);
+  queue_.clear();
+  volumes_.clear();
 }
 
 void SolidSurface::queue(Dart d) {
   const GMap& map = body_.map->map();
-  if (!map.is_free(3, d) || queued_.contains(std::min(d, map.alpha(0, d)).value)) return;
+  if (!map.is_free(3, d) || queued_.has(d.value)) return;
   Dart first = d;
   walk_two(map, 0, 1, d, [&](Dart e) {
     first = std::min(first, e);
-    if (e <= map.alpha(0, e)) queued_.insert(e.value);
+    queued_.set(e.value);
   });
   queue_.push_back(first);
 }
@@ -81,16 +90,14 @@ void SolidSurface::queue_around_edge(Dart d) {
 
 void SolidSurface::queue_volume(Dart d) {
   const GMap& map = body_.map->map();
-  if (volumes_.contains(std::min(d, map.alpha(0, d)).value)) return;
-  thread_local std::vector<Dart> darts;
-  darts.clear();
-  collect(map, Volume, d, darts);
-  for (Dart e : darts) {
-    if (map.alpha(0, e) < e) continue; // one end of an edge will do
-    volumes_.insert(e.value);
-    if (!map.is_free(3, e)) continue;
-    if (e <= map.alpha(1, e)) queue(e); // as the smallest dart of its face is
-    queue(across_hull_edge(map, e));    // the edge between may have become a crease, or be one no more
+  if (in_volumes_.has(d.value)) return;
+  const std::size_t begin = volumes_.size();
+  collect_marked(map, Volume, d, volumes_, in_volumes_);
+  for (std::size_t n = begin; n < volumes_.size(); ++n) {
+    const Dart e = volumes_[n];
+    if (map.alpha(0, e) < e || !map.is_free(3, e)) continue; // one end of an edge will do
+    if (e <= map.alpha(1, e)) queue(e);                      // as the smallest dart of its face is
+    queue(across_hull_edge(map, e)); // the edge between may have become a crease, or be one no more
   }
 }
 

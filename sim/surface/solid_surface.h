@@ -16,7 +16,7 @@
 
 #include "sim/scene/body.h"
 #include "sim/surface/drawn_faces.h"
-#include "sim/topology/index_set.h"
+#include "sim/topology/marks.h"
 
 namespace rend {
 
@@ -73,6 +73,7 @@ private:
   void queue(Dart d);             // the face of d, if it is drawn
   void queue_around_edge(Dart d); // the two faces of the hull there
   void queue_volume(Dart d);      // the drawn faces of d's volume, and their neighbours
+  void empty_queue();             // and its marks
   void bind();                    // the faces that were queued
   void write_face(Dart first);
   void write_fan(Dart d);
@@ -92,9 +93,10 @@ private:
   std::vector<Vec3> sums_; // one per group
 
   // Scratch of update().
-  std::vector<Dart> queue_; // smallest darts of the faces to be bound
-  IndexSet queued_;         // of each of their sides, the smaller dart
-  IndexSet volumes_;        // of each side in volumes that were queued, the smaller dart
+  std::vector<Dart> queue_;   // smallest darts of the faces to be bound
+  Marks queued_;              // on their darts
+  std::vector<Dart> volumes_; // darts of volumes that were queued
+  Marks in_volumes_;          // on those
   std::vector<FanCorner> fan_;
   bool fan_closed_ = false;
 };
