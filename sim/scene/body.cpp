@@ -2,6 +2,7 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/profile.h"
+#include "sim/embedding/reorder.h"
 #include "sim/integrate/footing.h"
 
 #include <algorithm>
@@ -154,6 +155,7 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
 
 void Body::follow_changes() {
   const double start = seconds_now();
+  if (slots_scattered(*map)) number_anew(*map);
   rebind();
   evaluate();
   rebind_seconds += seconds_now() - start;
