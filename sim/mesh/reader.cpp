@@ -3,6 +3,7 @@
 #include "sim/base/wording.h"
 #include "sim/mechanics/mass.h"
 #include "sim/mesh/fault.h"
+#include "sim/mesh/locality.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
@@ -118,7 +119,22 @@ MeshBody sewn(MeshFile& file, MapMesh& mesh, std::vector<std::uint32_t>& point) 
   return body;
 }
 
+template <class Mesh> void put_in_order(MeshFile& file, Mesh& mesh) {
+  const std::vector<std::uint32_t> order = order_for_locality(mesh);
+  if (order.empty()) return;
+  mesh = reordered(mesh, order);
+  std::vector<Origin> origins;
+  for (const std::uint32_t n : order) origins.push_back(file.origins.at(n));
+  file.origins = std::move(origins);
+}
+
+void put_in_order(MeshFile&, MapMesh&) {} // it is the order of its darts that such a file is about
+
 } // namespace
+
+void order_for_locality(MeshFile& file) {
+  std::visit([&](auto& mesh) { put_in_order(file, mesh); }, file.mesh);
+}
 
 MeshBody sew(MeshFile file) {
   std::vector<std::uint32_t> point; // of each vertex slot

@@ -58,6 +58,9 @@ MeshReader moka_reader();
 MeshFile read_mesh(const std::filesystem::path& path);
 MeshFile read_mesh(MeshSource source); // its name has the extension
 
+// Where the elements lie in memory as they should not, another order of them (sim/mesh/locality.h), with their origins.
+void order_for_locality(MeshFile& file);
+
 struct MeshBody {
   std::unique_ptr<EmbeddedMap> map;
   std::map<std::string, std::vector<Slot>> groups; // increasing slots of vertices

@@ -29,6 +29,7 @@ void build(Body& body, const Node& node, const Placement& place) {
     }
   }();
   place.apply(file.points());
+  order_for_locality(file);
   MeshBody mesh = sew(std::move(file));
   body.map = std::move(mesh.map);
   body.groups = std::move(mesh.groups);
