@@ -54,7 +54,7 @@ void expect_same(const Scene& a, const Scene& b) {
 
 // How far a run goes here.
 void play(Played& run) {
-  constexpr long few = 40, after_tears = 20, affordable = 500'000; // steps, and steps times vertices
+  constexpr long few = 8, after_tears = 5, affordable = 100'000; // steps, and steps times vertices
   if (std::getenv("REND_WHOLE")) return run.go_to(run.steps());
   std::size_t vertices = 0;
   for (const auto& body : run.scene.bodies()) vertices += body->vertices();
