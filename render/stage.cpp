@@ -14,6 +14,7 @@ namespace {
 // [texels]. With four taps an edge is some five texels wide: softer than at 2048, and 1.4 ms instead of 5.5.
 constexpr int shadow_side = 1024;
 constexpr float shadow_spread = 2.0f;   // of the four taps [texels]
+constexpr float far_side_tint = 0.74f;
 constexpr double floor_reach = 4;       // where the floor has become backdrop, in distances from eye to target
 constexpr double sunk = 0.002;          // what may lie in the floor and still be seen, in the same distances
 constexpr float shadow_step_out = 2.5f; // along the normal [texels]
@@ -200,47 +201,72 @@ void Stage::draw_shadow_map(const LightView& light) {
 }
 
 void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light) {
-  const auto texel = static_cast<float>(2 * light.half / shadow_side);
-  body_.use();
-  body_.set("world_to_clip", view.world_to_clip());
-  body_.set("world_to_shadow", to_texture(light.world_to_clip));
-  body_.set("eye", Eigen::Vector3f(view.eye.cast<float>()));
-  body_.set("key", Eigen::Vector3f(lights.key.cast<float>()));
-  body_.set("fill", Eigen::Vector3f(lights.fill.cast<float>()));
-  body_.set("sky", Eigen::Vector3f(lights.sky.cast<float>()));
-  body_.set("shadow_offset", shadow_step_out * texel);
-  body_.set("shadow_spread", shadow_spread / shadow_side);
-  body_.set("line_scale", std::max(static_cast<float>(height_) / 720.0f, 0.5f) * static_cast<float>(fine_));
-  const bool floor_seen = frame.floor && view.eye.z() > frame.floor->z;
-  const double hidden_below = floor_seen ? frame.floor->z - sunk * view.distance : -1e30;
-  body_.set("hidden_below", static_cast<float>(hidden_below));
-  body_.set("shadow", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
   glBindVertexArray(corners_array_.name());
   glEnable(GL_CLIP_DISTANCE0);
-  for (const bool filled : {true, false}) // one sees through wires to what is behind them
+  for (const bool filled : {true, false}) { // one sees through wires to what is behind them
+    if (std::none_of(draws_.begin(), draws_.end(), [&](const Draw& draw) { return draw.body->filled == filled; }))
+      continue;
+    const GlProgram& program = body_program(filled);
+    program.use();
+    set_view(program, frame, view);
+    if (filled) set_light(program, lights, light);
     for (const Draw& draw : draws_)
-      if (draw.body->filled == filled) draw_body(draw);
+      if (draw.body->filled == filled) draw_body(program, draw);
+  }
   glDisable(GL_CULL_FACE);
   glDisable(GL_CLIP_DISTANCE0);
 }
 
-void Stage::draw_body(const Draw& draw) const {
-  const FrameBody& body = *draw.body;
+const GlProgram& Stage::body_program(bool filled) {
+  std::optional<GlProgram>& program = filled ? body_ : wires_;
+  if (!program)
+    program.emplace("body.vert", "body.frag",
+                    fmt::format("#define WIRES {}\n#define SHADOW_SPREAD {}\n", filled ? 0 : 1,
+                                shadow_spread / shadow_side));
+  return *program;
+}
+
+void Stage::set_view(const GlProgram& program, const Frame& frame, const View& view) const {
+  program.set("world_to_clip", view.world_to_clip());
+  program.set("eye", Eigen::Vector3f(view.eye.cast<float>()));
+  program.set("line_scale", std::max(static_cast<float>(height_) / 720.0f, 0.5f) * static_cast<float>(fine_));
+  const bool floor_seen = frame.floor && view.eye.z() > frame.floor->z;
+  const double hidden_below = floor_seen ? frame.floor->z - sunk * view.distance : -1e30;
+  program.set("hidden_below", static_cast<float>(hidden_below));
+}
+
+void Stage::set_light(const GlProgram& program, const Lights& lights, const LightView& light) {
+  const auto texel = static_cast<float>(2 * light.half / shadow_side);
+  program.set("world_to_shadow", to_texture(light.world_to_clip));
+  program.set("key", Eigen::Vector3f(lights.key.cast<float>()));
+  program.set("fill", Eigen::Vector3f(lights.fill.cast<float>()));
+  program.set("sky", Eigen::Vector3f(lights.sky.cast<float>()));
+  program.set("shadow_offset", shadow_step_out * texel);
+  program.set("shadow", 0);
+}
+
+void Stage::set_finish(const GlProgram& program, const FrameBody& body) {
   const Finish& finish = body.finish;
-  body_.set("cells", body.edges ? 1 : 0);
-  body_.set("filled", body.filled ? 1 : 0);
-  body_.set("transmission", body.two_sided ? finish.transmission : 0.0f);
-  body_.set("gloss", finish.gloss);
-  body_.set("sharpness", finish.sharpness);
-  body_.set("rim_light", finish.rim);
-  body_.set("wrap", finish.wrap);
-  body_.set("back_tint", body.sides && !body.back ? 0.74f : 1.0f);
-  const auto share = [&](std::size_t c) {
-    return body.back ? static_cast<float>((*body.back)[c]) / 255.0f : 0.0f;
-  };
-  body_.set("back", Eigen::Vector4f(share(0), share(1), share(2), body.back && body.sides ? 1.0f : 0.0f));
+  const float transmission = body.two_sided ? finish.transmission : 0;
+  program.set("finish",
+              Eigen::Vector4f(finish.gloss, finish.rim, transmission, finish.wrap / (1 + finish.wrap)));
+  CHECK(finish.sharpness >= 0 && finish.sharpness < 8);
+  const auto bit = [&](int n) { return static_cast<float>(finish.sharpness >> n & 1); };
+  program.set("sheen", Eigen::Vector3f(bit(0), bit(1), bit(2)));
+}
+
+void Stage::draw_body(const GlProgram& program, const Draw& draw) const {
+  const FrameBody& body = *draw.body;
+  program.set("cells", body.edges ? 1 : 0);
+  if (body.filled) set_finish(program, body);
+  Eigen::Vector4f back(0, 0, 0, body.sides ? far_side_tint : 1); // what the far side has of its own, and of the near
+  if (body.back && body.sides) {
+    const auto& colour = *body.back;
+    back = Eigen::Vector4f(colour[0], colour[1], colour[2], 0) / 255;
+  }
+  program.set("back", back);
   const bool culled = !body.two_sided && body.filled;
   (culled ? glEnable : glDisable)(GL_CULL_FACE);
   if (!body.filled) {

@@ -56,7 +56,11 @@ private:
   void draw_all() const;
   void draw_shadow_map(const LightView& light);
   void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light);
-  void draw_body(const Draw& draw) const;
+  const GlProgram& body_program(bool filled); // compiled when it is first asked for
+  void set_view(const GlProgram& program, const Frame& frame, const View& view) const;
+  static void set_light(const GlProgram& program, const Lights& lights, const LightView& light);
+  static void set_finish(const GlProgram& program, const FrameBody& body);
+  void draw_body(const GlProgram& program, const Draw& draw) const;
   PixelBox covered_by_bodies(const View& view) const;
   void resolve(const PixelBox& covered);
   void occlude(const Frame& frame, const View& view, const PixelBox& covered);
@@ -72,7 +76,7 @@ private:
   int taken_;          // samples of each of those: 1 or 4
   bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};
-  GlProgram body_{"body.vert", "body.frag"};
+  std::optional<GlProgram> body_, wires_; // of bodies that are filled, and of the others
   GlProgram studio_{"studio.vert", "studio.frag"};
   GlProgram backdrop_{"screen.vert", "backdrop.frag"};
   FloorShadow floor_shadow_;

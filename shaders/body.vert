@@ -1,4 +1,8 @@
 // A corner of a triangle: three in a row are a triangle, so that a corner knows which one it is.
+//
+// Each number of a uniform that a fragment reads costs llvmpipe a gather of eight, some 25 cycles; so fragments have
+// none. What a draw call has in common comes to them flat, which is one instruction a number, and products with
+// directions that are the same everywhere are taken here, since they are linear over a triangle.
 layout(location = 0) in vec3 position; // [m]
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 colour;   // sRGB
@@ -7,39 +11,53 @@ layout(location = 3) in uvec4 line;    // [k]: kind of line along the side oppos
 uniform mat4 world_to_clip;
 uniform mat4 world_to_shadow; // to the texture: [0, 1]³
 uniform vec3 eye;             // [m]
-uniform vec3 key;             // unit, towards the key light
+uniform vec3 key, fill, sky;  // unit, towards the lights and up
 uniform float shadow_offset;  // how far a point steps out of its own shadow [m]
 uniform float line_scale;     // pixels per pixel of a picture 720 high
 uniform int cells;            // 1: lines between cells are drawn
 uniform float hidden_below;   // height under which nothing is seen: under the floor [m]
+uniform vec4 finish;          // finish.h: gloss, rim, transmission, wrap / (1 + wrap)
+uniform vec3 sheen;           // 1 where the sheen is squared once, twice more, four times more
+uniform vec4 back;            // the far side's own colour, sRGB; w: its share of the near side's
 
-out vec3 to_eye;
-out vec3 across; // the normal
-out vec3 albedo; // linear
-out vec3 weight; // barycentric coordinates
-out vec3 in_shadow;
-flat out vec3 half_width; // of the line opposite to each corner [pixels]; negative: no line
-flat out vec3 torn;       // 1 where that line is a torn edge
-flat out vec3 thin;       // 1 where it lies between cells
-flat out vec3 crease;     // 1 where it is a sharp edge of a solid
+out vec4 to_eye;    // [m]; w: times key
+out vec4 across;    // the normal; w: times key
+out vec4 albedo;    // linear; w: first barycentric coordinate
+out vec4 in_shadow; // w: second barycentric coordinate
+out vec2 turned;    // the normal times sky and fill
+// Of the line opposite to each corner: half its width, and half a pixel more [pixels]; how it fades where the triangle is
+// low: its strength is ink times slope x height + start, within 0 and 1; ink is negative for what is torn. w: finish
+flat out vec4 reach, slope, start, ink;
+flat out vec4 far_side; // linear; w: back.w
+flat out vec3 squares;  // sheen
+
+// Of a line of that kind: half width [pixels], slope [1/pixel], start, ink.
+vec4 line_of(uint kind) {
+  if (kind == 3u) return vec4(1.7, 0.0, 1.0, -1.0);  // torn: whatever the triangle's height
+  if (kind == 2u) return vec4(1.2, 0.25, -0.5, 1.0); // a border
+  if (cells == 1 && kind == 4u) return vec4(0.9, 0.25, -0.5, 0.75); // a crease
+  if (cells == 1 && kind == 1u) return vec4(0.55, 0.09, -0.4, 0.62); // between cells
+  return vec4(-8.0, 0.0, 0.0, 0.0);
+}
 
 void main() {
   gl_Position = world_to_clip * vec4(position, 1.0);
   gl_ClipDistance[0] = position.z - hidden_below;
-  to_eye = eye - position;
-  across = normal;
-  albedo = decode(colour.rgb);
   int corner = gl_VertexID % 3;
-  weight = vec3(corner == 0, corner == 1, corner == 2);
-  for (int k = 0; k < 3; ++k) {
-    uint kind = line[k];
-    torn[k] = float(kind == 3u);
-    thin[k] = float(kind == 1u);
-    crease[k] = float(kind == 4u);
-    half_width[k] = kind == 3u ? 1.7 : kind == 2u ? 1.2 : cells == 0 ? -8.0 : kind == 4u ? 0.9 : kind == 1u ? 0.55 : -8.0;
-  }
-  half_width *= line_scale;
   float facing = dot(normal, key);
   vec3 step_out = normal * (facing >= 0.0 ? shadow_offset : -shadow_offset);
-  in_shadow = (world_to_shadow * vec4(position + step_out, 1.0)).xyz;
+  to_eye = vec4(eye - position, dot(eye - position, key));
+  across = vec4(normal, facing);
+  albedo = vec4(decode(colour.rgb), corner == 0);
+  in_shadow = vec4((world_to_shadow * vec4(position + step_out, 1.0)).xyz, corner == 1);
+  turned = vec2(dot(normal, sky), dot(normal, fill));
+
+  mat3x4 lines = mat3x4(line_of(line.x), line_of(line.y), line_of(line.z));
+  mat4x3 parts = transpose(lines);
+  reach = vec4(parts[0] * line_scale + 0.5, finish.x);
+  slope = vec4(parts[1], finish.y);
+  start = vec4(parts[2], finish.z);
+  ink = vec4(parts[3], finish.w);
+  far_side = vec4(decode(back.rgb), back.w);
+  squares = sheen;
 }
