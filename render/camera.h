@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <span>
+#include <vector>
 
 namespace rend {
 
@@ -26,9 +28,13 @@ struct PixelBox {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-// What `bounds` (not empty) can cover of a picture of that size, in whole blocks of 16 pixels.
+// What `bounds` (not empty), or the least convex body around some points, can cover of a picture of that size, in whole
+// blocks of 16 pixels.
 PixelBox covered_by(const Eigen::AlignedBox3d& bounds, const View& view, int width, int height);
-PixelBox both(const PixelBox& a, const PixelBox& b); // the least that holds the two
+PixelBox covered_by(std::span<const Eigen::Vector3d> points, const View& view, int width, int height);
+PixelBox both(const PixelBox& a, const PixelBox& b);   // the least that holds the two
+PixelBox common(const PixelBox& a, const PixelBox& b); // width 0: they have nothing in common
+std::vector<PixelBox> without(const PixelBox& all, const PixelBox& hole); // at most four, side by side
 
 // A camera that looks at the middle of `bounds` from `direction` (from the box towards the eye, any length) and
 // is as near as it can be with the whole box in sight and a margin around it. fov: vertical angle [degrees].

@@ -121,6 +121,10 @@ void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& tow
   const double penumbra = std::log2(light_width * key_reach / towards_key.z() / (2 * key_texel));
   const double contact_level = std::clamp(std::log2(0.4 * contact / contact_texel), 0.0, 4.0);
   shade_of_floor_ = texture_of_floor(key, floor_z);
+  const Eigen::Matrix2d to_floor = shade_of_floor_.leftCols<2>().inverse();
+  for (int n = 0; n < 4; ++n)
+    reached_[static_cast<std::size_t>(n)]
+        << to_floor * (Eigen::Vector2d(n & 1, n >> 1) - shade_of_floor_.col(2)), floor_z;
   choose_blur(penumbra);
   settle(contact_level, texture_of_floor(above, floor_z));
 }

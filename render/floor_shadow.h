@@ -9,6 +9,7 @@
 #include "render/gl.h"
 #include "render/light.h"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -40,6 +41,8 @@ public:
   // x: the share of key light kept away, y: of all light. 256² texels: the square of build(), seen along the
   // key.
   GLuint shade() const { return shade_.name(); }
+  // Corners of the part of the floor beyond which nothing is kept from it [m].
+  const std::array<Eigen::Vector3d, 4>& reached() const { return reached_; }
   // From (x, y, 1) on the floor [m] to shade's texture coordinates.
   const Eigen::Matrix<double, 2, 3>& shade_of_floor() const { return shade_of_floor_; }
 
@@ -55,6 +58,7 @@ private:
   GlTexture blur_, shade_; // one channel: which level of key_ is the shadow; two: see shade()
   GlFramebuffer blur_target_, shade_target_;
   Eigen::Matrix<double, 2, 3> shade_of_floor_;
+  std::array<Eigen::Vector3d, 4> reached_;
 };
 
 } // namespace rend

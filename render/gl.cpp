@@ -65,6 +65,9 @@ void GlProgram::set(const char* name, int value) const {
 void GlProgram::set(const char* name, float value) const {
   glUniform1f(location(name), value);
 }
+void GlProgram::set(const char* name, const Eigen::Vector2i& value) const {
+  glUniform2iv(location(name), 1, value.data());
+}
 void GlProgram::set(const char* name, const Eigen::Vector2f& value) const {
   glUniform2fv(location(name), 1, value.data());
 }

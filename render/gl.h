@@ -52,6 +52,7 @@ public:
   // Set uniforms of the program in use. CHECK that the program has one of that name.
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
+  void set(const char* name, const Eigen::Vector2i& value) const;
   void set(const char* name, const Eigen::Vector2f& value) const;
   void set(const char* name, const Eigen::Vector3f& value) const;
   void set(const char* name, const Eigen::Vector4f& value) const;

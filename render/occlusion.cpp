@@ -1,7 +1,7 @@
 #include "render/occlusion.h"
 
 #include <algorithm>
-#include <string>
+#include <fmt/format.h>
 
 namespace rend {
 namespace {
@@ -47,10 +47,6 @@ float tolerance(const View& view) {
   return static_cast<float>(4 / reach(view));
 }
 
-std::string define(int samples) {
-  return "#define SAMPLES " + std::to_string(samples) + "\n";
-}
-
 // 1 / depth = x + y * what the depth buffer holds.
 Eigen::Vector2f to_nearness(const View& view) {
   const Eigen::Matrix4d& clip = view.eye_to_clip;
@@ -59,18 +55,21 @@ Eigen::Vector2f to_nearness(const View& view) {
 
 } // namespace
 
-Occlusion::Occlusion(int width, int height, int samples)
-    : depth_kind_(samples == 1 ? GL_TEXTURE_2D : GL_TEXTURE_2D_MULTISAMPLE), width_(width), height_(height),
-      small_width_((width + part - 1) / part), small_height_((height + part - 1) / part),
-      depths_program_("occlusion.vert", "occlusion_depth.frag", define(samples)),
-      apply_program_("screen.vert", "occlusion_apply.frag", define(samples)) {
+std::string Occlusion::definitions(int samples, int fine) {
+  return fmt::format("#define SAMPLES {}\n#define FINE {}\n#define PART {}\n", samples, fine, part);
+}
+
+Occlusion::Occlusion(int width, int height, int samples, int fine)
+    : width_(width), height_(height), small_width_((width + part - 1) / part),
+      small_height_((height + part - 1) / part),
+      depths_program_("occlusion.vert", "occlusion_depth.frag", definitions(samples, fine)) {
   make_target(depths_, depths_target_, GL_R32F, GL_RED, small_width_, small_height_);
   make_target(kept_, kept_target_, GL_RG32F, GL_RG, small_width_, small_height_);
   make_target(blurred_, blurred_target_, GL_RG32F, GL_RG, small_width_, small_height_);
 }
 
-void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, const PixelBox& covered,
-                      std::optional<double> floor_z) {
+void Occlusion::find(const BodiesPicture& bodies, const View& view, std::optional<double> floor_z) {
+  const PixelBox& covered = bodies.covered;
   const auto longest = static_cast<int>(longest_share * small_height_);
   const auto grown = [&](int margin) { // small
     const int x = std::max(covered.x / part - margin, 0), y = std::max(covered.y / part - margin, 0);
@@ -81,31 +80,23 @@ void Occlusion::apply(GLuint picture, GLuint depth, int fine, const View& view, 
   glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
   glViewport(0, 0, small_width_, small_height_);
-  read_depths(depth, fine, view, grown(longest + 5), floor_z);
+  read_depths(bodies, view, grown(longest + 5), floor_z);
   find_kept(view, grown(3));
   blur(view, grown(1));
-
-  glBindFramebuffer(GL_FRAMEBUFFER, picture);
-  glViewport(0, 0, width_, height_);
-  glEnable(GL_BLEND);
-  glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
-  apply_program_.use();
-  apply_program_.set("depth", 0);
-  apply_program_.set("kept", 1);
-  apply_program_.set("texel", texel());
-  apply_program_.set("part", static_cast<float>(part));
-  apply_program_.set("back", 0.5f * part - part / 2);
-  apply_program_.set("stride", fine);
-  apply_program_.set("to_nearness", to_nearness(view));
-  apply_program_.set("tolerance", tolerance(view));
-  bind(1, GL_TEXTURE_2D, blurred_.name());
-  bind(0, depth_kind_, depth);
-  draw_over(covered);
-  glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
 }
 
-void Occlusion::read_depths(GLuint depth, int fine, const View& view, const PixelBox& box,
+void Occlusion::set(const GlProgram& program, const View& view, const BodiesPicture& bodies, int unit) const {
+  program.set("depth", unit);
+  program.set("kept", unit + 1);
+  program.set("texel", texel());
+  program.set("to_nearness", to_nearness(view));
+  program.set("tolerance", tolerance(view));
+  bind(unit, bodies.kind(), bodies.depth);
+  bind(unit + 1, GL_TEXTURE_2D, blurred_.name());
+}
+
+void Occlusion::read_depths(const BodiesPicture& bodies, const View& view, const PixelBox& box,
                             std::optional<double> floor_z) {
   Eigen::Vector3d floor = Eigen::Vector3d::Zero(); // its nearness over the small picture
   if (floor_z) {
@@ -119,10 +110,11 @@ void Occlusion::read_depths(GLuint depth, int fine, const View& view, const Pixe
   depths_program_.use();
   depths_program_.set("floor_plane", Eigen::Vector3f(floor.cast<float>()));
   depths_program_.set("depth", 0);
-  depths_program_.set("part", part);
-  depths_program_.set("stride", fine);
+  depths_program_.set("origin", bodies.origin());
+  depths_program_.set("end", Eigen::Vector2i(Eigen::Vector2i(width_, height_) * bodies.fine -
+                                             bodies.origin() - Eigen::Vector2i::Ones()));
   depths_program_.set("to_nearness", to_nearness(view));
-  bind(0, depth_kind_, depth);
+  bind(0, bodies.kind(), bodies.depth);
   draw_over(box);
 }
 

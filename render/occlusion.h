@@ -3,7 +3,7 @@
 //
 // Found in the picture itself, from the depths that the bodies left, at a third of its size each way: at half of it, it takes 8 ms more:
 //
-//   depths ─▶ what is kept along a slice ─▶ mean over 4 x 4 ─▶ multiplied into the picture of the bodies
+//   depths ─▶ what is kept along a slice ─▶ mean over 4 x 4 ─▶ multiplied into the bodies by the last pass (composite.h)
 //
 // The visibility of a place is the cosine-weighted share of its hemisphere that is free. For one slice of the hemisphere
 // through the eye, with n the angle of the normal in it and h1 ≤ n ≤ h2 the angles of the two horizons, it is
@@ -22,26 +22,27 @@
 // A Device must be current, from construction to destruction.
 #pragma once
 
-#include "render/camera.h"
-#include "render/gl.h"
+#include "render/bodies_picture.h"
 
 #include <optional>
+#include <string>
 
 namespace rend {
 
 class Occlusion {
 public:
-  // width, height [pixels], of the picture; samples: 1 or 4, of its depths.
-  Occlusion(int width, int height, int samples);
+  // width, height [pixels], of the picture; samples, fine: of the bodies that come (bodies_picture.h).
+  Occlusion(int width, int height, int samples, int fine);
 
-  // Darkens what is in `picture`, a framebuffer of that size with colours multiplied by their alpha, and leaves it
-  // bound. depth: a texture with those samples, `fine` times as large each way; covered: by bodies; floor_z: of a
-  // floor that is seen [m].
-  void apply(GLuint picture, GLuint depth, int fine, const View& view, const PixelBox& covered,
-             std::optional<double> floor_z);
+  // floor_z: of a floor that is seen [m].
+  void find(const BodiesPicture& bodies, const View& view, std::optional<double> floor_z);
+  // For a program that multiplies it into the picture (composite.frag), which is in use: its textures and numbers, from a
+  // texture unit on.
+  void set(const GlProgram& program, const View& view, const BodiesPicture& bodies, int unit) const;
+  static std::string definitions(int samples, int fine); // for shaders that read samples
 
 private:
-  void read_depths(GLuint depth, int fine, const View& view, const PixelBox& box,
+  void read_depths(const BodiesPicture& bodies, const View& view, const PixelBox& box,
                    std::optional<double> floor_z);
   void find_kept(const View& view, const PixelBox& box);
   void blur(const View& view, const PixelBox& box);
@@ -49,9 +50,8 @@ private:
     return {1.0f / static_cast<float>(small_width_), 1.0f / static_cast<float>(small_height_)};
   }
 
-  GLenum depth_kind_;                               // of texture
   int width_, height_, small_width_, small_height_; // [pixels]
-  GlProgram depths_program_, apply_program_;
+  GlProgram depths_program_;
   GlProgram kept_program_{"screen.vert", "occlusion.frag"};
   GlProgram blur_program_{"screen.vert", "occlusion_blur.frag"};
   GlTexture depths_, kept_, blurred_; // small: depth [m]; the other two: what is kept, depth [m]

@@ -15,7 +15,6 @@ namespace {
 constexpr int shadow_side = 1024;
 constexpr float shadow_spread = 2.0f;   // of the four taps [texels]
 constexpr float far_side_tint = 0.74f;
-constexpr double floor_reach = 4;       // where the floor has become backdrop, in distances from eye to target
 constexpr double sunk = 0.002;          // what may lie in the floor and still be seen, in the same distances
 constexpr float shadow_step_out = 2.5f; // along the normal [texels]
 
@@ -32,17 +31,11 @@ std::uint8_t whole(std::uint8_t part, std::uint8_t alpha) {
   return alpha == 0 ? 0 : static_cast<std::uint8_t>(std::min(255, (part * 255 + alpha / 2) / alpha));
 }
 
-Eigen::Vector3f colour_of(const std::array<float, 3>& colour) {
-  const Eigen::Vector3f value(colour[0], colour[1], colour[2]);
-  CHECK(value.allFinite());
-  return value;
-}
-
 } // namespace
 
 Stage::Stage(int width, int height, int samples)
     : width_(width), height_(height), samples_(samples), fine_(samples == 16 ? 2 : 1),
-      taken_(std::min(samples, 4)) {
+      taken_(std::min(samples, 4)), composite_(width, height) {
   CHECK(samples == 1 || samples == 4 || samples == 16);
   GLint largest = 0, most = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
@@ -54,7 +47,8 @@ Stage::Stage(int width, int height, int samples)
   if (taken_ > most)
     throw UserError(Exit::BadInput, {}, "this machine's OpenGL cannot take 4 samples a pixel.",
                     "Set samples=\"1\" and draw a larger picture.");
-  make_targets();
+  make_picture();
+  make_target(width * fine_, height * fine_); // whether there is room for the most that may be needed
   make_shadow_map();
   make_vertex_array();
   check_gl("Stage");
@@ -71,37 +65,51 @@ void Stage::must_hold() const {
       "draw a smaller one, or take fewer samples: --set image.samples=1");
 }
 
-void Stage::make_target(const GlFramebuffer& target, const GlRenderbuffer& colour, int width, int height) {
-  glBindRenderbuffer(GL_RENDERBUFFER, colour.name());
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.name());
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour.name());
+void Stage::make_picture() {
+  glBindRenderbuffer(GL_RENDERBUFFER, picture_colour_.name());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_, height_);
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, picture_colour_.name());
   must_hold();
 }
 
-void Stage::make_targets() {
-  const int width = width_ * fine_, height = height_ * fine_;
-  make_target(resolved_, resolved_colour_, width, height);
-  if (fine_ > 1) make_target(picture_, picture_colour_, width_, height_);
-
-  glBindRenderbuffer(GL_RENDERBUFFER, target_colour_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, taken_ == 1 ? 0 : taken_, GL_RGBA8, width, height);
-  const GLenum kind = taken_ == 1 ? GL_TEXTURE_2D : GL_TEXTURE_2D_MULTISAMPLE;
-  glBindTexture(kind, target_depth_.name());
-  if (taken_ == 1)
-    glTexImage2D(kind, 0, GL_DEPTH_COMPONENT24, width, height, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
-  else
-    glTexImage2DMultisample(kind, taken_, GL_DEPTH_COMPONENT24, width, height, GL_TRUE);
+void Stage::make_target(int width, int height) {
+  const BodiesPicture bodies = bodies_picture({});
+  const auto make = [&](const GlTexture& texture, GLenum format, GLenum channels, GLenum numbers) {
+    glBindTexture(bodies.kind(), texture.name());
+    if (taken_ == 1)
+      glTexImage2D(bodies.kind(), 0, static_cast<GLint>(format), width, height, 0, channels, numbers, nullptr);
+    else
+      glTexImage2DMultisample(bodies.kind(), taken_, format, width, height, GL_TRUE);
+  };
+  make(target_colour_, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+  make(target_depth_, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target_colour_.name());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, kind, target_depth_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, bodies.kind(), bodies.colours, 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, bodies.kind(), bodies.depth, 0);
   must_hold();
+  target_width_ = width;
+  target_height_ = height;
+}
+
+// Made anew where what is to be drawn does not fit, or is less than half of it; in coarse steps, which bodies that move
+// seldom take.
+void Stage::fit_target(const PixelBox& covered) {
+  constexpr int step = 128; // [pixels]
+  const auto rounded = [&](int size, int most) { return std::min((size + step - 1) / step * step, most) * fine_; };
+  const int width = rounded(covered.width, width_), height = rounded(covered.height, height_);
+  const bool fits = width <= target_width_ && height <= target_height_;
+  if (!fits || 2L * width * height < 1L * target_width_ * target_height_) make_target(width, height);
+}
+
+BodiesPicture Stage::bodies_picture(const PixelBox& covered) const {
+  return {target_colour_.name(), target_depth_.name(), taken_, fine_, covered};
 }
 
 void Stage::make_shadow_map() {
   glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, shadow_side, shadow_side, 0, GL_DEPTH_COMPONENT,
-               GL_UNSIGNED_INT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, shadow_side, shadow_side, 0, GL_DEPTH_COMPONENT,
+               GL_FLOAT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -129,7 +137,7 @@ void Stage::make_vertex_array() {
 
 void Stage::draw(const Frame& frame) {
   CHECK(!frame.floor || std::isfinite(frame.floor->z));
-  const Eigen::Vector3f background = colour_of(frame.background);
+  CHECK(Eigen::Map<const Eigen::Array3f>(frame.background.data()).isFinite().all());
   upload(frame);
   const double aspect = static_cast<double>(width_) / height_;
   Eigen::AlignedBox3d bounds;
@@ -145,17 +153,13 @@ void Stage::draw(const Frame& frame) {
     floor_shadow_.build(frame.floor->z, view.distance, lights.key, lit, [this] { draw_all(); });
   glDisable(GL_DEPTH_CLAMP);
 
-  glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  glViewport(0, 0, width_ * fine_, height_ * fine_);
-  glEnable(GL_DEPTH_TEST);
-  glClearColor(0, 0, 0, 0); // nothing: the studio goes behind
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  draw_bodies(frame, view, lights, light);
-  const PixelBox covered = covered_by_bodies(view);
-  resolve(covered);
-  if (frame.occlusion) occlude(frame, view, covered);
+  const BodiesPicture bodies = bodies_picture(covered_by_bodies(view));
+  draw_bodies(frame, view, lights, light, bodies);
+  const bool occluded = frame.occlusion && bodies.covered.width > 0;
+  if (occluded) occlude(frame, view, bodies);
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+  composite_.draw(frame, view, bodies, floor_shadow_, occluded ? &*occlusion_ : nullptr);
   transparent_ = frame.transparent;
-  if (!frame.transparent) draw_studio(frame, view, background);
   check_gl("Stage::draw");
 }
 
@@ -200,7 +204,15 @@ void Stage::draw_shadow_map(const LightView& light) {
   glDisable(GL_SCISSOR_TEST);
 }
 
-void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light) {
+void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
+                        const BodiesPicture& bodies) {
+  if (bodies.covered.width == 0) return;
+  fit_target(bodies.covered);
+  glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+  glViewport(-bodies.origin().x(), -bodies.origin().y(), width_ * fine_, height_ * fine_);
+  glEnable(GL_DEPTH_TEST);
+  glClearColor(0, 0, 0, 0); // nothing: the studio goes behind
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
   glBindVertexArray(corners_array_.name());
@@ -285,71 +297,15 @@ PixelBox Stage::covered_by_bodies(const View& view) const {
   return all;
 }
 
-void Stage::resolve(const PixelBox& covered) {
-  const GLint left = covered.x, right = covered.x + covered.width;
-  const GLint low = covered.y, high = covered.y + covered.height;
-  const auto copy = [&](const GlFramebuffer& from, const GlFramebuffer& to, int size, int size_after,
-                        GLenum filter) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
-    glClear(GL_COLOR_BUFFER_BIT);
-    glBlitFramebuffer(left * size, low * size, right * size, high * size, left * size_after, low * size_after,
-                      right * size_after, high * size_after, GL_COLOR_BUFFER_BIT, filter);
-  };
-  copy(target_, resolved_, fine_, fine_, GL_NEAREST);
-  // Half as large, the filter lies just between four pixels: their mean.
-  if (fine_ > 1) copy(resolved_, picture_, fine_, 1, GL_LINEAR);
-  glBindFramebuffer(GL_FRAMEBUFFER, result().name());
-  glViewport(0, 0, width_, height_);
-}
-
-void Stage::occlude(const Frame& frame, const View& view, const PixelBox& covered) {
-  if (covered.width == 0) return;
-  if (!occlusion_) occlusion_.emplace(width_, height_, taken_);
+void Stage::occlude(const Frame& frame, const View& view, const BodiesPicture& bodies) {
+  if (!occlusion_) occlusion_.emplace(width_, height_, taken_, fine_);
   const bool floor = frame.floor && !frame.transparent && view.eye.z() > frame.floor->z;
-  occlusion_->apply(result().name(), target_depth_.name(), fine_, view, covered,
-                    floor ? std::optional(frame.floor->z) : std::nullopt);
-}
-
-// Puts floor and backdrop behind what is in the resolved picture, by its alpha.
-void Stage::draw_studio(const Frame& frame, const View& view, const Eigen::Vector3f& background) {
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
-  const bool floor = frame.floor && view.eye.z() > frame.floor->z; // seen from below it is not there
-  const GlProgram& program = floor ? studio_ : backdrop_;
-  program.use();
-  program.set("background", background);
-  if (floor) set_floor(frame, view);
-  glBindVertexArray(no_array_.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDisable(GL_BLEND);
-}
-
-// Lengths on the floor are taken from below the camera's target, in units of the floor's reach.
-void Stage::set_floor(const Frame& frame, const View& view) {
-  const double reach = floor_reach * view.distance;
-  const Eigen::Vector3d centre(frame.camera.target.x(), frame.camera.target.y(), frame.floor->z);
-  const Eigen::Matrix3d axes = view.world_to_eye.topLeftCorner<3, 3>().transpose();
-  const auto set = [&](const char* name, const auto& value) {
-    studio_.set(name, value.template cast<float>().eval());
-  };
-  set("eye", Eigen::Vector3d((view.eye - centre) / reach));
-  set("ray", Eigen::Vector3d(-axes.col(2)));
-  set("ray_x", Eigen::Vector3d(axes.col(0) / view.eye_to_clip(0, 0)));
-  set("ray_y", Eigen::Vector3d(axes.col(1) / view.eye_to_clip(1, 1)));
-  const Eigen::Matrix<double, 2, 3>& shade = floor_shadow_.shade_of_floor();
-  set("shade_origin", Eigen::Vector2d(shade.leftCols<2>() * centre.head<2>() + shade.col(2)));
-  set("shade_x", Eigen::Vector2d(shade.col(0) * reach));
-  set("shade_y", Eigen::Vector2d(shade.col(1) * reach));
-  studio_.set("shade", 0);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, floor_shadow_.shade());
+  occlusion_->find(bodies, view, floor ? std::optional(frame.floor->z) : std::nullopt);
 }
 
 Image Stage::read() {
   pixels_.resize(static_cast<std::size_t>(width_) * height_ * 4);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, result().name());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
   check_gl("Stage::read");

@@ -1,11 +1,10 @@
 // The stage: draws a Frame into a picture.
 //
-// Passes: shadow map from the key light ─▶ floor's shadows ─▶ bodies (with samples) ─▶ resolve ─▶ occlusion ─▶
-// studio.
+// Passes: shadow map from the key light ─▶ floor's shadows ─▶ bodies (with samples) ─▶ occlusion ─▶ composite.
 //
 // Bodies are drawn over nothing, and the studio (floor and backdrop) is put behind them afterwards, once a
-// pixel: it has no edges that samples would smooth, and covers most of the picture. Only the part of the picture
-// that bodies can cover is resolved. What is under the floor is clipped away. Both sides of a sheet are lit; of a
+// pixel: it has no edges that samples would smooth, and covers most of the picture. Samples are there for the part of
+// the picture alone that bodies can cover: clearing them takes as long as a third of the bodies. What is under the floor is clipped away. Both sides of a sheet are lit; of a
 // solid, only the outside is drawn. Lines along cells are worked out in the fragment shader, from barycentric
 // coordinates, so they cost no geometry and are smooth at any size.
 //
@@ -15,6 +14,7 @@
 // A Device must be current, from construction to destruction.
 #pragma once
 
+#include "render/composite.h"
 #include "render/floor_shadow.h"
 #include "render/frame.h"
 #include "render/gl.h"
@@ -48,27 +48,25 @@ private:
     Eigen::AlignedBox3d bounds;      // [m]
   };
 
-  void make_targets();
+  void make_target(int width, int height);
+  void fit_target(const PixelBox& covered);
+  void make_picture();
   void must_hold() const; // UserError (BadInput) where OpenGL has no room for what was asked for
   void make_shadow_map();
   void make_vertex_array();
   void upload(const Frame& frame);
   void draw_all() const;
   void draw_shadow_map(const LightView& light);
-  void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light);
+  void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
+                   const BodiesPicture& bodies);
   const GlProgram& body_program(bool filled); // compiled when it is first asked for
   void set_view(const GlProgram& program, const Frame& frame, const View& view) const;
   static void set_light(const GlProgram& program, const Lights& lights, const LightView& light);
   static void set_finish(const GlProgram& program, const FrameBody& body);
   void draw_body(const GlProgram& program, const Draw& draw) const;
   PixelBox covered_by_bodies(const View& view) const;
-  void resolve(const PixelBox& covered);
-  void occlude(const Frame& frame, const View& view, const PixelBox& covered);
-  const GlFramebuffer& result() const { return fine_ > 1 ? picture_ : resolved_; }
-  void draw_studio(const Frame& frame, const View& view, const Eigen::Vector3f& background);
-  void set_floor(const Frame& frame, const View& view);
-
-  void make_target(const GlFramebuffer& target, const GlRenderbuffer& colour, int width, int height);
+  BodiesPicture bodies_picture(const PixelBox& covered) const;
+  void occlude(const Frame& frame, const View& view, const BodiesPicture& bodies);
 
   int width_, height_; // [pixels], of the picture
   int samples_;        // a pixel, as asked for
@@ -77,16 +75,15 @@ private:
   bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};
   std::optional<GlProgram> body_, wires_; // of bodies that are filled, and of the others
-  GlProgram studio_{"studio.vert", "studio.frag"};
-  GlProgram backdrop_{"screen.vert", "backdrop.frag"};
   FloorShadow floor_shadow_;
+  Composite composite_;
   std::optional<Occlusion> occlusion_; // made for the first frame that has it
 
-  GlFramebuffer target_, resolved_, picture_,
-      shadow_; // picture_: where fine_ is 2, what resolved_ is brought to
-  GlRenderbuffer target_colour_, resolved_colour_, picture_colour_;
-  GlTexture target_depth_, shadow_map_;    // the first has samples, too
-  GlVertexArray corners_array_, no_array_; // the second: for passes that make up their own corners
+  GlFramebuffer target_, picture_, shadow_; // target_: of bodies, with samples
+  GlRenderbuffer picture_colour_;
+  GlTexture target_colour_, target_depth_, shadow_map_;
+  int target_width_ = 0, target_height_ = 0; // [pixels], fine
+  GlVertexArray corners_array_;
   GlBuffer corners_buffer_;
   std::size_t capacity_ = 0; // of that buffer [corners]
 

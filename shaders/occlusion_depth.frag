@@ -1,18 +1,20 @@
 // The depth of some pixels [m]: of the bodies, or else of the floor, or else far away.
 noperspective in float floor_nearness;
+flat in ivec2 from, last; // see occlusion.vert
+flat in vec2 nearness;    // 1 / depth [1/m] = x + y * what the depth buffer holds
 #if SAMPLES == 1
 uniform sampler2D depth;
-#define last (textureSize(depth, 0) - 1)
+#define size textureSize(depth, 0)
 #else
 uniform sampler2DMS depth;
-#define last (textureSize(depth) - 1)
+#define size textureSize(depth)
 #endif
-uniform int part;   // so many pixels of the picture, each way, are one here: the middle one is looked at
-uniform int stride; // from a pixel of the picture to one of `depth`
-uniform vec2 to_nearness; // 1 / depth [1/m] = x + y * what the depth buffer holds
 out vec4 pixel;
 void main() {
-  float stored = texelFetch(depth, min((ivec2(gl_FragCoord.xy) * part + part / 2) * stride, last), 0).x;
-  float nearness = stored < 1.0 ? to_nearness.x + to_nearness.y * stored : floor_nearness;
-  pixel = vec4(1.0 / max(nearness, 1e-9), 0.0, 0.0, 1.0);
+  // PART pixels of the picture, each way, are one here: the middle one is looked at.
+  ivec2 at = min((ivec2(gl_FragCoord.xy) * PART + PART / 2) * FINE - from, last);
+  bool held = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, size));
+  float stored = held ? texelFetch(depth, at, 0).x : 1.0;
+  float near = stored < 1.0 ? nearness.x + nearness.y * stored : floor_nearness;
+  pixel = vec4(1.0 / max(near, 1e-9), 0.0, 0.0, 1.0);
 }

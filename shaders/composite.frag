@@ -1,0 +1,100 @@
+// A pixel of the picture: the mean of the bodies' samples, less what occlusion keeps from them, and what is behind.
+//
+// BODIES: 1 where there may be some. OCCLUDED: 1 with ambient occlusion. BEHIND: 0 nothing, 1 the backdrop, 2 the floor where
+// nothing is kept from it, 3 the floor. SAMPLES of each of FINE x FINE pixels are one of the picture.
+#if BEHIND
+noperspective in vec2 place; // see composite.vert
+flat in vec3 light;
+#endif
+#if BEHIND > 1
+noperspective in vec3 on_floor;
+#endif
+#if BEHIND > 2
+noperspective in vec2 in_shade;
+uniform sampler2D shade;
+#endif
+#if SAMPLES == 1
+#define Sampled sampler2D
+#else
+#define Sampled sampler2DMS
+#endif
+#if BODIES
+flat in ivec2 from;
+uniform Sampled colours; // multiplied by their alpha
+#endif
+out vec4 pixel;
+
+#if BODIES
+vec4 bodies() {
+  ivec2 at = ivec2(gl_FragCoord.xy) * FINE - from;
+  vec4 sum = vec4(0.0);
+  for (int j = 0; j < FINE; ++j)
+    for (int i = 0; i < FINE; ++i)
+      for (int k = 0; k < SAMPLES; ++k) sum += texelFetch(colours, at + ivec2(i, j), k);
+  return sum / float(FINE * FINE * SAMPLES);
+}
+#endif
+
+#if OCCLUDED
+uniform Sampled depth;
+uniform sampler2D kept;
+uniform vec2 texel;       // of `kept`, in texture coordinates
+uniform vec2 to_nearness; // see occlusion_depth.frag
+uniform float tolerance;  // [1/m]
+
+// What is left of the light: that of the four nearest places, of those that are as deep.
+vec3 open() {
+  float stored = 1.0; // of a pixel on an edge, the nearest: the farther part is darkened on its other pixels
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  for (int k = 0; k < SAMPLES; ++k) stored = min(stored, texelFetch(depth, at * FINE - from, k).x);
+  float deep = 1.0 / (to_nearness.x + to_nearness.y * stored);
+
+  const float back = 0.5 * float(PART) - float(PART / 2);
+  vec2 spot = (vec2(at) + back) / float(PART); // the blur of place i reaches from i - 2 to i + 1, with i - 1/2 in its middle
+  vec2 first = floor(spot), share = spot - first;
+  float sum = 0.0, weights = 0.0;
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      vec2 other = texture(kept, (first + vec2(i, j) + 0.5) * texel).xy;
+      float weight = (i == 0 ? 1.0 - share.x : share.x) * (j == 0 ? 1.0 - share.y : share.y) + 0.01;
+      weight *= max(1.0 - abs(other.y - deep) * tolerance, 0.0) + 1e-4;
+      sum += weight * other.x;
+      weights += weight;
+    }
+  return encode(vec3(1.0 - sum / weights));
+}
+#endif
+
+#if BEHIND
+// The studio floor has the backdrop's own light, so that it has no end, less what the bodies keep away from it.
+vec3 behind() {
+  vec3 all = backdrop(place, light);
+#if BEHIND > 1
+  float below = 1.0 / max(on_floor.z, 1e-6);
+  vec2 at = on_floor.xy * below;
+  float away = min(dot(at, at), 1.0);
+  float pool = max(1.0 - 4.0 * away, 0.0); // of the key light, around the middle
+  vec3 left = vec3(0.94 + 0.08 * pool * pool);
+#if BEHIND > 2
+  vec2 lost = texture(shade, in_shade * below).xy;
+  left *= (1.0 - vec3(0.62, 0.59, 0.54) * lost.x) * (1.0 - 0.70 * lost.y);
+#endif
+  float fade = away * away * (3.0 - 2.0 * away);
+  all *= mix(left, vec3(1.0), fade);
+#endif
+  return encode(all);
+}
+#endif
+
+void main() {
+  pixel = vec4(0.0);
+#if BODIES
+  pixel = bodies();
+#endif
+#if OCCLUDED
+  pixel.rgb *= open();
+#endif
+#if BEHIND
+  pixel = vec4(pixel.rgb + (1.0 - pixel.a) * behind(), 1.0);
+#endif
+}

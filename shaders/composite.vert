@@ -1,0 +1,40 @@
+// One triangle that covers the picture, and what of the floor is seen in its corners. All of it is linear over the
+// picture, and comes to the fragments interpolated or flat: each number of a uniform costs them some 25 cycles.
+#if BODIES
+uniform ivec2 origin; // of the bodies' picture in this one [their pixels]
+flat out ivec2 from;
+#endif
+#if BEHIND
+uniform vec3 background; // sRGB
+flat out vec3 light;     // linear
+noperspective out vec2 place; // corners of the picture at -1 and 1
+#endif
+#if BEHIND > 1
+uniform vec3 eye;               // relative to the middle of the floor [reach]
+uniform vec3 ray, ray_x, ray_y; // of the picture's middle, and per unit of place [reach]
+noperspective out vec3 on_floor; // xy over z: where the floor is hit [reach]; z > 0 below the horizon
+#endif
+#if BEHIND > 2
+uniform vec2 shade_origin, shade_x, shade_y; // from the floor [reach] to the texture
+noperspective out vec2 in_shade; // over that z: the texture's coordinates there
+#endif
+
+void main() {
+  vec2 at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+#if BODIES
+  from = origin;
+#endif
+#if BEHIND
+  light = decode(background);
+  place = at;
+#endif
+#if BEHIND > 1
+  vec3 along = ray + at.x * ray_x + at.y * ray_y;
+  float down = -along.z;
+  on_floor = vec3(eye.xy * down + eye.z * along.xy, down);
+#endif
+#if BEHIND > 2
+  in_shade = shade_origin * down + on_floor.x * shade_x + on_floor.y * shade_y;
+#endif
+  gl_Position = vec4(at, 1.0, 1.0);
+}
