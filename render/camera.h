@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <span>
-#include <vector>
 
 namespace rend {
 
@@ -22,19 +20,6 @@ struct View {
 // drawn; may be empty) as tightly as the depth buffer likes. An up direction along the line of sight is
 // replaced. CHECK: finite numbers, eye apart from target, 0 < fov < 180.
 View view_of(const FrameCamera& camera, const Eigen::AlignedBox3d& bounds, double aspect);
-
-// A rectangle of a picture [pixels]; x and y of its lower left corner, from the picture's.
-struct PixelBox {
-  int x = 0, y = 0, width = 0, height = 0;
-};
-
-// What `bounds` (not empty), or the least convex body around some points, can cover of a picture of that size, in whole
-// blocks of 16 pixels.
-PixelBox covered_by(const Eigen::AlignedBox3d& bounds, const View& view, int width, int height);
-PixelBox covered_by(std::span<const Eigen::Vector3d> points, const View& view, int width, int height);
-PixelBox both(const PixelBox& a, const PixelBox& b);   // the least that holds the two
-PixelBox common(const PixelBox& a, const PixelBox& b); // width 0: they have nothing in common
-std::vector<PixelBox> without(const PixelBox& all, const PixelBox& hole); // at most four, side by side
 
 // A camera that looks at the middle of `bounds` from `direction` (from the box towards the eye, any length) and
 // is as near as it can be with the whole box in sight and a margin around it. fov: vertical angle [degrees].

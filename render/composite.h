@@ -9,7 +9,9 @@
 #pragma once
 
 #include "render/bodies_picture.h"
+#include "render/boxes.h"
 #include "render/floor_shadow.h"
+#include "render/footprint.h"
 #include "render/occlusion.h"
 
 #include <map>
@@ -21,9 +23,9 @@ public:
   Composite(int width, int height) : width_(width), height_(height) {} // [pixels]
 
   // Into the bound framebuffer, of that size. bodies: always with as many samples; shadow: of the frame's floor, if it has
-  // one; occlusion: of these bodies, null without.
-  void draw(const Frame& frame, const View& view, const BodiesPicture& bodies, const FloorShadow& shadow,
-            const Occlusion* occlusion);
+  // one; occlusion: of these bodies, null without. blocks: those that bodies cover.
+  void draw(const Frame& frame, const View& view, const BodiesPicture& bodies, const Footprint& blocks,
+            const FloorShadow& shadow, const Occlusion* occlusion);
 
 private:
   enum class Behind { Nothing = 0, Backdrop = 1, Floor = 2, FloorInShadow = 3 };
@@ -32,20 +34,12 @@ private:
     Behind behind;
     auto operator<=>(const Kind&) const = default;
   };
-  struct Scene {
-    const Frame& frame;
-    const View& view;
-    const BodiesPicture& bodies;
-    const FloorShadow& shadow;
-    const Occlusion* occlusion;
-  };
 
-  void draw_boxes(const Kind& kind, const std::vector<PixelBox>& boxes, const Scene& scene);
   const GlProgram& program(const Kind& kind, const BodiesPicture& bodies);
 
   int width_, height_;
   std::map<Kind, GlProgram> programs_; // compiled when they are first needed
-  GlVertexArray no_array_;             // corners are made up in the shader
+  Boxes boxes_;
 };
 
 } // namespace rend

@@ -11,6 +11,10 @@ constexpr int blur_side = 64;          // [texels]: how blurred a shadow is chan
 constexpr int shade_side = 256;        // [texels]: 512 would take 17 ms more, and differ by at most 9 of 255
 constexpr double contact_reach = 0.08; // height at which contact ends, per scale of the picture
 
+// How far from a body its blurred picture reaches, in texels of the coarsest level that is looked at: a texel's own four
+// corners are looked at over two texels, and each level took in one texel more of the one before it.
+constexpr double blurred_over = 3.1;
+
 void clamp_to_edge(GLint filter) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -40,6 +44,13 @@ void begin_with_empty_rim(const GlFramebuffer& target, int side) {
   glScissor(1, 1, side - 2, side - 2);
 }
 
+// From (x, y, z, 1) [m] to texture coordinates of what is seen from a light.
+Eigen::Matrix<float, 2, 4> texture_of(const LightView& view) {
+  Eigen::Matrix<double, 2, 4> map = 0.5 * view.world_to_clip.topRows<2>();
+  map.col(3).array() += 0.5;
+  return map.cast<float>();
+}
+
 // From (x, y, 1) on the floor [m] to texture coordinates of what is seen from a light.
 Eigen::Matrix<double, 2, 3> texture_of_floor(const LightView& view, double floor_z) {
   Eigen::Matrix<double, 2, 3> map;
@@ -66,9 +77,10 @@ Pyramid::Pyramid(int side, int levels) : side_(side), levels_(static_cast<std::s
   }
 }
 
-void Pyramid::build(const GlProgram& halve, const std::function<void()>& draw) {
+void Pyramid::build(const GlProgram& halve, const Eigen::AlignedBox2f& drawn,
+                    const std::function<void()>& draw) {
   begin_with_empty_rim(levels_[0], side_);
-  draw();
+  if (!drawn.isEmpty()) draw();
 
   halve.use();
   halve.set("source", 0);
@@ -79,6 +91,13 @@ void Pyramid::build(const GlProgram& halve, const std::function<void()>& draw) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1); // reads one level, writes the next
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
     begin_with_empty_rim(levels_[static_cast<std::size_t>(level)], side_ >> level);
+    if (drawn.isEmpty()) continue;
+    const auto at = [&](float u) { // a texel of margin for the blur, and one for rounding; the rim stays empty
+      return std::clamp(static_cast<int>(std::floor(u * static_cast<float>(side_ >> level))), 3,
+                        (side_ >> level) - 3);
+    };
+    const int x = at(drawn.min().x()) - 2, y = at(drawn.min().y()) - 2;
+    glScissor(x, y, at(drawn.max().x()) + 2 - x, at(drawn.max().y()) + 2 - y);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
@@ -92,11 +111,27 @@ FloorShadow::FloorShadow() {
 }
 
 void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& towards_key,
-                        const Eigen::AlignedBox3d& lit, const std::function<void()>& draw) {
+                        const Eigen::AlignedBox3d& lit, const std::vector<std::span<const Corner>>& triangles,
+                        const std::function<void()>& draw) {
   const double contact = contact_reach * scale;      // [m]
   const Eigen::Vector3d around(contact, contact, 0); // room for the blur, which reaches beyond the bodies
   const Eigen::AlignedBox3d covered(lit.min() - around, lit.max() + around);
   const LightView key = light_view(towards_key, covered), above = light_view(Eigen::Vector3d::UnitZ(), covered);
+  const double key_reach = 2 * key.half; // [m]
+  // A level is blurred over about two of its texels.
+  const double key_texel = 2 * key.half / key_.side(), contact_texel = 2 * above.half / contact_.side();
+  const double penumbra = std::log2(light_width * key_reach / towards_key.z() / (2 * key_texel));
+  const double contact_level = std::clamp(std::log2(0.4 * contact / contact_texel), 0.0, 4.0);
+  shade_of_floor_ = texture_of_floor(key, floor_z);
+
+  const double contact_blur = blurred_over * std::exp2(std::ceil(contact_level)) * contact_texel; // [m]
+  Views views{texture_of(key), texture_of(above), {}, static_cast<float>(floor_z + contact), {}, {}};
+  views.below << shade_of_floor_.leftCols<2>().cast<float>(), Eigen::Vector2f::Zero(),
+      shade_of_floor_.col(2).cast<float>();
+  views.key_blur.setConstant(static_cast<float>(blurred_over * 16 / key_.side()));
+  views.contact_blur = (shade_of_floor_.leftCols<2>().rowwise().norm() * contact_blur).cast<float>();
+  find_reached(views, triangles);
+
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MAX);
@@ -110,23 +145,42 @@ void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& tow
       draw();
     };
   };
-  const double key_reach = 2 * key.half; // [m]
-  key_.build(halve_, occluders(key, key_reach, 1));
-  contact_.build(halve_, occluders(above, contact, 2));
+  key_.build(halve_, key_drawn_, occluders(key, key_reach, 1));
+  contact_.build(halve_, contact_drawn_, occluders(above, contact, 2));
   glDisable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
-
-  // A level is blurred over about two of its texels.
-  const double key_texel = 2 * key.half / key_.side(), contact_texel = 2 * above.half / contact_.side();
-  const double penumbra = std::log2(light_width * key_reach / towards_key.z() / (2 * key_texel));
-  const double contact_level = std::clamp(std::log2(0.4 * contact / contact_texel), 0.0, 4.0);
-  shade_of_floor_ = texture_of_floor(key, floor_z);
-  const Eigen::Matrix2d to_floor = shade_of_floor_.leftCols<2>().inverse();
-  for (int n = 0; n < 4; ++n)
-    reached_[static_cast<std::size_t>(n)]
-        << to_floor * (Eigen::Vector2d(n & 1, n >> 1) - shade_of_floor_.col(2)), floor_z;
   choose_blur(penumbra);
   settle(contact_level, texture_of_floor(above, floor_z));
+}
+
+// All that triangles can bring to the floor, with what blurs it.
+void FloorShadow::find_reached(const Views& views, const std::vector<std::span<const Corner>>& triangles) {
+  reached_.clear();
+  key_drawn_.setEmpty();
+  contact_drawn_.setEmpty();
+  const auto squares = static_cast<float>(reached_.columns());
+  const auto seen = [](const Eigen::Matrix<float, 2, 4>& view, const Corner* corner) {
+    Eigen::AlignedBox2f box;
+    for (int k = 0; k < 3; ++k) {
+      const auto& p = corner[k].position;
+      box.extend(Eigen::Vector2f(view.col(0) * p[0] + view.col(1) * p[1] + view.col(2) * p[2] + view.col(3)));
+    }
+    return box;
+  };
+  const auto mark = [&](const Eigen::AlignedBox2f& box, const Eigen::Vector2f& blur) {
+    const Eigen::Vector2f low = (box.min() - blur) * squares, high = (box.max() + blur) * squares;
+    reached_.mark(low.x(), low.y(), high.x(), high.y());
+  };
+  for (const std::span<const Corner>& corners : triangles)
+    for (std::size_t n = 0; n + 2 < corners.size(); n += 3) {
+      const Corner* corner = &corners[n];
+      const Eigen::AlignedBox2f along_key = seen(views.key, corner);
+      key_drawn_.extend(along_key);
+      mark(along_key, views.key_blur);
+      if (std::min({corner[0].position[2], corner[1].position[2], corner[2].position[2]}) > views.low) continue;
+      contact_drawn_.extend(seen(views.above, corner));
+      mark(seen(views.below, corner), views.contact_blur);
+    }
 }
 
 void FloorShadow::choose_blur(double penumbra) {
@@ -159,7 +213,8 @@ void FloorShadow::settle(double contact_level, const Eigen::Matrix<double, 2, 3>
   glBindTexture(GL_TEXTURE_2D, contact_.texture());
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, key_.texture());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  const auto marked = [&](int column, int row) { return reached_.at(column, row) ? 1 : 0; };
+  boxes_.draw(runs(reached_.columns(), reached_.rows(), 2, marked)[1], reached_.columns(), reached_.rows());
   glDisable(GL_SCISSOR_TEST);
 }
 

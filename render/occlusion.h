@@ -23,6 +23,7 @@
 #pragma once
 
 #include "render/bodies_picture.h"
+#include "render/camera.h"
 
 #include <optional>
 #include <string>

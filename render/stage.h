@@ -16,6 +16,7 @@
 
 #include "render/composite.h"
 #include "render/floor_shadow.h"
+#include "render/footprint.h"
 #include "render/frame.h"
 #include "render/gl.h"
 #include "render/image.h"
@@ -23,6 +24,8 @@
 #include "render/occlusion.h"
 
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace rend {
 
@@ -55,7 +58,9 @@ private:
   void make_shadow_map();
   void make_vertex_array();
   void upload(const Frame& frame);
-  void draw_all() const;
+  std::span<const Corner> corners_of(const Draw& draw) const;
+  std::vector<std::span<const Corner>> casting() const; // what throws shadows
+  void draw_all() const;                                // the same
   void draw_shadow_map(const LightView& light);
   void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
                    const BodiesPicture& bodies);
@@ -64,7 +69,6 @@ private:
   static void set_light(const GlProgram& program, const Lights& lights, const LightView& light);
   static void set_finish(const GlProgram& program, const FrameBody& body);
   void draw_body(const GlProgram& program, const Draw& draw) const;
-  PixelBox covered_by_bodies(const View& view) const;
   BodiesPicture bodies_picture(const PixelBox& covered) const;
   void occlude(const Frame& frame, const View& view, const BodiesPicture& bodies);
 
@@ -77,6 +81,7 @@ private:
   std::optional<GlProgram> body_, wires_; // of bodies that are filled, and of the others
   FloorShadow floor_shadow_;
   Composite composite_;
+  Footprint blocks_;                   // of the picture, that bodies cover
   std::optional<Occlusion> occlusion_; // made for the first frame that has it
 
   GlFramebuffer target_, picture_, shadow_; // target_: of bodies, with samples

@@ -38,6 +38,10 @@ VideoFilter::VideoFilter(const std::string& chain, int width, int height, AVRati
   in_->format = AV_PIX_FMT_RGB24;
   in_->width = width;
   in_->height = height;
+  constexpr int aligned = 64; // [bytes], as libav likes its rows
+  stride_ = (3 * width + aligned - 1) / aligned * aligned;
+  rooms_.reset(av_buffer_pool_init(static_cast<std::size_t>(stride_) * height + aligned, nullptr));
+  CHECK(rooms_ != nullptr);
 }
 
 int VideoFilter::width() const {
@@ -63,7 +67,10 @@ void VideoFilter::push(const Image* image, const std::function<void(const AVFram
     copy->height = in_->height;
     copy->color_range = AVCOL_RANGE_JPEG;
     copy->sample_aspect_ratio = {1, 1};
-    must_av(av_frame_get_buffer(copy.get(), 0), file_, "making room for a picture");
+    copy->buf[0] = av_buffer_pool_get(rooms_.get());
+    must_av(copy->buf[0] != nullptr ? 0 : AVERROR(ENOMEM), file_, "making room for a picture");
+    copy->data[0] = copy->buf[0]->data;
+    copy->linesize[0] = stride_;
     for (int y = 0; y < image->height; ++y)
       std::memcpy(copy->data[0] + static_cast<std::ptrdiff_t>(y) * copy->linesize[0], image->row(y),
                   image->stride());

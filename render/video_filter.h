@@ -28,7 +28,9 @@ private:
   Owned<AVFilterGraph> graph_;
   AVFilterContext *source_ = nullptr, *sink_ = nullptr; // owned by graph_
   Owned<AVFrame> in_, out_;
-  std::int64_t count_ = 0; // pictures so far
+  Owned<AVBufferPool> rooms_; // for pictures: made anew each time, they cost as much as their copying
+  int stride_ = 0;            // [bytes], of their rows
+  std::int64_t count_ = 0;    // pictures so far
 };
 
 } // namespace rend

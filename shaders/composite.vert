@@ -1,5 +1,6 @@
-// One triangle that covers the picture, and what of the floor is seen in its corners. All of it is linear over the
-// picture, and comes to the fragments interpolated or flat: each number of a uniform costs them some 25 cycles.
+// Rectangles of the picture, and what of the floor is seen in their corners. All of it is linear over the picture and comes to the
+// fragments interpolated or flat: each number of a uniform costs them some 25 cycles.
+layout(location = 0) in vec2 at; // corners of the picture at -1 and 1
 #if BODIES
 uniform ivec2 origin; // of the bodies' picture in this one [their pixels]
 flat out ivec2 from;
@@ -20,7 +21,6 @@ noperspective out vec2 in_shade; // over that z: the texture's coordinates there
 #endif
 
 void main() {
-  vec2 at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
 #if BODIES
   from = origin;
 #endif

@@ -80,35 +80,5 @@ TEST(FrameAuto, LooksAtASinglePoint) {
   EXPECT_GT((camera.eye - camera.target).norm(), 0);
 }
 
-TEST(Camera, TheBoxThatBoundsCoverHoldsWhateverIsInThem) {
-  FrameCamera camera;
-  camera.eye = {1, -6, 2};
-  const Eigen::AlignedBox3d bounds(Vector3d(-0.5, -0.4, -0.3), Vector3d(0.7, 0.4, 0.9));
-  const View view = view_of(camera, bounds, 640.0 / 360);
-  const PixelBox box = covered_by(bounds, view, 640, 360);
-  EXPECT_LT(box.width * box.height, 640 * 360 / 4); // and little else
-  for (int n = 0; n < 1000; ++n) {
-    const Vector3d share((n % 10) / 9.0, (n / 10 % 10) / 9.0, (n / 100) / 9.0);
-    const Vector3d at = seen(view, bounds.min() + share.cwiseProduct(bounds.sizes()));
-    const double x = (0.5 * at.x() + 0.5) * 640, y = (0.5 * at.y() + 0.5) * 360;
-    EXPECT_TRUE(x > box.x && x < box.x + box.width && y > box.y && y < box.y + box.height) << x << ' ' << y;
-  }
-}
-
-TEST(Camera, BoundsAroundTheEyeCoverThePictureAndThoseBesideItStayWithinIt) {
-  FrameCamera camera;
-  camera.eye = {0, -4, 0};
-  const View view = view_of(camera, {}, 1);
-  const PixelBox whole = covered_by({Vector3d(-1, -5, -1), Vector3d(1, 0, 1)}, view, 100, 100);
-  EXPECT_EQ(whole.x + whole.y, 0);
-  EXPECT_EQ(whole.width + whole.height, 200);
-  for (const double side : {-50.0, 50.0}) {
-    const Vector3d at(side, 0, side);
-    const PixelBox beside = covered_by({at, at}, view, 100, 100);
-    EXPECT_TRUE(beside.x >= 0 && beside.y >= 0 && beside.width >= 0 && beside.height >= 0);
-    EXPECT_TRUE(beside.x + beside.width <= 100 && beside.y + beside.height <= 100);
-  }
-}
-
 } // namespace
 } // namespace rend
