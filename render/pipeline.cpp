@@ -176,8 +176,10 @@ void Pipeline::Stages::draw() {
     picture->image = stage->read();
     spent(&PipelineSeconds::draw, start);
     if (!options_.png) note_done();
+    const double drawn = now();
     if (options_.png && !for_png_.push(picture)) break;
     if (options_.video && !for_video_.push(picture)) break;
+    spent(&PipelineSeconds::draw_waits, drawn);
   }
   for_png_.close();
   for_video_.close();

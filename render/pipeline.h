@@ -36,6 +36,7 @@ PngText png_mark(const std::string& mark, long number);
 // Seconds that each stage was at work (not waiting), over all pictures so far.
 struct PipelineSeconds {
   double draw = 0, png = 0, video = 0; // png: the sum of its writers
+  double draw_waits = 0;               // that drawing waited for room before the writers
 };
 
 // Whether a Pipeline could start on this machine, before hours of simulation lead up to its first frame: the encoder is

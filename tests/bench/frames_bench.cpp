@@ -15,6 +15,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <map>
 
@@ -97,11 +98,30 @@ const std::vector<Frame>& frames(int triangles) {
   return out;
 }
 
-// The whole way, frames as fast as they are taken: `frames` in the counters is frames a second. The second argument:
-// with ambient occlusion.
-void pipeline(benchmark::State& state) {
-  const auto& clip = frames(static_cast<int>(state.range(0)));
-  const long count = state.range(0) > 10'000 ? 24 : 120;
+Frame numbered(const std::vector<Frame>& clip, int number, bool occlusion) {
+  Frame frame = clip[static_cast<std::size_t>(number % phases)];
+  frame.number = number;
+  frame.occlusion = occlusion;
+  return frame;
+}
+
+void count(benchmark::State& state, long frames) {
+  state.counters["frames_per_second"] =
+      benchmark::Counter(static_cast<double>(frames * state.iterations()), benchmark::Counter::kIsRate);
+}
+
+// Shares of the clock that each stage was at work; draw_waits: that drawing waited for those behind it.
+void tell_stages(benchmark::State& state, const PipelineSeconds& at_work, double seconds) {
+  state.counters["draw"] = at_work.draw / seconds;
+  state.counters["png"] = at_work.png / seconds;
+  state.counters["video"] = at_work.video / seconds;
+  state.counters["draw_waits"] = at_work.draw_waits / seconds;
+}
+
+// The whole way, frames as fast as they are taken.
+void overlapped(benchmark::State& state, int triangles, bool occlusion) {
+  const auto& clip = frames(triangles);
+  const int frames_each = triangles > 10'000 ? 24 : 120;
   for (auto _ : state) {
     state.PauseTiming(); // without the start of OpenGL
     const test::Folder folder;
@@ -111,28 +131,48 @@ void pipeline(benchmark::State& state) {
     options.video = true;
     Pipeline files(options);
     state.ResumeTiming();
-    for (int number = 0; number < count; ++number) {
-      Frame frame = clip[static_cast<std::size_t>(number % phases)];
-      frame.number = number;
-      frame.occlusion = state.range(1) != 0;
-      files.push(std::move(frame));
-    }
+    const auto start = std::chrono::steady_clock::now();
+    for (int number = 0; number < frames_each; ++number) files.push(numbered(clip, number, occlusion));
     files.finish();
-    const PipelineSeconds at_work = files.seconds();
-    state.counters["draw_ms"] = 1e3 * at_work.draw / static_cast<double>(count);
-    state.counters["png_ms"] = 1e3 * at_work.png / static_cast<double>(count);
-    state.counters["video_ms"] = 1e3 * at_work.video / static_cast<double>(count);
+    tell_stages(state, files.seconds(),
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  state.counters["frames"] =
-      benchmark::Counter(static_cast<double>(count * state.iterations()), benchmark::Counter::kIsRate);
+  count(state, frames_each);
 }
-BENCHMARK(pipeline)
-    ->Args({5'000, 0})
-    ->Args({5'000, 1})
-    ->Args({200'000, 0})
-    ->Args({200'000, 1})
-    ->Apply(in_processor_time)
-    ->UseRealTime();
+
+// The same stages in a row, in one thread but for those that OpenGL and the encoder start themselves.
+void in_a_row(benchmark::State& state, int triangles) {
+  const auto& clip = frames(triangles);
+  constexpr int frames_each = 120;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const test::Folder folder;
+    const std::unique_ptr<Device> device = make_device();
+    Stage stage(width, height, 4);
+    Hud hud(width, height);
+    VideoWriter video;
+    video.open(folder / "clip.mp4", width, height, 30);
+    state.ResumeTiming();
+    for (int number = 0; number < frames_each; ++number) {
+      const Frame frame = numbered(clip, number, false);
+      stage.draw(frame);
+      hud.draw(frame.hud);
+      const Image image = stage.read();
+      write_png(folder / png_name(number), image);
+      video.add(image);
+    }
+    video.close();
+  }
+  count(state, frames_each);
+}
+
+void whole_way(benchmark::internal::Benchmark* bench) {
+  bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+}
+BENCHMARK_CAPTURE(overlapped, frames, 5'000, false)->Name("figure/frame_5000")->Apply(whole_way);
+BENCHMARK_CAPTURE(in_a_row, frames, 5'000)->Name("figure/frame_5000_serial")->Apply(whole_way);
+BENCHMARK_CAPTURE(overlapped, occluded, 5'000, true)->Name("figure/frame_5000_occlusion")->Apply(whole_way);
+BENCHMARK_CAPTURE(overlapped, many, 200'000, false)->Name("figure/frame_200000")->Apply(whole_way);
 
 // Drawing alone, with what is named taken away, or occlusion added.
 void draw(benchmark::State& state, const std::string& without) {
