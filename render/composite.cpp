@@ -83,7 +83,6 @@ bool in_shadow(const FloorView& floor, const Footprint& reached, const PixelBox&
 
 void set_bodies(const GlProgram& program, const BodiesPicture& bodies) {
   program.set("colours", 1);
-  program.set("origin", bodies.origin());
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(bodies.kind(), bodies.colours);
 }

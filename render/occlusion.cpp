@@ -110,9 +110,7 @@ void Occlusion::read_depths(const BodiesPicture& bodies, const View& view, const
   depths_program_.use();
   depths_program_.set("floor_plane", Eigen::Vector3f(floor.cast<float>()));
   depths_program_.set("depth", 0);
-  depths_program_.set("origin", bodies.origin());
-  depths_program_.set("end", Eigen::Vector2i(Eigen::Vector2i(width_, height_) * bodies.fine - bodies.origin() -
-                                             Eigen::Vector2i::Ones()));
+  depths_program_.set("end", Eigen::Vector2i(width_ * bodies.fine - 1, height_ * bodies.fine - 1));
   depths_program_.set("to_nearness", to_nearness(view));
   bind(0, bodies.kind(), bodies.depth);
   draw_over(box);

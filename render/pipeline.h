@@ -25,7 +25,7 @@ struct PipelineOptions {
   bool png = true;
   bool video = false;
   std::string extension = ".mp4"; // of the video; see video_format.h
-  int png_writers = 1;            // 1 or 2 threads
+  int png_writers = 2;            // 1 or 2 threads: one writes while the other waits for the disk
   std::string mark;               // in each PNG, under "rend:scene", before its number; empty: none
 };
 

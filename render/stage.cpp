@@ -105,13 +105,14 @@ void Stage::make_target(int width, int height) {
 }
 
 // Made anew where what is to be drawn does not fit, or is less than half of it; in coarse steps, which bodies that move
-// seldom take.
+// seldom take. It begins where the picture does: elsewhere, corners of triangles would be rounded to other parts of a pixel.
 void Stage::fit_target(const PixelBox& covered) {
   constexpr int step = 128; // [pixels]
   const auto rounded = [&](int size, int most) {
     return std::min((size + step - 1) / step * step, most) * fine_;
   };
-  const int width = rounded(covered.width, width_), height = rounded(covered.height, height_);
+  const int width = rounded(covered.x + covered.width, width_),
+            height = rounded(covered.y + covered.height, height_);
   const bool fits = width <= target_width_ && height <= target_height_;
   if (!fits || 2L * width * height < 1L * target_width_ * target_height_) make_target(width, height);
 }
@@ -236,7 +237,7 @@ void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& ligh
   if (bodies.covered.width == 0) return;
   fit_target(bodies.covered);
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  glViewport(-bodies.origin().x(), -bodies.origin().y(), width_ * fine_, height_ * fine_);
+  glViewport(0, 0, width_ * fine_, height_ * fine_);
   glEnable(GL_DEPTH_TEST);
   glClearColor(0, 0, 0, 0); // nothing: the studio goes behind
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

@@ -19,14 +19,13 @@ uniform sampler2D shade;
 #define Sampled sampler2DMS
 #endif
 #if BODIES
-flat in ivec2 from;
 uniform Sampled colours; // multiplied by their alpha
 #endif
 out vec4 pixel;
 
 #if BODIES
 vec4 bodies() {
-  ivec2 at = ivec2(gl_FragCoord.xy) * FINE - from;
+  ivec2 at = ivec2(gl_FragCoord.xy) * FINE;
   vec4 sum = vec4(0.0);
   for (int j = 0; j < FINE; ++j)
     for (int i = 0; i < FINE; ++i)
@@ -46,7 +45,7 @@ uniform float tolerance;  // [1/m]
 vec3 open() {
   float stored = 1.0; // of a pixel on an edge, the nearest: the farther part is darkened on its other pixels
   ivec2 at = ivec2(gl_FragCoord.xy);
-  for (int k = 0; k < SAMPLES; ++k) stored = min(stored, texelFetch(depth, at * FINE - from, k).x);
+  for (int k = 0; k < SAMPLES; ++k) stored = min(stored, texelFetch(depth, at * FINE, k).x);
   float deep = 1.0 / (to_nearness.x + to_nearness.y * stored);
 
   const float back = 0.5 * float(PART) - float(PART / 2);

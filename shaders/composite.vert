@@ -1,10 +1,6 @@
 // Rectangles of the picture, and what of the floor is seen in their corners. All of it is linear over the picture and comes to the
 // fragments interpolated or flat: each number of a uniform costs them some 25 cycles.
 layout(location = 0) in vec2 at; // corners of the picture at -1 and 1
-#if BODIES
-uniform ivec2 origin; // of the bodies' picture in this one [their pixels]
-flat out ivec2 from;
-#endif
 #if BEHIND
 uniform vec3 background; // sRGB
 flat out vec3 light;     // linear
@@ -21,9 +17,6 @@ noperspective out vec2 in_shade; // over that z: the texture's coordinates there
 #endif
 
 void main() {
-#if BODIES
-  from = origin;
-#endif
 #if BEHIND
   light = decode(background);
   place = at;

@@ -1,15 +1,13 @@
 // One triangle that covers the picture, and where the floor lies behind it.
 uniform vec3 floor_plane; // dot(floor_plane, (place, 1)) is the inverse of the floor's depth [1/m]; 0: there is none
-uniform ivec2 origin;     // of the bodies' picture in this one [their pixels]
-uniform ivec2 end;        // the last of its pixels that lies in this one
+uniform ivec2 end;        // the last pixel of the bodies' picture
 uniform vec2 to_nearness;
 noperspective out float floor_nearness;
-flat out ivec2 from, last;
+flat out ivec2 last;
 flat out vec2 nearness;
 void main() {
   vec2 place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   floor_nearness = dot(floor_plane, vec3(place, 1.0));
-  from = origin;
   last = end;
   nearness = to_nearness;
   gl_Position = vec4(place, 1.0, 1.0);
