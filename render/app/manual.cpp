@@ -150,7 +150,7 @@ std::string manual(const CommandUsage& program, const std::string& version, cons
   for (const OptionUsage& option : program.options) out += option_item(option);
   out += section("COMMANDS") + commands + exit_codes() + section("ENVIRONMENT") +
          item(strong("NO_COLOR"), "Set to anything: no colours on a terminal.") +
-         item(strong("REND_SIMD"), "Which vector unit computes: sse2, avx2 or avx512; without it, the widest. "
+         item(strong("REND_SIMD"), "Which vector unit computes: sse2 or avx2; without it, the wider. "
                                    "The results are the same.") +
          section("SEE ALSO") + ".BR rend\\-preset (5),\n.BR gnuplot (1),\n.BR ffmpeg (1)\n";
   return out;

@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-constexpr std::array all_widths{SimdWidth::Sse2, SimdWidth::Avx2, SimdWidth::Avx512}; // narrowest first
+constexpr std::array all_widths{SimdWidth::Sse2, SimdWidth::Avx2}; // narrowest first
 
 SimdWidth widest() {
   SimdWidth width = SimdWidth::Sse2;
@@ -43,25 +43,13 @@ SimdWidth simd_width() {
 }
 
 std::string name_of(SimdWidth width) {
-  switch (width) {
-  case SimdWidth::Avx512:
-    return "avx512";
-  case SimdWidth::Avx2:
-    return "avx2";
-  case SimdWidth::Sse2:
-    break;
-  }
-  return "sse2";
+  return width == SimdWidth::Avx2 ? "avx2" : "sse2";
 }
 
 bool has_width(SimdWidth width) {
 #ifdef __x86_64__
   __builtin_cpu_init();
-  const bool avx2 = __builtin_cpu_supports("avx2") != 0;
-  if (width == SimdWidth::Avx2) return avx2;
-  if (width == SimdWidth::Avx512)
-    return avx2 && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
-           __builtin_cpu_supports("avx512dq") != 0;
+  if (width == SimdWidth::Avx2) return __builtin_cpu_supports("avx2") != 0;
 #endif
   return width == SimdWidth::Sse2;
 }

@@ -52,7 +52,6 @@ TEST(SimdWidth, EveryCopyGivesTheSameBits) {
   };
   out = wide.data();
   if (has_width(SimdWidth::Avx2)) expect_same(in_avx2<mix>(pa, pb, count, out));
-  if (has_width(SimdWidth::Avx512)) expect_same(in_avx512<mix>(pa, pb, count, out));
   expect_same(at_width<mix>(pa, pb, count, out));
 }
 #endif
@@ -77,7 +76,7 @@ Ended run_with(const std::string& word) {
 }
 
 TEST(SimdWidth, EveryWordOfThisProcessorIsTaken) {
-  for (SimdWidth width : {SimdWidth::Sse2, SimdWidth::Avx2, SimdWidth::Avx512}) {
+  for (SimdWidth width : {SimdWidth::Sse2, SimdWidth::Avx2}) {
     const Ended ended = run_with(name_of(width));
     EXPECT_EQ(ended.code, has_width(width) ? 0 : 64) << ended.text;
   }
