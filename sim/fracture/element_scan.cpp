@@ -83,7 +83,7 @@ template <int Dim> REND_INLINE Long4 exceed(const Matrix<Dim>& F, const Bound& b
 template <class Shape>
 REND_INLINE std::uint64_t look_at(const PackedRows& rows, std::size_t block, int first_value,
                                   const Record* position, const Bound& bound) {
-  const std::size_t begin = block * PackedRows::block_size, count = rows.rows_in(block);
+  const std::size_t begin = rows.begin(block), count = rows.rows_in(block);
   std::uint64_t found = 0;
   for (std::size_t n = 0; n < count; n += PackedRows::lanes) {
     Vector x[Shape::N];
@@ -111,7 +111,7 @@ template <class Shape> REND_INLINE void run(const Scan& scan) {
     if (found == 0) continue;
     const std::size_t begin = block * PackedRows::block_size;
     for (std::size_t key = begin; key < begin + PackedRows::block_size && key < scan.rows.keys(); ++key)
-      if (scan.rows.live(key) && (found >> (scan.rows.row(key) - begin) & 1)) scan.keys.push_back(key);
+      if (scan.rows.live(key) && (found >> (scan.rows.row(key) - scan.rows.begin(block)) & 1)) scan.keys.push_back(key);
   }
 }
 

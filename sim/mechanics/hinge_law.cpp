@@ -106,7 +106,7 @@ HingePoints points_of(const Vec3* x) {
 
 class HingeLaw final : public Law {
 public:
-  HingeLaw() : Law("hinge", 8, 4) {}
+  HingeLaw() : Law("hinge", 8, 4, 1) {}
 
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
     const HingePoints f = hinge_forces(HingeParameters::of(unit), points_of(s.position), points_of(s.velocity));

@@ -35,8 +35,9 @@ public:
   virtual ~Law() = default;
 
   const std::string& name() const { return name_; }
-  int particles() const { return particles_; } // of a unit, at most 8
-  int values() const { return values_; }       // numbers that a unit carries
+  int particles() const { return particles_; }   // of a unit, at most 8
+  int values() const { return values_; }         // numbers that a unit carries
+  int damping_value() const { return damping_; } // which of them is 0 where nothing damps; -1: none
 
   // The force [N] on each particle. Finite wherever the state is.
   virtual void forces(const double* unit, const UnitState& s, Vec3* force) const = 0;
@@ -59,12 +60,12 @@ public:
   virtual void fold(double* sum, const double* other, bool swapped) const;
 
 protected:
-  Law(std::string name, int particles, int values)
-      : name_(std::move(name)), particles_(particles), values_(values) {}
+  Law(std::string name, int particles, int values, int damping_value = -1)
+      : name_(std::move(name)), particles_(particles), values_(values), damping_(damping_value) {}
 
 private:
   std::string name_;
-  int particles_, values_;
+  int particles_, values_, damping_;
 };
 
 // What springs and hinges carry.

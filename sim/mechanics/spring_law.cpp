@@ -29,7 +29,7 @@ void spread(const Eigen::Matrix3d& block, UnitMatrix& matrix) {
 
 class SpringLaw final : public Law {
 public:
-  SpringLaw() : Law("spring", 2, 3) {}
+  SpringLaw() : Law("spring", 2, 3, 1) {}
 
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
     force[0] =

@@ -53,7 +53,7 @@ void Assembly::rebind() {
     const int particles = binders[n].interaction()->law->particles();
     const auto blocks = static_cast<std::size_t>(particles * particles);
     const PackedRows& rows = binders[n].rows();
-    place_[n].assign(rows.blocks() * PackedRows::block_size * blocks, 0);
+    place_[n].assign(rows.end() * blocks, 0);
     rows.for_each([&](std::size_t, std::size_t row) {
       std::uint32_t* place = place_[n].data() + row * blocks;
       for (int p = 0; p < particles; ++p)
@@ -88,7 +88,7 @@ void Assembly::add_rows(std::size_t binder, const Record* x, const Record* v, Ta
   for (std::size_t block = 0; block < rows.blocks(); ++block) {
     const PackedRows::Range range = rows.range(block);
     if (range.low >= high || range.high < low) continue;
-    const std::size_t begin = block * PackedRows::block_size;
+    const std::size_t begin = rows.begin(block);
     for (std::size_t row = begin; row < begin + rows.rows_in(block); ++row) {
       const auto owned = [&](int p) { return rows.index(p)[row] >= low && rows.index(p)[row] < high; };
       bool any = false;

@@ -40,7 +40,8 @@ Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, bool f
   Binder binder(map, interaction.pattern, std::move(fields), places);
   binder.interaction_ = &interaction;
   binder.fold_ = fold && !interaction.pattern.fold.empty();
-  binder.rows_ = PackedRows(static_cast<int>(binder.fields_.size()), places, interaction.law->values());
+  binder.rows_ = PackedRows(static_cast<int>(binder.fields_.size()), places, interaction.law->values(),
+                            interaction.damped ? -1 : interaction.law->damping_value());
   return binder;
 }
 

@@ -67,6 +67,19 @@ REND_INLINE Matrix<3> stress(const Matrix<3>& F, const Double4& weight, double l
            {xz, yz, twice * (f2.z - 1.0) + trace}}};
 }
 
+// Where R is the polar factor of F itself, RᵀF is symmetric, and w R σ = w (2μ (F − R) + λ tr(RᵀF − I) R).
+template <int Dim>
+REND_INLINE Matrix<Dim> stretched_stress(const Matrix<Dim>& R, const Matrix<Dim>& F, const Double4& weight,
+                                         double lambda, double mu) {
+  Double4 trace = dot(R.column[0], F.column[0]);
+  for (int c = 1; c < Dim; ++c) trace += dot(R.column[c], F.column[c]);
+  const Double4 twice = (2.0 * mu) * weight;
+  const Double4 turned = (lambda * weight) * (trace - static_cast<double>(Dim)) - twice;
+  Matrix<Dim> P;
+  for (int c = 0; c < Dim; ++c) P.column[c] = twice * F.column[c] + turned * R.column[c];
+  return P;
+}
+
 // Whether a block reaches beyond its part, and of an element with several points whether it is damped, are asked while
 // it runs: that takes no time which can be measured, and the compiler would have to write a kernel for each.
 enum class Damping { No, Yes, Asked };
@@ -111,6 +124,8 @@ template <class Shape, Turning turning, Damping damping> struct ElementLanes {
       Matrix<Dim> P;
       if constexpr (Dim == 3 && !turned)
         P = stress(F[g], inverse.weight, m.lambda, m.mu);
+      else if constexpr (Shape::points == 1 && turning == Turning::Polar && damping == Damping::No)
+        P = stretched_stress<Dim>(R[0], F[0], inverse.weight, m.lambda, m.mu);
       else
         P = turned_stress<Dim>(R[frames == 1 ? 0 : g], F[g], inverse.weight, m.lambda, m.mu);
       for (int r = 0; r < Dim; ++r) {
@@ -154,7 +169,7 @@ private:
 template <class Lanes, bool corners>
 REND_INLINE void run_rows(const KernelArguments& a, const ElasticMaterial& m, std::size_t block, bool whole) {
   constexpr int first = corners ? Lanes::N : 0; // index column
-  const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
+  const std::size_t begin = a.rows.begin(block), end = begin + a.rows.padded_in(block);
   for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
     Vector f[Lanes::N];
     Lanes::forces(a, m, at, f);

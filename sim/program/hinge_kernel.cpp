@@ -90,10 +90,10 @@ struct Pulls {
 };
 
 template <bool damped> REND_INLINE void pull_at(const KernelArguments& a, std::size_t at, Pulls& pulls) {
-  const double* values = a.rows.lanes_at(at); // k, damping, rest, least
+  const double* values = a.rows.lanes_at(at); // k, damping where it is, rest, least
   Hinge hinge;
-  measure(a, at, load_four(values + 12), hinge);
-  Double4 moment = load_four(values) * wrapped(hinge.angle - load_four(values + 8));
+  measure(a, at, load_four(values + (damped ? 12 : 8)), hinge);
+  Double4 moment = load_four(values) * wrapped(hinge.angle - load_four(values + (damped ? 8 : 4)));
   if constexpr (damped) moment += load_four(values + 4) * (hinge.fade * rate_of(a, at, hinge));
   moment *= hinge.fade;
   for (int n = 0; n < 2; ++n) {
@@ -127,7 +127,7 @@ REND_INLINE void add(const KernelArguments& a, std::size_t at, const Pulls& pull
 // A block's angles first, then its forces: in short loops the processor works on several hinges' divisions at once.
 template <bool damped, bool corners, bool whole>
 REND_INLINE void run_rows(const KernelArguments& a, std::size_t block) {
-  const std::size_t begin = block * PackedRows::block_size, count = a.rows.padded_in(block);
+  const std::size_t begin = a.rows.begin(block), count = a.rows.padded_in(block);
   Pulls pulls[PackedRows::block_size / PackedRows::lanes];
   for (std::size_t n = 0; n < count; n += PackedRows::lanes)
     pull_at<damped>(a, begin + n, pulls[n / PackedRows::lanes]);

@@ -23,7 +23,7 @@ struct KernelArguments {
   Record* force;           // [N], one per vertex slot; with corners: one per corner slot
   std::uint32_t low, high; // vertex slots to write; ignored with corners
   std::size_t first, last; // blocks of rows to run: [first, last)
-  bool damped;             // some row has damping
+  bool damped;             // some row has damping; else springs and hinges have no column for it
 };
 
 struct Kernel {

@@ -1,29 +1,59 @@
 #include "sim/program/packed_rows.h"
 
+#include "sim/base/bytes.h"
+
 #include <algorithm>
 #include <cstring>
 
 namespace rend {
 
-PackedRows::PackedRows(int indices, int places, int values)
-    : places_(places), index_(static_cast<std::size_t>(indices)), columns_(static_cast<std::size_t>(values)) {}
+PackedRows::PackedRows(int indices, int places, int values, int unused)
+    : places_(places), unused_(unused), index_(static_cast<std::size_t>(indices)),
+      columns_(static_cast<std::size_t>(unused >= 0 ? values - 1 : values)) {}
 
 void PackedRows::resize(std::size_t keys) {
   if (keys <= keys_) return;
   keys_ = keys;
   const std::size_t blocks = (keys + block_size - 1) / block_size;
   mask_.resize(blocks, 0);
+  begin_.resize(blocks, 0);
+  room_.resize(blocks, 0);
   range_.resize(blocks);
-  for (auto& column : index_) column.resize(blocks * block_size, 0);
-  value_.resize(blocks * block_size * columns_, 0);
 }
 
+// Each block may move once.
 void PackedRows::reserve(std::size_t keys) {
-  const std::size_t blocks = (keys + block_size - 1) / block_size;
+  const std::size_t blocks = (keys + block_size - 1) / block_size, rows = end_ + blocks * block_size;
   mask_.reserve(blocks);
+  begin_.reserve(blocks);
+  room_.reserve(blocks);
   range_.reserve(blocks);
-  for (auto& column : index_) column.reserve(blocks * block_size);
-  value_.reserve(blocks * block_size * columns_);
+  for (auto& column : index_) column.reserve(rows);
+  value_.reserve(rows * columns_);
+}
+
+void PackedRows::lengthen(std::size_t rows) {
+  end_ += rows;
+  for (auto& column : index_) column.resize(end_, 0);
+  value_.resize(end_ * columns_, 0);
+}
+
+// For one row more.
+void PackedRows::make_room(std::size_t block) {
+  const std::size_t count = rows_in(block), room = room_[block], from = begin_[block];
+  if (count < room) return;
+  if (room == 0 || from + room == end_) { // the last one grows where it stands
+    if (room == 0) begin_[block] = end_;
+    lengthen(lanes);
+    room_[block] = static_cast<std::uint8_t>(room + lanes);
+    return;
+  }
+  const std::size_t to = end_;
+  lengthen(block_size);
+  for (auto& column : index_) std::copy_n(column.begin() + from, count, column.begin() + to);
+  std::copy_n(value_.begin() + place(from, 0), count * columns_, value_.begin() + place(to, 0)); // whole lanes
+  begin_[block] = to;
+  room_[block] = block_size;
 }
 
 std::size_t PackedRows::live_count() const {
@@ -54,28 +84,31 @@ void PackedRows::touch(std::size_t block) {
 }
 
 void PackedRows::set(std::size_t key, const std::uint32_t* index, const double* value) {
-  const std::size_t block = key / block_size, at = row(key);
+  const std::size_t block = key / block_size;
+  if (!live(key)) make_room(block);
+  const std::size_t at = row(key);
   if (!live(key)) {
-    shift(at, block * block_size + rows_in(block), 1);
+    shift(at, begin_[block] + rows_in(block), 1);
     mask_[block] |= std::uint64_t{1} << scattered(key % block_size);
   }
   for (std::size_t c = 0; c < index_.size(); ++c) index_[c][at] = index[c];
   double* to = value_.data() + place(at, 0);
-  for (std::size_t c = 0; c < columns_; ++c) to[c * lanes] = value[c];
+  for (int c = 0; c < static_cast<int>(columns_); ++c)
+    to[static_cast<std::size_t>(c) * lanes] = value[unused_ >= 0 && c >= unused_ ? c + 1 : c];
   touch(block);
 }
 
 void PackedRows::erase(std::size_t key) {
   if (!live(key)) return;
   const std::size_t block = key / block_size, at = row(key);
-  shift(at + 1, block * block_size + rows_in(block), -1);
+  shift(at + 1, begin_[block] + rows_in(block), -1);
   mask_[block] &= ~(std::uint64_t{1} << scattered(key % block_size));
   touch(block);
 }
 
 void PackedRows::seal() {
   for (std::size_t block : dirty_) {
-    const std::size_t begin = block * block_size, count = rows_in(block);
+    const std::size_t begin = begin_[block], count = rows_in(block);
     Range range;
     for (std::size_t at = begin; at < begin + count; ++at) {
       for (int c = 0; c < places_; ++c) {
@@ -84,7 +117,7 @@ void PackedRows::seal() {
       }
     }
     range_[block] = range;
-    for (std::size_t at = begin + count; at < begin + block_size; ++at) { // gaps too: rows are a pure function
+    for (std::size_t at = begin + count; at < begin + room_[block]; ++at) {
       const bool padding = at < begin + padded_in(block);
       for (auto& column : index_) column[at] = padding ? column[begin + count - 1] : 0;
       for (std::size_t c = 0; c < columns_; ++c) value_[place(at, static_cast<int>(c))] = 0;
@@ -94,9 +127,27 @@ void PackedRows::seal() {
 }
 
 std::size_t PackedRows::bytes() const {
-  std::size_t total = mask_.size() * sizeof(std::uint64_t) + range_.size() * sizeof(Range);
-  for (const auto& column : index_) total += column.size() * sizeof(std::uint32_t);
-  return total + value_.size() * sizeof(double);
+  std::size_t total =
+      bytes_of(mask_) + bytes_of(begin_) + bytes_of(room_) + bytes_of(range_) + bytes_of(value_);
+  for (const auto& column : index_) total += bytes_of(column);
+  return total;
+}
+
+bool PackedRows::same_as(const PackedRows& other) const {
+  if (keys_ != other.keys_ || mask_ != other.mask_ || range_ != other.range_ || columns_ != other.columns_ ||
+      index_.size() != other.index_.size())
+    return false;
+  for (std::size_t block = 0; block < blocks(); ++block) {
+    const std::size_t count = padded_in(block), from = begin_[block], there = other.begin_[block];
+    for (std::size_t c = 0; c < index_.size(); ++c)
+      if (!std::equal(index_[c].begin() + from, index_[c].begin() + from + count,
+                      other.index_[c].begin() + there))
+        return false;
+    if (!std::equal(value_.begin() + place(from, 0), value_.begin() + place(from, 0) + count * columns_,
+                    other.value_.begin() + place(there, 0)))
+      return false;
+  }
+  return true;
 }
 
 } // namespace rend

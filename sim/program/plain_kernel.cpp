@@ -8,7 +8,7 @@ namespace {
 
 // Calls f(row, forces of the unit's particles) for the rows of a block.
 template <class F> void each_unit(const KernelArguments& a, std::size_t block, F&& f) {
-  const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.rows_in(block);
+  const std::size_t begin = a.rows.begin(block), end = begin + a.rows.rows_in(block);
   std::array<Vec3, most_particles> force;
   thread_local Gathered g;
   for (std::size_t at = begin; at < end; ++at) {

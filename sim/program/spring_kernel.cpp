@@ -1,39 +1,41 @@
-#include "sim/base/simd.h"
 #include "sim/mechanics/spring_law.h"
+#include "sim/program/lanes.h"
 #include "sim/program/spring_sums.h"
 
 namespace rend {
 namespace {
 
+using lanes::load_four;
+
+// Below it a squared length has no inverse: no direction, no force.
+constexpr double least_square = 1e-300; // [m²]
+
 // The factor s of d = xj − xi in f_i = s d, of four rows; and k|l − l0| + λ|u·w|, where asked for: the sum of what the
-// springs that a row stands for can do at most.
+// springs that a row stands for can do at most. 1/l is l/l²: the root and the division need not wait for each other.
 template <bool damped, bool summed = false>
 REND_INLINE Double4 spring_factor(const Double4* d, const KernelArguments& a, const std::uint32_t* i,
                                   const std::uint32_t* j, std::size_t at, Double4* sum = nullptr) {
-  Double4 k, rest;
-  const double* values = a.rows.lanes_at(at); // k, damping, rest
-  __builtin_memcpy(&k, values, sizeof k);
-  __builtin_memcpy(&rest, values + 8, sizeof rest);
+  const double* values = a.rows.lanes_at(at); // k, damping where it is, rest
+  const Double4 k = load_four(values), rest = load_four(values + (damped ? 8 : 4));
   const Double4 square = sums_of(d[0] * d[0], d[1] * d[1], d[2] * d[2], d[3] * d[3]);
-  const Double4 length = square_root(square);
-  const Double4 inverse = 1.0 / length;
+  const Double4 length = square_root(square), inverse = length * (1.0 / square);
+  const Long4 directed = square > least_square;
   Double4 s = k * (length - rest);
   if constexpr (summed) *sum = s < 0.0 ? -s : s;
   if constexpr (damped) {
-    Double4 damping, w[4];
-    __builtin_memcpy(&damping, values + 4, sizeof damping);
+    const Double4 damping = load_four(values + 4);
+    Double4 w[4];
     for (int r = 0; r < 4; ++r) w[r] = (load(a.velocity[j[r]]) - load(a.velocity[i[r]])) * d[r];
     const Double4 speed = sums_of(w[0], w[1], w[2], w[3]) * inverse;
     s += damping * speed;
-    if constexpr (summed) *sum += square > 0.0 ? damping * (speed < 0.0 ? -speed : speed) : Double4{};
+    if constexpr (summed) *sum += directed ? damping * (speed < 0.0 ? -speed : speed) : Double4{};
   }
   s *= inverse;
-  return square > 0.0 ? s : Double4{}; // no direction, no force
+  return directed ? s : Double4{};
 }
 
 template <bool damped, bool whole, bool summed>
-REND_INLINE void run_block(const KernelArguments& a, std::size_t block) {
-  const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
+REND_INLINE void run_rows(const KernelArguments& a, std::size_t begin, std::size_t end) {
   const Record* x = a.position;
   for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
     const std::uint32_t *i = a.rows.index(0) + at, *j = a.rows.index(1) + at;
@@ -57,34 +59,31 @@ REND_INLINE void run_block(const KernelArguments& a, std::size_t block) {
   }
 }
 
-// Asks for the rows of the block after next: the gaps between blocks stop the processor from guessing them.
-REND_INLINE void fetch_ahead(const PackedRows& rows, std::size_t block) {
-  constexpr std::size_t ahead = 2, line = 64;
-  if (block + ahead >= rows.blocks()) return;
-  const std::size_t begin = (block + ahead) * PackedRows::block_size, count = rows.rows_in(block + ahead);
-  const double* values = rows.lanes_at(begin);
-  for (std::size_t n = 0; n < 3 * count; n += line / sizeof(double)) __builtin_prefetch(values + n);
-  for (std::size_t n = 0; n < count; n += line / sizeof(std::uint32_t)) {
-    __builtin_prefetch(rows.index(0) + begin + n);
-    __builtin_prefetch(rows.index(1) + begin + n);
-  }
+REND_INLINE bool is_whole(const KernelArguments& a, std::size_t block) {
+  const PackedRows::Range range = a.rows.range(block);
+  return range.low >= a.low && range.high < a.high;
 }
 
+// Blocks that stand one after the other are run as one: where a block ends is what the processor cannot guess.
 template <bool damped, bool summed> REND_INLINE void run(const KernelArguments& a) {
-  for (std::size_t block = a.first; block < a.last; ++block) {
-    fetch_ahead(a.rows, block);
+  for (std::size_t block = a.first; block < a.last;) {
     const PackedRows::Range range = a.rows.range(block);
-    if (range.low >= a.high || range.high < a.low) continue;
-    if (range.low >= a.low && range.high < a.high)
-      run_block<damped, true, summed>(a, block);
-    else
-      run_block<damped, false, summed>(a, block);
+    const bool all = is_whole(a, block), none = range.low >= a.high || range.high < a.low;
+    const std::size_t begin = a.rows.begin(block);
+    std::size_t end = begin + a.rows.padded_in(block++);
+    if (none) continue;
+    if (!all) {
+      run_rows<damped, false, summed>(a, begin, end);
+      continue;
+    }
+    while (block < a.last && a.rows.begin(block) == end && is_whole(a, block)) end += a.rows.padded_in(block++);
+    run_rows<damped, true, summed>(a, begin, end);
   }
 }
 
 template <bool damped> REND_INLINE void run_corners(const KernelArguments& a) {
   for (std::size_t block = a.first; block < a.last; ++block) {
-    const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
+    const std::size_t begin = a.rows.begin(block), end = begin + a.rows.padded_in(block);
     for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
       const std::uint32_t *i = a.rows.index(0) + at, *j = a.rows.index(1) + at;
       const std::uint32_t *ci = a.rows.index(2) + at, *cj = a.rows.index(3) + at;

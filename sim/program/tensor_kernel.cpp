@@ -29,7 +29,7 @@ REND_INLINE Vector minus_transposed_product(const Double4* K, const Vector& u) {
 template <int particles, bool damped, bool corners, bool whole>
 REND_INLINE void run_rows(const KernelArguments& a, double damping, std::size_t block) {
   constexpr int place = corners ? particles : 0; // index column
-  const std::size_t begin = block * PackedRows::block_size, end = begin + a.rows.padded_in(block);
+  const std::size_t begin = a.rows.begin(block), end = begin + a.rows.padded_in(block);
   for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
     Double4 K[9];
     for (int n = 0; n < 9; ++n) K[n] = load_four(a.rows.lanes_at(at) + 4 * n);

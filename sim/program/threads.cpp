@@ -5,15 +5,26 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <map>
 #include <thread>
 
 namespace rend {
 
+namespace {
+
+// To make one takes longer than a product of a small matrix.
+tbb::task_arena& arena_of(int threads) {
+  thread_local std::map<int, tbb::task_arena> arenas;
+  return arenas.try_emplace(threads, threads).first->second;
+}
+
+} // namespace
+
 void in_parts(int parts, std::size_t count, PartWork work) {
   if (parts <= 1) return work(0, count);
   const auto n = static_cast<std::size_t>(parts);
-  tbb::task_arena arena(std::min(parts, tbb::info::default_concurrency())); // more, and oneTBB warns on stderr
-  arena.execute([&] {
+  // More than the machine has, and oneTBB warns on stderr.
+  arena_of(std::min(parts, tbb::info::default_concurrency())).execute([&] {
     tbb::parallel_for(
         std::size_t{0}, n, [&](std::size_t part) { work(count * part / n, count * (part + 1) / n); },
         tbb::simple_partitioner());

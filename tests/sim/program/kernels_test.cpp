@@ -19,9 +19,10 @@ struct Springs {
   std::vector<UnitParameters> parameters;
 };
 
-Springs random_springs(std::size_t count, std::uint32_t vertices, unsigned seed) {
+Springs random_springs(std::size_t count, std::uint32_t vertices, unsigned seed, bool damped) {
   Noise noise(seed);
   Springs s;
+  if (!damped) s.rows = PackedRows(4, 2, 3, spring_law()->damping_value());
   for (std::uint32_t n = 0; n < vertices; ++n) {
     s.x.push_back(Record(noise.vector()));
     s.v.push_back(Record(noise.vector()));
@@ -50,7 +51,7 @@ KernelArguments arguments(const Springs& s, std::vector<Record>& force, std::uin
 TEST(SpringKernel, adds_what_the_law_says) {
   for (const bool damped : {false, true}) {
     for (const std::size_t count : {1u, 3u, 64u, 65u, 301u}) {
-      const Springs s = random_springs(count, 40, 5);
+      const Springs s = random_springs(count, 40, 5, damped);
       std::vector<Record> force(40), corner(2 * count), expected(40), expected_corner(2 * count);
       for (std::size_t n = 0; n < count; ++n) {
         UnitParameters p = s.parameters[n];
@@ -73,7 +74,7 @@ TEST(SpringKernel, adds_what_the_law_says) {
 }
 
 TEST(SpringKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
-  const Springs s = random_springs(500, 100, 6);
+  const Springs s = random_springs(500, 100, 6, true);
   std::vector<Record> whole(100), parts(100);
   spring_kernel().forces(arguments(s, whole, 0, 100, true));
   for (const auto& [low, high] : {std::pair{0u, 13u}, {13u, 14u}, {14u, 77u}, {77u, 100u}})
@@ -88,7 +89,8 @@ struct Hinges {
   std::vector<std::array<std::uint32_t, 16>> index;
   std::vector<HingeParameters> parameters;
 
-  Hinges(std::size_t count, std::size_t vertices, unsigned seed) {
+  Hinges(std::size_t count, std::size_t vertices, unsigned seed, bool damped) {
+    if (!damped) rows = PackedRows(16, 8, 4, hinge_law()->damping_value());
     Noise noise(seed);
     for (std::size_t n = 0; n < vertices; ++n) {
       x.push_back(Record(noise.vector()));
@@ -129,7 +131,7 @@ struct Hinges {
 TEST(HingeKernel, adds_what_the_law_says) {
   for (const bool damped : {false, true}) {
     for (const std::size_t count : {1u, 3u, 64u, 65u, 301u}) {
-      const Hinges h(count, 60, 5);
+      const Hinges h(count, 60, 5, damped);
       std::vector<Record> force(60), corner(8 * count), expected(60), expected_corner(8 * count);
       for (std::size_t n = 0; n < count; ++n) {
         HingeParameters p = h.parameters[n];
@@ -159,7 +161,7 @@ TEST(HingeKernel, adds_what_the_law_says) {
 }
 
 TEST(HingeKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
-  const Hinges h(500, 100, 6);
+  const Hinges h(500, 100, 6, true);
   std::vector<Record> whole(100), parts(100);
   hinge_kernel().forces(h.arguments(whole, 0, 100, true));
   for (const auto& [low, high] : {std::pair{0u, 13u}, {13u, 14u}, {14u, 77u}, {77u, 100u}})

@@ -102,6 +102,34 @@ TEST(PackedRows, are_padded_to_whole_lanes_with_rows_that_do_nothing) {
   }
 }
 
+TEST(PackedRows, stand_without_gaps_where_they_were_set_in_order) {
+  Noise noise(3);
+  Rows rows;
+  for (std::size_t key = 0; key < 640; ++key)
+    if (noise.below(2) == 0) rows[key] = {{1, 2, 3}, {4, 5}};
+  const PackedRows all = packed(rows, 640);
+  std::size_t end = 0;
+  for (std::size_t block = 0; block < all.blocks(); ++block) {
+    EXPECT_EQ(all.begin(block), end);
+    end += all.padded_in(block);
+  }
+  EXPECT_EQ(all.end(), end);
+}
+
+TEST(PackedRows, do_not_keep_a_column_that_is_unused) {
+  PackedRows all(3, 2, 3, 1);
+  all.resize(64);
+  const std::uint32_t index[] = {1, 2, 3};
+  const double value[] = {4, 0, 6};
+  for (std::size_t key = 0; key < 4; ++key) all.set(key, index, value);
+  all.seal();
+  for (std::size_t key = 0; key < 4; ++key)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(all.value(c, all.row(key)), value[c]);
+  EXPECT_EQ(all.lanes_at(0)[0], 4);
+  EXPECT_EQ(all.lanes_at(0)[4], 6);
+  EXPECT_EQ(packed({{0, {{1, 2, 3}, {4, 6}}}}, 64).bytes(), all.bytes());
+}
+
 TEST(PackedRows, keep_what_the_next_rows_of_a_block_write_apart) {
   // Rows are spread within a block so that neighbours by key, which share vertices, do not follow each other.
   Rows rows;
