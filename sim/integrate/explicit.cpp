@@ -2,23 +2,26 @@
 //
 // Order 1. Without damping it gains energy at any step; with it, stable up to 2ξ/ω.
 #include "sim/integrate/integrator.h"
+#include "sim/integrate/vertex_loop.h"
 
 namespace rend {
 namespace {
 
-REND_INLINE void move(const System& system, std::size_t count, double step, const StateView& now,
-                      const Record* force, State& next) {
+REND_INLINE void move(std::size_t begin, std::size_t end, const System& system, double step,
+                      const StateView& now, const Record* force, State& next, Double4& probe) {
   const Double4 h = splat(step);
-  for (std::size_t i = 0; i < count; ++i) {
+  Double4 seen{};
+  for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(now.velocity[i]);
-    next.put(i, load(now.position[i]) + h * v, v + h * system.acceleration(i, load(force[i]), v));
+    next.write(i, load(now.position[i]) + h * v, v + h * system.acceleration(i, load(force[i]), v), seen);
   }
+  probe += seen;
 }
 
 class ExplicitEuler final : public Integrator {
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
-    at_width<move>(system, system.vertices(), step, now, force, next);
+    put_vertices<move>(system, next, step, now, force);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

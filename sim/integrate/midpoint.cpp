@@ -4,30 +4,34 @@
 // With d = ξω it is stable where dt d ≤ 1 and (ω dt)² ≤ 2a + 2√(a(2−a)), a = dt d: for little damping up to 2
 // ξ^⅓/ω.
 #include "sim/integrate/integrator.h"
+#include "sim/integrate/vertex_loop.h"
 
 #include <cmath>
 
 namespace rend {
 namespace {
 
-REND_INLINE void halfway(const System& system, std::size_t count, double step, const StateView& now,
-                         const Record* force, State& middle) {
+REND_INLINE void halfway(std::size_t begin, std::size_t end, const System& system, double step,
+                         const StateView& now, const Record* force, State& middle) {
   const Double4 half = splat(0.5 * step);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(now.velocity[i]);
     store(middle.position[i], load(now.position[i]) + half * v);
     store(middle.velocity[i], v + half * system.acceleration(i, load(force[i]), v));
   }
 }
 
-REND_INLINE void across(const System& system, std::size_t count, double step, const StateView& now,
-                        const Record* force, const State& middle, State& next) {
+REND_INLINE void across(std::size_t begin, std::size_t end, const System& system, double step,
+                        const StateView& now, const Record* force, const State& middle, State& next,
+                        Double4& probe) {
+  Double4 seen{};
   const Double4 h = splat(step);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(middle.velocity[i]);
-    next.put(i, load(now.position[i]) + h * v,
-             load(now.velocity[i]) + h * system.acceleration(i, load(force[i]), v));
+    next.write(i, load(now.position[i]) + h * v,
+               load(now.velocity[i]) + h * system.acceleration(i, load(force[i]), v), seen);
   }
+  probe += seen;
 }
 
 class Midpoint final : public Integrator {
@@ -41,10 +45,10 @@ class Midpoint final : public Integrator {
     const std::size_t count = system.vertices();
     force_.resize(count);
     middle_.resize(count);
-    at_width<halfway>(system, count, step, now, force, middle_);
+    over_vertices<halfway>(system, step, now, force, middle_);
     system.constrain(time + 0.5 * step, middle_.position.data(), middle_.velocity.data());
     system.forces(time + 0.5 * step, middle_.position.data(), middle_.velocity.data(), force_.data());
-    at_width<across>(system, count, step, now, force_.data(), middle_, next);
+    put_vertices<across>(system, next, step, now, force_.data(), middle_);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

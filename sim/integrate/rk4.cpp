@@ -8,6 +8,7 @@
 //
 // Order 4, stable up to 2√2/ω without damping (2.62/ω at ξ = 0.5, 2.78/2d where damping rules).
 #include "sim/integrate/integrator.h"
+#include "sim/integrate/vertex_loop.h"
 
 #include <cmath>
 #include <limits>
@@ -23,10 +24,11 @@ struct Sums {
 // Adds the derivative at a stage (its forces, its velocities) with its weight; the first stage sets the sums.
 // Then goes on to the next stage, at `ahead` from the start; it may be the stage itself.
 template <bool first>
-REND_INLINE void collect(const System& system, std::size_t count, const Record* force, const Record* velocity,
-                         double weight, const StateView& now, double ahead, Sums& sums, State& stage) {
+REND_INLINE void collect(std::size_t begin, std::size_t end, const System& system, const Record* force,
+                         const Record* velocity, double weight, const StateView& now, double ahead, Sums& sums,
+                         State& stage) {
   const Double4 w = splat(weight), h = splat(ahead);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(velocity[i]), a = system.acceleration(i, load(force[i]), v);
     store(sums.velocity[i], first ? v : load(sums.velocity[i]) + w * v);
     store(sums.acceleration[i], first ? a : load(sums.acceleration[i]) + w * a);
@@ -34,22 +36,25 @@ REND_INLINE void collect(const System& system, std::size_t count, const Record* 
     store(stage.velocity[i], load(now.velocity[i]) + h * a);
   }
 }
-REND_INLINE void collect_first(const System& system, std::size_t count, const Record* force,
+REND_INLINE void collect_first(std::size_t begin, std::size_t end, const System& system, const Record* force,
                                const StateView& now, double ahead, Sums& sums, State& stage) {
-  collect<true>(system, count, force, now.velocity, 1, now, ahead, sums, stage);
+  collect<true>(begin, end, system, force, now.velocity, 1, now, ahead, sums, stage);
 }
-REND_INLINE void collect_middle(const System& system, std::size_t count, const Record* force,
+REND_INLINE void collect_middle(std::size_t begin, std::size_t end, const System& system, const Record* force,
                                 const StateView& now, double ahead, Sums& sums, State& stage) {
-  collect<false>(system, count, force, stage.velocity.data(), 2, now, ahead, sums, stage);
+  collect<false>(begin, end, system, force, stage.velocity.data(), 2, now, ahead, sums, stage);
 }
-REND_INLINE void finish(const System& system, std::size_t count, const Record* force, const StateView& now,
-                        double step, const Sums& sums, const State& stage, State& next) {
+REND_INLINE void finish(std::size_t begin, std::size_t end, const System& system, const Record* force,
+                        const StateView& now, double step, const Sums& sums, const State& stage, State& next,
+                        Double4& probe) {
+  Double4 seen{};
   const Double4 sixth = splat(step / 6);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(stage.velocity[i]), a = system.acceleration(i, load(force[i]), v);
-    next.put(i, load(now.position[i]) + sixth * (load(sums.velocity[i]) + v),
-             load(now.velocity[i]) + sixth * (load(sums.acceleration[i]) + a));
+    next.write(i, load(now.position[i]) + sixth * (load(sums.velocity[i]) + v),
+               load(now.velocity[i]) + sixth * (load(sums.acceleration[i]) + a), seen);
   }
+  probe += seen;
 }
 
 class RungeKutta4 final : public Integrator {
@@ -68,13 +73,13 @@ class RungeKutta4 final : public Integrator {
     stage_.resize(count);
     sums_.velocity.resize(count);
     sums_.acceleration.resize(count);
-    at_width<collect_first>(system, count, force, now, 0.5 * step, sums_, stage_);
+    over_vertices<collect_first>(system, force, now, 0.5 * step, sums_, stage_);
     evaluate(system, time + 0.5 * step);
-    at_width<collect_middle>(system, count, force_.data(), now, 0.5 * step, sums_, stage_);
+    over_vertices<collect_middle>(system, force_.data(), now, 0.5 * step, sums_, stage_);
     evaluate(system, time + 0.5 * step);
-    at_width<collect_middle>(system, count, force_.data(), now, step, sums_, stage_);
+    over_vertices<collect_middle>(system, force_.data(), now, step, sums_, stage_);
     evaluate(system, time + step);
-    at_width<finish>(system, count, force_.data(), now, step, sums_, stage_, next);
+    put_vertices<finish>(system, next, force_.data(), now, step, sums_, stage_);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 

@@ -4,24 +4,27 @@
 //
 // Order 1, stable up to 2/ω, and without damping its energy oscillates but does not drift.
 #include "sim/integrate/integrator.h"
+#include "sim/integrate/vertex_loop.h"
 
 namespace rend {
 namespace {
 
-REND_INLINE void move(const System& system, std::size_t count, double step, const StateView& now,
-                      const Record* force, State& next) {
+REND_INLINE void move(std::size_t begin, std::size_t end, const System& system, double step,
+                      const StateView& now, const Record* force, State& next, Double4& probe) {
   const Double4 h = splat(step);
-  for (std::size_t i = 0; i < count; ++i) {
+  Double4 seen{};
+  for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(now.velocity[i]);
     const Double4 w = v + h * system.acceleration(i, load(force[i]), v);
-    next.put(i, load(now.position[i]) + h * w, w);
+    next.write(i, load(now.position[i]) + h * w, w, seen);
   }
+  probe += seen;
 }
 
 class SymplecticEuler final : public Integrator {
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
-    at_width<move>(system, system.vertices(), step, now, force, next);
+    put_vertices<move>(system, next, step, now, force);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

@@ -24,8 +24,9 @@ struct State {
   }
 
   // Writes the new state of a vertex, and looks on the way how fast it is and whether it is finite: 0 times what is
-  // not is not 0.
-  REND_INLINE void put(std::size_t i, Double4 x, Double4 v) {
+  // not is not 0. In a loop `seen` is a local, to be added to the probe at its end: memory would make each vertex wait
+  // for the one before it.
+  REND_INLINE void write(std::size_t i, Double4 x, Double4 v, Double4& seen) {
     if (large) {
       stream(position[i], x);
       stream(velocity[i], v);
@@ -33,8 +34,9 @@ struct State {
       rend::store(position[i], x); // not the one of archives
       rend::store(velocity[i], v);
     }
-    probe += v * v + 0.0 * x;
+    seen += v * v + 0.0 * x;
   }
+  REND_INLINE void put(std::size_t i, Double4 x, Double4 v) { write(i, x, v, probe); }
 
   // Σ |v|² over all vertex slots [m²/s²], as far as they were put; not finite where a number of the state is not.
   double motion() const { return probe[0] + probe[1] + probe[2]; }
@@ -56,6 +58,7 @@ public:
   virtual ~System() = default;
 
   virtual std::size_t vertices() const = 0; // slots
+  virtual int parts() const { return 1; }   // threads that a loop over all vertices is worth
 
   // Internal forces [N], one per vertex slot. Brings `load` to the same state.
   virtual void forces(double time, const Record* position, const Record* velocity, Record* force) = 0;

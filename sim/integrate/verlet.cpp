@@ -2,14 +2,15 @@
 //
 // Order 2; damping is taken at the predicted velocity, which keeps the order. Stable up to 2/ω without damping.
 #include "sim/integrate/integrator.h"
+#include "sim/integrate/vertex_loop.h"
 
 namespace rend {
 namespace {
 
-REND_INLINE void predict(const System& system, std::size_t count, double step, const StateView& now,
-                         const Record* force, State& next) {
+REND_INLINE void predict(std::size_t begin, std::size_t end, const System& system, double step,
+                         const StateView& now, const Record* force, State& next) {
   const Double4 h = splat(step), half_square = splat(0.5 * step * step);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(now.velocity[i]), a = system.acceleration(i, load(force[i]), v);
     store(next.position[i], load(now.position[i]) + h * v + half_square * a);
     store(next.velocity[i], v + h * a);
@@ -17,14 +18,16 @@ REND_INLINE void predict(const System& system, std::size_t count, double step, c
 }
 
 // With w = v + dt a as predicted, v + dt/2 a is (v + w)/2: the loads of the start are not there any more.
-REND_INLINE void correct(const System& system, std::size_t count, double step, const StateView& now,
-                         const Record* force_there, State& next) {
+REND_INLINE void correct(std::size_t begin, std::size_t end, const System& system, double step,
+                         const StateView& now, const Record* force_there, State& next, Double4& probe) {
+  Double4 seen{};
   const Double4 half = splat(0.5), half_step = splat(0.5 * step);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const Double4 w = load(next.velocity[i]);
     const Double4 b = system.acceleration(i, load(force_there[i]), w);
-    next.put(i, load(next.position[i]), half * (load(now.velocity[i]) + w) + half_step * b);
+    next.write(i, load(next.position[i]), half * (load(now.velocity[i]) + w) + half_step * b, seen);
   }
+  probe += seen;
 }
 
 class VelocityVerlet final : public Integrator {
@@ -36,10 +39,10 @@ class VelocityVerlet final : public Integrator {
                State& next) override {
     const std::size_t count = system.vertices();
     force_.resize(count);
-    at_width<predict>(system, count, step, now, force, next);
+    over_vertices<predict>(system, step, now, force, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
     system.forces(time + step, next.position.data(), next.velocity.data(), force_.data());
-    at_width<correct>(system, count, step, now, force_.data(), next);
+    put_vertices<correct>(system, next, step, now, force_.data());
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

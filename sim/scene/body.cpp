@@ -170,7 +170,7 @@ void Body::advance(double time, double step) {
   const StateView now{map->position().values().data(), map->velocity().values().data()};
   integrator->advance(*this, time, step, now, force.data(), next);
   if (faulty.armed(StepStage::Integration)) spoil_next();
-  if (next.large) finish_streams(); // other threads are going to read them
+  if (next.large) finish_streams(); // of schemes that put their state on this thread
   if (!floor_contact) return;
   const Within contact_within(profile, Stage::Contact);
   floor_contact->apply(next, step);

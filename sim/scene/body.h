@@ -77,6 +77,7 @@ struct Body final : System {
 
   // System
   std::size_t vertices() const override { return program->vertices(); }
+  int parts() const override { return program->parts(); }
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
   void outer(double time, const Record* position, const Record* velocity) override;
   void constrain(double time, Record* position, Record* velocity) override;

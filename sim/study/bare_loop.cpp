@@ -20,6 +20,7 @@ struct BareLoop::Bare final : System {
     force.resize(vertices());
   }
   std::size_t vertices() const override { return body->program->vertices(); }
+  int parts() const override { return body->program->parts(); }
   void forces(double, const Record* position, const Record* velocity, Record* out) override {
     body->program->forces(position, velocity, out);
   }
