@@ -54,11 +54,13 @@ void expect_same(const Scene& a, const Scene& b) {
 
 // How far a run goes here.
 void play(Played& run) {
-  constexpr long few = 8, after_tears = 5, affordable = 100'000; // steps, and steps times vertices
+  constexpr long few = 8, after_tears = 5, more = 120; // steps
+  constexpr long affordable = 60'000;                  // steps times vertices
   if (std::getenv("REND_WHOLE")) return run.go_to(run.steps());
   std::size_t vertices = 0;
   for (const auto& body : run.scene.bodies()) vertices += body->vertices();
-  const long most = run.has_laws() ? affordable / static_cast<long>(std::max<std::size_t>(vertices, 100)) : 0;
+  const long most =
+      run.has_laws() ? std::min(more, affordable / static_cast<long>(std::max<std::size_t>(vertices, 1))) : 0;
   run.go_to(std::min(few, run.steps()));
   while (run.scene.tears() == 0 && run.scene.steps_done() < std::min(most, run.steps())) run.scene.step();
   if (run.scene.tears() > 0) run.go_to(std::min(run.scene.steps_done() + after_tears, run.steps()));
