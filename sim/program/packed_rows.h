@@ -11,11 +11,13 @@
 // block, in which order, is a pure function of what lives (incremental = from scratch, and the same sums to the bit).
 // Blocks stand packed as well, in the order in which they first got rows, with room for a multiple of four; one that
 // outgrows its room moves to the end, where it has room for all its keys. (With gaps for dead keys the springs of a
-// million quads took twice as long: half the keys of edges are dead, since two faces share one row.) Neighbouring keys are sides of one face and share vertices: turned
-// around, rows that follow each other seldom add to the same vertex, and none waits for the sum before it (2.3 against
-// 1.9 µs a step at 10 × 10 quads). Padding repeats the last row's indices with values 0: the kernel takes four rows at a
-// time and needs no remainder loop. Values of four rows stand together, [row/4][column][row%4], so that a kernel reads
-// one stream, whether a row has 3 values (a spring) or 200 (a hexahedron).
+// million quads took twice as long: half the keys of edges are dead, since two faces share one row.)
+//
+// Neighbouring keys are sides of one face and share vertices: turned around, rows that follow each other seldom add to
+// the same vertex, and none waits for the sum before it (2.3 against 1.9 µs a step at 10 × 10 quads). Padding repeats the
+// last row's indices with values 0: the kernel takes four rows at a time and needs no remainder loop. Values of four rows
+// stand together, [row/4][column][row%4], so that a kernel reads one stream, whether a row has 3 values (a spring) or 200
+// (a hexahedron).
 #pragma once
 
 #include <bit>
@@ -59,6 +61,7 @@ public:
   std::size_t padded_in(std::size_t block) const { return (rows_in(block) + lanes - 1) / lanes * lanes; }
 
   const std::uint32_t* index(int column) const { return index_[column].data(); } // one per row
+  std::size_t columns() const { return columns_; }                               // of values that are kept
   double value(int column, std::size_t row) const {
     return column == unused_ ? 0 : value_[place(row, kept(column))];
   }

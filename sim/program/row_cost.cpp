@@ -64,7 +64,9 @@ double rotation_operations(Rotation rotation, int dimension) { // rotation_lanes
                               (dimension == 3 ? cross : 0);
   if (rotation == Rotation::Qr) return gram_schmidt;
   if (dimension == 2) return gram_schmidt + 3 * dot + 1 + 3 + 2 + 2 + 2 * (2 * scale + add);
-  return iterations * (3 * cross + dot + 1 + 3 * (2 * scale + add + dot + 1 + add));
+  constexpr double invariants = 3 * cross + 7 * dot + 4, halley = 23; // of F; an iteration for the sum
+  constexpr double weights = 12 + 3 * (dot + 1), column = 2 + 4 * scale + 3 * add;
+  return invariants + iterations * halley + weights + 3 * column;
 }
 
 // As element_kernel.h goes.
@@ -117,7 +119,8 @@ RowCost cost_of(const Binder& binder, bool corners) {
   const auto vertices = static_cast<double>(records(binder.rows(), 0, particles));
   const double forces =
       corners ? static_cast<double>(records(binder.rows(), particles, 2 * particles)) : vertices;
-  const double carried = 8.0 * law.values() + 4.0 * particles * (corners ? 2 : 1);
+  const double carried =
+      8.0 * static_cast<double>(binder.rows().columns()) + 4.0 * particles * (corners ? 2 : 1);
   cost.written = sizeof(Record) * forces / live;
   cost.read = carried + sizeof(Record) * vertices * (interaction.damped ? 2 : 1) / live + cost.written;
   return cost;
