@@ -20,7 +20,7 @@ bool slots_scattered(const EmbeddedMap& map, std::size_t least) {
     scattered += (dart > last ? dart - last : last - dart) > far;
     last = dart;
   }
-  return 2 * scattered > vertices.count();
+  return 3 * scattered > vertices.count();
 }
 
 void number_anew(EmbeddedMap& map) {
