@@ -141,6 +141,7 @@ void Binder::bind() {
   rows_.resize(cells.slots() * pattern_.units.size());
   for (Slot owner = 0; owner < cells.slots(); ++owner) write(owner);
   rows_.seal();
+  rows_.trim();
 }
 
 void Binder::reserve_for_separations() {

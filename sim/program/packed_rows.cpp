@@ -32,6 +32,12 @@ void PackedRows::reserve(std::size_t keys) {
   value_.reserve(rows * columns_);
 }
 
+void PackedRows::trim() {
+  for (auto& column : index_) column.shrink_to_fit();
+  value_.shrink_to_fit();
+  dirty_.shrink_to_fit();
+}
+
 void PackedRows::lengthen(std::size_t rows) {
   end_ += rows;
   for (auto& column : index_) column.resize(end_, 0);

@@ -39,6 +39,7 @@ public:
 
   void resize(std::size_t keys); // new keys are dead
   void reserve(std::size_t keys);
+  void trim(); // once all is bound: gives back room that arrays took on their way
   std::size_t keys() const { return keys_; }
   bool live(std::size_t key) const { return (mask_[key / block_size] >> scattered(key % block_size) & 1) != 0; }
   std::size_t live_count() const;

@@ -15,7 +15,7 @@ namespace {
 using program::content;
 namespace fs = std::filesystem;
 
-const fs::path root = fs::path(__FILE__).parent_path() / "../../..";
+const std::filesystem::path root = REND_ROOT;
 
 std::map<std::string, std::string> files_of(const fs::path& folder) {
   std::map<std::string, std::string> files;
