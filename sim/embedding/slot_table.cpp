@@ -18,15 +18,15 @@ void SlotTable::pack() {
   }
   least_ = std::move(least);
   step_ = std::move(step);
-  wide_ = {};
+  wide_ = std::vector<Slot>(); // {} would keep its room
 }
 
 void SlotTable::unpack() {
   std::vector<Slot> wide(step_.size());
   for (std::size_t d = 0; d < wide.size(); ++d) wide[d] = (*this)[Dart{d}];
   wide_ = std::move(wide);
-  least_ = {};
-  step_ = {};
+  least_ = std::vector<Slot>();
+  step_ = std::vector<std::uint8_t>();
 }
 
 bool SlotTable::set_step(Dart d, Slot slot) {

@@ -94,8 +94,8 @@ TEST(Pipeline, AnErrorOfAWriterComesOutOfPushOrFinish) {
   NEEDS_PNG;
   const Folder folder;
   std::filesystem::create_directory(folder / "00001.png"); // in the way
-  Pipeline pipeline(small(folder.path()));
   try {
+    Pipeline pipeline(small(folder.path())); // it waits for the other writer when it goes
     for (int number = 0; number < 50; ++number) pipeline.push(numbered(number));
     pipeline.finish();
     FAIL();

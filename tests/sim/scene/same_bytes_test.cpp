@@ -5,35 +5,22 @@
 // laws to their first tears where that is cheap; with REND_WHOLE in the environment whole clips (tests/run --all). Vector
 // units: tests/render/app/presets_test.cpp; builds and other processors: tests/same-states.
 #include "render/app/preset_types.h"
+#include "sim/house_presets.h"
 #include "sim/scene/scene.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 
 namespace rend {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path root = fs::path(REND_ROOT) / "presets";
-
-std::vector<std::string> all_presets() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".xml")
-      names.push_back(fs::relative(entry.path(), root).replace_extension().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 struct Played {
   std::unique_ptr<Node> preset;
   Scene scene;
   Played(const std::string& name, int threads)
-      : preset(load_scene(root / (name + ".xml"))),
+      : preset(load_scene(house::path_of(name))),
         scene(*preset, SceneOptions{.threads = threads, .small_in_parts = true}) {}
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
   void go_to(long step) {
@@ -99,12 +86,7 @@ TEST_P(SameBytes, on_any_number_of_threads_and_with_everything_built_anew_at_eac
   expect_same(one.scene, anew.scene);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SameBytes, testing::ValuesIn(all_presets()), [](const auto& one) {
-  std::string name = one.param;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, SameBytes, testing::ValuesIn(house::all_presets()), house::as_word);
 
 } // namespace
 } // namespace rend

@@ -3,30 +3,15 @@
 // Steady: no law tries a change, the guard throws no step away, and contact does not look for its pairs anew.
 #include "render/app/preset_types.h"
 #include "sim/allocations.h"
+#include "sim/house_presets.h"
 #include "sim/presets.h"
 #include "sim/scene/guard.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-
 namespace rend {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path root = fs::path(REND_ROOT) / "presets";
-
-std::vector<std::string> all_presets() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".xml")
-      names.push_back(fs::relative(entry.path(), root).replace_extension().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 constexpr long steps = 100;
 constexpr int windows = 4; // of so many steps
@@ -75,17 +60,12 @@ void expect_none(Scene& scene) {
 class SteadyPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(SteadyPreset, asks_for_no_memory) {
-  const auto preset = load_scene(root / (GetParam() + ".xml"));
+  const auto preset = load_scene(house::path_of(GetParam()));
   Scene scene(*preset, SceneOptions{.threads = 2});
   expect_none(scene);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SteadyPreset, testing::ValuesIn(all_presets()), [](const auto& one) {
-  std::string name = one.param;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, SteadyPreset, testing::ValuesIn(house::all_presets()), house::as_word);
 
 std::vector<std::string> schemes() {
   std::vector<std::string> names;

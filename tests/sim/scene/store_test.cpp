@@ -4,6 +4,7 @@
 // on its way (tests/run --all).
 #include "render/app/preset_types.h"
 #include "sim/base/archive.h"
+#include "sim/house_presets.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
 #include "sim/scene/scene.h"
@@ -12,23 +13,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 
 namespace rend {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path root = fs::path(REND_ROOT) / "presets";
-
-std::vector<std::string> all_presets() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".xml")
-      names.push_back(fs::relative(entry.path(), root).replace_extension().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 std::vector<std::uint8_t> stored(Scene& scene) {
   Archive archive;
@@ -53,7 +40,7 @@ struct Played {
   std::unique_ptr<Node> preset;
   std::unique_ptr<Scene> scene;
   explicit Played(const std::string& name)
-      : preset(load_scene(root / (name + ".xml"))),
+      : preset(load_scene(house::path_of(name))),
         scene(std::make_unique<Scene>(*preset, SceneOptions{.threads = 2, .births = true})) {}
 };
 
@@ -97,12 +84,7 @@ TEST_P(StoredPreset, goes_on_to_the_bit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, StoredPreset, testing::ValuesIn(all_presets()), [](const auto& one) {
-  std::string name = one.param;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, StoredPreset, testing::ValuesIn(house::all_presets()), house::as_word);
 
 TEST(Store, a_scene_goes_on_from_any_step_with_every_scheme) {
   for (const Scheme& scheme : all_schemes()) {

@@ -1,0 +1,39 @@
+// The presets of the house, for tests that take each of them.
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace rend::house {
+
+inline std::filesystem::path folder() {
+  return std::filesystem::path(REND_ROOT) / "presets";
+}
+inline std::filesystem::path path_of(const std::string& name) {
+  return folder() / (name + ".xml");
+}
+
+// Sorted, such as "tear/moebius".
+inline std::vector<std::string> all_presets() {
+  namespace fs = std::filesystem;
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder()))
+    if (entry.path().extension() == ".xml")
+      names.push_back(fs::relative(entry.path(), folder()).replace_extension().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// What a test of a preset is called.
+inline std::string as_word(const testing::TestParamInfo<std::string>& one) {
+  std::string name = one.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
+
+} // namespace rend::house
