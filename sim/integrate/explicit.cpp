@@ -10,12 +10,13 @@ namespace {
 REND_INLINE void move(std::size_t begin, std::size_t end, const System& system, double step,
                       const StateView& now, const Record* force, State& next, Double4& probe) {
   const Double4 h = splat(step);
-  Double4 seen{};
+  Double4 seen = probe;
   for (std::size_t i = begin; i < end; ++i) {
+    expect<2048>(now.velocity + i);
     const Double4 v = load(now.velocity[i]);
     next.write(i, load(now.position[i]) + h * v, v + h * system.acceleration(i, load(force[i]), v), seen);
   }
-  probe += seen;
+  probe = seen;
 }
 
 class ExplicitEuler final : public Integrator {
@@ -24,6 +25,12 @@ class ExplicitEuler final : public Integrator {
     put_vertices<move>(system, next, step, now, force);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
+  void sweep(System& system, double time, double step, const StateView& now, Record* force,
+             State& next) override {
+    sweep_vertices<move>(system, time, next, step, now, force);
+    system.constrain(time + step, next.position.data(), next.velocity.data());
+  }
+  bool sweeps() const override { return true; }
 };
 
 } // namespace

@@ -13,6 +13,12 @@ void Integrator::carry(std::span<const double> numbers) {
   CHECK(numbers.empty());
 }
 
+void Integrator::sweep(System& system, double time, double step, const StateView& now, Record* force,
+                       State& next) {
+  system.forces(time, now.position, now.velocity, force);
+  advance(system, time, step, now, force, next);
+}
+
 std::vector<double> carried_of(long newton, const LinearSolver& solver) {
   const LinearSolver::Carried from = solver.carried();
   return {static_cast<double>(newton), static_cast<double>(from.hard), static_cast<double>(from.iterations),

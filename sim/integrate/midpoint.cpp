@@ -24,14 +24,14 @@ REND_INLINE void halfway(std::size_t begin, std::size_t end, const System& syste
 REND_INLINE void across(std::size_t begin, std::size_t end, const System& system, double step,
                         const StateView& now, const Record* force, const State& middle, State& next,
                         Double4& probe) {
-  Double4 seen{};
+  Double4 seen = probe;
   const Double4 h = splat(step);
   for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(middle.velocity[i]);
     next.write(i, load(now.position[i]) + h * v,
                load(now.velocity[i]) + h * system.acceleration(i, load(force[i]), v), seen);
   }
-  probe += seen;
+  probe = seen;
 }
 
 class Midpoint final : public Integrator {

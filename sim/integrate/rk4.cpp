@@ -47,14 +47,14 @@ REND_INLINE void collect_middle(std::size_t begin, std::size_t end, const System
 REND_INLINE void finish(std::size_t begin, std::size_t end, const System& system, const Record* force,
                         const StateView& now, double step, const Sums& sums, const State& stage, State& next,
                         Double4& probe) {
-  Double4 seen{};
+  Double4 seen = probe;
   const Double4 sixth = splat(step / 6);
   for (std::size_t i = begin; i < end; ++i) {
     const Double4 v = load(stage.velocity[i]), a = system.acceleration(i, load(force[i]), v);
     next.write(i, load(now.position[i]) + sixth * (load(sums.velocity[i]) + v),
                load(now.velocity[i]) + sixth * (load(sums.acceleration[i]) + a), seen);
   }
-  probe += seen;
+  probe = seen;
 }
 
 class RungeKutta4 final : public Integrator {

@@ -12,13 +12,14 @@ namespace {
 REND_INLINE void move(std::size_t begin, std::size_t end, const System& system, double step,
                       const StateView& now, const Record* force, State& next, Double4& probe) {
   const Double4 h = splat(step);
-  Double4 seen{};
+  Double4 seen = probe;
   for (std::size_t i = begin; i < end; ++i) {
+    expect<2048>(now.velocity + i);
     const Double4 v = load(now.velocity[i]);
     const Double4 w = v + h * system.acceleration(i, load(force[i]), v);
     next.write(i, load(now.position[i]) + h * w, w, seen);
   }
-  probe += seen;
+  probe = seen;
 }
 
 class SymplecticEuler final : public Integrator {
@@ -27,6 +28,12 @@ class SymplecticEuler final : public Integrator {
     put_vertices<move>(system, next, step, now, force);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
+  void sweep(System& system, double time, double step, const StateView& now, Record* force,
+             State& next) override {
+    sweep_vertices<move>(system, time, next, step, now, force);
+    system.constrain(time + step, next.position.data(), next.velocity.data());
+  }
+  bool sweeps() const override { return true; }
 };
 
 } // namespace

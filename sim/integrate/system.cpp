@@ -26,6 +26,12 @@ void System::add_stiffness(const Record*, const Record*, Tangent, double, double
   CHECK_NOTE(false, "a system without stiffness was given to a scheme that solves");
 }
 
+void System::forces_in_stretches(double time, const Record* position, const Record* velocity, Record* force,
+                                 PartWork whole) {
+  forces(time, position, velocity, force);
+  whole(0, vertices());
+}
+
 void System::outer(double, const Record*, const Record*) {}
 
 void System::hold(double, std::uint8_t*) {}

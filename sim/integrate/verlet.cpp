@@ -20,14 +20,14 @@ REND_INLINE void predict(std::size_t begin, std::size_t end, const System& syste
 // With w = v + dt a as predicted, v + dt/2 a is (v + w)/2: the loads of the start are not there any more.
 REND_INLINE void correct(std::size_t begin, std::size_t end, const System& system, double step,
                          const StateView& now, const Record* force_there, State& next, Double4& probe) {
-  Double4 seen{};
+  Double4 seen = probe;
   const Double4 half = splat(0.5), half_step = splat(0.5 * step);
   for (std::size_t i = begin; i < end; ++i) {
     const Double4 w = load(next.velocity[i]);
     const Double4 b = system.acceleration(i, load(force_there[i]), w);
     next.write(i, load(next.position[i]), half * (load(now.velocity[i]) + w) + half_step * b, seen);
   }
-  probe += seen;
+  probe = seen;
 }
 
 class VelocityVerlet final : public Integrator {

@@ -1,8 +1,8 @@
 // Loops of a scheme over all vertices, at the chosen vector unit and on as many threads as the system is worth.
 //
 // A loop takes [begin, end) first, then the system, then what it is given. One that puts the new state takes that state
-// and a probe last (State::write): probes are summed up over stretches of vertices and then in their order, so that how
-// many threads there are does not show.
+// and a probe last (State::write), which it goes on with: probes are summed up over stretches of vertices and then in
+// their order, so that neither threads nor where a loop is broken off show.
 #pragma once
 
 #include "sim/integrate/system.h"
@@ -17,22 +17,47 @@ template <auto loop, class... A> void over_vertices(const System& system, A&&...
            [&](std::size_t begin, std::size_t end) { at_width<loop>(begin, end, system, a...); });
 }
 
-constexpr std::size_t probed_vertices = 4096; // in a stretch
+constexpr std::size_t probed_vertices = System::stretch;
+
+// Room for the probes of so many vertices, all 0; of this thread.
+inline std::vector<Record>& probes_of(std::size_t vertices) {
+  thread_local std::vector<Record> probes;
+  probes.assign((vertices + probed_vertices - 1) / probed_vertices, Record{});
+  return probes;
+}
+
+// A loop over the vertices of one stretch or a part of it.
+template <auto loop, class... A> void put_stretch(std::size_t begin, std::size_t end, Record& seen, A&... a) {
+  Double4 probe = load(seen);
+  at_width<loop>(begin, end, a..., probe);
+  store(seen, probe);
+}
 
 template <auto loop, class... A> void put_vertices(const System& system, State& next, A&&... a) {
-  const std::size_t count = system.vertices(), stretches = (count + probed_vertices - 1) / probed_vertices;
-  if (stretches <= 1) return at_width<loop>(std::size_t{0}, count, system, a..., next, next.probe);
-  thread_local std::vector<Record> probes;
-  probes.resize(stretches);
-  Record* const seen = probes.data();
-  in_parts(system.parts(), stretches, [&](std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n) {
-      Double4 probe{};
-      at_width<loop>(n * probed_vertices, std::min(count, (n + 1) * probed_vertices), system, a..., next,
-                     probe);
-      store(seen[n], probe);
-    }
+  const std::size_t count = system.vertices();
+  std::vector<Record>& probes = probes_of(count);
+  Record* const seen = probes.data(); // what is of a thread is not the same in another
+  in_parts(system.parts(), probes.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n)
+      put_stretch<loop>(n * probed_vertices, std::min(count, (n + 1) * probed_vertices), seen[n], system, a...,
+                        next);
     if (next.large) finish_streams(); // other threads are going to read them
+  });
+  for (const Record& one : probes) next.probe += load(one);
+}
+
+// The same while forces are found: each stretch as soon as they are there.
+template <auto loop>
+void sweep_vertices(System& system, double time, State& next, double step, const StateView& now,
+                    Record* force) {
+  std::vector<Record>& probes = probes_of(system.vertices());
+  Record* const seen = probes.data();
+  system.forces_in_stretches(time, now.position, now.velocity, force, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t to = begin; begin < end; begin = to) {
+      to = std::min(end, (begin / probed_vertices + 1) * probed_vertices);
+      put_stretch<loop>(begin, to, seen[begin / probed_vertices], system, step, now, force, next);
+    }
+    if (next.large) finish_streams();
   });
   for (const Record& one : probes) next.probe += load(one);
 }

@@ -1,5 +1,10 @@
 #include "sim/mesh/bar.h"
 
+#include "sim/mesh/locality.h"
+
+#include <algorithm>
+#include <array>
+
 namespace rend {
 namespace {
 
@@ -48,6 +53,20 @@ void add_box(CellMesh& mesh, BarPattern pattern, int slice, const Box& b) {
   mesh.add(CellKind::Hexahedron, b);
 }
 
+// Along x, then y, then z; of many boxes along the shortest side first and the longest last, so that the boxes around a
+// corner follow each other as soon as can be: slots and rows have the order of the boxes (locality.h).
+template <class F> void for_each_box(const std::array<int, 3>& boxes, bool many, F&& f) {
+  std::array<std::size_t, 3> side{0, 1, 2};
+  if (many)
+    std::stable_sort(side.begin(), side.end(),
+                     [&](std::size_t a, std::size_t b) { return boxes[a] < boxes[b]; });
+  std::array<int, 3> at{};
+  int &inner = at[side[0]], &middle = at[side[1]], &outer = at[side[2]];
+  for (outer = 0; outer < boxes[side[2]]; ++outer)
+    for (middle = 0; middle < boxes[side[1]]; ++middle)
+      for (inner = 0; inner < boxes[side[0]]; ++inner) f(at[0], at[1], at[2]);
+}
+
 } // namespace
 
 CellMesh bar_cells(const BarShape& shape) {
@@ -60,12 +79,12 @@ CellMesh bar_cells(const BarShape& shape) {
   const auto at = [&](int x, int y, int z) {
     return static_cast<std::uint32_t>((z * (shape.ny + 1) + y) * (shape.nx + 1) + x);
   };
-  for (int z = 0; z < shape.nz; ++z)
-    for (int y = 0; y < shape.ny; ++y)
-      for (int x = 0; x < shape.nx; ++x)
-        add_box(mesh, shape.pattern, x,
-                {at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z), at(x, y, z + 1),
-                 at(x + 1, y, z + 1), at(x + 1, y + 1, z + 1), at(x, y + 1, z + 1)});
+  const bool many = mesh.points.size() >= points_of_few;
+  for_each_box({shape.nx, shape.ny, shape.nz}, many, [&](int x, int y, int z) {
+    add_box(mesh, shape.pattern, x,
+            {at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z), at(x, y, z + 1),
+             at(x + 1, y, z + 1), at(x + 1, y + 1, z + 1), at(x, y + 1, z + 1)});
+  });
   return mesh;
 }
 

@@ -8,7 +8,6 @@
 namespace rend {
 namespace {
 
-constexpr std::size_t few = 8192; // points, whose state fits into a cache
 
 using Cell = std::array<std::uint32_t, 3>; // of a grid of 2^20 cells along each side
 constexpr int bits = 20;
@@ -94,7 +93,7 @@ std::uint64_t spread(const Elements& elements, const std::vector<std::uint32_t>&
 }
 
 std::vector<std::uint32_t> order_of(const Elements& elements) {
-  if (elements.points.size() < few || elements.count() == 0 || !fit_to_sew(elements)) return {};
+  if (elements.points.size() < points_of_few || elements.count() == 0 || !fit_to_sew(elements)) return {};
   std::vector<std::uint32_t> present(elements.count());
   std::iota(present.begin(), present.end(), 0U);
   std::vector<std::uint32_t> better = along_curve(elements);

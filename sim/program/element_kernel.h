@@ -95,6 +95,8 @@ template <class Shape, Turning turning, Damping damping> struct ElementLanes {
   static REND_INLINE void forces(const KernelArguments& a, const ElasticMaterial& m, std::size_t at,
                                  Vector* f) {
     const double* values = a.rows.lanes_at(at);
+    if constexpr (Shape::points == 1) // several are long enough a run for the processor to follow
+      for (std::size_t n = 0; n < Inverse<Dim>::stride; n += 8) expect<3072>(values + n);
     Matrix<Dim> R[frames];
     if constexpr (flat) {
       for (int c = 0; c < 2; ++c, values += 12)

@@ -76,6 +76,7 @@ void Program::place_corners() {
 
 void Program::rebind() {
   if (!changes_.any) return;
+  tiles_.clear();
   for (Binder& binder : folded_) binder.rebind(changes_);
   for (Binder& binder : elementary_) binder.rebind(changes_);
   changes_.whole ? weigh_again() : weigh_changed();
@@ -127,7 +128,7 @@ constexpr std::size_t corner_tile_vertices = 1024; // with some four corners eac
 void Program::forces(const Record* position, const Record* velocity, Record* force) const {
   if (options_.walk)
     return walk_forces(*map_, *interactions_, mass_->orbit(), position, velocity, nullptr, force);
-  run_folded(false, position, velocity, force);
+  run({false, position, velocity, force}, 1, nullptr);
 }
 
 bool sums_fit(const std::vector<std::unique_ptr<Interaction>>& interactions, const ProgramOptions& options) {
@@ -137,42 +138,69 @@ bool sums_fit(const std::vector<std::unique_ptr<Interaction>>& interactions, con
 
 void Program::forces_with_sums(const Record* position, const Record* velocity, Record* force) const {
   CHECK(sums_fit(*interactions_, options_));
-  run_folded(true, position, velocity, force);
+  run({true, position, velocity, force}, 1, nullptr);
 }
 
-void Program::run_folded(bool sums, const Record* position, const Record* velocity, Record* force) const {
-  const std::vector<Binder>& binders = rows();
-  const std::size_t tiles = vertices() / tile_vertices + 1;
-  RowTimes* const times = folded_.empty() ? elementary_times_.get() : folded_times_.get();
-  if (times) times->count();
-  in_parts(parts(), vertices(), [&](std::size_t begin, std::size_t end) {
-    RowTimes::Laps laps(times);
-    std::size_t cleared = begin; // forces are set to 0 just before the first tile that adds to them
-    const auto clear_to = [&](std::size_t to) {
-      if (to <= cleared) return;
-      std::memset(static_cast<void*>(force + cleared), 0, (to - cleared) * sizeof(Record));
-      cleared = to;
-    };
-    for (std::size_t tile = 0; tile < tiles; ++tile) {
-      for (const Binder& binder : binders) {
-        const std::size_t blocks = binder.rows().blocks();
-        for (std::size_t block = blocks * tile / tiles; block < blocks * (tile + 1) / tiles; ++block)
-          clear_to(std::min<std::size_t>(end, binder.rows().range(block).high + std::size_t{1}));
-      }
-      laps.begin();
-      for (std::size_t n = 0; n < binders.size(); ++n) {
-        const std::size_t blocks = binders[n].rows().blocks();
-        KernelArguments part = arguments(binders[n], position, velocity, force);
-        part.low = static_cast<std::uint32_t>(begin);
-        part.high = static_cast<std::uint32_t>(end);
-        part.first = blocks * tile / tiles;
-        part.last = blocks * (tile + 1) / tiles;
-        sums ? spring_forces_with_sums(part) : kernels_[n]->forces(part);
-        laps.end(n);
+void Program::forces_in_stretches(const Record* position, const Record* velocity, Record* force,
+                                  std::size_t unit, PartWork whole) const {
+  CHECK(!options_.walk);
+  run({false, position, velocity, force}, unit, &whole);
+}
+
+void Program::run(const Evaluation& what, std::size_t unit, const PartWork* whole) const {
+  if (tiles_.empty()) find_tiles();
+  if (RowTimes* const times = folded_.empty() ? elementary_times_.get() : folded_times_.get()) times->count();
+  const std::size_t count = vertices();
+  in_parts(parts(), (count + unit - 1) / unit, [&](std::size_t first, std::size_t last) {
+    run_part(what, first * unit, std::min(count, last * unit), whole);
+  });
+}
+
+void Program::find_tiles() const {
+  const auto count = static_cast<std::uint32_t>(vertices());
+  tiles_.assign(count / tile_vertices + 1, {0, count});
+  for (const Binder& binder : rows()) {
+    const std::size_t blocks = binder.rows().blocks();
+    std::uint32_t low = count; // of what later tiles add to
+    for (std::size_t tile = tiles_.size(); tile-- > 0;) {
+      tiles_[tile].whole = std::min(tiles_[tile].whole, low);
+      for (std::size_t n = blocks * tile / tiles_.size(); n < blocks * (tile + 1) / tiles_.size(); ++n) {
+        const PackedRows::Range range = binder.rows().range(n);
+        low = std::min(low, range.low);
+        tiles_[tile].reached = std::max(tiles_[tile].reached, range.high + 1);
       }
     }
-    clear_to(end);
-  });
+  }
+  tiles_.back().reached = count;
+}
+
+// Of vertex slots [begin, end). Forces are set to 0 just before the first tile that adds to them.
+void Program::run_part(const Evaluation& what, std::size_t begin, std::size_t end,
+                       const PartWork* whole) const {
+  const std::vector<Binder>& binders = rows();
+  RowTimes::Laps laps(folded_.empty() ? elementary_times_.get() : folded_times_.get());
+  std::size_t cleared = begin, told = begin;
+  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
+    if (const std::size_t to = std::min<std::size_t>(end, tiles_[tile].reached); to > cleared) {
+      std::memset(static_cast<void*>(what.force + cleared), 0, (to - cleared) * sizeof(Record));
+      cleared = to;
+    }
+    laps.begin();
+    for (std::size_t n = 0; n < binders.size(); ++n) {
+      const std::size_t blocks = binders[n].rows().blocks();
+      KernelArguments part = arguments(binders[n], what.position, what.velocity, what.force);
+      part.low = static_cast<std::uint32_t>(begin);
+      part.high = static_cast<std::uint32_t>(end);
+      part.first = blocks * tile / tiles_.size();
+      part.last = blocks * (tile + 1) / tiles_.size();
+      what.sums ? spring_forces_with_sums(part) : kernels_[n]->forces(part);
+      laps.end(n);
+    }
+    if (const std::size_t to = std::min<std::size_t>(end, tiles_[tile].whole); whole && to > told) {
+      (*whole)(told, to);
+      told = to;
+    }
+  }
 }
 
 void Program::corner_forces(const Record* position, const Record* velocity, Record* corner,

@@ -12,6 +12,7 @@
 #include "sim/mechanics/mass.h"
 #include "sim/program/binder.h"
 #include "sim/program/kernels.h"
+#include "sim/program/threads.h"
 
 #include <memory>
 #include <string>
@@ -40,6 +41,11 @@ public:
 
   // Internal forces [N] at the given positions [m] and velocities [m/s], one record per vertex slot.
   void forces(const Record* position, const Record* velocity, Record* force) const;
+
+  // The same, and whole(begin, end) for stretches of vertex slots to which no row is going to add any more: together all,
+  // each once. Threads get multiples of `unit` slots each.
+  void forces_in_stretches(const Record* position, const Record* velocity, Record* force, std::size_t unit,
+                           PartWork whole) const;
 
   // The same by the elementary rows, each element corner's own share as well: one record per corner slot.
   void corner_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
@@ -74,7 +80,14 @@ public:
 private:
   KernelArguments arguments(const Binder& binder, const Record* position, const Record* velocity,
                             Record* force) const; // all blocks, all vertices
-  void run_folded(bool sums, const Record* position, const Record* velocity, Record* force) const;
+  struct Evaluation {
+    bool sums; // forces_with_sums()
+    const Record *position, *velocity;
+    Record* force;
+  };
+  void run(const Evaluation& what, std::size_t unit, const PartWork* whole) const;
+  void run_part(const Evaluation& what, std::size_t begin, std::size_t end, const PartWork* whole) const;
+  void find_tiles() const;
   void weigh_again(); // all masses, and the vertices of corners
   void weigh_changed();
   void weigh_all();
@@ -94,6 +107,11 @@ private:
   std::vector<Slot>
       corner_vertex_;             // of every element corner slot; no_slot: free; empty without elementary rows
   std::vector<double> drag_rate_; // γ/m [1/s], one per vertex slot; empty without drag
+  struct Tile {
+    std::uint32_t reached; // no row up to this tile adds to this vertex slot or a later one
+    std::uint32_t whole;   // no row of a later tile adds to a vertex slot before this one
+  };
+  mutable std::vector<Tile> tiles_; // found when they are asked for; empty after changes
 };
 
 // Whether forces_with_sums() is there: for springs alone, and not where the map is walked.

@@ -13,7 +13,7 @@ namespace {
 constexpr double add = 3, scale = 3, dot = 5, cross = 9; // of vectors
 
 double spring_operations(bool damped) {
-  const double factor = add + dot + 5; // root, 1/l, l − rest, times k, times 1/l
+  const double factor = add + dot + 6; // l, 1/l², times l, l − rest, times k, times 1/l
   const double velocities = add + dot + 3;
   return factor + (damped ? velocities : 0) + scale + 2 * add;
 }
@@ -79,7 +79,10 @@ double element_operations(const ElementLaw& law, bool damped) {
   const double gradient = points * d * (d * scale + (d - 1) * add);
   const double mean = turned && points > 1 ? points * (1 + d * (scale + add)) + 1 + d * scale : 0;
   const bool plain = !turned && shape.dimension == 3;
-  const double stress = plain ? 22 : d * d * dot + (d - 1) + 5 + d * (3 + scale + (d - 1) * (2 + scale + add));
+  const bool stretched = turned && law.rotation() == Rotation::Polar && points == 1 && !damped;
+  const double stress = plain       ? 22
+                        : stretched ? d * dot + (d - 1) + 5 + d * (2 * scale + add)
+                                    : d * d * dot + (d - 1) + 5 + d * (3 + scale + (d - 1) * (2 + scale + add));
   const double back = points * d * d * (scale + add);
   double sum = (n - 1) * add + derivatives.there + gradient + mean;
   if (turned) sum += frames * rotation_operations(law.rotation(), shape.dimension);

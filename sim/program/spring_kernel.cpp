@@ -14,8 +14,7 @@ constexpr double least_square = 1e-300; // [m²]
 // springs that a row stands for can do at most. 1/l is l/l²: the root and the division need not wait for each other.
 template <bool damped, bool summed = false>
 REND_INLINE Double4 spring_factor(const Double4* d, const KernelArguments& a, const std::uint32_t* i,
-                                  const std::uint32_t* j, std::size_t at, Double4* sum = nullptr) {
-  const double* values = a.rows.lanes_at(at); // k, damping where it is, rest
+                                  const std::uint32_t* j, const double* values, Double4* sum = nullptr) {
   const Double4 k = load_four(values), rest = load_four(values + (damped ? 8 : 4));
   const Double4 square = sums_of(d[0] * d[0], d[1] * d[1], d[2] * d[2], d[3] * d[3]);
   const Double4 length = square_root(square), inverse = length * (1.0 / square);
@@ -37,12 +36,16 @@ REND_INLINE Double4 spring_factor(const Double4* d, const KernelArguments& a, co
 template <bool damped, bool whole, bool summed>
 REND_INLINE void run_rows(const KernelArguments& a, std::size_t begin, std::size_t end) {
   const Record* x = a.position;
-  for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
-    const std::uint32_t *i = a.rows.index(0) + at, *j = a.rows.index(1) + at;
+  const std::uint32_t *i = a.rows.index(0) + begin, *j = a.rows.index(1) + begin, *last = i + (end - begin);
+  const double* values = a.rows.lanes_at(begin);
+  for (; i != last; i += 4, j += 4, values += damped ? 12 : 8) {
+    expect<1024>(i);
+    expect<1024>(j);
+    expect<2048>(values);
     Double4 d[4];
     for (int r = 0; r < 4; ++r) d[r] = load(x[j[r]]) - load(x[i[r]]);
     Double4 sum;
-    const Double4 s = spring_factor<damped, summed>(d, a, i, j, at, &sum);
+    const Double4 s = spring_factor<damped, summed>(d, a, i, j, values, &sum);
     if constexpr (summed) {
       for (int r = 0; r < 4; ++r) {
         const Double4 f = splat(s[r]) * d[r], size = __builtin_shuffle(Double4{}, sum, Long4{0, 1, 2, 4 + r});
@@ -89,7 +92,7 @@ template <bool damped> REND_INLINE void run_corners(const KernelArguments& a) {
       const std::uint32_t *ci = a.rows.index(2) + at, *cj = a.rows.index(3) + at;
       Double4 d[4];
       for (int r = 0; r < 4; ++r) d[r] = load(a.position[j[r]]) - load(a.position[i[r]]);
-      const Double4 s = spring_factor<damped>(d, a, i, j, at);
+      const Double4 s = spring_factor<damped>(d, a, i, j, a.rows.lanes_at(at));
       for (int r = 0; r < 4; ++r) {
         const Double4 f = splat(s[r]) * d[r];
         store(a.force[ci[r]], load(a.force[ci[r]]) + f);

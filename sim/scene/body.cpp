@@ -65,6 +65,13 @@ void Body::forces(double time, const Record* position, const Record* velocity, R
   outer(time, position, velocity);
 }
 
+void Body::forces_in_stretches(double time, const Record* position, const Record* velocity, Record* out,
+                               PartWork whole) {
+  outer(time, position, velocity);
+  program->forces_in_stretches(position, velocity, out, stretch, whole);
+  ++evaluations;
+}
+
 void Body::outer(double time, const Record* position, const Record* velocity) {
   const Within within(loads.empty() ? nullptr : profile, Stage::Loads);
   load = loads.evaluate(*map, time, position, velocity);
@@ -86,11 +93,27 @@ void Body::hold(double time, std::uint8_t* axes) {
   constraints.mark(time, axes);
 }
 
-void Body::evaluate() {
-  const Within within(profile, Stage::Forces);
+// Profiles tell forces and integration apart, and what tears looks at forces.
+bool Body::may_leave_forces() const {
+  return integrator->sweeps() && !tears() && !profile && !program->options().walk && !small_in_parts &&
+         !faulty.armed(StepStage::Forces);
+}
+
+void Body::meet_program() {
   inverse_mass = program->inverse_mass(); // rebinding may have moved them
   drag_rate = program->drag_rate();
   force.resize(vertices());
+}
+
+void Body::leave_forces() {
+  meet_program();
+  forces_left_ = true;
+}
+
+void Body::evaluate() {
+  const Within within(profile, Stage::Forces);
+  meet_program();
+  forces_left_ = false;
   const Record *x = map->position().values().data(), *v = map->velocity().values().data();
   if (sums_)
     program->forces_with_sums(x, v, force.data());
@@ -168,7 +191,10 @@ void Body::advance(double time, double step) {
   next.probe = Double4{};
   next_time_ = time + step;
   const StateView now{map->position().values().data(), map->velocity().values().data()};
-  integrator->advance(*this, time, step, now, force.data(), next);
+  if (forces_left_)
+    integrator->sweep(*this, time, step, now, force.data(), next);
+  else
+    integrator->advance(*this, time, step, now, force.data(), next);
   if (faulty.armed(StepStage::Integration)) spoil_next();
   if (next.large) finish_streams(); // of schemes that put their state on this thread
   if (!floor_contact) return;
@@ -210,9 +236,7 @@ void Body::store(Archive& archive) {
   if (!archive.reading()) return;
   integrator->carry(numbers);
   rebind();
-  inverse_mass = program->inverse_mass();
-  drag_rate = program->drag_rate();
-  force.resize(vertices());
+  meet_program();
   outer(time_, map->position().values().data(), map->velocity().values().data());
 }
 

@@ -79,6 +79,8 @@ struct Body final : System {
   std::size_t vertices() const override { return program->vertices(); }
   int parts() const override { return program->parts(); }
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
+  void forces_in_stretches(double time, const Record* position, const Record* velocity, Record* out,
+                           PartWork whole) override;
   void outer(double time, const Record* position, const Record* velocity) override;
   void constrain(double time, Record* position, Record* velocity) override;
   std::shared_ptr<const BlockPattern> pattern() override { return assembly->pattern(); }
@@ -86,7 +88,10 @@ struct Body final : System {
                      double by_velocity, BlockMatrix& out) override;
   void hold(double time, std::uint8_t* axes) override;
 
-  void evaluate();        // force and corner_force of the current state
+  void evaluate(); // force and corner_force of the current state
+  void
+  leave_forces(); // to advance(), which finds them on its way: where nobody looks at them before (may_leave_forces)
+  bool may_leave_forces() const;
   ForceView view() const; // of that
   CriterionRequest request_for(const LawSettings& law) const;
   double time() const { return time_; } // [s], of the current state
@@ -111,7 +116,9 @@ struct Body final : System {
 private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   void follow_changes();
+  void meet_program();
   void clear_sums();
+  bool forces_left_ = false;
   bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
   double time_ = 0, next_time_ = 0; // [s], of the current state and of `next`
 };

@@ -37,6 +37,10 @@ int Guard::parts(long step) const {
   return redoing_ && step >= from_ && step < goal_ ? parts_ : usual(step);
 }
 
+bool Guard::asks_for_forces() const {
+  return rewind_ && (!energy_ || begins_ || budget_ < 0 || !rewind_->fits());
+}
+
 void Guard::before_laws(long step) {
   const Within within(profile_, Stage::Guard);
   if (rewind_ && !rewind_->fits()) forget();

@@ -43,6 +43,7 @@ public:
 
   // What a step tells and asks, in this order; `step`: steps done before it.
   int parts(long step) const;       // it is made in
+  bool asks_for_forces() const;     // of the present state: a stretch begins
   void before_laws(long step);      // with its forces
   Trouble before_change(long step); // of topology; may be asked again
   void after_laws(long step);

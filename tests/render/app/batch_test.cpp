@@ -201,7 +201,7 @@ std::string until(const std::string& condition) {
 
 TEST_F(Batch, a_signal_stops_all_jobs_and_going_on_makes_the_rest) {
   NEEDS_PNG;
-  const std::string options = " -q --set time.step=1e-6 --jobs 2 --memory 8G"; // many seconds: one starts later
+  const std::string options = " -q --set time.step=5e-7 --jobs 2 --memory 8G"; // many seconds: one starts later
   EXPECT_EQ(place.rend("batch presets -o whole" + options).code, 0);
   const Outcome outcome =
       place.shell(std::string(REND_PROGRAM) + " batch presets -o cut" + options + " & " +

@@ -23,9 +23,9 @@ struct Many final : System {
 
 REND_INLINE void twice(std::size_t begin, std::size_t end, const System&, const Record* from, State& next,
                        Double4& probe) {
-  Double4 seen{};
+  Double4 seen = probe;
   for (std::size_t i = begin; i < end; ++i) next.write(i, 2.0 * load(from[i]), load(from[i]), seen);
-  probe += seen;
+  probe = seen;
 }
 REND_INLINE void copy(std::size_t begin, std::size_t end, const System&, const Record* from, Record* to) {
   for (std::size_t i = begin; i < end; ++i) store(to[i], load(from[i]));

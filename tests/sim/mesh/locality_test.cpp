@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 #include <set>
@@ -81,6 +82,33 @@ TEST(Locality, messages_name_cells_as_before) {
   } catch (const MeshFault& fault) {
     EXPECT_EQ(fault.element, 2U);
     EXPECT_NE(fault.flaw.find("overlaps hexahedron 2"), std::string::npos) << fault.flaw;
+  }
+}
+
+// Slices of 6 x 7 points, one after the other along the longest side, wherever that is: a box touches two of them, which
+// the first boxes meet at once, and the one before may have had a part of them.
+TEST(Locality, of_a_long_bar_goes_slice_by_slice) {
+  for (const std::array<int, 3>& n : {std::array{300, 5, 6}, {5, 300, 6}, {6, 5, 300}}) {
+    const CellMesh mesh = bar_cells({BarPattern::Hexahedra, n[0], n[1], n[2], Vec3(n[0], n[1], n[2])});
+    ASSERT_EQ(mesh.cells(), 300u * 5 * 6);
+    std::vector<int> met(mesh.points.size(), -1);
+    int next = 0, farthest = 0;
+    std::set<std::array<int, 3>> places;
+    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+      int low = next, high = 0;
+      Vec3 sum = Vec3::Zero();
+      for (const std::uint32_t point : mesh.corners_of(cell)) {
+        if (met[point] < 0) met[point] = next++;
+        low = std::min(low, met[point]);
+        high = std::max(high, met[point]);
+        sum += mesh.points[point];
+      }
+      farthest = std::max(farthest, high - low);
+      places.insert(
+          {static_cast<int>(sum.x() / 8), static_cast<int>(sum.y() / 8), static_cast<int>(sum.z() / 8)});
+    }
+    EXPECT_EQ(places.size(), mesh.cells());
+    EXPECT_LE(farthest, 3 * 6 * 7);
   }
 }
 
