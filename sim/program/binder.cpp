@@ -116,31 +116,36 @@ const double* Binder::sum_of(const std::vector<std::size_t>& keys, const Row& fi
   return sum.data();
 }
 
-// Brings the rows of one owner up to date.
-void Binder::write(Slot owner) {
-  const std::size_t count = pattern_.units.size();
+// Brings a row up to date.
+void Binder::write(std::size_t key) {
+  const std::size_t count = pattern_.units.size(), unit = key % count;
+  const Slot owner = owner_of(key);
   thread_local std::vector<std::size_t> keys;
-  for (std::size_t unit = 0; unit < count; ++unit) {
-    const std::size_t key = owner * count + unit;
-    Row row;
-    bool live = fill(owner, unit, row);
-    if (live && fold_) {
-      find_class(owner, unit, row, keys);
-      live = keys.front() == key;
-      if (live && keys.size() > 1) row.value = sum_of(keys, row);
-    }
-    if (live)
-      rows_.set(key, row.index.data(), row.value);
-    else
-      rows_.erase(key);
+  Row row;
+  bool live = fill(owner, unit, row);
+  if (live && fold_) {
+    find_class(owner, unit, row, keys);
+    live = keys.front() == key;
+    if (live && keys.size() > 1) row.value = sum_of(keys, row);
   }
+  if (live)
+    rows_.set(key, row.index.data(), row.value);
+  else
+    rows_.erase(key);
+}
+
+// From nothing: there may be fewer owners than before, and blocks are to stand in order again.
+void Binder::bind_all() {
+  rows_.clear();
+  rows_.resize(map_->cells(pattern_.owner).slots() * pattern_.units.size());
+  for (std::size_t block = 0; block < rows_.blocks(); ++block)
+    for (std::size_t n = 0; n < PackedRows::block_size; ++n)
+      if (const std::size_t key = PackedRows::key_at(block, n); key < rows_.keys()) write(key);
+  rows_.seal();
 }
 
 void Binder::bind() {
-  const CellIndex& cells = map_->cells(pattern_.owner);
-  rows_.resize(cells.slots() * pattern_.units.size());
-  for (Slot owner = 0; owner < cells.slots(); ++owner) write(owner);
-  rows_.seal();
+  bind_all();
   rows_.trim();
 }
 
@@ -224,14 +229,16 @@ void Binder::add_folding(std::vector<Slot>& owners) {
 
 void Binder::rebind(const Changes& changes) {
   if (!changes.any) return;
-  if (changes.whole) return bind();
+  if (changes.whole) return bind_all();
   thread_local std::vector<Slot> owners;
   owners.clear();
   owners_seen.clear();
   reach(changes, owners);
   if (fold_) add_folding(owners);
   rows_.resize(map_->cells(pattern_.owner).slots() * pattern_.units.size());
-  for (Slot owner : owners) write(owner);
+  for (Slot owner : owners)
+    for (std::size_t unit = 0; unit < pattern_.units.size(); ++unit)
+      write(owner * pattern_.units.size() + unit);
   rows_.seal();
 }
 

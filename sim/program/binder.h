@@ -42,8 +42,8 @@ public:
   // Keys of the units that the row of a live key stands for: itself and what it folds, in increasing order.
   void units_of_row(std::size_t key, std::vector<std::size_t>& keys) const;
 
-  void bind();                         // all owners
-  void rebind(const Changes& changes); // those that the changes concern
+  void bind();                         // all owners, in no more room than they take
+  void rebind(const Changes& changes); // those that the changes concern; what was reserved stays so
   void reserve_for_separations();      // see EmbeddedMap
 
 private:
@@ -57,7 +57,8 @@ private:
   bool swapped(const Row& a, const Row& b) const { return a.index[0] != b.index[0]; }
   void find_class(Slot owner, std::size_t unit, const Row& row, std::vector<std::size_t>& keys) const;
   const double* sum_of(const std::vector<std::size_t>& keys, const Row& first) const;
-  void write(Slot owner);
+  void write(std::size_t key);
+  void bind_all();
   void add_owner(Dart d, std::vector<Slot>& owners);
   void add_owners(const std::vector<Dart>& darts, std::vector<Slot>& owners);
   void reach(const Changes& changes, std::vector<Slot>& owners);

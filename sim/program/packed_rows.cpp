@@ -11,6 +11,17 @@ PackedRows::PackedRows(int indices, int places, int values, int unused)
     : places_(places), unused_(unused), index_(static_cast<std::size_t>(indices)),
       columns_(static_cast<std::size_t>(unused >= 0 ? values - 1 : values)) {}
 
+void PackedRows::clear() {
+  keys_ = end_ = 0;
+  mask_.clear();
+  begin_.clear();
+  room_.clear();
+  range_.clear();
+  for (auto& column : index_) column.clear();
+  value_.clear();
+  dirty_.clear();
+}
+
 void PackedRows::resize(std::size_t keys) {
   if (keys <= keys_) return;
   keys_ = keys;

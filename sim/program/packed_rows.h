@@ -37,7 +37,8 @@ public:
   // which one may be `unused` (-1: none): it is 0, and is not kept.
   PackedRows(int indices, int places, int values, int unused = -1);
 
-  void resize(std::size_t keys); // new keys are dead
+  void clear();                  // no keys any more; arrays keep their room
+  void resize(std::size_t keys); // never fewer; new keys are dead
   void reserve(std::size_t keys);
   void trim(); // once all is bound: gives back room that arrays took on their way
   std::size_t keys() const { return keys_; }
@@ -47,6 +48,9 @@ public:
   void set(std::size_t key, const std::uint32_t* index, const double* value);
   void erase(std::size_t key);
   void seal(); // writes padding and ranges of the blocks that changed; to be called before rows are read
+
+  // The n-th key of a block, n < 64, in the order of its rows: keys that are set so each come behind the one before.
+  static std::size_t key_at(std::size_t block, std::size_t n) { return block * block_size + scattered(n); }
 
   // Where the row of a live key stands.
   std::size_t row(std::size_t key) const {
@@ -82,7 +86,7 @@ public:
     for (std::size_t block = 0; block < mask_.size(); ++block) {
       std::size_t at = begin_[block];
       for (std::uint64_t rest = mask_[block]; rest; rest &= rest - 1)
-        f(block * block_size + scattered(std::countr_zero(rest)), at++);
+        f(key_at(block, std::countr_zero(rest)), at++);
     }
   }
 

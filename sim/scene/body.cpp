@@ -43,16 +43,18 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads, double toleranc
   integrator = scheme.make({tolerance, size > 0 ? size : 1});
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
   map->subscribe(changes);
-  if (tears()) {
-    map->reserve_for_separations();
-    program->reserve_for_separations();
-    for (TearLaw& law : laws) law.reserve_for_separations();
-    force.reserve(map->slots_when_separated(Vertex));
-    next.position.reserve(map->slots_when_separated(Vertex));
-    next.velocity.reserve(map->slots_when_separated(Vertex));
-    loads.reserve_for_separations(*map);
-  }
+  if (tears()) reserve_for_separations();
   constrain(0, map->position().values().data(), map->velocity().values().data());
+}
+
+void Body::reserve_for_separations() {
+  map->reserve_for_separations();
+  program->reserve_for_separations();
+  for (TearLaw& law : laws) law.reserve_for_separations();
+  force.reserve(map->slots_when_separated(Vertex));
+  next.position.reserve(map->slots_when_separated(Vertex));
+  next.velocity.reserve(map->slots_when_separated(Vertex));
+  loads.reserve_for_separations(*map);
 }
 
 void Body::forces(double time, const Record* position, const Record* velocity, Record* out) {
@@ -223,6 +225,7 @@ void Body::rebind() {
   constraints.rebind(*map, changes);
   loads.rebind(*map);
   for (TearLaw& law : laws) law.rebind(changes);
+  if (changes.whole && tears()) reserve_for_separations(); // there may be more rows than once were thought of
   changes.clear();
 }
 

@@ -117,6 +117,7 @@ private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   void follow_changes();
   void meet_program();
+  void reserve_for_separations();
   void clear_sums();
   bool forces_left_ = false;
   bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room

@@ -116,6 +116,35 @@ TEST(PackedRows, stand_without_gaps_where_they_were_set_in_order) {
   EXPECT_EQ(all.end(), end);
 }
 
+TEST(PackedRows, that_are_cleared_are_as_new_whatever_was_there) {
+  Noise noise(5);
+  PackedRows used(3, 2, 2);
+  used.resize(700);
+  const std::uint32_t index[] = {7, 8, 9};
+  const double value[] = {4, 5};
+  for (int n = 0; n < 500; ++n) used.set(noise.below(700), index, value);
+  used.seal();
+  Rows rows;
+  for (std::size_t key = 0; key < 300; key += 1 + noise.below(3)) rows[key] = {{1, 2, 3}, {6, 7}};
+  const PackedRows fresh = packed(rows, 300);
+  used.clear();
+  used.resize(300);
+  for (const auto& [key, row] : rows) used.set(key, row.index.data(), row.value.data());
+  used.seal();
+  EXPECT_TRUE(used.same_as(fresh));
+  EXPECT_EQ(used.end(), fresh.end());
+}
+
+TEST(PackedRows, name_the_keys_of_a_block_in_the_order_of_its_rows) {
+  Rows rows;
+  for (std::size_t key = 0; key < 128; ++key) rows[key] = {{1, 2, 3}, {4, 5}};
+  std::size_t n = 0;
+  packed(rows, 128).for_each([&](std::size_t key, std::size_t) {
+    EXPECT_EQ(PackedRows::key_at(n / PackedRows::block_size, n % PackedRows::block_size), key);
+    ++n;
+  });
+}
+
 TEST(PackedRows, do_not_keep_a_column_that_is_unused) {
   PackedRows all(3, 2, 3, 1);
   all.resize(64);
