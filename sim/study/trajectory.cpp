@@ -66,25 +66,24 @@ Sampler::Sampler(const Scene& scene) {
   for (const auto& body : scene.bodies()) {
     const EmbeddedMap& map = *body->map;
     const CellIndex &corners = map.cells(body->mass->orbit()), &vertices = map.cells(Vertex);
-    Part part;
-    part.corners = body->tears();
+    std::vector<Dart> points;
     std::vector<double> mass(vertices.slots(), 0);
     for (Slot c = 0; c < corners.slots(); ++c) {
       if (!corners.alive(c)) continue;
       const Slot v = map.vertex(corners.first_dart(c));
       mass[v] += (*body->mass)[c];
-      if (!part.corners) continue;
-      part.slots.push_back(c);
+      if (!body->tears()) continue;
+      points.push_back(corners.first_dart(c));
       trajectory_.rest.push_back(map.rest()[v]);
       trajectory_.mass.push_back((*body->mass)[c]);
     }
-    for (Slot v = 0; v < vertices.slots() && !part.corners; ++v) {
+    for (Slot v = 0; v < vertices.slots() && !body->tears(); ++v) {
       if (!vertices.alive(v)) continue;
-      part.slots.push_back(v);
+      points.push_back(vertices.first_dart(v));
       trajectory_.rest.push_back(map.rest()[v]);
       trajectory_.mass.push_back(mass[v]);
     }
-    parts_.push_back(std::move(part));
+    points_.push_back(std::move(points));
   }
 }
 
@@ -93,15 +92,12 @@ void Sampler::take(const Scene& scene) {
   sample.time = scene.time();
   sample.position.reserve(trajectory_.rest.size());
   sample.velocity.reserve(trajectory_.rest.size());
-  for (std::size_t b = 0; b < parts_.size(); ++b) {
-    const Body& body = *scene.bodies()[b];
-    const EmbeddedMap& map = *body.map;
-    const CellIndex& corners = map.cells(body.mass->orbit());
-    for (Slot s : parts_[b].slots) {
-      const bool there = !parts_[b].corners || corners.alive(s);
-      const Slot v = !there ? no_slot : parts_[b].corners ? map.vertex(corners.first_dart(s)) : s;
-      sample.position.push_back(there ? map.position()[v].vec() : nowhere);
-      sample.velocity.push_back(there ? map.velocity()[v].vec() : nowhere);
+  for (std::size_t b = 0; b < points_.size(); ++b) {
+    const EmbeddedMap& map = *scene.bodies()[b]->map;
+    for (Dart d : points_[b]) {
+      const bool there = map.map().alive(d);
+      sample.position.push_back(there ? map.position_of(d) : nowhere);
+      sample.velocity.push_back(there ? map.velocity()[map.vertex(d)].vec() : nowhere);
     }
   }
   sample.kinetic = scene.kinetic_energy();

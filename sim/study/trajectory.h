@@ -56,11 +56,8 @@ public:
   Trajectory finish(const Scene& scene);
 
 private:
-  struct Part {
-    bool corners = false;
-    std::vector<Slot> slots; // of vertices or of corners, one per point
-  };
-  std::vector<Part> parts_; // one per body
+  // Of each body, by a dart of each vertex or corner: slots may be numbered anew in the midst of a run.
+  std::vector<std::vector<Dart>> points_;
   Trajectory trajectory_;
 };
 

@@ -1,6 +1,8 @@
 // Error norms on states made by hand, and samples of real scenes.
 #include "sim/study/errors.h"
+#include "sim/embedding/reorder.h"
 #include "tests/sim/presets.h"
+#include "tests/sim/random_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -117,6 +119,30 @@ TEST(Sampler, finds_the_sides_that_tore_and_keeps_corners_and_their_mass) {
   EXPECT_EQ(t.torn.size(), 2 * t.tear_count) << "each separation lays two sides bare";
   EXPECT_EQ(*t.first_tear, s.body().events.front().time);
   for (std::size_t n = 0; n < t.mass.size(); ++n) EXPECT_TRUE(t.samples.back().position[n].allFinite());
+}
+
+TEST(Sampler, finds_its_points_again_where_elements_are_gone_and_slots_were_numbered_anew) {
+  const auto s =
+      presets::load(presets::cloth("quads", 4, R"(<tear criterion="global-border" threshold="1e9"/>)"));
+  Body& body = s.body();
+  Sampler sampler(*s.scene);
+  meshes::shake(body, 0.1, 1);
+  body.map->edit([](Edit& edit) {
+    for (const std::uint32_t first : {16U, 64U}) remove_orbit(edit, FaceOfVolume, Dart{first});
+  });
+  body.rebind();
+  sampler.take(*s.scene);
+  number_anew(*body.map);
+  body.rebind();
+  sampler.take(*s.scene);
+  const Trajectory t = sampler.finish(*s.scene);
+  const std::vector<Vec3>&before = t.samples[0].position, &after = t.samples[1].position;
+  std::size_t gone = 0;
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    gone += !after[n].allFinite();
+    EXPECT_TRUE(before[n].allFinite() ? after[n] == before[n] : !after[n].allFinite());
+  }
+  EXPECT_EQ(gone, 8u);
 }
 
 } // namespace
