@@ -54,6 +54,29 @@ void CellIndex::number(const GMap& map) {
   first_dart_.shrink_to_fit();
 }
 
+bool CellIndex::in_order() const {
+  return free_.empty() && std::is_sorted(first_dart_.begin(), first_dart_.end());
+}
+
+void CellIndex::number_anew(const GMap& map, std::vector<Slot>& from) {
+  std::vector<std::uint64_t> order; // smallest dart, and slot
+  order.reserve(count());
+  for (Slot s = 0; s < slots(); ++s)
+    if (alive(s)) order.push_back(std::uint64_t{first_dart_[s].value} << 32 | s);
+  sort_by_dart(order);
+  std::vector<Slot> now(slots(), no_slot);
+  from.resize(order.size());
+  first_dart_.resize(order.size());
+  for (Slot s = 0; s < order.size(); ++s) {
+    from[s] = static_cast<Slot>(order[s] & 0xffffffffu);
+    first_dart_[s] = Dart{order[s] >> 32};
+    now[from[s]] = s;
+  }
+  free_.clear();
+  slot_of_dart_.rename(now);
+  if (!orbit_.has(map.dimension())) slot_of_dart_.pack();
+}
+
 void CellIndex::store(Archive& archive) {
   archive(slot_of_dart_, first_dart_, free_);
 }

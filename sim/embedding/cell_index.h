@@ -46,6 +46,12 @@ public:
   // Brings the slots up to date after the changes of `journal`, from the darts that it names alone.
   void update(const GMap& map, const Journal& journal, SlotEvents& events);
 
+  // Whether slots are those of a full build: none is free, and they are in the order of smallest darts.
+  bool in_order() const;
+
+  // Makes them so. `from`: the slot that each had before. Orbits know their smallest darts: no orbit is walked.
+  void number_anew(const GMap& map, std::vector<Slot>& from);
+
   void store(Archive& archive); // all of it (base/archive.h), of the map as it is then
 
 private:

@@ -45,6 +45,7 @@ public:
   virtual void reserve(std::size_t slots) = 0;
   virtual void apply(const EmbeddedMap& map, const CellIndex& cells, const SlotEvents& events) = 0;
   virtual void bear(const EmbeddedMap& map, const CellIndex& cells, Slot slot) = 0;
+  virtual void gather(std::span<const Slot> from) = 0; // slot s takes the value of from[s]; there are so many
 };
 
 template <class E> class Column final : public ColumnBase {
@@ -86,6 +87,12 @@ public:
 
   void bear(const EmbeddedMap& map, const CellIndex& cells, Slot slot) override {
     values_[slot] = embedding_.birth(map, cells.first_dart(slot));
+  }
+
+  void gather(std::span<const Slot> from) override {
+    const std::vector<Value> was = values_;
+    values_.resize(from.size());
+    for (std::size_t s = 0; s < from.size(); ++s) values_[s] = was[from[s]];
   }
 
 private:

@@ -142,6 +142,25 @@ void EmbeddedMap::publish() {
   }
 }
 
+void EmbeddedMap::publish_whole() {
+  for (Changes* changes : readers_) {
+    changes->clear();
+    changes->any = changes->whole = true;
+  }
+}
+
+void EmbeddedMap::number_anew() {
+  CHECK_NOTE(whole_, "an edit is open, or was left by an exception");
+  std::vector<Slot> from;
+  for (auto& index : cells_) {
+    if (!index || index->in_order()) continue;
+    index->number_anew(map_, from);
+    for (auto& column : columns_)
+      if (column->orbit() == index->orbit()) column->gather(from);
+  }
+  publish_whole();
+}
+
 std::size_t EmbeddedMap::slots_when_separated(Orbit orbit) const {
   if (!orbit.has(map_.dimension())) return cells(orbit).slots();
   Orbit inside = orbit; // of one element
@@ -179,11 +198,7 @@ void EmbeddedMap::store(Archive& archive) {
     archive.same(column->bytes(), "bytes of an embedding");
     archive.raw(column->raw().data(), column->raw().size());
   }
-  if (!archive.reading()) return;
-  for (Changes* changes : readers_) {
-    changes->clear();
-    changes->any = changes->whole = true;
-  }
+  if (archive.reading()) publish_whole();
 }
 
 std::uint32_t Edit::add_point(const Point& point) {

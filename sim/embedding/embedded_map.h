@@ -105,6 +105,10 @@ public:
   void reserve_for_separations();
   std::size_t slots_when_separated(Orbit orbit) const; // with every element by itself
 
+  // Gives all orbits the slots that they would get if the map were built now; free ones are gone. Values follow, and
+  // readers find all of the map changed. Only what is out of order is touched. CHECK: no edit is open.
+  void number_anew();
+
   std::size_t bytes() const; // of slots and columns; the map has its own
 
   // All of it (base/archive.h): links, slots with their order and free ones, and every column. Readers then find all of
@@ -117,6 +121,7 @@ private:
   void give_points(const Edit& edit);
   void bear_reshaped(ColumnBase& column);
   void publish();
+  void publish_whole();
 
   GMap map_;
   std::array<std::unique_ptr<CellIndex>, orbit_kinds> cells_;

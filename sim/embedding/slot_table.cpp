@@ -45,6 +45,12 @@ void SlotTable::resize(std::size_t darts) {
   wide_.resize(darts, no_slot);
 }
 
+void SlotTable::rename(std::span<const Slot> now) {
+  if (wide_.empty()) unpack();
+  for (Slot& slot : wide_)
+    if (slot != no_slot) slot = now[slot];
+}
+
 std::size_t SlotTable::bytes() const {
   return (wide_.size() + least_.size()) * sizeof(Slot) + step_.size();
 }

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rend {
@@ -35,9 +36,10 @@ public:
   }
   void resize(std::size_t darts); // new ones have no slot
 
-  void pack(); // does nothing where slots lie too far from each other
-  std::size_t bytes() const;
-  void store(Archive& archive); // all of it (base/archive.h)
+  void rename(std::span<const Slot> now); // every slot s becomes now[s]
+  void pack();                            // does nothing where slots lie too far from each other
+  std::size_t bytes() const;              // with room that is kept: it was written to
+  void store(Archive& archive);           // all of it (base/archive.h)
 
 private:
   static constexpr std::size_t group = 64;      // darts with a least slot in common

@@ -180,7 +180,7 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
 
 void Body::follow_changes() {
   const double start = seconds_now();
-  if (slots_scattered(*map)) number_anew(*map);
+  if (slots_scattered(*map)) map->number_anew();
   rebind();
   evaluate();
   rebind_seconds += seconds_now() - start;

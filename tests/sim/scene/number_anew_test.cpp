@@ -1,6 +1,5 @@
 // What is bound to a map that is numbered anew (embedding/reorder.h), after elements were deleted and vertices split: it
 // is what would be built now, whatever stood in its place before; and a run goes on as if nothing had happened.
-#include "sim/embedding/reorder.h"
 #include "sim/fracture/torn_bodies.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
@@ -67,7 +66,7 @@ TEST(NumberAnew, binds_all_as_if_it_were_built_now_and_follows_changes_from_ther
         body->tear(n, n, [] {});
         free = free || has_free_slots(*body->map, Vertex) || has_free_slots(*body->map, body->mass->orbit());
         if (n % 3 == 2) {
-          number_anew(*body->map);
+          body->map->number_anew();
           body->rebind();
           expect_blocks_without_gaps(body->program->rows());
         }
@@ -97,7 +96,7 @@ TEST(NumberAnew, leaves_room_for_all_separations_that_are_to_come) {
   Chance<Cell::Borders>::most = 40;
   for (int n = 0; n < 4; ++n) body->tear(n, n, [] {});
   Chance<Cell::Borders>::most = 4;
-  number_anew(*body->map);
+  body->map->number_anew();
   body->rebind();
   const auto before = places_of_rows(*body);
   body->map->edit([](Edit& edit) { edit.map().for_each_dart([&](Dart d) { unsew(edit, 3, d); }); });
@@ -180,7 +179,7 @@ TEST(NumberAnew, at_every_change_leaves_the_course_of_a_scene_as_it_is) {
         if (!made) return;
         ++times;
         free = free || has_free_slots(*renumbered.map, renumbered.mass->orbit());
-        number_anew(*renumbered.map);
+        renumbered.map->number_anew();
         renumbered.rebind();
         seen.update();
         expect_as_built_anew(renumbered, seen);

@@ -1,6 +1,5 @@
 // Error norms on states made by hand, and samples of real scenes.
 #include "sim/study/errors.h"
-#include "sim/embedding/reorder.h"
 #include "tests/sim/presets.h"
 #include "tests/sim/random_meshes.h"
 
@@ -132,7 +131,7 @@ TEST(Sampler, finds_its_points_again_where_elements_are_gone_and_slots_were_numb
   });
   body.rebind();
   sampler.take(*s.scene);
-  number_anew(*body.map);
+  body.map->number_anew();
   body.rebind();
   sampler.take(*s.scene);
   const Trajectory t = sampler.finish(*s.scene);
