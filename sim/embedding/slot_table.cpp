@@ -52,11 +52,15 @@ void SlotTable::rename(std::span<const Slot> now) {
 }
 
 std::size_t SlotTable::bytes() const {
-  return (wide_.size() + least_.size()) * sizeof(Slot) + step_.size();
+  return (wide_.capacity() + least_.capacity()) * sizeof(Slot) + step_.capacity();
 }
 
 void SlotTable::store(Archive& archive) {
   archive(wide_, least_, step_);
+  if (!archive.reading()) return;
+  wide_.shrink_to_fit(); // the other form's arrays keep their room else
+  least_.shrink_to_fit();
+  step_.shrink_to_fit();
 }
 
 } // namespace rend

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 namespace rend {
 namespace {
@@ -66,17 +67,34 @@ TEST(SlotTable, is_the_same_as_a_plain_array_whatever_is_set) {
   expect_same(table, slots);
 }
 
-TEST(SlotTable, is_stored_as_it_is) {
+// Over a small one, over one that is wide, and back.
+TEST(SlotTable, is_stored_as_it_is_and_takes_no_more_room_where_it_is_read) {
   const std::vector<Slot> slots = slots_of_elements(2000);
-  SlotTable table = table_of(slots);
-  table.pack();
-  Archive out;
-  table.store(out);
-  SlotTable other(5);
-  Archive in{std::span<const std::uint8_t>(out.bytes())};
-  other.store(in);
-  expect_same(other, slots);
-  EXPECT_EQ(other.bytes(), table.bytes());
+  SlotTable wide = table_of(slots), packed = table_of(slots), small(5), once_packed = table_of(slots);
+  packed.pack();
+  once_packed.pack();
+  for (const auto& [from, to] : {std::pair{&packed, &small}, {&packed, &wide}, {&wide, &once_packed}}) {
+    SlotTable other = *to;
+    Archive out;
+    from->store(out);
+    Archive in{std::span<const std::uint8_t>(out.bytes())};
+    other.store(in);
+    expect_same(other, slots);
+    EXPECT_EQ(other.bytes(), from->bytes());
+  }
+}
+
+TEST(SlotTable, renames_slots_packed_or_not) {
+  std::vector<Slot> slots = slots_of_elements(2000), now(slots.size());
+  for (Slot s = 0; s < now.size(); ++s) now[s] = static_cast<Slot>(now.size() - 1 - s);
+  SlotTable wide = table_of(slots), packed = table_of(slots);
+  packed.pack();
+  wide.rename(now);
+  packed.rename(now);
+  for (Slot& slot : slots)
+    if (slot != no_slot) slot = now[slot];
+  expect_same(wide, slots);
+  expect_same(packed, slots);
 }
 
 } // namespace
