@@ -1,7 +1,7 @@
 // The map's figures: walks, building, separations and bytes, on blocks of 20 × 20 × 20 hexahedra (384,000 darts) and of
 // 6 × 15³ tetrahedra (486,000). cgal_bench.cpp does the same with CGAL's generalized map, where it is installed.
+#include "bench/walk_orbits.h"
 #include "sim/elements.h"
-#include "sim/topology/walk.h"
 
 #include <benchmark/benchmark.h>
 
@@ -16,20 +16,9 @@ std::unique_ptr<EmbeddedMap> block(bool tetrahedra) {
       bar_cells({tetrahedra ? BarPattern::Tetrahedra : BarPattern::Hexahedra, n, n, n, Vec3(1, 1, 1)}));
 }
 
-// Every orbit of the map by itself, from its smallest dart; a dart is an item.
 void walk_all(benchmark::State& state, Orbit orbit, bool tetrahedra) {
   const std::unique_ptr<EmbeddedMap> body = block(tetrahedra);
-  const GMap& map = body->map();
-  const CellIndex cells(map, orbit);
-  std::vector<Dart> darts;
-  for (auto _ : state) {
-    for (Slot s = 0; s < cells.slots(); ++s) {
-      darts.clear();
-      collect(map, orbit, cells.first_dart(s), darts);
-      benchmark::DoNotOptimize(darts.data());
-    }
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(map.dart_count()));
+  walk_orbits(state, body->map(), orbit);
 }
 BENCHMARK_CAPTURE(walk_all, vertex_hexahedra, Vertex, false)->Name("figure/vertex_orbit_hexahedra");
 BENCHMARK_CAPTURE(walk_all, vertex_tetrahedra, Vertex, true)->Name("figure/vertex_orbit_tetrahedra");

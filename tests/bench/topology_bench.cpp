@@ -1,4 +1,5 @@
 // What a walk, a separation and a subdivision cost. Run alone: cmake -DREND_BENCH=ON, then topology_bench.
+#include "bench/walk_orbits.h"
 #include "sim/elements.h"
 #include "sim/rules/rules.h"
 #include "sim/surface/solid_surface.h"
@@ -70,16 +71,7 @@ void collect_orbits(benchmark::State& state) {
   Orbit orbit;
   orbit.mask = static_cast<std::uint8_t>(state.range(0));
   state.SetLabel(name(orbit));
-  const CellIndex cells(map, orbit);
-  std::vector<Dart> darts;
-  for (auto _ : state) {
-    for (Slot s = 0; s < cells.slots(); ++s) {
-      darts.clear();
-      collect(map, orbit, cells.first_dart(s), darts);
-      benchmark::DoNotOptimize(darts.data());
-    }
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(map.dart_count()));
+  walk_orbits(state, map, orbit);
 }
 BENCHMARK(collect_orbits)->Arg(Vertex.mask)->Arg(Edge.mask)->Arg(FaceOfVolume.mask)->Arg(Component.mask);
 
