@@ -1,5 +1,6 @@
 // What a walk, a separation and a subdivision cost. Run alone: cmake -DREND_BENCH=ON, then topology_bench.
 #include "bench/walk_orbits.h"
+#include "sim/base/archive.h"
 #include "sim/elements.h"
 #include "sim/rules/rules.h"
 #include "sim/surface/solid_surface.h"
@@ -200,6 +201,40 @@ void storm(benchmark::State& state) {
     state.SkipWithError("the map or the mass is wrong");
 }
 BENCHMARK(storm)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+// A third of the faces let go, anywhere and a few at a time; then slots in the order of darts again (embedding/reorder.h),
+// with all that follows where that is asked for. state: boxes, whether what is bound to the map follows.
+void number_anew(benchmark::State& state) {
+  TornCube cube(static_cast<int>(state.range(0)));
+  EmbeddedMap& map = *cube.body->map;
+  std::vector<Dart> faces;
+  map.map().for_each_dart([&](Dart d) {
+    if (!map.map().is_free(3, d) && smallest_dart(map.map(), Face, d) == d) faces.push_back(d);
+  });
+  std::shuffle(faces.begin(), faces.end(), std::mt19937(1));
+  faces.resize(faces.size() / 3);
+  for (std::size_t n = 0; n < faces.size(); n += 200)
+    map.edit([&](Edit& edit) {
+      for (std::size_t f = n; f < std::min(n + 200, faces.size()); ++f) unsew(edit, 3, faces[f]);
+    });
+  Archive torn;
+  map.store(torn);
+  for (auto _ : state) {
+    state.PauseTiming();
+    Archive again{std::span<const std::uint8_t>(torn.bytes())};
+    map.store(again);
+    cube.follow();
+    state.ResumeTiming();
+    map.number_anew();
+    if (state.range(1) != 0) cube.follow();
+  }
+  state.counters["vertices"] = static_cast<double>(map.cells(Vertex).count());
+}
+BENCHMARK(number_anew)
+    ->ArgNames({"boxes", "followed"})
+    ->Args({32, 0})
+    ->Args({32, 1})
+    ->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace rend
