@@ -125,10 +125,13 @@ void write_checkpoint(const fs::path& path, const std::string& key, long next, S
   file.commit();
 }
 
-std::optional<CheckpointHead> read_checkpoint_head(const fs::path& path) {
+std::optional<CheckpointHead> read_checkpoint_head(const fs::path& path, const std::string& key) {
   const auto bytes = first_bytes(path, head_size);
   if (!bytes) return {};
-  return head_of(path, *bytes);
+  const CheckpointHead head = head_of(path, *bytes);
+  if (head.key != number_of(key))
+    refuse(path, "the checkpoint is of another preset, of other settings, or of another rend");
+  return head;
 }
 
 std::optional<CheckpointHead> read_checkpoint(const fs::path& path, const std::string& key, long first,
@@ -169,9 +172,7 @@ std::vector<FoundCheckpoint> find_checkpoints(const fs::path& own, const std::st
   std::sort(all.begin(), all.end(), [](const FoundCheckpoint& a, const FoundCheckpoint& b) {
     return a.head.next != b.head.next ? a.head.next > b.head.next : a.path < b.path;
   });
-  const auto head = read_checkpoint_head(own);
-  if (head && head->key != number_of(key))
-    refuse(own, "the checkpoint is of another preset, of other settings, or of another rend");
+  const auto head = read_checkpoint_head(own, key);
   if (head && head->next <= first) all.insert(all.begin(), {own, *head});
   return all;
 }

@@ -38,8 +38,8 @@ std::string checkpoint_key(const std::string& picture_key);
 void write_checkpoint(const std::filesystem::path& path, const std::string& key, long next, Session& session,
                       Film& film); // UserError (CannotCreate, ReadWrite)
 
-// None: there is no such file. UserError (BadInput): it is no checkpoint, or of another rend; damaged.
-std::optional<CheckpointHead> read_checkpoint_head(const std::filesystem::path& path);
+// None: there is no such file. UserError (BadInput): it is no checkpoint, or of another key.
+std::optional<CheckpointHead> read_checkpoint_head(const std::filesystem::path& path, const std::string& key);
 
 // Takes the state of a run whose session and film are of the same key, and tells the head of the very bytes that it took:
 // of others' checkpoints another may stand there by now. None, and nothing was taken: it is gone, or no longer of this key

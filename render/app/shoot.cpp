@@ -36,7 +36,9 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
 void Shoot::begin() {
   last_ = plan_.last();
   if (!options_.resume) return remove_checkpoint();
-  if (read_checkpoint_head(checkpoint_)) last_ = plan_.all().back();
+  const auto own = read_checkpoint_head(checkpoint_, key_);
+  spares_ = own && plan_.all().empty();
+  if (own && !spares_) last_ = plan_.all().back();
   if (!simulates()) return;
   const long first = plan_.to_make().empty() ? std::numeric_limits<long>::max() : plan_.first();
   for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, key_, first)) {

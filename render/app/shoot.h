@@ -39,7 +39,7 @@ public:
   const Film& film() const { return *film_; }
 
 private:
-  bool keeps_checkpoints() const { return options_.files.png; }
+  bool keeps_checkpoints() const { return options_.files.png && !spares_; }
   void begin();
   Stopped simulate();
   void checkpoint(long next);
@@ -53,6 +53,7 @@ private:
   std::filesystem::path checkpoint_;
   std::string key_; // of it
   bool video_at_end_ = false, left_checkpoint_ = false;
+  bool spares_ = false; // the checkpoint there is of a run with more frames
   long kept_ = 0, first_ = 0,
        last_ = -1; // frames that are there; the next when it begins; the last, or -1: none
   double due_ = std::numeric_limits<double>::infinity(); // [s], on the clock: the next checkpoint

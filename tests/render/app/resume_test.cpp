@@ -366,6 +366,20 @@ TEST_F(Resume, shards_make_the_bytes_of_one_run) {
   }
 }
 
+// One frame for two shards: the first has none.
+TEST_F(Resume, a_shard_without_frames_leaves_the_checkpoint_of_one_that_has_some) {
+  NEEDS_PNG;
+  const std::string line = "render clip.xml --set time.step=5e-5 -o c --shard 1/2";
+  EXPECT_EQ(stopped_when("[ -e c/00000.png ]", line).code, 143);
+  const Files before = in("c");
+  ASSERT_TRUE(before.contains("clip.1-of-2.checkpoint"));
+  const Outcome none = place.rend(line + " --resume --frames 5");
+  EXPECT_EQ(none.code, 0) << none.err;
+  EXPECT_THAT(none.out, HasSubstr("no frame was written"));
+  EXPECT_TRUE(in("c") == before);
+  EXPECT_THAT(place.rend(line + " --resume").err, HasSubstr("goes on at"));
+}
+
 TEST_F(Resume, a_shard_is_what_slurm_says_of_its_task) {
   NEEDS_PNG;
   const Files all = alone();
