@@ -8,7 +8,11 @@ output(contact git -C ${CPACK_REND_SOURCE} log -1 "--format=%cn <%ce>")
 
 # What the program holds of others: the font of its HUD, and the part of Dear ImGui that draws it.
 set(copyright "rend, by the people whom its history names. They have stated no licence.\n")
-foreach(other fonts-inter libimgui-dev)
+set(held "")
+if(CPACK_REND_HUD)
+  set(held fonts-inter libimgui-dev)
+endif()
+foreach(other IN LISTS held)
   file(READ /usr/share/doc/${other}/copyright terms)
   string(APPEND copyright "\n\nThe program holds a part of ${other}, under these terms:\n\n${terms}")
 endforeach()

@@ -11,6 +11,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_PROJECT_CONFIG_FILE ${install_source}/version.cmake) # asks git, when packages are made
 set(CPACK_PRE_BUILD_SCRIPTS ${install_source}/finish.cmake)
 set(CPACK_REND_SOURCE ${PROJECT_SOURCE_DIR})
+set(CPACK_REND_HUD ${hud})
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
