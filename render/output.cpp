@@ -51,6 +51,19 @@ int open_free(const fs::path& wanted, fs::path& temporary) {
   return -1;
 }
 
+// Removes those of the temporary files that no running program writes to, up to the first number that is not there: the
+// file without a number goes when its program ends, and others may still be there.
+void remove_free(const fs::path& wanted) {
+  for (int n = 1;; ++n) {
+    const fs::path temporary = numbered(wanted, n);
+    const int file = ::open(temporary.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0 && n > 1) return;
+    if (file < 0) continue;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0 && is_called(file, temporary)) ::unlink(temporary.c_str());
+    ::close(file);
+  }
+}
+
 } // namespace
 
 // A link is followed: what it points at is replaced, not the link.
@@ -58,8 +71,8 @@ OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, {})
 
 OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& temporary)
     : path_(std::filesystem::is_symlink(path) ? std::filesystem::weakly_canonical(path) : path),
-      temporary_(temporary.empty() ? path_.string() + ".part"
-                                   : (path_.parent_path() / temporary.filename()).string()) {
+      wanted_(temporary.empty() ? path_.string() + ".part"
+                                : (path_.parent_path() / temporary.filename()).string()) {
   if (path_ == "-")
     throw UserError(Exit::Usage, {}, "'-' is no file, and what is written there appears whole or not at all",
                     "name a file; ./- is one of that name");
@@ -70,7 +83,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
     throw UserError(
         Exit::CannotCreate, {path_.string()}, "this is no ordinary file, and would be replaced by one.",
         "Name a file; what is written appears whole or not at all, which a pipe or device cannot do.");
-  file_ = open_free(fs::path(temporary_), temporary_);
+  file_ = open_free(wanted_, temporary_);
   if (file_ < 0)
     throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",
                     "Check that the folder is there and may be written to.");
@@ -108,14 +121,11 @@ void OutputFile::commit() {
   if (!kept)
     throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why + ".",
                     "Check that the folder is still there and has room.");
+  remove_free(wanted_);
 }
 
 void remove_leftover(const fs::path& path) {
-  const fs::path temporary = path.string() + ".part";
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CLOEXEC);
-  if (file < 0) return;
-  if (::flock(file, LOCK_EX | LOCK_NB) == 0 && is_called(file, temporary)) ::unlink(temporary.c_str());
-  ::close(file);
+  remove_free(path.string() + ".part");
 }
 
 void write_whole(const std::filesystem::path& path, const std::string& bytes) {

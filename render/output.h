@@ -1,10 +1,11 @@
 // A file that appears whole or not at all.
 //
-// It is written under a temporary name in the same folder (only a rename within one file system is atomic),
-// brought to the disk, and renamed. Until commit() the old file, if any, is untouched; without commit() the
-// temporary file is removed. The temporary name is fixed (name + ".part"), so that what a killed run leaves
-// behind is overwritten by the next and never piles up. It is locked while it is written (flock(2), which ends with the
-// program): should two programs write the same file at once, the second takes NAME.2.part, and the last to end wins.
+// It is written under a temporary name in the same folder (only a rename within one file system is atomic), brought to
+// the disk, and renamed. Until commit() the old file, if any, is untouched; without commit() the temporary file is
+// removed. The temporary name is fixed (NAME.part), so that what a killed run leaves behind is overwritten by the next
+// and never piles up. It is locked while it is written (flock(2), which ends with the program): should two programs
+// write the same file at once, the second takes NAME.2.part, and the last to end wins. Were it killed, commit() of the
+// next removes what it left.
 #pragma once
 
 #include <cstdint>
@@ -32,11 +33,11 @@ public:
   void commit();                                      // fsync and rename; throws UserError (ReadWrite)
 
 private:
-  std::filesystem::path path_, temporary_;
-  int file_ = -1; // descriptor; -1 once it is closed
+  std::filesystem::path path_, wanted_, temporary_; // wanted_: the temporary name without a number
+  int file_ = -1;                                   // descriptor; -1 once it is closed
 };
 
-// Removes the temporary file of a run that was killed; one that is being written stays.
+// Removes the temporary files of runs that were killed; one that is being written stays.
 void remove_leftover(const std::filesystem::path& path);
 
 // The whole file at once. Throws as OutputFile does.

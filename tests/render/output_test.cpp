@@ -56,6 +56,25 @@ TEST(OutputFile, ALeftoverGoes) {
   EXPECT_EQ(folder.files(), 0);
 }
 
+TEST(OutputFile, LeftoversOfSecondProgramsGo) {
+  const test::Folder folder;
+  const auto leave = [&] {
+    for (const char* name : {"x.2.part", "x.3.part"}) write_whole(folder / name, "of a killed run");
+  };
+  leave();
+  remove_leftover(folder / "x");
+  EXPECT_EQ(folder.files(), 0);
+  leave();
+  write_whole(folder / "x", "whole");
+  EXPECT_EQ(folder.files(), 1);
+
+  OutputFile first(folder / "x"), second(folder / "x");
+  write_whole(folder / "x.3.part", "of a killed run");
+  first.commit();
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.3.part"));
+  EXPECT_TRUE(std::filesystem::exists(second.temporary())) << "it is being written";
+}
+
 TEST(OutputFile, OverwritesWhatAKilledRunLeftBehind) {
   const test::Folder folder;
   for (int run = 0; run < 2; ++run) {
