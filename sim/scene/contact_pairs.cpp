@@ -69,15 +69,16 @@ double apart_at_rest(const ContactBody& body, Slot v, const ContactFaces::Triang
   return (rest[v].vec() - w[0] * x[0] - w[1] * x[1] - w[2] * x[2]).norm();
 }
 
+} // namespace
+
 // All faces, those of each fragment in a tree of their own, and those trees in one: most faces near a vertex are those of
 // its own fragment, and are not even looked at.
-class FaceTrees {
+class ContactPairs::FaceTrees {
 public:
   struct Face {
     std::uint32_t body, fragment, triangle;
   };
-  FaceTrees(std::vector<Face>&& faces, const ContactPairs::Bodies& bodies, double margin)
-      : faces_(std::move(faces)) {
+  FaceTrees(std::vector<Face>&& faces, const Bodies& bodies, double margin) : faces_(std::move(faces)) {
     std::stable_sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) {
       return std::tie(a.body, a.fragment) < std::tie(b.body, b.fragment);
     });
@@ -120,8 +121,6 @@ private:
   std::vector<std::uint32_t> first_;  // one per fragment: its first face
   Tree fragments_;
 };
-
-} // namespace
 
 void ContactPairs::list(const ContactBody& body, Of& of) const {
   const EmbeddedMap& map = *body.body->map;
@@ -207,8 +206,7 @@ void ContactPairs::search(const Bodies& bodies) {
   for (std::uint32_t b = 0; b < bodies.size(); ++b) search_for(bodies, b, trees, skin_ + thickness);
 }
 
-template <class Trees>
-void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const Trees& trees, double reach) {
+void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach) {
   Of& of = of_[b];
   of.there.clear();
   for (std::size_t n = 0; n < of.vertices.size(); ++n) {

@@ -1,12 +1,13 @@
 // Which vertices may meet which faces in a step: the broad phase of contact between bodies and fragments.
 //
-// Faces are triangles (contact_faces.h), kept in a tree of boxes: Eigen's KdBVH (unsupported/Eigen/BVH, MPL 2),
-// since Eigen is there already, the tree is a pure function of the boxes, and what is found is sorted, so that
-// no order of a search shows. (Bullet's btDbvt and FCL would be new dependencies, for single precision or for
-// whole bodies.) The tree cannot follow what moves; so pairs are looked for with a skin around all, and looked
-// for again when a vertex has moved by half of it against the mean of all (Verlet's neighbour lists, Phys. Rev.
-// 159, 1967), or when a map was changed. Pairs are more than what meets, and what meets is always among them:
-// when they were looked for leaves no trace.
+// Faces are triangles (contact_faces.h). Those of each fragment are kept in a tree of boxes, and those trees in one more,
+// so that a vertex passes by the faces of its own fragment, which are most of those near it. Trees are Eigen's KdBVH
+// (unsupported/Eigen/BVH, MPL 2), since Eigen is there already, a tree is a pure function of the boxes, and what is found
+// is sorted, so that no order of a search shows. (Bullet's btDbvt and FCL would be new dependencies, for single precision
+// or for whole bodies.) Trees cannot follow what moves; so pairs are looked for with a skin around all, and looked for
+// again when a vertex has moved by half of it against the mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967),
+// or when a map was changed. Pairs are more than what meets, and what meets is always among them: when they were looked
+// for leaves no trace.
 #pragma once
 
 #include "sim/scene/contact_body.h"
@@ -44,6 +45,7 @@ public:
   void store(Archive& archive); // of the same faces
 
 private:
+  class FaceTrees;
   struct Of {                                   // a body
     std::vector<Slot> vertices;                 // of its faces, increasing
     std::vector<std::uint32_t> vertex_fragment; // one per entry of `vertices`
@@ -57,8 +59,7 @@ private:
   bool anything(const Bodies& bodies) const;
   bool stale(const Bodies& bodies) const;
   void search(const Bodies& bodies);
-  template <class Trees>
-  void search_for(const Bodies& bodies, std::uint32_t b, const Trees& trees, double reach); // body b's vertices
+  void search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach); // b's vertices
   bool same_fragment(std::size_t entry, const ContactPair& pair) const; // entry: of the vertex in Of::vertices
   bool allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const;
   bool joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const;
