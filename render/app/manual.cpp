@@ -15,6 +15,7 @@ namespace {
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text) {
+    if ((out.empty() || out.back() == '\n') && (c == '.' || c == '\'')) out += "\\&";
     if (c == '\\')
       out += "\\e";
     else if (c == '-')
@@ -22,7 +23,6 @@ std::string plain(std::string_view text) {
     else
       out += c;
   }
-  if (out.starts_with('.') || out.starts_with('\'')) out.insert(0, "\\&");
   return out;
 }
 std::string strong(std::string_view text) {
@@ -144,8 +144,8 @@ std::string manual(const CommandUsage& program, const std::string& version, cons
   }
   out += section("DESCRIPTION") +
          "A preset, a scene in XML, becomes image sequences, videos and figures of deformable bodies that tear "
-         "and "
-         "break. No display is needed. The same preset gives the same bytes, on any number of threads.\n.PP\n" +
+         "and break. No display is needed. The same preset gives the same bytes, on any number of threads.\n"
+         ".PP\n" +
          as_sentence(program.footer) + "\n" + section("OPTIONS");
   for (const OptionUsage& option : program.options) out += option_item(option);
   out += section("COMMANDS") + commands + exit_codes() + section("ENVIRONMENT") +

@@ -20,7 +20,7 @@ const CommandUsage small{"tear",
                          {{{"-h", "--help"}, "", "print this page", "", false, false}},
                          {{"paper",
                            "tear paper",
-                           "Never more than 'twice'.",
+                           "Never more than 'twice'.\n.5 sheets\n'or' a part.",
                            {{{"sheet"}, "FILE", "what is torn", "", true, false}},
                            {{{"-n", "--pieces"}, "N", ".5 is half; a back\\slash", "2", false, false},
                             {{"--wet"}, "", "first", "", true, false}},
@@ -35,7 +35,8 @@ TEST(Manual, is_lines_of_troff) {
         ".TP\n\\fIFILE\\fR\nwhat is torn.\n",
         ".TP\n\\fB\\-n\\fR, \\fB\\-\\-pieces\\fR \\fIN\\fR\n\\&.5 is half; a back\\eslash. Default: "
         "\\fB2\\fR.\n",
-        ".TP\n\\fB\\-\\-wet\\fR\nfirst. Required.\n", "Never more than 'twice'.\n", ".SH EXIT STATUS\n"})
+        ".TP\n\\fB\\-\\-wet\\fR\nfirst. Required.\n",
+        "Never more than 'twice'.\n\\&.5 sheets\n\\&'or' a part.\n", ".SH EXIT STATUS\n"})
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
 }
 
