@@ -32,15 +32,25 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
   begin();
 }
 
+// Whether a state whose next frame is this one lies between this run's start and its end. After the clip's last frame
+// there are steps to its end yet.
+bool Shoot::is_on_the_way(long next) const {
+  if (plan_.all().empty()) return false;
+  const long last = plan_.all().back();
+  return next <= last || last + 1 == session_.clock().frames();
+}
+
 // From the best checkpoint there is; a run that begins anew has no use for those of others.
 void Shoot::begin() {
   last_ = plan_.last();
   if (!options_.resume) return remove_checkpoint();
   const auto own = read_checkpoint_head(checkpoint_, key_);
-  spares_ = own && plan_.all().empty();
+  spares_ = own && !is_on_the_way(own->next);
   if (own && !spares_) last_ = plan_.all().back();
+  if (spares_ && !session_.quiet())
+    print_note(fmt::format("{} is of frames beyond these, and stays", checkpoint_.string()));
   if (!simulates()) return;
-  const long first = plan_.to_make().empty() ? std::numeric_limits<long>::max() : plan_.first();
+  const long first = plan_.to_make().empty() ? plan_.all().back() + 1 : plan_.first();
   for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, key_, first)) {
     const auto head = read_checkpoint(found.path, key_, first, session_, *film_);
     if (!head) continue; // it went meanwhile: its shard is done

@@ -366,6 +366,25 @@ TEST_F(Resume, shards_make_the_bytes_of_one_run) {
   }
 }
 
+TEST_F(Resume, fewer_frames_leave_the_checkpoint_of_a_later_one_alone) {
+  NEEDS_PNG;
+  const Files all = alone();
+  stop_on_the_way("c");
+  const Files before = in("c");
+  const std::string line = "render clip.xml --resume -o c --frames 0";
+  const Outcome there = place.rend(line + " --json");
+  EXPECT_EQ(there.code, 0) << there.err;
+  EXPECT_THAT(there.err, HasSubstr("clip.checkpoint is of frames beyond these"));
+  EXPECT_EQ(there.json()["kept"], 1);
+  EXPECT_TRUE(there.json()["steps"].is_null()) << "no state is told, least of all that of another frame";
+  EXPECT_TRUE(in("c") == before);
+  fs::remove(place.path() / "c/00000.png");
+  EXPECT_EQ(place.rend(line + " -q --checkpoint-every 1e-9").code, 0);
+  EXPECT_TRUE(in("c") == before) << "what was missing is there again, and nothing else is touched";
+  EXPECT_THAT(place.rend("render clip.xml --resume -o c").err, HasSubstr("goes on at"));
+  expect_same(in("c"), all, "");
+}
+
 // One frame for two shards: the first has none.
 TEST_F(Resume, a_shard_without_frames_leaves_the_checkpoint_of_one_that_has_some) {
   NEEDS_PNG;
