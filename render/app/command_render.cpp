@@ -97,8 +97,8 @@ void print_figures(const RenderOptions& options, const Session& session, const S
   if (options.json) {
     const Film& film = shoot.film();
     nlohmann::ordered_json figures =
-        figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()});
-    if (!shoot.simulates()) leave_out_state(figures);
+        figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()},
+                   shoot.simulates());
     figures["frames"] = shoot.made();
     figures["kept"] = shoot.kept();
     print_result(text_of(figures, 2) + "\n");

@@ -249,6 +249,41 @@ Json adaptive_json(const Scene& scene) {
   return {{"parts", parts}, {"rejected", rejected}};
 }
 
+// All that a state is known by: what a run that simulates nothing cannot tell.
+Json state_json(const Scene& scene) {
+  std::size_t vertices = 0, elements = 0, darts = 0;
+  for (const auto& body : scene.bodies()) {
+    vertices += body->map->cells(Vertex).count();
+    elements += elements_of(*body);
+    darts += body->map->map().dart_count();
+  }
+  Json state{{"steps", scene.steps_done()},
+             {"evaluations", scene.evaluations()},
+             {"time", scene.time()},
+             {"vertices", vertices},
+             {"elements", elements},
+             {"darts", darts},
+             {"fragments", fragments_of(scene)},
+             {"tears", scene.tears()},
+             {"laws", laws_json(scene)},
+             {"energy",
+              {{"kinetic", scene.kinetic_energy()},
+               {"elastic", scene.elastic_energy()},
+               {"gravity", scene.gravity_energy()}}},
+             {"mass", scene.mass()},
+             {"momentum", list_of(scene.momentum())},
+             {"angular_momentum", list_of(scene.angular_momentum())},
+             {"probes", probes_json(scene)},
+             {"answers", answers_json(scene)}};
+  if (Json spheres = spheres_json(scene); !spheres.empty()) state["spheres"] = std::move(spheres);
+  state["guard"] = guard_json(scene);
+  state["rows"] = rows_json(scene);
+  if (Json solver = solver_json(scene); !solver.is_null()) state["solver"] = std::move(solver);
+  if (scene.scheme().adaptive) state["adaptive"] = adaptive_json(scene);
+  state["hash"] = fmt::format("{:016x}", scene.hash());
+  return state;
+}
+
 } // namespace
 
 std::size_t fragments_of(const Scene& scene) {
@@ -257,72 +292,20 @@ std::size_t fragments_of(const Scene& scene) {
   return count;
 }
 
-Json figures_of(const Session& session, Stopped stopped, const Costs& costs) {
+Json figures_of(const Session& session, Stopped stopped, const Costs& costs, bool simulated) {
   const Scene& scene = session.scene();
-  std::size_t vertices = 0, elements = 0, darts = 0;
-  for (const auto& body : scene.bodies()) {
-    vertices += body->map->cells(Vertex).count();
-    elements += elements_of(*body);
-    darts += body->map->map().dart_count();
-  }
   Json figures{{"preset", session.preset_path()},
                {"name", scene.name()},
                {"integrator", scene.scheme().name},
                {"step", scene.step_size()},
-               {"steps", scene.steps_done()},
-               {"evaluations", scene.evaluations()},
-               {"time", scene.time()},
-               {"vertices", vertices},
-               {"elements", elements},
-               {"darts", darts},
-               {"fragments", fragments_of(scene)},
-               {"tears", scene.tears()}};
-  figures["laws"] = laws_json(scene);
-  figures["stopped"] = stopped == Stopped::Unstable      ? Json("unstable")
-                       : stopped == Stopped::Interrupted ? Json("interrupted")
-                                                         : Json(nullptr);
+               {"stopped", stopped == Stopped::Unstable      ? Json("unstable")
+                           : stopped == Stopped::Interrupted ? Json("interrupted")
+                                                             : Json(nullptr)}};
+  const Json state = state_json(scene);
+  for (const auto& [name, figure] : state.items()) figures[name] = simulated ? figure : Json(nullptr);
   figures["seconds"] = seconds_json(session, costs);
-  figures["energy"] = {{"kinetic", scene.kinetic_energy()},
-                       {"elastic", scene.elastic_energy()},
-                       {"gravity", scene.gravity_energy()}};
-  figures["mass"] = scene.mass();
-  figures["momentum"] = list_of(scene.momentum());
-  figures["angular_momentum"] = list_of(scene.angular_momentum());
-  figures["probes"] = probes_json(scene);
-  figures["answers"] = answers_json(scene);
-  if (Json spheres = spheres_json(scene); !spheres.empty()) figures["spheres"] = std::move(spheres);
   figures["bytes"] = bytes_json(scene, costs);
-  figures["guard"] = guard_json(scene);
-  figures["rows"] = rows_json(scene);
-  if (Json solver = solver_json(scene); !solver.is_null()) figures["solver"] = std::move(solver);
-  if (scene.scheme().adaptive) figures["adaptive"] = adaptive_json(scene);
-  figures["hash"] = fmt::format("{:016x}", scene.hash());
   return figures;
-}
-
-void leave_out_state(Json& figures) {
-  for (const char* name : {"steps",
-                           "evaluations",
-                           "time",
-                           "vertices",
-                           "elements",
-                           "darts",
-                           "fragments",
-                           "tears",
-                           "laws",
-                           "energy",
-                           "mass",
-                           "momentum",
-                           "angular_momentum",
-                           "probes",
-                           "answers",
-                           "spheres",
-                           "guard",
-                           "rows",
-                           "solver",
-                           "adaptive",
-                           "hash"})
-    if (figures.contains(name)) figures[name] = nullptr;
 }
 
 std::string summary_of(const Json& f) {

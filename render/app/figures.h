@@ -18,11 +18,10 @@ struct Costs {
   std::size_t surface_bytes = 0;
 };
 
-// Of the present state: the last good one where the run was stopped.
-nlohmann::ordered_json figures_of(const Session& session, Stopped stopped, const Costs& costs);
-
-// Of a run that made no step, and tells nothing of what one would come to: null.
-void leave_out_state(nlohmann::ordered_json& figures);
+// Of the present state: the last good one where the run was stopped. Without `simulated` nothing was, and what one would
+// come to is not known: all figures of the state are null.
+nlohmann::ordered_json figures_of(const Session& session, Stopped stopped, const Costs& costs,
+                                  bool simulated = true);
 
 std::string summary_of(const nlohmann::ordered_json& figures);
 
