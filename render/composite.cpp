@@ -8,8 +8,8 @@ namespace {
 
 constexpr double floor_reach = 4; // where the floor has become backdrop, in distances from eye to target
 
-// How the floor is seen, in numbers that are linear over the picture (composite.vert). Lengths on the floor are taken from
-// below the camera's target, in units of the floor's reach.
+// How the floor is seen, in numbers that are linear over the picture (composite.vert). Lengths on the floor are
+// taken from below the camera's target, in units of the floor's reach.
 struct FloorView {
   FloorView(const Frame& frame, const View& view, const FloorShadow& shadow);
   Eigen::Vector3d along(double x, double y) const { return ray + x * ray_x + y * ray_y; } // corners at -1 and 1

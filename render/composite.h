@@ -1,9 +1,9 @@
-// The last pass: brings the bodies' samples to one a pixel, takes from them what occlusion keeps, and puts the studio
-// (floor and backdrop) behind them.
+// The last pass: brings the bodies' samples to one a pixel, takes from them what occlusion keeps, and puts the
+// studio (floor and backdrop) behind them.
 //
-// One pass instead of four: the samples are read where they are wanted, nothing is rounded in between, and a pixel is
-// written once. Only where bodies may be are samples looked at, and only where the floor may lie in a shadow is that
-// looked up: the rest, most of the picture, is a few products a pixel.
+// One pass instead of four: the samples are read where they are wanted, nothing is rounded in between, and a
+// pixel is written once. Only where bodies may be are samples looked at, and only where the floor may lie in a
+// shadow is that looked up: the rest, most of the picture, is a few products a pixel.
 //
 // A Device must be current, from construction to destruction.
 #pragma once
@@ -22,8 +22,8 @@ class Composite {
 public:
   Composite(int width, int height) : width_(width), height_(height) {} // [pixels]
 
-  // Into the bound framebuffer, of that size. bodies: always with as many samples; shadow: of the frame's floor, if it has
-  // one; occlusion: of these bodies, null without. blocks: those that bodies cover.
+  // Into the bound framebuffer, of that size. bodies: always with as many samples; shadow: of the frame's
+  // floor, if it has one; occlusion: of these bodies, null without. blocks: those that bodies cover.
   void draw(const Frame& frame, const View& view, const BodiesPicture& bodies, const Footprint& blocks,
             const FloorShadow& shadow, const Occlusion* occlusion);
 

@@ -1,5 +1,5 @@
-// How a surface takes the light: a few numbers of the body shader, under the names of what they look like. One entry each
-// in finishes().
+// How a surface takes the light: a few numbers of the body shader, under the names of what they look like. One
+// entry each in finishes().
 #pragma once
 
 #include <string>

@@ -11,8 +11,8 @@ constexpr int blur_side = 64;          // [texels]: how blurred a shadow is chan
 constexpr int shade_side = 256;        // [texels]: 512 would take 17 ms more, and differ by at most 9 of 255
 constexpr double contact_reach = 0.08; // height at which contact ends, per scale of the picture
 
-// How far from a body its blurred picture reaches, in texels of the coarsest level that is looked at: a texel's own four
-// corners are looked at over two texels, and each level took in one texel more of the one before it.
+// How far from a body its blurred picture reaches, in texels of the coarsest level that is looked at: a texel's
+// own four corners are looked at over two texels, and each level took in one texel more of the one before it.
 constexpr double blurred_over = 3.1;
 
 void clamp_to_edge(GLint filter) {

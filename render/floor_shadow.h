@@ -21,8 +21,8 @@ namespace rend {
 class Pyramid {
 public:
   Pyramid(int side, int levels); // [texels] of level 0; levels counts level 0
-  // Draws level 0 by `draw` (bound and cleared, its rim left empty), then the others out of it. drawn: what it draws, in
-  // texture coordinates; elsewhere nothing is looked at. Empty: all is cleared.
+  // Draws level 0 by `draw` (bound and cleared, its rim left empty), then the others out of it. drawn: what it
+  // draws, in texture coordinates; elsewhere nothing is looked at. Empty: all is cleared.
   void build(const GlProgram& halve, const Eigen::AlignedBox2f& drawn, const std::function<void()>& draw);
   GLuint texture() const { return texture_.name(); }
   int side() const { return side_; }
@@ -36,10 +36,9 @@ private:
 class FloorShadow {
 public:
   FloorShadow();
-  // `draw` issues the draw calls of all bodies that throw shadows (positions in attribute 0), which lie in `lit` and have
-  // these triangles, three corners each. scale: a length
-  // that belongs to the picture [m]: contact is seen within a small part of it. towards_key: unit, above the
-  // floor.
+  // `draw` issues the draw calls of all bodies that throw shadows (positions in attribute 0), which lie in
+  // `lit` and have these triangles, three corners each. scale: a length that belongs to the picture [m]:
+  // contact is seen within a small part of it. towards_key: unit, above the floor.
   void build(double floor_z, double scale, const Eigen::Vector3d& towards_key, const Eigen::AlignedBox3d& lit,
              const std::vector<std::span<const Corner>>& triangles, const std::function<void()>& draw);
   // x: the share of key light kept away, y: of all light. 256² texels: the square of build(), seen along the

@@ -1,5 +1,6 @@
-// Which squares of a grid something can touch: blocks of a picture that bodies cover, parts of the floor that a shadow
-// may reach. What is certain to be empty is then not looked at, at a square's cost and not at each of its pixels.
+// Which squares of a grid something can touch: blocks of a picture that bodies cover, parts of the floor that a
+// shadow may reach. What is certain to be empty is then not looked at, at a square's cost and not at each of
+// its pixels.
 #pragma once
 
 #include "render/camera.h"
@@ -40,13 +41,15 @@ private:
 };
 
 constexpr int block_side = 32; // [pixels]
-// Blocks of a picture of that size that triangles (three corners each) can cover are marked; it has as many as are needed.
+// Blocks of a picture of that size that triangles (three corners each) can cover are marked; it has as many as
+// are needed.
 Footprint blocks_of(int width, int height);
 void mark_covered(Footprint& blocks, std::span<const Corner> corners, const View& view, int width, int height);
 
 PixelBox box_of(const PixelBox& blocks, int width, int height); // their pixels
 
-// Neighbours of one kind in a row of squares, as one box of squares. kind: of (column, row), below `kinds`; one list each.
+// Neighbours of one kind in a row of squares, as one box of squares. kind: of (column, row), below `kinds`; one
+// list each.
 std::vector<std::vector<PixelBox>> runs(int columns, int rows, int kinds,
                                         const std::function<int(int column, int row)>& kind);
 

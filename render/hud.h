@@ -1,7 +1,8 @@
 // The head-up display: writes HudContent over the picture that was drawn, with Dear ImGui.
 //
-// Only ImGui's lists of shapes and text are used, none of its windows: places and sizes are shares of the picture's
-// height, and the font is baked at the size it is drawn at, so that it is crisp and laid out alike at any size.
+// Only ImGui's lists of shapes and text are used, none of its windows: places and sizes are shares of the
+// picture's height, and the font is baked at the size it is drawn at, so that it is crisp and laid out alike at
+// any size.
 //
 // A Device must be current, from construction to destruction; one Hud at a time in a thread.
 #pragma once

@@ -1,5 +1,5 @@
-// What is written over a picture: words, curves and the legend of its colours. Numbers come as text, since what they
-// mean and how exact they are is not known here.
+// What is written over a picture: words, curves and the legend of its colours. Numbers come as text, since what
+// they mean and how exact they are is not known here.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// What all files that use libav share: owners of its objects, and its errors in words. Only for builds with video.
+// What all files that use libav share: owners of its objects, and its errors in words. Only for builds with
+// video.
 #pragma once
 
 #include <array>

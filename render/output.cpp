@@ -34,8 +34,8 @@ bool is_called(int file, const fs::path& path) {
          ours.st_dev == there.st_dev;
 }
 
-// A descriptor of a temporary file that no running program writes to, and empty; -1, with errno. Where files cannot be
-// locked (some network file systems) it is the first.
+// A descriptor of a temporary file that no running program writes to, and empty; -1, with errno. Where files
+// cannot be locked (some network file systems) it is the first.
 int open_free(const fs::path& wanted, fs::path& temporary) {
   constexpr int most = 1000; // programs that write the same file at once, or change it while we look
   for (int n = 1, tries = 0; tries < most; ++tries) {
@@ -51,8 +51,8 @@ int open_free(const fs::path& wanted, fs::path& temporary) {
   return -1;
 }
 
-// Removes those of the temporary files that no running program writes to, up to the first number that is not there: the
-// file without a number goes when its program ends, and others may still be there.
+// Removes those of the temporary files that no running program writes to, up to the first number that is not
+// there: the file without a number goes when its program ends, and others may still be there.
 void remove_free(const fs::path& wanted) {
   for (int n = 1;; ++n) {
     const fs::path temporary = numbered(wanted, n);

@@ -1,11 +1,11 @@
 // A file that appears whole or not at all.
 //
-// It is written under a temporary name in the same folder (only a rename within one file system is atomic), brought to
-// the disk, and renamed. Until commit() the old file, if any, is untouched; without commit() the temporary file is
-// removed. The temporary name is fixed (NAME.part), so that what a killed run leaves behind is overwritten by the next
-// and never piles up. It is locked while it is written (flock(2), which ends with the program): should two programs
-// write the same file at once, the second takes NAME.2.part, and the last to end wins. Were it killed, commit() of the
-// next removes what it left.
+// It is written under a temporary name in the same folder (only a rename within one file system is atomic),
+// brought to the disk, and renamed. Until commit() the old file, if any, is untouched; without commit() the
+// temporary file is removed. The temporary name is fixed (NAME.part), so that what a killed run leaves behind
+// is overwritten by the next and never piles up. It is locked while it is written (flock(2), which ends with
+// the program): should two programs write the same file at once, the second takes NAME.2.part, and the last to
+// end wins. Were it killed, commit() of the next removes what it left.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Bodies of a frame, made ready for the graphics card.
 //
 // One pass over the corners copies them, checks that they are finite, gives flat triangles their normal, and
-// turns triangles of sheets so that they wind around their normals: from then on "front" means the side that the
-// normals point to. Those of solids are wound as they should be.
+// turns triangles of sheets so that they wind around their normals: from then on "front" means the side that
+// the normals point to. Those of solids are wound as they should be.
 #pragma once
 
 #include "render/frame.h"

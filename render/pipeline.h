@@ -39,9 +39,9 @@ struct PipelineSeconds {
   double draw_waits = 0;               // that drawing waited for room before the writers
 };
 
-// Whether a Pipeline could start on this machine, before hours of simulation lead up to its first frame: the encoder is
-// there, and OpenGL can hold a picture that is large. Throws what Pipeline would; writes nothing. As make_device() it is
-// not to be called while other threads read the environment.
+// Whether a Pipeline could start on this machine, before hours of simulation lead up to its first frame: the
+// encoder is there, and OpenGL can hold a picture that is large. Throws what Pipeline would; writes nothing. As
+// make_device() it is not to be called while other threads read the environment.
 void check_pipeline(const PipelineOptions& options);
 
 class Pipeline {

@@ -1,4 +1,5 @@
-// Whether a PNG file is whole (PNG specification, 5.3): a signature, then chunks of length, name, data and CRC-32.
+// Whether a PNG file is whole (PNG specification, 5.3): a signature, then chunks of length, name, data and
+// CRC-32.
 #include "render/png.h"
 
 #ifdef REND_PNG

@@ -104,8 +104,9 @@ void Stage::make_target(int width, int height) {
   target_height_ = height;
 }
 
-// Made anew where what is to be drawn does not fit, or is less than half of it; in coarse steps, which bodies that move
-// seldom take. It begins where the picture does: elsewhere, corners of triangles would be rounded to other parts of a pixel.
+// Made anew where what is to be drawn does not fit, or is less than half of it; in coarse steps, which bodies
+// that move seldom take. It begins where the picture does: elsewhere, corners of triangles would be rounded to
+// other parts of a pixel.
 void Stage::fit_target(const PixelBox& covered) {
   constexpr int step = 128; // [pixels]
   const auto rounded = [&](int size, int most) {

@@ -3,10 +3,11 @@
 // Passes: shadow map from the key light ─▶ floor's shadows ─▶ bodies (with samples) ─▶ occlusion ─▶ composite.
 //
 // Bodies are drawn over nothing, and the studio (floor and backdrop) is put behind them afterwards, once a
-// pixel: it has no edges that samples would smooth, and covers most of the picture. Samples are there for the part of
-// the picture alone that bodies can cover: clearing them takes as long as a third of the bodies. What is under the floor is clipped away. Both sides of a sheet are lit; of a
-// solid, only the outside is drawn. Lines along cells are worked out in the fragment shader, from barycentric
-// coordinates, so they cost no geometry and are smooth at any size.
+// pixel: it has no edges that samples would smooth, and covers most of the picture. Samples are there for the
+// part of the picture alone that bodies can cover: clearing them takes as long as a third of the bodies. What
+// is under the floor is clipped away. Both sides of a sheet are lit; of a solid, only the outside is drawn.
+// Lines along cells are worked out in the fragment shader, from barycentric coordinates, so they cost no
+// geometry and are smooth at any size.
 //
 // The picture is a pure function of the frame, the size and the number of samples: the same on every run, for
 // any number of threads.
@@ -31,8 +32,8 @@ namespace rend {
 
 class Stage {
 public:
-  // width, height [pixels]; samples a pixel: 1, 4 or 16 (4 of each of 4 pixels that become one, for fine lines and
-  // gloss). Throws UserError (BadInput) for a size that cannot be drawn.
+  // width, height [pixels]; samples a pixel: 1, 4 or 16 (4 of each of 4 pixels that become one, for fine lines
+  // and gloss). Throws UserError (BadInput) for a size that cannot be drawn.
   Stage(int width, int height, int samples);
 
   // Afterwards the resolved picture is the bound framebuffer: an overlay may draw on it before read().

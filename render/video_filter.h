@@ -10,8 +10,8 @@ namespace rend {
 
 class VideoFilter {
 public:
-  // width, height [pixels] of the pictures that will come, RGB; `chain` in libavfilter's own words; one thread, so
-  // that the same comes out every time. `file` is what errors name.
+  // width, height [pixels] of the pictures that will come, RGB; `chain` in libavfilter's own words; one thread,
+  // so that the same comes out every time. `file` is what errors name.
   VideoFilter(const std::string& chain, int width, int height, AVRational rate,
               const std::filesystem::path& file);
 

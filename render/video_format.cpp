@@ -8,8 +8,8 @@ const char* to_video =
     "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+bitexact,format=yuv420p";
 const char* preview = "scale=w=min(480\\,iw):h=-1:flags=lanczos+accurate_rnd+bitexact";
 
-// veryfast: 8 ms a picture of 1280 x 720; medium: 17 ms. A fragment a second: what a killed run leaves is whole up to
-// its last second.
+// veryfast: 8 ms a picture of 1280 x 720; medium: 17 ms. A fragment a second: what a killed run leaves is whole
+// up to its last second.
 VideoFormat mp4() {
   return {"mp4",
           "H.264, plays everywhere",

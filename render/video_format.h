@@ -1,8 +1,9 @@
-// The kinds of video that can be asked for: a container, an encoder and the way of a picture to it. One entry each in
-// video_formats().
+// The kinds of video that can be asked for: a container, an encoder and the way of a picture to it. One entry
+// each in video_formats().
 //
-// The way of a picture is a chain of libavfilter: `scale` brings sRGB to what the encoder takes, with its colours
-// tagged, so that every player shows them alike; previews are made small, a GIF has a palette for each picture.
+// The way of a picture is a chain of libavfilter: `scale` brings sRGB to what the encoder takes, with its
+// colours tagged, so that every player shows them alike; previews are made small, a GIF has a palette for each
+// picture.
 #pragma once
 
 #include <filesystem>

@@ -9,7 +9,8 @@ VideoSink::VideoSink(const std::filesystem::path& path, const std::filesystem::p
                      const std::string& muxer)
     : file_(path, part) {
   AVFormatContext* format = nullptr;
-  // The name is for an index that is moved to the front by reading the file again; "file:" lets it hold a colon.
+  // The name is for an index that is moved to the front by reading the file again; "file:" lets it hold a
+  // colon.
   const std::string name = "file:" + file_.temporary().string();
   must(avformat_alloc_output_context2(&format, nullptr, muxer.c_str(), name.c_str()), "starting the video");
   format_.reset(format);

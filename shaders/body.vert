@@ -1,8 +1,8 @@
 // A corner of a triangle: three in a row are a triangle, so that a corner knows which one it is.
 //
-// Each number of a uniform that a fragment reads costs llvmpipe a gather of eight, some 25 cycles; so fragments have
-// none. What a draw call has in common comes to them flat, which is one instruction a number, and products with
-// directions that are the same everywhere are taken here, since they are linear over a triangle.
+// Each number of a uniform that a fragment reads costs llvmpipe a gather of eight, some 25 cycles; so fragments
+// have none. What a draw call has in common comes to them flat, which is one instruction a number, and products
+// with directions that are the same everywhere are taken here, since they are linear over a triangle.
 layout(location = 0) in vec3 position; // [m]
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 colour;   // sRGB
@@ -25,8 +25,9 @@ out vec4 across;    // the normal; w: times key
 out vec4 albedo;    // linear; w: first barycentric coordinate
 out vec4 in_shadow; // w: second barycentric coordinate
 out vec2 turned;    // the normal times sky and fill
-// Of the line opposite to each corner: half its width, and half a pixel more [pixels]; how it fades where the triangle is
-// low: its strength is ink times slope x height + start, within 0 and 1; ink is negative for what is torn. w: finish
+// Of the line opposite to each corner: half its width, and half a pixel more [pixels]; how it fades where the
+// triangle is low: its strength is ink times slope x height + start, within 0 and 1; ink is negative for what
+// is torn. w: finish
 flat out vec4 reach, slope, start, ink;
 flat out vec4 far_side; // linear; w: back.w
 flat out vec3 squares;  // sheen

@@ -1,7 +1,9 @@
-// A pixel of the picture: the mean of the bodies' samples, less what occlusion keeps from them, and what is behind.
+// A pixel of the picture: the mean of the bodies' samples, less what occlusion keeps from them, and what is
+// behind.
 //
-// BODIES: 1 where there may be some. OCCLUDED: 1 with ambient occlusion. BEHIND: 0 nothing, 1 the backdrop, 2 the floor where
-// nothing is kept from it, 3 the floor. SAMPLES of each of FINE x FINE pixels are one of the picture.
+// BODIES: 1 where there may be some. OCCLUDED: 1 with ambient occlusion. BEHIND: 0 nothing, 1 the backdrop, 2
+// the floor where nothing is kept from it, 3 the floor. SAMPLES of each of FINE x FINE pixels are one of the
+// picture.
 #if BEHIND
 noperspective in vec2 place; // see composite.vert
 flat in vec3 light;
@@ -49,7 +51,8 @@ vec3 open() {
   float deep = 1.0 / (to_nearness.x + to_nearness.y * stored);
 
   const float back = 0.5 * float(PART) - float(PART / 2);
-  vec2 spot = (vec2(at) + back) / float(PART); // the blur of place i reaches from i - 2 to i + 1, with i - 1/2 in its middle
+  // The blur of place i reaches from i - 2 to i + 1, with i - 1/2 in its middle.
+  vec2 spot = (vec2(at) + back) / float(PART);
   vec2 first = floor(spot), share = spot - first;
   float sum = 0.0, weights = 0.0;
   for (int j = 0; j < 2; ++j)

@@ -1,5 +1,5 @@
-// Rectangles of the picture, and what of the floor is seen in their corners. All of it is linear over the picture and comes to the
-// fragments interpolated or flat: each number of a uniform costs them some 25 cycles.
+// Rectangles of the picture, and what of the floor is seen in their corners. All of it is linear over the
+// picture and comes to the fragments interpolated or flat: each number of a uniform costs them some 25 cycles.
 layout(location = 0) in vec2 at; // corners of the picture at -1 and 1
 #if BEHIND
 uniform vec3 background; // sRGB

@@ -1,5 +1,5 @@
 // One triangle that covers the picture, and where the floor lies behind it.
-uniform vec3 floor_plane; // dot(floor_plane, (place, 1)) is the inverse of the floor's depth [1/m]; 0: there is none
+uniform vec3 floor_plane; // dot(floor_plane, (place, 1)): 1 by the floor's depth [1/m]; 0: there is none
 uniform ivec2 end;        // the last pixel of the bodies' picture
 uniform vec2 to_nearness;
 noperspective out float floor_nearness;

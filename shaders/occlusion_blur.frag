@@ -1,5 +1,5 @@
-// The mean over a block of 4 x 4, whose pixels have all slices and offsets among them, of those that lie on the same
-// surface: x; y: depth.
+// The mean over a block of 4 x 4, whose pixels have all slices and offsets among them, of those that lie on the
+// same surface: x; y: depth.
 uniform sampler2D kept;
 uniform vec2 texel; // in texture coordinates
 uniform float tolerance; // [1/m]: 1 over the distance from the surface that is too much

@@ -72,8 +72,8 @@ std::vector<Mount> mounts_of(const fs::path& root) {
   return all;
 }
 
-// The group as the mount shows it. Where it lies outside of what is mounted, as in a container that sees its own group
-// as the uppermost, that one is.
+// The group as the mount shows it. Where it lies outside of what is mounted, as in a container that sees its
+// own group as the uppermost, that one is.
 fs::path seen_in(const Mount& mount, const std::string& group) {
   const fs::path below = fs::path(group).lexically_relative(mount.root);
   return below.empty() || *below.begin() == ".." ? fs::path() : below;

@@ -58,9 +58,9 @@ std::string short_hash(const std::string& text) {
   return fmt::format("{:08x}", hash_bytes(text.data(), text.size()) & 0xffffffffU);
 }
 
-// Of "body[left].tear.threshold=3 4" "body[left].tear.threshold=3,4". The path as a whole: its last word is that of other
-// attributes, too, and with fewer words a name would depend on what else is swept. No value holds a comma, so that one
-// can stand for a blank; where anything else is replaced a hash keeps names distinct.
+// Of "body[left].tear.threshold=3 4" "body[left].tear.threshold=3,4". The path as a whole: its last word is
+// that of other attributes, too, and with fewer words a name would depend on what else is swept. No value holds
+// a comma, so that one can stand for a blank; where anything else is replaced a hash keeps names distinct.
 std::string words_of(const std::string& set) {
   std::string words = set;
   bool replaced = false;

@@ -61,8 +61,9 @@ void BatchQueue::finish(Running& one) {
   peaks_[preset] = std::max(peaks_[preset], result.peak);
   const bool stopped = one.child.code() == 128 + SIGTERM || one.child.code() == 128 + SIGINT;
   ++result.tries;
-  // To go on when there is room: from its checkpoint, if it wrote one. It did where it told its figures, and did not where
-  // it was still building its scene; a checkpoint that is there all the same is of an earlier batch.
+  // To go on when there is room: from its checkpoint, if it wrote one. It did where it told its figures, and
+  // did not where it was still building its scene; a checkpoint that is there all the same is of an earlier
+  // batch.
   if (stopped && one.stopped && stop_signal() == 0) {
     again_[one.job] = again_[one.job] || !one.child.out().empty();
     waiting_.push_back(one.job);

@@ -1,9 +1,9 @@
 // Jobs of a batch in parallel, as many as there is room for.
 //
-// What a job takes is not known before it ran: what another job of the same preset took is expected of it, else the mean
-// of all so far. One more is begun where what runs and what is expected of it fit into the budget; one always runs. Where
-// what runs outgrows the budget nevertheless, the job begun last is stopped with a checkpoint (SIGTERM), and goes on from
-// there when there is room.
+// What a job takes is not known before it ran: what another job of the same preset took is expected of it, else
+// the mean of all so far. One more is begun where what runs and what is expected of it fit into the budget; one
+// always runs. Where what runs outgrows the budget nevertheless, the job begun last is stopped with a
+// checkpoint (SIGTERM), and goes on from there when there is room.
 #pragma once
 
 #include "render/app/batch_jobs.h"
@@ -34,7 +34,8 @@ struct BatchResult {
 
 class BatchQueue {
 public:
-  // `command`: the arguments of a job's program; `again`: it was stopped for want of room, and left a checkpoint.
+  // `command`: the arguments of a job's program; `again`: it was stopped for want of room, and left a
+  // checkpoint.
   using CommandOf = std::function<std::vector<std::string>(const BatchJob& job, bool again)>;
   using Done = std::function<void(std::size_t job, const BatchResult& result)>;
   BatchQueue(const std::vector<BatchJob>& jobs, const BatchLimits& limits, CommandOf command, Done done);

@@ -52,7 +52,8 @@ std::uint64_t number_of(const std::string& key) {
   return std::stoull(key, nullptr, 16);
 }
 
-// As many of the first bytes as there are, all of one file: another may take its name meanwhile. None: it is gone.
+// As many of the first bytes as there are, all of one file: another may take its name meanwhile. None: it is
+// gone.
 std::optional<std::vector<std::uint8_t>> first_bytes(const fs::path& path,
                                                      std::optional<std::size_t> most = {}) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);

@@ -1,12 +1,13 @@
-// A run that was stopped, in a file: the scene between two steps, what its pictures follow, and which frame is next.
+// A run that was stopped, in a file: the scene between two steps, what its pictures follow, and which frame is
+// next.
 //
 //   rend checkpoint, a line of text             so that `head -1` tells what it is
 //   key, next frame                             64 bits each
 //   the numbers of the scene and its pictures   sim/base/archive.h
 //   XXH3 of all that, piece after piece         64 bits
 //
-// It stands in the folder of the pictures while a run is under way, appears whole or not at all, and goes when the run is
-// complete. All frames before the next one are in that folder when it is written.
+// It stands in the folder of the pictures while a run is under way, appears whole or not at all, and goes when
+// the run is complete. All frames before the next one are in that folder when it is written.
 #pragma once
 
 #include <cstdint>
@@ -27,12 +28,12 @@ struct CheckpointHead {
   long next = 0;         // frame
 };
 
-// Of all that a picture's bytes hang on but for its number: Session::key(), its size in pixels and samples, and whether
-// a HUD that it should have can be drawn. 16 hex digits. It stands in the pictures, so other builds of a version leave the
-// same bytes.
+// Of all that a picture's bytes hang on but for its number: Session::key(), its size in pixels and samples, and
+// whether a HUD that it should have can be drawn. 16 hex digits. It stands in the pictures, so other builds of
+// a version leave the same bytes.
 std::string picture_key(const Session& session, int width, int height, int samples);
-// The same for a stored state, which this very program alone can read: a commit does not tell two builds of a changed
-// tree apart.
+// The same for a stored state, which this very program alone can read: a commit does not tell two builds of a
+// changed tree apart.
 std::string checkpoint_key(const std::string& picture_key);
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& key, long next, Session& session,
@@ -41,9 +42,10 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& key,
 // None: there is no such file. UserError (BadInput): it is no checkpoint, or of another key.
 std::optional<CheckpointHead> read_checkpoint_head(const std::filesystem::path& path, const std::string& key);
 
-// Takes the state of a run whose session and film are of the same key, and tells the head of the very bytes that it took:
-// of others' checkpoints another may stand there by now. None, and nothing was taken: it is gone, or no longer of this key
-// with a next frame that is not after `first`. UserError (BadInput): it is no checkpoint, or damaged.
+// Takes the state of a run whose session and film are of the same key, and tells the head of the very bytes
+// that it took: of others' checkpoints another may stand there by now. None, and nothing was taken: it is gone,
+// or no longer of this key with a next frame that is not after `first`. UserError (BadInput): it is no
+// checkpoint, or damaged.
 std::optional<CheckpointHead> read_checkpoint(const std::filesystem::path& path, const std::string& key,
                                               long first, Session& session, Film& film);
 
@@ -51,9 +53,9 @@ std::optional<CheckpointHead> read_checkpoint(const std::filesystem::path& path,
 std::filesystem::path checkpoint_path(const std::filesystem::path& folder, const std::string& name,
                                       const Shard& shard);
 
-// Those to go on from, the best first, all with this key and a next frame that is not after `first`: the run's `own`,
-// which alone tells what that run had let go early (film.h), then the others of the folder, the latest first.
-// UserError (BadInput) where `own` is there and of another key, or no checkpoint.
+// Those to go on from, the best first, all with this key and a next frame that is not after `first`: the run's
+// `own`, which alone tells what that run had let go early (film.h), then the others of the folder, the latest
+// first. UserError (BadInput) where `own` is there and of another key, or no checkpoint.
 struct FoundCheckpoint {
   std::filesystem::path path;
   CheckpointHead head;

@@ -39,8 +39,8 @@ std::string content_of(int file) {
 
 constexpr const char* itself = "/proc/self/exe";
 
-// In the new process, up to the other program: by its own name, which others see, or where its file has gone since, by
-// the system's. Where neither can be had, 127 as of a shell.
+// In the new process, up to the other program: by its own name, which others see, or where its file has gone
+// since, by the system's. Where neither can be had, 127 as of a shell.
 [[noreturn]] void become(const char* program, const std::vector<char*>& words, int parent, int out, int err) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);

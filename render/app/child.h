@@ -1,7 +1,7 @@
 // Another rend, that runs beside this one: a failure of it is a failure of it alone.
 //
-// What it says is caught in memory. It has a process group of its own, so that a key of the terminal reaches this program
-// alone, which passes it on; and it is asked to stop where this program is gone.
+// What it says is caught in memory. It has a process group of its own, so that a key of the terminal reaches
+// this program alone, which passes it on; and it is asked to stop where this program is gone.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@ namespace rend {
 
 class Child {
 public:
-  // Runs this very program with these arguments, and with these variables set as well. Throws UserError (CannotCreate).
+  // Runs this very program with these arguments, and with these variables set as well. Throws UserError
+  // (CannotCreate).
   Child(const std::vector<std::string>& arguments,
         const std::vector<std::pair<std::string, std::string>>& variables);
   ~Child(); // ends it, if it runs

@@ -62,7 +62,8 @@ BatchLimits limits_of(const BatchOptions& options) {
   return limits;
 }
 
-// Those of this shard. Where there are fewer jobs than shards, all of them: then each makes its part of their frames.
+// Those of this shard. Where there are fewer jobs than shards, all of them: then each makes its part of their
+// frames.
 std::vector<BatchJob> jobs_of(const BatchOptions& options, const BatchSettings& settings, const Shard& shard,
                               bool& frames_are_shared) {
   const std::vector<BatchJob> all = batch_jobs(options.inputs, settings.sweeps);

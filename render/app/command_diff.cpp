@@ -58,11 +58,13 @@ private:
   std::mutex mutex_;
 };
 
-// One case after the other on all threads where there are few; many at once where there are many. Empty after a signal.
+// One case after the other on all threads where there are few; many at once where there are many. Empty after a
+// signal.
 std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tolerances& tolerances,
                                   const DiffOptions& options) {
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
-  // A picture of two million pixels takes 0.3 GB while it is compared: not as many at once as a large machine has threads.
+  // A picture of two million pixels takes 0.3 GB while it is compared: not as many at once as a large machine
+  // has threads.
   const int jobs = cases.size() >= 2 * static_cast<std::size_t>(threads) ? std::min(threads, 8) : 1;
   std::vector<std::optional<Compared>> results(cases.size());
   InOrder in_order(results, options.json_lines && options.update.empty());

@@ -27,8 +27,8 @@ struct SheetOptions {
   std::string file, size;
 };
 
-// The three frames of a row, chosen while the clip runs: the first; the one a twentieth of the clip after the first tear
-// (the middle one where nothing tears by then); the last.
+// The three frames of a row, chosen while the clip runs: the first; the one a twentieth of the clip after the
+// first tear (the middle one where nothing tears by then); the last.
 class Row {
 public:
   explicit Row(long frames) : middle_(frames / 2), last_(frames - 1), lag_(frames / 20) {}

@@ -1,5 +1,5 @@
-// What a shell offers when Tab is pressed: scripts made from the command line's own declarations and the parameter
-// table.
+// What a shell offers when Tab is pressed: scripts made from the command line's own declarations and the
+// parameter table.
 //
 // Adding a shell: a file with a function `Shell my_shell()`, and its name in all_shells().
 #pragma once

@@ -38,7 +38,8 @@ std::string action(const Offer& offer) {
   return " ";
 }
 
-// '*'{-o,--output}'[folder]:DIR:_files -/': a star where it may stand again, else the names that exclude each other.
+// '*'{-o,--output}'[folder]:DIR:_files -/': a star where it may stand again, else the names that exclude each
+// other.
 std::string option_words(const OptionUsage& option, const CommandUsage& program) {
   std::string names;
   for (const std::string& name : option.names) {

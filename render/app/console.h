@@ -9,8 +9,8 @@
 
 namespace rend {
 
-// Descriptors 0 to 2 that the program was started without are taken, so that no file that it opens gets one of them and
-// is mistaken for what is said. Reading and writing there fails as if they were closed.
+// Descriptors 0 to 2 that the program was started without are taken, so that no file that it opens gets one of
+// them and is mistaken for what is said. Reading and writing there fails as if they were closed.
 void keep_standard_streams();
 
 bool is_terminal(std::FILE* stream);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::array<Colour, 4> link_colours{{{25, 25, 28}, {200, 35, 45}, {35, 80, 190}, {30, 140, 70}}};
 constexpr Colour dart_colour{40, 42, 48};
-// Where the dot of a dart lies between its vertex, the middles of its edge and face and, in a solid, of its volume.
+// Where the dot of a dart lies between its vertex, the middles of its edge and face and, in a solid, of its
+// volume.
 constexpr double to_edge = 0.22, to_face = 0.24, to_volume = 0.16;
 
 class Darts {

@@ -1,5 +1,5 @@
-// The map itself: every dart as a dot in its corner, every link between two darts as a rod, as the thesis draws them
-// (3.2): α0 black, α1 red, α2 blue, α3 green. A dart that is free in a link has no rod there.
+// The map itself: every dart as a dot in its corner, every link between two darts as a rod, as the thesis draws
+// them (3.2): α0 black, α1 red, α2 blue, α3 green. A dart that is free in a link has no rod there.
 #pragma once
 
 #include "render/frame.h"

@@ -10,12 +10,13 @@
 
 namespace rend {
 
-// Reads the pictures of what failed from their files, which it embeds as they are; a picture that cannot be shown is
-// left out, and so are the pictures of further cases once the page has 100 MB of them (it says so).
+// Reads the pictures of what failed from their files, which it embeds as they are; a picture that cannot be
+// shown is left out, and so are the pictures of further cases once the page has 100 MB of them (it says so).
 std::string diff_page(const DiffReport& report);
 
-// What is left on the disk: a folder with index.html, diff.json, and for what differs maps/NAME.png; and JUnit's XML. That
-// they can be written is known before anything is compared, and none is there before it is whole.
+// What is left on the disk: a folder with index.html, diff.json, and for what differs maps/NAME.png; and
+// JUnit's XML. That they can be written is known before anything is compared, and none is there before it is
+// whole.
 class DiffFiles {
 public:
   // Of an empty name nothing is written. Throws UserError: CannotCreate.

@@ -22,8 +22,8 @@ struct DiffReport {
 // How many cases are in that state, without those that were updated.
 std::size_t count(const DiffReport& report, CaseState state);
 std::size_t updated(const DiffReport& report);
-// Indices of the cases: what failed first, by states in the order of all_states(), the largest mean of FLIP first among
-// those that differ; then what was updated and what matches, by name.
+// Indices of the cases: what failed first, by states in the order of all_states(), the largest mean of FLIP
+// first among those that differ; then what was updated and what matches, by name.
 std::vector<std::size_t> failures_first(const DiffReport& report);
 bool failed(const DiffReport& report, std::size_t n);
 

@@ -59,7 +59,8 @@ void apply(const Node& node, const std::filesystem::path& folder, CompareOptions
   }
 }
 
-// "name" where a node gives it, and it does nothing: neither of `limits` holds for any picture that the node fits.
+// "name" where a node gives it, and it does nothing: neither of `limits` holds for any picture that the node
+// fits.
 bool idle(const Tolerances& all, const Node& node, const char* setting,
           std::initializer_list<const char*> limits, const std::vector<std::string>& names) {
   if (!node.given(setting)) return false;

@@ -6,9 +6,11 @@
 //     <case name="contact/*" share="any" mask="masks/floor.png"/> <!-- takes one away -->
 //   </tolerances>
 //
-// It is read as presets are: misspelt names and values out of range are refused with their place. `name` is a pattern of
-// the shell (* and ? stand for anything, / too). Every case that fits applies, in the order of the file; what a later one
-// says replaces what was said before, and "any" is no limit: where no other is left, anything of the right size matches. The attributes are the names of all_limits(), and threshold, window-size, mask.
+// It is read as presets are: misspelt names and values out of range are refused with their place. `name` is a
+// pattern of the shell (* and ? stand for anything, / too). Every case that fits applies, in the order of the
+// file; what a later one says replaces what was said before, and "any" is no limit: where no other is left,
+// anything of the right size matches. The attributes are the names of all_limits(), and threshold, window-size,
+// mask.
 #pragma once
 
 #include "render/compare/compare.h"
@@ -30,14 +32,15 @@ public:
   // Throws UserError: NoInput, BadInput.
   explicit Tolerances(const std::filesystem::path& file);
 
-  // As the last word of all: from the command line. "share=0.01", "share=any", "threshold=2". Throws UserError (Usage).
+  // As the last word of all: from the command line. "share=0.01", "share=any", "threshold=2". Throws UserError
+  // (Usage).
   void add(const std::string& setting);
   void mask_all(const std::filesystem::path& mask) { mask_ = mask; }
 
   // What holds for the picture of that name; `heat` and `threads` are left as they are by default.
   CompareOptions of(const std::string& name) const;
-  // What is most likely a slip, as sentences: patterns of the file that fit none of `names`, a threshold or window-size
-  // where nothing is limited that they are for.
+  // What is most likely a slip, as sentences: patterns of the file that fit none of `names`, a threshold or
+  // window-size where nothing is limited that they are for.
   std::vector<std::string> remarks(const std::vector<std::string>& names) const;
 
 private:

@@ -46,8 +46,8 @@ void check_source(const Compared& one) {
   read_deep_png(file_bytes(one.paths.b), one.paths.b.string());
 }
 
-// Files that lie complete beside those that they are to replace; what has not taken its place goes. None is held open, so
-// that there can be any number.
+// Files that lie complete beside those that they are to replace; what has not taken its place goes. None is
+// held open, so that there can be any number.
 class Parts {
 public:
   Parts() = default;

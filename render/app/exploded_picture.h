@@ -1,5 +1,7 @@
-// A body whose cells are drawn apart: every face of a sheet, every volume of a solid, whole and by itself, moved away
-// from the body's middle by a share of its distance from there:   x' = x + apart (c − m).
+// A body whose cells are drawn apart: every face of a sheet, every volume of a solid, whole and by itself,
+// moved away from the body's middle by a share of its distance from there:
+//
+//   x' = x + apart (c − m)
 #pragma once
 
 #include "render/app/colour.h"
@@ -17,7 +19,8 @@ struct CellCorner {
   bool inner; // its face lay between two cells at the start
 };
 
-// Appends the triangles to `out`; a solid's run counter-clockwise seen from outside of each volume that is not inverted.
+// Appends the triangles to `out`; a solid's run counter-clockwise seen from outside of each volume that is not
+// inverted.
 void draw_exploded(const Body& body, double apart, const std::function<Colour(const CellCorner&)>& colour,
                    FrameBody& out);
 

@@ -1,8 +1,8 @@
 // The states of a run on their way to files, one a frame, numbered as pictures are.
 //
-// A state is held back until the simulation has gone on, or has ended well, as pictures are (film.h). A state that
-// several frames show is written once, under the number of the first, unless the format is one whose readers go by the
-// numbers alone. The index comes last, and lists what there is.
+// A state is held back until the simulation has gone on, or has ended well, as pictures are (film.h). A state
+// that several frames show is written once, under the number of the first, unless the format is one whose
+// readers go by the numbers alone. The index comes last, and lists what there is.
 #pragma once
 
 #include "render/app/output_folder.h"

@@ -18,8 +18,8 @@ struct Costs {
   std::size_t surface_bytes = 0;
 };
 
-// Of the present state: the last good one where the run was stopped. Without `simulated` nothing was, and what one would
-// come to is not known: all figures of the state are null.
+// Of the present state: the last good one where the run was stopped. Without `simulated` nothing was, and what
+// one would come to is not known: all figures of the state are null.
 nlohmann::ordered_json figures_of(const Session& session, Stopped stopped, const Costs& costs,
                                   bool simulated = true);
 

@@ -5,8 +5,9 @@
 // OpenGL is started and the folder made when the first frame is let go; a folder that was made here and stays
 // empty is removed.
 //
-// A run that a signal stops lets go what it holds, and remembers that in its checkpoint: should the simulation explode
-// before the next frame once it goes on, those pictures are removed again, as if it had never been stopped.
+// A run that a signal stops lets go what it holds, and remembers that in its checkpoint: should the simulation
+// explode before the next frame once it goes on, those pictures are removed again, as if it had never been
+// stopped.
 #pragma once
 
 #include "render/app/frame_plan.h"
@@ -24,16 +25,16 @@ namespace rend {
 
 class Film {
 public:
-  // Throws UserError where the folder could not be made, or the machine could not draw or encode. Tells what pictures
-  // will not show.
+  // Throws UserError where the folder could not be made, or the machine could not draw or encode. Tells what
+  // pictures will not show.
   Film(Session& session, const PipelineOptions& options, const FramePlan& plan);
   ~Film();
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
   void take(long frame); // of the present state
-  // Before take() of a frame: brings all frames before it to the disk. False where one of them shows the present state,
-  // and is held.
+  // Before take() of a frame: brings all frames before it to the disk. False where one of them shows the
+  // present state, and is held.
   bool settle();
   void make_folder() const { folder_.make(); }
   void pause();                 // a signal came: brings all there is to the disk; the folder is there

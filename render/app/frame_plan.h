@@ -1,8 +1,8 @@
-// Which frames of a clip a run is to make: those that were asked for, of these its shard's part, and of these what is not
-// there yet.
+// Which frames of a clip a run is to make: those that were asked for, of these its shard's part, and of these
+// what is not there yet.
 //
-// A shard's frames follow each other, so that all but the last shard end their simulation early. A picture is there where
-// its file is whole and was made of this scene (png.h), whatever its name or date say.
+// A shard's frames follow each other, so that all but the last shard end their simulation early. A picture is
+// there where its file is whole and was made of this scene (png.h), whatever its name or date say.
 #pragma once
 
 #include "render/app/clock.h"

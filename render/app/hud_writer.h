@@ -1,7 +1,7 @@
 // What <hud> asks for, written from the state of a scene: HudContent.
 //
-// Curves and scales follow the whole clip, whether a frame is drawn or not: observe() is called for every one, as for
-// pictures (picture.h). What is not asked for is neither measured nor kept.
+// Curves and scales follow the whole clip, whether a frame is drawn or not: observe() is called for every one,
+// as for pictures (picture.h). What is not asked for is neither measured nor kept.
 #pragma once
 
 #include "render/hud_content.h"

@@ -1,5 +1,6 @@
-// What a scene is made of: cells, arrays with their bytes, where the time step comes from, what a step goes through,
-// and what is not there. Arrays are those of a scene that has made its first step, since some come with it.
+// What a scene is made of: cells, arrays with their bytes, where the time step comes from, what a step goes
+// through, and what is not there. Arrays are those of a scene that has made its first step, since some come
+// with it.
 #pragma once
 
 #include "render/app/session.h"

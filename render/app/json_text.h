@@ -1,4 +1,5 @@
-// JSON as it is written: names of files come from outside, and may hold bytes that are no UTF-8, which JSON must be.
+// JSON as it is written: names of files come from outside, and may hold bytes that are no UTF-8, which JSON
+// must be.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // What `rend study --lean` switches off and on: one entry a feature, in the order of the table.
 //
-// A feature is text that is put into the preset: into its first body, or by --set. Where its presence must change
-// nothing (a law whose threshold is never reached, wind without drag, contact with what is far away), pixels are compared
-// bit by bit, and the state as well but where sums are made in another order.
+// A feature is text that is put into the preset: into its first body, or by --set. Where its presence must
+// change nothing (a law whose threshold is never reached, wind without drag, contact with what is far away),
+// pixels are compared bit by bit, and the state as well but where sums are made in another order.
 #pragma once
 
 #include "sim/study/study.h"

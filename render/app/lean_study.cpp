@@ -56,7 +56,8 @@ private:
   bool bare_;
 };
 
-// Builds both sides, the one that is built first taking turns: what it takes of memory is where the other begins.
+// Builds both sides, the one that is built first taking turns: what it takes of memory is where the other
+// begins.
 struct BothSides {
   BothSides(const LeanFeature& feature, const LeanScene& scene, const LeanPlan& plan, bool off_first) {
     const auto build = [&](std::unique_ptr<Built>& to, const LeanSide& side) {

@@ -1,4 +1,5 @@
-// `rend study --lean`: what each feature costs, in time and bytes, and that it changes nothing where it must not.
+// `rend study --lean`: what each feature costs, in time and bytes, and that it changes nothing where it must
+// not.
 #pragma once
 
 #include "render/app/lean_features.h"

@@ -1,5 +1,5 @@
-// A folder that files are going to be written to. That they can be is found out at once, and not after an hour of
-// simulation; it is made when the first file comes; and what was made and stays empty is removed.
+// A folder that files are going to be written to. That they can be is found out at once, and not after an hour
+// of simulation; it is made when the first file comes; and what was made and stays empty is removed.
 #pragma once
 
 #include <filesystem>

@@ -27,7 +27,8 @@ Override parse_override(std::string_view text);
 // what is. A value that does not fit is found later, and its place is "--set PATH=VALUE".
 void apply_overrides(RawElement& root, std::span<const Override> overrides);
 
-// What the table alone tells, whatever a preset holds. The attribute that one is for; UserError (Usage) where there is none.
+// What the table alone tells, whatever a preset holds. The attribute that one is for; UserError (Usage) where
+// there is none.
 const AttributeType& overridden(const ElementType& root, const Override& one);
 // That there is one, and that the value fits it: UserError (Usage, BadInput).
 void check_override(const ElementType& root, const Override& one);

@@ -1,11 +1,13 @@
-// What a preset may read: files in its own folder or below it, so that a preset from elsewhere cannot look around.
+// What a preset may read: files in its own folder or below it, so that a preset from elsewhere cannot look
+// around.
 #pragma once
 
 #include "sim/base/parameters.h"
 
 namespace rend {
 
-// UserError, at the attribute, for a <mesh> whose file is outside: by an absolute name, by "..", by a symbolic link.
+// UserError, at the attribute, for a <mesh> whose file is outside: by an absolute name, by "..", by a symbolic
+// link.
 void check_paths(const Node& scene);
 
 } // namespace rend

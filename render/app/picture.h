@@ -1,4 +1,5 @@
-// From the state of a scene to a Frame: triangles with normals, colours and lines; obstacles; the floor; the camera.
+// From the state of a scene to a Frame: triangles with normals, colours and lines; obstacles; the floor; the
+// camera.
 //
 // Colours that depend on a scale or on an order of things must not flicker, and a frame drawn alone must be
 // that of the whole clip. So observe() is called for every frame of the clip, drawn or not: a scale is the

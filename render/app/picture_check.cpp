@@ -20,8 +20,8 @@ std::string in_words(const Vec3& x) {
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", x.x(), x.y(), x.z());
 }
 
-// The solid angle that a triangle fills, as its corners are seen from an eye in the origin (Van Oosterom and Strackee
-// 1983).
+// The solid angle that a triangle fills, as its corners are seen from an eye in the origin (Van Oosterom and
+// Strackee 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
@@ -46,7 +46,8 @@ public:
     }
   }
 
-  // Whether a solid closes around the eye: its faces then fill the whole sphere of sight, and otherwise nothing of it.
+  // Whether a solid closes around the eye: its faces then fill the whole sphere of sight, and otherwise nothing
+  // of it.
   bool surrounds(std::size_t body, const Vec3& eye) {
     double filled = 0;
     each_face(body, [&](const std::vector<Vec3>& ring) {

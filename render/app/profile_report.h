@@ -1,8 +1,9 @@
-// Where the time and the bytes of a run went (rend run --profile): by stage of the step, by interaction, and as a share
-// of what this machine can do at this moment.
+// Where the time and the bytes of a run went (rend run --profile): by stage of the step, by interaction, and as
+// a share of what this machine can do at this moment.
 //
-// Bytes are those that must be read and written at least, each array once a pass (passes.h, sim/program/row_cost.h): a
-// share of the memory's bandwidth above 1 says that they came from caches. They are those of the state at the end.
+// Bytes are those that must be read and written at least, each array once a pass (passes.h,
+// sim/program/row_cost.h): a share of the memory's bandwidth above 1 says that they came from caches. They are
+// those of the state at the end.
 #pragma once
 
 #include "render/app/session.h"

@@ -1,4 +1,5 @@
-// Where figures come from: machine, build, preset and command line, for reports that others should be able to repeat.
+// Where figures come from: machine, build, preset and command line, for reports that others should be able to
+// repeat.
 #pragma once
 
 #include "render/report/machine.h"

@@ -10,8 +10,8 @@
 
 namespace rend {
 
-// A CSV file with one row a frame, nine columns for each probe among them: cells are empty where there is nothing to
-// tell. Rows are held back as pictures are (film.h).
+// A CSV file with one row a frame, nine columns for each probe among them: cells are empty where there is
+// nothing to tell. Rows are held back as pictures are (film.h).
 class Diagnostics {
 public:
   explicit Diagnostics(const std::filesystem::path& path); // throws UserError (CannotCreate)
@@ -26,8 +26,8 @@ private:
   bool any_ = false; // rows that are not held
 };
 
-// Topological changes as JSON, one a line, in the order of time; of one step, in the order of bodies. To be written of
-// scenes with births alone (SceneOptions).
+// Topological changes as JSON, one a line, in the order of time; of one step, in the order of bodies. To be
+// written of scenes with births alone (SceneOptions).
 class EventFile {
 public:
   explicit EventFile(const std::filesystem::path& path); // throws UserError (CannotCreate)

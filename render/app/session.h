@@ -43,8 +43,8 @@ public:
   explicit Session(const SessionOptions& options);
 
   const Node& preset() const { return *preset_; }
-  // Of all that the states of this run hang on: the preset's text, what was set, meshes, how it is run, rend's version.
-  // Reads the meshes once more.
+  // Of all that the states of this run hang on: the preset's text, what was set, meshes, how it is run, rend's
+  // version. Reads the meshes once more.
   std::uint64_t key() const;
   const std::string& preset_path() const { return options_.preset; }
   Scene& scene() { return *scene_; }
@@ -61,7 +61,8 @@ public:
   // How many steps run() does for this last frame.
   long last_step(long last_frame) const;
   // Steps until frame `last_frame`, or the end if it is the last of all; or until a signal or an instability.
-  // failure() then says what went wrong. The state is that of a scene that was stored when `first_frame` was next.
+  // failure() then says what went wrong. The state is that of a scene that was stored when `first_frame` was
+  // next.
   Stopped run(long last_frame, const Calls& calls, long first_frame = 0);
 
   const std::optional<Unstable>& failure() const { return failure_; }

@@ -18,8 +18,8 @@ struct Shard {
 
 Shard parse_shard(const std::string& text); // UserError (Usage)
 
-// What Slurm says of the array task that this is (SLURM_ARRAY_TASK_ID, _COUNT, _MIN, _STEP); none: it is none, or the only
-// one. UserError (Usage) where these are no such numbers.
+// What Slurm says of the array task that this is (SLURM_ARRAY_TASK_ID, _COUNT, _MIN, _STEP); none: it is none,
+// or the only one. UserError (Usage) where these are no such numbers.
 std::optional<Shard> slurm_shard();
 
 // `given`, or else Slurm's, or else the whole.

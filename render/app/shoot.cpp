@@ -32,8 +32,8 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
   begin();
 }
 
-// Whether a state whose next frame is this one lies between this run's start and its end. After the clip's last frame
-// there are steps to its end yet.
+// Whether a state whose next frame is this one lies between this run's start and its end. After the clip's last
+// frame there are steps to its end yet.
 bool Shoot::is_on_the_way(long next) const {
   if (plan_.all().empty()) return false;
   const long last = plan_.all().back();

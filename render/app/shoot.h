@@ -1,13 +1,15 @@
 // The pictures of a run, from its first frame or from where an earlier run was stopped.
 //
-// What is there already is found out picture by picture (frame_plan.h). The simulation begins at the checkpoint whose next
-// frame is the last that is not after the first one missing, and at the start where there is none. Where this run has a
-// checkpoint it was not at its end: it goes on to there even if no picture is missing, since it might explode on the way,
-// and then keeps no picture of the state that did (film.h). A checkpoint of a state after this run's end is of one that
-// was asked for more frames: it stays, and this run writes none over it.
+// What is there already is found out picture by picture (frame_plan.h). The simulation begins at the checkpoint
+// whose next frame is the last that is not after the first one missing, and at the start where there is none.
+// Where this run has a checkpoint it was not at its end: it goes on to there even if no picture is missing,
+// since it might explode on the way, and then keeps no picture of the state that did (film.h). A checkpoint of
+// a state after this run's end is of one that was asked for more frames: it stays, and this run writes none
+// over it.
 //
-// A video is made of the pictures as they come; where some were there before, of the files at the end: encoders go
-// through a clip once, and pictures lose nothing in a PNG, so that the bytes are those of a run that was never stopped.
+// A video is made of the pictures as they come; where some were there before, of the files at the end: encoders
+// go through a clip once, and pictures lose nothing in a PNG, so that the bytes are those of a run that was
+// never stopped.
 #pragma once
 
 #include "render/app/checkpoint.h"
@@ -56,9 +58,9 @@ private:
   std::filesystem::path checkpoint_;
   std::string key_; // of it
   bool video_at_end_ = false, left_checkpoint_ = false;
-  bool spares_ = false; // the checkpoint there is of a state after this run's end
-  long kept_ = 0, first_ = 0,
-       last_ = -1; // frames that are there; the next when it begins; the last, or -1: none
+  bool spares_ = false;        // the checkpoint there is of a state after this run's end
+  long kept_ = 0;              // frames that are there
+  long first_ = 0, last_ = -1; // frames: the next when it begins; the last, or -1: none
   double due_ = std::numeric_limits<double>::infinity(); // [s], on the clock: the next checkpoint
   std::optional<Film> film_;
 };

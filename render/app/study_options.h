@@ -28,7 +28,8 @@ struct StudyTask {
   MakeScene make;
 };
 
-// Reads the preset in each of the groups' forms, so that whatever is wrong is said before anything runs. UserError.
+// Reads the preset in each of the groups' forms, so that whatever is wrong is said before anything runs.
+// UserError.
 StudyTask study_task(const StudyOptions& options);
 
 } // namespace rend

@@ -1,4 +1,5 @@
-// The page of a study: what it found, in words made from its numbers; plots, tables, and where it all comes from.
+// The page of a study: what it found, in words made from its numbers; plots, tables, and where it all comes
+// from.
 #pragma once
 
 #include "render/app/provenance.h"

@@ -12,8 +12,8 @@ struct NamedPlot {
   Plot plot;
 };
 
-// Error against run time, error against step, energy; of what tears, its first tear and what is torn. One set for each
-// group, and where there are several, all of them together against the most exact one.
+// Error against run time, error against step, energy; of what tears, its first tear and what is torn. One set
+// for each group, and where there are several, all of them together against the most exact one.
 std::vector<NamedPlot> plots_of(const StudyReport& report, const std::string& name);
 
 } // namespace rend

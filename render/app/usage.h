@@ -1,8 +1,8 @@
 // The command line as data: what --help prints, for those who write it down otherwise (manual.h, completion.h).
 // Taken from the commands' own declarations, so that a new command or option is in all of them by itself.
 //
-// What an option takes is told by its type name: PRESET, DIR, FILE.png, PATH=VALUE, or choices with bars between
-// them: mp4|webm; with ",..." behind them, several with commas.
+// What an option takes is told by its type name: PRESET, DIR, FILE.png, PATH=VALUE, or choices with bars
+// between them: mp4|webm; with ",..." behind them, several with commas.
 #pragma once
 
 #include <string>

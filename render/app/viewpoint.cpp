@@ -139,8 +139,8 @@ void Viewpoint::read_keys(const Node& camera) {
   }
 }
 
-// Cubic Hermite pieces, whose slopes are those between the neighbours; it stands still before the first and after the
-// last.
+// Cubic Hermite pieces, whose slopes are those between the neighbours; it stands still before the first and
+// after the last.
 FrameCamera Viewpoint::between_keys(double time) const {
   FrameCamera camera = start_;
   const auto set = [&](const Eigen::Matrix<double, 7, 1>& at) {

@@ -1,8 +1,8 @@
 // Where a scene is seen from: what <camera> says, or what fits the bodies.
 //
-// A given, fitted, turning or keyed camera has one path for the whole clip, worked out before the first step. One that
-// follows the bodies looks at every frame's state (observe): it goes after their middle as if on a damped spring, and
-// is never so near that one of them leaves the picture.
+// A given, fitted, turning or keyed camera has one path for the whole clip, worked out before the first step.
+// One that follows the bodies looks at every frame's state (observe): it goes after their middle as if on a
+// damped spring, and is never so near that one of them leaves the picture.
 #pragma once
 
 #include "render/frame.h"

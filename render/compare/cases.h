@@ -18,9 +18,10 @@ struct Cases {
   std::size_t left_out = 0;   // files in the folders that are not called .png
 };
 
-// Folders are walked to the bottom, through links to others too; names are compared as bytes, and every file that is called
-// .png (or .PNG) counts. Throws UserError (Trouble) where one is not there, for a folder against a file, where there is no
-// picture in either folder, where a folder cannot be read, and for a link to a folder that it is in.
+// Folders are walked to the bottom, through links to others too; names are compared as bytes, and every file
+// that is called .png (or .PNG) counts. Throws UserError (Trouble) where one is not there, for a folder against
+// a file, where there is no picture in either folder, where a folder cannot be read, and for a link to a folder
+// that it is in.
 Cases cases_of(const std::filesystem::path& a, const std::filesystem::path& b);
 
 } // namespace rend

@@ -39,7 +39,8 @@ struct CompareOptions {
   int threads = 1;
 };
 
-// Pictures that cannot be read are a state. Throws UserError (BadInput, NoInput) for a mask that cannot be used.
+// Pictures that cannot be read are a state. Throws UserError (BadInput, NoInput) for a mask that cannot be
+// used.
 Compared compare_case(const CasePaths& paths, const CompareOptions& options);
 
 } // namespace rend

@@ -1,10 +1,11 @@
 // How far two pictures are apart, pixel by pixel.
 //
 //   d(p, c) = |a(p, c) − b(p, c)|                 [levels], of every pixel p that counts and every channel c
-//   max = max d     mean = Σ d / N     RMSE = √(Σ d² / N)     PSNR = 20 log10(255 / RMSE) [dB], infinite where equal
+//   max = max d     mean = Σ d / N     RMSE = √(Σ d² / N)
+//   PSNR = 20 log10(255 / RMSE) [dB], infinite where equal
 //
-// N: pixels times channels (3, or 4 where one has alpha). Sums run along each row and then over the rows, so that they
-// are the same on any number of threads.
+// N: pixels times channels (3, or 4 where one has alpha). Sums run along each row and then over the rows, so
+// that they are the same on any number of threads.
 #pragma once
 
 #include "render/compare/picture.h"

@@ -13,8 +13,8 @@ Colour3 ycxcz_of(
 Colour3 linear_of_ycxcz(const Colour3& ycxcz); // clamped to 0 … 1
 Colour3 hunt_lab_of(const Colour3& linear);    // L*, and a*, b* times 0.01 L*: dark colours differ less
 
-// |ΔL| + √(Δa² + Δb²). Abasi, Tehran, Fairchild: Distance metrics for very large color differences. Color Research &
-// Application 45 (2020).
+// |ΔL| + √(Δa² + Δb²). Abasi, Tehran, Fairchild: Distance metrics for very large color differences. Color
+// Research & Application 45 (2020).
 float hyab(const Colour3& a, const Colour3& b);
 
 } // namespace rend

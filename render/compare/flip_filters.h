@@ -1,5 +1,5 @@
-// The filters of FLIP, one-dimensional: each of the two-dimensional ones is a product of two of these, or a sum of two
-// products. Borders repeat the outermost pixel.
+// The filters of FLIP, one-dimensional: each of the two-dimensional ones is a product of two of these, or a sum
+// of two products. Borders repeat the outermost pixel.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,15 @@ struct Filter {
   int radius() const { return static_cast<int>(weights.size() / 2); }
 };
 
-// What the eye makes of colour at some pixels a degree: g(x, y) = Σ aᵢ √(π/bᵢ) exp(−π² (x² + y²)/bᵢ), (x, y in degrees),
-// which sums to 1. Luminance and red-green are one Gaussian, blue-yellow two.
+// What the eye makes of colour at some pixels a degree: g(x, y) = Σ aᵢ √(π/bᵢ) exp(−π² (x² + y²)/bᵢ), (x, y in
+// degrees), which sums to 1. Luminance and red-green are one Gaussian, blue-yellow two.
 struct ColourFilters {
   Filter luminance, red_green, blue_narrow, blue_wide;
 };
 ColourFilters colour_filters(double pixels_per_degree);
 
-// A Gaussian of the standard deviation 0.5 · 0.082 degrees, and its first and second derivatives. What is above 0 sums to
-// 1 in each derivative, what is below to −1.
+// A Gaussian of the standard deviation 0.5 · 0.082 degrees, and its first and second derivatives. What is above
+// 0 sums to 1 in each derivative, what is below to −1.
 struct FeatureFilters {
   Filter gaussian, edge, point;
 };

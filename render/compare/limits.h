@@ -1,7 +1,7 @@
 // What two pictures may differ by and still match: limits on figures, by name.
 //
-// The names stand in tolerance files, on the command line and in reports. Another figure that can be limited is one row
-// in all_limits().
+// The names stand in tolerance files, on the command line and in reports. Another figure that can be limited is
+// one row in all_limits().
 #pragma once
 
 #include "render/compare/metrics.h"

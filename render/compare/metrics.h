@@ -26,7 +26,8 @@ struct MeasureOptions {
   int threads = 1;
 };
 
-// Two pictures of one size (CHECK). What the mask leaves out is in no figure. The same on any number of threads.
+// Two pictures of one size (CHECK). What the mask leaves out is in no figure. The same on any number of
+// threads.
 Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& options);
 
 } // namespace rend

@@ -29,7 +29,8 @@ float find(std::span<const float> values, std::uint32_t bucket, double below, do
 
 } // namespace
 
-// Sums per bucket first: only the bucket in which a percentile falls is sorted, which takes a tenth of sorting all.
+// Sums per bucket first: only the bucket in which a percentile falls is sorted, which takes a tenth of sorting
+// all.
 std::vector<float> weighted_percentiles(std::span<const float> values, std::span<const double> percents) {
   std::vector<double> sums(std::size_t{1} << 15);
   for (const float value : values) {

@@ -1,9 +1,9 @@
 // A picture as it is compared: planes of levels, whatever the file was.
 //
-// A level is a float from 0 to 255: that of 8 bits as it stands, that of 16 bits divided by 257. Where a picture is
-// transparent its colours are multiplied by alpha: what cannot be seen does not count, and two pixels are equal if and
-// only if they look the same over every background. A picture without alpha is opaque: it equals one whose alpha is 255
-// everywhere.
+// A level is a float from 0 to 255: that of 8 bits as it stands, that of 16 bits divided by 257. Where a
+// picture is transparent its colours are multiplied by alpha: what cannot be seen does not count, and two
+// pixels are equal if and only if they look the same over every background. A picture without alpha is opaque:
+// it equals one whose alpha is 255 everywhere.
 #pragma once
 
 #include "render/png_reader.h"
@@ -39,8 +39,8 @@ struct Mask {
 // White counts, black does not: a pixel whose red, over black, is below 128 is left out.
 Mask mask_of(const Picture& picture);
 
-// Makes `b` equal to `a` wherever the mask does not count, so that what is left out cannot reach the pixels beside it
-// through the filters of SSIM and FLIP. All of one size; both with alpha or neither (CHECK).
+// Makes `b` equal to `a` wherever the mask does not count, so that what is left out cannot reach the pixels
+// beside it through the filters of SSIM and FLIP. All of one size; both with alpha or neither (CHECK).
 void leave_out(const Mask& mask, const Picture& a, Picture& b);
 
 // Gives an opaque picture its alpha, where another has one.

@@ -1,7 +1,7 @@
 // What is over a threshold: how much of the picture, and where it lies densest.
 //
-// A share of the whole says little of a lost triangle in a large picture. The densest window of N × N pixels tells it from
-// the same number of pixels strewn about, and is where to look.
+// A share of the whole says little of a lost triangle in a large picture. The densest window of N × N pixels
+// tells it from the same number of pixels strewn about, and is where to look.
 #pragma once
 
 #include "render/compare/difference.h"
@@ -19,8 +19,8 @@ struct OverThreshold {
 // `threshold` in levels; `side`: N, at least 1 (CHECK).
 OverThreshold over_threshold(const Difference& difference, int width, int height, double threshold, int side);
 
-// The upper left corner of the window of side x side pixels in which a map's sum is largest: where an eye would look. The
-// window is as narrow or low as the picture where that is smaller.
+// The upper left corner of the window of side x side pixels in which a map's sum is largest: where an eye would
+// look. The window is as narrow or low as the picture where that is smaller.
 Pixel brightest_window(const Levels& map, int width, int height, int side);
 
 } // namespace rend

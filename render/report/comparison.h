@@ -1,8 +1,8 @@
 // A block of a page: two pictures of which one is expected and one is there, to be looked at in every way.
 //
-// Slider, blink, side by side, difference, heat map, each alone; the worst place enlarged in all of them, and any other
-// by a click. The pictures stand in the page once each, as their own files, and every way of looking is a matter of
-// style and script. Without script the pictures stand side by side.
+// Slider, blink, side by side, difference, heat map, each alone; the worst place enlarged in all of them, and
+// any other by a click. The pictures stand in the page once each, as their own files, and every way of looking
+// is a matter of style and script. Without script the pictures stand side by side.
 #pragma once
 
 #include "render/report/page.h"

@@ -8,12 +8,14 @@ namespace rend::html {
 inline constexpr std::string_view comparison_style = R"(
 .compare { margin:10px 0 4px; }
 .compare .bar { display:flex; flex-wrap:wrap; gap:6px 14px; align-items:center; margin:0 0 8px; }
-.compare .ways { display:inline-flex; flex-wrap:wrap; border:1px solid var(--line); border-radius:7px; overflow:hidden; }
-.compare button { font:inherit; font-size:13.5px; color:var(--text); background:var(--panel); border:0; padding:4px 12px;
-  cursor:pointer; border-right:1px solid var(--line); }
+.compare .ways { display:inline-flex; flex-wrap:wrap; border:1px solid var(--line); border-radius:7px;
+  overflow:hidden; }
+.compare button { font:inherit; font-size:13.5px; color:var(--text); background:var(--panel); border:0;
+  padding:4px 12px; cursor:pointer; border-right:1px solid var(--line); }
 .compare .ways button:last-child { border-right:0; }
 .compare button[aria-pressed=true] { background:var(--link); color:var(--back); }
-.compare button:focus-visible, .compare input:focus-visible { outline:2px solid var(--link); outline-offset:1px; }
+.compare button:focus-visible, .compare input:focus-visible { outline:2px solid var(--link);
+  outline-offset:1px; }
 .compare .said { color:var(--soft); font-size:13.5px; }
 .stack { position:relative; display:grid; width:max-content; max-width:100%; border:1px solid var(--line);
   border-radius:4px; overflow:hidden; cursor:crosshair; isolation:isolate;
@@ -22,26 +24,29 @@ inline constexpr std::string_view comparison_style = R"(
 .stack.small img { width:640px; image-rendering:pixelated; }
 .stack .mark { grid-area:1 / 1; position:absolute; border:2px solid #ff2fb3; box-shadow:0 0 0 1px #ffffff;
   pointer-events:none; }
-.stack .edge { position:absolute; top:0; bottom:0; width:2px; margin-left:-1px; background:#ff2fb3; pointer-events:none;
-  display:none; }
+.stack .edge { position:absolute; top:0; bottom:0; width:2px; margin-left:-1px; background:#ff2fb3;
+  pointer-events:none; display:none; }
 [data-way=slider] .edge { display:block; }
 [data-way=now] .b, [data-way=expected] .a, [data-way=heat] .heat { z-index:2; }
-[data-way=expected] .b, [data-way=expected] .heat, [data-way=now] .a, [data-way=now] .heat, [data-way=slider] .heat,
-[data-way=blink] .heat, [data-way=difference] .heat, [data-way=heat] .a, [data-way=heat] .b { visibility:hidden; }
+[data-way=expected] .b, [data-way=expected] .heat, [data-way=now] .a, [data-way=now] .heat,
+[data-way=slider] .heat, [data-way=blink] .heat, [data-way=difference] .heat, [data-way=heat] .a,
+[data-way=heat] .b { visibility:hidden; }
 [data-way=blink].off .b { visibility:hidden; }
 [data-way=difference] .b { mix-blend-mode:difference; }
 [data-way=difference] .stack { filter:brightness(8); background:#000000; }
-[data-way=side] .stack { grid-template-columns:repeat(auto-fit, minmax(280px, 1fr)); gap:6px; width:auto; border:0;
-  background:none; cursor:default; }
+[data-way=side] .stack { grid-template-columns:repeat(auto-fit, minmax(280px, 1fr)); gap:6px; width:auto;
+  border:0; background:none; cursor:default; }
 [data-way=side] .stack img { grid-area:auto; width:100%; max-width:640px; border:1px solid var(--line); }
 [data-way=side] .mark, [data-way=side] .edge { display:none; }
 .compare input[type=range] { width:100%; display:block; margin:6px 0; accent-color:#ff2fb3; }
 .compare:not([data-way=slider]) input[type=range] { display:none; }
-.look { display:flex; flex-wrap:wrap; gap:4px 18px; align-items:flex-start; } .look > div:first-child { max-width:100%; }
+.look { display:flex; flex-wrap:wrap; gap:4px 18px; align-items:flex-start; }
+.look > div:first-child { max-width:100%; }
 .near { flex:1 1 300px; } .near p { margin:2px 0; font-size:13.5px; }
 [data-way=side] .look > div:first-child { flex:1 1 100%; }
 .zooms { display:flex; flex-wrap:wrap; gap:8px 10px; margin:0 0 6px; }
-.zooms figure { margin:0; } .zooms canvas { display:block; width:208px; height:208px; border:1px solid var(--line);
+.zooms figure { margin:0; }
+.zooms canvas { display:block; width:208px; height:208px; border:1px solid var(--line);
   border-radius:4px; image-rendering:pixelated; background:var(--panel); }
 .zooms figcaption { font-size:13px; }
 @media print { .compare .bar, .compare input[type=range] { display:none; } }
@@ -102,7 +107,8 @@ inline constexpr std::string_view comparison_script = R"(
     stack.addEventListener('click', function (event) {
       if (box.dataset.way === 'side') return;
       var frame = stack.getBoundingClientRect();
-      zoom((event.clientX - frame.left) / frame.width * width, (event.clientY - frame.top) / frame.height * height);
+      zoom((event.clientX - frame.left) / frame.width * width,
+           (event.clientY - frame.top) / frame.height * height);
     });
     var start = function () {
       show('slider');

@@ -1,9 +1,9 @@
 // One page to read: HTML that holds all it needs, as text.
 //
-// Reports (study, check, diff, batch) are put together from these blocks. Each is a function from text to Html, and
-// what is Html is whole and escaped already: text gets in by escaped() and the like alone, so that no name of a preset
-// can break a page. A page asks for nothing from elsewhere (style and pictures are inside), reads well on light and on
-// dark screens and on paper, and is the same bytes for the same content.
+// Reports (study, check, diff, batch) are put together from these blocks. Each is a function from text to Html,
+// and what is Html is whole and escaped already: text gets in by escaped() and the like alone, so that no name
+// of a preset can break a page. A page asks for nothing from elsewhere (style and pictures are inside), reads
+// well on light and on dark screens and on paper, and is the same bytes for the same content.
 //
 //   using namespace html;   // in a function
 //   Html body = paragraph(escaped("What was found.")) + heading(2, "Cases") + table(t);

@@ -31,8 +31,8 @@ const Look& look_of(const PlotSeries& series) {
   return looks[static_cast<std::size_t>(series.look) % looks.size()];
 }
 
-// A string of gnuplot's. Between single quotes nothing has a meaning but the quote (which doubled does not do everywhere)
-// and, in some versions, the backquote: apostrophes of typography take their place.
+// A string of gnuplot's. Between single quotes nothing has a meaning but the quote (which doubled does not do
+// everywhere) and, in some versions, the backquote: apostrophes of typography take their place.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (char c : text) {

@@ -1,9 +1,9 @@
 // A plot for a report: curves of points on linear or logarithmic axes, drawn by gnuplot.
 //
-// Data go in by standard input, the picture comes out by standard output; no shell and no file name is involved, and no
-// text of a plot is read as a command. The same plot gives the same bytes with the same gnuplot. Colours are those of
-// Okabe & Ito ("Color universal design", 2008), which colour-blind readers tell apart; marks and dashes tell curves apart
-// in grey as well.
+// Data go in by standard input, the picture comes out by standard output; no shell and no file name is
+// involved, and no text of a plot is read as a command. The same plot gives the same bytes with the same
+// gnuplot. Colours are those of Okabe & Ito ("Color universal design", 2008), which colour-blind readers tell
+// apart; marks and dashes tell curves apart in grey as well.
 #pragma once
 
 #include <optional>
@@ -50,8 +50,8 @@ struct Plot {
 
 enum class PlotFormat { Svg, Png };
 
-// The file's bytes. None where gnuplot is not installed. Throws UserError (ReadWrite) with gnuplot's own words where it
-// fails. A plot without any point is drawn as empty axes.
+// The file's bytes. None where gnuplot is not installed. Throws UserError (ReadWrite) with gnuplot's own words
+// where it fails. A plot without any point is drawn as empty axes.
 std::optional<std::string> draw(const Plot& plot, PlotFormat format);
 
 // What gnuplot is told.

@@ -2,7 +2,8 @@
 //
 //   atan t = atan c + atan((t − c)/(1 + tc))   with t in [0, 1] and c the nearest quarter,
 //
-// then the series of atan r for |r| ≤ 1/8, whose next term is below 1e-18. Choices are selections, not branches.
+// then the series of atan r for |r| ≤ 1/8, whose next term is below 1e-18. Choices are selections, not
+// branches.
 #pragma once
 
 #include "sim/base/math.h"

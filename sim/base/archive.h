@@ -2,9 +2,9 @@
 //
 //   void Sphere::store(Archive& a) { a(centre, velocity); }      // writes, or takes what was written
 //
-// Arrays of numbers are copied as they lie in memory: a few gigabytes a second, and for machines that store numbers alike
-// (all that rend runs on). Marks between parts are met again when reading; what is out of step with them was written by
-// another program or of another scene, and is refused before it does harm.
+// Arrays of numbers are copied as they lie in memory: a few gigabytes a second, and for machines that store
+// numbers alike (all that rend runs on). Marks between parts are met again when reading; what is out of step
+// with them was written by another program or of another scene, and is refused before it does harm.
 #pragma once
 
 #include "sim/base/id.h"

@@ -1,4 +1,5 @@
-// What an array holds, in bytes: what was written to. Room that is reserved for later costs addresses, and no memory.
+// What an array holds, in bytes: what was written to. Room that is reserved for later costs addresses, and no
+// memory.
 #pragma once
 
 #include <cstddef>

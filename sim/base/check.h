@@ -1,4 +1,5 @@
-// CHECK: a programmer's slip, not a user's. It names the condition and its place and is caught in main (exit 70).
+// CHECK: a programmer's slip, not a user's. It names the condition and its place and is caught in main (exit
+// 70).
 #pragma once
 
 #include <stdexcept>

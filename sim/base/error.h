@@ -1,7 +1,7 @@
 // What a user can do wrong, or a machine can refuse, and the exit code that goes with it.
 //
-// A message reads "file:line:column: what is wrong", and below it "hint: what would work". The codes are those of
-// sysexits(3) where one fits.
+// A message reads "file:line:column: what is wrong", and below it "hint: what would work". The codes are those
+// of sysexits(3) where one fits.
 #pragma once
 
 #include <stdexcept>

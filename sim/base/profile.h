@@ -1,9 +1,9 @@
 // Where the time of a run goes, stage by stage, for those who ask (rend run --profile).
 //
-// One stage is current at any moment. Within turns to another, and back where it ends: each second belongs to the
-// innermost stage alone, and all stages together are the whole. Reading the clock takes as long as a small body's
-// forces: what a reading takes is measured and taken off at each turn. Where nobody asks there is no Profile, and a
-// Within tests a pointer. For the thread that makes the steps.
+// One stage is current at any moment. Within turns to another, and back where it ends: each second belongs to
+// the innermost stage alone, and all stages together are the whole. Reading the clock takes as long as a small
+// body's forces: what a reading takes is measured and taken off at each turn. Where nobody asks there is no
+// Profile, and a Within tests a pointer. For the thread that makes the steps.
 #pragma once
 
 #include <array>

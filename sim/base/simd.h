@@ -1,7 +1,8 @@
 // Four doubles at once, with the same bits on every processor.
 //
-// GCC's vector types are lowered to whatever the target has (two SSE registers, one AVX register); every operation
-// is the IEEE one on each lane, so that the width never shows in a result. simd_width.h says which target runs.
+// GCC's vector types are lowered to whatever the target has (two SSE registers, one AVX register); every
+// operation is the IEEE one on each lane, so that the width never shows in a result. simd_width.h says which
+// target runs.
 #pragma once
 
 #include "sim/base/record.h"

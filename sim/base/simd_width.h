@@ -1,17 +1,19 @@
-// Which of a processor's vector units the inner loops use: chosen when the program runs, and nothing else changes.
+// Which of a processor's vector units the inner loops use: chosen when the program runs, and nothing else
+// changes.
 //
-// A loop is an always_inline function; at_width<loop>(arguments) runs the copy of it that was compiled for the chosen
-// unit. That is the widest one that the processor has, or what REND_SIMD in the environment asks for:
+// A loop is an always_inline function; at_width<loop>(arguments) runs the copy of it that was compiled for the
+// chosen unit. That is the widest one that the processor has, or what REND_SIMD in the environment asks for:
 //
 //   sse2     two doubles at a time, what every x86-64 has (on other processors: what they all have)
 //   avx2     four
 //
-// AVX-512 is not there: it gained a sixth on hexahedra and nothing on tetrahedra and springs, eight lanes lost a quarter
-// on springs, and hinges came out wrong for it from g++ 12.2 (HingeKernel.adds_what_the_law_says tells).
+// AVX-512 is not there: it gained a sixth on hexahedra and nothing on tetrahedra and springs, eight lanes lost
+// a quarter on springs, and hinges came out wrong for it from g++ 12.2 (HingeKernel.adds_what_the_law_says
+// tells).
 //
 // Vectors have four lanes whatever the unit (simd.h), every operation is IEEE's on each of them, and none is
-// contracted (CMakeLists.txt): all copies give the same bits, which is why the choice is for tests and measurements
-// alone. GCC's target_clones would choose as well, but cannot be told what.
+// contracted (CMakeLists.txt): all copies give the same bits, which is why the choice is for tests and
+// measurements alone. GCC's target_clones would choose as well, but cannot be told what.
 #pragma once
 
 #include <string>

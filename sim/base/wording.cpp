@@ -85,7 +85,8 @@ std::string suggestion(std::string_view name, std::span<const std::string> names
 
 namespace {
 
-// How many bytes the UTF-8 character at the start of `text` has; 0: it is none (RFC 3629), or a control character.
+// How many bytes the UTF-8 character at the start of `text` has; 0: it is none (RFC 3629), or a control
+// character.
 std::size_t printable(std::string_view text) {
   const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U; };
   const unsigned first = byte(0);

@@ -1,16 +1,18 @@
 // A case of `rend check`: a scene that strains the program, what is expected of it, and what happened.
 //
 // A case is a preset, read by the same reader as a user's, and a function that runs it and takes measures. An
-// expectation is said in words and asked in numbers: every Measure is a figure with the bounds between which it must
-// lie, from an analytic answer, a law of conservation, a bound by energy, or another computation. Verdicts:
+// expectation is said in words and asked in numbers: every Measure is a figure with the bounds between which it
+// must lie, from an analytic answer, a law of conservation, a bound by energy, or another computation.
+// Verdicts:
 //
 //   ok        all measures lie within their bounds
 //   refused   as expected: the preset is not accepted, and the message says where and what would work
 //   limit     a known limit of the model, true and stated; its measures (that it stays finite, say) hold
 //   failed    a measure does not hold, or something was thrown that was not expected
 //
-// States that no preset can express (scrambled vertices) are set on the scene by the function, and `expectation` says so.
-// Adding a family: a file with a function `CheckFamily my_family()`, and its name in all_families().
+// States that no preset can express (scrambled vertices) are set on the scene by the function, and
+// `expectation` says so. Adding a family: a file with a function `CheckFamily my_family()`, and its name in
+// all_families().
 #pragma once
 
 #include "sim/scene/scene.h"

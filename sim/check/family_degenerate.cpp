@@ -1,5 +1,5 @@
-// Elements without area, springs without length, points on top of each other: refused with a place and a hint, or
-// simulated without harm.
+// Elements without area, springs without length, points on top of each other: refused with a place and a hint,
+// or simulated without harm.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"

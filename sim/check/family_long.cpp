@@ -37,9 +37,8 @@ CheckCase long_case(const Matter& matter, const Scheme& scheme, long steps) {
   one.preset = sketch.text();
   one.row = matter.name;
   one.column = scheme.name;
-  const bool small =
-      matter
-          .small_strain(); // a turn would go on as growth without end, and far from rest displacements round more
+  // A turn would go on as growth without end, and far from rest displacements round more.
+  const bool small = matter.small_strain();
   one.run = [=](const Bench& bench, Finding& finding) {
     Trial trial = bench.open();
     const double step = scheme.solves ? trial->step_size() : trial->step_size() / 2;

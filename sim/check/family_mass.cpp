@@ -12,8 +12,9 @@ namespace {
 
 constexpr double g = 9.81, k = 1e3; // [m/s²], [N/m]
 
-// A ladder 1 m wide, whose five cells are 1, r, 1, r, 1 m high, so that their masses [kg] are that, too: each rung has
-// half of the cells beside it. It hangs by its two rails of springs, all as stiff, whatever their length.
+// A ladder 1 m wide, whose five cells are 1, r, 1, r, 1 m high, so that their masses [kg] are that, too: each
+// rung has half of the cells beside it. It hangs by its two rails of springs, all as stiff, whatever their
+// length.
 struct Ladder {
   std::vector<double> heights; // [m]
   explicit Ladder(double r) : heights{1, r, 1, r, 1} {}
@@ -84,8 +85,9 @@ CheckCase ladder_case(const Scheme& scheme, int exponent) {
   return one;
 }
 
-// Nothing else acts: momentum stays, and so does all of the energy that is not lost in the blow. A ball M times as heavy
-// as the sheet goes on with (M − 1)/(M + 1) of its speed at least: the blow of a body that throws it all back.
+// Nothing else acts: momentum stays, and so does all of the energy that is not lost in the blow. A ball M times
+// as heavy as the sheet goes on with (M − 1)/(M + 1) of its speed at least: the blow of a body that throws it
+// all back.
 CheckCase ball_case(int exponent) {
   const double ratio = std::pow(10.0, exponent);
   Sketch sketch;

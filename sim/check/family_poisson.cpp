@@ -1,4 +1,5 @@
-// Nearly incompressible: the stress of a patch under a uniform strain, and a free body that is shaken, at every ν.
+// Nearly incompressible: the stress of a patch under a uniform strain, and a free body that is shaken, at every
+// ν.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"

@@ -1,4 +1,5 @@
-// From a micrometre to a thousand kilometres: with everything else scaled alike, nothing but round-off may differ.
+// From a micrometre to a thousand kilometres: with everything else scaled alike, nothing but round-off may
+// differ.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"

@@ -13,8 +13,8 @@
 namespace rend {
 namespace {
 
-// What damps is chosen such that the fastest motions have some 0.3 of critical damping: below a tenth of it, growth just
-// above the limit of explicit Euler takes more steps to show than one can run.
+// What damps is chosen such that the fastest motions have some 0.3 of critical damping: below a tenth of it,
+// growth just above the limit of explicit Euler takes more steps to show than one can run.
 struct Specimen {
   std::string name, body;                             // body: without what damps
   double by_mass, by_particle, of_springs, of_matter; // [N s/m] of the body and of each vertex; [N s/m]; β [s]

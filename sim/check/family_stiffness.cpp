@@ -1,5 +1,6 @@
-// Stiffness of nine decades, under every scheme: a chain of springs and a bar hang by their own weight, come to rest,
-// and are as long as statics says: (m g/k) N²/2, and ρ g L²/(2 E). Both are exact for these models, however coarse.
+// Stiffness of nine decades, under every scheme: a chain of springs and a bar hang by their own weight, come to
+// rest, and are as long as statics says: (m g/k) N²/2, and ρ g L²/(2 E). Both are exact for these models,
+// however coarse.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 
@@ -11,7 +12,8 @@
 namespace rend {
 namespace {
 
-// A move of dt v below half a unit in the last place is lost: what slows down with 1/ω stops 1/(dt ω) units away.
+// A move of dt v below half a unit in the last place is lost: what slows down with 1/ω stops 1/(dt ω) units
+// away.
 constexpr double g = 9.81, rounded = 2e-15; // [m/s²]; [m]: some units in the last place of 1 m
 constexpr double tolerance = 2e-6;          // [m]: of adaptive schemes, whose parts may err by 1e-6 of the size
 constexpr int links = 10;

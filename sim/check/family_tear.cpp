@@ -1,5 +1,5 @@
-// Tearing under strain: every criterion with every change that fits, on bodies that are stiff, tiny, huge, pulled fast,
-// scrambled or bent out of their plane.
+// Tearing under strain: every criterion with every change that fits, on bodies that are stiff, tiny, huge,
+// pulled fast, scrambled or bent out of their plane.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"

@@ -1,10 +1,10 @@
 // A body as it answers to small motions about a state: M x'' = −K x − D x', prescribed coordinates held.
 //
-// K and D are those of the assembly (−∂f/∂x and −∂f/∂v), with the tangent that has no negative eigenvalue, so that what
-// buckles by itself is not taken for a step that is too large; D holds damping between particles, and the rates of
-// ambient viscosity and Rayleigh's mass part stand beside it. Wind is left out. It is a System: a time scheme steps it
-// like any body, and since it is linear and homogeneous, a step is the product of the scheme's amplification matrix
-// with the state, whatever the scheme.
+// K and D are those of the assembly (−∂f/∂x and −∂f/∂v), with the tangent that has no negative eigenvalue, so
+// that what buckles by itself is not taken for a step that is too large; D holds damping between particles, and
+// the rates of ambient viscosity and Rayleigh's mass part stand beside it. Wind is left out. It is a System: a
+// time scheme steps it like any body, and since it is linear and homogeneous, a step is the product of the
+// scheme's amplification matrix with the state, whatever the scheme.
 #pragma once
 
 #include "sim/scene/scene.h"

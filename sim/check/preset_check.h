@@ -1,4 +1,5 @@
-// Cases for a user's own preset: is it stable, with what margin, at which step does it break, which scheme would do.
+// Cases for a user's own preset: is it stable, with what margin, at which step does it break, which scheme
+// would do.
 #pragma once
 
 #include "sim/check/case.h"

@@ -1,15 +1,17 @@
 // The largest stable step of a scheme on a body, as the scheme itself has it: where the spectral radius of its
 // amplification matrix passes 1.
 //
-// One mode (ω², d): the scheme steps an oscillator of one particle from (1, 0) and from (0, 1); that is its 2 × 2 matrix,
-// and the step is found by bisection. So no formula is taken on trust: those of mechanics ("Time") must come out.
+// One mode (ω², d): the scheme steps an oscillator of one particle from (1, 0) and from (0, 1); that is its 2 ×
+// 2 matrix, and the step is found by bisection. So no formula is taken on trust: those of mechanics ("Time")
+// must come out.
 //
-// A whole body with damping that couples modes has no such formula. There the matrix is that of the linearised body
-// (linearised.h), in the coordinates (ω √m x, √m v), in which an undamped motion turns without growing. Its eigenvalues
-// come from Arnoldi's method started at the fastest mode. What stiffness and damping accelerate by less than a tenth of ω times
-// its speed is left out: whole bodies that drift or turn are a double eigenvalue of 1 with one vector, which no iteration tells from
-// growth. A motion counts as growing where it does so by more than its residual. With damping of Rayleigh's kind, a combination of
-// mass and stiffness, both agree (a test).
+// A whole body with damping that couples modes has no such formula. There the matrix is that of the linearised
+// body (linearised.h), in the coordinates (ω √m x, √m v), in which an undamped motion turns without growing.
+// Its eigenvalues come from Arnoldi's method started at the fastest mode. What stiffness and damping accelerate
+// by less than a tenth of ω times its speed is left out: whole bodies that drift or turn are a double
+// eigenvalue of 1 with one vector, which no iteration tells from growth. A motion counts as growing where it
+// does so by more than its residual. With damping of Rayleigh's kind, a combination of mass and stiffness, both
+// agree (a test).
 #pragma once
 
 #include "sim/check/linearised.h"

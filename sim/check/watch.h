@@ -21,8 +21,8 @@ void put(Body& body, const std::function<Vec3(const Vec3& rest, std::size_t slot
 double size_of(const Body& body);    // the longest side of the box around its rest positions [m]
 double least_side(const Body& body); // the shortest that is not 0 [m]
 
-// How far it is from its shape at rest: the root mean square, weighed by mass, of what is left after the rigid motion that
-// brings it closest (Kabsch 1976) [m].
+// How far it is from its shape at rest: the root mean square, weighed by mass, of what is left after the rigid
+// motion that brings it closest (Kabsch 1976) [m].
 double distortion(const Body& body);
 
 // What a run went through.

@@ -170,7 +170,8 @@ CellIndex::Fragment CellIndex::fragment_at(const GMap& map, Dart d) const {
   return fragment;
 }
 
-// Gives a fragment its slot. Fragments come by increasing smallest dart, so that the first to ask keeps the slot.
+// Gives a fragment its slot. Fragments come by increasing smallest dart, so that the first to ask keeps the
+// slot.
 void CellIndex::settle(const Fragment& fragment, SlotEvents& events) {
   Scratch& my = scratch;
   const std::span<const Dart> darts(my.darts.data() + fragment.begin, fragment.end - fragment.begin);

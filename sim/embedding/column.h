@@ -6,17 +6,17 @@
 //   struct CornerMass {
 //     using Value = double;                                 // [kg]
 //     std::string name = "corner mass";
-//     Orbit orbit = VertexOfFace;                           // who carries it
-//     Orbit support = FaceOfVolume;                         // whose shape it depends on
-//     Value birth(const EmbeddedMap&, Dart) const;          // a new orbit, or one whose support changed its links
-//     Value split(const Value& whole) const;                // a new fragment's share; the kept one keeps its value
-//     Value merge(const Value& kept, const Value& absorbed) const; // without one, what was merged is born again
+//     Orbit orbit = VertexOfFace;                  // who carries it
+//     Orbit support = FaceOfVolume;                // whose shape it depends on
+//     Value birth(const EmbeddedMap&, Dart) const; // a new orbit, or one whose support changed its links
+//     Value split(const Value& whole) const;       // a new fragment's share; the kept one keeps its value
+//     Value merge(const Value& kept, const Value& absorbed) const; // without it, what was merged is born again
 //   };
 //
 // `support` must contain `orbit`'s element: when any link of the support orbit changes, all values whose orbit
 // holds a dart of it are born again. A separation (α2 of a sheet, α3 of a solid) changes no element, so that a
-// value with support <0,1> (<0,1,2>) never notices one. support = SingleDart, which has no links: only the orbit's own
-// events count, whatever its shape becomes.
+// value with support <0,1> (<0,1,2>) never notices one. support = SingleDart, which has no links: only the
+// orbit's own events count, whatever its shape becomes.
 #pragma once
 
 #include "sim/base/record.h"

@@ -93,15 +93,15 @@ public:
   Vec3 rest_of(Dart d) const { return (*rest_)[vertex(d)]; }
   Vec3 position_of(Dart d) const { return (*position_)[vertex(d)]; }
 
-  // Runs `change` and brings the columns up to date. An exception out of `change` or of a birth leaves a map that takes
-  // no further edit (CHECK). CHECK (with REND_VALIDATE): the map and slots are valid.
+  // Runs `change` and brings the columns up to date. An exception out of `change` or of a birth leaves a map
+  // that takes no further edit (CHECK). CHECK (with REND_VALIDATE): the map and slots are valid.
   void edit(const std::function<void(Edit&)>& change);
 
   void subscribe(Changes& changes) { readers_.push_back(&changes); }
   void unsubscribe(Changes& changes) { std::erase(readers_, &changes); }
 
-  // Room for as many slots as separations of elements can ever make, so that none of them moves an array. Memory that
-  // is not written to costs nothing but addresses.
+  // Room for as many slots as separations of elements can ever make, so that none of them moves an array.
+  // Memory that is not written to costs nothing but addresses.
   void reserve_for_separations();
   std::size_t slots_when_separated(Orbit orbit) const; // with every element by itself
 
@@ -111,8 +111,8 @@ public:
 
   std::size_t bytes() const; // of slots and columns; the map has its own
 
-  // All of it (base/archive.h): links, slots with their order and free ones, and every column. Readers then find all of
-  // it changed. ArchiveError: it was of a map with other columns, or whose other orbits have slots.
+  // All of it (base/archive.h): links, slots with their order and free ones, and every column. Readers then
+  // find all of it changed. ArchiveError: it was of a map with other columns, or whose other orbits have slots.
   void store(Archive& archive);
 
 private:

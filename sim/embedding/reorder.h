@@ -11,9 +11,10 @@
 
 namespace rend {
 
-// Whether the slots of a third of the vertices are out of order: between a slot and the next more than 32 times as many
-// darts lie as in the mean. Right after numbering at most one in 32 is; so it takes half as many new vertices as there
-// were before it is so again. A function of the map alone; false below `least` vertices: their state fits into a cache.
+// Whether the slots of a third of the vertices are out of order: between a slot and the next more than 32 times
+// as many darts lie as in the mean. Right after numbering at most one in 32 is; so it takes half as many new
+// vertices as there were before it is so again. A function of the map alone; false below `least` vertices:
+// their state fits into a cache.
 bool slots_scattered(const EmbeddedMap& map, std::size_t least = 8192);
 
 } // namespace rend

@@ -1,9 +1,9 @@
 // Which slot each dart has, in four bytes a dart or in one.
 //
-// The darts of an element stand together, and slots are numbered by smallest dart. So, of orbits that lie within an
-// element, the slots of any 64 neighbouring darts lie close together: packed, a byte a dart says how far its slot is
-// above the least of those 64. (Of the 55 bytes a dart of torn tetrahedra that saves 9.) Separations leave such orbits
-// alone; the first edit that needs more unpacks the table for good.
+// The darts of an element stand together, and slots are numbered by smallest dart. So, of orbits that lie
+// within an element, the slots of any 64 neighbouring darts lie close together: packed, a byte a dart says how
+// far its slot is above the least of those 64. (Of the 55 bytes a dart of torn tetrahedra that saves 9.)
+// Separations leave such orbits alone; the first edit that needs more unpacks the table for good.
 #pragma once
 
 #include "sim/base/id.h"

@@ -1,5 +1,5 @@
-// The file formats that states are exported in. Adding one: a file with a function `ExportFormat my_format()`, and its
-// name in all_export_formats().
+// The file formats that states are exported in. Adding one: a file with a function `ExportFormat my_format()`,
+// and its name in all_export_formats().
 #pragma once
 
 #include "sim/scene/scene.h"
@@ -37,8 +37,8 @@ const std::vector<ExportFormat>& all_export_formats();
 const ExportFormat* find_export_format(const std::string& name); // null: there is none
 std::vector<std::string> export_format_names();
 
-// A body's name as formats of text take it, in one word: blanks part the names of several groups (.obj), and the end of a
-// line ends a comment (.ply). What is no visible character becomes '_'; UTF-8 stays as it is.
+// A body's name as formats of text take it, in one word: blanks part the names of several groups (.obj), and
+// the end of a line ends a comment (.ply). What is no visible character becomes '_'; UTF-8 stays as it is.
 std::string one_word(std::string name);
 
 ExportFormat vtu_format();

@@ -1,9 +1,10 @@
-// The state of a scene as an unstructured grid: points, cells, and numbers on both, for those who look at it or reckon
-// with it elsewhere. All bodies are in one grid, one after another in the order of the preset.
+// The state of a scene as an unstructured grid: points, cells, and numbers on both, for those who look at it or
+// reckon with it elsewhere. All bodies are in one grid, one after another in the order of the preset.
 //
-// A point is a vertex that is alive, so that a tear that parts a vertex makes two points of it. A cell is an element:
-// hexahedra stay hexahedra. Corners stand as in sim/mesh/cell_shapes.h (Gmsh's order), so that at rest every solid cell
-// has positive volume; the faces of a sheet with two sides all run the same way around, and keep it when they tear.
+// A point is a vertex that is alive, so that a tear that parts a vertex makes two points of it. A cell is an
+// element: hexahedra stay hexahedra. Corners stand as in sim/mesh/cell_shapes.h (Gmsh's order), so that at rest
+// every solid cell has positive volume; the faces of a sheet with two sides all run the same way around, and
+// keep it when they tear.
 #pragma once
 
 #include "sim/scene/scene.h"
@@ -45,12 +46,12 @@ struct Grid {
   std::vector<std::int64_t> faces;
   std::vector<std::int64_t> face_ends; // one per cell: where its faces end in `faces`; -1: no polyhedron
 
-  // On points: position at rest [m], velocity [m/s], mass [kg], vertex (its slot in the body: what it is called as long
-  // as it is not parted), body (counted from 0), prescribed (bits 1, 2, 4: along x, y, z).
+  // On points: position at rest [m], velocity [m/s], mass [kg], vertex (its slot in the body: what it is called
+  // as long as it is not parted), body (counted from 0), prescribed (bits 1, 2, 4: along x, y, z).
   std::vector<GridArray> on_points;
-  // On cells: element (its smallest dart, which nothing changes), body, fragment (counted through all bodies); where a
-  // body has finite elements also its stress [Pa], xx xy xz yx .. zz, and von Mises' equivalent of it. These are 0 in
-  // bodies without, and in an element so flat that it has no stress.
+  // On cells: element (its smallest dart, which nothing changes), body, fragment (counted through all bodies);
+  // where a body has finite elements also its stress [Pa], xx xy xz yx .. zz, and von Mises' equivalent of it.
+  // These are 0 in bodies without, and in an element so flat that it has no stress.
   std::vector<GridArray> on_cells;
 };
 

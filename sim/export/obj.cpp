@@ -1,5 +1,5 @@
-// Wavefront's object file (.obj): one object per body, and in a body that may tear one group per fragment. Wavefront, "B1.
-// Object Files", Advanced Visualizer Manual (1992).
+// Wavefront's object file (.obj): one object per body, and in a body that may tear one group per fragment.
+// Wavefront, "B1. Object Files", Advanced Visualizer Manual (1992).
 //
 // Numbers are the shortest that read back as the same double. There are no normals: programs reckon their own.
 #include "sim/export/format.h"

@@ -1,11 +1,13 @@
-// Stanford's polygon file (.ply), binary little-endian: one file holds all bodies, told apart by a property. Turk, "The
-// PLY Polygon File Format" (1994).
+// Stanford's polygon file (.ply), binary little-endian: one file holds all bodies, told apart by a property.
+// Turk, "The PLY Polygon File Format" (1994).
 //
-// Numbers are double, so that what is read is the state to its last bit. Those on points have names that Blender keeps as
-// attributes (vx vy vz, stress); ParaView reads the surface alone, and has .vtu for the rest. There are no normals: a
-// normal per point would round the creases of a solid, and programs that draw reckon their own.
+// Numbers are double, so that what is read is the state to its last bit. Those on points have names that
+// Blender keeps as attributes (vx vy vz, stress); ParaView reads the surface alone, and has .vtu for the rest.
+// There are no normals: a normal per point would round the creases of a solid, and programs that draw reckon
+// their own.
 //
-// ParaView takes times from a .series file, which lists the others; the rest of the world goes by their numbers.
+// ParaView takes times from a .series file, which lists the others; the rest of the world goes by their
+// numbers.
 #include "sim/export/format.h"
 #include "sim/export/skin.h"
 

@@ -1,10 +1,11 @@
 // What is seen of a scene, as polygons on shared points: for programs that draw surfaces and know no volumes.
 //
-// The faces are those that are drawn: all faces of a sheet, the α3-free ones of a solid, whole (a quad is a quad), each
-// from the corner that pictures fan it from. Those of a solid turn counter-clockwise seen from outside, as they do at
-// rest; those of a sheet with two sides all run the same way around, that of its smallest dart, and keep it when they
-// tear. A point is a vertex of the map: two faces share it where the surface hangs together there, and a tear that parts
-// it makes two points of it. Vertices inside of a solid are left out.
+// The faces are those that are drawn: all faces of a sheet, the α3-free ones of a solid, whole (a quad is a
+// quad), each from the corner that pictures fan it from. Those of a solid turn counter-clockwise seen from
+// outside, as they do at rest; those of a sheet with two sides all run the same way around, that of its
+// smallest dart, and keep it when they tear. A point is a vertex of the map: two faces share it where the
+// surface hangs together there, and a tear that parts it makes two points of it. Vertices inside of a solid are
+// left out.
 #pragma once
 
 #include "sim/scene/scene.h"

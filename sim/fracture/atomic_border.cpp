@@ -1,5 +1,5 @@
-// The atomic criterion on edges and faces (thesis 7.4): |(f_1 − f_2)·n|, with f_i the force that element i applies to the
-// shared vertices. |f_1 − f_2| bounds it.
+// The atomic criterion on edges and faces (thesis 7.4): |(f_1 − f_2)·n|, with f_i the force that element i
+// applies to the shared vertices. |f_1 − f_2| bounds it.
 #include "sim/base/simd.h"
 #include "sim/fracture/border.h"
 #include "sim/fracture/criterion.h"

@@ -1,9 +1,9 @@
-// The atomic criterion on vertices (thesis 7.4.1): the largest single force on it, of any spring or hinge, or of an
-// element of the continuum on its corner there, with the plane across that force.
+// The atomic criterion on vertices (thesis 7.4.1): the largest single force on it, of any spring or hinge, or
+// of an element of the continuum on its corner there, with the plane across that force.
 //
-// Tensors of a mass-tensor body are no forces of their own (a body that is moved as a whole feels them, though their sum
-// is 0): its linear elements count. The kernel tells which elements exceed the threshold, and they alone are looked at one
-// by one.
+// Tensors of a mass-tensor body are no forces of their own (a body that is moved as a whole feels them, though
+// their sum is 0): its linear elements count. The kernel tells which elements exceed the threshold, and they
+// alone are looked at one by one.
 #include "sim/fracture/single_springs.h"
 #include "sim/program/continuum.h"
 #include "sim/program/kernels.h"

@@ -1,10 +1,10 @@
-// Births of fragments: how many connected pieces a body has after each topological change, told for all changes of a
-// step together.
+// Births of fragments: how many connected pieces a body has after each topological change, told for all changes
+// of a step together.
 //
-// Changes only ever let go: they unlink darts and remove some. So the pieces after the last change are labelled once,
-// and the changes are undone in reverse: a removed dart comes back as a piece by itself, and every pair that was
-// unlinked joins two pieces (union-find; Tarjan 1975). That is O(darts + links undone) a step, however many changes were
-// made, and exact for deletions as well. Costs nothing where nobody asks.
+// Changes only ever let go: they unlink darts and remove some. So the pieces after the last change are labelled
+// once, and the changes are undone in reverse: a removed dart comes back as a piece by itself, and every pair
+// that was unlinked joins two pieces (union-find; Tarjan 1975). That is O(darts + links undone) a step, however
+// many changes were made, and exact for deletions as well. Costs nothing where nobody asks.
 #pragma once
 
 #include "sim/base/record.h"
@@ -39,8 +39,8 @@ public:
   void begin();                      // an edit was opened
   void note(const Journal& journal); // a change was made: what stands in the journal since the one before
 
-  // Writes fragments and born of the events, which were noted since the last call, in their order; then forgets them.
-  // `map` is as the last of them left it.
+  // Writes fragments and born of the events, which were noted since the last call, in their order; then forgets
+  // them. `map` is as the last of them left it.
   void settle(const GMap& map, std::span<TearEvent> events);
 
 private:

@@ -1,8 +1,8 @@
-// The border between two elements: an edge of a sheet with both its faces, a face of a solid with both its volumes; and
-// the direction a tear would open it in.
+// The border between two elements: an edge of a sheet with both its faces, a face of a solid with both its
+// volumes; and the direction a tear would open it in.
 //
-// Faces have three, four or more sides. Unit u of the pattern is a face of u + 3 sides, so that each owner has one row,
-// and its key says how many of the fields count.
+// Faces have three, four or more sides. Unit u of the pattern is a face of u + 3 sides, so that each owner has
+// one row, and its key says how many of the fields count.
 #pragma once
 
 #include "sim/program/binder.h"
@@ -46,9 +46,9 @@ private:
 // What a body lacks for criteria on borders: faces with so many sides that no row holds them. Empty: nothing.
 std::string lacking_for_borders(const EmbeddedMap& map);
 
-// The unit vector n. Of a sheet, along AB × (n1 + n2), in the sheet and across the edge of d; n1, n2 are the unit normals
-// of its faces, made to agree across it (so that it works on a Möbius band); where they cancel, n1 alone counts. Of a
-// solid, the mean normal of the face of d. Zero where there is no direction.
+// The unit vector n. Of a sheet, along AB × (n1 + n2), in the sheet and across the edge of d; n1, n2 are the
+// unit normals of its faces, made to agree across it (so that it works on a Möbius band); where they cancel, n1
+// alone counts. Of a solid, the mean normal of the face of d. Zero where there is no direction.
 Vec3 across_border(const EmbeddedMap& map, const Record* position, Dart d);
 
 } // namespace rend

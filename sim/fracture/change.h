@@ -1,7 +1,7 @@
 // Topological changes: what a law does where its criterion says so (thesis 7.3; design: mechanics, section 4).
 //
-// Every change is made of one operation, the separation of two elements. Embeddings follow by their own policies.
-// Adding one: a file with a function `ChangeType my_change()`, and its name in all_changes().
+// Every change is made of one operation, the separation of two elements. Embeddings follow by their own
+// policies. Adding one: a file with a function `ChangeType my_change()`, and its name in all_changes().
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -18,9 +18,9 @@ struct ChangeType {
   Cell own; // of which it is the default
   bool (*fits)(Cell cell, int dimension);
   bool (*elementary)(Cell cell); // needs the forces of each element by itself
-  // Applies the change at a candidate if it is still possible; false: it was not, and nothing was changed. Slots and
-  // positions are those of before the edit, links those of now. `darts`: of the candidate's cell before the edit, those
-  // that are left of them; the cell may have fallen apart since.
+  // Applies the change at a candidate if it is still possible; false: it was not, and nothing was changed.
+  // Slots and positions are those of before the edit, links those of now. `darts`: of the candidate's cell
+  // before the edit, those that are left of them; the cell may have fallen apart since.
   bool (*apply)(Edit&, const ForceView&, Cell cell, const Candidate&, std::span<const Dart> darts);
 };
 

@@ -111,7 +111,8 @@ template <class Shape> REND_INLINE void run(const Scan& scan) {
     if (found == 0) continue;
     const std::size_t begin = block * PackedRows::block_size;
     for (std::size_t key = begin; key < begin + PackedRows::block_size && key < scan.rows.keys(); ++key)
-      if (scan.rows.live(key) && (found >> (scan.rows.row(key) - scan.rows.begin(block)) & 1)) scan.keys.push_back(key);
+      if (scan.rows.live(key) && (found >> (scan.rows.row(key) - scan.rows.begin(block)) & 1))
+        scan.keys.push_back(key);
   }
 }
 

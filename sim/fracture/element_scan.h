@@ -1,4 +1,5 @@
-// The elements of a body's continuum that exceed a bound: most are ruled out, four at a time, without any rotation.
+// The elements of a body's continuum that exceed a bound: most are ruled out, four at a time, without any
+// rotation.
 //
 // With F the mean over the element, for every R with orthonormal columns (F − R)ᵀ(F − R) ≽ 0, that is
 //
@@ -8,9 +9,9 @@
 //
 //   λmax(σ) = λ tr ε + 2μ λmax(ε)  ≤  λ tr E + 2μ (tr E/d + √(1 − 1/d) |dev E|)
 //
-// which is tight: at a strain of 1 % it is 0.5 % above under tension along one axis. Under compression, with the closest
-// rotation and det F > 0, RᵀF = √(2E + I) and c = 2/(1 + √(1 + 2m)), m ≤ λmin(E), give ε ≽ c E where E is negative and
-// tr ε ≥ tr E − c²|E|²/2. What no bound is known of is looked at.
+// which is tight: at a strain of 1 % it is 0.5 % above under tension along one axis. Under compression, with
+// the closest rotation and det F > 0, RᵀF = √(2E + I) and c = 2/(1 + √(1 + 2m)), m ≤ λmin(E), give ε ≽ c E
+// where E is negative and tr ε ≥ tr E − c²|E|²/2. What no bound is known of is looked at.
 #pragma once
 
 #include "sim/fracture/criterion.h"
@@ -27,8 +28,8 @@ public:
 
   const Continuum& continuum() const { return continuum_; }
 
-  // Calls f(smallest dart of the element) for every element whose largest principal value (with compression: by size) may
-  // exceed the threshold, and for some others, in an order that is a function of the map alone.
+  // Calls f(smallest dart of the element) for every element whose largest principal value (with compression: by
+  // size) may exceed the threshold, and for some others, in an order that is a function of the map alone.
   template <class F> void each_above(const ForceView& view, double threshold, F&& f) {
     for (std::size_t n = 0; n < continuum_.parts().size(); ++n) {
       const Binder& binder = rows_of(view, n);

@@ -1,5 +1,5 @@
-// The global criterion on edges and faces (thesis 7.5): |(Σ f_k)·n|, with f_k the sum of all internal forces on the k-th
-// shared vertex.
+// The global criterion on edges and faces (thesis 7.5): |(Σ f_k)·n|, with f_k the sum of all internal forces on
+// the k-th shared vertex.
 //
 // Σ |f_k| bounds it, and rules most borders out before any normal is formed.
 #include "sim/fracture/border.h"

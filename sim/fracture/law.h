@@ -1,7 +1,8 @@
 // A law of tearing: a criterion, a threshold and a change, freely combined where their places fit (thesis 7.1).
 //
 // All candidates of a law are found on the unchanged map; then the changes are made in order, the largest value
-// first, ties by smallest dart, each checked again for being still possible; and the map is brought up to date once.
+// first, ties by smallest dart, each checked again for being still possible; and the map is brought up to date
+// once.
 #pragma once
 
 #include "sim/fracture/births.h"
@@ -37,8 +38,8 @@ public:
   // What exceeds the threshold, sorted. Looks, and changes nothing.
   const std::vector<Candidate>& find(const ForceView& view);
 
-  // Makes the changes that find() asked for. Returns how many were made; appends an event for each, and what it undid
-  // to `births`, if there is one.
+  // Makes the changes that find() asked for. Returns how many were made; appends an event for each, and what it
+  // undid to `births`, if there is one.
   int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events, Births* births = nullptr);
 
   void rebind(const Changes& changes) { criterion_->rebind(changes); }

@@ -1,11 +1,12 @@
-// The single springs and hinges of a body, of one kind or all, whether or not the program folds parallel ones into a row.
+// The single springs and hinges of a body, of one kind or all, whether or not the program folds parallel ones
+// into a row.
 //
 // A row's own force says too little: k and λ of parallel springs may cancel. But
 //
 //   |k_e (l − l0) + λ_e u·w|  ≤  Σk |l − l0| + Σλ |u·w|
 //
-// for each spring e that the row stands for, since the rest length is common; only where the right side exceeds the
-// threshold are single springs looked at. A hinge has a row of its own.
+// for each spring e that the row stands for, since the rest length is common; only where the right side exceeds
+// the threshold are single springs looked at. A hinge has a row of its own.
 #pragma once
 
 #include "sim/fracture/criterion.h"
@@ -20,8 +21,8 @@ public:
 
   bool empty() const { return of_.empty(); }
 
-  // Calls f(unit now) for every unit whose force [N] (moment [N.m] of a hinge) may exceed the threshold, and for some
-  // others, in an order that is a function of the map alone.
+  // Calls f(unit now) for every unit whose force [N] (moment [N.m] of a hinge) may exceed the threshold, and
+  // for some others, in an order that is a function of the map alone.
   template <class F> void each_above(const ForceView& view, double threshold, F&& f) const {
     each_row(view, [&](const Binder& binder, std::size_t key, std::size_t row) {
       if (binder.interaction()->law->particles() == 2 && bound(view, binder.rows(), row) <= threshold) return;

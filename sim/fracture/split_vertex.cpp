@@ -1,10 +1,11 @@
-// Split-vertex: the elements around a vertex are parted by a plane through it (thesis 7.3.3, after O'Brien & Hodgins
-// 1999), without cutting any of them:
+// Split-vertex: the elements around a vertex are parted by a plane through it (thesis 7.3.3, after O'Brien &
+// Hodgins 1999), without cutting any of them:
 //
 //   side of element e = [(c_e − x)·n ≥ 0],   c_e the mean of its corners
 //
-// and every border at the vertex between elements of different sides is separated. Of an edge, one end is split, the
-// plane across the edge: that end A where the elements that hold the edge pull more along it, by Σ_e |f_e,A · u|.
+// and every border at the vertex between elements of different sides is separated. Of an edge, one end is
+// split, the plane across the edge: that end A where the elements that hold the edge pull more along it, by Σ_e
+// |f_e,A · u|.
 #include "sim/fracture/change.h"
 
 #include "sim/base/check.h"
@@ -17,7 +18,8 @@
 namespace rend {
 namespace {
 
-// The slots of the corners that the darts belong to, each once, increasing: of before the edit, which changes none.
+// The slots of the corners that the darts belong to, each once, increasing: of before the edit, which changes
+// none.
 std::vector<Slot> corners_of(const EmbeddedMap& map, std::span<const Dart> darts) {
   const Orbit corner = corner_orbit(map.dimension());
   std::vector<Slot> slots;

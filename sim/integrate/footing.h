@@ -24,9 +24,9 @@ std::optional<std::string> drift_of(const BlockPattern& pattern, const double* i
 bool can_turn(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
               const Record* position);
 
-// For pieces that came off: holds as many coordinates of each piece that can move off as a whole (or turn, where
-// nothing `turns` with the body) as keep it in its place and leave it to take its own shape, and marks its vertices.
-// Without loads those coordinates carry nothing. `loose`: one per vertex slot.
+// For pieces that came off: holds as many coordinates of each piece that can move off as a whole (or turn,
+// where nothing `turns` with the body) as keep it in its place and leave it to take its own shape, and marks
+// its vertices. Without loads those coordinates carry nothing. `loose`: one per vertex slot.
 void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Record* position, bool turns,
                std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& loose);
 
@@ -44,8 +44,9 @@ struct Footing {
   bool keeps_turned = false;       // what can turn is loose
   TurningRoom room;                // scratch; empty until something can turn
 
-  // With `held` as the system has it: holds and marks what came off since the body stood, and refuses (Unsolved) a body
-  // that can move off or turn without resistance. Position and size as above; the matrix is written.
+  // With `held` as the system has it: holds and marks what came off since the body stood, and refuses
+  // (Unsolved) a body that can move off or turn without resistance. Position and size as above; the matrix is
+  // written.
   void check(System& system, double time, const Records& position, double size, BlockMatrix& matrix);
 };
 
@@ -54,7 +55,8 @@ double stiffness_of(const Block3& diagonal); // the largest diagonal entry [N/m]
 // The longest side of the box around all vertices [m].
 double extent(const Records& position, const double* inverse_mass);
 
-// [1/s²]: the mean of the diagonal for each unit of mass. inverse_mass: [1/kg], one per vertex slot, 0: free slot.
+// [1/s²]: the mean of the diagonal for each unit of mass. inverse_mass: [1/kg], one per vertex slot, 0: free
+// slot.
 double mean_stiffness(const BlockMatrix& matrix, const double* inverse_mass, std::size_t count);
 
 } // namespace rend

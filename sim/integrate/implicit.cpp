@@ -11,12 +11,12 @@
 // the state, and δ leads downhill on the potential of which −R is the gradient. s is halved where |R| grows,
 // unless R·δ at both ends of the step says that the potential falls. Norms are those of kinetic energy, |R|² =
 // Σ |R_i|²/m_i. It stops where |R| is at most 1e-5 of the terms it is the difference of, or round-off; each
-// linear system is solved to a hundredth, and the matrix is kept while |R| falls to a tenth. A step
-// that is not there after 50 iterations (cloth that buckles, wind in gusts) is gone in two halves, these in halves ...
+// linear system is solved to a hundredth, and the matrix is kept while |R| falls to a tenth. A step that is not
+// there after 50 iterations (cloth that buckles, wind in gusts) is gone in two halves, these in halves ...
 // 1/1024 at least, and else given up (Unsolved).
 //
-// Loads that depend on the state (pressure, wind, what follows the body) have their part in the matrix, h² ∂load/∂x +
-// h ∂load/∂v (load_tangent.h).
+// Loads that depend on the state (pressure, wind, what follows the body) have their part in the matrix, h²
+// ∂load/∂x + h ∂load/∂v (load_tangent.h).
 //
 // Prescribed coordinates are where they will be from the start, and their rows and columns are those of the
 // identity. Order 1. An undamped oscillator loses the factor 1/√(1 + ω²h²) a step (design: verify).

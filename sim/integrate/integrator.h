@@ -47,8 +47,9 @@ public:
     return 0;
   } // of its own arrays, which stay between steps, without the solver's
 
-  // What one step hands on to the next besides the state of the body, for those who stop and go on later: a scheme made
-  // anew and given the same numbers goes on to the bit, and counts on. `carry` takes what `carried` gave (CHECK).
+  // What one step hands on to the next besides the state of the body, for those who stop and go on later: a
+  // scheme made anew and given the same numbers goes on to the bit, and counts on. `carry` takes what `carried`
+  // gave (CHECK).
   virtual std::vector<double> carried() const { return {}; }
   virtual void carry(std::span<const double> numbers);
 

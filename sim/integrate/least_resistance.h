@@ -2,9 +2,10 @@
 //
 //   J φ = λ M φ,   J = −∂(f + load)/∂x at the free coordinates;   the least λ [1/s²]
 //
-// Elements that turn by one mean rotation give no gradient. The symmetric part A of their tangent J bounds λ from below
-// alone, and where volumes are next to incompressible, A is no more positive in states in which every motion comes to
-// rest again. With a shift s from which on A + s M is positive, all λ lie above −s, and inverse iteration
+// Elements that turn by one mean rotation give no gradient. The symmetric part A of their tangent J bounds λ
+// from below alone, and where volumes are next to incompressible, A is no more positive in states in which
+// every motion comes to rest again. With a shift s from which on A + s M is positive, all λ lie above −s, and
+// inverse iteration
 //
 //   φ ← (J + s M)⁻¹ M φ
 //

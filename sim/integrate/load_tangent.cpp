@@ -82,8 +82,8 @@ bool LoadTangent::multiply(const Records& along, Records& out) {
   return sum3(sum) != 0;
 }
 
-// The next direction v_{n+1}: what y − L A⁻¹ y makes of v_n, without its parts along those before (Gram-Schmidt,
-// modified). False: A could not be solved with.
+// The next direction v_{n+1}: what y − L A⁻¹ y makes of v_n, without its parts along those before
+// (Gram-Schmidt, modified). False: A could not be solved with.
 bool LoadTangent::add_direction(LinearSolver& linear, std::size_t n, double digits) {
   if (n > 0 && !linear.solve(basis_[n], solved_[n], digits)) return false;
   basis_[n + 1].resize(basis_[n].size());

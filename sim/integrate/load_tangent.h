@@ -11,8 +11,8 @@
 // (Knoll & Keyes, "Jacobian-free Newton-Krylov methods", 2004). Loads that do not change along δ cost nothing
 // more than to see that.
 //
-// Where asked (with_forces), L also has what a symmetrised matrix leaves out of the internal forces f: elements that
-// turn by one mean rotation are no gradient, the less the stiffer their volume is. Then
+// Where asked (with_forces), L also has what a symmetrised matrix leaves out of the internal forces f: elements
+// that turn by one mean rotation are no gradient, the less the stiffer their volume is. Then
 //
 //   L δ = A δ + ∂/∂ε (f + load)(x + ε δ, v)
 #pragma once
@@ -34,8 +34,8 @@ public:
   void at(System& system, double time, const Records& position, const Records& velocity,
           const std::vector<std::uint8_t>& held, const Scales& scales);
 
-  // Until the next at(): with the internal forces as well, of a matrix that is their tangent by position, to which
-  // shift M [1/s²] was added (and stays). Not with a by_velocity or a share.
+  // Until the next at(): with the internal forces as well, of a matrix that is their tangent by position, to
+  // which shift M [1/s²] was added (and stays). Not with a by_velocity or a share.
   void with_forces(const BlockMatrix& matrix, double shift = 0);
 
   // L δ, 0 at held coordinates; false: it is 0 all over, and not written.

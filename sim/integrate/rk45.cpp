@@ -1,29 +1,32 @@
-// The embedded pair of Dormand and Prince, of orders 5 and 4, which chooses its own steps (Hairer, Nørsett, Wanner,
-// Solving Ordinary Differential Equations I, II.4 and II.5, table 5.2).
+// The embedded pair of Dormand and Prince, of orders 5 and 4, which chooses its own steps (Hairer, Nørsett,
+// Wanner, Solving Ordinary Differential Equations I, II.4 and II.5, table 5.2).
 //
-// With its coefficients a_ij (whose last row is the solution of order 5) and c_i = Σ_j a_ij, for x'' = a(x, x'):
+// With its coefficients a_ij (whose last row is the solution of order 5) and c_i = Σ_j a_ij, for x'' = a(x,
+// x'):
 //
 //   v_i = v + h Σ_j a_ij a_j,    x_i = x + c_i h v + h² Σ_j ā_ij a_j,    ā = a·a,    a_i = a(x_i, v_i)
 //
-// which is the pair itself with the stages' velocities put in: accelerations alone are kept. The seventh stage is
-// the new state, and its acceleration the first one of what follows. The first stage of all is the force that the laws
-// have looked at. With e the difference of both solutions' weights, what the step of order 4 has wrong is
+// which is the pair itself with the stages' velocities put in: accelerations alone are kept. The seventh stage
+// is the new state, and its acceleration the first one of what follows. The first stage of all is the force
+// that the laws have looked at. With e the difference of both solutions' weights, what the step of order 4 has
+// wrong is
 //
-//   e_v = h Σ e_j a_j,    e_x = h² Σ_j (e·a)_j a_j,    error = √( Σ m (e_x² + (H e_v)²) / Σ m ) / (tolerance · size)
+//   e_v = h Σ e_j a_j,    e_x = h² Σ_j (e·a)_j a_j,
+//   error = √( Σ m (e_x² + (H e_v)²) / Σ m ) / (tolerance · size)
 //
-// over all vertices, each with its mass m; size is the body's. H is the step of the preset, at whose end laws, contact
-// and frames look: an error of velocity counts as the displacement that it makes until then. What is prescribed has
-// no acceleration of its own; where it starts to move or is let go, what hangs on it tells.
+// over all vertices, each with its mass m; size is the body's. H is the step of the preset, at whose end laws,
+// contact and frames look: an error of velocity counts as the displacement that it makes until then. What is
+// prescribed has no acceleration of its own; where it starts to move or is let go, what hangs on it tells.
 //
-// The step of the preset is gone in parts, none longer than itself, the last one to its end. A part of error above 1
-// is tried again, 0.9 error^(-1/5) as long. After one that was kept, the next is
+// The step of the preset is gone in parts, none longer than itself, the last one to its end. A part of error
+// above 1 is tried again, 0.9 error^(-1/5) as long. After one that was kept, the next is
 //
 //   0.9 (last error / error³)^(1/20)
 //
-// as long, which looks at how errors grow, too (II.4, "PI step size control"): what is stiff holds parts at the edge of
-// stability, where without that every third part is rejected. Both between a fifth and five times, and not longer after
-// a part that was tried again. How long, and the last error, one step tells the next (carried). A part below 2^-20 of the
-// step is not tried any more (Unsolved).
+// as long, which looks at how errors grow, too (II.4, "PI step size control"): what is stiff holds parts at the
+// edge of stability, where without that every third part is rejected. Both between a fifth and five times, and
+// not longer after a part that was tried again. How long, and the last error, one step tells the next
+// (carried). A part below 2^-20 of the step is not tried any more (Unsolved).
 #include "sim/base/check.h"
 #include "sim/integrate/integrator.h"
 #include "sim/solve/vectors.h"

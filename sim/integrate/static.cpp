@@ -3,8 +3,9 @@
 //   F(x) = f(x, 0) + M g + loads = 0       at the free coordinates; v' = 0, and viscosity has no part
 //
 // 1. Newton's method with the exact tangent, symmetrised: K δ = F − K u, where u are the ways of the prescribed
-//    coordinates. A linear model is solved by the first iteration: K u = R. Loads that follow the body have their own
-//    part in it (load_tangent.h): K − L in place of K; after four iterations also what symmetrising left out.
+//    coordinates. A linear model is solved by the first iteration: K u = R. Loads that follow the body have
+//    their own part in it (load_tangent.h): K − L in place of K; after four iterations also what symmetrising
+//    left out.
 // 2. Where that fails, it goes a part of the way: half of what is new in prescribed coordinates and forces,
 //    half of that ...: F(x) = (1 − s) F(x_start), s from 0 to 1. No line search here: a slender beam must first
 //    be stretched by the bending that a linear step sees, and loses that in the next.
@@ -18,12 +19,13 @@
 // An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. What rounding
 // positions makes of F is taken where F is; far away it could exceed all forces, and anything would count: so
 // it is at most 1e-6 of them, or what it is within the reach of the step under the stiffness at its start (a
-// body without forces has no other measure). Newton's method must also find the tangent positive there, or, where it is
-// not symmetric, all motions resisted (least_resistance.h): what buckles is not left upright. (Not asked where loads
-// follow the body, as in a strip that a moment bends to a circle.) Relaxing goes downhill, and stays on a ridge only
-// where symmetry gives it no side. A piece that can move off as a whole is refused, and so is one that can turn in a
-// model of small displacements, where f does not turn with the body: no turn ever meets a resistance. Once the body has
-// stood, what comes off it is no reason to stop: such a piece takes its own shape where it is, without loads.
+// body without forces has no other measure). Newton's method must also find the tangent positive there, or,
+// where it is not symmetric, all motions resisted (least_resistance.h): what buckles is not left upright. (Not
+// asked where loads follow the body, as in a strip that a moment bends to a circle.) Relaxing goes downhill,
+// and stays on a ridge only where symmetry gives it no side. A piece that can move off as a whole is refused,
+// and so is one that can turn in a model of small displacements, where f does not turn with the body: no turn
+// ever meets a resistance. Once the body has stood, what comes off it is no reason to stop: such a piece takes
+// its own shape where it is, without loads.
 #include "sim/base/check.h"
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
@@ -344,8 +346,8 @@ bool StaticSolve::loads_first() {
   return in_parts_of_the_way();
 }
 
-// What hangs by a hinge since it tore may find no rest, where a mean rotation leaves moments of its own: from then on
-// it stays as what came off.
+// What hangs by a hinge since it tore may find no rest, where a mean rotation leaves moments of its own: from
+// then on it stays as what came off.
 bool StaticSolve::without_turns(const StateView& now) {
   if (!footing_.stood || footing_.keeps_turned ||
       !can_turn(*system_->pattern(), system_->inverse_mass, footing_.held, start_.data()))

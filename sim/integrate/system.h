@@ -24,9 +24,9 @@ struct State {
     velocity.resize(vertices);
   }
 
-  // Writes the new state of a vertex, and looks on the way how fast it is and whether it is finite: 0 times what is
-  // not is not 0. In a loop `seen` is a local, to be added to the probe at its end: memory would make each vertex wait
-  // for the one before it.
+  // Writes the new state of a vertex, and looks on the way how fast it is and whether it is finite: 0 times
+  // what is not is not 0. In a loop `seen` is a local, to be added to the probe at its end: memory would make
+  // each vertex wait for the one before it.
   REND_INLINE void write(std::size_t i, Double4 x, Double4 v, Double4& seen) {
     if (large) {
       stream(position[i], x);
@@ -39,7 +39,8 @@ struct State {
   }
   REND_INLINE void put(std::size_t i, Double4 x, Double4 v) { write(i, x, v, probe); }
 
-  // Σ |v|² over all vertex slots [m²/s²], as far as they were put; not finite where a number of the state is not.
+  // Σ |v|² over all vertex slots [m²/s²], as far as they were put; not finite where a number of the state is
+  // not.
   double motion() const { return probe[0] + probe[1] + probe[2]; }
   bool finite() const { return std::isfinite(motion()); }
   void look(); // the same of what was written without put()

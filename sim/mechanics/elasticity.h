@@ -1,8 +1,8 @@
 // <elasticity>: a continuum on the elements of a body (design: mechanics, "Element stiffness", "Mass-tensor").
 //
-// One interaction for each kind of element that the body has; owner the element itself (FaceOfVolume of a sheet, Volume
-// of a solid), support the same, so that a separation leaves its numbers alone. A mass-tensor body has interactions on
-// its vertices, edges and diagonals instead (mass_tensor.h).
+// One interaction for each kind of element that the body has; owner the element itself (FaceOfVolume of a
+// sheet, Volume of a solid), support the same, so that a separation leaves its numbers alone. A mass-tensor
+// body has interactions on its vertices, edges and diagonals instead (mass_tensor.h).
 //
 // Adding a model: a word in the list of `model`, and its interactions in make_elasticity().
 #pragma once
@@ -24,8 +24,8 @@ struct ElasticityRequest {
 // thickness, or a solid with one; no element that fits.
 std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, const ElasticityRequest& request);
 
-// The linear elements that mass-tensors are made of, to be asked for stress and forces. They are no embedding: the numbers
-// of a unit are made when they are asked for, and last until the next are.
+// The linear elements that mass-tensors are made of, to be asked for stress and forces. They are no embedding:
+// the numbers of a unit are made when they are asked for, and last until the next are.
 std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map,
                                                           const MassTensorRequest& request);
 

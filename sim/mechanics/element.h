@@ -1,15 +1,15 @@
-// Finite elements as they lie in the map: their kinds, the words from an owner's first dart to their corners, and what
-// the shape functions give at rest.
+// Finite elements as they lie in the map: their kinds, the words from an owner's first dart to their corners,
+// and what the shape functions give at rest.
 //
 // With N_n the shape functions over a reference element and r_n the rest positions, at each integration point
 //
 //   J = Σ r_n ∇̂N_nᵀ,   G_n = J⁻ᵀ ∇̂N_n,   F = Σ x_n G_nᵀ = (Σ x_n ∇̂N_nᵀ) J⁻¹,   w = |det J| ŵ
 //
-// so that J⁻¹ and w are all that an element carries, ten numbers of a tetrahedron. The ∇̂N_n are the same for all of a
-// kind. Reference elements (corners as the words find them): [0,1]² and [0,1]³ for quads and hexahedra, the unit
-// triangle and tetrahedron, their product with [0,1] for a prism. A pyramid is a cube whose top is drawn together to the
-// apex: the rational shape functions of 5 nodes, for which 2 × 2 × 2 points are exact on every pyramid with a flat
-// parallelogram as base.
+// so that J⁻¹ and w are all that an element carries, ten numbers of a tetrahedron. The ∇̂N_n are the same for
+// all of a kind. Reference elements (corners as the words find them): [0,1]² and [0,1]³ for quads and
+// hexahedra, the unit triangle and tetrahedron, their product with [0,1] for a prism. A pyramid is a cube whose
+// top is drawn together to the apex: the rational shape functions of 5 nodes, for which 2 × 2 × 2 points are
+// exact on every pyramid with a flat parallelogram as base.
 //
 // Where the corners are counted the other way round, det J is negative, and gradients come out the same.
 #pragma once
@@ -45,8 +45,8 @@ struct ElementShape {
 
 const ElementShape& shape_of(ElementKind kind);
 
-// The element that d lies in (its <0,1> in a sheet, its <0,1,2> in a solid), and which unit's words lead from d to its
-// corners. None: it is open, or of another kind.
+// The element that d lies in (its <0,1> in a sheet, its <0,1,2> in a solid), and which unit's words lead from d
+// to its corners. None: it is open, or of another kind.
 struct ElementPlace {
   ElementKind kind;
   std::size_t unit;
@@ -60,14 +60,14 @@ template <ElementKind kind> bool element_present(const GMap& map, Dart d, std::s
   return place && place->kind == kind && place->unit == unit;
 }
 
-// Of a sheet's element: its columns are the direction of the first edge, the one across it in the plane, and the normal,
-// that of the area vector (a warped quad's mean gradient then lies in that plane). Of a solid's: the first edge, the
-// side of the last edge of the first face, and what makes it right-handed.
+// Of a sheet's element: its columns are the direction of the first edge, the one across it in the plane, and
+// the normal, that of the area vector (a warped quad's mean gradient then lies in that plane). Of a solid's:
+// the first edge, the side of the last edge of the first face, and what makes it right-handed.
 Eigen::Matrix3d rest_frame(const ElementShape& shape, const Vec3* rest);
 
-// Writes J⁻¹ (dimension × dimension, row by row) and w of each point, one point after another: shape.values() numbers.
-// Rest axes are the columns of `frame`; of a sheet the first two, and w [m³] is area times thickness. False: the element
-// has no volume, or is folded, and all are 0.
+// Writes J⁻¹ (dimension × dimension, row by row) and w of each point, one point after another: shape.values()
+// numbers. Rest axes are the columns of `frame`; of a sheet the first two, and w [m³] is area times thickness.
+// False: the element has no volume, or is folded, and all are 0.
 bool write_element(const ElementShape& shape, const Vec3* rest, const Eigen::Matrix3d& frame, double thickness,
                    double* values);
 

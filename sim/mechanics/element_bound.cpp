@@ -1,8 +1,9 @@
 // The largest eigenvalue of an element's stiffness.
 //
-// Of a simplex B is constant: u = M⁻¹ w σ G gives ε = w sym(H σ) with H = Σ G_n G_nᵀ/m_n. In the principal axes of H the
-// shears stand alone, w μ (h_i + h_j), never above the largest of the three stretches, those of w (2μ D + λ √h √hᵀ) with
-// D = diag(h): two problems of 3 × 3 instead of one of 12 × 12, 1 µs where the latter takes 10.
+// Of a simplex B is constant: u = M⁻¹ w σ G gives ε = w sym(H σ) with H = Σ G_n G_nᵀ/m_n. In the principal axes
+// of H the shears stand alone, w μ (h_i + h_j), never above the largest of the three stretches, those of w (2μ
+// D + λ √h √hᵀ) with D = diag(h): two problems of 3 × 3 instead of one of 12 × 12, 1 µs where the latter takes
+// 10.
 #include "sim/mechanics/element_law.h"
 
 #include <Eigen/Eigenvalues>

@@ -254,8 +254,8 @@ ElementLaw::ElementLaw(const ElementShape& shape, ElasticModel model, Rotation r
 
 namespace {
 
-// As write_element, each point in the rest element's own tangent plane there: a quad that is warped at rest then has
-// no strain at rest. False also where it is folded.
+// As write_element, each point in the rest element's own tangent plane there: a quad that is warped at rest
+// then has no strain at rest. False also where it is folded.
 bool write_in_tangent_planes(const ElementShape& shape, const Vec3* rest, const Matrix3d& frame,
                              double thickness, double* values) {
   ElementShape one = shape;

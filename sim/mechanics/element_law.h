@@ -1,18 +1,22 @@
-// Linear and co-rotational elasticity of one element (thesis 2.3.3, 6.1; design: mechanics, "Element stiffness").
+// Linear and co-rotational elasticity of one element (thesis 2.3.3, 6.1; design: mechanics, "Element
+// stiffness").
 //
-// With F at each integration point (element.h), from x + βv where the material is damped (Rayleigh, stiffness part),
-// and R the rotation of the mean of F over the volume, from x alone (linear: none),
+// With F at each integration point (element.h), from x + βv where the material is damped (Rayleigh, stiffness
+// part), and R the rotation of the mean of F over the volume, from x alone (linear: none),
 //
 //   ε = sym(RᵀF) − I,   σ = λ tr ε I + 2μ ε,   f_n = −Σ_g w R σ G_n
 //
-// which is −K(x − x0) of the linear element, and −R K (Rᵀx − x0) of the co-rotational one, without ever forming K
-// (2.33 of the thesis has the wrong sign). A sheet has two rest axes, R is 3 × 2, and σ is that of plane stress,
-// λ' = Eν/(1 − ν²). For a simplex and the polar R the force is −∇Σ w(μ|ε|² + λ/2 (tr ε)²); elements with one mean
-// rotation have no energy, what is reported is that sum. A quad of a sheet turns by an R of its own at each point, and
-// has that energy: with one mean rotation (design: mechanics) a warped quad, which bends freely, reads its warp as
-// compression and makes energy without end (0.2 to 7e4 J in 3 s of a free sheet of 8 × 8). The stiffness, with g_n = R G_n and P = R Rᵀ,
+// which is −K(x − x0) of the linear element, and −R K (Rᵀx − x0) of the co-rotational one, without ever forming
+// K (2.33 of the thesis has the wrong sign). A sheet has two rest axes, R is 3 × 2, and σ is that of plane
+// stress, λ' = Eν/(1 − ν²). For a simplex and the polar R the force is −∇Σ w(μ|ε|² + λ/2 (tr ε)²); elements
+// with one mean rotation have no energy, what is reported is that sum. A quad of a sheet turns by an R of its
+// own at each point, and has that energy: with one mean rotation (design: mechanics) a warped quad, which bends
+// freely, reads its warp as compression and makes energy without end (0.2 to 7e4 J in 3 s of a free sheet of 8
+// × 8). The stiffness, with g_n = R G_n and P = R Rᵀ,
 //
-//   K_ij = Σ_g w (λ g_i g_jᵀ + μ g_j g_iᵀ + μ (g_i·g_j) P)  + ∂f/∂R : ∂R/∂x   (the latter in the exact tangent alone)
+//   K_ij = Σ_g w (λ g_i g_jᵀ + μ g_j g_iᵀ + μ (g_i·g_j) P)  + ∂f/∂R : ∂R/∂x
+//
+// (the latter in the exact tangent alone).
 #pragma once
 
 #include "sim/mechanics/element.h"
@@ -40,8 +44,8 @@ public:
   Rotation rotation() const { return rotation_; }
   const ElasticMaterial& material() const { return material_; }
 
-  // The numbers of a unit: of a linear sheet its rest axes (3 × 2, column by column), then J⁻¹ and w of each point.
-  // False: the element has no volume.
+  // The numbers of a unit: of a linear sheet its rest axes (3 × 2, column by column), then J⁻¹ and w of each
+  // point. False: the element has no volume.
   bool write_unit(const Vec3* rest, double thickness, double* unit) const;
   int first_point() const { return values() - shape_->values(); } // where the points begin
 
@@ -64,8 +68,8 @@ private:
 std::shared_ptr<const ElementLaw> element_law(ElementKind kind, ElasticModel model, Rotation rotation,
                                               const ElasticMaterial& material);
 
-// λmax of K [N/m] of an element whose points (J⁻¹ and w) are given; with masses, of M^(−1/2) K M^(−1/2) [1/s²], corners
-// without mass held.
+// λmax of K [N/m] of an element whose points (J⁻¹ and w) are given; with masses, of M^(−1/2) K M^(−1/2) [1/s²],
+// corners without mass held.
 double largest_stiffness(const ElementShape& shape, const double* points, const ElasticMaterial& material,
                          const double* mass);
 

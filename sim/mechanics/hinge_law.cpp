@@ -20,7 +20,8 @@ double hinge_angle(const HingePoints& x) {
   const Vec3 hinge = x[1] - x[0];
   const double length = hinge.norm();
   if (length == 0) return 0;
-  // From the hinge to the middle of each side's outer vertices: in the plane of the triangle (hinge, face centre).
+  // From the hinge to the middle of each side's outer vertices: in the plane of the triangle (hinge, face
+  // centre).
   const Vec3 one = 0.5 * ((x[2] - x[0]) + (x[3] - x[0]));
   const Vec3 two = 0.5 * ((x[6] - x[0]) + (x[7] - x[0]));
   const Vec3 n1 = hinge.cross(one), n2 = two.cross(hinge);

@@ -1,9 +1,10 @@
-// What an interaction is: an orbit that causes it, a pattern that names its particles, a law that gives the force.
+// What an interaction is: an orbit that causes it, a pattern that names its particles, a law that gives the
+// force.
 //
 // (thesis 6.2; design: mechanics, "Interactions".) The parameters are embedded on the orbit that causes the
-// interaction (the owner), so that a separation leaves them alone. The pattern is data, words of α-links, so that it
-// can be walked forwards (to bind rows) and backwards (to find which rows an edit concerns). One owner may carry
-// several units: a rectangle carries two diagonals.
+// interaction (the owner), so that a separation leaves them alone. The pattern is data, words of α-links, so
+// that it can be walked forwards (to bind rows) and backwards (to find which rows an edit concerns). One owner
+// may carry several units: a rectangle carries two diagonals.
 //
 // Adding one: a file with a function `InteractionType my_interaction()`, and its name in all_interactions().
 #pragma once
@@ -30,8 +31,8 @@ struct Pattern {
   // Owners whose units may act between the same particles: their rows fold into one, that of the smallest slot.
   // Each word is a palindrome or a single link, so that the relation goes both ways.
   std::vector<Word> fold;
-  // Is this unit there? (an injective match; else it is silent.) Units may exclude each other: a prism's words differ
-  // with the side on which its first dart lies.
+  // Is this unit there? (an injective match; else it is silent.) Units may exclude each other: a prism's words
+  // differ with the side on which its first dart lies.
   bool (*present)(const GMap&, Dart, std::size_t unit);
 };
 

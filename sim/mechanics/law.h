@@ -1,8 +1,9 @@
 // A law of force: what the particles of one unit of an interaction do to each other.
 //
 // A unit is a spring, a hinge, an element: some particles, and some numbers of its own (stiffness, rest length,
-// gradients of shape functions ...), which are embedded on the orbit that carries it and copied into its row. This is
-// the reference, one unit at a time; a kernel (program/kernels.h) may compute many at once and must agree with it.
+// gradients of shape functions ...), which are embedded on the orbit that carries it and copied into its row.
+// This is the reference, one unit at a time; a kernel (program/kernels.h) may compute many at once and must
+// agree with it.
 //
 // Adding one: a class like these, and interactions that use it. It needs no kernel to run.
 #pragma once
@@ -26,8 +27,8 @@ constexpr int most_particles = 8;
 using UnitMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * most_particles, 3 * most_particles>;
 
-// Which derivative of the force is wanted: the true one, or one that has no negative eigenvalue (what pushes sideways
-// under compression, and the turning of a frame, are left out), for solvers that need it so.
+// Which derivative of the force is wanted: the true one, or one that has no negative eigenvalue (what pushes
+// sideways under compression, and the turning of a frame, are left out), for solvers that need it so.
 enum class Tangent { Exact, Definite };
 
 class Law {
@@ -48,8 +49,9 @@ public:
   virtual void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
                          UnitMatrix& by_velocity) const = 0;
 
-  // Numbers s_n [N/m] and d_n [N·s/m] for each particle, such that at rest −∂f/∂x ≼ diag(s_n) and −∂f/∂v ≼ diag(d_n).
-  // `mass` [kg] are those of the element corners where the forces act: how the bound is best shared out.
+  // Numbers s_n [N/m] and d_n [N·s/m] for each particle, such that at rest −∂f/∂x ≼ diag(s_n) and −∂f/∂v ≼
+  // diag(d_n). `mass` [kg] are those of the element corners where the forces act: how the bound is best shared
+  // out.
   virtual void bound(const double* unit, const Vec3* rest, const double* mass, double* stiffness,
                      double* damping) const = 0;
 

@@ -26,8 +26,8 @@ double rest_area(const EmbeddedMap& map, Dart d) {
 
 namespace {
 
-// Calls f(d) once for each face of the volume of d, with a dart of it that turns as d does: all faces are then seen
-// turning the same way from inside.
+// Calls f(d) once for each face of the volume of d, with a dart of it that turns as d does: all faces are then
+// seen turning the same way from inside.
 template <class F> void each_face_of_volume(const GMap& map, Dart d, F&& f) {
   thread_local IndexSet faces; // the smallest dart of each
   thread_local std::vector<Dart> found;

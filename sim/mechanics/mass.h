@@ -1,7 +1,8 @@
 // Mass and ambient viscosity of element corners.
 //
-// Each corner of an element carries its share; a vertex's mass is the sum over its corners. A separation regroups
-// corners and changes none, so that mass and momentum, summed over corners in dart order, keep their last bit.
+// Each corner of an element carries its share; a vertex's mass is the sum over its corners. A separation
+// regroups corners and changes none, so that mass and momentum, summed over corners in dart order, keep their
+// last bit.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -19,11 +20,13 @@ constexpr Orbit element_orbit(int dimension) {
 double rest_area(const EmbeddedMap& map,
                  Dart d); // [m²], of the face of d (a warped one: of its fan from the centre)
 
-// [m³], of the volume of d, each face taken as its fan from the mean of its corners: exact where faces are flat.
+// [m³], of the volume of d, each face taken as its fan from the mean of its corners: exact where faces are
+// flat.
 double rest_volume(const EmbeddedMap& map, Dart d);
 int corners_of_volume(const GMap& map, Dart d);
 
-// Element mass / number of corners [kg]. As for drag, orbit and support are a sheet's; on() says those of a map.
+// Element mass / number of corners [kg]. As for drag, orbit and support are a sheet's; on() says those of a
+// map.
 struct CornerMass {
   using Value = double;
   std::string name = "corner mass";

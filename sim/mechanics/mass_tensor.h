@@ -1,18 +1,19 @@
-// Mass-tensors: linear elasticity kept on vertices, edges and diagonals (Cotin et al. 2000; thesis 2.3.4, 5.3, fig. 5.24).
+// Mass-tensors: linear elasticity kept on vertices, edges and diagonals (Cotin et al. 2000; thesis 2.3.4, 5.3,
+// fig. 5.24).
 //
 //   f_i = −Σ_j K_ij u_j,   u = x − x0 (and βv),   K_ij = Σ_g w (λ G_i G_jᵀ + μ G_j G_iᵀ + μ (G_i·G_j) P)
 //
-// (P = I of a solid, the projection onto the plane of a sheet's element.) 2.31 and 2.32 of the thesis lack the sign and
-// the order of the outer products. Since K_ji = K_ijᵀ one tensor serves both ends of a pair: a tetrahedron has 4 diagonal
-// tensors and 6 pairs, a hexahedron 8 and 28. Elementary tensors lie on
+// (P = I of a solid, the projection onto the plane of a sheet's element.) 2.31 and 2.32 of the thesis lack the
+// sign and the order of the outer products. Since K_ji = K_ijᵀ one tensor serves both ends of a pair: a
+// tetrahedron has 4 diagonal tensors and 6 pairs, a hexahedron 8 and 28. Elementary tensors lie on
 //
 //   diagonal          VertexOfVolume <1,2>   (sheet: VertexOfFace <1>)
 //   edges             EdgeOfVolume <0,2>     (sheet: EdgeOfFace <0>)
 //   face diagonals    FaceOfVolume <0,1>, two of a quad
 //   volume diagonals  Volume <0,1,2>, four of a hexahedron
 //
-// and are born from the whole element, so that their support is the element. Cumulated, those between the same particles
-// are summed: folding across α3 (α2 of a sheet).
+// and are born from the whole element, so that their support is the element. Cumulated, those between the same
+// particles are summed: folding across α3 (α2 of a sheet).
 #pragma once
 
 #include "sim/mechanics/element_law.h"
@@ -25,7 +26,8 @@ struct MassTensorRequest {
   Place place;      // to blame
 };
 
-// Of one particle: K_ii row by row, and the largest eigenvalue of the whole element's K. Of two: K_ij row by row.
+// Of one particle: K_ii row by row, and the largest eigenvalue of the whole element's K. Of two: K_ij row by
+// row.
 class MassTensorLaw : public Law {
 public:
   double damping() const { return request_.material.damping; } // β [s]

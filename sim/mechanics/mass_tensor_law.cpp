@@ -37,8 +37,8 @@ public:
     by_position = tensor(unit);
     by_velocity = damping() * tensor(unit);
   }
-  // The whole element's: its pairs add nothing to it, and with equal masses at its corners this is the element's own
-  // highest frequency, where tensor by tensor one would get up to twice that.
+  // The whole element's: its pairs add nothing to it, and with equal masses at its corners this is the
+  // element's own highest frequency, where tensor by tensor one would get up to twice that.
   void bound(const double* unit, const Vec3*, const double*, double* stiffness,
              double* damping_bound) const override {
     stiffness[0] = unit[9];

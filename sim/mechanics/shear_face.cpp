@@ -48,8 +48,8 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
 }
 
 // Whether the corner of d carries a spring: every corner of a pentagon and more, of a quad the corner of its
-// smallest dart and the next one along that dart's edge. In a solid both sides of a face count for the smallest, so that
-// they carry theirs at the same corners, where they fold.
+// smallest dart and the next one along that dart's edge. In a solid both sides of a face count for the
+// smallest, so that they carry theirs at the same corners, where they fold.
 bool carries(const GMap& map, Dart d) {
   const int sides = sides_of_face(map, d);
   if (sides != 4) return sides > 4;

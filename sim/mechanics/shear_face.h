@@ -1,9 +1,9 @@
 // Shear in a face (thesis 6.2.2, fig. 6.17–6.19).
 //
 // Isotropic: both diagonals of a quad. Owner FaceOfVolume <0,1>; particles d and α0α1α0(d), α0(d) and α1α0(d).
-// Anisotropic: at a corner, a spring between the far ends of its two edges. Owner VertexOfFace <1>; particles α0(d)
-// and α0(α1(d)). Of a quad two neighbouring corners carry one each (each diagonal once), of a polygon with more
-// sides every corner. A triangle has no diagonal: there it adds nothing.
+// Anisotropic: at a corner, a spring between the far ends of its two edges. Owner VertexOfFace <1>; particles
+// α0(d) and α0(α1(d)). Of a quad two neighbouring corners carry one each (each diagonal once), of a polygon
+// with more sides every corner. A triangle has no diagonal: there it adds nothing.
 #pragma once
 
 #include "sim/mechanics/interaction.h"

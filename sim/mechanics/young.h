@@ -4,8 +4,9 @@
 //   k = h ( E/(1+ν) · A/c² + Eν/(1−ν²) · (a² + b² − c²)/(8A) )
 // A side of length l of a rectangle l × w, and its diagonals (Baudet 2009; thesis 2.21, 2.22):
 //   k = hE (w²(3ν+2) − l²) / (4lw(1+ν)),    k = hE (l² + w²) / (4lw(1+ν))
-// Of another quad l and w are the means of opposite sides. Each face adds its own. Rectangles give E and ν back at ν = 1/3 alone; elsewhere G is exact, the sheet behaves as
-// with ν_eff = 1/(3ν+2) and E_eff = 3E(1+3ν)/(2(2+3ν)).
+// Of another quad l and w are the means of opposite sides. Each face adds its own. Rectangles give E and ν back
+// at ν = 1/3 alone; elsewhere G is exact, the sheet behaves as with ν_eff = 1/(3ν+2) and E_eff =
+// 3E(1+3ν)/(2(2+3ν)).
 #pragma once
 
 #include "sim/mechanics/interaction.h"

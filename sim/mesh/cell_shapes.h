@@ -1,13 +1,14 @@
 // The four cells that solids are made of: their corners, faces and darts.
 //
-// Corners are numbered as in Gmsh: a tetrahedron 0 1 2 | 3, a hexahedron 0 1 2 3 | 4 5 6 7 and a prism 0 1 2 | 3 4 5
-// with the second ring above the first, a pyramid 0 1 2 3 | 4. A cell whose corners stand so has positive volume if
-// the first ring turns counter-clockwise as seen from the rest (Gmsh reference manual, "Node ordering").
+// Corners are numbered as in Gmsh: a tetrahedron 0 1 2 | 3, a hexahedron 0 1 2 3 | 4 5 6 7 and a prism 0 1 2 |
+// 3 4 5 with the second ring above the first, a pyramid 0 1 2 3 | 4. A cell whose corners stand so has positive
+// volume if the first ring turns counter-clockwise as seen from the rest (Gmsh reference manual, "Node
+// ordering").
 //
-// Faces are listed so that they turn counter-clockwise as seen from inside, the first ring first. Side s of a cell,
-// from a corner to the next of its face, has the darts 2s and 2s+1, at its two ends. Hence the first dart of a cell
-// stands at corner 0, looks to corner 1 and lies in the first ring: the words "", "0", "10", "210" of design
-// mechanics ("Order of an element's corners") lead to the corners 0 1 2 3 of a tetrahedron.
+// Faces are listed so that they turn counter-clockwise as seen from inside, the first ring first. Side s of a
+// cell, from a corner to the next of its face, has the darts 2s and 2s+1, at its two ends. Hence the first dart
+// of a cell stands at corner 0, looks to corner 1 and lies in the first ring: the words "", "0", "10", "210" of
+// design mechanics ("Order of an element's corners") lead to the corners 0 1 2 3 of a tetrahedron.
 #pragma once
 
 #include <array>

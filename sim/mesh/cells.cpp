@@ -120,8 +120,8 @@ void link_cells(MapEdit& edit, const Cells& cells) {
   for (const CellKind kind : cells.mesh.kinds) edit.add_linked(links[static_cast<std::size_t>(kind)]);
 }
 
-// A face as its ring of points, told from the smallest on towards its smaller neighbour: two faces have the same ring
-// if and only if these are equal, and then their darts correspond.
+// A face as its ring of points, told from the smallest on towards its smaller neighbour: two faces have the
+// same ring if and only if these are equal, and then their darts correspond.
 struct Side {
   std::uint32_t next, before; // the smallest point's neighbours, the smaller one first
   std::uint32_t across;       // of a quad; none of a triangle
@@ -150,8 +150,8 @@ Face face_of(const Cells& cells, std::size_t cell, std::size_t f) {
            cells.dart[cell] + static_cast<std::uint32_t>(shape.first[f]) + static_cast<std::uint32_t>(dart)}};
 }
 
-// All faces of all cells, in buckets by their smallest point, sorted within a bucket: few share one, so that this is
-// linear, and where very many do it is still n log n.
+// All faces of all cells, in buckets by their smallest point, sorted within a bucket: few share one, so that
+// this is linear, and where very many do it is still n log n.
 struct Buckets {
   std::vector<std::uint32_t> start; // one per point, and one more
   std::vector<Side> sides;
@@ -180,8 +180,8 @@ std::string ring_text(const CellMesh& mesh, std::uint32_t smallest, const Side& 
                          : fmt::format("{} {} {} {}", a, b, mesh.name(side.across), c);
 }
 
-// α3 between all darts of two faces with the same ring. Both rings turn as seen from inside, so that those of cells on
-// opposite sides run against each other.
+// α3 between all darts of two faces with the same ring. Both rings turn as seen from inside, so that those of
+// cells on opposite sides run against each other.
 void sew_faces(MapEdit& edit, const Cells& cells, std::uint32_t smallest, const Side& one, const Side& other) {
   if ((one.dart - other.dart) % 2 == 0) {
     const std::size_t mine = cells.cell_of(Dart{one.dart}), theirs = cells.cell_of(Dart{other.dart});

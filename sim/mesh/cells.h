@@ -1,6 +1,6 @@
-// A solid from points and cells, in linear expected time: α0 to α2 of a cell from a table (sim/mesh/cell_shapes.h),
-// α3 where two cells have a face with the same ring of points. Darts are numbered cell after cell; vertices then get
-// their slots in the order in which cells meet them.
+// A solid from points and cells, in linear expected time: α0 to α2 of a cell from a table
+// (sim/mesh/cell_shapes.h), α3 where two cells have a face with the same ring of points. Darts are numbered
+// cell after cell; vertices then get their slots in the order in which cells meet them.
 //
 // A point where cells meet that share no face becomes a vertex of each of their fans.
 #pragma once
@@ -42,8 +42,9 @@ struct SewnSolid {
   std::size_t turned = 0;           // cells that were inside out and were turned
 };
 
-// Throws MeshFault for what a solid cannot hold: a face of more than two cells, faces that lie on each other but
-// do not match (a quad on two triangles), a cell without volume or with a corner twice, an index out of range.
+// Throws MeshFault for what a solid cannot hold: a face of more than two cells, faces that lie on each other
+// but do not match (a quad on two triangles), a cell without volume or with a corner twice, an index out of
+// range.
 SewnSolid sew_cells(const CellMesh& mesh);
 
 inline std::unique_ptr<EmbeddedMap> solid_from(const CellMesh& mesh) {

@@ -24,7 +24,7 @@ std::vector<Dart> laid_out(const GMap& map, const CellShape& shape, Dart d) {
       }
     }
   }
-  std::vector<Dart> sorted = image; // a cell that is glued to itself may have a part of them, each several times
+  std::vector<Dart> sorted = image; // a cell glued to itself may have a part of them, each several times
   std::sort(sorted.begin(), sorted.end());
   return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end() ? image : std::vector<Dart>();
 }

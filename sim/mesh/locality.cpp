@@ -12,7 +12,8 @@ namespace {
 using Cell = std::array<std::uint32_t, 3>; // of a grid of 2^20 cells along each side
 constexpr int bits = 20;
 
-// The place on the Hilbert curve, by Skilling's transpose: Gray codes undone from the highest bit, then bits interleaved.
+// The place on the Hilbert curve, by Skilling's transpose: Gray codes undone from the highest bit, then bits
+// interleaved.
 std::uint64_t place_on_curve(Cell x) {
   for (std::uint32_t q = 1U << (bits - 1); q > 1; q >>= 1U) {
     for (std::uint32_t& each : x) {
@@ -75,7 +76,8 @@ std::vector<std::uint32_t> along_curve(const Elements& elements) {
   return order;
 }
 
-// Over all elements in this order, how far their corners lie from each other where points are numbered as they are met.
+// Over all elements in this order, how far their corners lie from each other where points are numbered as they
+// are met.
 std::uint64_t spread(const Elements& elements, const std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> number(elements.points.size(), Dart::none_value);
   std::uint32_t met = 0;

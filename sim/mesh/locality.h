@@ -1,9 +1,10 @@
 // The order of elements in memory: neighbours in space near each other.
 //
-// Darts, slots and rows follow the order of the elements, and a file may list them in any. Where it does so at random,
-// each element finds its corners all over memory. So elements are put along a Hilbert curve through their centres
-// (Skilling, Programming the Hilbert curve, 2004), but only where that brings the corners of an element at least twice as
-// near to each other in the order in which vertices are met: an order that is good is kept.
+// Darts, slots and rows follow the order of the elements, and a file may list them in any. Where it does so at
+// random, each element finds its corners all over memory. So elements are put along a Hilbert curve through
+// their centres (Skilling, Programming the Hilbert curve, 2004), but only where that brings the corners of an
+// element at least twice as near to each other in the order in which vertices are met: an order that is good is
+// kept.
 #pragma once
 
 #include "sim/mesh/cells.h"

@@ -2,11 +2,11 @@
 //
 //   Moka file [ascii]
 //   64 7 0 0 0 0 0 0                      eight mask numbers
-//   1 5 0 24   0 0 0 0   1 0.5 0 2        α0 α1 α2 α3 as dart numbers, from 0; four mark words; then 0, or 1 and the point
-//   ...                                   if this dart carries its vertex's point
+//   1 5 0 24   0 0 0 0   1 0.5 0 2        α0 α1 α2 α3 as dart numbers, from 0; four mark words; then 0, or 1
+//   ...                                   and the point, if this dart carries that of its vertex
 //
-// A map in which some dart is α3-sewn is a solid. Where none is, one that is closed (no dart is α2-free) bounds a volume
-// and is a solid too, and any other is a sheet.
+// A map in which some dart is α3-sewn is a solid. Where none is, one that is closed (no dart is α2-free) bounds
+// a volume and is a solid too, and any other is a sheet.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"

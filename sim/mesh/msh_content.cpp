@@ -80,7 +80,8 @@ void MshContent::add_element(const MshType& type, const Origin& origin, std::spa
     file_.source.fail(origin.offset, "the elements are more than a map holds");
 }
 
-// A file of version 2.2 holds an element once for each of its groups: which ones are there again for another group.
+// A file of version 2.2 holds an element once for each of its groups: which ones are there again for another
+// group.
 std::vector<bool> MshContent::repeats(int dimension) const {
   std::vector<bool> repeat(elements_.size(), false);
   bool several = false;

@@ -1,8 +1,9 @@
-// What a Gmsh file holds, in whichever of its forms it was written, gathered while it is read, and made a mesh of.
+// What a Gmsh file holds, in whichever of its forms it was written, gathered while it is read, and made a mesh
+// of.
 //
-// Solids make a solid, and then faces among its elements must be faces of solids: they only name groups. Without
-// solids, triangles and quads make a sheet. Lines and points only name groups. A physical group is called by its
-// name, or by its number where it has none; of one name in several dimensions it is all.
+// Solids make a solid, and then faces among its elements must be faces of solids: they only name groups.
+// Without solids, triangles and quads make a sheet. Lines and points only name groups. A physical group is
+// called by its name, or by its number where it has none; of one name in several dimensions it is all.
 #pragma once
 
 #include "sim/mesh/msh_types.h"

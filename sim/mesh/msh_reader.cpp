@@ -1,7 +1,8 @@
 // Gmsh's .msh, versions 2.2 and 4.1, ASCII and binary (Gmsh reference manual, "MSH file format").
 //
-// A file is a list of sections, $Name ... $EndName. Both forms of 4.1 hold the same numbers in the same order; of 2.2
-// the binary form groups elements under headers. Sections that say nothing about shape or groups are stepped over.
+// A file is a list of sections, $Name ... $EndName. Both forms of 4.1 hold the same numbers in the same order;
+// of 2.2 the binary form groups elements under headers. Sections that say nothing about shape or groups are
+// stepped over.
 #include "sim/base/wording.h"
 #include "sim/mesh/msh_content.h"
 #include "sim/mesh/scanner.h"

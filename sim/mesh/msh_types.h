@@ -1,5 +1,5 @@
-// The elements of a Gmsh file (Gmsh reference manual, "MSH file format"): a number for each, which ones are read, and
-// what the others are called.
+// The elements of a Gmsh file (Gmsh reference manual, "MSH file format"): a number for each, which ones are
+// read, and what the others are called.
 #pragma once
 
 #include "sim/mesh/cell_shapes.h"

@@ -7,8 +7,8 @@
 
 namespace rend {
 
-// Rest positions; nodes and elements are numbered from 1. UserError (65), with `name` as its place, for faces of more
-// than four sides and cells of other shapes than Gmsh's.
+// Rest positions; nodes and elements are numbered from 1. UserError (65), with `name` as its place, for faces
+// of more than four sides and cells of other shapes than Gmsh's.
 std::string msh_text(const MeshBody& body, const std::string& name);
 
 } // namespace rend

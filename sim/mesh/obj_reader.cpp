@@ -1,7 +1,8 @@
-// Wavefront's .obj: points and polygons, and the groups and objects that polygons belong to; the rest is left alone.
+// Wavefront's .obj: points and polygons, and the groups and objects that polygons belong to; the rest is left
+// alone.
 //
-// tinyobjloader reads it. It takes a number that is none for 0 and any index for what it says, and tells no lines; so the
-// statements that matter here are looked through first: v, f, g, o.
+// tinyobjloader reads it. It takes a number that is none for 0 and any index for what it says, and tells no
+// lines; so the statements that matter here are looked through first: v, f, g, o.
 #include "sim/base/wording.h"
 #include "sim/mesh/reader.h"
 #include "sim/mesh/scanner.h"

@@ -65,8 +65,8 @@ Sides link_polygons(MapEdit& edit, const PolygonMesh& mesh) {
   return sides;
 }
 
-// Sews the sides that join the same two points: sides are bucketed by their smaller point and sorted by the other one.
-// Few share a bucket, so that this is linear; where very many do it is still n log n.
+// Sews the sides that join the same two points: sides are bucketed by their smaller point and sorted by the
+// other one. Few share a bucket, so that this is linear; where very many do it is still n log n.
 void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const Sides& sides) {
   const std::size_t count = mesh.corners.size();
   std::vector<std::uint32_t> start(mesh.points.size() + 1, 0), bucket(count);

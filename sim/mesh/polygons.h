@@ -29,9 +29,9 @@ struct SewnSheet {
   std::vector<std::uint32_t> point; // the index of the point that each vertex slot came from
 };
 
-// Throws MeshFault, which is a std::invalid_argument and names the polygon, for what a sheet cannot hold: an edge of
-// more than two polygons, a polygon with fewer than three corners or with a corner twice, an index out of range. A
-// point where fans meet that share no edge becomes a vertex of each.
+// Throws MeshFault, which is a std::invalid_argument and names the polygon, for what a sheet cannot hold: an
+// edge of more than two polygons, a polygon with fewer than three corners or with a corner twice, an index out
+// of range. A point where fans meet that share no edge becomes a vertex of each.
 SewnSheet sew_polygons(const PolygonMesh& mesh);
 
 inline std::unique_ptr<EmbeddedMap> sheet_from(const PolygonMesh& mesh) {

@@ -1,7 +1,7 @@
 // Mesh files: .msh, .obj, .off and .moka, read into points and elements, and those sewn into a map.
 //
-// What a reader gives is checked number by number; what a sheet or solid cannot hold is found when it is sewn, and
-// then named by its place in the file too.
+// What a reader gives is checked number by number; what a sheet or solid cannot hold is found when it is sewn,
+// and then named by its place in the file too.
 //
 // Adding a format: a file with a function `MeshReader my_reader()`, and its name in all_readers().
 #pragma once
@@ -58,7 +58,8 @@ MeshReader moka_reader();
 MeshFile read_mesh(const std::filesystem::path& path);
 MeshFile read_mesh(MeshSource source); // its name has the extension
 
-// Where the elements lie in memory as they should not, another order of them (sim/mesh/locality.h), with their origins.
+// Where the elements lie in memory as they should not, another order of them (sim/mesh/locality.h), with their
+// origins.
 void order_for_locality(MeshFile& file);
 
 struct MeshBody {
@@ -67,8 +68,8 @@ struct MeshBody {
   std::vector<std::string> notes;
 };
 
-// The points may have been moved since they were read. UserError (65), naming the element and its place, for what a
-// sheet or solid cannot hold, and for elements without area or volume.
+// The points may have been moved since they were read. UserError (65), naming the element and its place, for
+// what a sheet or solid cannot hold, and for elements without area or volume.
 MeshBody sew(MeshFile file);
 
 } // namespace rend

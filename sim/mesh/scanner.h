@@ -1,7 +1,7 @@
 // Reads a mesh file front to back, as text or as binary numbers, and never past its end.
 //
-// Counts are checked against the bytes that are left before anything is allocated for them, so that a file cannot make
-// its reader take more memory than its own size accounts for.
+// Counts are checked against the bytes that are left before anything is allocated for them, so that a file
+// cannot make its reader take more memory than its own size accounts for.
 #pragma once
 
 #include "sim/mesh/source.h"

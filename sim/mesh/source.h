@@ -1,5 +1,5 @@
-// A mesh file in memory, and errors that say where in it something stands: line and column of a text, the byte of a
-// binary file.
+// A mesh file in memory, and errors that say where in it something stands: line and column of a text, the byte
+// of a binary file.
 #pragma once
 
 #include "sim/base/error.h"

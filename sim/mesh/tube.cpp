@@ -5,7 +5,8 @@
 namespace rend {
 namespace {
 
-// The points of a rectangle in the xy plane from (w, w) to (lx - w, ly - w), `quarter` steps a side, counter-clockwise.
+// The points of a rectangle in the xy plane from (w, w) to (lx - w, ly - w), `quarter` steps a side,
+// counter-clockwise.
 std::vector<Vec3> contour(const TubeShape& shape, double w, int quarter) {
   const double x0 = w, y0 = w, x1 = shape.size.x() - w, y1 = shape.size.y() - w;
   const std::array<Vec3, 4> corners{Vec3(x0, y0, 0), Vec3(x1, y0, 0), Vec3(x1, y1, 0), Vec3(x0, y1, 0)};

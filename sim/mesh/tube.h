@@ -1,8 +1,8 @@
-// A rectangular tube along z, one layer of hexahedra thick, its outside from the origin to (lx, ly, lz) (thesis fig.
-// 7.14: 32 hexahedra).
+// A rectangular tube along z, one layer of hexahedra thick, its outside from the origin to (lx, ly, lz) (thesis
+// fig. 7.14: 32 hexahedra).
 //
-// Each of the four sides is divided equally into a quarter of the cells around, outside and inside alike, so that the
-// borders at the corners are mitred and cells conform.
+// Each of the four sides is divided equally into a quarter of the cells around, outside and inside alike, so
+// that the borders at the corners are mitred and cells conform.
 #pragma once
 
 #include "sim/mesh/cells.h"

@@ -11,27 +11,27 @@
 namespace rend {
 
 // clang-format off
-//                                                hooks                                            arguments    thesis
+//                                                hooks                                      arguments     fig.
 // Construction.
-extern const Rule create_vertex;               // none                                             a point      fig. 3.36
-extern const Rule create_edge;                 // a vertex without edge                            a point      fig. 3.37
-extern const Rule extrude_edge;                // an edge without face                             a vector     fig. 3.39
-extern const Rule create_triangle;             // none                                             three points fig. 3.46
-extern const Rule create_quad;                 // none                                             four points  fig. 3.46
-extern const Rule sew_edges;                   // two edges of faces, α2-free: dart to dart                     fig. 3.20
+extern const Rule create_vertex;               // none                                       a point       3.36
+extern const Rule create_edge;                 // a vertex without edge                      a point       3.37
+extern const Rule extrude_edge;                // an edge without face                       a vector      3.39
+extern const Rule create_triangle;             // none                                       three points  3.46
+extern const Rule create_quad;                 // none                                       four points   3.46
+extern const Rule sew_edges;                   // two edges of faces, α2-free: dart to dart                3.20
 extern const Rule sew_faces;                   // two faces of volumes, α3-free: dart to dart
 // Refinement.
-extern const Rule insert_vertex_border;        // an edge of one face                                           fig. 3.18
+extern const Rule insert_vertex_border;        // an edge of one face                                      3.18
 extern const Rule insert_vertex;               // any edge
-extern const Rule triangulate_face;            // a face of a sheet, or of the hull of a solid                  fig. 3.29
+extern const Rule triangulate_face;            // a face of a sheet, or of a solid's hull                  3.29
 extern const Rule triangulate_face_both_sides; // any face
-extern const Rule subdivide;                   // a component of a sheet                                        fig. 3.44
+extern const Rule subdivide;                   // a component of a sheet                                   3.44
 // Separation.
-extern const Rule unsew_edge;                  // an edge between two faces                                     fig. 3.48
-extern const Rule unsew_face;                  // a face between two volumes                                    fig. 7.5
+extern const Rule unsew_edge;                  // an edge between two faces                                3.48
+extern const Rule unsew_face;                  // a face between two volumes                               7.5
 // Removal.
-extern const Rule remove_isolated_face;        // a face of a sheet without neighbours                          fig. 3.47
-extern const Rule remove_inner_face;           // a face of a sheet with other faces on all sides               fig. 3.50
+extern const Rule remove_isolated_face;        // a face of a sheet without neighbours                     3.47
+extern const Rule remove_inner_face;           // a face of a sheet with faces on all sides                3.50
 extern const Rule remove_isolated_volume;      // a volume without neighbours
 // clang-format on
 

@@ -20,8 +20,8 @@ namespace rend {
 
 class Profile;
 
-// Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was a border when its
-// element was born: what is a border now and was none then is torn.
+// Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was a border when
+// its element was born: what is a border now and was none then is torn.
 struct BornBorder {
   using Value = std::uint8_t;
   explicit BornBorder(int dimension = 2) : orbit(dimension == 2 ? EdgeOfFace : FaceOfVolume) {}

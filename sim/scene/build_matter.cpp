@@ -14,7 +14,8 @@ void add_once(std::vector<std::string>& list, const std::string& word) {
   if (!word.empty() && std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
 }
 
-// <stretch>, <shear>, <bend>: one element for all interactions of that name, which differ by `kind` and `where`.
+// <stretch>, <shear>, <bend>: one element for all interactions of that name, which differ by `kind` and
+// `where`.
 ElementType spring_element(const std::string& name) {
   ElementType type{name, "", {}, {}};
   std::vector<std::string> kinds, places;
@@ -141,7 +142,8 @@ void build_springs(Body& body, const Node& node) {
   }
 }
 
-// Small strain gives a sheet no stiffness out of its plane: it must lie in a plane of two axes and be held there.
+// Small strain gives a sheet no stiffness out of its plane: it must lie in a plane of two axes and be held
+// there.
 void check_flat(const Body& body, const Node& elasticity, const Node& node) {
   if (body.map->dimension() == 3 || elasticity.text("model") == "corotational") return;
   Vec3 low = Vec3::Constant(1e300), high = -low;
@@ -154,7 +156,8 @@ void check_flat(const Body& body, const Node& elasticity, const Node& node) {
   const char letter = static_cast<char>('x' + axis);
   const bool flat = depth <= 1e-9 * (high - low).norm();
   for (const Node* fix : node.all("fix"))
-    if (flat && fix->given("all") && fix->flag("all") && fix->text("axes").find(letter) != std::string::npos) return;
+    if (flat && fix->given("all") && fix->flag("all") && fix->text("axes").find(letter) != std::string::npos)
+      return;
   elasticity.fail("model",
                   fmt::format("'{}' gives a sheet no stiffness out of its plane", elasticity.text("model")),
                   flat ? fmt::format("keep it there with <fix all=\"yes\" axes=\"{}\"/>, or take "

@@ -60,7 +60,8 @@ public:
   void rebind(const EmbeddedMap& map, const Changes& changes);
   void apply(const EmbeddedMap& map, double time, Record* position, Record* velocity) const;
 
-  // Sets the bits (0, 1, 2: x, y, z) of the coordinates that are prescribed at `time`; one byte per vertex slot.
+  // Sets the bits (0, 1, 2: x, y, z) of the coordinates that are prescribed at `time`; one byte per vertex
+  // slot.
   void mark(double time, std::uint8_t* axes) const;
 
   const std::vector<Slot>& vertices() const { return vertices_; } // increasing

@@ -2,8 +2,8 @@
 //
 // A point of a face, x = Σ b_i x_i with weights b_i that sum up to 1, takes an impulse J as b_i J on each
 // vertex: neither momentum nor angular momentum depends on how it is shared. Its inverse mass is then Σ
-// b_i²/m_i, along each axis: a vertex that is held along an axis has an infinite mass along it, and what holds it
-// takes the momentum.
+// b_i²/m_i, along each axis: a vertex that is held along an axis has an infinite mass along it, and what holds
+// it takes the momentum.
 #pragma once
 
 #include "sim/scene/body.h"
@@ -55,8 +55,8 @@ struct ContactPoint {
   Vec3 position() const;     // [m]
   Vec3 velocity() const;     // [m/s]
   Vec3 inverse_mass() const; // [1/kg] along x, y, z
-  // How far the vertex that moves most goes when the point is shifted by 1 along the normal: about 1, and more where
-  // others of the face, or axes that the normal has a part of, are held. Infinite where all are.
+  // How far the vertex that moves most goes when the point is shifted by 1 along the normal: about 1, and more
+  // where others of the face, or axes that the normal has a part of, are held. Infinite where all are.
   double leverage(const Vec3& normal) const;
   // It does not yield along the normal, or so little that it would be thrown about.
   bool held(const Vec3& normal) const { return leverage(normal) > 4; }

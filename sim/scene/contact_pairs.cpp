@@ -71,8 +71,8 @@ double apart_at_rest(const ContactBody& body, Slot v, const ContactFaces::Triang
 
 } // namespace
 
-// All faces, those of each fragment in a tree of their own, and those trees in one: most faces near a vertex are those of
-// its own fragment, and are not even looked at.
+// All faces, those of each fragment in a tree of their own, and those trees in one: most faces near a vertex
+// are those of its own fragment, and are not even looked at.
 class ContactPairs::FaceTrees {
 public:
   struct Face {
@@ -103,7 +103,8 @@ public:
     whole_ = std::move(whole);
   }
 
-  // Calls f(face) for all whose boxes meet this one, but for those of fragments for which skip(face), of any face of it.
+  // Calls f(face) for all whose boxes meet this one, but for those of fragments for which skip(face), of any
+  // face of it.
   template <class Skip, class F> void each_near(const Bounds& box, const Skip& skip, const F& f) const {
     if (faces_.empty()) return;
     meet(fragments_, fragments_.getRootIndex(), box, [&](std::uint32_t n) {

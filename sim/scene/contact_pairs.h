@@ -1,13 +1,13 @@
 // Which vertices may meet which faces in a step: the broad phase of contact between bodies and fragments.
 //
-// Faces are triangles (contact_faces.h). Those of each fragment are kept in a tree of boxes, and those trees in one more,
-// so that a vertex passes by the faces of its own fragment, which are most of those near it. Trees are Eigen's KdBVH
-// (unsupported/Eigen/BVH, MPL 2), since Eigen is there already, a tree is a pure function of the boxes, and what is found
-// is sorted, so that no order of a search shows. (Bullet's btDbvt and FCL would be new dependencies, for single precision
-// or for whole bodies.) Trees cannot follow what moves; so pairs are looked for with a skin around all, and looked for
-// again when a vertex has moved by half of it against the mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967),
-// or when a map was changed. Pairs are more than what meets, and what meets is always among them: when they were looked
-// for leaves no trace.
+// Faces are triangles (contact_faces.h). Those of each fragment are kept in a tree of boxes, and those trees in
+// one more, so that a vertex passes by the faces of its own fragment, which are most of those near it. Trees
+// are Eigen's KdBVH (unsupported/Eigen/BVH, MPL 2), since Eigen is there already, a tree is a pure function of
+// the boxes, and what is found is sorted, so that no order of a search shows. (Bullet's btDbvt and FCL would be
+// new dependencies, for single precision or for whole bodies.) Trees cannot follow what moves; so pairs are
+// looked for with a skin around all, and looked for again when a vertex has moved by half of it against the
+// mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967), or when a map was changed. Pairs are more than
+// what meets, and what meets is always among them: when they were looked for leaves no trace.
 #pragma once
 
 #include "sim/scene/contact_body.h"

@@ -1,8 +1,10 @@
-// Faults on purpose, for the check suite: a number that is not finite where a stage of a step has written its own.
+// Faults on purpose, for the check suite: a number that is not finite where a stage of a step has written its
+// own.
 //
-// What a guard is worth shows only where something goes wrong. A fault puts a NaN into what a stage produced for the
-// first live vertex of the first body that has such a value (loads: of the first body with loads). It happens once, at
-// the first try of its step, or is lasting: at every try of it, however small. Without one, a stage pays a branch.
+// What a guard is worth shows only where something goes wrong. A fault puts a NaN into what a stage produced
+// for the first live vertex of the first body that has such a value (loads: of the first body with loads). It
+// happens once, at the first try of its step, or is lasting: at every try of it, however small. Without one, a
+// stage pays a branch.
 #pragma once
 
 #include "sim/base/record.h"
@@ -30,7 +32,8 @@ public:
   void disarm() { armed_.reset(); }
   bool armed(StepStage stage) const { return armed_ && armed_->stage == stage; }
 
-  // Spoils the first live record, and is disarmed unless lasting. `inverse_mass` [1/kg], `values`: one per vertex slot.
+  // Spoils the first live record, and is disarmed unless lasting. `inverse_mass` [1/kg], `values`: one per
+  // vertex slot.
   void spoil(const double* inverse_mass, std::size_t count, Record* values);
 
   // Of loads [N], which others keep: the spoilt ones are a copy.

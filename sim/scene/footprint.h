@@ -1,8 +1,8 @@
 // What a scene holds in memory, array by array.
 //
-// Arrays are counted by what was written to them (base/bytes.h); objects of fixed size, names and the preset are not
-// counted: some kilobytes. What comes with the first step is there after it. A test compares the sum with what the heap
-// has grown by.
+// Arrays are counted by what was written to them (base/bytes.h); objects of fixed size, names and the preset
+// are not counted: some kilobytes. What comes with the first step is there after it. A test compares the sum
+// with what the heap has grown by.
 #pragma once
 
 #include "sim/scene/scene.h"

@@ -1,27 +1,30 @@
 // The guard: a step too large for what happens in it is not the end of a run, nor does it spoil what follows.
 //
-// Every `period` steps, and at each change of topology, a stretch begins (rewind.h). In each step the guard looks at
-// S = Σ |v|², which the integration sums up on its way (State::put): it is not finite where a number of the state is
-// not, and only where it exceeds a threshold, some four times what it was lately, energy is looked at. A body may hold
+// Every `period` steps, and at each change of topology, a stretch begins (rewind.h). In each step the guard
+// looks at S = Σ |v|², which the integration sums up on its way (State::put): it is not finite where a number
+// of the state is not, and only where it exceeds a threshold, some four times what it was lately, energy is
+// looked at. A body may hold
 //
 //   K + U ≤ factor · ( B + what came in since the stretch began + headroom )
 //
-// where B is what it might hold then: K + U at the start of the run, with all that came in since; from time to time it
-// comes down to twice what there is. K alone is asked first: U takes as long as many steps. So an instability is found
-// whether it explodes in three steps or grows over thousands, and B never follows it upwards.
+// where B is what it might hold then: K + U at the start of the run, with all that came in since; from time to
+// time it comes down to twice what there is. K alone is asked first: U takes as long as many steps. So an
+// instability is found whether it explodes in three steps or grows over thousands, and B never follows it
+// upwards.
 //
-// Where a look finds trouble, the stretch is gone again in 2, 4 ... 1024 parts a step up to the same step; then the
-// nominal step returns. If that fails again soon, the parts stay for a while, twice as long each time: each failure of
-// the nominal step costs its stretch, and leaves a trace of the motion that would have exploded. A single step that is
-// not finite is redone alone first.
+// Where a look finds trouble, the stretch is gone again in 2, 4 ... 1024 parts a step up to the same step; then
+// the nominal step returns. If that fails again soon, the parts stay for a while, twice as long each time: each
+// failure of the nominal step costs its stretch, and leaves a trace of the motion that would have exploded. A
+// single step that is not finite is redone alone first.
 //
-// A redo holds where energy is close to what may be there, or where half the step leaves the same growth (by a tenth).
-// Growth beyond the bound that smaller parts do not change is no matter of the step: contact that pushes out, a strain
-// that was there; it is accepted, and B follows. Who sets a state between steps is noticed, and not undone. A time
-// scheme that solves, or is adaptive, keeps its energy and parts its steps itself: only whether numbers are finite is
-// looked at there.
+// A redo holds where energy is close to what may be there, or where half the step leaves the same growth (by a
+// tenth). Growth beyond the bound that smaller parts do not change is no matter of the step: contact that
+// pushes out, a strain that was there; it is accepted, and B follows. Who sets a state between steps is
+// noticed, and not undone. A time scheme that solves, or is adaptive, keeps its energy and parts its steps
+// itself: only whether numbers are finite is looked at there.
 //
-// All hangs on numbers of steps and sums in a fixed order: the same on any number of threads, whatever is shown.
+// All hangs on numbers of steps and sums in a fixed order: the same on any number of threads, whatever is
+// shown.
 #pragma once
 
 #include "sim/base/profile.h"
@@ -54,8 +57,9 @@ public:
   }
   Trouble after_step(long done); // steps done with it
 
-  // Where one of them, or the state, was in trouble, with so many steps done: puts the start of the stretch back, to be
-  // gone again to where it was. Returns the steps done there; none: no smaller parts are left, and all is as it is.
+  // Where one of them, or the state, was in trouble, with so many steps done: puts the start of the stretch
+  // back, to be gone again to where it was. Returns the steps done there; none: no smaller parts are left, and
+  // all is as it is.
   std::optional<long> again(Trouble trouble, long done);
   bool redoing() const { return redoing_; }
   long go_back(); // to the start of the stretch, to be gone in nominal steps; returns the steps done there

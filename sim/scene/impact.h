@@ -19,7 +19,8 @@ struct Impulse {
   Vec3 whole() const { return normal + friction; }
 };
 
-// `u` [m/s], unit `normal`; `yields`: the diagonal of K [1/kg], of both sides together. 0 where that is 0 along n.
+// `u` [m/s], unit `normal`; `yields`: the diagonal of K [1/kg], of both sides together. 0 where that is 0 along
+// n.
 Impulse impact(const Vec3& u, const Vec3& normal, double friction, const Vec3& yields);
 
 // n·K n: by how much an impulse along n changes the velocity along it [1/kg].

@@ -1,15 +1,15 @@
 // Loads: forces from outside, on a patch of the body's boundary (patch.h).
 //
-//   force F      f_n = a_n F                  a_n: the vertex's share of the patch at rest, by area or length, Σ a_n = 1
-//   moment M     f_n = a_n θ × (x_n − c)      c = Σ a_n x_n / Σ a_n, and θ such that Σ (x_n − c) × f_n = M; Σ f_n = 0
-//   pressure p   f_n = −p A_n                 A_n: the vertex's vector area now, outwards
+//   force F      f_n = a_n F              a_n: the vertex's share of area or length at rest; Σ a_n = 1
+//   moment M     f_n = a_n θ × (x_n − c)  c = Σ a_n x_n / Σ a_n; θ such that Σ (x_n − c) × f_n = M; Σ f_n = 0
+//   pressure p   f_n = −p A_n             A_n: the vertex's vector area now, outwards
 //
-// A moment is what a bending stress gives, linear over the section, in the present position: its value stays exact
-// however the patch turns. On a straight edge it has no part along the edge. With follows = body, F and M turn with
-// the patch: by the rotation R that brings it closest to where it is, in the sense of least squares (Kabsch 1976), R =
-// U diag(1, 1, det UVᵀ) Vᵀ of Σ (x_n − c)(X_n − C)ᵀ; of edges and single vertices, with the elements that they belong
-// to. Shares are those of the body as it was built: what is torn off carries its own along, and what is deleted takes
-// it away.
+// A moment is what a bending stress gives, linear over the section, in the present position: its value stays
+// exact however the patch turns. On a straight edge it has no part along the edge. With follows = body, F and M
+// turn with the patch: by the rotation R that brings it closest to where it is, in the sense of least squares
+// (Kabsch 1976), R = U diag(1, 1, det UVᵀ) Vᵀ of Σ (x_n − c)(X_n − C)ᵀ; of edges and single vertices, with the
+// elements that they belong to. Shares are those of the body as it was built: what is torn off carries its own
+// along, and what is deleted takes it away.
 #pragma once
 
 #include "sim/scene/wind.h"

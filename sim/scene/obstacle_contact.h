@@ -13,9 +13,9 @@
 // slots, and then moves with the velocity that this leaves; so do the points, and what overlap remains is taken
 // off their positions alone.
 //
-// A point that was inside already at the start of the step, where a body starts around an obstacle or was let go
-// within it, is moved out over `relaxation` and no faster than `fastest`: at once, it would be thrown out by the
-// elastic forces of so large a deformation. Only what is new in the step is taken off in it.
+// A point that was inside already at the start of the step, where a body starts around an obstacle or was let
+// go within it, is moved out over `relaxation` and no faster than `fastest`: at once, it would be thrown out by
+// the elastic forces of so large a deformation. Only what is new in the step is taken off in it.
 //
 // Limits: several contacts of a heavy sphere are solved as far as the rounds go; obstacles yield to nothing
 // else; a sphere much smaller than the faces should move less than its diameter in a step.

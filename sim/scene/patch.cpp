@@ -65,8 +65,9 @@ void vertices_of_face(const EmbeddedMap& map, Dart d, bool turned, std::vector<S
 
 namespace {
 
-// Of each face of a sheet, by slot, whether its first dart goes around it against its neighbours: in each component
-// the smallest dart leads. On a band without sides, one row of faces disagrees with the next somewhere.
+// Of each face of a sheet, by slot, whether its first dart goes around it against its neighbours: in each
+// component the smallest dart leads. On a band without sides, one row of faces disagrees with the next
+// somewhere.
 std::vector<bool> turned_faces(const EmbeddedMap& map) {
   const GMap& m = map.map();
   std::vector<signed char> turn(m.capacity(), 0);

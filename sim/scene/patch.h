@@ -6,8 +6,8 @@
 //   quad           ∫ N_i x_ξ × x_η dξ dη, exact for the bilinear surface through its corners, warped or not
 //   other polygon  the triangles around its mean point; what falls to that point is shared by all corners
 //
-// (consistent nodal loads: Zienkiewicz & Taylor, The Finite Element Method, vol. 1). They sum up to the vector area
-// ½ Σ x_i × x_{i+1}, and an edge gives half its length to each end.
+// (consistent nodal loads: Zienkiewicz & Taylor, The Finite Element Method, vol. 1). They sum up to the vector
+// area ½ Σ x_i × x_{i+1}, and an edge gives half its length to each end.
 #pragma once
 
 #include "sim/base/bytes.h"
@@ -48,12 +48,13 @@ class Patch {
 public:
   enum class Of { Faces, Edges, Corners };
 
-  // Of a solid, the α3-free faces, and of a sheet, the α2-free edges, all of whose vertices are given. Where there are
-  // none, the corners of those vertices, in equal parts.
+  // Of a solid, the α3-free faces, and of a sheet, the α2-free edges, all of whose vertices are given. Where
+  // there are none, the corners of those vertices, in equal parts.
   static Patch boundary(EmbeddedMap& map, const std::string& name, const std::vector<Slot>& vertices);
 
-  // Of a solid, the α3-free faces, and of a sheet, the faces, all of whose vertices are given; there may be none. The
-  // faces of a solid are gone around counterclockwise as seen from outside; those of a sheet as its cells are listed.
+  // Of a solid, the α3-free faces, and of a sheet, the faces, all of whose vertices are given; there may be
+  // none. The faces of a solid are gone around counterclockwise as seen from outside; those of a sheet as its
+  // cells are listed.
   static Patch faces(EmbeddedMap& map, const std::string& name, const std::vector<Slot>& vertices);
 
   void rebind(const EmbeddedMap& map); // after edits
@@ -63,7 +64,8 @@ public:
   const std::vector<Dart>& darts() const { return darts_; }               // one of each cell
   std::size_t bytes() const { return cells_.bytes() + bytes_of(darts_); } // besides the embedding
 
-  // What belongs to each of cells().vertices(), at rest: area [m²], length [m], or, of corners, their share of 1.
+  // What belongs to each of cells().vertices(), at rest: area [m²], length [m], or, of corners, their share of
+  // 1.
   std::vector<double> measures(const EmbeddedMap& map) const;
 
 private:

@@ -1,9 +1,9 @@
 // Whether a step resolves how neighbours move against each other.
 //
-// Two that are joined and move against each other by many times their distance at rest within one step have passed
-// through whatever is between them: no force of the step saw it. What explodes passes this bound long before its numbers
-// overflow, and an element that collapses by a speed that its forces could never stop passes it, too. One that was
-// flattened or turned inside out within what forces resolve is left alone: it recovers.
+// Two that are joined and move against each other by many times their distance at rest within one step have
+// passed through whatever is between them: no force of the step saw it. What explodes passes this bound long
+// before its numbers overflow, and an element that collapses by a speed that its forces could never stop passes
+// it, too. One that was flattened or turned inside out within what forces resolve is left alone: it recovers.
 #pragma once
 
 #include "sim/scene/body.h"
@@ -20,7 +20,8 @@ struct Neighbours {
   double rate = 0; // rest lengths a second
 };
 
-// Those that move fastest against each other, in their rest lengths. The first kind of interaction says who is one.
+// Those that move fastest against each other, in their rest lengths. The first kind of interaction says who is
+// one.
 std::optional<Neighbours> fastest_neighbours(const Body& body,
                                              const Record* velocity); // [m/s], one per vertex slot
 

@@ -1,20 +1,21 @@
 // A stretch of steps that can be gone again: the state at its start, and what energy may have come in since.
 //
-// The start costs no copy. Where a stretch begins, the buffers of the old state are put aside when the step is kept,
-// and the ones put aside before take their place (Body::commit swaps two, this a third). Topology does not change
-// within a stretch: a change begins one.
+// The start costs no copy. Where a stretch begins, the buffers of the old state are put aside when the step is
+// kept, and the ones put aside before take their place (Body::commit swaps two, this a third). Topology does
+// not change within a stretch: a change begins one.
 //
 // Kinetic and elastic energy K + U can grow by what gravity, loads, drives and moving spheres give,
 //
 //   gravity   Σ m g·Δx                                      Δx: since the start
 //   loads     Σ f·Δx; Σ |f| |Δx| where they depend on the state, or on time       f: as they were at the start
-//   drives    Σ (|F| + m |g|) |Δx| + ½ m ω² |Δx|²            over prescribed vertices; F: internal force at the start,
-//                                                            ω: a bound of the highest frequency (frequency.h)
+//   drives    Σ (|F| + m |g|) |Δx| + ½ m ω² |Δx|²            over prescribed vertices; F: internal force at the
+//                                         start, ω: a bound of the highest frequency (frequency.h)
 //   spheres   the same over all vertices, with |V| Δt for |Δx|        that move as prescribed, with V
 //
-// and, on top, by what a state of motion holds that is prescribed: ½ m v² of prescribed vertices, ½ m (2V)² of what a
-// sphere may hit, and the kick of two steps under gravity and loads. All are bounded from the start's side, or known
-// beforehand: a motion that explodes gains by none of them as fast as its energy grows, and so does not excuse itself.
+// and, on top, by what a state of motion holds that is prescribed: ½ m v² of prescribed vertices, ½ m (2V)² of
+// what a sphere may hit, and the kick of two steps under gravity and loads. All are bounded from the start's
+// side, or known beforehand: a motion that explodes gains by none of them as fast as its energy grows, and so
+// does not excuse itself.
 #pragma once
 
 #include "sim/scene/body.h"

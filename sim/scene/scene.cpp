@@ -55,8 +55,8 @@ Scene::Scene(const Node& preset, const SceneOptions& options)
 
 Scene::~Scene() = default;
 
-// Contact acts by impulses after the step, which a scheme that solves for the end of the step does not see; nor does
-// an equilibrium tell where what is free goes.
+// Contact acts by impulses after the step, which a scheme that solves for the end of the step does not see; nor
+// does an equilibrium tell where what is free goes.
 void Scene::check_contact(const Node& preset) {
   if (!scheme_->solves) return;
   for (const auto& body : bodies_) {
@@ -82,7 +82,8 @@ double Scene::tolerance_of(const Node& time) const {
   return time.number("tolerance");
 }
 
-// The step of an adaptive scheme is what it divides: by itself it takes that of symplectic, so that laws look as often.
+// The step of an adaptive scheme is what it divides: by itself it takes that of symplectic, so that laws look
+// as often.
 void Scene::build_time(const Node& time) {
   duration_ = time.number("duration");
   step_place_ = time.place("step");

@@ -52,13 +52,13 @@ public:
   const std::vector<std::string>& notes() const { return notes_; } // besides those of bodies
   bool automatic_step() const { return automatic_; }
 
-  // One step; where that goes wrong the guard has the last ones redone in parts (guard.h). Throws Unstable (exit 76)
-  // where that does not help, with the positions and velocities before the step whole; what tore at its start stays
-  // torn.
+  // One step; where that goes wrong the guard has the last ones redone in parts (guard.h). Throws Unstable
+  // (exit 76) where that does not help, with the positions and velocities before the step whole; what tore at
+  // its start stays torn.
   void step();
 
-  // Without a guard: throws Unstable where the motion of the current state is not resolved by the step. Before a state is
-  // shown.
+  // Without a guard: throws Unstable where the motion of the current state is not resolved by the step. Before
+  // a state is shown.
   void check_sound() const;
   const GuardFigures& guard() const;
   std::size_t guard_bytes() const;
@@ -79,8 +79,9 @@ public:
   StageSeconds seconds() const;
   Profile* profile() const { return profile_.get(); } // null: not asked for
 
-  // Between steps: all that a later step, event or figure depends on, to a scene of the same preset and options and back
-  // (base/archive.h). It then goes on to the bit. Throws ArchiveError where it was of another scene; this one is spoilt.
+  // Between steps: all that a later step, event or figure depends on, to a scene of the same preset and options
+  // and back (base/archive.h). It then goes on to the bit. Throws ArchiveError where it was of another scene;
+  // this one is spoilt.
   void store(Archive& archive);
 
 private:

@@ -16,7 +16,8 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Reading the clock costs more than the step of a small body: one step in so many is timed, and counted so often.
+// Reading the clock costs more than the step of a small body: one step in so many is timed, and counted so
+// often.
 constexpr long sampled = 16;
 
 bool equal_bytes(const std::vector<Record>& a, const std::vector<Record>& b) {
@@ -79,7 +80,8 @@ Trouble Scene::make_part(int part, int parts) {
   return Trouble::None;
 }
 
-// A step has its laws looked at once, however often it is made. (Of one that tore, the guard goes back no further.)
+// A step has its laws looked at once, however often it is made. (Of one that tore, the guard goes back no
+// further.)
 Trouble Scene::look_at_laws() {
   const Within within(profile_.get(), Stage::Criteria);
   guard_->before_laws(steps_done_);
@@ -139,8 +141,8 @@ bool Scene::finite() const {
                      [](const Sphere& s) { return s.next_centre.allFinite() && s.next_velocity.allFinite(); });
 }
 
-// Whether the present state is not what steps made of the start of the stretch, since somebody set it in between: then
-// it is kept, and what was before it is forgotten.
+// Whether the present state is not what steps made of the start of the stretch, since somebody set it in
+// between: then it is kept, and what was before it is forgotten.
 bool Scene::was_set() {
   const long done = steps_done_;
   const double time = bodies_.front()->time();

@@ -21,7 +21,8 @@ struct Placement {
 
 struct ShapeType {
   const ElementType& (*type)();
-  // Makes body.map, with its points where `place` puts them. UserError, with its place, for what cannot be built.
+  // Makes body.map, with its points where `place` puts them. UserError, with its place, for what cannot be
+  // built.
   void (*build)(Body& body, const Node& node, const Placement& place);
 };
 

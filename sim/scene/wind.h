@@ -2,10 +2,10 @@
 //
 //   F = drag A |w_n| w_n n,   w_n = (w − v) · n        drag = ½ ρ C [kg/m³], v: the face's mean velocity
 //
-// the quadratic law of bluff bodies (Newton's resistance; Batchelor, An Introduction to Fluid Dynamics, 5.11), without
-// friction along the face. It acts on every face of a sheet, from either side, and on those α3-free faces of a solid
-// that are turned to it (w_n < 0 along the outward normal): what it blows past is in its lee. The air does not notice
-// the body. Nodal shares are those of patch.h.
+// the quadratic law of bluff bodies (Newton's resistance; Batchelor, An Introduction to Fluid Dynamics, 5.11),
+// without friction along the face. It acts on every face of a sheet, from either side, and on those α3-free
+// faces of a solid that are turned to it (w_n < 0 along the outward normal): what it blows past is in its lee.
+// The air does not notice the body. Nodal shares are those of patch.h.
 #pragma once
 
 #include "sim/scene/patch.h"
@@ -28,7 +28,8 @@ public:
   std::size_t faces() const { return faces_.size(); }
   std::size_t bytes() const { return faces_.bytes(); }
 
-  // How fast it damps a body at rest [1/s], at most: 2 drag |w| A_n/m_n. `inverse_mass` [1/kg], one per vertex slot.
+  // How fast it damps a body at rest [1/s], at most: 2 drag |w| A_n/m_n. `inverse_mass` [1/kg], one per vertex
+  // slot.
   double damping_rate(const EmbeddedMap& map, const double* inverse_mass) const;
 
 private:

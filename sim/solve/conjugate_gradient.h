@@ -1,5 +1,6 @@
-// Conjugate gradients with a preconditioner (Hestenes & Stiefel 1952; Shewchuk 1994, B3), in the unknowns (D + Lᵀ) x of
-// preconditioner.h. What is left is measured by |r|² = rᵀ M⁻¹ r, which counts what is smooth for more than rᵀ r does.
+// Conjugate gradients with a preconditioner (Hestenes & Stiefel 1952; Shewchuk 1994, B3), in the unknowns (D +
+// Lᵀ) x of preconditioner.h. What is left is measured by |r|² = rᵀ M⁻¹ r, which counts what is smooth for more
+// than rᵀ r does.
 #pragma once
 
 #include "sim/solve/preconditioner.h"
@@ -14,8 +15,8 @@ public:
     bool converged = false; // rᵀ M⁻¹ r ≤ tolerance² · bᵀ M⁻¹ b by the recurrence, r = b − A x
   };
 
-  // A x = b with the matrix that the preconditioner took, from x = 0, at most `most` iterations on `parts` threads.
-  // It stops before, not converged, where the matrix proves not to be positive.
+  // A x = b with the matrix that the preconditioner took, from x = 0, at most `most` iterations on `parts`
+  // threads. It stops before, not converged, where the matrix proves not to be positive.
   Result solve(Preconditioner& preconditioner, int parts, const Records& b, Records& x, double tolerance,
                int most);
 

@@ -5,7 +5,8 @@
 //   direct      where its products are at most 40 per block of the matrix: chains, strips, small sheets
 //   iterative   else; and direct where that has spent as much as a factor would have and not converged, and
 //               for the next ten matrices
-// A factor of more than ten million blocks (1 GB) is never made. Up to two digits are iterated in single precision.
+// A factor of more than ten million blocks (1 GB) is never made. Up to two digits are iterated in single
+// precision.
 #pragma once
 
 #include "sim/solve/block_factor.h"
@@ -18,7 +19,8 @@ public:
   // Takes a matrix, or new values of it; it must stay as it is while it is solved with.
   void take(const BlockMatrix& matrix);
 
-  // To |b − A x| ≤ tolerance · |b|, in the norm of conjugate_gradient.h where it iterates. False: not solved, x is useless.
+  // To |b − A x| ≤ tolerance · |b|, in the norm of conjugate_gradient.h where it iterates. False: not solved, x
+  // is useless.
   bool solve(const Records& b, Records& x, double tolerance);
 
   // Whether a factor can be made, and how the matrix is then. Where it cannot, Positive is assumed.
@@ -28,7 +30,8 @@ public:
   bool direct() const;
   Definiteness definiteness() const { return factored_ ? definiteness_ : Definiteness::Positive; }
 
-  // What one solution hands on to the next: the way that is taken, and what is counted (see Integrator::carried).
+  // What one solution hands on to the next: the way that is taken, and what is counted (see
+  // Integrator::carried).
   struct Carried {
     int hard = 0;
     long iterations = 0, factorisations = 0;

@@ -2,27 +2,27 @@
 //
 //   D_i = A_ii − ω Σ_j A_ij D_j⁻¹ A_ji   over the j before i
 //
-// With ω = 0 that is SSOR; with ω = 1 the diagonal blocks of M are those of A (the simplified incomplete factor of
-// Meijerink & van der Vorst 1977), which needs fewest iterations while it lasts, and breaks as ν nears 1/2: pivots
-// become small, and M far from A. So ω is 1, halved in each row until D_i − 0.6 A_ii is positive. Iterations of a step
-// of the organ of 20,000 tetrahedra (h = 10 ms, E = 1e6), by what must be left of A_ii:
+// With ω = 0 that is SSOR; with ω = 1 the diagonal blocks of M are those of A (the simplified incomplete factor
+// of Meijerink & van der Vorst 1977), which needs fewest iterations while it lasts, and breaks as ν nears 1/2:
+// pivots become small, and M far from A. So ω is 1, halved in each row until D_i − 0.6 A_ii is positive.
+// Iterations of a step of the organ of 20,000 tetrahedra (h = 10 ms, E = 1e6), by what must be left of A_ii:
 //
 //   left     0.1    0.25   0.5    0.65   0.8    1 (SSOR)
 //   ν 0.3    317    309    276    277    297    373
 //   ν 0.45   none   1318   478    459    498    588
 //   ν 0.49   none   3822   1010   941    1051   -
 //
-// Because M shares its halves with A, a product with (D + L)⁻¹ A (D + Lᵀ)⁻¹ needs each half once, and none with A
-// (Eisenstat 1981): with t = (D + Lᵀ)⁻¹ p,
+// Because M shares its halves with A, a product with (D + L)⁻¹ A (D + Lᵀ)⁻¹ needs each half once, and none with
+// A (Eisenstat 1981): with t = (D + Lᵀ)⁻¹ p,
 //
 //   (D + L)⁻¹ A t = t + (D + L)⁻¹ (p + (diag A − 2D) t + C t)
 //
-// Rows stand in the order of vertex_order.h (a fifth fewer iterations than in gmsh's), and are taken in ranges of a
-// fixed length; what couples two ranges, C, is left out of L. Ranges are worked on by several threads, and neither the
-// ranges nor the bytes depend on how many. The halves may be stored in single precision, half of what an iteration
-// reads: A is then off by 6e-8 of its largest entries, which a solution to one or two digits does not see. A step of
-// that organ takes 114 ms where it took 208 with a product and IC(0), and 188 where it took 314 (ν 0.3 and 0.45; CPU
-// time of a machine that others used).
+// Rows stand in the order of vertex_order.h (a fifth fewer iterations than in gmsh's), and are taken in ranges
+// of a fixed length; what couples two ranges, C, is left out of L. Ranges are worked on by several threads, and
+// neither the ranges nor the bytes depend on how many. The halves may be stored in single precision, half of
+// what an iteration reads: A is then off by 6e-8 of its largest entries, which a solution to one or two digits
+// does not see. A step of that organ takes 114 ms where it took 208 with a product and IC(0), and 188 where it
+// took 314 (ν 0.3 and 0.45; CPU time of a machine that others used).
 #pragma once
 
 #include "sim/program/block_matrix.h"

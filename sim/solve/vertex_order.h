@@ -1,6 +1,6 @@
-// An order of the rows of a pattern in which neighbours stand near each other (reverse Cuthill & McKee 1969, from an end
-// of each piece as George & Liu 1979 find it): what a row reads is still in the caches, and incomplete factors leave
-// out less.
+// An order of the rows of a pattern in which neighbours stand near each other (reverse Cuthill & McKee 1969,
+// from an end of each piece as George & Liu 1979 find it): what a row reads is still in the caches, and
+// incomplete factors leave out less.
 #pragma once
 
 #include "sim/program/block_matrix.h"

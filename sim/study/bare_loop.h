@@ -1,6 +1,6 @@
-// The time loop of a scene that knows nothing but forces, a scheme, and what is fixed: no laws, loads, contacts, probes,
-// answers, samples of the clock, nor looks at how it goes. What the loop of every scene costs above this is what all
-// that is not asked for costs.
+// The time loop of a scene that knows nothing but forces, a scheme, and what is fixed: no laws, loads,
+// contacts, probes, answers, samples of the clock, nor looks at how it goes. What the loop of every scene costs
+// above this is what all that is not asked for costs.
 #pragma once
 
 #include "sim/scene/scene.h"

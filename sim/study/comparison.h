@@ -1,11 +1,11 @@
 // Two ways of doing the same, timed against each other.
 //
-// What else a machine does changes within seconds, and would be taken for a difference. So short runs of both are made
-// in turn, now the one first and now the other, and what counts is the ratio of the two of a pair. Where arrays happen to
-// lie in memory makes a difference of one or two per cent, which no number of runs of the same arrays averages out: both
-// are built anew several times. Of each build the median of its pairs counts; of the builds the median again, known to
-// about 1.25 · 0.74 · IQR/√n (its standard error where the ratios are normally spread; Kendall & Stuart). A difference of
-// less than twice that is noise.
+// What else a machine does changes within seconds, and would be taken for a difference. So short runs of both
+// are made in turn, now the one first and now the other, and what counts is the ratio of the two of a pair.
+// Where arrays happen to lie in memory makes a difference of one or two per cent, which no number of runs of
+// the same arrays averages out: both are built anew several times. Of each build the median of its pairs
+// counts; of the builds the median again, known to about 1.25 · 0.74 · IQR/√n (its standard error where the
+// ratios are normally spread; Kendall & Stuart). A difference of less than twice that is noise.
 #pragma once
 
 #include "sim/study/study.h"

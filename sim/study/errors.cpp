@@ -21,8 +21,8 @@ double extent_of(const std::vector<Vec3>& points) {
   return (high - low).norm();
 }
 
-// Points whose rest positions agree to a millionth of the size. Where several points rest in one place (two bodies, the
-// corners of a vertex) nothing tells which is which: they are left out.
+// Points whose rest positions agree to a millionth of the size. Where several points rest in one place (two
+// bodies, the corners of a vertex) nothing tells which is which: they are left out.
 Pairs common_points(const Trajectory& a, const Trajectory& b) {
   Pairs pairs;
   if (a.rest == b.rest) {

@@ -5,10 +5,10 @@
 //   L2(t) = √( Σ m_i |Δx_i|² / Σ m_i )        L∞(t) = max_i |Δx_i|
 //   over time: √( mean over the samples after the start of L2² ),  and the maximum of L∞
 //
-// and velocities alike. Made relative by the reference's own motion, so that 0.01 is one per cent of it whatever the
-// scene: lengths by the largest root mean square displacement from the start, speeds by the largest root mean square
-// speed, energies by the largest kinetic energy. Energy drift is the change of the energy since the start, less what it is
-// in the reference (nothing where nothing dissipates or drives).
+// and velocities alike. Made relative by the reference's own motion, so that 0.01 is one per cent of it
+// whatever the scene: lengths by the largest root mean square displacement from the start, speeds by the
+// largest root mean square speed, energies by the largest kinetic energy. Energy drift is the change of the
+// energy since the start, less what it is in the reference (nothing where nothing dissipates or drives).
 #pragma once
 
 #include "sim/study/trajectory.h"
@@ -35,8 +35,8 @@ struct Scales {
 };
 Scales scales_of(const Trajectory& reference);
 
-// Over the samples that both have, up to `until` [s]: trajectories part after a tear. Points are matched by their rest
-// positions where the meshes differ. None: there is no such sample or no common point.
+// Over the samples that both have, up to `until` [s]: trajectories part after a tear. Points are matched by
+// their rest positions where the meshes differ. None: there is no such sample or no common point.
 std::optional<StateErrors> compare(const Trajectory& run, const Trajectory& reference,
                                    double until = std::numeric_limits<double>::infinity());
 

@@ -24,8 +24,8 @@ double within(double t, int freedom) {
   return freedom % 2 ? 2 / pi * (theta + sine * sum) : sine * sum;
 }
 
-// The first row of at least three neighbours, from the smallest step up, whose local orders keep within the spread;
-// indices into `points`.
+// The first row of at least three neighbours, from the smallest step up, whose local orders keep within the
+// spread; indices into `points`.
 std::vector<std::size_t> straight(const std::vector<OrderPoint>& points, const std::vector<std::size_t>& sorted,
                                   double spread) {
   std::vector<double> orders;

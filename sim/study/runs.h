@@ -14,7 +14,8 @@ struct SampledRun {
   Trajectory trajectory; // up to the failure
 };
 
-// `steps` steps, with a sample at the start and each time that one of study_samples equal parts of them is over.
+// `steps` steps, with a sample at the start and each time that one of study_samples equal parts of them is
+// over.
 SampledRun sampled_run(Scene& scene, long steps, const std::function<bool()>& going);
 
 // Seconds of the time loop alone. The run is known not to fail.

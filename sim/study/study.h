@@ -1,11 +1,11 @@
 // A study: one preset run by several schemes at several steps, each run's error against its run time.
 //
-//   plan -> groups × schemes × knobs -> a reference for each group -> runs -> rows -> curves (orders, times to reach)
+//   plan -> groups × schemes × knobs -> a reference for each group -> runs -> rows -> curves (orders, times)
 //
-// A group is one value of everything else that is swept (mesh, model, rotation ...). Its runs are compared with its own
-// reference, so that their errors are those of the scheme alone; how far its reference is from that of the group that
-// counts as the most exact is what the mesh or the model does. Nothing here reads or writes files: scenes come from a
-// function, and numbers go back.
+// A group is one value of everything else that is swept (mesh, model, rotation ...). Its runs are compared with
+// its own reference, so that their errors are those of the scheme alone; how far its reference is from that of
+// the group that counts as the most exact is what the mesh or the model does. Nothing here reads or writes
+// files: scenes come from a function, and numbers go back.
 #pragma once
 
 #include "sim/study/errors.h"

@@ -31,7 +31,8 @@ std::vector<TornSide> torn_sides(const Scene& scene) {
   return all;
 }
 
-// Where no step ended at its time, an answer was measured a part of a step later, which is no error of the scheme.
+// Where no step ended at its time, an answer was measured a part of a step later, which is no error of the
+// scheme.
 std::vector<AnswerError> answer_errors(const Scene& scene) {
   std::vector<AnswerError> all;
   for (const auto& body : scene.bodies()) {

@@ -1,8 +1,10 @@
-// What a run of a scene did, at moments that all runs of a study share: so much of it that two runs can be compared.
+// What a run of a scene did, at moments that all runs of a study share: so much of it that two runs can be
+// compared.
 //
-// A body that cannot tear is sampled at its vertices. One that can is sampled at its element corners, which every
-// separation leaves alone: a corner is the same matter in two runs that tore differently, and as long as nothing has torn
-// the sum over corners, Σ_c m_c |Δx|², is the sum over vertices. What is deleted has no position any more: NaN.
+// A body that cannot tear is sampled at its vertices. One that can is sampled at its element corners, which
+// every separation leaves alone: a corner is the same matter in two runs that tore differently, and as long as
+// nothing has torn the sum over corners, Σ_c m_c |Δx|², is the sum over vertices. What is deleted has no
+// position any more: NaN.
 #pragma once
 
 #include "sim/scene/scene.h"

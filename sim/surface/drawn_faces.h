@@ -1,8 +1,10 @@
-// The faces that are drawn of a solid: few among many, so kept sparsely, and in an order that is the map's alone.
+// The faces that are drawn of a solid: few among many, so kept sparsely, and in an order that is the map's
+// alone.
 //
-// A face's key is its smallest dart. Keys come in blocks of 128 darts; a block holds its drawn faces sorted by key, and
-// their corners one face after another. An insertion moves what follows in one block; an empty block costs 48 bytes
-// (0.4 bytes a dart of the map); and the whole is a pure function of what is drawn, however it came about.
+// A face's key is its smallest dart. Keys come in blocks of 128 darts; a block holds its drawn faces sorted by
+// key, and their corners one face after another. An insertion moves what follows in one block; an empty block
+// costs 48 bytes (0.4 bytes a dart of the map); and the whole is a pure function of what is drawn, however it
+// came about.
 #pragma once
 
 #include "sim/embedding/cell_index.h"

@@ -1,17 +1,18 @@
 // What is seen of a solid: its α3-free faces, as triangles with the true edges of cells, and their normals.
 //
-// Faces are bound one by one, rebuilt only where the map changed, and equal to a full rebuild (drawn_faces.h). They run
-// counter-clockwise seen from outside, which is known from the rest state and not from how the map was built; so the far
-// side of a triangle is never seen and need not be drawn.
+// Faces are bound one by one, rebuilt only where the map changed, and equal to a full rebuild (drawn_faces.h).
+// They run counter-clockwise seen from outside, which is known from the rest state and not from how the map was
+// built; so the far side of a triangle is never seen and need not be drawn.
 //
-// Corners around a vertex that bend little share a normal, so that a coarse mesh of a smooth shape looks smooth: a fan of
-// corners (hull.h) falls into groups at creases, which are edges where two faces make more than 40° at rest. (By the rest
-// state, or creases would come and go as the body bends.) A face that fracture laid bare is flat and keeps to itself.
-// The normal of a group is, over its corners with the sides a and b,
+// Corners around a vertex that bend little share a normal, so that a coarse mesh of a smooth shape looks
+// smooth: a fan of corners (hull.h) falls into groups at creases, which are edges where two faces make more
+// than 40° at rest. (By the rest state, or creases would come and go as the body bends.) A face that fracture
+// laid bare is flat and keeps to itself. The normal of a group is, over its corners with the sides a and b,
 //
-//   n ~ Σ a × b / (|a|² |b|²),        exact for points on a sphere (Max, Weights for computing vertex normals, 1999)
+//   n ~ Σ a × b / (|a|² |b|²),
 //
-// and costs no angle. Nothing here is kept for faces inside.
+// exact for points on a sphere (Max, Weights for computing vertex normals, 1999), and costs no angle. Nothing
+// here is kept for faces inside.
 #pragma once
 
 #include "sim/scene/body.h"

@@ -1,14 +1,14 @@
 // What is seen of a sheet: triangles of its faces, with the true edges of cells and normals. (Of a solid:
 // solid_surface.h.)
 //
-// Rows are bound like those of the program (packed_rows.h), with the face slot as key, rebuilt only where the map
-// changed, and equal byte for byte to a full rebuild. Positions and normals are read from the state when a picture
-// is made.
+// Rows are bound like those of the program (packed_rows.h), with the face slot as key, rebuilt only where the
+// map changed, and equal byte for byte to a full rebuild. Positions and normals are read from the state when a
+// picture is made.
 //
-// A face becomes a fan around its first dart's vertex; only its own sides are lines, so that a quad shows as a quad.
-// A vertex normal is the sum over its element corners of (even end − v) × (odd end − v), where darts around the
-// vertex are even and odd in turn from its smallest dart on: the corners then agree without any orientation of the
-// whole, on a Möbius band as well.
+// A face becomes a fan around its first dart's vertex; only its own sides are lines, so that a quad shows as a
+// quad. A vertex normal is the sum over its element corners of (even end − v) × (odd end − v), where darts
+// around the vertex are even and odd in turn from its smallest dart on: the corners then agree without any
+// orientation of the whole, on a Möbius band as well.
 #pragma once
 
 #include "sim/program/packed_rows.h"
@@ -44,8 +44,8 @@ public:
     });
   }
 
-  // Normals of the current state, unit or 0, one per vertex slot. Their sign is a vertex's own: within a triangle
-  // they are to be turned to its side.
+  // Normals of the current state, unit or 0, one per vertex slot. Their sign is a vertex's own: within a
+  // triangle they are to be turned to its side.
   void normals(std::vector<Vec3>& out) const;
 
   std::size_t bytes() const { return triangles_.bytes() + corners_.bytes(); }

@@ -1,5 +1,6 @@
-// The walks of walk.h over any record of where they have been: an object with has(dart's number), set() and insert(),
-// as Marks are. Numbering all orbits of a map takes the slots that it hands out for it, and needs no marks besides.
+// The walks of walk.h over any record of where they have been: an object with has(dart's number), set() and
+// insert(), as Marks are. Numbering all orbits of a map takes the slots that it hands out for it, and needs no
+// marks besides.
 #pragma once
 
 #include "sim/topology/walk.h"
@@ -31,8 +32,9 @@ inline void mirrored(const GMap& map, int i, int j, int k, Dart d, std::vector<D
   for (std::size_t n = begin; n < end; ++n) out.push_back(map.alpha(k, out[n]));
 }
 
-// <i,i+1,i+2>(d): a volume face after face, or the vertex of a solid one volume's corner after another. Those pieces,
-// <i,i+1>, are walked without looking at marks; αi+2 takes a pair {e, αi(e)} to a pair, so that one of them will do.
+// <i,i+1,i+2>(d): a volume face after face, or the vertex of a solid one volume's corner after another. Those
+// pieces, <i,i+1>, are walked without looking at marks; αi+2 takes a pair {e, αi(e)} to a pair, so that one of
+// them will do.
 template <class Seen> void piece_by_piece(const GMap& map, int i, Dart d, std::vector<Dart>& out, Seen& seen) {
   std::size_t at = out.size();
   const auto piece = [&](Dart first) {

@@ -11,8 +11,8 @@ std::uint32_t smallest(std::vector<std::uint32_t>& parent, std::uint32_t d) {
   return d;
 }
 
-// Labels the orbits of every dart by increasing smallest dart; returns how many there are. By union and find in the
-// order of darts, since those of a cell lie together: a search from dart to dart takes four times as long.
+// Labels the orbits of every dart by increasing smallest dart; returns how many there are. By union and find in
+// the order of darts, since those of a cell lie together: a search from dart to dart takes four times as long.
 std::uint32_t label(const GMap& map, Orbit orbit, std::vector<std::uint32_t>& labels) {
   labels.assign(map.capacity(), Dart::none_value);
   map.for_each_dart([&](Dart d) {

@@ -1,4 +1,5 @@
-// Sorts by darts in linear time: where an edit touched very many orbits, a comparing sort would cost more than all else.
+// Sorts by darts in linear time: where an edit touched very many orbits, a comparing sort would cost more than
+// all else.
 #pragma once
 
 #include <cstdint>

@@ -3,9 +3,9 @@
 //   αi(αi(d)) = d                        every αi is an involution; αi(d) = d is a free link
 //   αi(αj(αi(αj(d)))) = d  for j ≥ i+2   so is αiαj
 //
-// The four links of a dart stand together: a walk around a cell follows two or three different links of the same
-// darts, and then meets one cache line per dart instead of three. Darts of a body are reused once removed, the
-// last removed first. A GMap has no public writer; MapEdit writes, and remembers what it touched.
+// The four links of a dart stand together: a walk around a cell follows two or three different links of the
+// same darts, and then meets one cache line per dart instead of three. Darts of a body are reused once removed,
+// the last removed first. A GMap has no public writer; MapEdit writes, and remembers what it touched.
 #pragma once
 
 #include "sim/base/id.h"

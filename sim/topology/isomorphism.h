@@ -9,7 +9,8 @@
 
 namespace rend {
 
-// Whether dart a of the first map may correspond to dart b of the second (for instance, by the points they carry).
+// Whether dart a of the first map may correspond to dart b of the second (for instance, by the points they
+// carry).
 using DartMatch = std::function<bool(Dart a, Dart b)>;
 
 // A bijection of darts that keeps all four links and that `match` agrees with: image[d] for every dart d of `a`

@@ -2,7 +2,8 @@
 // from.
 //
 // The journal: for every i, the darts whose αi changed; the darts created; the darts removed. A dart may stand
-// in it more than once. Touched darts come in pairs, those that were linked to each other or let go of each other.
+// in it more than once. Touched darts come in pairs, those that were linked to each other or let go of each
+// other.
 #pragma once
 
 #include "sim/base/check.h"
@@ -35,8 +36,9 @@ public:
   void unlink(int i, Dart a);       // a and αi(a) become αi-free. CHECK: a is not free
   void reserve(std::size_t darts);
 
-  // Appends as many darts as there are links, dart n with αi = the first of them + links[n][i]; returns the first.
-  // CHECK: without a journal, and no dart was removed. That the links are involutions is the caller's word.
+  // Appends as many darts as there are links, dart n with αi = the first of them + links[n][i]; returns the
+  // first. CHECK: without a journal, and no dart was removed. That the links are involutions is the caller's
+  // word.
   Dart add_linked(std::span<const GMap::Links> links);
 
 private:

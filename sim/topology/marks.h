@@ -1,6 +1,6 @@
-// Marks on darts or slots: one bit each, none of them set between uses. Whoever sets marks takes them away again, so
-// that a scratch one can be kept and a use costs by what it marked, not by the size of the map. (A walk around a vertex
-// takes three quarters of the time that it takes with a hash set of where it has been.)
+// Marks on darts or slots: one bit each, none of them set between uses. Whoever sets marks takes them away
+// again, so that a scratch one can be kept and a use costs by what it marked, not by the size of the map. (A
+// walk around a vertex takes three quarters of the time that it takes with a hash set of where it has been.)
 #pragma once
 
 #include <cstddef>

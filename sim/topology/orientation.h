@@ -1,7 +1,7 @@
 // The two sides of a map: darts told into two classes that every link leads between (Lienhardt 1994).
 //
-// A walk around a face that starts at a dart of one class runs the one way, from one of the other class the other way;
-// faces that are walked from darts of one class run alike. A Möbius band has no such classes.
+// A walk around a face that starts at a dart of one class runs the one way, from one of the other class the
+// other way; faces that are walked from darts of one class run alike. A Möbius band has no such classes.
 #pragma once
 
 #include "sim/topology/gmap.h"

@@ -2,11 +2,11 @@
 //
 //   static_assert(well_formed(unsew_edge));
 //
-// 1. Incident arcs: a created dart has each of its four links once; a kept dart has the links it had on the left,
-//    none gained and none lost; a removed dart has all four on the left, so that nothing is left hanging.
+// 1. Incident arcs: a created dart has each of its four links once; a kept dart has the links it had on the
+//    left, none gained and none lost; a removed dart has all four on the left, so that nothing is left hanging.
 // 2. Cycles: for j ≥ i+2, αiαj stays an involution wherever αi or αj changes. Two explicit links: the square
-//    closes. One explicit, one implicit: the node across has the implicit one at the same position. Two implicit: the
-//    *hook's* links at those positions commute, whatever they are renamed to.
+//    closes. One explicit, one implicit: the node across has the implicit one at the same position. Two
+//    implicit: the *hook's* links at those positions commute, whatever they are renamed to.
 // 3. Hooks: one in every connected component of the left graph, its label without `_`; labels are equally long.
 // 4. Points: a vertex made of created darts alone has one expression, any other vertex none.
 //

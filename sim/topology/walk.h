@@ -2,8 +2,8 @@
 //
 // Orbits of at most two links are a path or a cycle and are walked without marks. So are <0,2,3> and <0,1,3>:
 // α0 commutes with α2 and α3, hence <0,2,3>(d) = <2,3>(d) ∪ α0<2,3>(d); and α3 with α0 and α1. The others need
-// to know where they have been (marks.h); <0,1,2> and <1,2,3> are walked face by face and corner by corner. A walk's
-// order depends on the map and the first dart alone.
+// to know where they have been (marks.h); <0,1,2> and <1,2,3> are walked face by face and corner by corner. A
+// walk's order depends on the map and the first dart alone.
 #pragma once
 
 #include "sim/topology/gmap.h"
@@ -17,7 +17,8 @@ namespace rend {
 // Appends the darts of orbit(d) to `out`, d first.
 void collect(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out);
 
-// The same, and leaves a mark on each of them. `marks` has room for the map's darts, and none of them is marked.
+// The same, and leaves a mark on each of them. `marks` has room for the map's darts, and none of them is
+// marked.
 void collect_marked(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out, Marks& marks);
 
 std::vector<Dart> darts_of(const GMap& map, Orbit orbit, Dart d);

@@ -1,5 +1,5 @@
-// The cloth of figure/springs_64 as a soft body of Bullet: the same particles, masses and springs as its links, in float,
-// one iteration of its solver, no collisions.
+// The cloth of figure/springs_64 as a soft body of Bullet: the same particles, masses and springs as its links,
+// in float, one iteration of its solver, no collisions.
 #include "bench/per_element.h"
 #include "bench/plain_cloth.h"
 #include "sim/presets.h"

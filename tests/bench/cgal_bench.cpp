@@ -1,5 +1,5 @@
-// The peer of map_bench.cpp: CGAL's generalized map, with a point as the one attribute of its vertices, on the same
-// blocks. Built where the library is installed (libcgal-dev); nothing of rend is in here.
+// The peer of map_bench.cpp: CGAL's generalized map, with a point as the one attribute of its vertices, on the
+// same blocks. Built where the library is installed (libcgal-dev); nothing of rend is in here.
 #include <CGAL/Linear_cell_complex_for_generalized_map.h>
 #include <CGAL/Linear_cell_complex_traits.h>
 #include <CGAL/Simple_cartesian.h>
@@ -42,8 +42,8 @@ void add_cells(Complex& map, bool tetrahedra) {
       }
 }
 
-// Pairs of faces with the same corners, by the dart of each that stands at its smallest corner and looks to the smaller
-// neighbour of that.
+// Pairs of faces with the same corners, by the dart of each that stands at its smallest corner and looks to the
+// smaller neighbour of that.
 Sides matching_sides(Complex& map) {
   std::map<std::array<Point, 3>, Handle> open;
   Sides sides;

@@ -1,4 +1,5 @@
-// The cloth of the thesis's table 7.1: steps, criteria, flat against walk, and a plain loop over the same springs.
+// The cloth of the thesis's table 7.1: steps, criteria, flat against walk, and a plain loop over the same
+// springs.
 #include "bench/plain_cloth.h"
 #include "sim/presets.h"
 #include "sim/surface/surface.h"
@@ -37,8 +38,8 @@ BENCHMARK_CAPTURE(rk4_step, mixed, "mixed", "");
 BENCHMARK_CAPTURE(rk4_step, mixed_global, "mixed", global_law);
 BENCHMARK_CAPTURE(rk4_step, mixed_atomic, "mixed", atomic_law);
 
-// A step of 100 x 100 quads that are stretched by 2 %, and the share of a law. Far: no value is anywhere near the
-// threshold; near: half of it, everywhere.
+// A step of 100 x 100 quads that are stretched by 2 %, and the share of a law. Far: no value is anywhere near
+// the threshold; near: half of it, everywhere.
 void criterion_step(benchmark::State& state, const std::string& attributes, bool near) {
   const auto cloth = [&](double threshold) {
     const std::string law =
@@ -111,7 +112,8 @@ void build_and_bind(benchmark::State& state) {
 }
 BENCHMARK(build_and_bind)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond)->Iterations(1);
 
-// One edge after another across the middle of the sheet: the map, embeddings, program and surface brought up to date.
+// One edge after another across the middle of the sheet: the map, embeddings, program and surface brought up to
+// date.
 void one_separation(benchmark::State& state) {
   const int cells = static_cast<int>(state.range(0));
   presets::Loaded scene = presets::load(presets::cloth("quads", cells, global_law, small_steps));
@@ -152,7 +154,8 @@ void forces(benchmark::State& state) {
 }
 BENCHMARK(forces)->Arg(10)->Arg(64)->Arg(1000);
 
-// Table 6.3: springs over edges against hinges. What a hinge takes: the difference to no bending, by their number.
+// Table 6.3: springs over edges against hinges. What a hinge takes: the difference to no bending, by their
+// number.
 void bending(benchmark::State& state, const std::string& bend) {
   presets::Loaded scene = presets::load(presets::cloth("quads", 16, "", small_steps, bend));
   Body& body = scene.body();

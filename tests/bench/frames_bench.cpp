@@ -1,8 +1,10 @@
-// Frames a second of the whole way from a Frame to PNG files and an .mp4 at once, and what each part of it takes.
+// Frames a second of the whole way from a Frame to PNG files and an .mp4 at once, and what each part of it
+// takes.
 //
-// A cloth of 5,000 or 200,000 triangles that waves, so that no frame is like the last, framed as rend frames bodies: 1280
-// x 720, four samples, key light's shadow, floor, HUD. Frames are made beforehand: what is measured is what follows a
-// simulation. Parts are measured by processor time of all threads, which neighbours on the machine disturb little.
+// A cloth of 5,000 or 200,000 triangles that waves, so that no frame is like the last, framed as rend frames
+// bodies: 1280 x 720, four samples, key light's shadow, floor, HUD. Frames are made beforehand: what is
+// measured is what follows a simulation. Parts are measured by processor time of all threads, which neighbours
+// on the machine disturb little.
 #include "render/camera.h"
 #include "render/device.h"
 #include "render/hud.h"

@@ -70,7 +70,8 @@ void unsew_faces(benchmark::State& state, bool together) {
 BENCHMARK_CAPTURE(unsew_faces, together, true)->Name("figure/unsew3_all_faces")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(unsew_faces, single, false)->Name("figure/unsew3_one_face")->Unit(benchmark::kMillisecond);
 
-// Map, slots and columns of co-rotational tetrahedra that may tear, every `n`-th inner face separated (0: none).
+// Map, slots and columns of co-rotational tetrahedra that may tear, every `n`-th inner face separated (0:
+// none).
 void bytes_of_tetrahedra(benchmark::State& state, std::size_t n) {
   const std::unique_ptr<Body> body = elements::elastic_body(block(true), {});
   body->border = &body->map->add(BornBorder(3));

@@ -1,4 +1,5 @@
-// A body of a million tetrahedra that breaks: whether a step in which much is parted takes much longer than any other.
+// A body of a million tetrahedra that breaks: whether a step in which much is parted takes much longer than any
+// other.
 #include "sim/presets.h"
 #include "sim/surface/solid_surface.h"
 

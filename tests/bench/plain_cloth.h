@@ -1,5 +1,5 @@
-// The limit for springs: what one would write by hand for the same springs, in plain arrays and one scalar loop, with
-// symplectic Euler, without map, tearing or guard.
+// The limit for springs: what one would write by hand for the same springs, in plain arrays and one scalar
+// loop, with symplectic Euler, without map, tearing or guard.
 #pragma once
 
 #include "sim/scene/body.h"

@@ -14,7 +14,8 @@
 namespace rend {
 namespace {
 
-// n × n quads of 8 darts, row by row, built in bulk. Dart 8q + 2s + e: end e of side s (south, east, north, west).
+// n × n quads of 8 darts, row by row, built in bulk. Dart 8q + 2s + e: end e of side s (south, east, north,
+// west).
 GMap quads(std::uint32_t n) {
   GMap map(2);
   MapEdit edit(map);
@@ -76,7 +77,8 @@ void collect_orbits(benchmark::State& state) {
 }
 BENCHMARK(collect_orbits)->Arg(Vertex.mask)->Arg(Edge.mask)->Arg(FaceOfVolume.mask)->Arg(Component.mask);
 
-// The east edges of every second column, bottom to top: each but the first of a column splits a vertex at least.
+// The east edges of every second column, bottom to top: each but the first of a column splits a vertex at
+// least.
 std::vector<Dart> columns_of_edges(std::uint32_t n) {
   std::vector<Dart> edges;
   for (std::uint32_t x = 0; x + 1 < n; x += 2)

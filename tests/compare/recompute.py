@@ -3,10 +3,10 @@
 
     recompute.py REND
 
-SSIM, RMSE and PSNR are scikit-image's (structural_similarity with its defaults). FLIP is written down here anew from the
-paper (Andersson et al. 2020), with two-dimensional filters and double precision; its own values for flat pictures are those
-of the authors' program, and are checked first. Pictures: noise, a gradient with a patch, something drawn; grey, palette,
-16 bits, with alpha (on white).
+SSIM, RMSE and PSNR are scikit-image's (structural_similarity with its defaults). FLIP is written down here anew
+from the paper (Andersson et al. 2020), with two-dimensional filters and double precision; its own values for
+flat pictures are those of the authors' program, and are checked first. Pictures: noise, a gradient with a
+patch, something drawn; grey, palette, 16 bits, with alpha (on white).
 
 Prints both values of each and the difference; exits 1 where they disagree by more than the tolerance stated.
 """
@@ -49,7 +49,8 @@ def hunt_lab(rgb):
     t = rgb @ TO_XYZ.T / WHITE
     f = np.where(t > (6 / 29)**3, np.cbrt(t), t / (3 * (6 / 29)**2) + 4 / 29)
     light = 116 * f[..., 1] - 16
-    return np.stack([light, 0.01 * light * 500 * (f[..., 0] - f[..., 1]), 0.01 * light * 200 * (f[..., 1] - f[..., 2])], -1)
+    return np.stack([light, 0.01 * light * 500 * (f[..., 0] - f[..., 1]),
+                     0.01 * light * 200 * (f[..., 1] - f[..., 2])], -1)
 
 
 def hyab(a, b):
@@ -84,7 +85,8 @@ def flip(a, b):
     most = hyab(corner(0, 1, 0), corner(0, 0, 1))**0.7
     e = hyab(*(hunt_lab(rgb_of_ycxcz(blurred(c))) for c in (a, b)))**0.7
     colour = np.where(e < 0.4 * most, e * 0.95 / (0.4 * most), 0.95 + (e - 0.4 * most) / (0.6 * most) * 0.05)
-    apart = [np.abs(features((a[..., 0] + 16) / 116, p) - features((b[..., 0] + 16) / 116, p)) for p in (False, True)]
+    apart = [np.abs(features((a[..., 0] + 16) / 116, p) - features((b[..., 0] + 16) / 116, p))
+             for p in (False, True)]
     return colour**(1 - np.clip(np.sqrt(np.maximum(*apart) / np.sqrt(2)), 0, 1))
 
 
@@ -97,7 +99,8 @@ def weighted_percentile(values, percent):
 def check_flip():
     flat = lambda *rgb: np.full((20, 20, 3), rgb, dtype=float)
     for a, b, known in [((0, 255, 0), (0, 0, 255), 1), ((0, 0, 0), (255, 255, 255), 0.967380),
-                        ((128, 128, 128), (129, 129, 129), 0.029855), ((128, 128, 128), (136, 136, 136), 0.127561)]:
+                        ((128, 128, 128), (129, 129, 129), 0.029855),
+                        ((128, 128, 128), (136, 136, 136), 0.127561)]:
         assert abs(flip(flat(*a), flat(*b)).mean() - known) < 2e-6, known
     dot = np.zeros((64, 64, 3))
     dot[32, 32] = 255
@@ -137,17 +140,20 @@ def pictures():
     palette = Image.fromarray(few).convert("P", palette=Image.Palette.ADAPTIVE, colors=64)
     yield "palette", (palette, np.asarray(palette.convert("RGB"))), (drawn, drawn)
     deep = [random.integers(0, 65536, (40, 50, 3), dtype=np.uint16)]
-    deep.append(np.clip(deep[0].astype(int) + random.integers(-90, 91, deep[0].shape), 0, 65535).astype(np.uint16))
+    noisy = deep[0].astype(int) + random.integers(-90, 91, deep[0].shape)
+    deep.append(np.clip(noisy, 0, 65535).astype(np.uint16))
     deep = [(dict(samples=d, bits=16, colour=2, interlaced=n == 1), d / 257) for n, d in enumerate(deep)]
     yield "16 bits, one interlaced", *deep
     yield "16 bits and 8", deep[0], (noise[:40, :50], noise[:40, :50])
     yield "interlaced", (dict(samples=drawn, bits=8, colour=2, interlaced=True), drawn), (patch, patch)
-    yield "1 bit", (Image.fromarray(ramp > 99), np.repeat((ramp > 99)[..., None], 3, axis=-1) * 255.), (grey, grey)
+    yield ("1 bit", (Image.fromarray(ramp > 99), np.repeat((ramp > 99)[..., None], 3, axis=-1) * 255.),
+           (grey, grey))
     alpha = random.integers(0, 256, (80, 120, 1), dtype=np.uint8)
     on_white = drawn * (alpha / 255) + (255 - alpha.astype(float))
     grey_on_white = grey * (alpha / 255) + (255 - alpha.astype(float))
     grey_alpha = np.stack([ramp, alpha[..., 0]], axis=-1)
-    yield "grey and alpha", (dict(samples=grey_alpha, bits=8, colour=4, interlaced=True), grey_on_white), (drawn, drawn)
+    yield ("grey and alpha", (dict(samples=grey_alpha, bits=8, colour=4, interlaced=True), grey_on_white),
+           (drawn, drawn))
     yield "alpha", (np.concatenate([drawn, alpha], axis=-1), on_white), (drawn, drawn)
 
 
@@ -171,7 +177,8 @@ def main():
                 sys.exit(f"rend diff ended with {done.returncode}: {done.stderr}")
             found = json.loads(done.stdout)["cases"][0]["figures"]
             a, b = (np.asarray(levels, dtype=float) for _, levels in pair)
-            table.add(f"{name}: SSIM", found["ssim"], metrics.structural_similarity(a, b, channel_axis=-1, data_range=255),
+            table.add(f"{name}: SSIM", found["ssim"],
+                      metrics.structural_similarity(a, b, channel_axis=-1, data_range=255),
                       1e-6)
             if "alpha" not in name: # where alpha counts as a channel of its own
                 rmse = np.sqrt(metrics.mean_squared_error(a, b))
@@ -181,7 +188,8 @@ def main():
             map_ = flip(a, b)
             table.add(f"{name}: FLIP", found["flip"]["mean"], map_.mean(), 5e-5)
             table.add(f"{name}: largest FLIP", found["flip"]["max"], map_.max(), 5e-5)
-            table.add(f"{name}: weighted median of FLIP", found["flip"]["weighted_median"], weighted_percentile(map_, 50),
+            table.add(f"{name}: weighted median of FLIP", found["flip"]["weighted_median"],
+                      weighted_percentile(map_, 50),
                       5e-5)
             table.add(f"{name}: weighted quartile of FLIP", found["flip"]["weighted_quartile_3"],
                       weighted_percentile(map_, 75), 5e-5)
@@ -192,12 +200,14 @@ def write_png(file, samples, bits, colour, interlaced):
     """From its specification: bits 8 or 16, colour 0 (grey), 2 (RGB), 4 (grey and alpha) or 6 (RGBA)."""
     height, width = samples.shape[:2]
     if interlaced: # Adam7: first column and row, and their steps
-        passes = [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)]
+        passes = [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2),
+                  (0, 1, 1, 2)]
     else:
         passes = [(0, 0, 1, 1)]
     rows = b"".join(b"\0" + row.astype(f">u{bits // 8}").tobytes() for x, y, dx, dy in passes
                     for row in samples[y::dy, x::dx] if row.size)
-    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    number = lambda value: struct.pack(">I", value)
+    chunk = lambda kind, data: number(len(data)) + kind + data + number(zlib.crc32(kind + data))
     head = struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, int(interlaced))
     file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) +
                      chunk(b"IEND", b""))

@@ -1,4 +1,5 @@
-// The simulation's libraries alone: six squares sewn into a cube. Prints its vertices, edges, faces, and V - E + F.
+// The simulation's libraries alone: six squares sewn into a cube. Prints its vertices, edges, faces, and V - E
+// + F.
 #include "sim/mesh/polygons.h"
 #include "sim/topology/count.h"
 

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Clicks through the page of `rend batch` in a real browser (Debian: chromium, chromium-driver, python3-selenium).
+"""Clicks through the page of `rend batch` in a real browser (chromium, chromium-driver, python3-selenium).
 
     batch.py REND [DIR]     DIR: screenshots are left there
 
-Four jobs: two that are done, one that is unstable, one whose preset is bad. Tiles and states are read, each thumbnail is
-looked at as pixels, columns are sorted by a click, and a link is followed to the pictures. Exits 1 with what is wrong.
+Four jobs: two that are done, one that is unstable, one whose preset is bad. Tiles and states are read, each
+thumbnail is looked at as pixels, columns are sorted by a click, and a link is followed to the pictures. Exits 1
+with what is wrong.
 """
 import json
 import subprocess
@@ -33,7 +34,8 @@ def batch(rend, folder):
     write("more/slow", step="1e-5")
     write("unstable", k="1e13", step="1e-2", scheme="symplectic")
     (folder / "presets/bad.xml").write_text('<scene name="bad"><bdy/></scene>')
-    done = subprocess.run([rend, "batch", folder / "presets", "-o", folder / "out", "--json", "-q"], capture_output=True)
+    done = subprocess.run([rend, "batch", folder / "presets", "-o", folder / "out", "--json", "-q"],
+                          capture_output=True)
     check("rend batch says that jobs failed", done.returncode == 1)
     return {line["job"]: line for line in map(json.loads, done.stdout.splitlines())}
 
@@ -103,7 +105,8 @@ def main():
             driver.get(page.as_uri())
             states_and_pictures(driver, jobs)
             sorting(driver, jobs)
-            wrong = [line["message"] for line in driver.get_log("browser") if "readback" not in line["message"]] # ours
+            said = [line["message"] for line in driver.get_log("browser")]
+            wrong = [message for message in said if "readback" not in message]  # ours
             check(f"the browser has nothing to say {wrong}", not wrong)
             links(driver, page)
             if len(sys.argv) == 3:

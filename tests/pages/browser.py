@@ -1,4 +1,4 @@
-"""What the tests of pages share: a browser (Debian: chromium, chromium-driver, python3-selenium), checks, screenshots."""
+"""What the tests of pages share: a browser (chromium, python3-selenium), checks, screenshots."""
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 
@@ -27,7 +27,8 @@ def screenshots(driver, page, folder):
     height = driver.execute_script("return document.body.scrollHeight")
     driver.set_window_size(1240, min(height + 100, 6000))
     driver.save_screenshot(str(folder / "page.png"))
-    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                           {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
     driver.save_screenshot(str(folder / "page-dark.png"))
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                            {"width": 420, "height": 2400, "deviceScaleFactor": 1, "mobile": True})

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Clicks through the page of `rend diff` in a real browser (Debian: chromium, chromium-driver, python3-selenium).
+"""Clicks through the page of `rend diff` in a real browser (chromium, chromium-driver, python3-selenium).
 
     diff.py REND [DIR]     DIR: screenshots are left there
 
-Three pictures differ, one of each other state; every way of looking is clicked, the slider moved, the worst place and
-another one enlarged, a table sorted. What is seen is read back from the screen, as pixels. Exits 1 with what is wrong.
+Three pictures differ, one of each other state; every way of looking is clicked, the slider moved, the worst
+place and another one enlarged, a table sorted. What is seen is read back from the screen, as pixels. Exits 1
+with what is wrong.
 """
 import io
 import subprocess
@@ -106,7 +107,8 @@ def zoom(driver, box, stack):
     colour = lambda of, x, y: driver.execute_script(
         "var d = arguments[0].getContext('2d').getImageData(arguments[1], arguments[2], 1, 1).data;"
         "return [d[0], d[1], d[2]]", box.find_element(By.CSS_SELECTOR, f"canvas[data-of={of}]"), x, y)
-    check("the worst place: red now, blue expected", is_like(colour("b", 224, 224), RED) and is_like(colour("a", 224, 224), BLUE))
+    check("the worst place: red now, blue expected",
+          is_like(colour("b", 224, 224), RED) and is_like(colour("a", 224, 224), BLUE))
     webdriver.ActionChains(driver).move_to_element_with_offset(stack, -200, 100).click().perform()
     check("a click enlarges another place", is_like(colour("b", 224, 224), BLUE))
     box.find_element(By.CLASS_NAME, "worst").click()
@@ -114,12 +116,14 @@ def zoom(driver, box, stack):
 
 
 def tables(driver):
-    rows = lambda: [r.text.split()[0] for r in driver.find_elements(By.CSS_SELECTOR, "table")[0].find_elements(By.CSS_SELECTOR, "tbody tr")]
+    table = lambda: driver.find_elements(By.CSS_SELECTOR, "table")[0]
+    rows = lambda: [r.text.split()[0] for r in table().find_elements(By.CSS_SELECTOR, "tbody tr")]
     check("failures first, the worst state at the top", rows()[0] == "torn.png" and len(rows()) == 7)
     driver.find_elements(By.CSS_SELECTOR, "table")[0].find_element(By.TAG_NAME, "th").click()
     check("sorted by name after a click", rows() == sorted(rows()))
     driver.find_element(By.LINK_TEXT, "in/three.png").click()
-    top = driver.execute_script("return document.getElementById(location.hash.slice(1)).getBoundingClientRect().top")
+    top = driver.execute_script(
+        "return document.getElementById(location.hash.slice(1)).getBoundingClientRect().top")
     check("a link leads to the picture", -5 < top < 500)
     closed = driver.find_elements(By.TAG_NAME, "details")[-1]
     closed.find_element(By.TAG_NAME, "summary").click()
@@ -139,7 +143,8 @@ def main():
             driver.get((folder / "report/index.html").as_uri())
             zoom(driver, *first_of_two(driver))
             tables(driver)
-            wrong = [line["message"] for line in driver.get_log("browser") if "readback" not in line["message"]] # ours
+            said = [line["message"] for line in driver.get_log("browser")]
+            wrong = [message for message in said if "readback" not in message]  # ours
             check(f"the browser has nothing to say {wrong}", not wrong)
             if len(sys.argv) == 3:
                 screenshots(driver, folder / "report/index.html", Path(sys.argv[2]))

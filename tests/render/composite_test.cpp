@@ -23,7 +23,8 @@ Vector2d place_of(int x, int y) { // corners of the picture at -1 and 1
   return {2 * (x + 0.5) / width - 1, 2 * (y + 0.5) / height - 1};
 }
 
-// Samples of bodies as they come: numbers known on this side, and textures with them. Colours are multiplied by alpha.
+// Samples of bodies as they come: numbers known on this side, and textures with them. Colours are multiplied by
+// alpha.
 class KnownBodies {
 public:
   // Pixels of the picture that the textures hold, from its corner on. seed 0: there is nothing anywhere.
@@ -249,7 +250,8 @@ TEST_F(CompositeTest, ATransparentPictureHasNothingBehind) {
   }
 }
 
-// Most blocks are drawn by programs that leave out what is not there. Against all of them drawn with bodies and shadow.
+// Most blocks are drawn by programs that leave out what is not there. Against all of them drawn with bodies and
+// shadow.
 TEST_F(CompositeTest, BlocksOfEveryKindComeOutAsByTheMostGeneralProgram) {
   const KnownBodies none(width, height, 4, 1, 0);
   Footprint some = blocks_of(width, height);

@@ -1,5 +1,5 @@
-// A picture to draw on, and programs with fragment shaders of their own: for tests that draw without a stage. A Device
-// must be current.
+// A picture to draw on, and programs with fragment shaders of their own: for tests that draw without a stage. A
+// Device must be current.
 #pragma once
 
 #include "render/gl.h"

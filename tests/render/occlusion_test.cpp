@@ -62,7 +62,8 @@ std::optional<Hit> cast(const Frame& frame, const Vector3d& from, const Vector3d
   return first;
 }
 
-// The cosine-weighted share of the hemisphere in which something is within reach, that counts less the farther it is.
+// The cosine-weighted share of the hemisphere in which something is within reach, that counts less the farther
+// it is.
 double kept(const Frame& frame, const Vector3d& at, const Vector3d& normal, double reach) {
   const Vector3d other = std::abs(normal.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
   const Vector3d x = other.cross(normal).normalized(), y = normal.cross(x);
@@ -135,7 +136,8 @@ TEST_F(OcclusionTest, APlaneKeepsNothingFromItself) {
   }
 }
 
-// An octahedron and a fine ball. Beside a sharp edge the normal may be taken from the face beyond it: 2 % of the light.
+// An octahedron and a fine ball. Beside a sharp edge the normal may be taken from the face beyond it: 2 % of
+// the light.
 TEST_F(OcclusionTest, AConvexBodyKeepsNothingFromItself) {
   for (const int parts : {4, 48}) {
     Frame frame = front_view();

@@ -1,7 +1,8 @@
-// Counts what asks for memory while it is looked at: operator new and the malloc family (Eigen), on every thread.
+// Counts what asks for memory while it is looked at: operator new and the malloc family (Eigen), on every
+// thread.
 //
-// allocations.cpp replaces both for the whole test program. What oneTBB asks for to hand out tasks is its own affair and
-// not counted. Not under AddressSanitizer, which replaces them itself.
+// allocations.cpp replaces both for the whole test program. What oneTBB asks for to hand out tasks is its own
+// affair and not counted. Not under AddressSanitizer, which replaces them itself.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Forces and criteria computed from lists of polygons alone: no darts, no patterns, no folding. Slow and plain, to
-// compare the program with.
+// Forces and criteria computed from lists of polygons alone: no darts, no patterns, no folding. Slow and plain,
+// to compare the program with.
 #pragma once
 
 #include "sim/random_meshes.h"
@@ -21,7 +21,8 @@ public:
     find_edges();
   }
 
-  // The polygons of a body that may be torn: points are vertex slots; sides that are open are no one's neighbours.
+  // The polygons of a body that may be torn: points are vertex slots; sides that are open are no one's
+  // neighbours.
   explicit BruteForce(const EmbeddedMap& map) {
     for (const Record& rest : map.rest().values()) mesh_.points.push_back(rest.vec());
     mesh_.first.push_back(0);
@@ -96,8 +97,8 @@ public:
     return out;
   }
 
-  // Values of the criteria at every edge between two polygons, by the smallest dart of the edge (design: mechanics,
-  // section 4).
+  // Values of the criteria at every edge between two polygons, by the smallest dart of the edge (design:
+  // mechanics, section 4).
   std::map<Dart, double> border_values(const EmbeddedMap& map, bool atomic) const {
     std::map<Dart, double> values;
     for (const Edge& e : edges_) {
@@ -209,7 +210,8 @@ private:
     return sum / static_cast<double>(sides(f.polygon));
   }
 
-  // The dihedral angle from the directions that lead from the hinge into the two faces: π less the angle between them.
+  // The dihedral angle from the directions that lead from the hinge into the two faces: π less the angle
+  // between them.
   template <class Place> double dihedral(const Edge& e, Place&& place) const {
     const Vec3 a = place(e.p.a), u = (place(e.p.b) - a).normalized();
     const auto into = [&](const Flank& f) {
@@ -221,8 +223,8 @@ private:
     return (q.dot(u.cross(p)) > 0 ? -1 : 1) * (pi_ - between);
   }
 
-  // What is left of a hinge's forces where a triangle (hinge, face centre) has less than 1/8 of the smaller one's area
-  // at rest, by the squares of areas.
+  // What is left of a hinge's forces where a triangle (hinge, face centre) has less than 1/8 of the smaller
+  // one's area at rest, by the squares of areas.
   double crushed(const Edge& e) const {
     const auto area = [&](const Flank& f, auto&& place) {
       const Vec3 a = place(e.p.a);

@@ -1,5 +1,5 @@
-// Single elements of every kind, distorted, and laws upon them; and bodies with elasticity: for tests that compare with
-// what is computed from the corners alone.
+// Single elements of every kind, distorted, and laws upon them; and bodies with elasticity: for tests that
+// compare with what is computed from the corners alone.
 #pragma once
 
 #include "sim/mechanics/elasticity.h"

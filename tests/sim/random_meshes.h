@@ -1,5 +1,5 @@
-// Irregular, warped sheets, and bodies put together from them without a preset: for tests that compare with what
-// is computed from the polygons alone.
+// Irregular, warped sheets, and bodies put together from them without a preset: for tests that compare with
+// what is computed from the polygons alone.
 #pragma once
 
 #include "sim/mesh/sheet.h"

@@ -3,14 +3,15 @@
 
     recompute.py REND
 
-1. Errors and an order. `rend study` of a cloth of springs writes errors into study.csv. The runs of one scheme and the
-   reference are made again with `rend run --export vtu`, and from places, velocities and masses in the .vtu files come the
-   errors (the root mean square over the mass, and over the samples), the scale that makes them relative, and the order
-   (the slope of log error over log step).
-2. A step limit. The stiffness of a bar of distorted hexahedra is assembled here, from the places at rest in a .vtu file
-   and the preset's E and nu, by textbook trilinear elements with 2 x 2 x 2 Gauss points (Zienkiewicz & Taylor, The Finite
-   Element Method, vol. 1); masses are the .vtu's. The highest frequency is an eigenvalue (Lanczos, ARPACK); symplectic
-   Euler is stable up to 2/omega. Bisection finds where rend's runs blow up, and `rend info` says what it vouches for.
+1. Errors and an order. `rend study` of a cloth of springs writes errors into study.csv. The runs of one scheme
+   and the reference are made again with `rend run --export vtu`, and from places, velocities and masses in the
+   .vtu files come the errors (the root mean square over the mass, and over the samples), the scale that makes
+   them relative, and the order (the slope of log error over log step).
+2. A step limit. The stiffness of a bar of distorted hexahedra is assembled here, from the places at rest in a
+   .vtu file and the preset's E and nu, by textbook trilinear elements with 2 x 2 x 2 Gauss points (Zienkiewicz
+   & Taylor, The Finite Element Method, vol. 1); masses are the .vtu's. The highest frequency is an eigenvalue
+   (Lanczos, ARPACK); symplectic Euler is stable up to 2/omega. Bisection finds where rend's runs blow up, and
+   `rend info` says what it vouches for.
 
 Prints both values of each and the difference; exits 1 where they disagree by more than the tolerance stated.
 """
@@ -51,7 +52,8 @@ class State:
         self.time = float(re.search(r'Name="TimeValue"[^>]*>([^<]*)<', text)[1])
         self.arrays = {}
         for kind, name, width, content in re.findall(
-                r'<DataArray type="(\w+)" Name="([^"]+)"(?: NumberOfComponents="(\d+)")? format="binary">([^<]*)<', text):
+                r'<DataArray type="(\w+)" Name="([^"]+)"(?: NumberOfComponents="(\d+)")? '
+                r'format="binary">([^<]*)<', text):
             raw = base64.b64decode(content)
             values = np.frombuffer(raw, TYPES[kind], offset=8)  # behind the number of bytes
             assert values.nbytes == int(np.frombuffer(raw, np.uint64, 1)[0])
@@ -83,8 +85,9 @@ def call(rend, *words, codes=(0,)):
 
 def trajectory(rend, preset, folder, scheme, step, steps, samples, duration):
     """The states after the start at `samples` equal parts of the run; and the one at the start."""
-    call(rend, "run", preset, "-q", "--export", "vtu", "-o", folder, "--set", f"time.integrator={scheme}", "--set",
-         f"time.step={step!r}", "--steps", steps, "--fps", repr(samples / duration))
+    call(rend, "run", preset, "-q", "--export", "vtu", "-o", folder,
+         "--set", f"time.integrator={scheme}", "--set", f"time.step={step!r}", "--steps", steps,
+         "--fps", repr(samples / duration))
     names = re.findall(r'file="([^"]+)"', (folder / "cloth.pvd").read_text())
     states = [State(folder / name) for name in names]
     assert len(states) == samples + 1, f"{len(states)} states in {folder}"
@@ -105,8 +108,8 @@ def errors_and_order(rend, folder, table):
         rows = list(csv.DictReader(file))
     duration, samples, reference = report["duration"], report["samples"], report["references"][0]
     steps = round(duration / reference["step"])
-    truth = trajectory(rend, preset, folder / "reference", reference["scheme"], reference["step"], steps, samples,
-                       duration)
+    truth = trajectory(rend, preset, folder / "reference", reference["scheme"], reference["step"], steps,
+                       samples, duration)
     mass = truth[0].mass
     length = max(norm(mass, state.x - truth[0].x) for state in truth)
     table.add("scale of lengths [m]", reference["length"], length, 1e-9)
@@ -116,15 +119,16 @@ def errors_and_order(rend, folder, table):
     found = {}
     for n in used:
         row = rows[n]
-        run = trajectory(rend, preset, folder / f"run-{n}", row["integrator"], float(row["step"]), row["steps"], samples,
-                         duration)
+        run = trajectory(rend, preset, folder / f"run-{n}", row["integrator"], float(row["step"]), row["steps"],
+                         samples, duration)
         over_time = math.sqrt(np.mean([norm(mass, a.x - b.x) ** 2 for a, b in zip(run[1:], truth[1:])]))
         found[n] = over_time / length
         step = float(row["step"])
         table.add(f"error of position over time, h = {step:.3g}", float(row["error"]), found[n], 1e-6)
         table.add(f"error of velocity at the end [m/s], h = {step:.3g}", float(row["velocity_l2_final"]),
                   norm(mass, run[-1].velocity - truth[-1].velocity), 1e-6)
-    slope = np.polyfit([math.log(float(rows[n]["step"])) for n in used], [math.log(found[n]) for n in used], 1)[0]
+    slope = np.polyfit([math.log(float(rows[n]["step"])) for n in used],
+                       [math.log(found[n]) for n in used], 1)[0]
     table.add("order of velocity Verlet", curve["fit"]["order"], slope, 1e-6)
     table.add("   and by theory", slope, curve["theory"], 0.05)
 
@@ -151,11 +155,13 @@ def stiffness_of_hexahedron(x):
     lame, shear = YOUNG * POISSON / ((1 + POISSON) * (1 - 2 * POISSON)), YOUNG / (2 * (1 + POISSON))
     c = np.diag([2 * shear] * 3 + [shear] * 3)
     c[:3, :3] += lame
-    signs = np.array([(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)])
+    signs = np.array([(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1),
+                      (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)])
     k = np.zeros((24, 24))
     for point in signs / math.sqrt(3):
         terms = 1 + signs * point
-        local = np.stack([signs[:, a] * np.prod(np.delete(terms, a, axis=1), axis=1) / 8 for a in range(3)], axis=1)
+        local = np.stack([signs[:, a] * np.prod(np.delete(terms, a, axis=1), axis=1) / 8 for a in range(3)],
+                         axis=1)
         jacobian = x.T @ local
         g = local @ np.linalg.inv(jacobian)
         b = np.zeros((6, 24))
@@ -193,7 +199,8 @@ def step_limit(rend, folder, table):
     limit = 2 / highest_frequency(State(folder / "bar/00000.vtu"))
 
     def stable(step):
-        done = call(rend, "run", preset, "-q", "--json", "--no-guard", "--steps", 2000, "--set", f"time.step={step!r}", codes=(0, 76))
+        done = call(rend, "run", preset, "-q", "--json", "--no-guard", "--steps", 2000,
+                    "--set", f"time.step={step!r}", codes=(0, 76))
         return done.returncode == 0 and json.loads(done.stdout)["energy"]["kinetic"] < 1e3
 
     low, high = 0.87 * limit, 1.11 * limit

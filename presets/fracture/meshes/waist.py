@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The waisted bar of pulled-bar.xml: boxes, 1.2 m long, 0.24 m wide, narrowed in the middle. Writes .msh 2.2.
 
-   python3 waist.py 36 6 > waist.msh       boxes along and across; optionally how much narrower (0.4), over what length (0.16)
+   python3 waist.py 36 6 > waist.msh       boxes along and across; optionally how much
+                                           narrower (0.4), over what length (0.16)
 """
 import sys, math
 n, m = int(sys.argv[1]), int(sys.argv[2])

@@ -1,4 +1,5 @@
-// Answers on the command line: what `rend run` says and ends with, and that every preset of presets/verify holds.
+// Answers on the command line: what `rend run` says and ends with, and that every preset of presets/verify
+// holds.
 #include "tests/render/app/program_run.h"
 
 #include <gmock/gmock.h>
@@ -74,8 +75,8 @@ TEST_F(Answers, stand_among_the_figures) {
 
 TEST_F(Answers, leave_the_code_of_an_unstable_run) {
   place.write("stiff.xml", R"(<scene name="stiff"><body><sheet cells="3 3" size="1 1"/><mass total="1"/>
-    <springs><stretch k="1e5"/></springs><fix side="-x"/><load side="+x" force="1 0 0"/><probe name="p" side="+x"/>
-    <answer probe="p" quantity="dx" at="0" value="1"/></body>
+    <springs><stretch k="1e5"/></springs><fix side="-x"/><load side="+x" force="1 0 0"/>
+    <probe name="p" side="+x"/><answer probe="p" quantity="dx" at="0" value="1"/></body>
     <time step="1e5" integrator="rk4" duration="1e7"/></scene>)");
   EXPECT_EQ(place.rend("run stiff.xml --quiet").code, 76);
 }

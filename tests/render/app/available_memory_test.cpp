@@ -69,7 +69,8 @@ TEST_F(AvailableMemory, is_of_the_groups_of_version_1_too) {
   EXPECT_EQ(here(), 2400000u);
 }
 
-// There the mount shows the container's own group, and what is said of the group is as the host or the container sees it.
+// There the mount shows the container's own group, and what is said of the group is as the host or the
+// container sees it.
 TEST_F(AvailableMemory, is_of_the_group_of_a_container) {
   group_2("", "3000000", 1000000);
   for (const auto& [root, group] :

@@ -238,7 +238,8 @@ TEST_F(Batch, a_job_that_was_ended_from_outside_is_not_done) {
   }
 }
 
-// Memory that pictures take: sizes are such that two jobs of one preset begin, and have no room beside each other.
+// Memory that pictures take: sizes are such that two jobs of one preset begin, and have no room beside each
+// other.
 class TightBatch : public Batch {
 protected:
   TightBatch() {
@@ -253,8 +254,8 @@ protected:
       (line["job"] == "a" ? small_ : large_) = line["peak_bytes"].get<std::size_t>();
     EXPECT_GT(budget(), 2 * small_);
   }
-  // [bytes] On a busy machine the large one takes less than it did; and two jobs of which nothing is known yet, of which
-  // 200 MB are expected each, are not to begin together.
+  // [bytes] On a busy machine the large one takes less than it did; and two jobs of which nothing is known yet,
+  // of which 200 MB are expected each, are not to begin together.
   std::size_t budget() const { return std::min(large_ * 65 / 100, std::size_t{390} << 20U); }
   std::size_t small_ = 0, large_ = 0; // [bytes]
 };
@@ -278,7 +279,8 @@ TEST_F(TightBatch, a_job_that_made_room_before_it_had_a_checkpoint_begins_anew) 
   EXPECT_EQ(pictures("tight/pipe"), pictures("whole/a"));
 }
 
-// The large one waits for its preset until the one begun after it is on its way, and then takes more than there is.
+// The large one waits for its preset until the one begun after it is on its way, and then takes more than there
+// is.
 TEST_F(TightBatch, a_job_that_made_room_goes_on_from_its_checkpoint) {
   NEEDS_PNG;
   std::string text = program::pulled;

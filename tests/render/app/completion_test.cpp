@@ -103,9 +103,11 @@ TEST_F(Completion, of_zsh_offers_commands_options_choices_and_files) {
 zpty shell zsh -f -i
 zpty -w shell "PS1=; fpath=($PWD \$fpath); autoload -Uz compinit; compinit -u -D; stty cols 200; print rea''dy"
 zpty -r shell seen '*ready*'
-for line in 'rend inf' 'rend render --vide' 'rend render --video=we' 'rend render pla' 'rend mesh conv' 'rend help sche' \
-  'rend render --set time.integ' 'rend run --set time.integrator=symp' 'rend study plate.xml --integrators symp'; do
-  zpty -n -w shell $'\C-u'"echo '${line}' >/dev/null; print -r -- "$'\C-u'"$line"$'\t'$'\C-a'"print -r -- '<"$'\C-e'">'"$'\n'
+for line in 'rend inf' 'rend render --vide' 'rend render --video=we' 'rend render pla' 'rend mesh conv' \
+  'rend help sche' 'rend render --set time.integ' 'rend run --set time.integrator=symp' \
+  'rend study plate.xml --integrators symp'; do
+  shown=$'\C-u'"echo '${line}' >/dev/null; print -r -- "$'\C-u'"$line"$'\t'
+  zpty -n -w shell "$shown"$'\C-a'"print -r -- '<"$'\C-e'">'"$'\n'
   zpty -r shell seen $'*\n<*>*'
   print -r -- ${${seen##*$'\n'<}%%>*}
 done

@@ -1,5 +1,5 @@
-// `rend run --export vtu`, read back by meshio: the cells are whole and turn the right way, and the numbers on them are
-// those that `rend run --json` tells.
+// `rend run --export vtu`, read back by meshio: the cells are whole and turn the right way, and the numbers on
+// them are those that `rend run --json` tells.
 #include "tests/render/app/program_run.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// rend study --lean: what is switched on changes nothing where it must not, and what is not asked for takes no bytes.
-// Times are not looked at here.
+// rend study --lean: what is switched on changes nothing where it must not, and what is not asked for takes no
+// bytes. Times are not looked at here.
 #include "render/app/lean_study.h"
 #include "render/app/preset_types.h"
 #include "sim/study/bare_loop.h"

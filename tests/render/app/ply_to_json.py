@@ -7,7 +7,8 @@ import json
 import struct
 import sys
 
-FORMATS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d"}
+FORMATS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f",
+           "double": "d"}
 
 
 def header(file):

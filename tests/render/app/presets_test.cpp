@@ -71,8 +71,9 @@ TEST_P(EveryPreset, is_called_as_its_file) {
   EXPECT_TRUE(name == stem || name == path.parent_path().filename().string() + "-" + stem) << name;
 }
 
-// On the vector unit that the program chooses, and on two others (where the processor has them: simd_width.h) with another
-// number of threads. The second run is that of an old processor, for the C library's functions as well.
+// On the vector unit that the program chooses, and on two others (where the processor has them: simd_width.h)
+// with another number of threads. The second run is that of an old processor, for the C library's functions as
+// well.
 TEST_P(EveryPreset, runs_and_gives_the_same_state_again_on_any_vector_unit_and_on_two_threads) {
   const std::string part = std::getenv("REND_WHOLE") ? "" : tenth();
   const std::string old = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX2,-AVX,-FMA,-FMA4 REND_SIMD=sse2";

@@ -1,8 +1,8 @@
-// The same preset gives the same files, byte for byte, pictures and video: again, and whatever the threads of the
-// simulation and of the renderer.
+// The same preset gives the same files, byte for byte, pictures and video: again, and whatever the threads of
+// the simulation and of the renderer.
 //
-// By default a few small pictures, some times over; with REND_WHOLE in the environment a whole clip that tears, at its full
-// size, 20 times (tests/run --all).
+// By default a few small pictures, some times over; with REND_WHOLE in the environment a whole clip that tears,
+// at its full size, 20 times (tests/run --all).
 #include "tests/render/app/program_run.h"
 #include "tests/render/needs.h"
 

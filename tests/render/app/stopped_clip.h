@@ -10,7 +10,8 @@
 
 namespace rend::program {
 
-// All that pictures follow over a clip: a scale, colours of fragments, curves, a camera that goes after the body.
+// All that pictures follow over a clip: a scale, colours of fragments, curves, a camera that goes after the
+// body.
 constexpr const char* followed = R"(<scene name="clip">
   <body name="cloth">
     <sheet cells="8 8" size="1 1"/><place rotate="90 0 0"/><mass total="0.1"/>

@@ -1,5 +1,5 @@
-// `rend run --export ply` and `obj`, read back by a reader that knows nothing of rend and by tinyobjloader: the same
-// points and faces, and the numbers of the .vtu files of the same run.
+// `rend run --export ply` and `obj`, read back by a reader that knows nothing of rend and by tinyobjloader: the
+// same points and faces, and the numbers of the .vtu files of the same run.
 #include "tests/render/app/program_run.h"
 
 #include <gmock/gmock.h>

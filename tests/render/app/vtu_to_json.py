@@ -18,7 +18,8 @@ def plain(value):
 for name in sys.argv[1:]:
     mesh = meshio.read(name)
     cells = [[block.type, plain(cell)] for block in mesh.cells for cell in block.data]
-    cell_data = {key: [row for block in blocks for row in plain(block)] for key, blocks in mesh.cell_data.items()}
+    cell_data = {key: [row for block in blocks for row in plain(block)]
+                 for key, blocks in mesh.cell_data.items()}
     print(json.dumps({
         "time": float(mesh.field_data["TimeValue"][0]),
         "points": plain(mesh.points),

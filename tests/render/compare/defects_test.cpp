@@ -1,5 +1,6 @@
-// Defects that pictures have had, in this program or in others: each is put into a picture of a preset, a frame of it or
-// its scene, and the tolerances of the goldens must not let it pass. And the same picture again must always pass.
+// Defects that pictures have had, in this program or in others: each is put into a picture of a preset, a frame
+// of it or its scene, and the tolerances of the goldens must not let it pass. And the same picture again must
+// always pass.
 #include "render/app/diff_tolerances.h"
 #include "render/app/picture.h"
 #include "render/app/session.h"
@@ -168,7 +169,8 @@ TEST_F(Defects, of_frames_surfaces_are_caught) {
   });
   caught("a lost body", [](Frame& f) { f.bodies.clear(); });
   caught("the surface from before the tear", [](Frame& f) {
-    // Corners of the old surface follow their places, but the torn edges hang together: as a surface that was not rebuilt.
+    // Corners of the old surface follow their places, but the torn edges hang together: as a surface that was
+    // not rebuilt.
     const auto first = std::find_if(frames_.rbegin(), frames_.rend(), [](const Frame& old) {
       const auto& corners = old.bodies[0].corners;
       return std::none_of(corners.begin(), corners.end(), [](const Corner& c) {

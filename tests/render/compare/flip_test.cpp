@@ -1,4 +1,5 @@
-// FLIP against values of the authors' program. (Against an implementation of its own in numpy: tests/compare/recompute.py.)
+// FLIP against values of the authors' program. (Against an implementation of its own in numpy:
+// tests/compare/recompute.py.)
 #include "render/compare/flip.h"
 
 #include "render/compare/metrics.h"

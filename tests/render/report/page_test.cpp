@@ -33,7 +33,8 @@ TEST(Page, IsWellFormedAsXmlAndAsHtml) {
       fs::temp_directory_path() / ("rend-page-" + std::to_string(std::random_device()()) + ".html");
   std::ofstream(file, std::ios::binary) << page("rend & \"all\"", all_blocks());
   EXPECT_EQ(std::system(("xmllint --noout '" + file.string() + "'").c_str()), 0);
-  // libxml2 knows the tags of HTML 4 alone, and says so of <main>, <figure>, <details>: whatever else it says is wrong
+  // libxml2 knows the tags of HTML 4 alone, and says so of <main>, <figure>, <details>: whatever else it says
+  // is wrong
   const std::string html =
       "xmllint --html --noout '" + file.string() + "' 2>&1 | grep ' error : ' | grep -v 'Tag .* invalid'";
   EXPECT_NE(std::system(html.c_str()), 0) << "xmllint found more";

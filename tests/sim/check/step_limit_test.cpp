@@ -52,8 +52,8 @@ Built built(const std::string& matter, const std::string& integrator) {
   return b;
 }
 
-// Damped by mass and stiffness together every mode stands for itself, and the fastest rules; the body is free, so that
-// drifting and turning must not be taken for growth.
+// Damped by mass and stiffness together every mode stands for itself, and the fastest rules; the body is free,
+// so that drifting and turning must not be taken for growth.
 TEST(StepLimit, OfABodyIsThatOfItsFastestModeUnderProportionalDamping) {
   for (const char* name : {"symplectic", "verlet", "rk4"})
     for (const char* more : {"", " damping-mass=\"3\"", " damping-mass=\"3\" damping-stiffness=\"2e-3\""}) {

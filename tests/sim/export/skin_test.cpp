@@ -1,4 +1,5 @@
-// The skin that is exported: what pictures show, welded as the map is, turned outward, at the state's own positions.
+// The skin that is exported: what pictures show, welded as the map is, turned outward, at the state's own
+// positions.
 #include "sim/export/skin.h"
 
 #include "sim/presets.h"

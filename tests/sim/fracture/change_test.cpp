@@ -86,7 +86,8 @@ TEST(SplitVertex, on_an_edge_splits_the_other_end_where_one_cannot_be_split) {
   const auto body =
       torn::body(sheet_from(meshes::sheet(SheetPattern::Quads, 3, 4)), {{"split-vertex", Cell::Edges}});
   ASSERT_NE(body->corner_force.size(), 0u);
-  // At the side of the sheet both faces lie on one side of the plane: it is the inner end that is split, lengthwise.
+  // At the side of the sheet both faces lie on one side of the plane: it is the inner end that is split,
+  // lengthwise.
   EXPECT_TRUE(make(*body, "split-vertex", Cell::Edges, {1, cell_at(*body, Cell::Edges, {0.5, 2, 0}), {}}));
   EXPECT_EQ(counts(*body), "21 33 12 0 in 1");
   EXPECT_EQ(body->map->cells(Vertex).count(), 21u);

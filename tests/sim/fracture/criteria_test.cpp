@@ -1,4 +1,5 @@
-// All criteria on every mesh and model against their definitions (plain_body.h, brute_force.h), and known answers.
+// All criteria on every mesh and model against their definitions (plain_body.h, brute_force.h), and known
+// answers.
 #include "sim/brute_force.h"
 #include "sim/fracture/plain_body.h"
 #include "sim/rules/rules.h"
@@ -90,7 +91,8 @@ void expect_found(Body& body, TearLaw& law, const Values& expected) {
   }
 }
 
-// A threshold that about half of them exceed, in the middle of the widest gap there: both ends of a spring feel the same.
+// A threshold that about half of them exceed, in the middle of the widest gap there: both ends of a spring feel
+// the same.
 double middle(const Values& values) {
   std::vector<double> sorted;
   for (const auto& [dart, m] : values) sorted.push_back(m.value);

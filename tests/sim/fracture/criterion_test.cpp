@@ -1,4 +1,5 @@
-// What the criteria measure, against their definitions computed from the polygons alone (design: mechanics, section 4).
+// What the criteria measure, against their definitions computed from the polygons alone (design: mechanics,
+// section 4).
 #include "sim/brute_force.h"
 #include "sim/rules/rules.h"
 

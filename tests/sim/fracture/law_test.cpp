@@ -111,8 +111,8 @@ TEST(Law, tears_a_moebius_band) {
   }
 }
 
-// Two edges tear in one step, and the first deletion takes one side of the second: mirror images tear alike, wherever the
-// darts' numbers start.
+// Two edges tear in one step, and the first deletion takes one side of the second: mirror images tear alike,
+// wherever the darts' numbers start.
 TEST(Law, deletes_what_is_left_of_an_edge_in_mirror_images_alike) {
   const auto ends = [](double fixed, double moved) {
     const auto box = [](double x) {

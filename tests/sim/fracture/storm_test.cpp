@@ -1,5 +1,5 @@
-// Storms: all changes, by chance, on every kind of mesh. The map stays valid; nothing moves; what is built upon the map
-// equals what would be built anew; and fragments are counted right after each single change.
+// Storms: all changes, by chance, on every kind of mesh. The map stays valid; nothing moves; what is built upon
+// the map equals what would be built anew; and fragments are counted right after each single change.
 #include "sim/fracture/torn_bodies.h"
 #include "sim/fracture/torn_checks.h"
 
@@ -71,7 +71,8 @@ TEST(Storm, on_sheets_of_many_sides_and_without_sides_leaves_a_valid_map) {
 
 TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
   for (const By& way : every_way()) {
-    // The ends of an edge are told by the slots of before all changes: one after the other is not the same there.
+    // The ends of an edge are told by the slots of before all changes: one after the other is not the same
+    // there.
     if (way.change == "split-vertex" && way.cell == Cell::Edges) continue;
     for (std::size_t m = 0; m < elements::irregular_maps().size(); ++m) {
       auto maps = elements::irregular_maps(), twins = elements::irregular_maps();

@@ -142,8 +142,8 @@ inline std::vector<Dart> cell_of(const Body& body, Cell cell, Dart d) {
   return darts_of(body.map->map(), orbit_of(cell, body.map->dimension()), d);
 }
 
-// Makes one change as a law would, on what is left of a cell, by the forces that were last evaluated; false: it was not
-// possible.
+// Makes one change as a law would, on what is left of a cell, by the forces that were last evaluated; false: it
+// was not possible.
 inline bool make(Body& body, const std::string& name, Cell cell, const Candidate& candidate,
                  std::vector<Dart> darts) {
   bool made = false;

@@ -1,8 +1,9 @@
-// Every preset of the house that tears, watched at each change: the map stays valid, nothing moves, mass and momentum
-// keep their last bit, and what is built upon the map equals what would be built anew; flat arrays agree with walking the
-// map; and two threads make the same events.
+// Every preset of the house that tears, watched at each change: the map stays valid, nothing moves, mass and
+// momentum keep their last bit, and what is built upon the map equals what would be built anew; flat arrays
+// agree with walking the map; and two threads make the same events.
 //
-// By default the first torn steps of each; with REND_WHOLE in the environment the whole clips (tests/run --all).
+// By default the first torn steps of each; with REND_WHOLE in the environment the whole clips (tests/run
+// --all).
 #include "render/app/preset_types.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/program/walk_forces.h"

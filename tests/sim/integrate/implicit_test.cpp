@@ -112,9 +112,9 @@ TEST(StaticSolve, bends_the_elastica) {
   EXPECT_LT(s.body().integrator->solver().newton, 20);
 }
 
-// A cloth that starts level and comes to hang from an edge, each row bearing what is below it, as in a hanging rod.
-// Each square has springs of its own along its sides: a column of squares is two springs, half in a column of vertices
-// at the sides, where the mass is half as well.
+// A cloth that starts level and comes to hang from an edge, each row bearing what is below it, as in a hanging
+// rod. Each square has springs of its own along its sides: a column of squares is two springs, half in a column
+// of vertices at the sides, where the mass is half as well.
 TEST(StaticSolve, lets_a_cloth_hang_from_its_edge) {
   constexpr int n = 12;
   constexpr double mass = 0.1, k = 60, g = 9.81;
@@ -156,8 +156,8 @@ TEST(StaticSolve, bends_a_bar_that_keeps_its_volume) {
   EXPECT_LT(lowest(s, 2), -0.3);
 }
 
-// The symmetrised tangent is not even positive where the bar hangs, and it hangs there all the same: implicit with
-// viscosity comes to rest at the same place (0.499: within 1e-6, in 200 steps of 0.05 s).
+// The symmetrised tangent is not even positive where the bar hangs, and it hangs there all the same: implicit
+// with viscosity comes to rest at the same place (0.499: within 1e-6, in 200 steps of 0.05 s).
 TEST(StaticSolve, lets_finer_bars_hang_that_keep_their_volume) {
   struct Hanging {
     const char* poisson;

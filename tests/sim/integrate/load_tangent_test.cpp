@@ -31,8 +31,9 @@ TEST(StaticSolve, bends_a_strip_by_a_moment_along_a_circle_in_few_iterations) {
   EXPECT_LT(s.body().integrator->solver().newton, 4 * 15);
 }
 
-// Two chains of n links, tied to each other and held at both ends, under pressure: the corners lie on a circle of
-// radius R, of which they span 2φ. With a link's angle α = 2φ/n, the tension of a chain of half the width w is
+// Two chains of n links, tied to each other and held at both ends, under pressure: the corners lie on a circle
+// of radius R, of which they span 2φ. With a link's angle α = 2φ/n, the tension of a chain of half the width w
+// is
 //
 //   T = p w/2 · R cos α/2 = k (2R sin α/2 − L/n),     R = L / (2 sin φ)
 TEST(StaticSolve, blows_a_chain_up_to_an_arc) {

@@ -1,4 +1,5 @@
-// Every scheme reaches its order on whole scenes whose motion is smooth: springs, elements, dampers, drives, loads.
+// Every scheme reaches its order on whole scenes whose motion is smooth: springs, elements, dampers, drives,
+// loads.
 #include "sim/presets.h"
 
 #include <cmath>
@@ -80,8 +81,9 @@ Errors between(const Reached& a, const Reached& b) {
   return {std::sqrt(x / mass), std::sqrt(v / mass)};
 }
 
-// Both together to a tenth; each by itself as fast at least: without damping and from rest, symplectic Euler is the
-// leapfrog scheme of order 2 whose positions are looked at half a step late, and its velocities are of that order.
+// Both together to a tenth; each by itself as fast at least: without damping and from rest, symplectic Euler is
+// the leapfrog scheme of order 2 whose positions are looked at half a step late, and its velocities are of that
+// order.
 TEST(Orders, are_reached_on_smooth_scenes) {
   for (const Smooth& smooth : smooth_scenes()) {
     const Reached exact = reached(smooth, "rk4", 4096);

@@ -1,4 +1,5 @@
-// The pair of Dormand and Prince: its order, its error against what theory says of it, its parts, and whole scenes.
+// The pair of Dormand and Prince: its order, its error against what theory says of it, its parts, and whole
+// scenes.
 #include "sim/integrate/oscillators.h"
 #include "sim/presets.h"
 
@@ -87,9 +88,9 @@ TEST(RungeKutta45, is_of_order_five_in_whole_steps) {
   EXPECT_NEAR(std::log2(error(160) / error(320)), 5, 0.1);
 }
 
-// For x'' = −ω²x, both solutions of a step are polynomials of z = iωh; of order 5: Σ z^n/n! + z⁶/600, of order 4:
-// 1097/120000, 161/120000 and 1/24000 of z⁵, z⁶ and z⁷. A part is rejected where their difference is above the
-// tolerance.
+// For x'' = −ω²x, both solutions of a step are polynomials of z = iωh; of order 5: Σ z^n/n! + z⁶/600, of order
+// 4: 1097/120000, 161/120000 and 1/24000 of z⁵, z⁶ and z⁷. A part is rejected where their difference is above
+// the tolerance.
 TEST(RungeKutta45, measures_the_difference_of_its_two_solutions) {
   constexpr double omega = 17;
   for (const double h : {0.003, 0.03, 0.06}) {
@@ -201,13 +202,13 @@ TEST(RungeKutta45, follows_drives_within_a_step) {
 // A sheet in honey that is at rest, struck within 4 ms, and comes to rest again.
 TEST(RungeKutta45, takes_fewer_evaluations_than_fixed_steps_where_something_sudden_happens) {
   const auto struck = [](const std::string& scheme, double step, const std::string& more = "") {
-    auto s = presets::load(fmt::format(
-        R"(<scene><body><sheet pattern="quads" cells="4 4" size="1 1"/><place rotate="90 0 0"/><mass total="0.1"/>)"
-        R"(<springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>)"
-        R"(<viscosity value="2" per="body"/><fix side="+z"/>)"
-        R"(<drive side="-z" velocity="0 0 -40" from="0.3" until="0.304"/></body>)"
-        R"(<world gravity="0 0 0"/><time step="{}" integrator="{}" duration="1" {}/></scene>)",
-        step, scheme, more));
+    auto s = presets::load(
+        fmt::format(R"(<scene><body><sheet pattern="quads" cells="4 4" size="1 1"/><place rotate="90 0 0"/>)"
+                    R"(<mass total="0.1"/><springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>)"
+                    R"(<viscosity value="2" per="body"/><fix side="+z"/>)"
+                    R"(<drive side="-z" velocity="0 0 -40" from="0.3" until="0.304"/></body>)"
+                    R"(<world gravity="0 0 0"/><time step="{}" integrator="{}" duration="1" {}/></scene>)",
+                    step, scheme, more));
     run(*s.scene, 1);
     return s;
   };

@@ -1,5 +1,5 @@
-// Every tear law under the schemes that solve: bodies tear, go on, stay valid, and their matrices are those of bodies
-// built anew, to the last bit.
+// Every tear law under the schemes that solve: bodies tear, go on, stay valid, and their matrices are those of
+// bodies built anew, to the last bit.
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
 #include "sim/topology/count.h"

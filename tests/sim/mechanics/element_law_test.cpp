@@ -282,7 +282,7 @@ TEST(ElementLaw, flat_collapsed_and_inverted_elements_come_back_to_rest) {
     Element pushed = start; // the last corner through the others
     pushed.x.back() += 4 * (pushed.x.front() - pushed.x.back());
     relax(pushed);
-    if (start.law->shape().kind == ElementKind::Quad) { // it bends without a force: its diagonals may rest shorter
+    if (start.law->shape().kind == ElementKind::Quad) { // it bends freely: its diagonals may rest shorter
       EXPECT_LT(strain_of_distances(pushed), 1e-2) << name;
       EXPECT_LT(largest(pushed.forces()), 1e-4) << name;
       return;

@@ -32,7 +32,8 @@ double volume_by_points(const ElementShape& shape, const std::vector<double>& va
   return volume;
 }
 
-// Wherever the first dart of an element lies after an edit, exactly one unit is there, and finds the same element.
+// Wherever the first dart of an element lies after an edit, exactly one unit is there, and finds the same
+// element.
 TEST(Element, is_recognised_from_each_of_its_darts) {
   for (ElementKind kind :
        {ElementKind::Tetrahedron, ElementKind::Hexahedron, ElementKind::Prism, ElementKind::Pyramid}) {

@@ -250,8 +250,8 @@ TEST(Hinge, damping_rate_is_that_of_the_angle) {
   }
 }
 
-// A ball tears a cloth, whose pieces fall and are crushed: with forces without bound it was torn to bits by them, and
-// stopped as unstable at 0.95 s.
+// A ball tears a cloth, whose pieces fall and are crushed: with forces without bound it was torn to bits by
+// them, and stopped as unstable at 0.95 s.
 TEST(Hinge, lets_a_torn_cloth_fall_in_a_heap) {
   const auto s = presets::load(
       R"(<scene><body><sheet pattern="crossed" cells="10 10" size="1 1"/>)"

@@ -1,5 +1,5 @@
-// Files that are cut off, lie about counts, hold what is no number or what no map can hold: each is refused by name and
-// place, and none makes its reader crash, hang or take memory that its size does not account for.
+// Files that are cut off, lie about counts, hold what is no number or what no map can hold: each is refused by
+// name and place, and none makes its reader crash, hang or take memory that its size does not account for.
 #include "sim/mesh/moka.h"
 #include "sim/mesh/reader.h"
 

@@ -1,4 +1,5 @@
-// Solids from cells: each dart against its cell's list of corners, α3 against brute force, volumes against closed forms.
+// Solids from cells: each dart against its cell's list of corners, α3 against brute force, volumes against
+// closed forms.
 #include "sim/mesh/cells.h"
 
 #include "sim/mechanics/mass.h"

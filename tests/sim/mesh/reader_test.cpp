@@ -1,4 +1,5 @@
-// Files of every format and flavour, written by Gmsh, by rend and here, against the maps that they were made from.
+// Files of every format and flavour, written by Gmsh, by rend and here, against the maps that they were made
+// from.
 #include "sim/mesh/reader.h"
 
 #include "sim/mechanics/mass.h"

@@ -194,7 +194,8 @@ TEST(Rebinding, of_unfolded_rows_equals_binding_from_scratch) {
   expect_storm_survived(sheet(SheetPattern::Quads, 5, 5), recipe, 300, 40);
 }
 
-// No interaction of today reaches so far that its rows depend on links beyond its own faces; a binder must know anyway.
+// No interaction of today reaches so far that its rows depend on links beyond its own faces; a binder must know
+// anyway.
 TEST(Rebinding, of_words_that_reach_over_several_faces_equals_binding_from_scratch) {
   const Pattern pattern{.owner = EdgeOfFace,
                         .support = EdgeOfFace,

@@ -20,7 +20,8 @@ std::string moving(const std::string& name, const std::string& shape, const std:
 
 std::string sheet(const std::string& place, const std::string& cells = "8 8") {
   return "<sheet pattern=\"triangles\" cells=\"" + cells + R"(" size="1 1"/><place )" + place +
-         R"(/><mass total="0.2"/><springs><stretch k="100" damping="0.02"/><bend kind="provot" k="2"/></springs>)";
+         R"(/><mass total="0.2"/>)" +
+         R"(<springs><stretch k="100" damping="0.02"/><bend kind="provot" k="2"/></springs>)";
 }
 
 const std::string weightless = R"(<world gravity="0 0 0"/><time step="5e-4" duration="1"/></scene>)";
@@ -174,7 +175,8 @@ TEST(FragmentContact, self_keeps_a_falling_strip_from_passing_through_itself) {
     options.threads = threads;
     auto scene = presets::load(
         R"(<scene><body><sheet cells="40 4" size="1 0.1"/><place rotate="0 82 0" translate="0 0 1.1"/>
-        <mass total="0.05"/><springs><stretch k="60" damping="0.02"/><shear k="40"/><bend kind="provot" k="1"/></springs>
+        <mass total="0.05"/>
+        <springs><stretch k="60" damping="0.02"/><shear k="40"/><bend kind="provot" k="1"/></springs>
         <viscosity value="0.02" per="body"/><contact with=")" +
             with + R"(" thickness="0.008"/></body>
         <world><floor z="0"/></world><time step="5e-4" duration="2"/></scene>)",
@@ -203,7 +205,8 @@ TEST(FragmentContact, a_block_rests_on_a_sheet_that_is_held_along_its_fall) {
       presets::load(R"(<scene><body name="sheet"><sheet pattern="triangles" cells="12 12" size="1 1"/>
       <place translate="0 0 0.5"/><mass total="0.2"/><springs><stretch k="200"/></springs>
       <contact with="fragments" thickness="0.004"/><fix all="yes" axes="z"/></body>
-      <body name="block"><bar pattern="tetrahedra" cells="2 2 2" size="0.3 0.3 0.3"/><place rotate="10 20 5" translate="0.35 0.35 0.65"/>
+      <body name="block"><bar pattern="tetrahedra" cells="2 2 2" size="0.3 0.3 0.3"/>
+      <place rotate="10 20 5" translate="0.35 0.35 0.65"/>
       <mass total="5"/><elasticity young="1e5"/><contact with="fragments" thickness="0.004"/></body><world/>
       <time step="5e-4" duration="0.5"/></scene>)");
   const auto energy = [&] {

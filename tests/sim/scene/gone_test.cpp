@@ -9,7 +9,8 @@ namespace rend {
 namespace {
 
 std::string scene_of(const std::string& shape, const std::string& matter, const std::string& time) {
-  return R"(<scene name="gone"><world gravity="0 0 -9.81"><floor z="-1"/><wind velocity="2 0 0" drag="0.6"/></world>
+  return R"(<scene name="gone">
+            <world gravity="0 0 -9.81"><floor z="-1"/><wind velocity="2 0 0" drag="0.6"/></world>
             <body name="it">)" +
          shape + matter + R"(<viscosity value="0.1" per="body"/><fix side="-x"/>
             <load side="+x" force="0 0 -0.1"/><contact/><probe name="end" side="+x"/></body>

@@ -58,8 +58,8 @@ bool finite(const presets::Loaded& scene) {
   return true;
 }
 
-// Four times the automatic step is surely too large. In the parts that hold it is as wrong as the scheme by itself at
-// its automatic step; twice that, since a part of a stretch may be larger where nothing grows yet.
+// Four times the automatic step is surely too large. In the parts that hold it is as wrong as the scheme by
+// itself at its automatic step; twice that, since a part of a stretch may be larger where nothing grows yet.
 TEST(Guard, goes_on_with_a_step_that_is_too_large_near_where_small_steps_lead) {
   for (const std::string name : {"cloth", "bar"}) {
     for (const char* scheme : {"symplectic", "verlet", "rk4"}) {
@@ -242,8 +242,9 @@ TEST(Guard, leaves_what_tore_before_as_it_tore) {
   EXPECT_TRUE(finite(guarded));
 }
 
-// Without viscosity the scheme makes energy of nothing, at any step. Four times is what it may have where it is looked
-// at; that is only where speeds have grown, and elastic energy may go on alone until then: so twice as much here.
+// Without viscosity the scheme makes energy of nothing, at any step. Four times is what it may have where it is
+// looked at; that is only where speeds have grown, and elastic energy may go on alone until then: so twice as
+// much here.
 TEST(Guard, lets_no_scheme_make_many_times_the_energy_that_there_was) {
   const std::string text =
       R"(<scene><world gravity="0 0 0"/><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/>)"

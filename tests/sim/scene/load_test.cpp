@@ -1,5 +1,5 @@
-// Loads against what was asked for: totals on irregular meshes and after separations, textbook shares, and motions
-// whose closed form is known.
+// Loads against what was asked for: totals on irregular meshes and after separations, textbook shares, and
+// motions whose closed form is known.
 #include "sim/scene/load.h"
 
 #include "sim/base/math.h"
@@ -317,7 +317,8 @@ TEST(Load, accelerates_a_body_as_its_mass_says) {
   }
 }
 
-// Velocity under a ramp F t/T: F t²/(2 m T). Trapezes and better give it exactly, if they take the load of each end.
+// Velocity under a ramp F t/T: F t²/(2 m T). Trapezes and better give it exactly, if they take the load of each
+// end.
 TEST(Load, that_grows_is_taken_at_the_time_of_each_stage) {
   for (const char* scheme : {"verlet", "rk4", "midpoint"}) {
     const auto scene = presets::load(scene_of(R"(<load all="yes" force="0 4 0" until="2"/>)", scheme));
@@ -348,7 +349,8 @@ std::string refusal_of(const std::string& load) {
 
 TEST(Load, is_refused_where_it_means_nothing) {
   EXPECT_THAT(refusal_of(R"(<load side="+x"/>)"), HasSubstr("one of force, moment, pressure"));
-  EXPECT_THAT(refusal_of(R"(<load side="+x" force="1 0 0" pressure="2"/>)"), HasSubstr("of force, moment, pressure"));
+  EXPECT_THAT(refusal_of(R"(<load side="+x" force="1 0 0" pressure="2"/>)"),
+              HasSubstr("of force, moment, pressure"));
   EXPECT_THAT(refusal_of(R"(<load side="+x" pressure="2"/>)"), HasSubstr("no face has all"));
   EXPECT_THAT(refusal_of(R"(<load all="yes" pressure="2" follows="body"/>)"), HasSubstr("along the normals"));
   EXPECT_THAT(refusal_of(R"(<load side="+x" moment="0 1 0"/>)"), HasSubstr("straight line"));

@@ -116,7 +116,8 @@ TEST(ObstacleContact, a_block_slides_if_the_tangent_is_above_friction_and_as_fas
 TEST(ObstacleContact, a_sphere_that_hits_a_free_cloth_shares_its_momentum_with_it) {
   const auto scene = presets::load(R"(<scene><body><sheet pattern="triangles" cells="12 12" size="1 1"/>
       <mass total="0.2"/><springs><stretch k="80"/></springs><contact thickness="0.01" friction="0.4"/></body>
-      <world gravity="0 0 0"><sphere centre="0.45 0.52 0.3" radius="0.15" velocity="0.5 0 -5" mass="0.3"/></world>
+      <world gravity="0 0 0">
+      <sphere centre="0.45 0.52 0.3" radius="0.15" velocity="0.5 0 -5" mass="0.3"/></world>
       <time step="1e-3" duration="1"/></scene>)");
   const Vec3 before = scene->momentum();
   double energy = scene->kinetic_energy() + scene->elastic_energy();
@@ -182,8 +183,8 @@ TEST(ObstacleContact, a_fast_sphere_does_not_pass_through_a_cloth) {
   }
 }
 
-// A small cloth aside of the middle of the way of a sphere that passes 70 and 700 mm in a step: both keep on their
-// sides of the tangent plane where they meet, and it takes all the speed along that.
+// A small cloth aside of the middle of the way of a sphere that passes 70 and 700 mm in a step: both keep on
+// their sides of the tangent plane where they meet, and it takes all the speed along that.
 TEST(ObstacleContact, a_fast_sphere_does_not_pass_what_it_hits_aside) {
   for (const char* step : {"1e-3", "1e-2"}) {
     const double tolerance =
@@ -211,7 +212,8 @@ TEST(ObstacleContact, spheres_are_caught_by_a_held_cloth_a_box_and_the_floor) {
       <place translate="0 0 1"/><mass total="0.2"/><springs><stretch k="200" damping="0.05"/></springs>
       <viscosity value="2" per="body"/><contact thickness="0.01"/><fix side="-x"/><fix side="+x"/></body>
       <world><floor z="0"/><box low="2 0 0" high="3 1 0.5"/>
-      <sphere centre="0.5 0.5 1.2" radius="0.15" mass="0.3"/><sphere centre="2.5 0.5 0.8" radius="0.1" mass="2"/>
+      <sphere centre="0.5 0.5 1.2" radius="0.15" mass="0.3"/>
+      <sphere centre="2.5 0.5 0.8" radius="0.1" mass="2"/>
       <sphere centre="5 5 1" radius="0.25" mass="1"/></world><time step="5e-4" duration="4"/></scene>)");
   while (scene->time() < 4) scene->step();
   const auto& spheres = scene->world().spheres;
@@ -263,7 +265,8 @@ TEST(ObstacleContact, a_sphere_rests_on_a_sheet_that_is_held_along_its_fall) {
   const auto scene = presets::load(R"(<scene><body><sheet pattern="triangles" cells="12 12" size="1 1"/>
       <place translate="0 0 0.5"/><mass total="0.2"/><springs><stretch k="200"/></springs>
       <contact thickness="0.004"/><fix all="yes" axes="z"/></body>
-      <world><sphere centre="0.47 0.53 0.7" radius="0.12" mass="5"/></world><time step="1e-3" duration="0.6"/></scene>)");
+      <world><sphere centre="0.47 0.53 0.7" radius="0.12" mass="5"/></world>
+      <time step="1e-3" duration="0.6"/></scene>)");
   const double start = total_energy(scene);
   double last = start;
   while (scene->time() < 0.6) {
@@ -293,8 +296,9 @@ TEST(ObstacleContact, what_is_held_along_one_axis_yields_along_the_others) {
   }
 }
 
-// What is inside at the start is pushed out slowly. The elastic energy of a bar that is blown up around a sphere is
-// at most about Young's modulus times the sphere's volume; thrown out at once, a bar of 6 cells a side got 1.5e5 J.
+// What is inside at the start is pushed out slowly. The elastic energy of a bar that is blown up around a
+// sphere is at most about Young's modulus times the sphere's volume; thrown out at once, a bar of 6 cells a
+// side got 1.5e5 J.
 TEST(ObstacleContact, a_bar_that_starts_around_a_sphere_or_box_is_not_thrown_about) {
   for (const char* obstacle :
        {R"(<sphere centre="0.5 0.5 0.5" radius="0.35"/>)", R"(<box low="0.3 0.3 0.3" high="0.7 0.7 0.7"/>)"}) {
@@ -310,7 +314,8 @@ TEST(ObstacleContact, a_bar_that_starts_around_a_sphere_or_box_is_not_thrown_abo
   }
 }
 
-// The faces beside the clamp touch it, and only one of their vertices can move: it must not be thrown about for it.
+// The faces beside the clamp touch it, and only one of their vertices can move: it must not be thrown about for
+// it.
 TEST(ObstacleContact, leaves_a_body_at_rest_that_is_held_where_it_touches) {
   const auto scene = presets::load(
       R"(<scene><body><bar cells="4 1 1" size="1.2 0.3 0.3"/><place translate="0 0 0.5"/><mass density="1000"/>

@@ -1,5 +1,5 @@
-// Probes against means and against the laws of motion: what supports a body bears its weight, its loads and what it
-// takes to turn it.
+// Probes against means and against the laws of motion: what supports a body bears its weight, its loads and
+// what it takes to turn it.
 #include "sim/scene/probe.h"
 
 #include "sim/base/math.h"

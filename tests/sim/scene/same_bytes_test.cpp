@@ -1,9 +1,10 @@
-// The same bytes of every preset of the house, whatever the number of threads, and whether what is built upon the map is
-// brought up to date after a change or built anew.
+// The same bytes of every preset of the house, whatever the number of threads, and whether what is built upon
+// the map is brought up to date after a change or built anew.
 //
-// Small bodies, which run on one thread otherwise, are parted here as well. By default the first steps, and those with
-// laws to their first tears where that is cheap; with REND_WHOLE in the environment whole clips (tests/run --all). Vector
-// units: tests/render/app/presets_test.cpp; builds and other processors: tests/same-states.
+// Small bodies, which run on one thread otherwise, are parted here as well. By default the first steps, and
+// those with laws to their first tears where that is cheap; with REND_WHOLE in the environment whole clips
+// (tests/run --all). Vector units: tests/render/app/presets_test.cpp; builds and other processors:
+// tests/same-states.
 #include "render/app/preset_types.h"
 #include "sim/house_presets.h"
 #include "sim/scene/scene.h"

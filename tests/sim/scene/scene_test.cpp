@@ -344,11 +344,10 @@ TEST(Scene, is_refused_where_it_cannot_be_built) {
   const std::string body = R"(<body><sheet cells="1 1" size="1 1"/>)" + mass + "</body>";
   EXPECT_THAT(refusal_of("<scene>" + body + body + time + "</scene>"),
               HasSubstr("two bodies are called 'body'"));
-  EXPECT_THAT(
-      refusal_of(scene(
-          R"(<sheet cells="1 1" size="1 1"/>)" + mass +
-          R"(<springs cumulated="yes"><stretch k="1"/></springs><tear criterion="atomic-border" threshold="1"/>)")),
-      HasSubstr("folds what"));
+  EXPECT_THAT(refusal_of(scene(R"(<sheet cells="1 1" size="1 1"/>)" + mass +
+                               R"(<springs cumulated="yes"><stretch k="1"/></springs>)" +
+                               R"(<tear criterion="atomic-border" threshold="1"/>)")),
+              HasSubstr("folds what"));
 }
 
 TEST(Mass, is_what_the_preset_says) {

@@ -76,7 +76,8 @@ TEST(Selector, side_survives_a_rotation_that_rounds) {
 
 TEST(Placement, scales_rotates_about_x_then_y_then_z_and_moves) {
   const auto scene = presets::load(R"(<scene><body><sheet cells="1 1" size="1 1"/>
-      <place scale="3" rotate="30 -50 110" translate="1 2 3"/><mass total="1"/></body><time step="1" duration="1"/></scene>)");
+      <place scale="3" rotate="30 -50 110" translate="1 2 3"/><mass total="1"/></body>
+      <time step="1" duration="1"/></scene>)");
   const auto about = [](double degrees, const Vec3& axis) {
     return Eigen::AngleAxisd(degrees * 3.14159265358979323846 / 180, axis).toRotationMatrix();
   };

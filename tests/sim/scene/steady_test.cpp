@@ -1,4 +1,5 @@
-// A steady step asks for no memory: 100 steps after as many to warm up, of every preset of the house and every scheme.
+// A steady step asks for no memory: 100 steps after as many to warm up, of every preset of the house and every
+// scheme.
 //
 // Steady: no law tries a change, the guard throws no step away, and contact does not look for its pairs anew.
 #include "render/app/preset_types.h"
@@ -47,7 +48,8 @@ std::string askers(Scene& scene) {
   return asked == 0 ? "" : fmt::format("{} times, {}", asked, who);
 }
 
-// Where something is touched for the first time, scratch arrays double: so one window of a few has to do without.
+// Where something is touched for the first time, scratch arrays double: so one window of a few has to do
+// without.
 void expect_none(Scene& scene) {
   if (!allocations::counted) GTEST_SKIP() << "AddressSanitizer has its own allocator";
   for (long n = 0; n < steps; ++n) scene.step();
@@ -75,8 +77,8 @@ std::vector<std::string> schemes() {
 
 class SteadyScheme : public testing::TestWithParam<std::string> {};
 
-// Springs of every kind, a law that looks at all of them, a corner that is led, wind, and a floor below (which the static
-// solve knows not).
+// Springs of every kind, a law that looks at all of them, a corner that is led, wind, and a floor below (which
+// the static solve knows not).
 TEST_P(SteadyScheme, asks_for_no_memory) {
   const std::string contact = GetParam() == "static" ? "" : R"(<contact with="floor"/>)";
   const std::string time = R"(<time step="1e-4" integrator=")" + GetParam() + R"(" duration="1"/>)";

@@ -1,7 +1,8 @@
-// A scene that is stored, and made anew from what was stored, goes on to the bit: every preset of the house, torn or not.
+// A scene that is stored, and made anew from what was stored, goes on to the bit: every preset of the house,
+// torn or not.
 //
-// By default to its first tears and a little further; with REND_WHOLE in the environment each clip is stored seven times
-// on its way (tests/run --all).
+// By default to its first tears and a little further; with REND_WHOLE in the environment each clip is stored
+// seven times on its way (tests/run --all).
 #include "render/app/preset_types.h"
 #include "sim/base/archive.h"
 #include "sim/house_presets.h"

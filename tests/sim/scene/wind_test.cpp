@@ -42,7 +42,8 @@ TEST(Wind, has_no_force_on_what_moves_with_it) {
   EXPECT_NEAR(total(*map, {*map, {Vec3(5, 1, 3), 0.7}}).norm(), 0, 1e-13);
 }
 
-// m v' = m g − drag A v²: v = w tanh(g t/w), w = √(m g/(drag A)). On a sheet of one quad all corners fall alike.
+// m v' = m g − drag A v²: v = w tanh(g t/w), w = √(m g/(drag A)). On a sheet of one quad all corners fall
+// alike.
 TEST(Wind, lets_a_sheet_fall_up_to_its_terminal_speed) {
   for (const char* scheme : {"rk4", "verlet", "midpoint"}) {
     const auto scene = presets::load(R"(<scene><body><sheet cells="1 1" size="2 1"/><mass total="0.5"/></body>

@@ -39,7 +39,8 @@ inline double volume_of(const Body& body, const SolidSurface& surface) {
   return sum;
 }
 
-// How often each directed side of a triangle occurs, less how often its opposite does: nothing remains of what is closed.
+// How often each directed side of a triangle occurs, less how often its opposite does: nothing remains of what
+// is closed.
 inline std::map<std::pair<Slot, Slot>, int> open_sides(const SolidSurface& surface) {
   std::map<std::pair<Slot, Slot>, int> count;
   for (const Triangle& t : triangles_of(surface))

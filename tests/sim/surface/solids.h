@@ -1,4 +1,5 @@
-// Solids for tests of their surface: bodies without mechanics, made of cells, and the same cells as plain lists.
+// Solids for tests of their surface: bodies without mechanics, made of cells, and the same cells as plain
+// lists.
 #pragma once
 
 #include "sim/mesh/bar.h"
@@ -19,7 +20,8 @@ inline CellMesh bar(BarPattern pattern, int nx, int ny, int nz) {
 constexpr std::array<BarPattern, 4> all_patterns{BarPattern::Hexahedra, BarPattern::Tetrahedra,
                                                  BarPattern::Prisms, BarPattern::Mixed};
 
-// A cube of cells drawn onto a ball of radius 1, smoothly (Nowell's map): the cube's surface becomes the sphere.
+// A cube of cells drawn onto a ball of radius 1, smoothly (Nowell's map): the cube's surface becomes the
+// sphere.
 inline CellMesh ball(BarPattern pattern, int cells) {
   CellMesh mesh = bar(pattern, cells, cells, cells);
   for (Vec3& x : mesh.points) {

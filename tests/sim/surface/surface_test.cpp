@@ -184,7 +184,8 @@ TEST(Surface, normals_are_the_sums_over_corners_up_to_their_sign) {
     const Surface surface(*body);
     std::vector<Vec3> normals;
     surface.normals(normals);
-    // Around each point the corners' vectors, turned to agree with their neighbours by walking over shared edges.
+    // Around each point the corners' vectors, turned to agree with their neighbours by walking over shared
+    // edges.
     for (std::uint32_t p = 0; p < sheet.mesh.points.size(); ++p) {
       struct Corner {
         std::uint32_t before, after;
