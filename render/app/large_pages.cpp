@@ -1,11 +1,14 @@
-// Large arrays in large pages: what the program asks for by operator new is aligned to pages of 2 MB from twice their size
-// on, and the system is told so (madvise; a system that always or never gives large pages is not asked).
+// Large arrays in large pages: what the program asks for by operator new is aligned to pages of 2 MB from twice
+// their size on, and the system is told so (madvise; a system that always or never gives large pages is not
+// asked).
 //
-// Arrays of a body of a million elements are read in a row, once a step. With pages of 4 kB the processor looks up one
-// page after another and its prefetchers stop at the end of each: in a virtual machine one thread read 12 GB/s, and 21
-// with large pages. Nothing is rounded up: what is left behind the last large page stays in small ones.
+// Arrays of a body of a million elements are read in a row, once a step. With pages of 4 kB the processor looks
+// up one page after another and its prefetchers stop at the end of each: in a virtual machine one thread read
+// 12 GB/s, and 21 with large pages. Nothing is rounded up: what is left behind the last large page stays in
+// small ones.
 //
-// Compiled into programs (rend, its benchmarks), not into the library: that leaves operator new to those who link it.
+// Compiled into programs (rend, its benchmarks), not into the library: that leaves operator new to those who
+// link it.
 #include <cstdlib>
 #include <new>
 

@@ -33,8 +33,8 @@ REND_INLINE void stream(Record& r, Double4 v) {
 #endif
 }
 
-// What a loop reads in a row and will want so many bytes on, maybe behind its end: processors look ahead by themselves, but
-// not beyond a page, and not far enough for many arrays at once.
+// What a loop reads in a row and will want so many bytes on, maybe behind its end: processors look ahead by
+// themselves, but not beyond a page, and not far enough for many arrays at once.
 template <std::size_t bytes_on> REND_INLINE void expect(const void* here) {
   __builtin_prefetch(static_cast<const char*>(here) + bytes_on);
 }

@@ -105,8 +105,9 @@ public:
   void reserve_for_separations();
   std::size_t slots_when_separated(Orbit orbit) const; // with every element by itself
 
-  // Gives all orbits the slots that they would get if the map were built now; free ones are gone. Values follow, and
-  // readers find all of the map changed. Only what is out of order is touched. CHECK: no edit is open.
+  // Gives all orbits the slots that they would get if the map were built now; free ones are gone. Values
+  // follow, and readers find all of the map changed. Only what is out of order is touched. CHECK: no edit is
+  // open.
   void number_anew();
 
   std::size_t bytes() const; // of slots and columns; the map has its own

@@ -36,8 +36,9 @@ public:
   virtual void advance(System& system, double time, double step, const StateView& now, const Record* force,
                        State& next) = 0;
 
-  // The same where nobody looks at the forces of `now` before: the scheme asks for them itself, into `force`, and each
-  // vertex moves on while its force is still in the caches. Schemes that cannot ask for all, and then advance.
+  // The same where nobody looks at the forces of `now` before: the scheme asks for them itself, into `force`,
+  // and each vertex moves on while its force is still in the caches. Schemes that cannot ask for all, and then
+  // advance.
   virtual void sweep(System& system, double time, double step, const StateView& now, Record* force,
                      State& next);
   virtual bool sweeps() const { return false; } // and gains by it

@@ -65,9 +65,9 @@ public:
   // Internal forces [N], one per vertex slot. Brings `load` to the same state.
   virtual void forces(double time, const Record* position, const Record* velocity, Record* force) = 0;
 
-  // The same for a scheme that moves each vertex on as soon as its force is there: calls whole(begin, end) for stretches of
-  // vertex slots that together are all, each once and increasing within a thread; no two threads get slots of the same
-  // `stretch`. By default once, for all.
+  // The same for a scheme that moves each vertex on as soon as its force is there: calls whole(begin, end) for
+  // stretches of vertex slots that together are all, each once and increasing within a thread; no two threads
+  // get slots of the same `stretch`. By default once, for all.
   virtual void forces_in_stretches(double time, const Record* position, const Record* velocity, Record* force,
                                    PartWork whole);
   static constexpr std::size_t stretch = 512; // vertex slots

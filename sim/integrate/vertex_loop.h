@@ -1,8 +1,8 @@
 // Loops of a scheme over all vertices, at the chosen vector unit and on as many threads as the system is worth.
 //
-// A loop takes [begin, end) first, then the system, then what it is given. One that puts the new state takes that state
-// and a probe last (State::write), which it goes on with: probes are summed up over stretches of vertices and then in
-// their order, so that neither threads nor where a loop is broken off show.
+// A loop takes [begin, end) first, then the system, then what it is given. One that puts the new state takes
+// that state and a probe last (State::write), which it goes on with: probes are summed up over stretches of
+// vertices and then in their order, so that neither threads nor where a loop is broken off show.
 #pragma once
 
 #include "sim/integrate/system.h"

@@ -53,8 +53,8 @@ void add_box(CellMesh& mesh, BarPattern pattern, int slice, const Box& b) {
   mesh.add(CellKind::Hexahedron, b);
 }
 
-// Along x, then y, then z; of many boxes along the shortest side first and the longest last, so that the boxes around a
-// corner follow each other as soon as can be: slots and rows have the order of the boxes (locality.h).
+// Along x, then y, then z; of many boxes along the shortest side first and the longest last, so that the boxes
+// around a corner follow each other as soon as can be: slots and rows have the order of the boxes (locality.h).
 template <class F> void for_each_box(const std::array<int, 3>& boxes, bool many, F&& f) {
   std::array<std::size_t, 3> side{0, 1, 2};
   if (many)

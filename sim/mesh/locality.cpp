@@ -8,7 +8,6 @@
 namespace rend {
 namespace {
 
-
 using Cell = std::array<std::uint32_t, 3>; // of a grid of 2^20 cells along each side
 constexpr int bits = 20;
 

@@ -12,10 +12,10 @@
 
 namespace rend {
 
-constexpr std::size_t points_of_few = 8192; // whose state fits into a cache: any order of their elements will do
+constexpr std::size_t points_of_few = 8192; // whose state fits into a cache: any order of elements will do
 
-// order[n]: the element that is to be the n-th; empty: they stand well, or are so few that it makes no difference, or
-// are not fit to be sewn.
+// order[n]: the element that is to be the n-th; empty: they stand well, or are so few that it makes no
+// difference, or are not fit to be sewn.
 std::vector<std::uint32_t> order_for_locality(const PolygonMesh& mesh);
 std::vector<std::uint32_t> order_for_locality(const CellMesh& mesh);
 

@@ -38,8 +38,9 @@ BlockPattern pattern_of(const std::vector<Binder>& binders, std::size_t vertices
 
 } // namespace
 
-// A product takes a nanosecond and a half a block, and to call the other threads up to ten microseconds each time,
-// or as long as something else runs on their processors: with fewer rows it was ten times as slow where others work.
+// A product takes a nanosecond and a half a block, and to call the other threads up to ten microseconds each
+// time, or as long as something else runs on their processors: with fewer rows it was ten times as slow where
+// others work.
 constexpr std::size_t least_shared = 32768; // rows
 
 void Assembly::rebind() {

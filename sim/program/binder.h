@@ -1,13 +1,13 @@
 // Binding: from a pattern on the map to rows of indices, and which rows an edit concerns.
 //
-// Binding every owner is the definition; rebinding must give identical bytes. A row depends on the links that its
-// words follow and on the slots where they end. So, after an edit, its owner is among
+// Binding every owner is the definition; rebinding must give identical bytes. A row depends on the links that
+// its words follow and on the slots where they end. So, after an edit, its owner is among
 //   - the owners whose own orbit was touched;
 //   - for every dart x whose αi changed: the owners that reach x by the part of a word before an i;
 //   - for every dart x whose slot changed: the owners that reach x by a whole word;
 //   - the owners that fold with one of these.
-// The last but one is what touched darts alone would miss: after a vertex split most darts of the new vertex were not
-// touched, yet their slot is another.
+// The last but one is what touched darts alone would miss: after a vertex split most darts of the new vertex
+// were not touched, yet their slot is another.
 #pragma once
 
 #include "sim/mechanics/interaction.h"

@@ -90,8 +90,9 @@ private:
   std::vector<Dart> corners_; // scratch: the smallest dart of each corner at a vertex
 };
 
-// The largest eigenvalue of a symmetric tensor and its unit eigenvector, whose largest component is positive; with
-// `compression` the largest by size, as a magnitude. No function but the root is used: the same bits everywhere.
+// The largest eigenvalue of a symmetric tensor and its unit eigenvector, whose largest component is positive;
+// with `compression` the largest by size, as a magnitude. No function but the root is used: the same bits
+// everywhere.
 struct Principal {
   double value;
   Vec3 direction;

@@ -1,9 +1,10 @@
 // The kernel of mechanics/element_law.h, four elements at a time, one pass over what they carry.
 //
-// For each kind of element, with or without rotation and damping: positions are gathered and turned into lanes, F is
-// formed at each integration point, R from their mean (at each point of a sheet's quad), and P = w R σ goes back through J⁻ᵀ to the corners. Nothing but
-// J⁻¹ and w is read: 80 bytes of a tetrahedron, 640 of a hexahedron (its 24 × 24 stiffness would be 4608). Points of a
-// hexahedron are read twice, the second time from the nearest cache.
+// For each kind of element, with or without rotation and damping: positions are gathered and turned into lanes,
+// F is formed at each integration point, R from their mean (at each point of a sheet's quad), and P = w R σ
+// goes back through J⁻ᵀ to the corners. Nothing but J⁻¹ and w is read: 80 bytes of a tetrahedron, 640 of a
+// hexahedron (its 24 × 24 stiffness would be 4608). Points of a hexahedron are read twice, the second time from
+// the nearest cache.
 #pragma once
 
 #include "sim/mechanics/element_law.h"
@@ -80,8 +81,9 @@ REND_INLINE Matrix<Dim> stretched_stress(const Matrix<Dim>& R, const Matrix<Dim>
   return P;
 }
 
-// Whether a block reaches beyond its part, and of an element with several points whether it is damped, are asked while
-// it runs: that takes no time which can be measured, and the compiler would have to write a kernel for each.
+// Whether a block reaches beyond its part, and of an element with several points whether it is damped, are
+// asked while it runs: that takes no time which can be measured, and the compiler would have to write a kernel
+// for each.
 enum class Damping { No, Yes, Asked };
 
 template <class Shape, Turning turning, Damping damping> struct ElementLanes {
@@ -213,7 +215,8 @@ template <class Shape, bool corners> REND_INLINE void run_elements(const KernelA
     run_damped_or_not<Shape, Turning::Polar, corners>(a, law.material());
 }
 
-// One file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`: KernelArguments::corner_forces.
+// One file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`:
+// KernelArguments::corner_forces.
 void triangles(const KernelArguments& a);
 void quads(const KernelArguments& a);
 void tetrahedra(const KernelArguments& a);

@@ -1,8 +1,10 @@
-// Elements of mechanics/element.h, four at a time: from corners to Σ x_n ∇̂N_nᵀ at each integration point, and back.
+// Elements of mechanics/element.h, four at a time: from corners to Σ x_n ∇̂N_nᵀ at each integration point, and
+// back.
 //
-// The derivative along one reference axis is the same at several points (that along ξ of a hexahedron does not depend on
-// ξ): such columns are computed once, and what they are to be multiplied with is summed before it goes back to the
-// corners. A hexahedron's 24 columns are 12, each a mean of four edges: half the work of 8 × 8 gradients.
+// The derivative along one reference axis is the same at several points (that along ξ of a hexahedron does not
+// depend on ξ): such columns are computed once, and what they are to be multiplied with is summed before it
+// goes back to the corners. A hexahedron's 24 columns are 12, each a mean of four edges: half the work of 8 × 8
+// gradients.
 //
 //   columns(x, D)   D[k] = Σ c_kn x_n,   x counted from corner 0
 //   corners(H, f)   f_n = −Σ c_kn H[k]

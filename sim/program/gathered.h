@@ -1,4 +1,5 @@
-// A row as its law wants to see it: the particles' positions, velocities and rest positions, and the row's numbers.
+// A row as its law wants to see it: the particles' positions, velocities and rest positions, and the row's
+// numbers.
 //
 // For what goes row by row; the kernels of common laws take four rows at a time and gather in lanes (lanes.h).
 #pragma once

@@ -1,13 +1,13 @@
 // The hinge law, four hinges at a time.
 //
-// With h = AB, L = |h|, a_i the arm from A to the middle of side i's outer vertices, n1 = h × a1 and n2 = a2 × h, the
-// angle is that of the law, operation by operation, so that a body at rest has no force, to the bit. The rest comes
-// from the same normals, without the unit vector and two more cross products:
+// With h = AB, L = |h|, a_i the arm from A to the middle of side i's outer vertices, n1 = h × a1 and n2 = a2 ×
+// h, the angle is that of the law, operation by operation, so that a body at rest has no force, to the bit. The
+// rest comes from the same normals, without the unit vector and two more cross products:
 //
 //   ∂θ/∂P_i = −L n_i/|n_i|²,   t_i = a_i·h/L²
 //
-// A and B are the same vertices on both sides: they are read once, and as vertices also written once. Without length
-// or area nothing turns, as in the law; of padding the values are 0, and so is the moment.
+// A and B are the same vertices on both sides: they are read once, and as vertices also written once. Without
+// length or area nothing turns, as in the law; of padding the values are 0, and so is the moment.
 #include "sim/base/arc_tangent.h"
 #include "sim/mechanics/hinge_law.h"
 #include "sim/program/lanes.h"
@@ -124,7 +124,8 @@ REND_INLINE void add(const KernelArguments& a, std::size_t at, const Pulls& pull
   }
 }
 
-// A block's angles first, then its forces: in short loops the processor works on several hinges' divisions at once.
+// A block's angles first, then its forces: in short loops the processor works on several hinges' divisions at
+// once.
 template <bool damped, bool corners, bool whole>
 REND_INLINE void run_rows(const KernelArguments& a, std::size_t block) {
   const std::size_t begin = a.rows.begin(block), count = a.rows.padded_in(block);

@@ -1,11 +1,11 @@
 // The inner loops: forces of packed rows, added in the order of the rows.
 //
-// A kernel runs over the blocks of a table and writes to vertices (or to element corners) in [low, high) alone. A
-// block that reaches beyond is run by every part it touches, and each part writes what it owns: the sum at a vertex
-// is that of its rows in their order, whatever the number of parts, and no atomics are needed.
+// A kernel runs over the blocks of a table and writes to vertices (or to element corners) in [low, high) alone.
+// A block that reaches beyond is run by every part it touches, and each part writes what it owns: the sum at a
+// vertex is that of its rows in their order, whatever the number of parts, and no atomics are needed.
 //
-// A law needs no kernel of its own: the plain one gathers a unit's particles and asks the law. Adding one: a file with a
-// function `Kernel my_kernel()`, and its name in kernel_of().
+// A law needs no kernel of its own: the plain one gathers a unit's particles and asks the law. Adding one: a
+// file with a function `Kernel my_kernel()`, and its name in kernel_of().
 #pragma once
 
 #include "sim/base/record.h"

@@ -1,23 +1,24 @@
 // Rows of one interaction, packed for the kernel, and changed one at a time.
 //
-// A row's key is fixed by the map: owner slot × units + unit. Keys come in blocks of 64, each with a mask of its live
-// keys; the live rows of a block stand packed one after the other, in the order of their keys with the six low bits
-// turned around:
+// A row's key is fixed by the map: owner slot × units + unit. Keys come in blocks of 64, each with a mask of
+// its live keys; the live rows of a block stand packed one after the other, in the order of their keys with the
+// six low bits turned around:
 //
 //   block b   keys   64b, 64b+32, 64b+16, 64b+48, 64b+8 ...      mask   1 0 1 1 0 ...
 //             rows   key 64b, key 64b+16, key 64b+48, padding to a multiple of four
 //
-// so that dead rows cost neither time nor memory, an insertion moves at most 63 rows, and what is in the rows of which
-// block, in which order, is a pure function of what lives (incremental = from scratch, and the same sums to the bit).
-// Blocks stand packed as well, in the order in which they first got rows, with room for a multiple of four; one that
-// outgrows its room moves to the end, where it has room for all its keys. (With gaps for dead keys the springs of a
-// million quads took twice as long: half the keys of edges are dead, since two faces share one row.)
+// so that dead rows cost neither time nor memory, an insertion moves at most 63 rows, and what is in the rows
+// of which block, in which order, is a pure function of what lives (incremental = from scratch, and the same
+// sums to the bit). Blocks stand packed as well, in the order in which they first got rows, with room for a
+// multiple of four; one that outgrows its room moves to the end, where it has room for all its keys. (With gaps
+// for dead keys the springs of a million quads took twice as long: half the keys of edges are dead, since two
+// faces share one row.)
 //
-// Neighbouring keys are sides of one face and share vertices: turned around, rows that follow each other seldom add to
-// the same vertex, and none waits for the sum before it (2.3 against 1.9 µs a step at 10 × 10 quads). Padding repeats the
-// last row's indices with values 0: the kernel takes four rows at a time and needs no remainder loop. Values of four rows
-// stand together, [row/4][column][row%4], so that a kernel reads one stream, whether a row has 3 values (a spring) or 200
-// (a hexahedron).
+// Neighbouring keys are sides of one face and share vertices: turned around, rows that follow each other seldom
+// add to the same vertex, and none waits for the sum before it (2.3 against 1.9 µs a step at 10 × 10 quads).
+// Padding repeats the last row's indices with values 0: the kernel takes four rows at a time and needs no
+// remainder loop. Values of four rows stand together, [row/4][column][row%4], so that a kernel reads one
+// stream, whether a row has 3 values (a spring) or 200 (a hexahedron).
 #pragma once
 
 #include <bit>
@@ -33,8 +34,8 @@ public:
   static constexpr std::size_t block_size = 64;
   static constexpr std::size_t lanes = 4;
 
-  // `indices` index columns, the first `places` of which are vertex slots that the row writes to; `values` columns, of
-  // which one may be `unused` (-1: none): it is 0, and is not kept.
+  // `indices` index columns, the first `places` of which are vertex slots that the row writes to; `values`
+  // columns, of which one may be `unused` (-1: none): it is 0, and is not kept.
   PackedRows(int indices, int places, int values, int unused = -1);
 
   void clear();                  // no keys any more; arrays keep their room
@@ -49,7 +50,8 @@ public:
   void erase(std::size_t key);
   void seal(); // writes padding and ranges of the blocks that changed; to be called before rows are read
 
-  // The n-th key of a block, n < 64, in the order of its rows: keys that are set so each come behind the one before.
+  // The n-th key of a block, n < 64, in the order of its rows: keys that are set so each come behind the one
+  // before.
   static std::size_t key_at(std::size_t block, std::size_t n) { return block * block_size + scattered(n); }
 
   // Where the row of a live key stands.
@@ -71,7 +73,8 @@ public:
     return column == unused_ ? 0 : value_[place(row, kept(column))];
   }
 
-  // The values of rows row .. row + 3 (row a multiple of four): four of column 0, four of column 1, ... as far as kept.
+  // The values of rows row .. row + 3 (row a multiple of four): four of column 0, four of column 1, ... as far
+  // as kept.
   const double* lanes_at(std::size_t row) const { return value_.data() + place(row, 0); }
 
   // Smallest and largest vertex slot that rows of the block write to.

@@ -120,8 +120,9 @@ KernelArguments Program::arguments(const Binder& binder, const Record* position,
           .damped = interaction.damped};
 }
 
-// Rows of all interactions are run tile by tile, so that the vertices of a tile are read from memory once and not once
-// per interaction: 8192 vertices with their forces take half a megabyte. Tiles depend on the number of slots alone.
+// Rows of all interactions are run tile by tile, so that the vertices of a tile are read from memory once and
+// not once per interaction: 8192 vertices with their forces take half a megabyte. Tiles depend on the number of
+// slots alone.
 constexpr std::size_t tile_vertices = 8192;
 constexpr std::size_t corner_tile_vertices = 1024; // with some four corners each
 

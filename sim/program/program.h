@@ -1,8 +1,8 @@
 // What the solver runs: flat arrays, a pure function of the body.
 //
-// Rows of every interaction (packed_rows.h), inverse masses and drag per vertex. Nothing that must survive lives
-// here. After an edit, rebind() brings up to date only what the changes concern; the result is byte for byte that of
-// building anew (same_as() says so, and a test asks it on every preset).
+// Rows of every interaction (packed_rows.h), inverse masses and drag per vertex. Nothing that must survive
+// lives here. After an edit, rebind() brings up to date only what the changes concern; the result is byte for
+// byte that of building anew (same_as() says so, and a test asks it on every preset).
 //
 // Two sets of rows, each there only if somebody needs it:
 //   folded      parallel springs as one row, forces into vertices: what the integrator evaluates
@@ -42,16 +42,16 @@ public:
   // Internal forces [N] at the given positions [m] and velocities [m/s], one record per vertex slot.
   void forces(const Record* position, const Record* velocity, Record* force) const;
 
-  // The same, and whole(begin, end) for stretches of vertex slots to which no row is going to add any more: together all,
-  // each once. Threads get multiples of `unit` slots each.
+  // The same, and whole(begin, end) for stretches of vertex slots to which no row is going to add any more:
+  // together all, each once. Threads get multiples of `unit` slots each.
   void forces_in_stretches(const Record* position, const Record* velocity, Record* force, std::size_t unit,
                            PartWork whole) const;
 
   // The same by the elementary rows, each element corner's own share as well: one record per corner slot.
   void corner_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
 
-  // Where sums_fit(): forces() with the same bits, and in each record's fourth lane the sum of the sizes of all single
-  // forces on the vertex. To be cleared before others read it.
+  // Where sums_fit(): forces() with the same bits, and in each record's fourth lane the sum of the sizes of all
+  // single forces on the vertex. To be cleared before others read it.
   void forces_with_sums(const Record* position, const Record* velocity, Record* force) const;
 
   // Of corner_forces(), the shares at corners of vertices with a mark alone; others are undefined.

@@ -1,7 +1,8 @@
 // The rotations of mechanics/rotation.h, of four elements at once.
 //
-// Lanes where the short way does not lead there (flat, inverted) are left to the reference, one by one; rows of padding,
-// whose weight is 0, get none. What a lane becomes never depends on the others: those that have arrived stand still.
+// Lanes where the short way does not lead there (flat, inverted) are left to the reference, one by one; rows of
+// padding, whose weight is 0, get none. What a lane becomes never depends on the others: those that have
+// arrived stand still.
 #pragma once
 
 #include "sim/mechanics/rotation.h"
@@ -69,8 +70,9 @@ REND_INLINE Long4 gram_schmidt_lanes(const Matrix<2>& F, Matrix<2>& R) {
   return (s0 > least) & (s > 1e-6 * s1); // nearer to a line it needs a second pass
 }
 
-// The largest root of (s² − I)² = 4 II + 8 J s, from √(3 I) ≥ s: all roots being real, Halley's iteration comes down to it
-// without passing, with three times the digits each time. `open`: the lanes that are asked for; those that arrived go.
+// The largest root of (s² − I)² = 4 II + 8 J s, from √(3 I) ≥ s: all roots being real, Halley's iteration comes
+// down to it without passing, with three times the digits each time. `open`: the lanes that are asked for;
+// those that arrived go.
 REND_INLINE Double4 sum_of_singular_values(const Double4& first, const Double4& second, const Double4& J,
                                            Long4& open) {
   constexpr double near = 3e-6; // of s: what is left is its third power
@@ -86,13 +88,14 @@ REND_INLINE Double4 sum_of_singular_values(const Double4& first, const Double4& 
   return s;
 }
 
-// The closest rotation from the invariants of C = FᵀF. With singular values λ of F (the smallest negative where F is
-// inverted) and I = tr C, II = |cof F|², J = det F, the sum s = Σ λ is a root of (s² − I)² = 4 II + 8 J s, and R is its
-// derivative by F (Hoger and Carlson 1984 for the invariants; Lin, Chitalu and Komura 2022):
+// The closest rotation from the invariants of C = FᵀF. With singular values λ of F (the smallest negative where
+// F is inverted) and I = tr C, II = |cof F|², J = det F, the sum s = Σ λ is a root of (s² − I)² = 4 II + 8 J s,
+// and R is its derivative by F (Hoger and Carlson 1984 for the invariants; Lin, Chitalu and Komura 2022):
 //
 //   R = ( (s² + I) F − 2 F C + 2 s cof F ) / ( s (s² − I) − 2 J )
 //
-// The denominator is 2 (λ1 + λ2)(λ2 + λ3)(λ3 + λ1): where it is little beside s³ a direction is lost, and digits are.
+// The denominator is 2 (λ1 + λ2)(λ2 + λ3)(λ3 + λ1): where it is little beside s³ a direction is lost, and
+// digits are.
 REND_INLINE Long4 closest_lanes(const Matrix<3>& F, Matrix<3>& R) {
   constexpr double least = 0.02; // of s³: more leaves 12 digits
   const Vector &f0 = F.column[0], &f1 = F.column[1], &f2 = F.column[2];

@@ -1,7 +1,8 @@
 // What the rows of each interaction take, for those who ask (ProgramOptions::timed).
 //
-// Rows of all interactions are run tile by tile, by several threads: each thread adds up its own times (Laps) and
-// hands them in once, when its part is done. Where nobody asks there is no RowTimes, and a lap tests a pointer.
+// Rows of all interactions are run tile by tile, by several threads: each thread adds up its own times (Laps)
+// and hands them in once, when its part is done. Where nobody asks there is no RowTimes, and a lap tests a
+// pointer.
 #pragma once
 
 #include "sim/base/profile.h"

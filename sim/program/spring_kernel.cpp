@@ -10,8 +10,9 @@ using lanes::load_four;
 // Below it a squared length has no inverse: no direction, no force.
 constexpr double least_square = 1e-300; // [m²]
 
-// The factor s of d = xj − xi in f_i = s d, of four rows; and k|l − l0| + λ|u·w|, where asked for: the sum of what the
-// springs that a row stands for can do at most. 1/l is l/l²: the root and the division need not wait for each other.
+// The factor s of d = xj − xi in f_i = s d, of four rows; and k|l − l0| + λ|u·w|, where asked for: the sum of
+// what the springs that a row stands for can do at most. 1/l is l/l²: the root and the division need not wait
+// for each other.
 template <bool damped, bool summed = false>
 REND_INLINE Double4 spring_factor(const Double4* d, const KernelArguments& a, const std::uint32_t* i,
                                   const std::uint32_t* j, const double* values, Double4* sum = nullptr) {

@@ -5,8 +5,8 @@
 
 namespace rend {
 
-// Refers to what is to be done for a range; it has to outlive the reference. A std::function would ask for memory in
-// every step.
+// Refers to what is to be done for a range; it has to outlive the reference. A std::function would ask for
+// memory in every step.
 class PartWork {
 public:
   template <class F>
@@ -21,8 +21,8 @@ private:
   void (*call_)(const void* work, std::size_t begin, std::size_t end);
 };
 
-// Calls work(begin, end) for `parts` ranges that together are [0, count), on as many threads (oneTBB) or as many as
-// the machine has; with one part directly. Returns when all are done.
+// Calls work(begin, end) for `parts` ranges that together are [0, count), on as many threads (oneTBB) or as
+// many as the machine has; with one part directly. Returns when all are done.
 void in_parts(int parts, std::size_t count, PartWork work);
 
 int hardware_threads();

@@ -1,4 +1,5 @@
-// One unit of an interaction in some state, found by walking the map: for whoever asks a law about single units.
+// One unit of an interaction in some state, found by walking the map: for whoever asks a law about single
+// units.
 #pragma once
 
 #include "sim/mechanics/interaction.h"
@@ -17,8 +18,8 @@ struct UnitNow {
   std::array<Vec3, most_particles> position, rest; // [m]
   std::array<Vec3, most_particles> velocity;       // [m/s]
 
-  // The unit whose words start at d, the first dart of its owner. Positions [m] and velocities [m/s]: one record per
-  // vertex slot; null velocities: at rest.
+  // The unit whose words start at d, the first dart of its owner. Positions [m] and velocities [m/s]: one
+  // record per vertex slot; null velocities: at rest.
   UnitNow(const EmbeddedMap& map, const Interaction& interaction_, Dart d, std::size_t unit, const Record* x,
           const Record* v)
       : interaction(&interaction_), owner(d),

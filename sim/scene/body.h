@@ -88,9 +88,8 @@ struct Body final : System {
                      double by_velocity, BlockMatrix& out) override;
   void hold(double time, std::uint8_t* axes) override;
 
-  void evaluate(); // force and corner_force of the current state
-  void
-  leave_forces(); // to advance(), which finds them on its way: where nobody looks at them before (may_leave_forces)
+  void evaluate();     // force and corner_force of the current state
+  void leave_forces(); // to advance(), which finds them on its way: where nobody looks at them before
   bool may_leave_forces() const;
   ForceView view() const; // of that
   CriterionRequest request_for(const LawSettings& law) const;

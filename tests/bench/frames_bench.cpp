@@ -121,8 +121,8 @@ void tell_stages(benchmark::State& state, const PipelineSeconds& now, const Pipe
   state.counters["draw_waits"] = (now.draw_waits - before.draw_waits) / seconds;
 }
 
-// The whole way, frames as fast as they are taken, after a first one, for which OpenGL compiles what it draws with (half a
-// second of one thread; tests/bench/first-frame).
+// The whole way, frames as fast as they are taken, after a first one, for which OpenGL compiles what it draws
+// with (half a second of one thread; tests/bench/first-frame).
 void overlapped(benchmark::State& state, int triangles, bool occlusion) {
   const auto& clip = frames(triangles);
   const int frames_each = triangles > 10'000 ? 24 : 120;

@@ -1,5 +1,6 @@
-// The map's figures: walks, building, separations and bytes, on blocks of 20 × 20 × 20 hexahedra (384,000 darts) and of
-// 6 × 15³ tetrahedra (486,000). cgal_bench.cpp does the same with CGAL's generalized map, where it is installed.
+// The map's figures: walks, building, separations and bytes, on blocks of 20 × 20 × 20 hexahedra (384,000
+// darts) and of 6 × 15³ tetrahedra (486,000). cgal_bench.cpp does the same with CGAL's generalized map, where
+// it is installed.
 #include "bench/walk_orbits.h"
 #include "sim/elements.h"
 

@@ -204,8 +204,9 @@ void storm(benchmark::State& state) {
 }
 BENCHMARK(storm)->Iterations(1)->Unit(benchmark::kMillisecond);
 
-// A third of the faces let go, anywhere and a few at a time; then slots in the order of darts again (embedding/reorder.h),
-// with all that follows where that is asked for. state: boxes, whether what is bound to the map follows.
+// A third of the faces let go, anywhere and a few at a time; then slots in the order of darts again
+// (embedding/reorder.h), with all that follows where that is asked for. state: boxes, whether what is bound to
+// the map follows.
 void number_anew(benchmark::State& state) {
   TornCube cube(static_cast<int>(state.range(0)));
   EmbeddedMap& map = *cube.body->map;

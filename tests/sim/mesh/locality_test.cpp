@@ -85,8 +85,8 @@ TEST(Locality, messages_name_cells_as_before) {
   }
 }
 
-// Slices of 6 x 7 points, one after the other along the longest side, wherever that is: a box touches two of them, which
-// the first boxes meet at once, and the one before may have had a part of them.
+// Slices of 6 x 7 points, one after the other along the longest side, wherever that is: a box touches two of
+// them, which the first boxes meet at once, and the one before may have had a part of them.
 TEST(Locality, of_a_long_bar_goes_slice_by_slice) {
   for (const std::array<int, 3>& n : {std::array{300, 5, 6}, {5, 300, 6}, {6, 5, 300}}) {
     const CellMesh mesh = bar_cells({BarPattern::Hexahedra, n[0], n[1], n[2], Vec3(n[0], n[1], n[2])});

@@ -17,8 +17,8 @@ const Binder& binder_of(const Body& body, const std::string& name) {
   throw std::runtime_error("no " + name);
 }
 
-// 4 × 4 cells: 25 vertices, 40 edges. A spring without damping carries k, rest length and two indices; of each vertex 32
-// bytes of place are read, 32 of force read and written.
+// 4 × 4 cells: 25 vertices, 40 edges. A spring without damping carries k, rest length and two indices; of each
+// vertex 32 bytes of place are read, 32 of force read and written.
 TEST(RowCost, of_springs_counts_each_vertex_once) {
   const auto scene = presets::load(presets::cloth("quads", 4));
   const RowCost cost = cost_of(binder_of(scene.body(), "stretch"), false);
@@ -26,8 +26,8 @@ TEST(RowCost, of_springs_counts_each_vertex_once) {
   EXPECT_DOUBLE_EQ(cost.read, 16 + 8 + 2 * 32 * 25 / 40.0);
 }
 
-// d: 3; |d|²: 5; l; 1/|d|²; times l; l − l0; k; times 1/l; f: 3; to two vertices: 6. With damping w: 3; w·d: 5; times 1/l;
-// λ; +.
+// d: 3; |d|²: 5; l; 1/|d|²; times l; l − l0; k; times 1/l; f: 3; to two vertices: 6. With damping w: 3; w·d: 5;
+// times 1/l; λ; +.
 TEST(RowCost, of_a_spring_is_23_operations_and_34_with_damping) {
   EXPECT_EQ(operations_of(*spring_law(), false), 3 + 5 + 6 + 3 + 6);
   EXPECT_EQ(operations_of(*spring_law(), true), 23 + 3 + 5 + 3);
@@ -38,8 +38,9 @@ TEST(RowCost, of_a_tetrahedron_is_what_its_formulas_take) {
   const auto law = element_law(ElementKind::Tetrahedron, ElasticModel::Corotational, Rotation::Qr,
                                ElasticMaterial::of(1000, 0.3, 3));
   EXPECT_EQ(operations_of(*law, false), 9 + 45 + 53 + 118 + 54 + 6 + 12);
-  // Polar: three cross products, 27, and seven dot products, 35, with 4 to sum them; three iterations of 23; 30 for the
-  // weights and 3 × 23 for the columns. tr RᵀF: 17; weights: 5; w (2μ F + ...): 27. Damped, its stress is that of Qr.
+  // Polar: three cross products, 27, and seven dot products, 35, with 4 to sum them; three iterations of 23; 30
+  // for the weights and 3 × 23 for the columns. tr RᵀF: 17; weights: 5; w (2μ F + ...): 27. Damped, its stress
+  // is that of Qr.
   const auto polar = element_law(ElementKind::Tetrahedron, ElasticModel::Corotational, Rotation::Polar,
                                  ElasticMaterial::of(1000, 0.3, 3));
   EXPECT_EQ(operations_of(*polar, false), 9 + 45 + (66 + 69 + 30 + 69) + 49 + 54 + 6 + 12);

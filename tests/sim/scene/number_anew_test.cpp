@@ -1,5 +1,6 @@
-// What is bound to a map that is numbered anew (embedding/reorder.h), after elements were deleted and vertices split: it
-// is what would be built now, whatever stood in its place before; and a run goes on as if nothing had happened.
+// What is bound to a map that is numbered anew (embedding/reorder.h), after elements were deleted and vertices
+// split: it is what would be built now, whatever stood in its place before; and a run goes on as if nothing had
+// happened.
 #include "sim/fracture/torn_bodies.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
@@ -114,7 +115,8 @@ const std::string sheet = R"(<sheet pattern="mixed" cells="9 8" size="1 1"/><mas
 const std::string bar = R"(<bar pattern="mixed" cells="6 3 2" size="1 0.5 0.4"/><mass total="1"/>
   <elasticity model="corotational" young="2e4" poisson="0.3"/>
   <tear criterion="atomic-element" change="delete-element" threshold="900" max-per-step="1"/>
-  <tear criterion="vertex-stress" threshold="1.5e3" max-per-step="1"/><tear criterion="atomic-border" threshold="60"/>
+  <tear criterion="vertex-stress" threshold="1.5e3" max-per-step="1"/>
+  <tear criterion="atomic-border" threshold="60"/>
   <load side="-y" moment="0.01 0 0"/>)";
 
 std::string scene_of(const std::string& body, const std::string& integrator) {

@@ -146,8 +146,7 @@ TEST(Study, of_what_flies_freely_keeps_its_momentum) {
     <time integrator="{0}" step="{1}" {2} duration="1"/></scene>)",
                                    {"symplectic"}, 0.1, 3);
   EXPECT_TRUE(report.isolated);
-  for (const StudyRow& row : report.rows)
-    EXPECT_TRUE(row.failed() || row.errors->momentum.value() < 1e-12);
+  for (const StudyRow& row : report.rows) EXPECT_TRUE(row.failed() || row.errors->momentum.value() < 1e-12);
   EXPECT_FALSE(study(oscillator, {"symplectic"}, 0.1, 3).isolated);
 }
 
