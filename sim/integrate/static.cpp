@@ -4,8 +4,7 @@
 //
 // 1. Newton's method with the exact tangent, symmetrised: K δ = F − K u, where u are the ways of the prescribed
 //    coordinates. A linear model is solved by the first iteration: K u = R. Loads that follow the body have
-//    their own part in it (load_tangent.h): K − L in place of K; after four iterations also what symmetrising
-//    left out.
+//    a part in it (load_tangent.h): K − L in place of K; after four iterations what symmetrising left out, too.
 // 2. Where that fails, it goes a part of the way: half of what is new in prescribed coordinates and forces,
 //    half of that ...: F(x) = (1 − s) F(x_start), s from 0 to 1. No line search here: a slender beam must first
 //    be stretched by the bending that a linear step sees, and loses that in the next.
