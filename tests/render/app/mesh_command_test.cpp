@@ -98,5 +98,23 @@ TEST(MeshOfAPreset, has_groups_that_select) {
   EXPECT_THAT(place.rend("run s.xml").err, HasSubstr("did you mean 'top'?"));
 }
 
+TEST(MeshOfAPreset, of_hexagons_is_told_where_it_does_not_bend) {
+  const Place place;
+  const std::string bend = R"(<springs><stretch k="1"/><bend kind="angular" k="1"/></springs>)";
+  place.write("two.off", "OFF\n9 2 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n0 2 0\n1 2 0\n2 2 0\n"
+                         "6 0 1 2 5 4 3\n6 3 4 5 8 7 6\n");
+  place.write("mixed.off", "OFF\n9 3 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n0 2 0\n1 2 0\n2 2 0\n"
+                           "6 0 1 2 5 4 3\n4 3 4 7 6\n4 4 5 8 7\n");
+  for (const auto& [file, words] : {std::pair{"two.off", R"(bend kind="angular" was left out: at every edge)"},
+                                    std::pair{"mixed.off", "has no effect on 2 of the 3 edges"}}) {
+    place.write("s.xml", preset(file, bend));
+    const Outcome ran = place.rend("run s.xml");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(words));
+    const auto left_out = place.rend("info s.xml --json").json()["bodies"][0]["left_out"];
+    EXPECT_THAT(left_out, testing::Contains(HasSubstr(words)));
+  }
+}
+
 } // namespace
 } // namespace rend
