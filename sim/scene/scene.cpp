@@ -6,6 +6,7 @@
 #include "sim/scene/build_body.h"
 #include "sim/scene/build_world.h"
 #include "sim/scene/guard.h"
+#include "sim/scene/scene_types.h"
 
 #include <fmt/format.h>
 
@@ -85,7 +86,7 @@ double Scene::tolerance_of(const Node& time) const {
 // The step of an adaptive scheme is what it divides: by itself it takes that of symplectic, so that laws look
 // as often.
 void Scene::build_time(const Node& time) {
-  duration_ = time.number("duration");
+  duration_ = duration_of(time);
   step_place_ = time.place("step");
   automatic_ = time.is_word("step");
   step_ = automatic_ ? stable_step(time) : time.number("step");
@@ -114,6 +115,7 @@ double Scene::stability_limit(const Scheme& scheme) const {
 }
 
 double Scene::stable_step(const Node& time) const {
+  if (scheme_->name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
   const double limit = stability_limit(scheme_->adaptive ? *find_scheme("symplectic") : *scheme_);
   if (limit <= 0)
     time.fail("step",

@@ -52,6 +52,23 @@ TEST(StaticSolve, lengthens_hanging_springs_as_the_formula_says) {
   }
 }
 
+TEST(StaticSolve, needs_neither_step_nor_duration) {
+  const auto with = [](const std::string& time) {
+    return presets::load(fmt::format(
+        R"(<scene>{}<world gravity="-9.81 0 0"/><time integrator="static"{}/></scene>)", hanging(1e3), time));
+  };
+  const auto whole = with(R"( step="1" duration="1")"), alone = with("");
+  EXPECT_EQ(alone->duration(), 1);
+  EXPECT_EQ(alone->step_size(), 1);
+  whole->step();
+  alone->step();
+  EXPECT_EQ(alone->hash(), whole->hash());
+  EXPECT_EQ(with(R"( duration="4")")->step_size(), 4); // one equilibrium still
+  EXPECT_EQ(with(R"( duration="4" step="auto")")->step_size(), 4);
+  EXPECT_EQ(with(R"( step="0.25")")->duration(), 1);
+  EXPECT_EQ(with(R"( duration="0")")->duration(), 0);
+}
+
 TEST(ImplicitEuler, comes_to_rest_where_the_static_solve_is) {
   const auto s = presets::load(scene(hanging(1e3), "implicit", 0.05, 20, "-9.81 0 0"));
   for (int n = 0; n < 400; ++n) s->step();
