@@ -84,7 +84,16 @@ TEST(MeshOfAPreset, lies_in_its_folder_or_below) {
     EXPECT_EQ(outside.code, 65);
     EXPECT_THAT(outside.err, HasSubstr("outside of the preset's folder"));
     EXPECT_EQ(run(file, "--allow-path").code, 0);
+    for (const char* command : {"check scenes/s.xml -q --only threads", "study --lean scenes/s.xml -q --quick",
+                                "study scenes/s.xml -q", "info scenes/s.xml"}) {
+      const Outcome other = place.rend(command);
+      EXPECT_EQ(other.code, 65) << command;
+      EXPECT_THAT(other.err, HasSubstr("outside of the preset's folder")) << command;
+    }
+    EXPECT_EQ(place.rend("check scenes/s.xml -q --only threads --allow-path").code, 0);
   }
+  fs::create_symlink("circle", place.path() / "scenes/circle");
+  EXPECT_EQ(run("circle/t.msh").code, 65);
 }
 
 TEST(MeshOfAPreset, has_groups_that_select) {
