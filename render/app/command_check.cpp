@@ -4,10 +4,14 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/json_text.h"
+#include "render/app/number_option.h"
+#include "render/app/paths.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/signals.h"
 #include "render/output.h"
+#include "sim/base/printable.h"
+#include "sim/base/wording.h"
 #include "sim/check/preset_check.h"
 #include "sim/program/threads.h"
 
@@ -29,7 +33,7 @@ struct CheckOptions {
   std::vector<std::string> presets; // empty: the suite
   std::string folder;               // empty: no files are left
   std::vector<std::string> only;    // patterns of names
-  bool list = false, json = false, quick = false, quiet = false;
+  bool list = false, json = false, quick = false, quiet = false, allow_path = false;
   int jobs = 0; // 0: as many as the machine has threads
 };
 
@@ -90,7 +94,8 @@ std::vector<CheckChapter> wanted(const CheckOptions& options) {
     if (!chapter.cases.empty()) chapters.push_back(std::move(chapter));
   };
   for (const std::string& preset : options.presets) {
-    load_scene(preset); // what is bad is said before anything slow
+    const auto scene = load_scene(preset); // what is bad is said before anything slow
+    if (!options.allow_path) check_paths(*scene);
     add(chapter_of(preset, options));
   }
   if (options.presets.empty())
@@ -112,9 +117,9 @@ void make_folder(const fs::path& path) {
 std::string line_of(std::size_t number, std::size_t all, const CheckCase& which, const CheckResult& result) {
   const Finding& f = result.finding;
   std::string line = fmt::format("[{:>4}/{}] {:<11} {:7.2f} s  {}", number, all, name_of(f.verdict),
-                                 result.seconds, which.name);
+                                 result.seconds, printable(which.name));
   if (f.verdict == Verdict::Failed) {
-    line += fmt::format("\n             expected: {}\n             {}", which.expectation, f.what);
+    line += fmt::format("\n             expected: {}\n             {}", which.expectation, printable(f.what));
     for (const Measure& m : f.measures)
       if (!m.holds())
         line += fmt::format("\n             {}: {:.6g}, not within {:.6g} and {:.6g}", m.what, m.got, m.low,
@@ -132,7 +137,7 @@ void run_all(std::vector<CheckChapter>& chapters, const fs::path& folder, const 
   std::size_t count = 0;
   const auto say = [&](std::size_t n, const CheckResult& result) {
     ++count;
-    if (!options.quiet) fmt::print(stderr, "{}", line_of(count, cases.size(), cases[n], result));
+    if (!options.quiet) print_progress(line_of(count, cases.size(), cases[n], result));
   };
   const int jobs = options.jobs > 0 ? options.jobs : hardware_threads();
   std::vector<CheckResult> results = run_cases(folder, cases, jobs, say);
@@ -150,8 +155,9 @@ std::string summary_of(const std::vector<CheckChapter>& chapters, double seconds
   for (const CheckChapter& chapter : chapters)
     for (std::size_t n = 0; n < chapter.results.size(); ++n)
       if (chapter.results[n].finding.verdict == Verdict::Failed)
-        out += fmt::format("  failed: {}: {}\n", chapter.cases[n].name, chapter.results[n].finding.what);
-  if (!folder.empty()) out += fmt::format("  {}\n", (fs::path(folder) / "index.html").string());
+        out += fmt::format("  failed: {}: {}\n", printable(chapter.cases[n].name),
+                           printable(chapter.results[n].finding.what));
+  if (!folder.empty()) out += fmt::format("  {}\n", printable((fs::path(folder) / "index.html").string()));
   return out;
 }
 
@@ -160,7 +166,7 @@ Exit check(const CheckOptions& options) {
   if (options.list) {
     std::string names;
     for (const CheckChapter& chapter : chapters)
-      for (const CheckCase& one : chapter.cases) names += one.name + "\n";
+      for (const CheckCase& one : chapter.cases) names += printable(one.name) + "\n";
     print_result(names);
     return Exit::Done;
   }
@@ -193,12 +199,13 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option("--only", options->only, "cases whose names hold this (* and ? stand for anything)")
       ->type_name("PATTERN")
       ->allow_extra_args(false);
+  app.add_flag("--allow-path", options->allow_path, "read meshes from outside of the presets' folders, too");
   app.add_flag("--quick", options->quick, "the few cases that stand for the others");
   app.add_flag("--list", options->list, "the names of the cases, one a line");
   app.add_flag("--json", options->json, "the findings as one JSON object");
   app.add_option("--jobs", options->jobs, "cases at once; default: the threads of the machine")
       ->type_name("N")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->quiet, "no line for each case");
   return [options] { return check(*options); };
 }

@@ -5,8 +5,10 @@
 #include "render/app/diff_report.h"
 #include "render/app/diff_tolerances.h"
 #include "render/app/diff_update.h"
+#include "render/app/number_option.h"
 #include "render/app/signals.h"
 #include "render/png.h"
+#include "sim/base/printable.h"
 #include "sim/program/threads.h"
 
 #include <CLI/CLI.hpp>
@@ -28,12 +30,13 @@ namespace fs = std::filesystem;
 struct DiffOptions {
   std::string a, b, folder, junit, tolerances, mask;
   std::vector<std::string> limits, update;
-  bool json = false, json_lines = false, quiet = false;
+  bool allow_path = false, json = false, json_lines = false, quiet = false;
   int threads = 0; // 0: as many as the machine has
 };
 
 Tolerances tolerances_of(const DiffOptions& options) {
-  Tolerances out = options.tolerances.empty() ? Tolerances() : Tolerances(options.tolerances);
+  Tolerances out =
+      options.tolerances.empty() ? Tolerances() : Tolerances(options.tolerances, options.allow_path);
   for (const std::string& limit : options.limits) out.add(limit);
   if (!options.mask.empty()) out.mask_all(options.mask);
   return out;
@@ -113,9 +116,10 @@ void print_report(const DiffOptions& options, const DiffReport& report) {
   } else if (options.json) {
     print_result(text_of(diff_json(report), 2) + "\n");
   } else if (!options.quiet) {
-    print_result(diff_text(report) + (options.folder.empty()
-                                          ? ""
-                                          : "  " + (fs::path(options.folder) / "index.html").string() + "\n"));
+    print_result(diff_text(report) +
+                 (options.folder.empty()
+                      ? ""
+                      : "  " + printable((fs::path(options.folder) / "index.html").string()) + "\n"));
   }
 }
 
@@ -171,6 +175,8 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   app.add_option("--mask", options->mask, "a PNG: white counts, black does not")->type_name("FILE.png");
+  app.add_flag("--allow-path", options->allow_path,
+               "let the tolerances name masks outside of their folder, too");
   app.add_option("-o,--output", options->folder, "write index.html, diff.json and maps of what differs there")
       ->type_name("DIR");
   app.add_option("--junit", options->junit, "write the findings as JUnit XML there")->type_name("FILE.xml");
@@ -183,7 +189,7 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   app.add_option("--threads", options->threads, "threads; default: all that the machine has")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->quiet, "nothing but the exit code, JSON and files");
   app.footer("Ends with 0 where all pictures match, 1 where one does not, 2 where one cannot be compared.");
   return [options] { return run(*options); };

@@ -4,6 +4,7 @@
 #include "render/app/export_series.h"
 #include "render/app/figures.h"
 #include "render/app/json_text.h"
+#include "render/app/number_option.h"
 #include "render/app/profile_report.h"
 #include "render/app/progress.h"
 #include "render/app/records.h"
@@ -126,7 +127,8 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("DIR");
   app.add_option("--frames", options->frames,
                  "export only these: 7, 0-100, 0-100x2, 10-, or several with commas")
-      ->type_name("LIST");
+      ->type_name("LIST")
+      ->check(some_word());
   return [options] { return run(*options); };
 }
 

@@ -1,6 +1,7 @@
 // rend sheet: a contact sheet, one row a preset: how it starts, tears and ends.
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/number_option.h"
 #include "render/app/picture.h"
 #include "render/app/preset_types.h"
 #include "render/app/progress.h"
@@ -8,6 +9,8 @@
 #include "render/device.h"
 #include "render/png.h"
 #include "render/stage.h"
+#include "sim/base/printable.h"
+#include "sim/base/wording.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -100,7 +103,7 @@ Exit make_sheet(const SheetOptions& options) {
   }
   write_png(options.file, sheet);
   if (!options.session.quiet)
-    print_result(fmt::format("{}: {} row{} of {} pictures\n", options.file, options.presets.size(),
+    print_result(fmt::format("{}: {} row{} of {} pictures\n", printable(options.file), options.presets.size(),
                              options.presets.size() == 1 ? "" : "s", columns));
   return Exit::Done;
 }
@@ -111,9 +114,10 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option("-o,--output", options->file, "the picture to write")->required()->type_name("FILE.png");
   app.add_option("--size", options->size, "of each picture in pixels")
       ->type_name("WxH")
+      ->check(some_word())
       ->default_val("480x270");
   app.add_option("--threads", options->session.threads, "threads; default: all that the machine has")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->session.quiet, "no progress and no notes");
   return [options] { return make_sheet(*options); };
 }

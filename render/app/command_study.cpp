@@ -3,6 +3,7 @@
 #include "render/app/console.h"
 #include "render/app/json_text.h"
 #include "render/app/lean_report.h"
+#include "render/app/paths.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/signals.h"
@@ -11,6 +12,7 @@
 #include "render/app/study_plots.h"
 #include "render/app/study_table.h"
 #include "render/output.h"
+#include "sim/base/printable.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -50,13 +52,12 @@ public:
     const double now = wall_clock();
     if (quiet_ || now < next_) return;
     next_ = now + (terminal_ ? 0.1 : 5);
-    fmt::print(stderr, "{}{:3.0f}%  {}{}", terminal_ ? "\r" : "", 100 * share, what,
-               terminal_ ? "\033[K" : "\n");
-    std::fflush(stderr);
+    print_progress(fmt::format("{}{:3.0f}%  {}{}", terminal_ ? "\r" : "", 100 * share, printable(what),
+                               terminal_ ? "\033[K" : "\n"));
     shown_ = terminal_;
   }
   void clear() {
-    if (shown_) std::fputs("\r\033[K", stderr);
+    if (shown_) print_progress("\r\033[K");
     shown_ = false;
   }
 
@@ -87,8 +88,9 @@ Exit stopped(Teller& teller) {
 }
 
 // The preset as it stands in its file.
-std::string content_of(const fs::path& path) {
-  load_scene(path, {}); // says what is wrong with it
+std::string content_of(const fs::path& path, bool allow_path) {
+  const auto scene = load_scene(path, {}); // says what is wrong with it
+  if (!allow_path) check_paths(*scene);
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -104,7 +106,7 @@ LeanPlan lean_plan(const StudyOptions& options) {
   std::vector<std::string> presets = options.further;
   if (!options.session.preset.empty()) presets.insert(presets.begin(), options.session.preset);
   for (const std::string& preset : presets)
-    plan.scenes.push_back({fs::path(preset).stem(), content_of(preset), preset});
+    plan.scenes.push_back({fs::path(preset).stem(), content_of(preset, options.session.allow_path), preset});
   if (presets.empty()) plan.scenes = lean_scenes();
   return plan;
 }
@@ -127,9 +129,9 @@ Exit lean(const StudyOptions& options) {
   write_whole(folder / "lean.csv", csv_of(rows));
   write_whole(folder / "lean.json", text_of(json, 2) + "\n");
   write_whole(folder / "index.html", page_of(rows, provenance));
-  print_result(options.json
-                   ? text_of(json, 2) + "\n"
-                   : table_of(rows) + fmt::format("The page is {}\n", (folder / "index.html").string()));
+  print_result(options.json ? text_of(json, 2) + "\n"
+                            : table_of(rows) +
+                                  fmt::format("The page is {}\n", printable((folder / "index.html").string())));
   const bool kept = std::all_of(rows.begin(), rows.end(), [](const LeanRow& row) { return row.as_promised(); });
   return kept ? Exit::Done : Exit::No;
 }
@@ -170,9 +172,10 @@ Exit study(const StudyOptions& options) {
   if (options.json) {
     print_result(text_of(json, 2) + "\n");
   } else {
-    std::string out = fmt::format("{}: {} runs of {:.4g} s\n", task.name, report.rows.size(), report.duration);
-    for (const std::string& line : findings_of(report)) out += "  " + line + "\n";
-    print_result(out + fmt::format("  The page is {}\n", (folder / "index.html").string()));
+    std::string out =
+        fmt::format("{}: {} runs of {:.4g} s\n", printable(task.name), report.rows.size(), report.duration);
+    for (const std::string& line : findings_of(report)) out += "  " + printable(line) + "\n";
+    print_result(out + fmt::format("  The page is {}\n", printable((folder / "index.html").string())));
   }
   return Exit::Done;
 }

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -92,6 +93,8 @@ int run_program(int count, const char* const* arguments) {
   } catch (const UserError& error) {
     print_error(error.what(), error.hint);
     return end(error.code);
+  } catch (const NobodyReads&) {
+    return 128 + SIGPIPE; // as other programs end there
   } catch (const std::bad_alloc&) {
     print_error("there is not enough memory for this", "use fewer cells, or smaller pictures");
     return end(Exit::OutOfBudget);

@@ -1,6 +1,7 @@
 #include "render/app/session.h"
 
 #include "render/app/console.h"
+#include "render/app/number_option.h"
 #include "render/app/paths.h"
 #include "render/app/picture_check.h"
 #include "render/app/preset_reader.h"
@@ -37,14 +38,14 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
   add_preset_options(app, options);
   app.add_option("--steps", options.steps, "so many steps instead of the duration")
       ->type_name("N")
-      ->check(CLI::Range(0L, 1000000000L));
+      ->transform(whole_number(0, 1000000000));
   app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the preset's")
       ->type_name("N")
-      ->check(CLI::Range(1e-6, 1e6));
+      ->transform(real_number(1e-6, 1e6));
   app.add_option("--threads", options.threads,
                  "threads of the simulation (the result is the same for any number)")
       ->type_name("N")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number(1, 256));
   app.add_option("--kernels", options.kernels,
                  "flat; or walk: every force by walking the map (slow, for comparison)")
       ->type_name("flat|walk")

@@ -1,5 +1,6 @@
 #include "render/app/study_options.h"
 
+#include "render/app/number_option.h"
 #include "render/app/paths.h"
 #include "render/app/usage.h"
 
@@ -173,18 +174,20 @@ void declare_study(CLI::App& app, StudyOptions& options) {
   app.add_option("--steps", options.steps, "steps of each scheme below its limit, over two decades")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(3, 64));
+      ->transform(whole_number(3, 64));
   app.add_option("--duration", options.duration, "how much of the clip; default: what it needs, some 0.2 s")
       ->type_name("SECONDS")
-      ->check(CLI::Range(1e-12, 1e9));
-  app.add_option("--refine", options.refine, "meshes so many times finer, such as 1,2,4")->type_name("a,b,c");
+      ->transform(real_number(1e-12, 1e9));
+  app.add_option("--refine", options.refine, "meshes so many times finer, such as 1,2,4")
+      ->type_name("a,b,c")
+      ->check(some_word());
   app.add_option("--sweep", options.sweeps, "an attribute to be varied as well (any number of times)")
       ->type_name("PATH=a,b,c")
       ->allow_extra_args(false);
   app.add_option("--reruns", options.reruns, "timed runs of each; fewer where one takes over a second")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+      ->transform(whole_number(1, 1000));
   app.add_flag("--quick", options.quick, "a first look: four steps of each scheme, three timed runs");
   app.add_flag(
       "--lean", options.lean,

@@ -2,6 +2,7 @@
 
 #include "render/report/gnuplot.h"
 #include "sim/base/check.h"
+#include "sim/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -35,12 +36,7 @@ const Look& look_of(const PlotSeries& series) {
 // everywhere) and, in some versions, the backquote: apostrophes of typography take their place.
 std::string quoted(const std::string& text) {
   std::string out = "'";
-  for (char c : text) {
-    if (c == '\'' || c == '`')
-      out += "\u2019";
-    else
-      out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
+  for (const char c : printable(text)) out += c == '\'' || c == '`' ? "\u2019" : std::string(1, c);
   return out + "'";
 }
 
