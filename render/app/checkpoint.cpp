@@ -113,6 +113,7 @@ void write_checkpoint(const fs::path& path, const std::string& key, long next, S
   const Fields fields{number_of(key), static_cast<std::uint64_t>(next)};
   std::vector<std::uint8_t> head(first_line.begin(), first_line.end());
   head.insert(head.end(), bytes_of(fields).begin(), bytes_of(fields).end());
+  sync_folder(path.parent_path()); // it says that the frames before it are there
   OutputFile file(path);
   file.write(head);
   std::array<std::uint64_t, 1> sum{sum_with(0, head)};

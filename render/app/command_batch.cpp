@@ -142,6 +142,8 @@ Exit batch(const BatchOptions& options) {
                     "there are fewer jobs than shards, so that these share frames; a video is of all",
                     "use at most as many shards as jobs, or leave --video out");
   const Shard frames = frames_are_shared ? shard : Shard{};
+  const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
+  const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
   const OutputFolder folder(options.folder);
   folder.make();
   std::size_t finished = 0;
@@ -159,9 +161,8 @@ Exit batch(const BatchOptions& options) {
       });
   report.results = queue.run();
   report.seconds = wall_clock() - start;
-  const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
-  const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
   write_whole(page, batch_page(report));
+  folder.sync();
   if (!options.json) print_result(closing_words(report, page));
   return end_of(report);
 }

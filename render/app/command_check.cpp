@@ -179,6 +179,7 @@ Exit check(const CheckOptions& options) {
   if (!options.folder.empty()) {
     write_whole(fs::path(options.folder) / "check.json", text_of(json, 2) + "\n");
     write_whole(fs::path(options.folder) / "index.html", check_page(chapters, seconds, true));
+    sync_folder(options.folder);
   }
   print_result(options.json ? text_of(json, 2) + "\n" : summary_of(chapters, seconds, options.folder));
   return count(chapters).failed > 0 ? Exit::No : Exit::Done;

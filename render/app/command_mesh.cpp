@@ -33,10 +33,13 @@ Exit convert(const MeshOptions& options) {
   if (!moka && out.extension() != ".msh")
     throw UserError(Exit::Usage, {}, fmt::format("{} is no format that can be written", in_quotes(options.out)),
                     "a name that ends in .moka or .msh tells the format");
+  const std::filesystem::path file = followed(out);
   const MeshBody body = sew(read_mesh(std::filesystem::path(options.in)));
   for (const std::string& note : body.notes) print_note(note);
   if (moka && !body.groups.empty()) print_note("groups are left out: .moka has none");
-  write_whole(out, moka ? moka_text(*body.map) : msh_text(body, options.in));
+  const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
+  write_whole(file, text);
+  sync_folder(file.parent_path());
   return Exit::Done;
 }
 

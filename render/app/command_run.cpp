@@ -49,8 +49,8 @@ std::unique_ptr<ExportSeries> export_of(const Session& session, const RunOptions
 Stopped simulate(Session& session, const RunOptions& options, ExportSeries* series) {
   std::optional<Diagnostics> diagnostics;
   std::optional<EventFile> events;
-  if (!options.diagnostics.empty()) diagnostics.emplace(options.diagnostics);
-  if (!options.events.empty()) events.emplace(options.events);
+  if (!options.diagnostics.empty()) diagnostics.emplace(followed(options.diagnostics));
+  if (!options.events.empty()) events.emplace(followed(options.events));
   Progress progress(session.quiet(), session.clock().steps(), session.clock().duration(), 0);
   Session::Calls calls;
   Profile* const profile = session.scene().profile();

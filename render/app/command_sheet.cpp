@@ -6,6 +6,7 @@
 #include "render/app/progress.h"
 #include "render/app/session.h"
 #include "render/device.h"
+#include "render/output.h"
 #include "render/png.h"
 #include "render/stage.h"
 
@@ -77,6 +78,7 @@ Exit make_sheet(const SheetOptions& options) {
     throw UserError(Exit::Usage, {}, fmt::format("-o {}: a contact sheet is a PNG", in_quotes(options.file)),
                     "a name that ends in .png");
   const PictureSize size = parse_size(options.size);
+  const std::filesystem::path file = followed(options.file);
   for (const std::string& preset : options.presets)
     load_scene(preset, {}); // what is bad is said before anything slow
   Image sheet(columns * (size.width + gap) - gap,
@@ -98,7 +100,8 @@ Exit make_sheet(const SheetOptions& options) {
       paste(stage.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
     }
   }
-  write_png(options.file, sheet);
+  write_png(file, sheet);
+  sync_folder(file.parent_path());
   if (!options.session.quiet)
     print_result(fmt::format("{}: {} row{} of {} pictures\n", options.file, options.presets.size(),
                              options.presets.size() == 1 ? "" : "s", columns));

@@ -127,6 +127,7 @@ Exit lean(const StudyOptions& options) {
   write_whole(folder / "lean.csv", csv_of(rows));
   write_whole(folder / "lean.json", text_of(json, 2) + "\n");
   write_whole(folder / "index.html", page_of(rows, provenance));
+  sync_folder(folder);
   print_result(options.json
                    ? text_of(json, 2) + "\n"
                    : table_of(rows) + fmt::format("The page is {}\n", (folder / "index.html").string()));
@@ -167,6 +168,7 @@ Exit study(const StudyOptions& options) {
   write_whole(folder / "study.json", text_of(json, 2) + "\n");
   write_whole(folder / "index.html",
               page_of(report, task.name, write_plots(report, task.name, folder), provenance));
+  sync_folder(folder);
   if (options.json) {
     print_result(text_of(json, 2) + "\n");
   } else {

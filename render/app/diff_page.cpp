@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace rend {
 namespace {
 
@@ -188,10 +190,11 @@ DiffFiles::DiffFiles(const std::string& folder, const std::string& junit) {
     json_.emplace(folder_->path() / "diff.json");
     page_.emplace(folder_->path() / "index.html");
   }
-  if (!junit.empty()) junit_.emplace(junit);
+  if (!junit.empty()) junit_.emplace(followed(junit));
 }
 
 void DiffFiles::write_maps(const DiffReport& report) const {
+  std::set<fs::path> folders;
   for (const Compared& one : report.cases) {
     if (one.heat.empty()) continue;
     const fs::path path = maps_->path() / one.paths.name;
@@ -200,13 +203,16 @@ void DiffFiles::write_maps(const DiffReport& report) const {
     OutputFile file(path);
     file.write(one.heat);
     file.commit();
+    folders.insert(into.path());
   }
+  for (const fs::path& folder : folders) sync_folder(folder);
 }
 
 void DiffFiles::write(const std::string& page, const DiffReport& report) {
   const auto write = [](OutputFile& file, const std::string& text) {
     file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     file.commit();
+    sync_folder(file.path().parent_path());
   };
   if (junit_) write(*junit_, diff_junit(report));
   if (!folder_) return;

@@ -62,8 +62,8 @@ public:
     const std::vector<std::uint8_t> bytes = file_bytes(from);
     std::error_code error;
     fs::create_directories(to.parent_path(), error);
-    { const OutputFile any(to); } // whether it can be made at all
-    const fs::path path = fs::weakly_canonical(to);
+    const fs::path path = fs::weakly_canonical(followed(to));
+    { const OutputFile any(path); }      // whether it can be made at all
     const auto other = from_.find(path); // two names of one file, by a link
     if (other != from_.end() && file_bytes(other->second) != bytes)
       throw UserError(Exit::Trouble, {to.string()},
@@ -76,12 +76,15 @@ public:
     file.commit();
   }
   void commit() {
+    std::set<fs::path> folders;
     for (; !from_.empty(); from_.erase(from_.begin())) {
       const fs::path& path = from_.begin()->first;
       std::error_code error;
       fs::rename(part(path), path, error);
       if (error) throw UserError(Exit::ReadWrite, {path.string()}, "it cannot be replaced: " + error.message());
+      folders.insert(path.parent_path());
     }
+    for (const fs::path& folder : folders) sync_folder(folder);
   }
 
 private:

@@ -42,6 +42,7 @@ void ExportSeries::finish() {
   const double start = wall_clock();
   release();
   if (!files_.empty() && !index_name().empty()) write(index_name(), exporter_->index(files_));
+  folder_.sync();
   seconds_ += wall_clock() - start;
 }
 

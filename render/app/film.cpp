@@ -71,7 +71,10 @@ void Film::store(Archive& archive) {
 }
 
 void Film::push(Frame&& frame) {
-  if (!pipeline_) pipeline_ = std::make_unique<Pipeline>(options_);
+  if (!pipeline_) {
+    folder_.make();
+    pipeline_ = std::make_unique<Pipeline>(options_);
+  }
   pipeline_->push(std::move(frame));
   ++frames_;
 }

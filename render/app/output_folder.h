@@ -18,6 +18,7 @@ public:
 
   const std::filesystem::path& path() const { return path_; }
   void make() const; // throws UserError (CannotCreate)
+  void sync() const; // the end was reached: what it has is on the disk (render/output.h), if it was made
 
 private:
   std::filesystem::path path_;

@@ -66,6 +66,7 @@ Stopped Shoot::run() {
   if (stopped != Stopped::Interrupted && video_at_end_ && video_of_files() == Stopped::Interrupted)
     stopped = Stopped::Interrupted;
   if (stopped != Stopped::Interrupted) remove_checkpoint();
+  film_->folder().sync();
   return stopped;
 }
 
@@ -86,7 +87,7 @@ void Shoot::checkpoint_if_due(long next) {
   constexpr double most_share = 20;
   const double start = wall_clock();
   if (start < due_ || !keeps_checkpoints() || !film_->settle()) return;
-  film_->make_folder();
+  film_->folder().make();
   checkpoint(next);
   due_ = wall_clock() + std::max(options_.checkpoint_every, most_share * (wall_clock() - start));
 }
