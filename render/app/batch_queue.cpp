@@ -59,7 +59,7 @@ void BatchQueue::finish(Running& one) {
   result.peak = std::max(result.peak, one.child.peak());
   const std::string& preset = jobs_[one.job].preset;
   peaks_[preset] = std::max(peaks_[preset], result.peak);
-  const bool stopped = one.child.code() == 128 + SIGTERM || one.child.code() == 128 + SIGINT;
+  const bool stopped = is_of_a_signal(one.child.code());
   ++result.tries;
   // To go on when there is room: from its checkpoint, if it wrote one. It did where it told its figures, and
   // did not where it was still building its scene; a checkpoint that is there all the same is of an earlier

@@ -23,7 +23,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <csignal>
 #include <memory>
 
 namespace rend {
@@ -123,7 +122,7 @@ std::string closing_words(const BatchReport& report, const fs::path& page) {
 }
 
 Exit end_of(const BatchReport& report) {
-  if (stop_signal() != 0) return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  if (stop_signal() != 0) return exit_of_a_signal();
   const bool all = std::all_of(report.results.begin(), report.results.end(),
                                [](const BatchResult& result) { return state_of(result) == "done"; });
   return all ? Exit::Done : Exit::No;
@@ -145,6 +144,7 @@ Exit batch(const BatchOptions& options) {
   const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
   const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
   const OutputFolder folder(options.folder);
+  const Keeping keeping;
   folder.make();
   std::size_t finished = 0;
   BatchQueue queue(

@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <fnmatch.h>
 #include <memory>
@@ -84,12 +83,22 @@ CheckChapter chapter_of(const CheckFamily& family, const CheckOptions& options) 
   return chapter;
 }
 
+// Each case reads the preset anew, which of a pipe gives nothing the second time, or waits for ever.
+void refuse_pipe(const fs::path& preset) {
+  std::error_code error;
+  const fs::file_status there = fs::status(preset, error);
+  if (!fs::exists(there) || fs::is_regular_file(there) || fs::is_directory(there)) return;
+  throw UserError(Exit::NoInput, {preset.string()}, "this is no ordinary file, and is read once for each case",
+                  "copy it to a file");
+}
+
 std::vector<CheckChapter> wanted(const CheckOptions& options) {
   std::vector<CheckChapter> chapters;
   const auto add = [&](CheckChapter chapter) {
     if (!chapter.cases.empty()) chapters.push_back(std::move(chapter));
   };
   for (const std::string& preset : options.presets) {
+    refuse_pipe(preset);
     load_scene(preset); // what is bad is said before anything slow
     add(chapter_of(preset, options));
   }
@@ -165,6 +174,7 @@ Exit check(const CheckOptions& options) {
     return Exit::Done;
   }
   const double start = wall_clock();
+  const Keeping keeping;
   std::unique_ptr<Temporary> temporary;
   if (options.folder.empty()) temporary = std::make_unique<Temporary>();
   const fs::path cases = temporary ? temporary->path() : fs::path(options.folder) / "cases";
@@ -172,7 +182,7 @@ Exit check(const CheckOptions& options) {
   run_all(chapters, cases, options);
   if (chapters.front().results.empty()) {
     print_error("stopped by a signal: nothing is reported");
-    return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+    return exit_of_a_signal();
   }
   const double seconds = wall_clock() - start;
   const nlohmann::ordered_json json = check_json(chapters, seconds);

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -124,6 +123,7 @@ Exit diff(const DiffOptions& options) {
   const Tolerances tolerances = tolerances_of(options);
   const Cases cases = cases_of(options.a, options.b);
   const std::set<std::size_t> chosen = named_cases(options.update, cases.all);
+  const Keeping keeping;
   DiffReport report;
   report.a = options.a;
   report.b = options.b;
@@ -132,7 +132,7 @@ Exit diff(const DiffOptions& options) {
   report.cases = compare_all(cases.all, tolerances, options);
   if (report.cases.empty()) {
     print_error("stopped by a signal: nothing is reported");
-    return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+    return exit_of_a_signal();
   }
   report.updated.assign(report.cases.size(), false);
   for (const std::size_t n : chosen) report.updated[n] = true;

@@ -2,6 +2,7 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/mesh_facts.h"
+#include "render/app/signals.h"
 #include "render/output.h"
 #include "sim/base/wording.h"
 #include "sim/mesh/moka.h"
@@ -38,6 +39,7 @@ Exit convert(const MeshOptions& options) {
   for (const std::string& note : body.notes) print_note(note);
   if (moka && !body.groups.empty()) print_note("groups are left out: .moka has none");
   const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
+  const Keeping keeping;
   write_whole(file, text);
   sync_folder(file.parent_path());
   return Exit::Done;

@@ -8,6 +8,7 @@
 #include "render/app/session.h"
 #include "render/app/shard.h"
 #include "render/app/shoot.h"
+#include "render/app/signals.h"
 #include "render/app/usage.h"
 #include "render/png.h"
 #include "render/video.h"
@@ -113,6 +114,7 @@ Exit render(const RenderOptions& options) {
   Session session(options.session);
   const ShootOptions wanted = shoot_options(options, session);
   Shoot shoot(session, wanted);
+  const Keeping keeping;
   const Stopped stopped = shoot.run();
   print_figures(options, session, shoot, stopped, wanted.files, wall_clock() - start);
   const Exit end = end_of(session, stopped);

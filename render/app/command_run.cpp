@@ -8,6 +8,7 @@
 #include "render/app/progress.h"
 #include "render/app/records.h"
 #include "render/app/session.h"
+#include "render/app/signals.h"
 #include "render/app/usage.h"
 #include "sim/base/profile.h"
 
@@ -87,6 +88,7 @@ Exit run(const RunOptions& options) {
   wanted.births = !options.events.empty();
   Session session(wanted);
   const std::unique_ptr<ExportSeries> series = export_of(session, options);
+  const Keeping keeping;
   const Stopped stopped = simulate(session, options, series.get());
   Costs costs;
   costs.total = wall_clock() - start;

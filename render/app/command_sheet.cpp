@@ -5,6 +5,7 @@
 #include "render/app/preset_types.h"
 #include "render/app/progress.h"
 #include "render/app/session.h"
+#include "render/app/signals.h"
 #include "render/device.h"
 #include "render/output.h"
 #include "render/png.h"
@@ -55,6 +56,7 @@ Exit run(Session& session, double aspect, Row& row) {
   PictureMaker maker(session.preset(), session.scene(), aspect, session.clock().duration(),
                      session.clock().frames());
   const long last = session.clock().frames() - 1;
+  const Keeping keeping; // no more than a word on how far it came
   Progress progress(session.quiet(), session.last_step(last), session.clock().duration(), 0);
   Session::Calls calls;
   calls.frame = [&](long frame) {
@@ -100,6 +102,7 @@ Exit make_sheet(const SheetOptions& options) {
       paste(stage.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
     }
   }
+  const Keeping keeping;
   write_png(file, sheet);
   sync_folder(file.parent_path());
   if (!options.session.quiet)

@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <ctime>
 #include <fstream>
 #include <iterator>
@@ -83,7 +82,7 @@ std::vector<DrawnPlot> write_plots(const StudyReport& report, const std::string&
 Exit stopped(Teller& teller) {
   teller.clear();
   print_error("the study was stopped by a signal: nothing was written");
-  return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  return exit_of_a_signal();
 }
 
 // The preset as it stands in its file.
@@ -111,6 +110,7 @@ LeanPlan lean_plan(const StudyOptions& options) {
 
 Exit lean(const StudyOptions& options) {
   const LeanPlan plan = lean_plan(options);
+  const Keeping keeping;
   const fs::path folder = make_folder(options, "lean", "lean.csv");
   Teller teller(options.session.quiet);
   const StudyCalls calls{[&](const std::string& what, double share) { teller.tell(what, share); },
@@ -147,6 +147,7 @@ Exit study(const StudyOptions& options) {
   check_options(options);
   if (options.lean) return lean(options);
   const StudyTask task = study_task(options);
+  const Keeping keeping;
   const fs::path folder = make_folder(options, task.name, "study.csv");
   Teller teller(options.session.quiet);
   StudyCalls calls;

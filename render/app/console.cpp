@@ -1,9 +1,12 @@
 #include "render/app/console.h"
 
+#include "render/app/signals.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
@@ -30,6 +33,7 @@ bool wants_colour(std::FILE* stream) {
 void print_result(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  if (stop_signal() == SIGHUP) return; // its terminal has gone, and nobody reads on
   throw UserError(Exit::ReadWrite, {},
                   fmt::format("writing to standard output failed: {}", std::strerror(errno)));
 }

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -72,7 +71,6 @@ std::uint64_t hash_of(const std::filesystem::path& path) {
 Session::Session(const SessionOptions& options) : options_(options) {
   std::vector<Override> overrides;
   for (const std::string& set : options.sets) overrides.push_back(parse_override(set));
-  const NothingToKeep building;
   const std::string text = read_preset_file(options.preset);
   text_hash_ = hash_bytes(text.data(), text.size());
   preset_ = load_scene_text(text, options.preset, overrides);
@@ -187,7 +185,7 @@ Exit end_of(const Session& session, Stopped stopped) {
   }
   print_error(fmt::format("stopped by a signal at {:.6g} s (step {} of {})", session.scene().time(),
                           session.scene().steps_done(), session.clock().steps()));
-  return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  return exit_of_a_signal();
 }
 
 } // namespace rend
