@@ -6,6 +6,7 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/json_text.h"
+#include "render/app/named_files.h"
 #include "render/app/output_folder.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
@@ -143,6 +144,9 @@ Exit batch(const BatchOptions& options) {
   const Shard frames = frames_are_shared ? shard : Shard{};
   const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
   const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
+  NamedFiles files; // each job sees to its own
+  files.writes("the page", page);
+  for (const BatchJob& job : report.jobs) files.reads("the preset", job.preset);
   const OutputFolder folder(options.folder);
   const Keeping keeping;
   folder.make();

@@ -4,6 +4,7 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/json_text.h"
+#include "render/app/named_files.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/signals.h"
@@ -111,6 +112,15 @@ std::vector<CheckChapter> wanted(const CheckOptions& options) {
                   "the families are " + listed(names) + "; --list names all");
 }
 
+// What is read is not written over.
+void check_files(const CheckOptions& options) {
+  if (options.folder.empty()) return;
+  NamedFiles files;
+  for (const std::string& preset : options.presets) files.reads("the preset", preset);
+  for (const char* file : {"check.json", "index.html"})
+    files.writes("the report", fs::path(options.folder) / file);
+}
+
 void make_folder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
@@ -173,6 +183,7 @@ Exit check(const CheckOptions& options) {
     print_result(names);
     return Exit::Done;
   }
+  check_files(options);
   const double start = wall_clock();
   const Keeping keeping;
   std::unique_ptr<Temporary> temporary;

@@ -5,7 +5,10 @@
 #include "render/app/diff_report.h"
 #include "render/app/diff_tolerances.h"
 #include "render/app/diff_update.h"
+#include "render/app/named_files.h"
+#include "render/app/paths.h"
 #include "render/app/signals.h"
+#include "render/output.h"
 #include "render/png.h"
 #include "sim/program/threads.h"
 
@@ -118,11 +121,46 @@ void print_report(const DiffOptions& options, const DiffReport& report) {
   }
 }
 
+// What is read is not written over.
+void check_files(const DiffOptions& options, const Cases& cases) {
+  NamedFiles files;
+  for (const char* file : {"index.html", "diff.json"})
+    if (!options.folder.empty()) files.writes("the report", fs::path(options.folder) / file);
+  if (!options.junit.empty()) files.writes("--junit", followed(options.junit));
+  if (!options.tolerances.empty()) files.reads("the file of tolerances", options.tolerances);
+  if (!options.mask.empty()) files.reads("the mask", options.mask);
+  for (const CasePaths& one : cases.all)
+    for (const fs::path& picture : {one.a, one.b})
+      if (!picture.empty() && !options.junit.empty()) files.reads("the picture", picture);
+}
+
+// A report within what is compared would be compared itself the next time; and maps of differences are pictures
+// called as those are that differ.
+void check_folder(const fs::path& report, const Cases& cases) {
+  std::vector<fs::path> pictures = cases.folders;
+  for (const CasePaths& one : cases.all)
+    if (cases.folders.empty()) pictures.insert(pictures.end(), {one.a, one.b});
+  for (const fs::path& inputs : pictures) {
+    if (lies_in(report, inputs))
+      throw UserError(Exit::Usage, {},
+                      fmt::format("-o {} lies in {}, whose pictures are compared", in_quotes(report.string()),
+                                  in_quotes(inputs.string())),
+                      "choose a folder beside it for the report");
+    if (lies_in(inputs, report / "maps"))
+      throw UserError(Exit::Usage, {},
+                      fmt::format("-o {} has its maps where {} lies, which is compared",
+                                  in_quotes(report.string()), in_quotes(inputs.string())),
+                      "choose another folder for the report");
+  }
+}
+
 Exit diff(const DiffOptions& options) {
   require_png();
   const Tolerances tolerances = tolerances_of(options);
   const Cases cases = cases_of(options.a, options.b);
   const std::set<std::size_t> chosen = named_cases(options.update, cases.all);
+  check_files(options, cases);
+  if (!options.folder.empty()) check_folder(options.folder, cases);
   const Keeping keeping;
   DiffReport report;
   report.a = options.a;

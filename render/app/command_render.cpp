@@ -4,6 +4,7 @@
 #include "render/app/figures.h"
 #include "render/app/film.h"
 #include "render/app/json_text.h"
+#include "render/app/named_files.h"
 #include "render/app/output_folder.h"
 #include "render/app/session.h"
 #include "render/app/shard.h"
@@ -93,6 +94,20 @@ ShootOptions shoot_options(const RenderOptions& options, const Session& session)
   return out;
 }
 
+// What is read is not written over.
+void check_files(const Session& session, const ShootOptions& options) {
+  const PipelineOptions& out = options.files;
+  NamedFiles files;
+  files.reads("the preset", session.preset_path());
+  files.reads_meshes(session.preset());
+  if (out.video) files.writes("the video", out.folder / (out.name + out.extension));
+  if (!out.png) return;
+  files.writes("the stored state", checkpoint_path(out.folder, out.name, options.shard));
+  files.writes_frames("a picture", out.folder, ".png", [&](long frame) {
+    return frame < session.clock().frames() && options.choice.has(frame);
+  });
+}
+
 void print_figures(const RenderOptions& options, const Session& session, const Shoot& shoot, Stopped stopped,
                    const PipelineOptions& files, double total) {
   if (options.json) {
@@ -113,6 +128,7 @@ Exit render(const RenderOptions& options) {
   check_output(options);
   Session session(options.session);
   const ShootOptions wanted = shoot_options(options, session);
+  check_files(session, wanted);
   Shoot shoot(session, wanted);
   const Keeping keeping;
   const Stopped stopped = shoot.run();

@@ -4,6 +4,7 @@
 #include "render/app/export_series.h"
 #include "render/app/figures.h"
 #include "render/app/json_text.h"
+#include "render/app/named_files.h"
 #include "render/app/profile_report.h"
 #include "render/app/progress.h"
 #include "render/app/records.h"
@@ -37,6 +38,14 @@ void check_export(const RunOptions& options) {
   if (!options.folder.empty() || !options.frames.empty())
     throw UserError(Exit::Usage, {}, "-o and --frames say where and when states are exported, and none are",
                     "add --export vtu (or ply, or obj), or make pictures with rend render");
+}
+
+NamedFiles files_of(const RunOptions& options) {
+  NamedFiles files;
+  files.reads("the preset", options.session.preset);
+  if (!options.diagnostics.empty()) files.writes("--diagnostics", followed(options.diagnostics));
+  if (!options.events.empty()) files.writes("--events", followed(options.events));
+  return files;
 }
 
 std::unique_ptr<ExportSeries> export_of(const Session& session, const RunOptions& options) {
@@ -84,10 +93,13 @@ bool answers_hold(const Scene& scene) {
 Exit run(const RunOptions& options) {
   const double start = wall_clock();
   check_export(options);
+  NamedFiles files = files_of(options);
   SessionOptions wanted = options.session;
   wanted.births = !options.events.empty();
   Session session(wanted);
+  files.reads_meshes(session.preset());
   const std::unique_ptr<ExportSeries> series = export_of(session, options);
+  if (series) series->name_files(files);
   const Keeping keeping;
   const Stopped stopped = simulate(session, options, series.get());
   Costs costs;

@@ -1,6 +1,7 @@
 // rend sheet: a contact sheet, one row a preset: how it starts, tears and ends.
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/named_files.h"
 #include "render/app/picture.h"
 #include "render/app/preset_types.h"
 #include "render/app/progress.h"
@@ -81,8 +82,12 @@ Exit make_sheet(const SheetOptions& options) {
                     "a name that ends in .png");
   const PictureSize size = parse_size(options.size);
   const std::filesystem::path file = followed(options.file);
-  for (const std::string& preset : options.presets)
-    load_scene(preset, {}); // what is bad is said before anything slow
+  NamedFiles files;
+  files.writes("the contact sheet", file);
+  for (const std::string& preset : options.presets) {
+    files.reads("the preset", preset);
+    files.reads_meshes(*load_scene(preset, {})); // what is bad is said before anything slow
+  }
   Image sheet(columns * (size.width + gap) - gap,
               static_cast<int>(options.presets.size()) * (size.height + gap) - gap);
   std::fill(sheet.pixels.begin(), sheet.pixels.end(), std::uint8_t{255});

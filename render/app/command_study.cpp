@@ -3,6 +3,7 @@
 #include "render/app/console.h"
 #include "render/app/json_text.h"
 #include "render/app/lean_report.h"
+#include "render/app/named_files.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/signals.h"
@@ -26,17 +27,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Before anything runs: a folder that cannot be had is said at once.
-fs::path make_folder(const StudyOptions& options, const std::string& name, const std::string& file) {
+std::vector<std::string> presets_of(const StudyOptions& options) {
+  std::vector<std::string> presets = options.further;
+  if (!options.session.preset.empty()) presets.insert(presets.begin(), options.session.preset);
+  return presets;
+}
+
+// Before anything runs: a folder that cannot be had is said at once. `kind`: what its tables are called.
+fs::path make_folder(const StudyOptions& options, const std::string& name, const std::string& kind) {
   const fs::path folder =
       options.folder.empty() ? fs::path("out") / (name + "-study") : fs::path(options.folder);
+  NamedFiles files;
+  for (const std::string& preset : presets_of(options)) files.reads("the preset", preset);
+  for (const std::string& file : {kind + ".csv", kind + ".json", std::string("index.html")})
+    files.writes("the study", folder / file);
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
     throw UserError(Exit::CannotCreate, {folder.string()},
                     "the folder cannot be created" + (error ? ": " + error.message() : std::string{}) + ".",
                     "Choose another one with -o.");
-  OutputFile probe(folder / file); // may it be written to? It goes again by itself
+  OutputFile probe(folder / (kind + ".csv")); // may it be written to? It goes again by itself
   return folder;
 }
 
@@ -100,8 +111,7 @@ LeanPlan lean_plan(const StudyOptions& options) {
     plan.pairs = 2;
     plan.seconds = 2e-3;
   }
-  std::vector<std::string> presets = options.further;
-  if (!options.session.preset.empty()) presets.insert(presets.begin(), options.session.preset);
+  const std::vector<std::string> presets = presets_of(options);
   for (const std::string& preset : presets)
     plan.scenes.push_back({fs::path(preset).stem(), content_of(preset), preset});
   if (presets.empty()) plan.scenes = lean_scenes();
@@ -111,7 +121,7 @@ LeanPlan lean_plan(const StudyOptions& options) {
 Exit lean(const StudyOptions& options) {
   const LeanPlan plan = lean_plan(options);
   const Keeping keeping;
-  const fs::path folder = make_folder(options, "lean", "lean.csv");
+  const fs::path folder = make_folder(options, "lean", "lean");
   Teller teller(options.session.quiet);
   const StudyCalls calls{[&](const std::string& what, double share) { teller.tell(what, share); },
                          [] { return stop_signal() == 0; }};
@@ -148,7 +158,7 @@ Exit study(const StudyOptions& options) {
   if (options.lean) return lean(options);
   const StudyTask task = study_task(options);
   const Keeping keeping;
-  const fs::path folder = make_folder(options, task.name, "study.csv");
+  const fs::path folder = make_folder(options, task.name, "study");
   Teller teller(options.session.quiet);
   StudyCalls calls;
   calls.progress = [&](const std::string& what, double share) { teller.tell(what, share); };

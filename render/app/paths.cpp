@@ -12,14 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether `path`, links followed, lies in `folder` or below. A file that is not there lies where its name says.
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  const fs::path inner = fs::weakly_canonical(fs::absolute(path)),
-                 outer = fs::weakly_canonical(fs::absolute(folder));
-  const auto [rest, end] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
-  return rest == outer.end() && end != inner.end();
-}
-
 void check(const Node& mesh) {
   const fs::path name = mesh.text("file");
   const fs::path preset = mesh.place().file;
@@ -31,6 +23,12 @@ void check(const Node& mesh) {
 }
 
 } // namespace
+
+bool lies_in(const fs::path& path, const fs::path& folder) {
+  const fs::path inner = fs::weakly_canonical(fs::absolute(path)),
+                 outer = fs::weakly_canonical(fs::absolute(folder));
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
 
 void check_paths(const Node& scene) {
   for (const Node* body : scene.all("body"))

@@ -4,10 +4,16 @@
 
 #include "sim/base/parameters.h"
 
+#include <filesystem>
+
 namespace rend {
 
 // UserError, at the attribute, for a <mesh> whose file is outside: by an absolute name, by "..", by a symbolic
 // link.
 void check_paths(const Node& scene);
+
+// Whether `path`, links followed, is `folder` or lies below it. A file that is not there lies where its name
+// says.
+bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 } // namespace rend
