@@ -62,6 +62,23 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+SignalsHeld::SignalsHeld() {
+  sigset_t held;
+  sigemptyset(&held);
+  for (const int signal : all) sigaddset(&held, signal);
+  pthread_sigmask(SIG_BLOCK, &held, &before_);
+}
+
+SignalsHeld::~SignalsHeld() {
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void SignalsHeld::let_in() const {
+  for (const int signal : all)
+    if (!is_ignored(signal)) std::signal(signal, SIG_DFL);
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
 Keeping::Keeping() {
   ++keeping;
 }
