@@ -1,4 +1,5 @@
 // rend diff: pictures, or folders of pictures, compared.
+#include "render/app/available_memory.h"
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/diff_page.h"
@@ -61,10 +62,8 @@ private:
 // One case after the other on all threads where there are few; many at once where there are many. Empty after a
 // signal.
 std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tolerances& tolerances,
-                                  const DiffOptions& options) {
+                                  const DiffOptions& options, MemoryBudget& memory) {
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
-  // A picture of two million pixels takes 0.3 GB while it is compared: not as many at once as a large machine
-  // has threads.
   const int jobs = cases.size() >= 2 * static_cast<std::size_t>(threads) ? std::min(threads, 8) : 1;
   std::vector<std::optional<Compared>> results(cases.size());
   InOrder in_order(results, options.json_lines && options.update.empty());
@@ -76,7 +75,7 @@ std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tol
         CompareOptions one = tolerances.of(cases[n].name);
         one.heat = !options.folder.empty();
         one.threads = std::max(1, threads / jobs);
-        in_order.put(n, compare_case(cases[n], one));
+        in_order.put(n, compare_case(cases[n], one, memory));
       }
     } catch (...) {
       errors[job] = std::current_exception();
@@ -129,7 +128,8 @@ Exit diff(const DiffOptions& options) {
   report.b = options.b;
   report.remarks = remarks_of(cases, tolerances);
   DiffFiles files(options.folder, options.junit);
-  report.cases = compare_all(cases.all, tolerances, options);
+  MemoryBudget memory(MemoryBudget::of_machine(available_memory()));
+  report.cases = compare_all(cases.all, tolerances, options, memory);
   if (report.cases.empty()) {
     print_error("stopped by a signal: nothing is reported");
     return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
@@ -137,7 +137,7 @@ Exit diff(const DiffOptions& options) {
   report.updated.assign(report.cases.size(), false);
   for (const std::size_t n : chosen) report.updated[n] = true;
   const std::string page = options.folder.empty() ? "" : diff_page(report); // shows what was expected until now
-  update_expected(report.cases, chosen, options.a);
+  update_expected(report.cases, chosen, options.a, memory);
   files.write(page, report);
   if (!options.quiet)
     for (const std::string& remark : report.remarks) print_note(remark);

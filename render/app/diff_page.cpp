@@ -30,6 +30,12 @@ Tone tone_of(CaseState state) {
   return Tone::Bad;
 }
 
+std::uintmax_t size_of(const fs::path& path) { // 0 where there is none
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  return error ? 0 : size;
+}
+
 std::vector<std::uint8_t> bytes_of(const fs::path& path) {
   if (path.empty()) return {};
   try {
@@ -104,12 +110,12 @@ private:
 };
 
 Html Chapters::pictures(const Compared& one) {
-  const std::vector<std::uint8_t> a = bytes_of(one.paths.a), b = bytes_of(one.paths.b);
-  if (a.empty() && b.empty()) return {};
-  if (bytes_ + a.size() + b.size() + one.heat.size() > most_bytes)
+  if (bytes_ + size_of(one.paths.a) + size_of(one.paths.b) + one.heat.size() > most_bytes)
     return paragraph(
         muted("The pictures are left out here, for this page has 100 MB of them; compare this one alone "
               "to see it."));
+  const std::vector<std::uint8_t> a = bytes_of(one.paths.a), b = bytes_of(one.paths.b);
+  if (a.empty() && b.empty()) return {};
   bytes_ += a.size() + b.size() + one.heat.size();
   Compare all;
   all.name = one.paths.name;

@@ -38,12 +38,12 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
 namespace {
 
 // What would be copied where, all of it looked at before anything is written.
-void check_source(const Compared& one) {
+void check_source(const Compared& one, MemoryBudget& memory) {
   if (one.paths.b.empty())
     throw UserError(Exit::Trouble, {one.paths.a.string()},
                     fmt::format("--update: there is no {} now", one.paths.name),
                     "if it is not expected any more, remove that file yourself; nothing was updated");
-  read_deep_png(file_bytes(one.paths.b), one.paths.b.string());
+  check_picture(one.paths.b, memory);
 }
 
 // Files that lie complete beside those that they are to replace; what has not taken its place goes. None is
@@ -92,8 +92,8 @@ private:
 } // namespace
 
 void update_expected(const std::vector<Compared>& results, const std::set<std::size_t>& which,
-                     const fs::path& expected) {
-  for (const std::size_t n : which) check_source(results[n]);
+                     const fs::path& expected, MemoryBudget& memory) {
+  for (const std::size_t n : which) check_source(results[n], memory);
   Parts parts;
   for (const std::size_t n : which) {
     const CasePaths& paths = results[n].paths;
