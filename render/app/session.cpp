@@ -79,10 +79,9 @@ Session::Session(const SessionOptions& options) : options_(options) {
   if (!options.allow_path) check_paths(*preset_);
   image_ = image_settings(*preset_);
   if (options.fps) image_.fps = *options.fps;
-  const int threads = options.threads > 0 ? options.threads : hardware_threads();
   scene_ = std::make_unique<Scene>(
       *preset_,
-      SceneOptions{options.kernels == "walk", threads, options.births, options.guard, {}, options.profile});
+      SceneOptions{options.kernels == "walk", threads(), options.births, options.guard, {}, options.profile});
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
@@ -92,6 +91,10 @@ Session::Session(const SessionOptions& options) : options_(options) {
   for (const std::string& note : scene_->notes()) print_note(note);
   for (const auto& body : scene_->bodies())
     for (const std::string& note : body->notes) print_note(fmt::format("body '{}': {}", body->name, note));
+}
+
+int Session::threads() const {
+  return options_.threads > 0 ? options_.threads : hardware_threads();
 }
 
 std::uint64_t Session::key() const {

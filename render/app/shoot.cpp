@@ -14,6 +14,14 @@ namespace rend {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+PngShape shape_of(const Session& session, const PipelineOptions& files) {
+  return {files.width, files.height, session.image().transparent ? 4 : 3};
+}
+
+} // namespace
+
 Shoot::Shoot(Session& session, const ShootOptions& options)
     : session_(session), options_(options), plan_(options.choice, session.clock(), options.shard),
       checkpoint_(checkpoint_path(options.files.folder, options.files.name, options.shard)) {
@@ -23,7 +31,8 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
   options_.resume = options.resume && files.png;
   if (options.resume && !files.png && !session.quiet())
     print_note("without PNG files there is nothing to go on from: the video is made anew");
-  if (options_.resume) plan_.leave_out_whole(files.folder, files.mark);
+  if (options_.resume)
+    plan_.leave_out_whole(files.folder, files.mark, shape_of(session, files), session.threads());
   kept_ = static_cast<long>(plan_.all().size() - plan_.to_make().size());
   video_at_end_ = files.video && kept_ > 0;
   PipelineOptions now = files;
@@ -123,10 +132,11 @@ Stopped Shoot::video_of_files() {
   const PipelineOptions& files = options_.files;
   VideoWriter video;
   video.open(files.folder / (files.name + files.extension), files.width, files.height, files.fps);
+  PngChecker checker(shape_of(session_, files));
   for (long frame : plan_.all()) {
     if (stop_signal() != 0) return Stopped::Interrupted;
     const fs::path path = files.folder / png_name(frame);
-    if (text_of_whole_png(path, png_mark(files.mark, frame).keyword) != png_mark(files.mark, frame).text) break;
+    if (!checker.is_whole(path, png_mark(files.mark, frame))) break;
     video.add(read_png(path));
   }
   video.close();
