@@ -41,7 +41,7 @@ struct PngShape {
 };
 
 // Finds out which files are pictures of one shape that need not be made again. It reads the whole file and
-// inflates it: 1 to 4 ms for a picture of 1280 x 720. For one thread; what it works in is kept from file to file.
+// inflates it: 1 ms for a picture of 1280 x 720. For one thread; what it works in is kept from file to file.
 class PngChecker {
 public:
   explicit PngChecker(const PngShape& shape);

@@ -10,8 +10,8 @@
 
 namespace rend::test {
 
-// Does it in a process of its own, whose peak is not that of tests before. [bytes] that this process grew by, or
-// that the largest of the programs took which it ran; -1 where the action threw.
+// Does it in a process of its own, whose peak is not that of tests before. [bytes] that this process grew by,
+// or that the largest of the programs took which it ran; -1 where the action threw.
 template <class Action> std::int64_t peak_of(const Action& action) {
   const auto of = [](int who) {
     rusage usage{};

@@ -1,4 +1,4 @@
-// One case compared: whatever is wrong with a pair is that pair's trouble, and the memory for it is known before.
+// One case compared: whatever is wrong with a pair is its own trouble, and its memory is known before.
 #include "render/compare/compare.h"
 
 #include "render/png.h"
