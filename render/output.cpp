@@ -87,6 +87,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
   if (file_ < 0)
     throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",
                     "Check that the folder is there and may be written to.");
+  part_.is(temporary_.c_str());
 }
 
 OutputFile::~OutputFile() {
@@ -116,6 +117,7 @@ void OutputFile::commit() {
   const bool kept = ::fsync(file_) == 0 && ::rename(temporary_.c_str(), path_.c_str()) == 0;
   const std::string why = kept ? "" : reason();
   if (!kept) ::unlink(temporary_.c_str());
+  part_.is_gone();
   ::close(file_);
   file_ = -1;
   if (!kept)

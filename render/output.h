@@ -8,6 +8,8 @@
 // end wins. Were it killed, commit() of the next removes what it left.
 #pragma once
 
+#include "render/temporaries.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -34,6 +36,7 @@ public:
 
 private:
   std::filesystem::path path_, wanted_, temporary_; // wanted_: the temporary name without a number
+  TemporaryPath part_;                              // temporary_, as long as it is there
   int file_ = -1;                                   // descriptor; -1 once it is closed
 };
 

@@ -155,6 +155,7 @@ Decoded decode(std::span<const std::uint8_t> bytes, const std::string& name) {
   check_signature(bytes, place);
   Reader reader(bytes);
   const auto refuse = [&]() -> UserError {
+    if (std::strstr(reader.message, "emory") != nullptr) throw std::bad_alloc(); // libpng had none
     return {Exit::BadInput, place, std::string("the PNG cannot be read: ") + reader.message};
   };
   if (!read_header(reader)) throw refuse();

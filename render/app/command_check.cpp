@@ -8,6 +8,7 @@
 #include "render/app/session.h"
 #include "render/app/signals.h"
 #include "render/output.h"
+#include "render/temporaries.h"
 #include "sim/check/preset_check.h"
 #include "sim/program/threads.h"
 
@@ -34,26 +35,29 @@ struct CheckOptions {
 };
 
 // A folder for presets that nobody asked to keep.
-class Temporary {
+class TemporaryFolder {
 public:
-  Temporary() {
+  TemporaryFolder() {
     std::string name = (fs::temp_directory_path() / "rend-check-XXXXXX").string();
     if (!mkdtemp(name.data()))
       throw UserError(Exit::CannotCreate, {},
                       "no folder can be made in " + in_quotes(fs::temp_directory_path().string()),
                       "give one with -o");
     path_ = name;
+    temporary_.is(path_.c_str());
+    temporary_.holds_files();
   }
-  ~Temporary() {
+  ~TemporaryFolder() {
     std::error_code error;
     fs::remove_all(path_, error);
   }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   const fs::path& path() const { return path_; }
 
 private:
   fs::path path_;
+  TemporaryPath temporary_; // path_
 };
 
 // Part of a name is enough: "static" means "*static*".
@@ -135,7 +139,10 @@ void run_all(std::vector<CheckChapter>& chapters, const fs::path& folder, const 
     if (!options.quiet) fmt::print(stderr, "{}", line_of(count, cases.size(), cases[n], result));
   };
   const int jobs = options.jobs > 0 ? options.jobs : hardware_threads();
-  std::vector<CheckResult> results = run_cases(folder, cases, jobs, say);
+  const auto fewer = [&] {
+    if (!options.quiet) note_fewer_threads();
+  };
+  std::vector<CheckResult> results = run_cases(folder, cases, jobs, say, fewer);
   if (results.size() < cases.size()) return; // a signal
   auto next = results.begin();
   for (CheckChapter& chapter : chapters)
@@ -165,8 +172,8 @@ Exit check(const CheckOptions& options) {
     return Exit::Done;
   }
   const double start = wall_clock();
-  std::unique_ptr<Temporary> temporary;
-  if (options.folder.empty()) temporary = std::make_unique<Temporary>();
+  std::unique_ptr<TemporaryFolder> temporary;
+  if (options.folder.empty()) temporary = std::make_unique<TemporaryFolder>();
   const fs::path cases = temporary ? temporary->path() : fs::path(options.folder) / "cases";
   make_folder(cases);
   run_all(chapters, cases, options);

@@ -7,6 +7,8 @@
 #include "render/app/diff_update.h"
 #include "render/app/signals.h"
 #include "render/png.h"
+#include "sim/base/worker_threads.h"
+#include "sim/program/start_threads.h"
 #include "sim/program/threads.h"
 
 #include <CLI/CLI.hpp>
@@ -18,7 +20,6 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 namespace rend {
 namespace {
@@ -83,10 +84,15 @@ std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tol
       next = cases.size();
     }
   };
-  std::vector<std::jthread> others;
-  for (int n = 1; n < jobs; ++n) others.emplace_back(work, static_cast<std::size_t>(n));
-  work(0);
-  others.clear(); // waits for them
+  {
+    WorkerThreads others;
+    while (1 + others.count() < jobs &&
+           others.start([&work, job = static_cast<std::size_t>(1 + others.count())] { work(job); })) {
+    }
+    if (jobs == 1) start_threads(threads);
+    if ((1 + others.count() < jobs || threads_refused()) && !options.quiet) note_fewer_threads();
+    work(0);
+  }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
   std::vector<Compared> out;

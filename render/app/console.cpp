@@ -53,6 +53,10 @@ void print_note(const std::string& what) {
   print("\033[36m", "note:", what, {});
 }
 
+void note_fewer_threads() {
+  print_note("not all threads could be started that were wanted; with fewer this takes longer");
+}
+
 std::string seconds_in_words(double seconds) {
   if (seconds < 100) return fmt::format("{:.3g} s", seconds);
   const long whole = std::lround(seconds);

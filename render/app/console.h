@@ -22,6 +22,7 @@ void print_result(std::string_view text);
 // "rend: error: ..." and below it "  hint: ...".
 void print_error(const std::string& what, const std::string& hint = {});
 void print_note(const std::string& what);
+void note_fewer_threads(); // than were wanted: the system starts no more
 
 std::string seconds_in_words(double seconds);  // "0.84 s", "12.3 s", "3 min 20 s"
 std::string bytes_in_words(std::size_t bytes); // "12.8 kB", of 1000 bytes

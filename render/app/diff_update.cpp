@@ -1,12 +1,14 @@
 #include "render/app/diff_update.h"
 
 #include "render/output.h"
+#include "render/temporaries.h"
 #include "sim/base/error.h"
 #include "sim/base/wording.h"
 
 #include <fmt/format.h>
 
 #include <map>
+#include <utility>
 
 namespace rend {
 
@@ -53,7 +55,7 @@ public:
   Parts() = default;
   ~Parts() {
     std::error_code error;
-    for (const auto& [path, from] : from_) fs::remove(part(path), error);
+    for (const auto& [path, one] : all_) fs::remove(one.part, error);
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
@@ -64,29 +66,35 @@ public:
     fs::create_directories(to.parent_path(), error);
     { const OutputFile any(to); } // whether it can be made at all
     const fs::path path = fs::weakly_canonical(to);
-    const auto other = from_.find(path); // two names of one file, by a link
-    if (other != from_.end() && file_bytes(other->second) != bytes)
+    const auto other = all_.find(path); // two names of one file, by a link
+    if (other != all_.end() && file_bytes(other->second.from) != bytes)
       throw UserError(Exit::Trouble, {to.string()},
                       fmt::format("--update: this file has two names, and would become both {} and {}",
-                                  in_quotes(other->second.string()), in_quotes(from.string())),
+                                  in_quotes(other->second.from.string()), in_quotes(from.string())),
                       "name one of them; nothing was updated");
-    if (!from_.emplace(path, from).second) return;
-    OutputFile file(part(path));
+    const auto [entry, is_new] = all_.try_emplace(path, from, path.string() + ".update.part");
+    if (!is_new) return;
+    OutputFile file(entry->second.part);
     file.write(bytes);
     file.commit();
   }
+  // Asks for no memory: where that is gone, too, all are replaced or none.
   void commit() {
-    for (; !from_.empty(); from_.erase(from_.begin())) {
-      const fs::path& path = from_.begin()->first;
+    for (; !all_.empty(); all_.erase(all_.begin())) {
+      const fs::path& path = all_.begin()->first;
       std::error_code error;
-      fs::rename(part(path), path, error);
+      fs::rename(all_.begin()->second.part, path, error);
       if (error) throw UserError(Exit::ReadWrite, {path.string()}, "it cannot be replaced: " + error.message());
     }
   }
 
 private:
-  static fs::path part(const fs::path& path) { return path.string() + ".update.part"; }
-  std::map<fs::path, fs::path> from_; // what is replaced, without links, and what by
+  struct Part {
+    Part(fs::path from_, fs::path part_) : from(std::move(from_)), part(std::move(part_)) {}
+    fs::path from, part;
+    TemporaryPath temporary{part.c_str()};
+  };
+  std::map<fs::path, Part> all_; // of what is replaced, without links
 };
 
 } // namespace

@@ -70,8 +70,13 @@ void Film::store(Archive& archive) {
   archive(early_, held_step_);
 }
 
+void Film::start() {
+  pipeline_ = std::make_unique<Pipeline>(options_);
+  if (pipeline_->has_fewer_threads() && !session_.quiet()) note_fewer_threads();
+}
+
 void Film::push(Frame&& frame) {
-  if (!pipeline_) pipeline_ = std::make_unique<Pipeline>(options_);
+  if (!pipeline_) start();
   pipeline_->push(std::move(frame));
   ++frames_;
 }

@@ -50,6 +50,7 @@ public:
 
 private:
   void release();
+  void start();
   void push(Frame&& frame);
   void close();
 

@@ -27,6 +27,7 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     throw UserError(Exit::CannotCreate, {there.string()},
                     std::string("nothing can be written there: ") + std::strerror(errno),
                     "choose another one with -o");
+  for (const fs::path& folder : missing_) temporary_.emplace_back(folder.c_str());
 }
 
 OutputFolder::~OutputFolder() {

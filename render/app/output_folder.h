@@ -2,6 +2,9 @@
 // of simulation; it is made when the first file comes; and what was made and stays empty is removed.
 #pragma once
 
+#include "render/temporaries.h"
+
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,6 +25,7 @@ public:
 private:
   std::filesystem::path path_;
   std::vector<std::filesystem::path> missing_; // folders that were not there before, outermost first
+  std::deque<TemporaryPath> temporary_;        // these, as long as they may be empty
 };
 
 // `given`, or out/ and the scene's name where nothing was.

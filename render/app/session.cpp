@@ -7,12 +7,14 @@
 #include "render/app/signals.h"
 #include "render/report/machine.h"
 #include "sim/base/hash.h"
+#include "sim/program/start_threads.h"
 #include "sim/program/threads.h"
 #include "sim/scene/shape.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -67,6 +69,14 @@ std::uint64_t hash_of(const std::filesystem::path& path) {
   return hash;
 }
 
+// Of those that the steps of the scene are going to use.
+void note_refused_threads(const Scene& scene) {
+  int wanted = 1;
+  for (const auto& body : scene.bodies()) wanted = std::max(wanted, body->program->parts());
+  start_threads(wanted);
+  if (threads_refused()) note_fewer_threads();
+}
+
 } // namespace
 
 Session::Session(const SessionOptions& options) : options_(options) {
@@ -89,6 +99,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
   clock_ = std::make_unique<FrameClock>(duration, step, image_.fps);
   check_camera(*preset_, *scene_, static_cast<double>(image_.width) / image_.height, *clock_);
   if (options.quiet) return;
+  note_refused_threads(*scene_);
   for (const std::string& note : scene_->notes()) print_note(note);
   for (const auto& body : scene_->bodies())
     for (const std::string& note : body->notes) print_note(fmt::format("body '{}': {}", body->name, note));
