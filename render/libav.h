@@ -32,8 +32,8 @@ struct FreeOfLibav {
 };
 template <class T> using Owned = std::unique_ptr<T, FreeOfLibav>;
 
-// Throws UserError (ReadWrite; OutOfBudget for want of memory or threads) about the file where a result of libav
-// is negative.
+// Throws UserError about the file where a result of libav is negative: ReadWrite, or OutOfBudget for want of
+// memory or threads.
 void must_av(int result, const std::filesystem::path& file, const char* doing);
 
 // What libav makes is null where there is no memory: throws std::bad_alloc.

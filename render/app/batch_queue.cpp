@@ -2,6 +2,7 @@
 
 #include "render/app/session.h"
 #include "render/app/signals.h"
+#include "sim/base/error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -50,7 +51,14 @@ void BatchQueue::begin_next() {
   // llvmpipe draws the same with any number of threads; more than one each would only be in each other's way.
   std::vector<std::pair<std::string, std::string>> variables;
   if (limits_.jobs > 1) variables.emplace_back("LP_NUM_THREADS", "1");
-  running_.push_back({job, Child(command_(jobs_[job], again_[job]), variables), wall_clock()});
+  try {
+    running_.push_back({job, Child(command_(jobs_[job], again_[job]), variables), wall_clock()});
+  } catch (const UserError& error) {
+    if (error.code != Exit::OutOfBudget || running_.empty()) throw;
+    waiting_.push_front(job);
+    limits_.jobs = static_cast<int>(running_.size());
+    fewer_jobs_ = true;
+  }
 }
 
 void BatchQueue::finish(Running& one) {

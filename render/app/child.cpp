@@ -69,8 +69,9 @@ Child::Child(const std::vector<std::string>& arguments,
   process_ = ::fork();
   if (process_ == 0) become(program.c_str(), words, parent, out_, err_);
   if (process_ < 0)
-    throw UserError(Exit::CannotCreate, {}, fmt::format("a job could not be started: {}", std::strerror(errno)),
-                    "run fewer at once: --jobs");
+    throw UserError(
+        Exit::OutOfBudget, {}, fmt::format("a job could not be started: {}", std::strerror(errno)),
+        "run fewer programs at once, or allow more (ulimit -u, pids.max of a control group) and memory");
 }
 
 Child::Child(Child&& other) noexcept

@@ -158,6 +158,8 @@ Exit batch(const BatchOptions& options) {
                      seconds_in_words(result.seconds), report.jobs[n].name);
       });
   report.results = queue.run();
+  if (queue.has_fewer_jobs() && !options.quiet)
+    print_note("fewer jobs ran at once than were wanted: the system started no more");
   report.seconds = wall_clock() - start;
   const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
   const fs::path page = fs::path(options.folder) / ("index" + part + ".html");

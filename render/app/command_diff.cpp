@@ -84,12 +84,12 @@ std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tol
       next = cases.size();
     }
   };
+  if (threads > jobs) start_threads(threads);
   {
     WorkerThreads others;
     while (1 + others.count() < jobs &&
            others.start([&work, job = static_cast<std::size_t>(1 + others.count())] { work(job); })) {
     }
-    if (jobs == 1) start_threads(threads);
     if ((1 + others.count() < jobs || threads_refused()) && !options.quiet) note_fewer_threads();
     work(0);
   }

@@ -67,24 +67,19 @@ void say(const LastWords& words, std::string_view more) {
   ::_exit(static_cast<int>(code));
 }
 
-// What the end of memory is known by when something has crashed: errno is what the last system call of this
-// thread left there, and others may have let go of some since.
-bool is_memory_gone(int error) {
-  return error == ENOMEM || !is_memory_left();
-}
-
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGABRT, SIGILL};
 std::array<struct sigaction, crashes.size()> before;
 
-// Where memory is not the reason the instruction is done again, and the signal taken as it was before.
-void on_crash(int signal) {
-  if (is_memory_gone(errno)) end(Exit::OutOfBudget, no_memory);
+// Where memory is not the reason the signal is taken as it was before: the instruction is done again, and what
+// was sent is sent again.
+void on_crash(int signal, siginfo_t* info, void*) {
+  if (!is_memory_left()) end(Exit::OutOfBudget, no_memory);
   for (std::size_t n = 0; n < crashes.size(); ++n)
     if (crashes[n] == signal) ::sigaction(signal, &before[n], nullptr);
+  if (info->si_code <= 0) ::raise(signal);
 }
 
 [[noreturn]] void on_terminate() noexcept {
-  const int error = errno;
   try {
     if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
   } catch (const std::bad_alloc&) {
@@ -100,7 +95,7 @@ void on_crash(int signal) {
     end(Exit::Bug, fault, thrown.what());
   } catch (...) {
   }
-  if (is_memory_gone(error)) end(Exit::OutOfBudget, no_memory);
+  if (!is_memory_left()) end(Exit::OutOfBudget, no_memory);
   end(Exit::Bug, fault, "something was left unfinished");
 }
 
@@ -111,7 +106,8 @@ void arm_last_resort() {
   std::set_new_handler(end_without_memory);
   std::set_terminate(on_terminate);
   struct sigaction action {};
-  action.sa_handler = on_crash;
+  action.sa_sigaction = on_crash;
+  action.sa_flags = SA_SIGINFO;
   sigemptyset(&action.sa_mask);
   for (std::size_t n = 0; n < crashes.size(); ++n) ::sigaction(crashes[n], &action, &before[n]);
 }

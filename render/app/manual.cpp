@@ -101,7 +101,7 @@ std::string exit_codes() {
       {Exit::Bug, "A fault of rend itself."},
       {Exit::CannotCreate, "The output cannot be created."},
       {Exit::ReadWrite, "Reading or writing failed, such as on a full disk."},
-      {Exit::OutOfBudget, "There is not enough memory."},
+      {Exit::OutOfBudget, "There is not enough memory, or a thread could not be started."},
       {Exit::Unstable, "The simulation became unstable and was stopped."},
       {Exit::Interrupted, "Interrupted (SIGINT)."},
       {Exit::Terminated, "Terminated (SIGTERM)."}};

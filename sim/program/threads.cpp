@@ -3,6 +3,7 @@
 #include "sim/base/worker_threads.h"
 #include "sim/program/start_threads.h"
 
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -61,7 +62,12 @@ void start_more(int wanted) {
   wanted = std::min<int>(wanted, most);
   if (started >= wanted) return;
   const int threads = start_workers(1 + startable_threads(wanted - 1));
-  if (threads < wanted) most = threads;
+  if (threads < wanted) {
+    most = threads;
+    // Of all arenas together, whose own threads may wish for more.
+    static const tbb::global_control bound(tbb::global_control::max_allowed_parallelism,
+                                           static_cast<std::size_t>(threads));
+  }
   if (threads > started) started = threads;
 }
 

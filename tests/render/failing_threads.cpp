@@ -1,9 +1,10 @@
-// A library for LD_PRELOAD: the system as it is where it starts no more threads. Limits of users (ulimit -u) do
-// not hold for root, which tests may run as.
+// A library for LD_PRELOAD: the system as it is where it starts no more threads or programs. Limits of users
+// (ulimit -u) do not hold for root, which tests may run as.
 //
 //   REND_THREAD_THAT_FAILS=3   the third that is started is refused
 //   REND_MOST_THREADS=3        so are all while three live beside the first
 //   REND_THREADS_MARK=FILE     that a thread was refused: then there is such a file
+//   REND_FORK_THAT_FAILS=2     the second program that is started is refused
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
@@ -16,7 +17,7 @@ namespace {
 
 using Start = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
 
-std::atomic<int> started = 0, living = 0;
+std::atomic<int> started = 0, living = 0, forks = 0;
 
 int number_in(const char* name) {
   const char* text = std::getenv(name);
@@ -59,4 +60,11 @@ extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attribute
   auto* const it = static_cast<Thread*>(std::malloc(sizeof(Thread)));
   *it = {work, argument};
   return real(thread, attributes, run, it);
+}
+
+extern "C" pid_t fork() noexcept {
+  static const auto real = reinterpret_cast<pid_t (*)()>(dlsym(RTLD_NEXT, "fork"));
+  if (++forks != number_in("REND_FORK_THAT_FAILS")) return real();
+  errno = EAGAIN;
+  return -1;
 }

@@ -17,15 +17,17 @@ namespace fs = std::filesystem;
 TEST(Temporaries, go_where_the_program_ends_at_once) {
   const test::Folder folder;
   const std::string empty = folder / "empty", full = folder / "full", cases = folder / "cases";
+  for (const std::string& one : {empty, full, cases}) fs::create_directory(one);
+  write_whole(full + "/stays", "whole");
+  write_whole(cases + "/a", "goes");
+  write_whole(cases + "/b", "goes");
   EXPECT_EXIT(
       {
-        for (const std::string& one : {empty, full, cases}) fs::create_directory(one);
-        write_whole(full + "/stays", "whole");
-        write_whole(cases + "/a", "goes");
-        write_whole(cases + "/b", "goes");
-        OutputFile file(full + "/x"), other(folder / "y"), third(folder / "z");
-        third.commit();
-        const TemporaryPath first(empty.c_str()), second(full.c_str());
+        const TemporaryPath first(empty.c_str());
+        const TemporaryPath second(full.c_str());
+        const OutputFile file(full + "/x");
+        OutputFile kept(folder / "z");
+        kept.commit();
         TemporaryPath with_files(cases.c_str());
         with_files.holds_files();
         remove_temporaries();
@@ -35,6 +37,8 @@ TEST(Temporaries, go_where_the_program_ends_at_once) {
   EXPECT_EQ(folder.files(), 2);
   EXPECT_TRUE(fs::exists(folder / "z"));
   EXPECT_TRUE(fs::exists(full + "/stays"));
+  EXPECT_FALSE(fs::exists(empty));
+  EXPECT_FALSE(fs::exists(cases));
   EXPECT_FALSE(fs::exists(full + "/x.part"));
 }
 

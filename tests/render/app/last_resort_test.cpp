@@ -31,7 +31,7 @@ void bound_memory(rlim_t bytes) {
 
 [[noreturn]] void throw_in_a_thread(const auto& error) {
   arm_last_resort();
-  std::thread([&]() noexcept { throw error; }).join();
+  std::thread([&] { throw error; }).join(); // where no one catches
   _exit(1);
 }
 
@@ -70,8 +70,9 @@ protected:
   }
   bool done_or_refused(const Outcome& outcome, const std::string& when) const {
     EXPECT_THAT(outcome.code, testing::AnyOf(0, 75)) << when << "\n" << outcome.err;
-    if (outcome.code == 75)
+    if (outcome.code == 75) {
       EXPECT_THAT(outcome.err, AllOf(HasSubstr("rend: error: "), HasSubstr("\n  hint: "))) << when;
+    }
     for (const std::string& file : place.files())
       EXPECT_EQ(file.find(".part"), std::string::npos) << when << ": " << file;
     return outcome.code == 0;

@@ -22,10 +22,8 @@ protected:
 
   // Of a system that has `limit` set; a program that waits for ever is killed after ten seconds (137).
   Outcome rend(const std::string& limit, const std::string& arguments) const {
-    return place.shell("env " + limit +
-                       " REND_THREADS_MARK=refused LD_PRELOAD=" REND_FAILING_THREADS
-                       " timeout -s KILL 10 " REND_PROGRAM " " +
-                       arguments);
+    const std::string system = limit + " REND_THREADS_MARK=refused LD_PRELOAD=" REND_FAILING_THREADS;
+    return place.shell("timeout -s KILL 10 env " + system + " " REND_PROGRAM " " + arguments);
   }
   static std::string at_most(int threads) { return "REND_MOST_THREADS=" + std::to_string(threads); }
 
@@ -34,10 +32,11 @@ protected:
   // 0, or 75 in words; true: 0.
   bool done_or_refused(const Outcome& outcome, const std::string& when) const {
     EXPECT_THAT(outcome.code, testing::AnyOf(0, 75)) << when << "\n" << outcome.err;
-    if (outcome.code == 75)
+    if (outcome.code == 75) {
       EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("rend: error: "), HasSubstr("thread"),
                                               HasSubstr("could not be started"), HasSubstr("\n  hint: ")))
           << when;
+    }
     for (const std::string& file : place.files())
       EXPECT_EQ(file.find(".part"), std::string::npos) << when << ": " << file;
     return outcome.code == 0;
@@ -78,7 +77,9 @@ TEST_F(ThreadStarts, pictures_are_made_with_fewer_or_refused_in_words) {
       EXPECT_FALSE(std::filesystem::exists(place.path() / folder));
       continue;
     }
-    if (refused) EXPECT_THAT(outcome.err, HasSubstr(fewer));
+    if (refused) {
+      EXPECT_THAT(outcome.err, HasSubstr(fewer));
+    }
     made_with_fewer |= refused;
     for (const char* file : {"/00000.png", "/00002.png", "/pulled.mp4"})
       EXPECT_EQ(content(place.path() / (folder + file)), content(place.path() / (std::string("all") + file)));
@@ -97,7 +98,9 @@ TEST_F(ThreadStarts, a_simulation_goes_on_with_those_there_are) {
     ASSERT_EQ(outcome.code, 0) << limit << outcome.err;
     EXPECT_EQ(outcome.json()["hash"], all.json()["hash"]) << limit;
   }
-  if (std::thread::hardware_concurrency() > 1) EXPECT_THAT(rend(at_most(0), line).err, HasSubstr(fewer));
+  if (std::thread::hardware_concurrency() > 1) {
+    EXPECT_THAT(rend(at_most(0), line).err, HasSubstr(fewer));
+  }
 }
 
 TEST_F(ThreadStarts, comparisons_and_checks_go_on_with_those_there_are) {
@@ -106,7 +109,9 @@ TEST_F(ThreadStarts, comparisons_and_checks_go_on_with_those_there_are) {
   for (const char* threads : {"2", "4"}) { // of seven pictures: one after another, or several at once
     const Outcome outcome = rend(at_most(0), std::string("diff a a --threads ") + threads);
     EXPECT_TRUE(done_or_refused(outcome, threads));
-    if (std::thread::hardware_concurrency() > 1) EXPECT_THAT(outcome.err, HasSubstr(fewer));
+    if (std::thread::hardware_concurrency() > 1) {
+      EXPECT_THAT(outcome.err, HasSubstr(fewer));
+    }
   }
   const Outcome check = rend(at_most(0), "check --quick --only stiffness --jobs 3 --json");
   EXPECT_TRUE(done_or_refused(check, "check"));
@@ -121,6 +126,16 @@ TEST_F(ThreadStarts, a_batch_tells_of_jobs_that_had_none) {
   EXPECT_EQ(outcome.json()["code"], 75);
   EXPECT_THAT(outcome.json()["message"].get<std::string>(), HasSubstr("could not be started"));
   EXPECT_EQ(rend(at_most(12), "batch pulled.xml --frames 0 --json -q -o many").code, 0);
+}
+
+TEST_F(ThreadStarts, a_batch_goes_on_with_as_many_programs_as_there_are) {
+  NEEDS_PNG;
+  const std::string line = "batch pulled.xml --set body.mass.total=0.1,0.2,0.3 --jobs 3 --frames 0 -o many";
+  const Outcome outcome = rend("REND_FORK_THAT_FAILS=2", line);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("3 of 3 jobs done"));
+  EXPECT_THAT(outcome.err, HasSubstr("note: fewer jobs ran at once"));
+  EXPECT_EQ(rend("REND_FORK_THAT_FAILS=1", line).code, 75);
 }
 
 } // namespace
