@@ -139,12 +139,14 @@ TEST_F(WithoutMemory, a_comparison_is_refused_and_says_why) {
 }
 
 TEST_F(WithoutMemory, a_check_ends_without_a_page_and_without_a_folder) {
-  const std::string line = "TMPDIR=$PWD; export TMPDIR; ";
-  const std::string limit = "ulimit -v " + std::to_string(1000 * (least_to_start(50) + 5)) + "; ";
+  std::string large = program::pulled;
+  large.replace(large.find("6 6"), 3, "1000 1000");
+  place.write("large.xml", large);
   const Outcome outcome =
-      place.shell(line + limit + "timeout -s KILL 10 " REND_PROGRAM " check --only mass -q");
+      place.shell("export TMPDIR=$PWD; ulimit -v " + std::to_string(1000 * (least_to_start(50) + 100)) +
+                  "; timeout -s KILL 10 " REND_PROGRAM " check large.xml -q");
   EXPECT_FALSE(done_or_refused(outcome, "check"));
-  EXPECT_EQ(place.files(), std::vector<std::string>{"pulled.xml"});
+  EXPECT_EQ(place.files(), (std::vector<std::string>{"large.xml", "pulled.xml"}));
 }
 
 TEST_F(WithoutMemory, a_batch_tells_of_the_job_that_had_none) {
