@@ -67,7 +67,14 @@ void Film::pause() {
 void Film::store(Archive& archive) {
   CHECK(!held_);
   maker_.store(archive);
-  archive(early_, held_step_);
+  const FrameClock& clock = session_.clock();
+  archive.list(early_, static_cast<std::size_t>(clock.frames()), "there are more early frames than frames");
+  archive(held_step_);
+  if (!archive.reading()) return;
+  refuse_unless(held_step_ >= -1 && held_step_ <= session_.scene().steps_done(), "a frame shows a later state");
+  for (const long frame : early_)
+    refuse_unless(frame >= 0 && frame < clock.frames() && clock.step_of(frame) == held_step_,
+                  "an early frame is not of the state that was shown last");
 }
 
 void Film::push(Frame&& frame) {

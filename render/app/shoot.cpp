@@ -42,6 +42,7 @@ bool Shoot::is_on_the_way(long next) const {
 
 // From the best checkpoint there is; a run that begins anew has no use for those of others.
 void Shoot::begin() {
+  const PipelineOptions& files = options_.files;
   last_ = plan_.last();
   if (!options_.resume) return remove_checkpoint();
   const auto own = read_checkpoint_head(checkpoint_, key_);
@@ -51,7 +52,7 @@ void Shoot::begin() {
     print_note(fmt::format("{} is of frames beyond these, and stays", checkpoint_.string()));
   if (!simulates()) return;
   const long first = plan_.to_make().empty() ? plan_.all().back() + 1 : plan_.first();
-  for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, key_, first)) {
+  for (const FoundCheckpoint& found : find_checkpoints(files.folder, files.name, options_.shard, key_, first)) {
     const auto head = read_checkpoint(found.path, key_, first, session_, *film_);
     if (!head) continue; // it went meanwhile: its shard is done
     first_ = head->next;

@@ -271,17 +271,35 @@ void StageSeconds::store(Archive& archive) {
 void Scene::store(Archive& archive) {
   archive.mark("scene");
   double step = step_;
-  archive(step, steps_done_, next_answer_, looked_);
-  if (step != step_) throw ArchiveError("its steps have another length");
+  archive(step, steps_done_);
+  archive.unbounded(next_answer_);
+  archive(looked_);
+  refuse_unless(step == step_, "its steps have another length");
+  if (archive.reading())
+    refuse_unless(is_count(steps_done_) && looked_ == steps_done_ - 1, "it is not between two steps");
   archive.same(bodies_.size(), "number of bodies");
-  for (auto& body : bodies_) body->store(archive);
+  for (auto& body : bodies_) body->store(archive, steps_done_, step_);
   archive.same(world_.spheres.size(), "number of spheres");
   for (Sphere& sphere : world_.spheres) sphere.store(archive);
   if (contacts_) contacts_->store(archive);
-  guard_->store(archive);
+  guard_->store(archive, steps_done_);
   archive.mark("seconds"); // the last, since they differ from run to run
   archive(seconds_, timed_steps_);
   for (auto& body : bodies_) archive(body->change_seconds, body->rebind_seconds);
+  if (archive.reading()) check_read();
+}
+
+void Scene::check_read() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies_) {
+    for (const Answer& answer : body->answers) {
+      const double due = answer.at - 1e-6 * step_;
+      refuse_unless(answer.asked == (time() >= due), "an answer was measured before its time, or not then");
+      if (!answer.asked) next = std::min(next, due);
+    }
+  }
+  refuse_unless(next_answer_ == next, "an answer is measured at another time");
+  refuse_unless(is_count(timed_steps_), "steps were timed less often than never");
 }
 
 std::uint64_t Scene::hash() const {
