@@ -1,13 +1,17 @@
 #include "render/device.h"
 
+#include "render/memory_left.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
+#include "sim/base/worker_threads.h"
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/osmesa.h>
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 
 namespace rend {
 namespace {
@@ -25,10 +29,34 @@ void pin_vector_width() {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
+void must_have_memory() {
+  if (!is_memory_left()) refuse_without_memory();
+}
+
+// llvmpipe starts two sets of so many threads, once for the whole program, and waits for ever for one of the
+// first that was refused. So it is to have as many as there can be, besides others that come yet. Returns
+// whether these are fewer than it would have.
+bool bound_threads() {
+  constexpr int of_others = 8; // the pipeline's and its encoder's
+  static const bool fewer = [] {
+    const char* given = std::getenv("LP_NUM_THREADS");
+    const int here = static_cast<int>(std::thread::hardware_concurrency());
+    const int wanted = std::clamp(given != nullptr ? std::atoi(given) : here, 0, 16); // it takes no more
+    const int most = std::max(0, startable_threads(2 * wanted + of_others) - of_others) / 2;
+    if (most >= wanted) return false;
+    setenv("LP_NUM_THREADS", std::to_string(most).c_str(), 1);
+    return true;
+  }();
+  return fewer;
+}
+
 class OsMesaDevice final : public Device {
 public:
   OsMesaDevice() {
     pin_vector_width();
+    must_have_memory();
+    fewer_threads_ = bound_threads();
+    const long refused = refused_thread_starts();
     const std::array<int, 15> attributes{OSMESA_FORMAT,
                                          OSMESA_RGBA,
                                          OSMESA_PROFILE,
@@ -43,6 +71,11 @@ public:
                                          0,
                                          0};
     context_.reset(OSMesaCreateContextAttribs(attributes.data(), nullptr));
+    if (refused_thread_starts() > refused) {
+      context_.release(); // nothing may wait for its threads; the program ends
+      refuse_without_thread("drawing");
+    }
+    if (!context_) must_have_memory();
     if (!context_)
       refuse("off-screen OpenGL 3.3 (OSMesa) did not start.",
              "rend needs Mesa's software renderer with OpenGL 3.3 core: the Debian package libosmesa6.");
@@ -54,6 +87,7 @@ public:
     if (renderer == nullptr || version == nullptr)
       refuse("OpenGL started but does not answer.",
              "Another OpenGL library (libGL, libOpenGL) is loaded ahead of libOSMesa; unset LD_PRELOAD.");
+    must_have_memory();
     renderer_ = std::string(renderer) + ", " + version;
   }
 
@@ -66,6 +100,7 @@ public:
   void release() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
   const std::string& renderer() const override { return renderer_; }
+  bool has_fewer_threads() const override { return fewer_threads_; }
 
 private:
   struct Destroy {
@@ -75,6 +110,7 @@ private:
       buffer_{}; // one RGBA pixel: OSMesa wants a buffer, all drawing goes to framebuffers
   std::unique_ptr<osmesa_context, Destroy> context_;
   std::string renderer_;
+  bool fewer_threads_ = false;
 };
 
 } // namespace

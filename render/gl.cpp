@@ -1,5 +1,6 @@
 #include "render/gl.h"
 
+#include "render/memory_left.h"
 #include "render/shaders.h"
 #include "sim/base/check.h"
 
@@ -82,13 +83,24 @@ void GlProgram::set(const char* name, const Eigen::Matrix4d& value) const {
   glUniformMatrix4fv(location(name), 1, GL_FALSE, rounded.data());
 }
 
+namespace {
+
+// Where little is left Mesa may have gone without some, and drawn less: that picture is not to be trusted.
+void check_memory(GLenum error) {
+  if (error == GL_OUT_OF_MEMORY || !is_memory_left()) refuse_without_memory();
+}
+
+} // namespace
+
 void check_gl(const char* where) {
   const GLenum error = glGetError();
+  check_memory(error);
   CHECK_NOTE(error == GL_NO_ERROR, fmt::format("OpenGL error 0x{:04x} in {}", error, where));
 }
 
 void check_framebuffer(const char* where) {
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) check_memory(glGetError()); // what is attached has none
   CHECK_NOTE(status == GL_FRAMEBUFFER_COMPLETE, fmt::format("framebuffer 0x{:04x} in {}", status, where));
 }
 

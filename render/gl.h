@@ -63,7 +63,8 @@ private:
   GLuint name_ = 0;
 };
 
-// Throws InternalError if OpenGL reported an error, or if the bound framebuffer is not complete.
+// Throws InternalError if OpenGL reported an error, or if the bound framebuffer is not complete; UserError
+// (OutOfBudget) where memory is the reason.
 void check_gl(const char* where);
 void check_framebuffer(const char* where);
 

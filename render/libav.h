@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,8 +32,15 @@ struct FreeOfLibav {
 };
 template <class T> using Owned = std::unique_ptr<T, FreeOfLibav>;
 
-// Throws UserError (ReadWrite) about the file where a result of libav is negative.
+// Throws UserError about the file where a result of libav is negative: ReadWrite, or OutOfBudget for want of
+// memory or threads.
 void must_av(int result, const std::filesystem::path& file, const char* doing);
+
+// What libav makes is null where there is no memory: throws std::bad_alloc.
+template <class T> T* must_be_made(T* made) {
+  if (made == nullptr) throw std::bad_alloc();
+  return made;
+}
 
 // Options as libav takes them; freed with this, whatever libav left in it.
 class AvOptions {

@@ -3,10 +3,17 @@
 // It is written under a temporary name in the same folder (only a rename within one file system is atomic),
 // brought to the disk, and renamed. Until commit() the old file, if any, is untouched; without commit() the
 // temporary file is removed. The temporary name is fixed (NAME.part), so that what a killed run leaves behind
-// is overwritten by the next and never piles up. It is locked while it is written (flock(2), which ends with
-// the program): should two programs write the same file at once, the second takes NAME.2.part, and the last to
-// end wins. Were it killed, commit() of the next removes what it left.
+// is replaced by the next and never piles up.
+//
+// Nothing is ever written through a link. The temporary file is made anew (O_EXCL), and locked while it is
+// written (flock(2), which ends with the program). Where there is something of its name already, that goes if
+// it can only be a killed run's: a regular file of this user's, without a second name, whose lock is free.
+// Anything else stays, unopened, and NAME.2.part is taken: of two programs that write the same file at once,
+// the last to end wins. Were the second killed, commit() of the next removes what it left. The final name may
+// be a link or another user's file: a rename replaces the name, and not what it leads to.
 #pragma once
+
+#include "render/temporaries.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -34,6 +41,7 @@ public:
 
 private:
   std::filesystem::path path_, wanted_, temporary_; // wanted_: the temporary name without a number
+  TemporaryPath part_;                              // temporary_, as long as it is there
   int file_ = -1;                                   // descriptor; -1 once it is closed
 };
 
@@ -42,5 +50,13 @@ void remove_leftover(const std::filesystem::path& path);
 
 // The whole file at once. Throws as OutputFile does.
 void write_whole(const std::filesystem::path& path, const std::string& bytes);
+
+// The file that a name of the user's stands for: a link that he names is followed, even to what is not there
+// yet. Throws UserError (CannotCreate) where links lead in a circle.
+std::filesystem::path followed(const std::filesystem::path& path);
+
+// Brings to the disk which files a folder has: a file that was renamed is there after a crash only then. Too
+// dear for every picture. "" is the present folder. Throws UserError (ReadWrite).
+void sync_folder(const std::filesystem::path& folder);
 
 } // namespace rend

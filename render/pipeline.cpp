@@ -8,14 +8,14 @@
 #include "render/video.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
+#include "sim/base/worker_threads.h"
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <fmt/format.h>
-#include <thread>
-#include <vector>
+#include <mutex>
 
 namespace rend {
 namespace {
@@ -55,20 +55,22 @@ PngText png_mark(const std::string& mark, long number) {
 struct Pipeline::Stages {
   explicit Stages(const PipelineOptions& options);
   ~Stages();
+  void start(); // once it is made: should a thread not start, the destructor stops the others
   void push(Frame&& frame);
   void drain();
   void finish();
   PipelineSeconds seconds() const;
+  bool has_fewer_threads() const { return fewer_threads_; }
 
 private:
   void draw();
   void write_png_files();
   void write_video();
-  template <class Work> void start(Work work);
+  template <class Work> bool start(Work work);
+  template <class Work> void must_start(Work work, const char* what);
   void fail(std::exception_ptr error);
   void note_done();
   void rethrow() const;
-  void join();
   void spent(double PipelineSeconds::*stage, double since);
 
   PipelineOptions options_;
@@ -84,7 +86,8 @@ private:
   long pushed_ = 0, done_ = 0; // frames; done_ is drawn, and written if PNGs are
   std::condition_variable one_done_;
   bool finished_ = false;
-  std::vector<std::thread> threads_;
+  bool fewer_threads_ = false;
+  WorkerThreads threads_;
 };
 
 Pipeline::Stages::Stages(const PipelineOptions& options) : options_(options) {
@@ -100,25 +103,34 @@ Pipeline::Stages::Stages(const PipelineOptions& options) : options_(options) {
   if (options.video)
     video_.open(options.folder / (options.name + options.extension), options.width, options.height,
                 options.fps);
-  start([this] { draw(); });
-  if (options.png)
-    for (int i = 0; i < options.png_writers; ++i) start([this] { write_png_files(); });
-  if (options.video) start([this] { write_video(); });
+}
+
+void Pipeline::Stages::start() {
+  must_start([this] { draw(); }, "drawing");
+  if (options_.video) must_start([this] { write_video(); }, "the video");
+  if (options_.png) must_start([this] { write_png_files(); }, "writing PNG files");
+  const bool second = options_.png && options_.png_writers == 2;
+  fewer_threads_ = device_->has_fewer_threads();
+  if (second && !start([this] { write_png_files(); })) fewer_threads_ = true;
 }
 
 Pipeline::Stages::~Stages() {
   if (!finished_) fail(nullptr);
-  join();
+  threads_.wait();
 }
 
-template <class Work> void Pipeline::Stages::start(Work work) {
-  threads_.emplace_back([this, work] {
+template <class Work> bool Pipeline::Stages::start(Work work) {
+  return threads_.start([this, work] {
     try {
       work();
     } catch (...) {
       fail(std::current_exception());
     }
   });
+}
+
+template <class Work> void Pipeline::Stages::must_start(Work work, const char* what) {
+  if (!start(work)) refuse_without_thread(what);
 }
 
 // Stops all threads; what waits in the queues is dropped.
@@ -150,11 +162,6 @@ void Pipeline::Stages::drain() {
 void Pipeline::Stages::rethrow() const {
   const std::lock_guard lock(mutex_);
   if (error_) std::rethrow_exception(error_);
-}
-
-void Pipeline::Stages::join() {
-  for (std::thread& thread : threads_) thread.join();
-  threads_.clear();
 }
 
 void Pipeline::Stages::spent(double PipelineSeconds::*stage, double since) {
@@ -215,7 +222,7 @@ void Pipeline::Stages::push(Frame&& frame) {
 void Pipeline::Stages::finish() {
   CHECK(!finished_);
   frames_.close();
-  join();
+  threads_.wait();
   finished_ = true;
   rethrow();
   if (options_.video) {
@@ -230,7 +237,9 @@ PipelineSeconds Pipeline::Stages::seconds() const {
   return seconds_;
 }
 
-Pipeline::Pipeline(const PipelineOptions& options) : stages_(std::make_unique<Stages>(options)) {}
+Pipeline::Pipeline(const PipelineOptions& options) : stages_(std::make_unique<Stages>(options)) {
+  stages_->start();
+}
 Pipeline::~Pipeline() = default;
 void Pipeline::push(Frame&& frame) {
   stages_->push(std::move(frame));
@@ -243,6 +252,9 @@ void Pipeline::finish() {
 }
 PipelineSeconds Pipeline::seconds() const {
   return stages_->seconds();
+}
+bool Pipeline::has_fewer_threads() const {
+  return stages_->has_fewer_threads();
 }
 
 } // namespace rend

@@ -4,7 +4,8 @@
 //          the simulation       └▶ [3 pictures] ─▶ video         folder/name.mp4
 //
 // One thread owns the Device and draws; others encode. The queues are short, so push() waits when drawing falls
-// behind. The first error of any thread stops them all and is thrown by the next push() or by finish().
+// behind. The first error of any thread stops them all and is thrown by the next push() or by finish(). Where
+// the system starts only one writer of PNG files there is one.
 #pragma once
 
 #include "render/frame.h"
@@ -46,8 +47,8 @@ void check_pipeline(const PipelineOptions& options);
 
 class Pipeline {
 public:
-  // Starts OpenGL, makes the folder and opens the video: throws UserError (CannotCreate, Usage) before any
-  // frame.
+  // Starts OpenGL, makes the folder and opens the video: throws UserError (CannotCreate, Usage; OutOfBudget for
+  // want of memory or threads) before any frame.
   explicit Pipeline(const PipelineOptions& options);
   // Without finish() (an exception is on its way): frames already written stay, an unfinished video is removed.
   ~Pipeline();
@@ -62,6 +63,7 @@ public:
   void finish();
 
   PipelineSeconds seconds() const;
+  bool has_fewer_threads() const; // than it was to have: the system starts no more
 
 private:
   struct Stages;

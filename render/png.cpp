@@ -35,6 +35,13 @@ struct Workspace {
   };
   std::unique_ptr<libdeflate_compressor, Free> compressor{libdeflate_alloc_compressor(1)};
   Bytes rows, deflated;
+
+  // What a huge picture took is not kept from all others; to make it anew does not show beside its encoding.
+  void let_go_of_much() {
+    constexpr std::size_t much = 64 << 20; // bytes
+    for (Bytes* bytes : {&rows, &deflated})
+      if (bytes->capacity() > much) *bytes = Bytes();
+  }
 };
 
 // Each row behind the number of its filter: 1, SUB, what a pixel differs by from the one before it.
@@ -87,6 +94,7 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
   out.reserve(out.size() + rows.size() + 64); // and the names, lengths and sums of the last two chunks
   append_chunk(out, "IDAT", rows);
   append_chunk(out, "IEND", {});
+  work.let_go_of_much();
   return out;
 }
 

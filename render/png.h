@@ -9,9 +9,11 @@
 
 #include "render/image.h"
 
+#include <cstddef>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace rend {
 
@@ -32,13 +34,39 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text = {
 // fails.
 void write_png(const std::filesystem::path& path, const Image& image, const PngText& text = {});
 
-// Of a file that is a whole PNG (every chunk's CRC is right, and the last is IEND), the text under a keyword:
-// "" where it has none. None: there is no such file, or it is not whole. Nothing is decoded: a millisecond for
-// a megabyte.
-std::optional<std::string> text_of_whole_png(const std::filesystem::path& path, const std::string& keyword);
+// What encode_png() makes of an image of that size: 8 bits a channel, 3 channels or 4, not interlaced.
+struct PngShape {
+  int width = 0, height = 0; // [pixels]
+  int channels = 3;
+};
+
+// Finds out which files are pictures of one shape that need not be made again. It reads the whole file and
+// inflates it: 1 ms for a picture of 1280 x 720. For one thread; what it works in is kept from file to file.
+class PngChecker {
+public:
+  explicit PngChecker(const PngShape& shape);
+  ~PngChecker();
+  PngChecker(const PngChecker&) = delete;
+  PngChecker& operator=(const PngChecker&) = delete;
+
+  // An ordinary file (or a link to one) that is a whole PNG: every chunk's CRC is right and IEND the last, the
+  // header says this shape, the data inflate to exactly its rows, and the text under the keyword is that one.
+  // False of all else, without waiting for whom a FIFO would want.
+  bool is_whole(const std::filesystem::path& path, const PngText& text);
+
+  static std::size_t bytes(const PngShape& shape); // of its rows, which is about what it works in
+
+private:
+  struct Work;
+  bool has_whole_chunks(const PngText& text);
+  bool has_whole_rows();
+
+  PngShape shape_;
+  std::unique_ptr<Work> work_;
+};
 
 // Any PNG, brought to 8-bit RGB, or RGBA if it has transparency. Throws UserError: NoInput, ReadWrite,
-// BadInput.
+// BadInput; OutOfBudget where there is no memory for it.
 Image read_png(const std::filesystem::path& path);
 
 } // namespace rend

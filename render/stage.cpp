@@ -70,11 +70,26 @@ Stage::Stage(int width, int height, int samples)
 void Stage::must_hold() const {
   const bool full = glGetError() == GL_OUT_OF_MEMORY;
   if (!full && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
-  throw UserError(
-      Exit::BadInput, {},
-      fmt::format("a picture of {} x {} with {} samples a pixel is more than this machine's OpenGL can hold",
-                  width_, height_, samples_),
-      "draw a smaller one, or take fewer samples: --set image.samples=1");
+  const std::string picture =
+      fmt::format("a picture of {} x {} with {} samples a pixel", width_, height_, samples_);
+  const std::string hint = "draw a smaller one, or take fewer samples: --set image.samples=1";
+  if (can_ever_hold())
+    throw UserError(Exit::OutOfBudget, {}, "there is not enough memory for " + picture, hint);
+  throw UserError(Exit::BadInput, {}, picture + " is more than this machine's OpenGL can hold", hint);
+}
+
+// Whether it could with memory enough. A proxy asks for none; that of depths takes as much.
+bool Stage::can_ever_hold() const {
+  const int width = width_ * fine_, height = height_ * fine_;
+  const bool many = taken_ > 1;
+  const GLenum proxy = many ? GL_PROXY_TEXTURE_2D_MULTISAMPLE : GL_PROXY_TEXTURE_2D;
+  if (many)
+    glTexImage2DMultisample(proxy, taken_, GL_RGBA8, width, height, GL_TRUE);
+  else
+    glTexImage2D(proxy, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  GLint held = 0;
+  glGetTexLevelParameteriv(proxy, 0, GL_TEXTURE_WIDTH, &held);
+  return held == width;
 }
 
 void Stage::make_picture() {

@@ -55,7 +55,10 @@ private:
   void make_target(int width, int height);
   void fit_target(const PixelBox& covered);
   void make_picture();
-  void must_hold() const; // UserError (BadInput) where OpenGL has no room for what was asked for
+  // UserError where OpenGL has no room for what was asked for: BadInput for more than it can ever hold,
+  // OutOfBudget for want of memory.
+  void must_hold() const;
+  bool can_ever_hold() const;
   void make_shadow_map();
   void make_vertex_array();
   void upload(const Frame& frame);

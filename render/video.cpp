@@ -8,6 +8,7 @@
 #ifdef REND_VIDEO
 #include "render/video_filter.h"
 #include "render/video_sink.h"
+#include "sim/base/worker_threads.h"
 
 #include <fmt/format.h>
 
@@ -78,8 +79,7 @@ VideoWriter::Encoder::Encoder(const std::filesystem::path& path, const VideoForm
 void VideoWriter::Encoder::open_codec(AVRational rate) {
   require_encoder(kind_);
   const AVCodec* codec = avcodec_find_encoder_by_name(kind_.encoder.c_str());
-  codec_.reset(avcodec_alloc_context3(codec));
-  CHECK(codec_ != nullptr);
+  codec_.reset(must_be_made(avcodec_alloc_context3(codec)));
   codec_->width = filter_.width();
   codec_->height = filter_.height();
   codec_->pix_fmt = filter_.pixels();
@@ -93,16 +93,17 @@ void VideoWriter::Encoder::open_codec(AVRational rate) {
   if ((sink_.container()->oformat->flags & AVFMT_GLOBALHEADER) != 0)
     codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   AvOptions quality(kind_.quality);
-  sink_.must(avcodec_open2(codec_.get(), codec, quality.get()), "starting the encoder");
+  const long refused = refused_thread_starts();
+  const int result = avcodec_open2(codec_.get(), codec, quality.get());
+  if (result < 0 && refused_thread_starts() > refused) refuse_without_thread("the encoder");
+  sink_.must(result, "starting the encoder");
   CHECK(av_dict_count(*quality.get()) == 0); // all are known
 
-  stream_ = avformat_new_stream(sink_.container(), nullptr);
-  CHECK(stream_ != nullptr);
+  stream_ = must_be_made(avformat_new_stream(sink_.container(), nullptr));
   sink_.must(avcodec_parameters_from_context(stream_->codecpar, codec_.get()), "describing the video");
   stream_->time_base = codec_->time_base;
   stream_->avg_frame_rate = rate;
-  packet_.reset(av_packet_alloc());
-  CHECK(packet_ != nullptr);
+  packet_.reset(must_be_made(av_packet_alloc()));
 }
 
 void VideoWriter::Encoder::set_colours() {

@@ -16,8 +16,8 @@ namespace rend {
 
 VideoFilter::VideoFilter(const std::string& chain, int width, int height, AVRational rate,
                          const std::filesystem::path& file)
-    : file_(file), graph_(avfilter_graph_alloc()), in_(av_frame_alloc()), out_(av_frame_alloc()) {
-  CHECK(graph_ && in_ && out_);
+    : file_(file), graph_(must_be_made(avfilter_graph_alloc())), in_(must_be_made(av_frame_alloc())),
+      out_(must_be_made(av_frame_alloc())) {
   graph_->nb_threads = 1;
   const std::string source =
       fmt::format("buffer=video_size={}x{}:pix_fmt={}:time_base={}/{}:frame_rate={}/{}:pixel_aspect=1/1", width,
@@ -40,8 +40,8 @@ VideoFilter::VideoFilter(const std::string& chain, int width, int height, AVRati
   in_->height = height;
   constexpr int aligned = 64; // [bytes], as libav likes its rows
   stride_ = (3 * width + aligned - 1) / aligned * aligned;
-  rooms_.reset(av_buffer_pool_init(static_cast<std::size_t>(stride_) * height + aligned, nullptr));
-  CHECK(rooms_ != nullptr);
+  rooms_.reset(
+      must_be_made(av_buffer_pool_init(static_cast<std::size_t>(stride_) * height + aligned, nullptr)));
 }
 
 int VideoFilter::width() const {
@@ -60,8 +60,7 @@ AVRational VideoFilter::time_base() const {
 void VideoFilter::push(const Image* image, const std::function<void(const AVFrame*)>& take) {
   if (image != nullptr) {
     CHECK(image->channels == 3 && image->width == in_->width && image->height == in_->height);
-    const Owned<AVFrame> copy(av_frame_alloc()); // the chain may keep it
-    CHECK(copy != nullptr);
+    const Owned<AVFrame> copy(must_be_made(av_frame_alloc())); // the chain may keep it
     copy->format = in_->format;
     copy->width = in_->width;
     copy->height = in_->height;

@@ -15,9 +15,9 @@ VideoSink::VideoSink(const std::filesystem::path& path, const std::filesystem::p
   must(avformat_alloc_output_context2(&format, nullptr, muxer.c_str(), name.c_str()), "starting the video");
   format_.reset(format);
   constexpr int size = 1 << 16; // [bytes]
-  auto* buffer = static_cast<unsigned char*>(av_malloc(size));
-  io_.reset(avio_alloc_context(buffer, size, 1, this, nullptr, &VideoSink::write_bytes, &VideoSink::seek));
-  CHECK(io_ != nullptr);
+  auto* buffer = must_be_made(static_cast<unsigned char*>(av_malloc(size)));
+  io_.reset(must_be_made(
+      avio_alloc_context(buffer, size, 1, this, nullptr, &VideoSink::write_bytes, &VideoSink::seek)));
   format_->pb = io_.get();
   // What is written is in the file at once, and not in a buffer that dies with the program.
   format_->flags |= AVFMT_FLAG_CUSTOM_IO | AVFMT_FLAG_BITEXACT | AVFMT_FLAG_FLUSH_PACKETS;
@@ -70,15 +70,13 @@ void remux(const std::filesystem::path& from, const std::filesystem::path& to, c
 
   VideoSink sink(to, to.string() + ".part", muxer);
   const AVStream* in = source->streams[0];
-  AVStream* out = avformat_new_stream(sink.container(), nullptr);
-  CHECK(out != nullptr);
+  AVStream* out = must_be_made(avformat_new_stream(sink.container(), nullptr));
   sink.must(avcodec_parameters_copy(out->codecpar, in->codecpar), doing);
   out->codecpar->codec_tag = 0;
   out->time_base = in->time_base;
   out->avg_frame_rate = in->avg_frame_rate;
   sink.begin({{"movflags", "+faststart"}});
-  const Owned<AVPacket> packet(av_packet_alloc());
-  CHECK(packet != nullptr);
+  const Owned<AVPacket> packet(must_be_made(av_packet_alloc()));
   std::int64_t start = AV_NOPTS_VALUE; // of what is seen: decoding began earlier, where pictures look ahead
   while (true) {
     const int result = av_read_frame(source.get(), packet.get());

@@ -74,8 +74,10 @@ Tone tone_of(const std::string& state) {
 
 // The first line of what it said went wrong; of one that was ended from outside, by what.
 std::string message_of(const BatchResult& result) {
-  const std::string mark = "rend: error: ";
-  const std::size_t at = result.err.rfind(mark);
+  const std::string mark = "rend: error: ",
+                    before = "\n" + mark; // a name may hold those words, but no line end
+  const std::size_t last = result.err.rfind(before);
+  const std::size_t at = last != std::string::npos ? last + 1 : result.err.starts_with(mark) ? 0 : last;
   if (at == std::string::npos) {
     const int signal = result.code - 128;
     if (!result.ran || signal <= 0 || signal >= NSIG) return {};
@@ -90,7 +92,7 @@ std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
   const BatchResult& result = report.results[n];
   const Json line = line_of(job, result);
   const std::string state = state_of(result), message = message_of(result);
-  Html words = link(job.name + "/", job.name) + Html{"<br>"} + muted(job.preset);
+  Html words = link(address_of(job.name) + "/", job.name) + Html{"<br>"} + muted(job.preset);
   if (!message.empty()) words += paragraph(escaped(message));
   const auto number = [&](const char* name) {
     const bool known = line.contains(name) && !line[name].is_null();

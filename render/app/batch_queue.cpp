@@ -2,6 +2,7 @@
 
 #include "render/app/session.h"
 #include "render/app/signals.h"
+#include "sim/base/error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -50,7 +51,14 @@ void BatchQueue::begin_next() {
   // llvmpipe draws the same with any number of threads; more than one each would only be in each other's way.
   std::vector<std::pair<std::string, std::string>> variables;
   if (limits_.jobs > 1) variables.emplace_back("LP_NUM_THREADS", "1");
-  running_.push_back({job, Child(command_(jobs_[job], again_[job]), variables), wall_clock()});
+  try {
+    running_.push_back({job, Child(command_(jobs_[job], again_[job]), variables), wall_clock()});
+  } catch (const UserError& error) {
+    if (error.code != Exit::OutOfBudget || running_.empty()) throw;
+    waiting_.push_front(job);
+    limits_.jobs = static_cast<int>(running_.size());
+    fewer_jobs_ = true;
+  }
 }
 
 void BatchQueue::finish(Running& one) {
@@ -59,7 +67,7 @@ void BatchQueue::finish(Running& one) {
   result.peak = std::max(result.peak, one.child.peak());
   const std::string& preset = jobs_[one.job].preset;
   peaks_[preset] = std::max(peaks_[preset], result.peak);
-  const bool stopped = one.child.code() == 128 + SIGTERM || one.child.code() == 128 + SIGINT;
+  const bool stopped = is_of_a_signal(one.child.code());
   ++result.tries;
   // To go on when there is room: from its checkpoint, if it wrote one. It did where it told its figures, and
   // did not where it was still building its scene; a checkpoint that is there all the same is of an earlier

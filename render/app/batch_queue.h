@@ -3,7 +3,8 @@
 // What a job takes is not known before it ran: what another job of the same preset took is expected of it, else
 // the mean of all so far. One more is begun where what runs and what is expected of it fit into the budget; one
 // always runs. Where what runs outgrows the budget nevertheless, the job begun last is stopped with a
-// checkpoint (SIGTERM), and goes on from there when there is room.
+// checkpoint (SIGTERM), and goes on from there when there is room. Where the system starts no more programs as
+// many run as do then.
 #pragma once
 
 #include "render/app/batch_jobs.h"
@@ -42,6 +43,7 @@ public:
 
   // Until all ran, or a signal came: then those that run are stopped, and waited for.
   std::vector<BatchResult> run();
+  bool has_fewer_jobs() const { return fewer_jobs_; } // at once than it was to have: the system starts no more
 
 private:
   struct Running {
@@ -67,7 +69,8 @@ private:
   std::deque<std::size_t> waiting_;
   std::list<Running> running_; // in the order in which they were begun
   std::vector<BatchResult> results_;
-  std::vector<bool> again_;                  // of each job
+  std::vector<bool> again_; // of each job
+  bool fewer_jobs_ = false;
   std::map<std::string, std::size_t> peaks_; // [bytes], of a preset
 };
 

@@ -3,13 +3,14 @@
 #include "render/app/preset_types.h"
 #include "render/app/signals.h"
 #include "render/output.h"
+#include "sim/base/worker_threads.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <exception>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 namespace rend {
 
@@ -33,7 +34,8 @@ void write_cases(const fs::path& folder, const std::vector<CheckCase>& cases) {
 }
 
 std::vector<CheckResult> run_cases(const fs::path& folder, const std::vector<CheckCase>& cases, int jobs,
-                                   const std::function<void(std::size_t, const CheckResult&)>& done) {
+                                   const std::function<void(std::size_t, const CheckResult&)>& done,
+                                   const std::function<void()>& fewer) {
   const ReadPreset read = [&](const CheckCase& which, const std::string* instead, const Sets& sets) {
     std::vector<Override> overrides;
     for (const auto& [path, value] : sets) overrides.push_back({path, value});
@@ -44,17 +46,28 @@ std::vector<CheckResult> run_cases(const fs::path& folder, const std::vector<Che
   std::vector<std::optional<CheckResult>> results(cases.size());
   std::atomic<std::size_t> next = 0;
   std::mutex one_at_a_time;
+  std::exception_ptr error;
   const auto work = [&] {
-    for (std::size_t n = next++; n < cases.size() && stop_signal() == 0; n = next++) {
-      results[n] = run_case(cases[n], read);
+    try {
+      for (std::size_t n = next++; n < cases.size() && stop_signal() == 0; n = next++) {
+        results[n] = run_case(cases[n], read);
+        const std::lock_guard lock(one_at_a_time);
+        done(n, *results[n]);
+      }
+    } catch (...) {
       const std::lock_guard lock(one_at_a_time);
-      done(n, *results[n]);
+      if (!error) error = std::current_exception();
+      next = cases.size();
     }
   };
-  std::vector<std::jthread> others;
-  for (int n = 1; n < jobs; ++n) others.emplace_back(work);
-  work();
-  others.clear(); // waits for them
+  {
+    WorkerThreads others;
+    while (1 + others.count() < jobs && others.start(work)) {
+    }
+    if (1 + others.count() < jobs) fewer();
+    work();
+  }
+  if (error) std::rethrow_exception(error);
   std::vector<CheckResult> all;
   for (auto& result : results)
     if (result) all.push_back(std::move(*result));

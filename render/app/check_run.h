@@ -15,9 +15,10 @@ std::string file_name(const std::string& case_name);
 void write_cases(const std::filesystem::path& folder, const std::vector<CheckCase>& cases);
 
 // In the order of the cases, whatever the number of jobs. `done` is called once a case, one at a time. Cases
-// that a signal leaves over are not in the result.
+// that a signal leaves over are not in the result. `fewer` is called where not all threads could be started.
 std::vector<CheckResult> run_cases(const std::filesystem::path& folder, const std::vector<CheckCase>& cases,
                                    int jobs,
-                                   const std::function<void(std::size_t which, const CheckResult&)>& done);
+                                   const std::function<void(std::size_t which, const CheckResult&)>& done,
+                                   const std::function<void()>& fewer);
 
 } // namespace rend

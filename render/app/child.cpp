@@ -1,5 +1,6 @@
 #include "render/app/child.h"
 
+#include "render/app/signals.h"
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
@@ -41,8 +42,10 @@ constexpr const char* itself = "/proc/self/exe";
 
 // In the new process, up to the other program: by its own name, which others see, or where its file has gone
 // since, by the system's. Where neither can be had, 127 as of a shell.
-[[noreturn]] void become(const char* program, const std::vector<char*>& words, int parent, int out, int err) {
+[[noreturn]] void become(const char* program, const std::vector<char*>& words, int parent, int out, int err,
+                         const SignalsHeld& held) {
   ::setpgid(0, 0);
+  held.let_in();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(127); // it is gone already
   ::dup2(out, STDOUT_FILENO);
@@ -66,11 +69,13 @@ Child::Child(const std::vector<std::string>& arguments,
   std::error_code error;
   const std::string program = std::filesystem::read_symlink(itself, error).string();
   const int parent = ::getpid();
+  const SignalsHeld held;
   process_ = ::fork();
-  if (process_ == 0) become(program.c_str(), words, parent, out_, err_);
+  if (process_ == 0) become(program.c_str(), words, parent, out_, err_, held);
   if (process_ < 0)
-    throw UserError(Exit::CannotCreate, {}, fmt::format("a job could not be started: {}", std::strerror(errno)),
-                    "run fewer at once: --jobs");
+    throw UserError(
+        Exit::OutOfBudget, {}, fmt::format("a job could not be started: {}", std::strerror(errno)),
+        "run fewer programs at once, or allow more (ulimit -u, pids.max of a control group) and memory");
 }
 
 Child::Child(Child&& other) noexcept

@@ -13,8 +13,8 @@ namespace rend {
 
 class Child {
 public:
-  // Runs this very program with these arguments, and with these variables set as well. Throws UserError
-  // (CannotCreate).
+  // Runs this very program with these arguments, and with these variables set as well. Throws UserError:
+  // OutOfBudget where the system starts no more programs, CannotCreate.
   Child(const std::vector<std::string>& arguments,
         const std::vector<std::pair<std::string, std::string>>& variables);
   ~Child(); // ends it, if it runs

@@ -6,6 +6,8 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/json_text.h"
+#include "render/app/named_files.h"
+#include "render/app/number_option.h"
 #include "render/app/output_folder.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
@@ -16,6 +18,7 @@
 #include "render/png.h"
 #include "render/video.h"
 #include "render/video_format.h"
+#include "sim/base/printable.h"
 #include "sim/base/wording.h"
 #include "sim/program/threads.h"
 
@@ -23,7 +26,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <csignal>
 #include <memory>
 
 namespace rend {
@@ -93,9 +95,9 @@ std::vector<std::string> arguments_of(const BatchOptions& options, const BatchSe
   pass("--checkpoint-every", options.checkpoint_every);
   const int threads = options.threads > 0 ? options.threads : limits.jobs > 1 ? 1 : 0;
   if (threads > 0) pass("--threads", std::to_string(threads));
-  if (options.no_png) words.push_back("--no-png");
-  if (options.allow_path) words.push_back("--allow-path");
-  if (resume) words.push_back("--resume");
+  if (options.no_png) words.emplace_back("--no-png");
+  if (options.allow_path) words.emplace_back("--allow-path");
+  if (resume) words.emplace_back("--resume");
   return words;
 }
 
@@ -112,18 +114,20 @@ void check(const BatchOptions& options) {
 std::string closing_words(const BatchReport& report, const fs::path& page) {
   std::size_t done = 0;
   for (const BatchResult& result : report.results) done += state_of(result) == "done";
-  std::string out =
-      fmt::format("{} of {} job{} done, in {}; see {}\n", done, report.jobs.size(),
-                  report.jobs.size() == 1 ? "" : "s", seconds_in_words(report.seconds), page.string());
+  std::string out = fmt::format("{} of {} job{} done, in {}; see {}\n", done, report.jobs.size(),
+                                report.jobs.size() == 1 ? "" : "s", seconds_in_words(report.seconds),
+                                printable(page.string()));
   for (std::size_t n = 0; n < report.jobs.size(); ++n)
     if (failed(report.results[n]))
-      out += fmt::format("{}: {}: {}\n", state_of(report.results[n]), report.jobs[n].name,
-                         line_of(report.jobs[n], report.results[n]).value("message", "no reason was given"));
+      out += printable(fmt::format(
+                 "{}: {}: {}", state_of(report.results[n]), report.jobs[n].name,
+                 line_of(report.jobs[n], report.results[n]).value("message", "no reason was given"))) +
+             "\n";
   return out;
 }
 
 Exit end_of(const BatchReport& report) {
-  if (stop_signal() != 0) return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  if (stop_signal() != 0) return exit_of_a_signal();
   const bool all = std::all_of(report.results.begin(), report.results.end(),
                                [](const BatchResult& result) { return state_of(result) == "done"; });
   return all ? Exit::Done : Exit::No;
@@ -142,7 +146,13 @@ Exit batch(const BatchOptions& options) {
                     "there are fewer jobs than shards, so that these share frames; a video is of all",
                     "use at most as many shards as jobs, or leave --video out");
   const Shard frames = frames_are_shared ? shard : Shard{};
+  const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
+  const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
+  NamedFiles files; // each job sees to its own
+  files.writes("the page", page);
+  for (const BatchJob& job : report.jobs) files.reads("the preset", job.preset);
   const OutputFolder folder(options.folder);
+  const Keeping keeping;
   folder.make();
   std::size_t finished = 0;
   BatchQueue queue(
@@ -154,36 +164,40 @@ Exit batch(const BatchOptions& options) {
         ++finished;
         if (options.json) print_result(text_of(line_of(report.jobs[n], result)) + "\n");
         if (!options.quiet)
-          fmt::print(stderr, "{:>3} of {}  {:8}  {:>8}  {}\n", finished, report.jobs.size(), state_of(result),
-                     seconds_in_words(result.seconds), report.jobs[n].name);
+          print_progress(fmt::format("{:>3} of {}  {:8}  {:>8}  {}\n", finished, report.jobs.size(),
+                                     state_of(result), seconds_in_words(result.seconds),
+                                     printable(report.jobs[n].name)));
       });
   report.results = queue.run();
+  if (queue.has_fewer_jobs() && !options.quiet)
+    print_note("fewer jobs ran at once than were wanted: the system started no more");
   report.seconds = wall_clock() - start;
-  const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
-  const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
   write_whole(page, batch_page(report));
+  folder.sync();
   if (!options.json) print_result(closing_words(report, page));
   return end_of(report);
 }
 
 void declare_passed_on(CLI::App& app, BatchOptions& options) {
   app.add_option("--frames", options.frames, "only these: 7, 0-100, 0-100x5, 10-, or several with commas")
-      ->type_name("LIST");
+      ->type_name("LIST")
+      ->check(some_word());
   app.add_option("--size", options.size, "of the pictures in pixels, instead of the presets'")
-      ->type_name("WxH");
+      ->type_name("WxH")
+      ->check(some_word());
   app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the presets'")
       ->type_name("N")
-      ->check(CLI::Range(1e-6, 1e6));
+      ->transform(real_number(1e-6, 1e6));
   app.add_option("--video", options.video, "also a video of each job")
       ->type_name(choices(video_format_names()));
   app.add_flag("--no-png", options.no_png, "the videos alone");
   app.add_option("--threads", options.threads,
                  "threads of each simulation; default: one, where jobs run in parallel")
       ->type_name("N")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number(1, 256));
   app.add_option("--checkpoint-every", options.checkpoint_every, "as of rend render")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9));
+      ->transform(real_number(0, 1e9));
   app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the presets' folders, too");
 }
 
@@ -205,15 +219,17 @@ std::function<Exit()> declare(CLI::App& app) {
       ->allow_extra_args(false);
   app.add_option("-j,--jobs", options->jobs, "jobs at once; default: as many as the machine has threads")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024));
+      ->transform(whole_number(1, 1024));
   app.add_option("--memory", options->memory,
                  "that all jobs together may take, such as 4G; default: 80 % of what is available")
-      ->type_name("SIZE");
+      ->type_name("SIZE")
+      ->check(some_word());
   app.add_option(
          "--shard", options->shard,
          "of the jobs only part I of N; default: as Slurm says of an array task. With fewer jobs than shards: "
          "a part of each job's frames")
-      ->type_name("I/N");
+      ->type_name("I/N")
+      ->check(some_word());
   app.add_flag("--resume", options->resume, "keep the pictures that are there and whole, and make the rest");
   declare_passed_on(app, *options);
   app.add_flag("--json", options->json, "one JSON object a line for each job, as it ends");

@@ -1,12 +1,20 @@
 // rend diff: pictures, or folders of pictures, compared.
+#include "render/app/available_memory.h"
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/diff_page.h"
 #include "render/app/diff_report.h"
 #include "render/app/diff_tolerances.h"
 #include "render/app/diff_update.h"
+#include "render/app/named_files.h"
+#include "render/app/number_option.h"
+#include "render/app/paths.h"
 #include "render/app/signals.h"
+#include "render/output.h"
 #include "render/png.h"
+#include "sim/base/printable.h"
+#include "sim/base/worker_threads.h"
+#include "sim/program/start_threads.h"
 #include "sim/program/threads.h"
 
 #include <CLI/CLI.hpp>
@@ -14,11 +22,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 namespace rend {
 namespace {
@@ -28,12 +34,13 @@ namespace fs = std::filesystem;
 struct DiffOptions {
   std::string a, b, folder, junit, tolerances, mask;
   std::vector<std::string> limits, update;
-  bool json = false, json_lines = false, quiet = false;
+  bool allow_path = false, json = false, json_lines = false, quiet = false;
   int threads = 0; // 0: as many as the machine has
 };
 
 Tolerances tolerances_of(const DiffOptions& options) {
-  Tolerances out = options.tolerances.empty() ? Tolerances() : Tolerances(options.tolerances);
+  Tolerances out =
+      options.tolerances.empty() ? Tolerances() : Tolerances(options.tolerances, options.allow_path);
   for (const std::string& limit : options.limits) out.add(limit);
   if (!options.mask.empty()) out.mask_all(options.mask);
   return out;
@@ -61,10 +68,8 @@ private:
 // One case after the other on all threads where there are few; many at once where there are many. Empty after a
 // signal.
 std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tolerances& tolerances,
-                                  const DiffOptions& options) {
+                                  const DiffOptions& options, MemoryBudget& memory) {
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
-  // A picture of two million pixels takes 0.3 GB while it is compared: not as many at once as a large machine
-  // has threads.
   const int jobs = cases.size() >= 2 * static_cast<std::size_t>(threads) ? std::min(threads, 8) : 1;
   std::vector<std::optional<Compared>> results(cases.size());
   InOrder in_order(results, options.json_lines && options.update.empty());
@@ -76,17 +81,22 @@ std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tol
         CompareOptions one = tolerances.of(cases[n].name);
         one.heat = !options.folder.empty();
         one.threads = std::max(1, threads / jobs);
-        in_order.put(n, compare_case(cases[n], one));
+        in_order.put(n, compare_case(cases[n], one, memory));
       }
     } catch (...) {
       errors[job] = std::current_exception();
       next = cases.size();
     }
   };
-  std::vector<std::jthread> others;
-  for (int n = 1; n < jobs; ++n) others.emplace_back(work, static_cast<std::size_t>(n));
-  work(0);
-  others.clear(); // waits for them
+  if (threads > jobs) start_threads(threads);
+  {
+    WorkerThreads others;
+    while (1 + others.count() < jobs &&
+           others.start([&work, job = static_cast<std::size_t>(1 + others.count())] { work(job); })) {
+    }
+    if ((1 + others.count() < jobs || threads_refused()) && !options.quiet) note_fewer_threads();
+    work(0);
+  }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
   std::vector<Compared> out;
@@ -113,9 +123,43 @@ void print_report(const DiffOptions& options, const DiffReport& report) {
   } else if (options.json) {
     print_result(text_of(diff_json(report), 2) + "\n");
   } else if (!options.quiet) {
-    print_result(diff_text(report) + (options.folder.empty()
-                                          ? ""
-                                          : "  " + (fs::path(options.folder) / "index.html").string() + "\n"));
+    print_result(diff_text(report) +
+                 (options.folder.empty()
+                      ? ""
+                      : "  " + printable((fs::path(options.folder) / "index.html").string()) + "\n"));
+  }
+}
+
+// What is read is not written over.
+void check_files(const DiffOptions& options, const Cases& cases) {
+  NamedFiles files;
+  for (const char* file : {"index.html", "diff.json"})
+    if (!options.folder.empty()) files.writes("the report", fs::path(options.folder) / file);
+  if (!options.junit.empty()) files.writes("--junit", followed(options.junit));
+  if (!options.tolerances.empty()) files.reads("the file of tolerances", options.tolerances);
+  if (!options.mask.empty()) files.reads("the mask", options.mask);
+  for (const CasePaths& one : cases.all)
+    for (const fs::path& picture : {one.a, one.b})
+      if (!picture.empty() && !options.junit.empty()) files.reads("the picture", picture);
+}
+
+// A report within what is compared would be compared itself the next time; and maps of differences are pictures
+// called as those are that differ.
+void check_folder(const fs::path& report, const Cases& cases) {
+  std::vector<fs::path> pictures = cases.folders;
+  for (const CasePaths& one : cases.all)
+    if (cases.folders.empty()) pictures.insert(pictures.end(), {one.a, one.b});
+  for (const fs::path& inputs : pictures) {
+    if (lies_in(report, inputs))
+      throw UserError(Exit::Usage, {},
+                      fmt::format("-o {} lies in {}, whose pictures are compared", in_quotes(report.string()),
+                                  in_quotes(inputs.string())),
+                      "choose a folder beside it for the report");
+    if (lies_in(inputs, report / "maps"))
+      throw UserError(Exit::Usage, {},
+                      fmt::format("-o {} has its maps where {} lies, which is compared",
+                                  in_quotes(report.string()), in_quotes(inputs.string())),
+                      "choose another folder for the report");
   }
 }
 
@@ -124,20 +168,24 @@ Exit diff(const DiffOptions& options) {
   const Tolerances tolerances = tolerances_of(options);
   const Cases cases = cases_of(options.a, options.b);
   const std::set<std::size_t> chosen = named_cases(options.update, cases.all);
+  check_files(options, cases);
+  if (!options.folder.empty()) check_folder(options.folder, cases);
+  const Keeping keeping;
   DiffReport report;
   report.a = options.a;
   report.b = options.b;
   report.remarks = remarks_of(cases, tolerances);
   DiffFiles files(options.folder, options.junit);
-  report.cases = compare_all(cases.all, tolerances, options);
+  MemoryBudget memory(MemoryBudget::of_machine(available_memory()));
+  report.cases = compare_all(cases.all, tolerances, options, memory);
   if (report.cases.empty()) {
     print_error("stopped by a signal: nothing is reported");
-    return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+    return exit_of_a_signal();
   }
   report.updated.assign(report.cases.size(), false);
   for (const std::size_t n : chosen) report.updated[n] = true;
   const std::string page = options.folder.empty() ? "" : diff_page(report); // shows what was expected until now
-  update_expected(report.cases, chosen, options.a);
+  update_expected(report.cases, chosen, options.a, memory);
   files.write(page, report);
   if (!options.quiet)
     for (const std::string& remark : report.remarks) print_note(remark);
@@ -171,6 +219,8 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   app.add_option("--mask", options->mask, "a PNG: white counts, black does not")->type_name("FILE.png");
+  app.add_flag("--allow-path", options->allow_path,
+               "let the tolerances name masks outside of their folder, too");
   app.add_option("-o,--output", options->folder, "write index.html, diff.json and maps of what differs there")
       ->type_name("DIR");
   app.add_option("--junit", options->junit, "write the findings as JUnit XML there")->type_name("FILE.xml");
@@ -183,7 +233,7 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   app.add_option("--threads", options->threads, "threads; default: all that the machine has")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->quiet, "nothing but the exit code, JSON and files");
   app.footer("Ends with 0 where all pictures match, 1 where one does not, 2 where one cannot be compared.");
   return [options] { return run(*options); };

@@ -77,7 +77,7 @@ std::string page(const CLI::App& root, const HelpOptions& options) {
 
 Exit help(const CLI::App& root, const HelpOptions& options) {
   check_words(options);
-  print_result(page(root, options));
+  print_page(page(root, options));
   return Exit::Done;
 }
 

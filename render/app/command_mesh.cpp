@@ -2,6 +2,8 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
 #include "render/app/mesh_facts.h"
+#include "render/app/named_files.h"
+#include "render/app/signals.h"
 #include "render/output.h"
 #include "sim/base/wording.h"
 #include "sim/mesh/moka.h"
@@ -33,10 +35,17 @@ Exit convert(const MeshOptions& options) {
   if (!moka && out.extension() != ".msh")
     throw UserError(Exit::Usage, {}, fmt::format("{} is no format that can be written", in_quotes(options.out)),
                     "a name that ends in .moka or .msh tells the format");
+  const std::filesystem::path file = followed(out);
+  NamedFiles files;
+  files.reads("the mesh", options.in);
+  files.writes("the new one", file);
   const MeshBody body = sew(read_mesh(std::filesystem::path(options.in)));
   for (const std::string& note : body.notes) print_note(note);
   if (moka && !body.groups.empty()) print_note("groups are left out: .moka has none");
-  write_whole(out, moka ? moka_text(*body.map) : msh_text(body, options.in));
+  const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
+  const Keeping keeping;
+  write_whole(file, text);
+  sync_folder(file.parent_path());
   return Exit::Done;
 }
 

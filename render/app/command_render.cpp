@@ -4,14 +4,18 @@
 #include "render/app/figures.h"
 #include "render/app/film.h"
 #include "render/app/json_text.h"
+#include "render/app/named_files.h"
+#include "render/app/number_option.h"
 #include "render/app/output_folder.h"
 #include "render/app/session.h"
 #include "render/app/shard.h"
 #include "render/app/shoot.h"
+#include "render/app/signals.h"
 #include "render/app/usage.h"
 #include "render/png.h"
 #include "render/video.h"
 #include "render/video_format.h"
+#include "sim/base/printable.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -57,10 +61,10 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
 std::string closing_words(const Shoot& shoot, const PipelineOptions& files, double seconds) {
   if (shoot.made() + shoot.kept() == 0) return "no frame was written\n";
   std::string out = fmt::format("{} frame{}", shoot.made(), shoot.made() == 1 ? "" : "s");
-  if (files.png) out += " in " + files.folder.string();
+  if (files.png) out += " in " + printable(files.folder.string());
   if (files.video)
     out +=
-        std::string(files.png ? ", and " : " in ") + (files.folder / (files.name + files.extension)).string();
+        (files.png ? ", and " : " in ") + printable((files.folder / (files.name + files.extension)).string());
   if (shoot.kept() > 0) out += fmt::format("; {} were there already", shoot.kept());
   return out + fmt::format(", in {}\n", seconds_in_words(seconds));
 }
@@ -92,6 +96,20 @@ ShootOptions shoot_options(const RenderOptions& options, const Session& session)
   return out;
 }
 
+// What is read is not written over.
+void check_files(const Session& session, const ShootOptions& options) {
+  const PipelineOptions& out = options.files;
+  NamedFiles files;
+  files.reads("the preset", session.preset_path());
+  files.reads_meshes(session.preset());
+  if (out.video) files.writes("the video", out.folder / (out.name + out.extension));
+  if (!out.png) return;
+  files.writes("the stored state", checkpoint_path(out.folder, out.name, options.shard));
+  files.writes_frames("a picture", out.folder, ".png", [&](long frame) {
+    return frame < session.clock().frames() && options.choice.has(frame);
+  });
+}
+
 void print_figures(const RenderOptions& options, const Session& session, const Shoot& shoot, Stopped stopped,
                    const PipelineOptions& files, double total) {
   if (options.json) {
@@ -112,7 +130,9 @@ Exit render(const RenderOptions& options) {
   check_output(options);
   Session session(options.session);
   const ShootOptions wanted = shoot_options(options, session);
+  check_files(session, wanted);
   Shoot shoot(session, wanted);
+  const Keeping keeping;
   const Stopped stopped = shoot.run();
   print_figures(options, session, shoot, stopped, wanted.files, wall_clock() - start);
   const Exit end = end_of(session, stopped);
@@ -134,9 +154,11 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option("-o,--output", options->folder, "folder of the pictures; default: out/ and the scene's name")
       ->type_name("DIR");
   app.add_option("--frames", options->frames, "only these: 7, 0-100, 0-100x2, 10-, or several with commas")
-      ->type_name("LIST");
+      ->type_name("LIST")
+      ->check(some_word());
   app.add_option("--size", options->size, "of the pictures in pixels, instead of the preset's")
-      ->type_name("WxH");
+      ->type_name("WxH")
+      ->check(some_word());
   app.add_option("--video", options->video, "also a video, called as the scene is: " + video_formats_in_words())
       ->type_name(choices(video_format_names()));
   app.add_flag("--no-png", options->no_png, "the video alone");
@@ -145,12 +167,13 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option(
          "--shard", options->shard,
          "of the frames only part I of N that follow each other; default: as Slurm says of an array task")
-      ->type_name("I/N");
+      ->type_name("I/N")
+      ->check(some_word());
   app.add_option(
          "--checkpoint-every", options->checkpoint_every,
          "seconds on the clock after which the run's state is stored for --resume; 0: only when a signal comes")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9))
+      ->transform(real_number(0, 1e9))
       ->capture_default_str();
   app.add_flag("--json", options->json, "the figures as one JSON object, instead of the closing words");
   return [options] { return render(*options); };

@@ -4,10 +4,13 @@
 #include "render/app/export_series.h"
 #include "render/app/figures.h"
 #include "render/app/json_text.h"
+#include "render/app/named_files.h"
+#include "render/app/number_option.h"
 #include "render/app/profile_report.h"
 #include "render/app/progress.h"
 #include "render/app/records.h"
 #include "render/app/session.h"
+#include "render/app/signals.h"
 #include "render/app/usage.h"
 #include "sim/base/profile.h"
 
@@ -38,6 +41,14 @@ void check_export(const RunOptions& options) {
                     "add --export vtu (or ply, or obj), or make pictures with rend render");
 }
 
+NamedFiles files_of(const RunOptions& options) {
+  NamedFiles files;
+  files.reads("the preset", options.session.preset);
+  if (!options.diagnostics.empty()) files.writes("--diagnostics", followed(options.diagnostics));
+  if (!options.events.empty()) files.writes("--events", followed(options.events));
+  return files;
+}
+
 std::unique_ptr<ExportSeries> export_of(const Session& session, const RunOptions& options) {
   if (options.format.empty()) return nullptr;
   const FrameChoice choice = options.frames.empty() ? FrameChoice() : FrameChoice(options.frames);
@@ -49,8 +60,8 @@ std::unique_ptr<ExportSeries> export_of(const Session& session, const RunOptions
 Stopped simulate(Session& session, const RunOptions& options, ExportSeries* series) {
   std::optional<Diagnostics> diagnostics;
   std::optional<EventFile> events;
-  if (!options.diagnostics.empty()) diagnostics.emplace(options.diagnostics);
-  if (!options.events.empty()) events.emplace(options.events);
+  if (!options.diagnostics.empty()) diagnostics.emplace(followed(options.diagnostics));
+  if (!options.events.empty()) events.emplace(followed(options.events));
   Progress progress(session.quiet(), session.clock().steps(), session.clock().duration(), 0);
   Session::Calls calls;
   Profile* const profile = session.scene().profile();
@@ -83,10 +94,14 @@ bool answers_hold(const Scene& scene) {
 Exit run(const RunOptions& options) {
   const double start = wall_clock();
   check_export(options);
+  NamedFiles files = files_of(options);
   SessionOptions wanted = options.session;
   wanted.births = !options.events.empty();
   Session session(wanted);
+  files.reads_meshes(session.preset());
   const std::unique_ptr<ExportSeries> series = export_of(session, options);
+  if (series) series->name_files(files);
+  const Keeping keeping;
   const Stopped stopped = simulate(session, options, series.get());
   Costs costs;
   costs.total = wall_clock() - start;
@@ -126,7 +141,8 @@ std::function<Exit()> declare(CLI::App& app) {
       ->type_name("DIR");
   app.add_option("--frames", options->frames,
                  "export only these: 7, 0-100, 0-100x2, 10-, or several with commas")
-      ->type_name("LIST");
+      ->type_name("LIST")
+      ->check(some_word());
   return [options] { return run(*options); };
 }
 

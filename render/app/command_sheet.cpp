@@ -1,13 +1,19 @@
 // rend sheet: a contact sheet, one row a preset: how it starts, tears and ends.
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/named_files.h"
+#include "render/app/number_option.h"
 #include "render/app/picture.h"
 #include "render/app/preset_types.h"
 #include "render/app/progress.h"
 #include "render/app/session.h"
+#include "render/app/signals.h"
 #include "render/device.h"
+#include "render/output.h"
 #include "render/png.h"
 #include "render/stage.h"
+#include "sim/base/printable.h"
+#include "sim/base/wording.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -54,6 +60,7 @@ Exit run(Session& session, double aspect, Row& row) {
   PictureMaker maker(session.preset(), session.scene(), aspect, session.clock().duration(),
                      session.clock().frames());
   const long last = session.clock().frames() - 1;
+  const Keeping keeping; // no more than a word on how far it came
   Progress progress(session.quiet(), session.last_step(last), session.clock().duration(), 0);
   Session::Calls calls;
   calls.frame = [&](long frame) {
@@ -77,8 +84,13 @@ Exit make_sheet(const SheetOptions& options) {
     throw UserError(Exit::Usage, {}, fmt::format("-o {}: a contact sheet is a PNG", in_quotes(options.file)),
                     "a name that ends in .png");
   const PictureSize size = parse_size(options.size);
-  for (const std::string& preset : options.presets)
-    load_scene(preset, {}); // what is bad is said before anything slow
+  const std::filesystem::path file = followed(options.file);
+  NamedFiles files;
+  files.writes("the contact sheet", file);
+  for (const std::string& preset : options.presets) {
+    files.reads("the preset", preset);
+    files.reads_meshes(*load_scene(preset, {})); // what is bad is said before anything slow
+  }
   Image sheet(columns * (size.width + gap) - gap,
               static_cast<int>(options.presets.size()) * (size.height + gap) - gap);
   std::fill(sheet.pixels.begin(), sheet.pixels.end(), std::uint8_t{255});
@@ -98,9 +110,11 @@ Exit make_sheet(const SheetOptions& options) {
       paste(stage.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
     }
   }
-  write_png(options.file, sheet);
+  const Keeping keeping;
+  write_png(file, sheet);
+  sync_folder(file.parent_path());
   if (!options.session.quiet)
-    print_result(fmt::format("{}: {} row{} of {} pictures\n", options.file, options.presets.size(),
+    print_result(fmt::format("{}: {} row{} of {} pictures\n", printable(options.file), options.presets.size(),
                              options.presets.size() == 1 ? "" : "s", columns));
   return Exit::Done;
 }
@@ -111,9 +125,10 @@ std::function<Exit()> declare(CLI::App& app) {
   app.add_option("-o,--output", options->file, "the picture to write")->required()->type_name("FILE.png");
   app.add_option("--size", options->size, "of each picture in pixels")
       ->type_name("WxH")
+      ->check(some_word())
       ->default_val("480x270");
   app.add_option("--threads", options->session.threads, "threads; default: all that the machine has")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->session.quiet, "no progress and no notes");
   return [options] { return make_sheet(*options); };
 }

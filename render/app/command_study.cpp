@@ -3,6 +3,8 @@
 #include "render/app/console.h"
 #include "render/app/json_text.h"
 #include "render/app/lean_report.h"
+#include "render/app/named_files.h"
+#include "render/app/paths.h"
 #include "render/app/preset_types.h"
 #include "render/app/session.h"
 #include "render/app/signals.h"
@@ -11,12 +13,12 @@
 #include "render/app/study_plots.h"
 #include "render/app/study_table.h"
 #include "render/output.h"
+#include "sim/base/printable.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <ctime>
 #include <fstream>
 #include <iterator>
@@ -27,17 +29,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Before anything runs: a folder that cannot be had is said at once.
-fs::path make_folder(const StudyOptions& options, const std::string& name, const std::string& file) {
+std::vector<std::string> presets_of(const StudyOptions& options) {
+  std::vector<std::string> presets = options.further;
+  if (!options.session.preset.empty()) presets.insert(presets.begin(), options.session.preset);
+  return presets;
+}
+
+// Before anything runs: a folder that cannot be had is said at once. `kind`: what its tables are called.
+fs::path make_folder(const StudyOptions& options, const std::string& name, const std::string& kind) {
   const fs::path folder =
       options.folder.empty() ? fs::path("out") / (name + "-study") : fs::path(options.folder);
+  NamedFiles files;
+  for (const std::string& preset : presets_of(options)) files.reads("the preset", preset);
+  for (const std::string& file : {kind + ".csv", kind + ".json", std::string("index.html")})
+    files.writes("the study", folder / file);
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
     throw UserError(Exit::CannotCreate, {folder.string()},
                     "the folder cannot be created" + (error ? ": " + error.message() : std::string{}) + ".",
                     "Choose another one with -o.");
-  OutputFile probe(folder / file); // may it be written to? It goes again by itself
+  OutputFile probe(folder / (kind + ".csv")); // may it be written to? It goes again by itself
   return folder;
 }
 
@@ -50,13 +62,12 @@ public:
     const double now = wall_clock();
     if (quiet_ || now < next_) return;
     next_ = now + (terminal_ ? 0.1 : 5);
-    fmt::print(stderr, "{}{:3.0f}%  {}{}", terminal_ ? "\r" : "", 100 * share, what,
-               terminal_ ? "\033[K" : "\n");
-    std::fflush(stderr);
+    print_progress(fmt::format("{}{:3.0f}%  {}{}", terminal_ ? "\r" : "", 100 * share, printable(what),
+                               terminal_ ? "\033[K" : "\n"));
     shown_ = terminal_;
   }
   void clear() {
-    if (shown_) std::fputs("\r\033[K", stderr);
+    if (shown_) print_progress("\r\033[K");
     shown_ = false;
   }
 
@@ -83,12 +94,13 @@ std::vector<DrawnPlot> write_plots(const StudyReport& report, const std::string&
 Exit stopped(Teller& teller) {
   teller.clear();
   print_error("the study was stopped by a signal: nothing was written");
-  return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  return exit_of_a_signal();
 }
 
 // The preset as it stands in its file.
-std::string content_of(const fs::path& path) {
-  load_scene(path, {}); // says what is wrong with it
+std::string content_of(const fs::path& path, bool allow_path) {
+  const auto scene = load_scene(path, {}); // says what is wrong with it
+  if (!allow_path) check_paths(*scene);
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -101,17 +113,17 @@ LeanPlan lean_plan(const StudyOptions& options) {
     plan.pairs = 2;
     plan.seconds = 2e-3;
   }
-  std::vector<std::string> presets = options.further;
-  if (!options.session.preset.empty()) presets.insert(presets.begin(), options.session.preset);
+  const std::vector<std::string> presets = presets_of(options);
   for (const std::string& preset : presets)
-    plan.scenes.push_back({fs::path(preset).stem(), content_of(preset), preset});
+    plan.scenes.push_back({fs::path(preset).stem(), content_of(preset, options.session.allow_path), preset});
   if (presets.empty()) plan.scenes = lean_scenes();
   return plan;
 }
 
 Exit lean(const StudyOptions& options) {
   const LeanPlan plan = lean_plan(options);
-  const fs::path folder = make_folder(options, "lean", "lean.csv");
+  const Keeping keeping;
+  const fs::path folder = make_folder(options, "lean", "lean");
   Teller teller(options.session.quiet);
   const StudyCalls calls{[&](const std::string& what, double share) { teller.tell(what, share); },
                          [] { return stop_signal() == 0; }};
@@ -127,9 +139,10 @@ Exit lean(const StudyOptions& options) {
   write_whole(folder / "lean.csv", csv_of(rows));
   write_whole(folder / "lean.json", text_of(json, 2) + "\n");
   write_whole(folder / "index.html", page_of(rows, provenance));
-  print_result(options.json
-                   ? text_of(json, 2) + "\n"
-                   : table_of(rows) + fmt::format("The page is {}\n", (folder / "index.html").string()));
+  sync_folder(folder);
+  print_result(options.json ? text_of(json, 2) + "\n"
+                            : table_of(rows) +
+                                  fmt::format("The page is {}\n", printable((folder / "index.html").string())));
   const bool kept = std::all_of(rows.begin(), rows.end(), [](const LeanRow& row) { return row.as_promised(); });
   return kept ? Exit::Done : Exit::No;
 }
@@ -146,7 +159,8 @@ Exit study(const StudyOptions& options) {
   check_options(options);
   if (options.lean) return lean(options);
   const StudyTask task = study_task(options);
-  const fs::path folder = make_folder(options, task.name, "study.csv");
+  const Keeping keeping;
+  const fs::path folder = make_folder(options, task.name, "study");
   Teller teller(options.session.quiet);
   StudyCalls calls;
   calls.progress = [&](const std::string& what, double share) { teller.tell(what, share); };
@@ -167,12 +181,14 @@ Exit study(const StudyOptions& options) {
   write_whole(folder / "study.json", text_of(json, 2) + "\n");
   write_whole(folder / "index.html",
               page_of(report, task.name, write_plots(report, task.name, folder), provenance));
+  sync_folder(folder);
   if (options.json) {
     print_result(text_of(json, 2) + "\n");
   } else {
-    std::string out = fmt::format("{}: {} runs of {:.4g} s\n", task.name, report.rows.size(), report.duration);
-    for (const std::string& line : findings_of(report)) out += "  " + line + "\n";
-    print_result(out + fmt::format("  The page is {}\n", (folder / "index.html").string()));
+    std::string out =
+        fmt::format("{}: {} runs of {:.4g} s\n", printable(task.name), report.rows.size(), report.duration);
+    for (const std::string& line : findings_of(report)) out += "  " + printable(line) + "\n";
+    print_result(out + fmt::format("  The page is {}\n", printable((folder / "index.html").string())));
   }
   return Exit::Done;
 }

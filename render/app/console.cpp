@@ -1,9 +1,13 @@
 #include "render/app/console.h"
 
+#include "render/app/signals.h"
+#include "sim/base/printable.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
@@ -28,8 +32,14 @@ bool wants_colour(std::FILE* stream) {
 }
 
 void print_result(std::string_view text) {
+  print_page(printable_lines(text));
+}
+
+void print_page(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+  if (stop_signal() == SIGHUP) return; // its terminal has gone, and nobody reads on
+  if (errno == EPIPE) throw NobodyReads();
   throw UserError(Exit::ReadWrite, {},
                   fmt::format("writing to standard output failed: {}", std::strerror(errno)));
 }
@@ -38,9 +48,10 @@ namespace {
 
 void print(const char* colour, std::string_view label, const std::string& what, const std::string& hint) {
   const bool on = wants_colour(stderr);
-  std::string text = fmt::format("{}{}{} {}\n", on ? colour : "", label, on ? "\033[0m" : "", what);
-  if (!hint.empty()) text += fmt::format("  {}hint:{} {}\n", on ? "\033[36m" : "", on ? "\033[0m" : "", hint);
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  const char* plain = on ? "\033[0m" : "";
+  std::string text = fmt::format("{}{}{} {}\n", on ? colour : "", label, plain, printable(what));
+  if (!hint.empty()) text += fmt::format("  {}hint:{} {}\n", on ? "\033[36m" : "", plain, printable(hint));
+  print_progress(text);
 }
 
 } // namespace
@@ -51,6 +62,15 @@ void print_error(const std::string& what, const std::string& hint) {
 
 void print_note(const std::string& what) {
   print("\033[36m", "note:", what, {});
+}
+
+void print_progress(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+void note_fewer_threads() {
+  print_note("not all threads could be started that were wanted; with fewer this takes longer");
 }
 
 std::string seconds_in_words(double seconds) {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace rend {
 namespace {
 
@@ -28,6 +30,12 @@ Tone tone_of(CaseState state) {
     break;
   }
   return Tone::Bad;
+}
+
+std::uintmax_t size_of(const fs::path& path) { // 0 where there is none
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  return error ? 0 : size;
 }
 
 std::vector<std::uint8_t> bytes_of(const fs::path& path) {
@@ -104,12 +112,12 @@ private:
 };
 
 Html Chapters::pictures(const Compared& one) {
-  const std::vector<std::uint8_t> a = bytes_of(one.paths.a), b = bytes_of(one.paths.b);
-  if (a.empty() && b.empty()) return {};
-  if (bytes_ + a.size() + b.size() + one.heat.size() > most_bytes)
+  if (bytes_ + size_of(one.paths.a) + size_of(one.paths.b) + one.heat.size() > most_bytes)
     return paragraph(
         muted("The pictures are left out here, for this page has 100 MB of them; compare this one alone "
               "to see it."));
+  const std::vector<std::uint8_t> a = bytes_of(one.paths.a), b = bytes_of(one.paths.b);
+  if (a.empty() && b.empty()) return {};
   bytes_ += a.size() + b.size() + one.heat.size();
   Compare all;
   all.name = one.paths.name;
@@ -188,10 +196,11 @@ DiffFiles::DiffFiles(const std::string& folder, const std::string& junit) {
     json_.emplace(folder_->path() / "diff.json");
     page_.emplace(folder_->path() / "index.html");
   }
-  if (!junit.empty()) junit_.emplace(junit);
+  if (!junit.empty()) junit_.emplace(followed(junit));
 }
 
 void DiffFiles::write_maps(const DiffReport& report) const {
+  std::set<fs::path> folders;
   for (const Compared& one : report.cases) {
     if (one.heat.empty()) continue;
     const fs::path path = maps_->path() / one.paths.name;
@@ -200,13 +209,16 @@ void DiffFiles::write_maps(const DiffReport& report) const {
     OutputFile file(path);
     file.write(one.heat);
     file.commit();
+    folders.insert(into.path());
   }
+  for (const fs::path& folder : folders) sync_folder(folder);
 }
 
 void DiffFiles::write(const std::string& page, const DiffReport& report) {
   const auto write = [](OutputFile& file, const std::string& text) {
     file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     file.commit();
+    sync_folder(file.path().parent_path());
   };
   if (junit_) write(*junit_, diff_junit(report));
   if (!folder_) return;

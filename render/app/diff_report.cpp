@@ -1,6 +1,7 @@
 #include "render/app/diff_report.h"
 
 #include "render/report/page.h"
+#include "sim/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -109,7 +110,7 @@ std::string line_of(const DiffReport& report, std::size_t n) {
   std::string line =
       fmt::format("{:<11} {}", report.updated[n] ? "updated" : name_of(one.state), one.paths.name);
   if (!one.why.empty() && !report.updated[n]) line += ": " + joined(one.why);
-  return line + "\n";
+  return printable(line) + "\n";
 }
 
 } // namespace
@@ -144,7 +145,7 @@ std::string diff_text(const DiffReport& report) {
     if (failed(report, n) || report.updated[n] || report.cases.size() == 1) out += line_of(report, n);
   if (report.cases.size() == 1) {
     const Compared& one = report.cases.front();
-    for (const std::string& note : one.notes) out += "  " + note + "\n";
+    for (const std::string& note : one.notes) out += "  " + printable(note) + "\n";
     return one.metrics ? out + figures_text(*one.metrics) : out;
   }
   out += fmt::format("{} pictures:", report.cases.size());
@@ -174,11 +175,11 @@ std::string diff_junit(const DiffReport& report) {
     }
     const char* element = one.state == CaseState::Unreadable ? "error" : "failure";
     if (one.state != CaseState::Unreadable) ++failures;
-    cases +=
-        fmt::format(">\n      <{0} type=\"{1}\" message=\"{1}: {2}\">expected: {3}\nnow: {4}\n{5}</{0}>\n    "
-                    "</testcase>\n",
-                    element, name_of(one.state), text(joined(one.why)), text(one.paths.a.string()),
-                    text(one.paths.b.string()), one.metrics ? text(figures_text(*one.metrics)) : "");
+    cases += fmt::format(
+        ">\n      <{0} type=\"{1}\" message=\"{1}: {2}\">expected: {3}\nnow: {4}\n{5}</{0}>\n    "
+        "</testcase>\n",
+        element, name_of(one.state), text(joined(one.why)), text(one.paths.a.string()),
+        text(one.paths.b.string()), one.metrics ? html::escaped_lines(figures_text(*one.metrics)).text : "");
   }
   return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{0}\" failures=\"{1}\" "
                      "errors=\"{2}\">\n  <testsuite name=\"rend diff\" tests=\"{0}\" failures=\"{1}\" "

@@ -1,5 +1,6 @@
 #include "render/app/diff_tolerances.h"
 
+#include "render/app/paths.h"
 #include "render/app/preset_reader.h"
 
 #include <fmt/format.h>
@@ -21,8 +22,8 @@ std::vector<AttributeType> settings() {
         number_or(limit.name, {"any"}, limit.unit, limit.what + (limit.least ? ", at least" : ", at most"))
             .at_least(limit.low)
             .at_most(limit.high));
-  out.push_back(
-      text("mask", "a PNG of the pictures' size, named from this file's folder: white counts, black does not"));
+  out.push_back(text(
+      "mask", "a PNG of the pictures' size, in this file's folder or below: white counts, black does not"));
   return out;
 }
 
@@ -57,6 +58,12 @@ void apply(const Node& node, const std::filesystem::path& folder, CompareOptions
     } else
       options.tolerance.limits[limit.name] = node.number(limit.name);
   }
+}
+
+void check_mask(const Node& node, const std::filesystem::path& folder) {
+  if (!node.given("mask") || node.text("mask").empty() || stays_below(folder, node.text("mask"))) return;
+  node.fail("mask", in_quotes(node.text("mask")) + " is outside of the tolerances' folder",
+            "put the mask beside the tolerances, or allow it with --allow-path");
 }
 
 // "name" where a node gives it, and it does nothing: neither of `limits` holds for any picture that the node
@@ -103,8 +110,11 @@ const ElementType& tolerances_type() {
   return type;
 }
 
-Tolerances::Tolerances(const std::filesystem::path& file)
-    : file_(read_preset(file, tolerances_type())), folder_(file.parent_path()) {}
+Tolerances::Tolerances(const std::filesystem::path& file, bool allow_path)
+    : file_(read_preset(file, tolerances_type())), folder_(file.parent_path()) {
+  if (allow_path) return;
+  for (const auto& child : file_->children()) check_mask(*child, folder_);
+}
 
 void Tolerances::add(const std::string& setting) {
   const std::size_t at = setting.find('=');
@@ -128,7 +138,7 @@ CompareOptions Tolerances::of(const std::string& name) const {
 std::vector<std::string> Tolerances::remarks(const std::vector<std::string>& names) const {
   std::vector<std::string> out;
   for (const std::string& pattern : unused(names))
-    out.push_back("the tolerances name " + in_quotes(pattern) + ", and no picture is called so");
+    out.emplace_back("the tolerances name " + in_quotes(pattern) + ", and no picture is called so");
   const auto look_at = [&](const Node& node, const std::string& where) {
     if (idle(*this, node, "threshold", {"share", "window"}, names))
       out.push_back(where + " gives a threshold, which changes nothing without a limit on share or window");

@@ -29,8 +29,9 @@ const ElementType& tolerances_type();
 class Tolerances {
 public:
   Tolerances() = default; // pictures must be equal
-  // Throws UserError: NoInput, BadInput.
-  explicit Tolerances(const std::filesystem::path& file);
+  // Throws UserError: NoInput, BadInput. Masks lie in the file's folder or below, as stays_below() says
+  // (render/app/paths.h), unless `allow_path`.
+  explicit Tolerances(const std::filesystem::path& file, bool allow_path = false);
 
   // As the last word of all: from the command line. "share=0.01", "share=any", "threshold=2". Throws UserError
   // (Usage).

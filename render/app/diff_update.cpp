@@ -1,12 +1,14 @@
 #include "render/app/diff_update.h"
 
 #include "render/output.h"
+#include "render/temporaries.h"
 #include "sim/base/error.h"
 #include "sim/base/wording.h"
 
 #include <fmt/format.h>
 
 #include <map>
+#include <utility>
 
 namespace rend {
 
@@ -38,12 +40,12 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
 namespace {
 
 // What would be copied where, all of it looked at before anything is written.
-void check_source(const Compared& one) {
+void check_source(const Compared& one, MemoryBudget& memory) {
   if (one.paths.b.empty())
     throw UserError(Exit::Trouble, {one.paths.a.string()},
                     fmt::format("--update: there is no {} now", one.paths.name),
                     "if it is not expected any more, remove that file yourself; nothing was updated");
-  read_deep_png(file_bytes(one.paths.b), one.paths.b.string());
+  check_picture(one.paths.b, memory);
 }
 
 // Files that lie complete beside those that they are to replace; what has not taken its place goes. None is
@@ -53,7 +55,7 @@ public:
   Parts() = default;
   ~Parts() {
     std::error_code error;
-    for (const auto& [path, from] : from_) fs::remove(part(path), error);
+    for (const auto& [path, one] : all_) fs::remove(one.part, error);
   }
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
@@ -62,38 +64,47 @@ public:
     const std::vector<std::uint8_t> bytes = file_bytes(from);
     std::error_code error;
     fs::create_directories(to.parent_path(), error);
-    { const OutputFile any(to); } // whether it can be made at all
-    const fs::path path = fs::weakly_canonical(to);
-    const auto other = from_.find(path); // two names of one file, by a link
-    if (other != from_.end() && file_bytes(other->second) != bytes)
+    const fs::path path = fs::weakly_canonical(followed(to));
+    { const OutputFile any(path); }     // whether it can be made at all
+    const auto other = all_.find(path); // two names of one file, by a link
+    if (other != all_.end() && file_bytes(other->second.from) != bytes)
       throw UserError(Exit::Trouble, {to.string()},
                       fmt::format("--update: this file has two names, and would become both {} and {}",
-                                  in_quotes(other->second.string()), in_quotes(from.string())),
+                                  in_quotes(other->second.from.string()), in_quotes(from.string())),
                       "name one of them; nothing was updated");
-    if (!from_.emplace(path, from).second) return;
-    OutputFile file(part(path));
+    const auto [entry, is_new] = all_.try_emplace(path, from, path.string() + ".update.part");
+    if (!is_new) return;
+    folders_.insert(path.parent_path());
+    OutputFile file(entry->second.part);
     file.write(bytes);
     file.commit();
   }
+  // Asks for no memory: where that is gone, too, all are replaced or none.
   void commit() {
-    for (; !from_.empty(); from_.erase(from_.begin())) {
-      const fs::path& path = from_.begin()->first;
+    for (; !all_.empty(); all_.erase(all_.begin())) {
+      const fs::path& path = all_.begin()->first;
       std::error_code error;
-      fs::rename(part(path), path, error);
+      fs::rename(all_.begin()->second.part, path, error);
       if (error) throw UserError(Exit::ReadWrite, {path.string()}, "it cannot be replaced: " + error.message());
     }
+    for (const fs::path& folder : folders_) sync_folder(folder);
   }
 
 private:
-  static fs::path part(const fs::path& path) { return path.string() + ".update.part"; }
-  std::map<fs::path, fs::path> from_; // what is replaced, without links, and what by
+  struct Part {
+    Part(fs::path from_, fs::path part_) : from(std::move(from_)), part(std::move(part_)) {}
+    fs::path from, part;
+    TemporaryPath temporary{part.c_str()};
+  };
+  std::map<fs::path, Part> all_; // of what is replaced, without links
+  std::set<fs::path> folders_;   // where that lies
 };
 
 } // namespace
 
 void update_expected(const std::vector<Compared>& results, const std::set<std::size_t>& which,
-                     const fs::path& expected) {
-  for (const std::size_t n : which) check_source(results[n]);
+                     const fs::path& expected, MemoryBudget& memory) {
+  for (const std::size_t n : which) check_source(results[n], memory);
   Parts parts;
   for (const std::size_t n : which) {
     const CasePaths& paths = results[n].paths;

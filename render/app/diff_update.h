@@ -19,6 +19,6 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
 // changed. `expected`: the folder (or picture) of what is expected. Throws UserError: Trouble where there is
 // nothing to copy (missing, unreadable); CannotCreate, ReadWrite.
 void update_expected(const std::vector<Compared>& results, const std::set<std::size_t>& which,
-                     const std::filesystem::path& expected);
+                     const std::filesystem::path& expected, MemoryBudget& memory);
 
 } // namespace rend

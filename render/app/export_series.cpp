@@ -12,6 +12,13 @@ ExportSeries::ExportSeries(const Session& session, const ExportFormat& format,
     : session_(session), format_(format), folder_(folder), choice_(choice),
       exporter_(format.make(session.scene())) {}
 
+void ExportSeries::name_files(NamedFiles& files) const {
+  const std::string what = "--export " + format_.name;
+  files.writes_frames(what, folder_.path(), format_.extension,
+                      [this](long frame) { return frame < session_.clock().frames() && choice_.has(frame); });
+  if (!index_name().empty()) files.writes(what, folder_.path() / index_name());
+}
+
 void ExportSeries::take(long frame) {
   const double start = wall_clock();
   const long step = session_.scene().steps_done();
@@ -42,6 +49,7 @@ void ExportSeries::finish() {
   const double start = wall_clock();
   release();
   if (!files_.empty() && !index_name().empty()) write(index_name(), exporter_->index(files_));
+  folder_.sync();
   seconds_ += wall_clock() - start;
 }
 

@@ -5,6 +5,7 @@
 // readers go by the numbers alone. The index comes last, and lists what there is.
 #pragma once
 
+#include "render/app/named_files.h"
 #include "render/app/output_folder.h"
 #include "render/app/session.h"
 #include "sim/export/format.h"
@@ -23,6 +24,8 @@ public:
   // Before the first step. Throws UserError (CannotCreate) where nothing could be written to the folder.
   ExportSeries(const Session& session, const ExportFormat& format, const std::filesystem::path& folder,
                const FrameChoice& choice);
+
+  void name_files(NamedFiles& files) const; // that it may write
 
   void take(long frame); // of the present state
   void finish();         // the end was reached, or a signal came

@@ -1,6 +1,7 @@
 #include "render/app/figures.h"
 
 #include "render/app/console.h"
+#include "sim/base/printable.h"
 #include "sim/scene/footprint.h"
 #include "sim/topology/count.h"
 
@@ -173,7 +174,7 @@ Json laws_json(const Scene& scene) {
 std::string laws_in_words(const Json& laws) {
   std::string out;
   for (const Json& law : laws) {
-    const auto text = [&](const char* name) { return law[name].get<std::string>(); };
+    const auto text = [&](const char* name) { return printable(law[name].get<std::string>()); };
     const auto tears = law["tears"].get<std::size_t>();
     out += fmt::format("             {} of '{}' above {:.6g} {}, {}: {}", text("criterion"), text("body"),
                        law["threshold"].get<double>(), text("unit"), text("change"),
@@ -203,7 +204,7 @@ std::string answers_in_words(const Json& answers) {
                          a["holds"].get<bool>() ? "holds, within" : "DOES NOT HOLD, above",
                          a["tolerance"].get<double>());
     if (const auto source = a["source"].get<std::string>(); !source.empty())
-      out += fmt::format(" ({})", source);
+      out += fmt::format(" ({})", printable(source));
     out += "\n";
   }
   return out;
@@ -311,10 +312,10 @@ Json figures_of(const Session& session, Stopped stopped, const Costs& costs, boo
 std::string summary_of(const Json& f) {
   const auto number = [&](const char* group, const char* name) { return f[group][name].get<double>(); };
   const auto count = [&](const char* name) { return f[name].get<std::size_t>(); };
-  std::string out =
-      fmt::format("{}: {} steps of {:.6g} s by {}, {:.6g} s simulated in {}\n", f["name"].get<std::string>(),
-                  count("steps"), f["step"].get<double>(), f["integrator"].get<std::string>(),
-                  f["time"].get<double>(), seconds_in_words(number("seconds", "total")));
+  std::string out = fmt::format("{}: {} steps of {:.6g} s by {}, {:.6g} s simulated in {}\n",
+                                printable(f["name"].get<std::string>()), count("steps"),
+                                f["step"].get<double>(), f["integrator"].get<std::string>(),
+                                f["time"].get<double>(), seconds_in_words(number("seconds", "total")));
   if (!f["stopped"].is_null()) out += fmt::format("  stopped    {}\n", f["stopped"].get<std::string>());
   out += fmt::format("  cells      {} vertices, {} elements, {} darts\n", count("vertices"), count("elements"),
                      count("darts"));
@@ -346,7 +347,7 @@ std::string summary_of(const Json& f) {
   if (f.contains("export"))
     out += fmt::format("  exported   {} files ({}) in {}\n", f["export"]["files"].get<std::size_t>(),
                        bytes_in_words(f["export"]["bytes"].get<std::size_t>()),
-                       f["export"]["folder"].get<std::string>());
+                       printable(f["export"]["folder"].get<std::string>()));
   out += probes_in_words(f["probes"]);
   out += answers_in_words(f["answers"]);
   return out;

@@ -67,11 +67,24 @@ void Film::pause() {
 void Film::store(Archive& archive) {
   CHECK(!held_);
   maker_.store(archive);
-  archive(early_, held_step_);
+  const FrameClock& clock = session_.clock();
+  archive.list(early_, static_cast<std::size_t>(clock.frames()), "there are more early frames than frames");
+  archive(held_step_);
+  if (!archive.reading()) return;
+  refuse_unless(held_step_ >= -1 && held_step_ <= session_.scene().steps_done(), "a frame shows a later state");
+  for (const long frame : early_)
+    refuse_unless(frame >= 0 && frame < clock.frames() && clock.step_of(frame) == held_step_,
+                  "an early frame is not of the state that was shown last");
+}
+
+void Film::start() {
+  folder_.make();
+  pipeline_ = std::make_unique<Pipeline>(options_);
+  if (pipeline_->has_fewer_threads() && !session_.quiet()) note_fewer_threads();
 }
 
 void Film::push(Frame&& frame) {
-  if (!pipeline_) pipeline_ = std::make_unique<Pipeline>(options_);
+  if (!pipeline_) start();
   pipeline_->push(std::move(frame));
   ++frames_;
 }

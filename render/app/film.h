@@ -36,7 +36,7 @@ public:
   // Before take() of a frame: brings all frames before it to the disk. False where one of them shows the
   // present state, and is held.
   bool settle();
-  void make_folder() const { folder_.make(); }
+  const OutputFolder& folder() const { return folder_; }
   void pause();                 // a signal came: brings all there is to the disk; the folder is there
   void store(Archive& archive); // what pictures follow; after settle() or pause()
 
@@ -50,6 +50,7 @@ public:
 
 private:
   void release();
+  void start();
   void push(Frame&& frame);
   void close();
 

@@ -1,7 +1,7 @@
 #include "render/app/frame_plan.h"
 
 #include "render/pipeline.h"
-#include "render/png.h"
+#include "sim/program/threads.h"
 
 #include <algorithm>
 
@@ -17,11 +17,22 @@ FramePlan::FramePlan(const FrameChoice& choice, const FrameClock& clock, const S
   to_make_ = all_;
 }
 
-void FramePlan::leave_out_whole(const std::filesystem::path& folder, const std::string& mark) {
-  std::erase_if(to_make_, [&](long frame) {
-    const PngText wanted = png_mark(mark, frame);
-    return text_of_whole_png(folder / png_name(frame), wanted.keyword) == wanted.text;
+void FramePlan::leave_out_whole(const std::filesystem::path& folder, const std::string& mark,
+                                const PngShape& shape, int threads) {
+  if (to_make_.empty()) return;
+  constexpr std::size_t most_bytes = std::size_t{1} << 30;
+  const std::size_t count = to_make_.size();
+  const std::size_t most = std::clamp<std::size_t>(most_bytes / PngChecker::bytes(shape), 1, count);
+  std::vector<char> is_there(count);
+  in_parts(std::min(threads, static_cast<int>(most)), count, [&](std::size_t begin, std::size_t end) {
+    PngChecker checker(shape);
+    for (std::size_t n = begin; n < end; ++n)
+      is_there[n] = checker.is_whole(folder / png_name(to_make_[n]), png_mark(mark, to_make_[n])) ? 1 : 0;
   });
+  std::vector<long> left;
+  for (std::size_t n = 0; n < count; ++n)
+    if (is_there[n] == 0) left.push_back(to_make_[n]);
+  to_make_ = std::move(left);
 }
 
 bool FramePlan::has(long frame) const {

@@ -2,11 +2,13 @@
 // what is not there yet.
 //
 // A shard's frames follow each other, so that all but the last shard end their simulation early. A picture is
-// there where its file is whole and was made of this scene (png.h), whatever its name or date say.
+// there where its file is whole, of this run's size, and made of this scene (PngChecker, png.h), whatever its
+// name or date say.
 #pragma once
 
 #include "render/app/clock.h"
 #include "render/app/shard.h"
+#include "render/png.h"
 
 #include <filesystem>
 #include <string>
@@ -20,8 +22,10 @@ public:
   // UserError (Usage) where the clip has none of the frames that were chosen.
   FramePlan(const FrameChoice& choice, const FrameClock& clock, const Shard& shard);
 
-  // Takes out the frames whose pictures are in `folder`, marked with `mark`.
-  void leave_out_whole(const std::filesystem::path& folder, const std::string& mark);
+  // Takes out the frames whose pictures are in `folder`, of that shape and marked with `mark`. Looks at as many
+  // at once as there are threads, and memory of 1 GiB for them.
+  void leave_out_whole(const std::filesystem::path& folder, const std::string& mark, const PngShape& shape,
+                       int threads);
 
   bool has(long frame) const;                                   // is to be made
   bool keeps(long frame) const;                                 // is this run's, and there already

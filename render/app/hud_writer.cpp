@@ -63,8 +63,13 @@ void HudWriter::observe() {
 }
 
 void HudWriter::store(Archive& archive) {
-  for (auto& curve : energies_) archive(curve);
+  const std::size_t most = energy_ ? static_cast<std::size_t>(frames_) : 0;
+  for (auto& curve : energies_) archive.list(curve, most, "there are more energies than frames");
   archive(gravity_at_start_, low_, high_);
+  if (!archive.reading()) return;
+  for (const auto& curve : energies_)
+    refuse_unless(curve.size() == energies_[0].size(), "energies are not of the same frames");
+  refuse_unless(low_ <= 0 && high_ >= 0, "the scale of energies has no 0");
 }
 
 HudPlot HudWriter::energy_plot() const {

@@ -1,5 +1,6 @@
 #include "render/app/console.h"
 #include "render/app/inventory.h"
+#include "sim/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Lines of at most 100 columns, the first after `head`, the others below its end.
-std::string folded(const std::string& head, const std::string& text) {
+std::string folded(const std::string& head, const std::string& words) {
+  const std::string text = printable(words);
   constexpr std::size_t columns = 100;
   std::string out, line = head;
   bool bare = true; // nothing stands on the line yet
@@ -29,7 +31,7 @@ std::string folded(const std::string& head, const std::string& text) {
 }
 
 std::string text(const Json& json, const char* key) {
-  return json[key].get<std::string>();
+  return printable(json[key].get<std::string>());
 }
 std::size_t whole(const Json& json, const char* key) {
   return json[key].get<std::size_t>();
@@ -43,7 +45,8 @@ std::string time_in_words(const Json& time) {
                                  text(time, "integrator"), whole(time, "order"), whole(time, "evaluations"),
                                  whole(time, "evaluations") == 1 ? "" : "s");
   if (text(time, "from") == "auto")
-    step += "; auto: 0.9 of the largest that is stable at rest";
+    step += text(time, "integrator") == "static" ? "; auto: all of the clip, one equilibrium"
+                                                 : "; auto: 0.9 of the largest that is stable at rest";
   else
     step += "; given by the preset";
   if (time["limit"].is_null())

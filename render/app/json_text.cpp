@@ -1,9 +1,11 @@
 #include "render/app/json_text.h"
 
+#include "sim/base/printable.h"
+
 namespace rend {
 
 std::string text_of(const nlohmann::ordered_json& json, int indent) {
-  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return printable_json(json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 } // namespace rend

@@ -8,7 +8,8 @@
 
 namespace rend {
 
-// On one line, or indented. What is no character of UTF-8 becomes U+FFFD.
+// On one line, or indented. What is no character of UTF-8 becomes U+FFFD; what could act on a terminal
+// (sim/base/printable.h) stands as \u202e: a reader of JSON gets the name as it is.
 std::string text_of(const nlohmann::ordered_json& json, int indent = -1);
 
 } // namespace rend

@@ -1,6 +1,7 @@
 #include "render/app/lean_report.h"
 
 #include "render/report/page.h"
+#include "sim/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -82,7 +83,7 @@ std::string csv_of(const std::vector<LeanRow>& rows) {
       std::string field = value.is_null() ? "" : value.dump();
       if (value.is_string()) { // RFC 4180: quotes are doubled
         field = "\"";
-        for (const char c : value.get<std::string>())
+        for (const char c : printable(value.get<std::string>()))
           field += c == '"' ? std::string("\"\"") : std::string(1, c);
         field += '"';
       }
@@ -101,12 +102,13 @@ std::string table_of(const std::vector<LeanRow>& rows) {
   std::string refused;
   for (const LeanRow& row : rows) {
     if (!row.measured()) {
-      refused += fmt::format("  {}, {}: {}\n", row.scene, row.feature, row.refused);
+      refused += printable(fmt::format("  {}, {}: {}", row.scene, row.feature, row.refused)) + "\n";
       continue;
     }
-    out += fmt::format("{:<7}{:<36}{:>10}{:>11.3f}{:>11.3f}{:>10}{:>7.1f}%  {}\n", row.scene, row.feature,
-                       bytes_more(row), row.time.off.median * to_micro, row.time.on.median * to_micro,
-                       percent(row.time.ratio), 100 * row.time.noise, sameness(row));
+    out +=
+        fmt::format("{:<7}{:<36}{:>10}{:>11.3f}{:>11.3f}{:>10}{:>7.1f}%  {}\n", printable(row.scene),
+                    row.feature, bytes_more(row), row.time.off.median * to_micro, row.time.on.median * to_micro,
+                    percent(row.time.ratio), 100 * row.time.noise, sameness(row));
   }
   return out + verdict_on_unused(rows) + "\n" + (refused.empty() ? "" : "Not there:\n" + refused);
 }

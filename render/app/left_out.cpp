@@ -46,15 +46,17 @@ void add_laws(const Body& body, std::vector<std::string>& out) {
   else if (body.view().corner_room)
     out.push_back(
         "forces on element corners in every step: sums of sizes tell where none can exceed the threshold");
-  if (!body.births) out.push_back("births of fragments at each change: asked for by rend run --events alone");
+  if (!body.births)
+    out.emplace_back("births of fragments at each change: asked for by rend run --events alone");
 }
 
 void add_contact(const Scene& scene, const Body& body, std::vector<std::string>& out) {
-  if (!body.floor_contact && !scene.world().floor) out.push_back("contact with the floor: the world has none");
+  if (!body.floor_contact && !scene.world().floor)
+    out.emplace_back("contact with the floor: the world has none");
   if (!body.contact || !body.contact->faces())
-    out.push_back("contact of faces: the body is in contact with neither obstacles nor fragments");
+    out.emplace_back("contact of faces: the body is in contact with neither obstacles nor fragments");
   else if (!body.contact->fragments)
-    out.push_back("contact between fragments and bodies: <contact> does not name them");
+    out.emplace_back("contact between fragments and bodies: <contact> does not name them");
 }
 
 } // namespace
@@ -70,19 +72,19 @@ std::vector<std::string> left_out_of(const Scene& scene, const Body& body) {
   if (body.integrator->bytes() == 0)
     out.push_back(
         fmt::format("arrays of the scheme: '{}' needs none besides the two states", scene.scheme().name));
-  if (body.probes.empty()) out.push_back("probes and answers: none");
+  if (body.probes.empty()) out.emplace_back("probes and answers: none");
   return out;
 }
 
 std::vector<std::string> left_out_of(const Scene& scene) {
   std::vector<std::string> out;
   const World& world = scene.world();
-  if (world.gravity.isZero(0)) out.push_back("gravity: none");
-  if (!world.wind) out.push_back("wind: none");
-  if (!world.has_obstacles()) out.push_back("obstacles: neither sphere nor box");
-  if (!world.floor) out.push_back("floor: none is drawn, and so no shadow on it");
-  if (!scene.contacts()) out.push_back("contacts beyond a body's own with the floor: no body asks for any");
-  out.push_back("surfaces, and all that draws: rend render makes them, rend run does not");
+  if (world.gravity.isZero(0)) out.emplace_back("gravity: none");
+  if (!world.wind) out.emplace_back("wind: none");
+  if (!world.has_obstacles()) out.emplace_back("obstacles: neither sphere nor box");
+  if (!world.floor) out.emplace_back("floor: none is drawn, and so no shadow on it");
+  if (!scene.contacts()) out.emplace_back("contacts beyond a body's own with the floor: no body asks for any");
+  out.emplace_back("surfaces, and all that draws: rend render makes them, rend run does not");
   return out;
 }
 

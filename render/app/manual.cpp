@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <utility>
 
 namespace rend {
@@ -101,10 +102,12 @@ std::string exit_codes() {
       {Exit::Bug, "A fault of rend itself."},
       {Exit::CannotCreate, "The output cannot be created."},
       {Exit::ReadWrite, "Reading or writing failed, such as on a full disk."},
-      {Exit::OutOfBudget, "There is not enough memory."},
+      {Exit::OutOfBudget, "There is not enough memory, or a thread could not be started."},
       {Exit::Unstable, "The simulation became unstable and was stopped."},
+      {Exit{128 + SIGHUP}, "Its terminal has gone (SIGHUP)."},
       {Exit::Interrupted, "Interrupted (SIGINT)."},
-      {Exit::Terminated, "Terminated (SIGTERM)."}};
+      {Exit::Terminated, "Terminated (SIGTERM)."},
+      {Exit{128 + SIGXCPU}, "Its limit of processor time was reached (SIGXCPU)."}};
   std::string out = section("EXIT STATUS");
   for (const auto& [code, what] : all) out += item(strong(std::to_string(static_cast<int>(code))), what);
   return out;

@@ -1,6 +1,7 @@
 #include "render/app/mesh_facts.h"
 
 #include "render/app/json_text.h"
+#include "sim/base/printable.h"
 #include "sim/base/wording.h"
 #include "sim/mechanics/mass.h"
 #include "sim/mesh/dart_order.h"
@@ -71,7 +72,7 @@ std::string facts_in_words(const nlohmann::ordered_json& f) {
   const auto number = [&](const char* key) { return f[key].get<std::size_t>(); };
   const bool solid = f["kind"] == "solid";
   std::string out =
-      fmt::format("{}: a {} of {} vertices, {} edges, {} faces", f["file"].get<std::string>(),
+      fmt::format("{}: a {} of {} vertices, {} edges, {} faces", printable(f["file"].get<std::string>()),
                   f["kind"].get<std::string>(), number("vertices"), number("edges"), number("faces"));
   if (solid) out += fmt::format(", {} volumes", number("volumes"));
   out += fmt::format("; {} darts\n", number("darts"));
@@ -88,7 +89,7 @@ std::string facts_in_words(const nlohmann::ordered_json& f) {
                   f[solid ? "volume" : "area"].get<double>(), solid ? "m3" : "m2");
   for (const auto& [name, count] : f["groups"].items())
     out += fmt::format("  group {}: {} vertices\n", in_quotes(name), count.get<std::size_t>());
-  for (const auto& note : f["notes"]) out += fmt::format("  note: {}\n", note.get<std::string>());
+  for (const auto& note : f["notes"]) out += fmt::format("  note: {}\n", printable(note.get<std::string>()));
   return out;
 }
 

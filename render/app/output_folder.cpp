@@ -1,5 +1,6 @@
 #include "render/app/output_folder.h"
 
+#include "render/output.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     throw UserError(Exit::CannotCreate, {there.string()},
                     std::string("nothing can be written there: ") + std::strerror(errno),
                     "choose another one with -o");
+  for (const fs::path& folder : missing_) temporary_.emplace_back(folder.c_str());
 }
 
 OutputFolder::~OutputFolder() {
@@ -38,10 +40,17 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::make() const {
   std::error_code error;
-  fs::create_directories(path_, error);
+  const bool made = fs::create_directories(path_, error);
   if (error)
     throw UserError(Exit::CannotCreate, {path_.string()}, "the folder cannot be made: " + error.message(),
                     "choose another one with -o");
+  if (made)
+    for (const fs::path& folder : missing_) sync_folder(folder.parent_path());
+}
+
+void OutputFolder::sync() const {
+  std::error_code error;
+  if (fs::is_directory(path_, error)) sync_folder(path_);
 }
 
 fs::path folder_for(const std::string& given, const std::string& scene) {

@@ -2,6 +2,9 @@
 // of simulation; it is made when the first file comes; and what was made and stays empty is removed.
 #pragma once
 
+#include "render/temporaries.h"
+
+#include <deque>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,10 +21,12 @@ public:
 
   const std::filesystem::path& path() const { return path_; }
   void make() const; // throws UserError (CannotCreate)
+  void sync() const; // the end was reached: what it has is on the disk (render/output.h), if it was made
 
 private:
   std::filesystem::path path_;
   std::vector<std::filesystem::path> missing_; // folders that were not there before, outermost first
+  std::deque<TemporaryPath> temporary_;        // these, as long as they may be empty
 };
 
 // `given`, or out/ and the scene's name where nothing was.

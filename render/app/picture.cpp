@@ -244,7 +244,14 @@ std::vector<HudLegend> PictureMaker::legends() const {
 }
 
 void BodyPicture::store(Archive& archive) {
-  archive(scale_, numbers_);
+  const double given = scale_;
+  const std::size_t darts = body_->map->map().capacity();
+  archive(scale_);
+  archive.table(numbers_, darts, "more fragments have a colour than there are darts");
+  if (!archive.reading()) return;
+  refuse_unless(given_ ? scale_ == given : scale_ >= 0, "the scale of colours is another, or below 0");
+  refuse_unless(numbers_.empty() || numbers_.rbegin()->first < darts,
+                "a fragment is of a dart that is not there");
 }
 
 void PictureMaker::store(Archive& archive) {
@@ -252,8 +259,12 @@ void PictureMaker::store(Archive& archive) {
   archive.same(hud_ ? 1 : 0, "whether something is written over the pictures");
   for (auto& body : bodies_) body->store(archive);
   if (hud_) hud_->store(archive);
-  viewpoint_.store(archive);
+  viewpoint_.store(archive, scene_.time());
   archive(fragments_seen_);
+  if (!archive.reading()) return;
+  std::size_t seen = 0;
+  for (const auto& body : bodies_) seen += body->fragments_seen();
+  refuse_unless(seen == fragments_seen_, "not as many fragments were seen as have a colour");
 }
 
 std::size_t PictureMaker::bytes() const {

@@ -34,7 +34,8 @@ public:
   FrameBody draw();                          // of the state that was observed
   std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
   std::size_t bytes() const { return sheet_ ? sheet_->bytes() : solid_->bytes(); }
-  void store(Archive& archive); // what it has seen
+  std::size_t fragments_seen() const { return numbers_.size(); } // of this body
+  void store(Archive& archive);                                  // what it has seen
 
 private:
   void draw_sheet(FrameBody& out);

@@ -37,7 +37,7 @@ std::vector<std::string> presets_in(const fs::path& folder) {
   constexpr std::size_t most = 12;
   if (out.size() > most) {
     out.resize(most);
-    out.push_back("...");
+    out.emplace_back("...");
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include "render/app/colour.h"
 #include "render/app/hud_writer.h"
 #include "render/finish.h"
+#include "sim/base/printable.h"
 #include "sim/base/wording.h"
 #include "sim/scene/scene_types.h"
 
@@ -59,7 +60,7 @@ const ElementType& image_type() {
   return type;
 }
 
-// A name that is a path, or hides its file, would surprise.
+// A name that is a path, hides its file, or acts on the terminal that lists it, would surprise.
 void check_name(const Node& scene) {
   const std::string& name = scene.text("name");
   const char* hint = "pictures and videos are called by it: letters, digits and - do";
@@ -67,8 +68,10 @@ void check_name(const Node& scene) {
     scene.fail("name", "the name of the scene is empty", hint);
   if (name.front() == '.')
     scene.fail("name", "the name of the scene begins with a dot: " + in_quotes(name), hint);
-  const auto unfit = [](unsigned char c) { return c == '/' || c == '\\' || c < 0x20 || c == 0x7f; };
-  if (std::any_of(name.begin(), name.end(), unfit))
+  if (name.front() == '-')
+    scene.fail("name", "the name of the scene begins with a dash: " + in_quotes(name),
+               "other programs would take its files for options");
+  if (name.find_first_of("/\\") != std::string::npos || printable(name) != name)
     scene.fail("name", "the name of the scene holds what no file name may: " + in_quotes(name), hint);
   if (name.size() > 200) scene.fail("name", "the name of the scene is too long: " + in_quotes(name), hint);
 }
@@ -115,7 +118,8 @@ void check_colours(const Node& body, const Node& look) {
 // What only pictures need is looked at as well, so that a preset is good or bad for all commands alike.
 std::unique_ptr<Node> checked(std::unique_ptr<Node> scene) {
   check_name(*scene);
-  image_settings(*scene); // its colour
+  duration_of(*scene->child("time")); // said by all commands alike
+  image_settings(*scene);             // its colour
   for (const Node* body : scene->all("body"))
     if (const Node* look = body->child("look")) {
       check_look(*look);

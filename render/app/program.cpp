@@ -1,5 +1,6 @@
 #include "render/app/command.h"
 #include "render/app/console.h"
+#include "render/app/last_resort.h"
 #include "render/app/mesh_name.h"
 #include "render/app/signals.h"
 #include "render/app/version.h"
@@ -11,10 +12,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <sstream>
+#include <stdexcept>
 
 namespace rend {
 
@@ -86,15 +89,19 @@ Exit run_command_line(int count, const char* const* arguments) {
 int run_program(int count, const char* const* arguments) {
   keep_standard_streams();
   catch_signals();
+  arm_last_resort();
   const auto end = [](Exit code) { return static_cast<int>(code); };
   try {
     return end(run_command_line(count, arguments));
   } catch (const UserError& error) {
     print_error(error.what(), error.hint);
     return end(error.code);
-  } catch (const std::bad_alloc&) {
-    print_error("there is not enough memory for this", "use fewer cells, or smaller pictures");
-    return end(Exit::OutOfBudget);
+  } catch (const NobodyReads&) {
+    return 128 + SIGPIPE;           // as other programs end there
+  } catch (const std::bad_alloc&) { // of what does without operator new
+    end_without_memory();
+  } catch (const std::length_error&) { // more than there is of addresses
+    end_without_memory();
   } catch (const std::exception& error) { // InternalError among them
     print_error(fmt::format("this is a fault of rend itself: {}", error.what()),
                 "please report it, with the command line and the preset");

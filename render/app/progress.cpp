@@ -33,7 +33,7 @@ Progress::~Progress() {
 }
 
 void Progress::clear() {
-  if (shown_) std::fputs("\r\033[K", stderr);
+  if (shown_) print_progress("\r\033[K");
   shown_ = false;
 }
 
@@ -44,11 +44,7 @@ void Progress::update(long step, double time, long frame) {
   next_ = now + (terminal_ ? bar_every : line_every);
   const Sample sample{now, step, frame};
   const std::string text = line(sample, time);
-  if (terminal_)
-    fmt::print(stderr, "\r{}\033[K", text);
-  else
-    fmt::print(stderr, "{}\n", text);
-  std::fflush(stderr);
+  print_progress(terminal_ ? "\r" + text + "\033[K" : text + "\n");
   shown_ = terminal_;
   trail_.push_back(sample);
   while (trail_.size() > 2 && now - trail_.front().at > window) trail_.pop_front();

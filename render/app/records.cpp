@@ -18,6 +18,11 @@ void write_text(OutputFile& file, const std::string& text) {
   file.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
+void commit(OutputFile& file) {
+  file.commit();
+  sync_folder(file.path().parent_path());
+}
+
 std::string header_of(const Scene& scene) {
   std::string header = "frame,step,time,kinetic,elastic,gravity,momentum_x,momentum_y,momentum_z,"
                        "angular_momentum_x,angular_momentum_y,angular_momentum_z,tears,fragments";
@@ -72,7 +77,7 @@ void Diagnostics::flush() {
 void Diagnostics::finish() {
   flush();
   write_text(file_, text_);
-  file_.commit();
+  commit(file_);
 }
 
 void Diagnostics::abandon() {
@@ -112,7 +117,7 @@ void EventFile::write(const Scene& scene) {
     text += text_of(line) + "\n";
   }
   write_text(file_, text);
-  file_.commit();
+  commit(file_);
 }
 
 } // namespace rend

@@ -1,20 +1,22 @@
 #include "render/app/session.h"
 
 #include "render/app/console.h"
+#include "render/app/number_option.h"
 #include "render/app/paths.h"
 #include "render/app/picture_check.h"
 #include "render/app/preset_reader.h"
 #include "render/app/signals.h"
 #include "render/report/machine.h"
 #include "sim/base/hash.h"
+#include "sim/program/start_threads.h"
 #include "sim/program/threads.h"
 #include "sim/scene/shape.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -37,14 +39,14 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
   add_preset_options(app, options);
   app.add_option("--steps", options.steps, "so many steps instead of the duration")
       ->type_name("N")
-      ->check(CLI::Range(0L, 1000000000L));
+      ->transform(whole_number(0, 1000000000));
   app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the preset's")
       ->type_name("N")
-      ->check(CLI::Range(1e-6, 1e6));
+      ->transform(real_number(1e-6, 1e6));
   app.add_option("--threads", options.threads,
                  "threads of the simulation (the result is the same for any number)")
       ->type_name("N")
-      ->check(CLI::Range(1, 256));
+      ->transform(whole_number(1, 256));
   app.add_option("--kernels", options.kernels,
                  "flat; or walk: every force by walking the map (slow, for comparison)")
       ->type_name("flat|walk")
@@ -67,31 +69,42 @@ std::uint64_t hash_of(const std::filesystem::path& path) {
   return hash;
 }
 
+// Of those that the steps of the scene are going to use.
+void note_refused_threads(const Scene& scene) {
+  int wanted = 1;
+  for (const auto& body : scene.bodies()) wanted = std::max(wanted, body->program->parts());
+  start_threads(wanted);
+  if (threads_refused()) note_fewer_threads();
+}
+
 } // namespace
 
 Session::Session(const SessionOptions& options) : options_(options) {
   std::vector<Override> overrides;
   for (const std::string& set : options.sets) overrides.push_back(parse_override(set));
-  const NothingToKeep building;
   const std::string text = read_preset_file(options.preset);
   text_hash_ = hash_bytes(text.data(), text.size());
   preset_ = load_scene_text(text, options.preset, overrides);
   if (!options.allow_path) check_paths(*preset_);
   image_ = image_settings(*preset_);
   if (options.fps) image_.fps = *options.fps;
-  const int threads = options.threads > 0 ? options.threads : hardware_threads();
   scene_ = std::make_unique<Scene>(
       *preset_,
-      SceneOptions{options.kernels == "walk", threads, options.births, options.guard, {}, options.profile});
+      SceneOptions{options.kernels == "walk", threads(), options.births, options.guard, {}, options.profile});
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
   clock_ = std::make_unique<FrameClock>(duration, step, image_.fps);
   check_camera(*preset_, *scene_, static_cast<double>(image_.width) / image_.height, *clock_);
   if (options.quiet) return;
+  note_refused_threads(*scene_);
   for (const std::string& note : scene_->notes()) print_note(note);
   for (const auto& body : scene_->bodies())
     for (const std::string& note : body->notes) print_note(fmt::format("body '{}': {}", body->name, note));
+}
+
+int Session::threads() const {
+  return options_.threads > 0 ? options_.threads : hardware_threads();
 }
 
 std::uint64_t Session::key() const {
@@ -187,7 +200,7 @@ Exit end_of(const Session& session, Stopped stopped) {
   }
   print_error(fmt::format("stopped by a signal at {:.6g} s (step {} of {})", session.scene().time(),
                           session.scene().steps_done(), session.clock().steps()));
-  return stop_signal() == SIGTERM ? Exit::Terminated : Exit::Interrupted;
+  return exit_of_a_signal();
 }
 
 } // namespace rend

@@ -51,6 +51,7 @@ public:
   const Scene& scene() const { return *scene_; }
   const FrameClock& clock() const { return *clock_; }
   const ImageSettings& image() const { return image_; }
+  int threads() const; // that were asked for, or all that the machine has
   bool quiet() const { return options_.quiet; }
 
   // Called in the time loop.

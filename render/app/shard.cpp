@@ -58,13 +58,12 @@ std::optional<Shard> slurm_shard() {
   if (!id || !count || *count <= 1) return {};
   const long least = slurm_number("SLURM_ARRAY_TASK_MIN").value_or(0);
   const long step = std::max(slurm_number("SLURM_ARRAY_TASK_STEP").value_or(1), 1L);
-  const Shard shard{(*id - least) / step + 1, *count};
-  if (*id < least || shard.number > shard.count)
+  if (*id < least || (*id - least) / step >= *count)
     throw UserError(
         Exit::Usage, {},
         fmt::format("Slurm's array task {} is no part of {} that begin with {}", *id, *count, least),
         "array tasks are to be numbered evenly, or say which part is meant with --shard i/n");
-  return shard;
+  return Shard{(*id - least) / step + 1, *count};
 }
 
 Shard shard_for(const std::string& given) {

@@ -14,6 +14,14 @@ namespace rend {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+PngShape shape_of(const Session& session, const PipelineOptions& files) {
+  return {files.width, files.height, session.image().transparent ? 4 : 3};
+}
+
+} // namespace
+
 Shoot::Shoot(Session& session, const ShootOptions& options)
     : session_(session), options_(options), plan_(options.choice, session.clock(), options.shard),
       checkpoint_(checkpoint_path(options.files.folder, options.files.name, options.shard)) {
@@ -23,7 +31,8 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
   options_.resume = options.resume && files.png;
   if (options.resume && !files.png && !session.quiet())
     print_note("without PNG files there is nothing to go on from: the video is made anew");
-  if (options_.resume) plan_.leave_out_whole(files.folder, files.mark);
+  if (options_.resume)
+    plan_.leave_out_whole(files.folder, files.mark, shape_of(session, files), session.threads());
   kept_ = static_cast<long>(plan_.all().size() - plan_.to_make().size());
   video_at_end_ = files.video && kept_ > 0;
   PipelineOptions now = files;
@@ -42,6 +51,7 @@ bool Shoot::is_on_the_way(long next) const {
 
 // From the best checkpoint there is; a run that begins anew has no use for those of others.
 void Shoot::begin() {
+  const PipelineOptions& files = options_.files;
   last_ = plan_.last();
   if (!options_.resume) return remove_checkpoint();
   const auto own = read_checkpoint_head(checkpoint_, key_);
@@ -51,7 +61,7 @@ void Shoot::begin() {
     print_note(fmt::format("{} is of frames beyond these, and stays", checkpoint_.string()));
   if (!simulates()) return;
   const long first = plan_.to_make().empty() ? plan_.all().back() + 1 : plan_.first();
-  for (const FoundCheckpoint& found : find_checkpoints(checkpoint_, key_, first)) {
+  for (const FoundCheckpoint& found : find_checkpoints(files.folder, files.name, options_.shard, key_, first)) {
     const auto head = read_checkpoint(found.path, key_, first, session_, *film_);
     if (!head) continue; // it went meanwhile: its shard is done
     first_ = head->next;
@@ -66,6 +76,7 @@ Stopped Shoot::run() {
   if (stopped != Stopped::Interrupted && video_at_end_ && video_of_files() == Stopped::Interrupted)
     stopped = Stopped::Interrupted;
   if (stopped != Stopped::Interrupted) remove_checkpoint();
+  film_->folder().sync();
   return stopped;
 }
 
@@ -86,7 +97,7 @@ void Shoot::checkpoint_if_due(long next) {
   constexpr double most_share = 20;
   const double start = wall_clock();
   if (start < due_ || !keeps_checkpoints() || !film_->settle()) return;
-  film_->make_folder();
+  film_->folder().make();
   checkpoint(next);
   due_ = wall_clock() + std::max(options_.checkpoint_every, most_share * (wall_clock() - start));
 }
@@ -123,10 +134,11 @@ Stopped Shoot::video_of_files() {
   const PipelineOptions& files = options_.files;
   VideoWriter video;
   video.open(files.folder / (files.name + files.extension), files.width, files.height, files.fps);
+  PngChecker checker(shape_of(session_, files));
   for (long frame : plan_.all()) {
     if (stop_signal() != 0) return Stopped::Interrupted;
     const fs::path path = files.folder / png_name(frame);
-    if (text_of_whole_png(path, png_mark(files.mark, frame).keyword) != png_mark(files.mark, frame).text) break;
+    if (!checker.is_whole(path, png_mark(files.mark, frame))) break;
     video.add(read_png(path));
   }
   video.close();

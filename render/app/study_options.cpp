@@ -1,5 +1,6 @@
 #include "render/app/study_options.h"
 
+#include "render/app/number_option.h"
 #include "render/app/paths.h"
 #include "render/app/usage.h"
 
@@ -82,19 +83,13 @@ std::string multiplied(const std::vector<double>& cells, int factor) {
   return out;
 }
 
-// What makes a body's mesh so many times finer: more cells of a generator, or subdivisions of a mesh.
+// What makes a body's mesh so many times finer: more cells of its generator. A mesh of a file has none.
 Setting refinement_of(const Node& body, std::size_t number, int factor, const std::string& option) {
-  const std::string path = fmt::format("body[{}].", number);
   for (const char* shape : {"sheet", "bar", "tube"})
     if (const Node* node = body.child(shape))
-      return {path + shape + ".cells", multiplied(node->integers("cells"), factor)};
-  int times = 0;
-  while (1 << times < factor) ++times;
-  if (1 << times != factor)
-    refuse(option, fmt::format("a mesh of a file is made finer by halves, not by {}", factor),
-           "give powers of two");
-  const Node* node = body.child("subdivide");
-  return {path + "subdivide.times", std::to_string(times + (node ? node->integer("times") : 0))};
+      return {fmt::format("body[{}].{}.cells", number, shape), multiplied(node->integers("cells"), factor)};
+  refuse(option, fmt::format("the mesh of body {} is of a file, and cannot be made finer", number),
+         "a <sheet>, <bar> or <tube> can; or study presets with coarser and finer files one by one");
 }
 
 Values values_of_refine(const Node& preset, const std::string& refine) {
@@ -173,18 +168,20 @@ void declare_study(CLI::App& app, StudyOptions& options) {
   app.add_option("--steps", options.steps, "steps of each scheme below its limit, over two decades")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(3, 64));
+      ->transform(whole_number(3, 64));
   app.add_option("--duration", options.duration, "how much of the clip; default: what it needs, some 0.2 s")
       ->type_name("SECONDS")
-      ->check(CLI::Range(1e-12, 1e9));
-  app.add_option("--refine", options.refine, "meshes so many times finer, such as 1,2,4")->type_name("a,b,c");
+      ->transform(real_number(1e-12, 1e9));
+  app.add_option("--refine", options.refine, "sheets, bars and tubes so many times finer, such as 1,2,4")
+      ->type_name("a,b,c")
+      ->check(some_word());
   app.add_option("--sweep", options.sweeps, "an attribute to be varied as well (any number of times)")
       ->type_name("PATH=a,b,c")
       ->allow_extra_args(false);
   app.add_option("--reruns", options.reruns, "timed runs of each; fewer where one takes over a second")
       ->type_name("N")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+      ->transform(whole_number(1, 1000));
   app.add_flag("--quick", options.quick, "a first look: four steps of each scheme, three timed runs");
   app.add_flag(
       "--lean", options.lean,

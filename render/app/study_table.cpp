@@ -1,5 +1,7 @@
 #include "render/app/study_table.h"
 
+#include "sim/base/printable.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -70,8 +72,8 @@ Json row_json(const StudyReport& report, const StudyRow& row) {
 std::string csv_field(const Json& value) {
   if (value.is_null()) return {};
   if (!value.is_string()) return value.is_boolean() ? (value.get<bool>() ? "1" : "0") : value.dump();
-  const auto text = value.get<std::string>();
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  const std::string text = printable(value.get<std::string>());
+  if (text.find_first_of(",\"") == std::string::npos) return text;
   std::string out = "\"";
   for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";

@@ -13,8 +13,8 @@ namespace {
 
 OptionUsage option_usage(const CLI::Option& option) {
   OptionUsage out;
-  for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
+  for (const std::string& name : option.get_snames()) out.names.emplace_back("-" + name);
+  for (const std::string& name : option.get_lnames()) out.names.emplace_back("--" + name);
   if (out.names.empty()) out.names.push_back(option.get_name(true));
   const std::string type = option.get_type_name(); // "N:INT in [1 - 256]" where it is checked
   if (option.get_items_expected_max() > 0) out.value = type.substr(0, type.find(':'));

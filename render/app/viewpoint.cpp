@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -182,8 +183,16 @@ void Viewpoint::observe(const Scene& scene) {
   start_.eye = start_.target + direction_.normalized() * std::max(distance + share * (far - distance), near);
 }
 
-void Viewpoint::store(Archive& archive) {
+void Viewpoint::store(Archive& archive, double now) {
+  const FrameCamera given = start_;
   archive(start_.eye, start_.target, last_);
+  if (!archive.reading()) return;
+  refuse_unless(last_ == -1 || (last_ >= 0 && last_ <= now), "the camera looked at a later state");
+  if (follows_)
+    refuse_unless(std::isfinite((start_.eye - start_.target).squaredNorm()) && start_.eye != start_.target,
+                  "the camera is at its target, or without end away from it");
+  else
+    refuse_unless(start_.eye == given.eye && start_.target == given.target, "the camera stands elsewhere");
 }
 
 FrameCamera Viewpoint::at(double time) const {

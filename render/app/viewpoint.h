@@ -29,7 +29,7 @@ public:
 
   void observe(const Scene& scene);  // the state is that of a frame; only needed by a camera that follows
   FrameCamera at(double time) const; // [s]
-  void store(Archive& archive);      // where one that follows has come to
+  void store(Archive& archive, double now); // [s]: where one that follows has come to
 
 private:
   struct Key {

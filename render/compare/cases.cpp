@@ -37,6 +37,7 @@ private:
                       "this link leads back to a folder that it is in, " + in_quotes(real.string()),
                       "links to other folders are followed; remove this one");
     above_.push_back(real);
+    cases_.folders.push_back(real);
     fs::directory_iterator entry(folder, error), end;
     for (; !error && entry != end; entry.increment(error)) put(*entry, prefix);
     if (error)

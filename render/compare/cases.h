@@ -14,8 +14,9 @@ struct CasePaths {
 };
 
 struct Cases {
-  std::vector<CasePaths> all; // sorted by name
-  std::size_t left_out = 0;   // files in the folders that are not called .png
+  std::vector<CasePaths> all;                 // sorted by name
+  std::size_t left_out = 0;                   // files in the folders that are not called .png
+  std::vector<std::filesystem::path> folders; // all that were looked through, without links
 };
 
 // Folders are walked to the bottom, through links to others too; names are compared as bytes, and every file

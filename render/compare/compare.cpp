@@ -6,8 +6,10 @@
 #include "sim/base/error.h"
 #include "sim/program/threads.h"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <new>
 
 namespace rend {
 
@@ -39,114 +41,210 @@ const char* name_of(CaseState state) {
 
 namespace {
 
-// One side of a case.
+bool same_size(const PngHead& a, const PngHead& b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+// [bytes] at most
+std::size_t comparing_bytes(const PngHead& a, const PngHead& b, const PngHead& mask) {
+  const std::size_t decoding = a.decoding_bytes() + b.decoding_bytes();
+  if (!same_size(a, b)) return decoding;
+  const std::size_t pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
+  return std::max(decoding, a.file_bytes + b.file_bytes + mask.file_bytes + compared_bytes_a_pixel * pixels);
+}
+
+void check_room(std::size_t bytes, const fs::path& path, const PngHead& head, const MemoryBudget& memory) {
+  if (bytes <= memory.whole()) return;
+  const Place place{path.string()};
+  if (!head.can_be_true())
+    throw UserError(Exit::BadInput, place,
+                    fmt::format("it says that it has {} x {} pixels, and its {} bytes cannot hold them",
+                                head.width, head.height, head.file_bytes));
+  throw UserError(Exit::Trouble, place,
+                  fmt::format("it has {} x {} pixels in {} bytes: that would take {:.3g} GB of memory, and "
+                              "there are {:.3g} GB for it",
+                              head.width, head.height, head.file_bytes, static_cast<double>(bytes) / 1e9,
+                              static_cast<double>(memory.whole()) / 1e9));
+}
+
+// One side of a case. What was found wrong with it ends it.
 struct Side {
+  fs::path path;
+  PngHead head;
   std::vector<std::uint8_t> bytes;
   DeepImage image;
   std::string trouble; // empty: it was read
 
-  void read(const fs::path& path, bool decode) {
+  void look() {
+    attempt([&] { head = png_head(path); });
+  }
+  void read() {
+    attempt([&] { bytes = bytes_of(path, head); });
+  }
+  void decode() {
+    attempt([&] { image = read_deep_png(bytes, path.string()); });
+    bytes = std::vector<std::uint8_t>(); // where {} would keep its room
+  }
+
+  // The memory that it takes is that of the head.
+  static std::vector<std::uint8_t> bytes_of(const fs::path& path, const PngHead& head) {
+    std::vector<std::uint8_t> bytes = file_bytes(path);
+    if (png_head(bytes, path.string()) != head)
+      throw UserError(Exit::BadInput, {path.string()}, "it changes while it is read");
+    return bytes;
+  }
+
+private:
+  template <class Action> void attempt(const Action& action) {
+    if (!trouble.empty()) return;
     try {
-      if (bytes.empty()) bytes = file_bytes(path);
-      if (decode) image = read_deep_png(bytes, path.string());
+      action();
     } catch (const UserError& error) {
       trouble = error.what();
     }
   }
 };
+using Sides = std::array<Side, 2>;
 
-// Both at once, on two threads where there are two; equal bytes are decoded once.
-bool read_both(const CasePaths& paths, int threads, std::array<Side, 2>& sides) {
-  for (std::size_t n = 0; n < 2; ++n) sides[n].read(n == 0 ? paths.a : paths.b, false);
-  if (!sides[0].trouble.empty() || !sides[1].trouble.empty()) return false;
-  const bool equal = sides[0].bytes == sides[1].bytes;
+bool both_are_well(const Sides& sides) {
+  return sides[0].trouble.empty() && sides[1].trouble.empty();
+}
+
+// Both at once, on two threads where there are two. Whether their bytes are equal: then the first alone has an
+// image.
+bool read_both(int threads, Sides& sides) {
+  for (Side& side : sides) side.read();
+  const bool equal = both_are_well(sides) && sides[0].bytes == sides[1].bytes;
   const std::size_t count = equal ? 1 : 2;
   in_parts(std::min<int>(threads, static_cast<int>(count)), count, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) sides[n].read(n == 0 ? paths.a : paths.b, true);
+    for (std::size_t n = begin; n < end; ++n) sides[n].decode();
   });
-  if (equal) {
-    sides[1].image = sides[0].image;
-    sides[1].trouble = sides[0].trouble;
-  }
   return equal;
 }
 
 void note_kinds(const DeepImage& a, const DeepImage& b, Compared& out) {
   if (a.kind != b.kind) out.notes.push_back(fmt::format("expected: {}; now: {}", a.kind, b.kind));
   if (a.bits != b.bits)
-    out.notes.push_back("one has 16 bits a channel, the other fewer: all bits are compared");
-  if (a.channels != b.channels) out.notes.push_back("one has no alpha: it is taken as opaque");
+    out.notes.emplace_back("one has 16 bits a channel, the other fewer: all bits are compared");
+  if (a.channels != b.channels) out.notes.emplace_back("one has no alpha: it is taken as opaque");
 }
 
-Mask read_mask(const fs::path& path, int width, int height) {
+PngHead head_of_mask(const fs::path& path, const PngHead& picture) {
   if (path.empty()) return {};
-  const Picture picture = picture_of(read_deep_png(file_bytes(path), path.string()));
-  if (picture.width != width || picture.height != height)
+  const PngHead head = png_head(path);
+  if (!same_size(head, picture))
     throw UserError(Exit::BadInput, {path.string()},
-                    fmt::format("the mask has {} x {} pixels, and the pictures have {} x {}", picture.width,
-                                picture.height, width, height));
-  return mask_of(picture);
+                    fmt::format("the mask has {} x {} pixels, and the pictures have {} x {}", head.width,
+                                head.height, picture.width, picture.height));
+  return head;
 }
 
-void judge(const std::array<Side, 2>& sides, bool equal, const CompareOptions& options, Compared& out) {
-  const Mask mask = read_mask(options.mask, out.width, out.height);
-  Picture a = picture_of(sides[0].image);
-  Picture b = equal ? a : picture_of(sides[1].image);
+Mask read_mask(const fs::path& path, const PngHead& head) {
+  if (path.empty()) return {};
+  return mask_of(picture_of(read_deep_png(Side::bytes_of(path, head), path.string())));
+}
+
+Picture taken(DeepImage& image) {
+  Picture picture = picture_of(image);
+  image.samples = std::vector<std::uint16_t>();
+  return picture;
+}
+
+void judge(Sides& sides, bool equal, const PngHead& mask_head, const CompareOptions& options, Compared& out) {
+  const Mask mask = read_mask(options.mask, mask_head);
+  Picture a = taken(sides[0].image);
+  Picture b = equal ? a : taken(sides[1].image);
   Metrics metrics = measure(std::move(a), std::move(b), mask,
                             {options.tolerance.threshold, options.tolerance.window_side, options.threads});
   for (const Excess& excess : excesses(options.tolerance, metrics)) out.why.push_back(excess.text());
-  if (metrics.difference.counted == 0) out.notes.push_back("the mask leaves no pixel to compare");
+  if (metrics.difference.counted == 0) out.notes.emplace_back("the mask leaves no pixel to compare");
   out.state = out.why.empty() ? CaseState::Match : CaseState::Differ;
   if (options.heat && out.state == CaseState::Differ && !metrics.flip_map.empty())
     out.heat = encode_png(heat_of(metrics.flip_map, out.width, out.height, mask));
-  metrics.flip_map = {};
-  metrics.difference.largest = {};
+  metrics.flip_map = Levels();
+  metrics.difference.largest = Levels();
   out.metrics = std::move(metrics);
 }
 
 // Only one side is there: whether it is a picture at all.
-void look_at_one(const fs::path& path, Compared& out) {
-  Side side;
-  side.read(path, true);
-  out.width = side.image.width;
-  out.height = side.image.height;
-  if (side.trouble.empty()) return;
-  out.state = CaseState::Unreadable;
-  out.why = {side.trouble};
+void look_at_one(const fs::path& path, MemoryBudget& memory, Compared& out) {
+  const PngHead head = check_picture(path, memory);
+  out.width = head.width;
+  out.height = head.height;
+}
+
+void compare_both(const CompareOptions& options, MemoryBudget& memory, Compared& out) {
+  Sides sides;
+  sides[0].path = out.paths.a;
+  sides[1].path = out.paths.b;
+  for (Side& side : sides) side.look();
+  const PngHead &a = sides[0].head, &b = sides[1].head;
+  const bool same = both_are_well(sides) && same_size(a, b);
+  const PngHead mask = same ? head_of_mask(options.mask, a) : PngHead{};
+  const std::size_t bytes = comparing_bytes(a, b, mask);
+  const bool of_a = a.decoding_bytes() >= b.decoding_bytes();
+  check_room(bytes, sides[of_a ? 0 : 1].path, of_a ? a : b, memory);
+  const MemoryBudget::Share share = memory.take(bytes);
+  const bool equal = read_both(options.threads, sides);
+  for (const Side& side : sides)
+    if (!side.trouble.empty()) out.why.push_back(side.trouble);
+  if (!out.why.empty()) {
+    out.state = CaseState::Unreadable;
+    return;
+  }
+  out.width = a.width;
+  out.height = a.height;
+  note_kinds(sides[0].image, sides[equal ? 0 : 1].image, out);
+  if (!same) {
+    out.state = CaseState::Size;
+    out.why = {fmt::format("{} x {} pixels are expected, and there are {} x {}", a.width, a.height, b.width,
+                           b.height)};
+    return;
+  }
+  judge(sides, equal, mask, options, out);
+}
+
+void compare_or_throw(const CompareOptions& options, MemoryBudget& memory, Compared& out) {
+  if (!out.paths.a.empty() && !out.paths.b.empty()) return compare_both(options, memory, out);
+  const bool is_new = out.paths.a.empty();
+  out.state = is_new ? CaseState::New : CaseState::Missing;
+  out.why = {is_new ? "nothing is expected of this name" : "it is expected, and not there"};
+  look_at_one(is_new ? out.paths.b : out.paths.a, memory, out);
 }
 
 } // namespace
 
-Compared compare_case(const CasePaths& paths, const CompareOptions& options) {
-  Compared out;
-  out.paths = paths;
-  out.tolerance = options.tolerance;
-  if (paths.a.empty() || paths.b.empty()) {
-    out.state = paths.a.empty() ? CaseState::New : CaseState::Missing;
-    out.why = {paths.a.empty() ? "nothing is expected of this name" : "it is expected, and not there"};
-    look_at_one(paths.a.empty() ? paths.b : paths.a, out);
-    return out;
-  }
-  std::array<Side, 2> sides;
-  const bool equal = read_both(paths, options.threads, sides);
-  for (const Side& side : sides)
-    if (!side.trouble.empty() && (out.why.empty() || !equal)) out.why.push_back(side.trouble);
-  if (!out.why.empty()) {
+PngHead check_picture(const fs::path& path, MemoryBudget& memory) {
+  const PngHead head = png_head(path);
+  check_room(head.checking_bytes(), path, head, memory);
+  const MemoryBudget::Share share = memory.take(head.checking_bytes());
+  check_png(Side::bytes_of(path, head), path.string());
+  return head;
+}
+
+// Whatever happens to one pair ends no other: a page of a thousand must not be lost to one file.
+Compared compare_case(const CasePaths& paths, const CompareOptions& options, MemoryBudget& memory) {
+  const auto trouble = [&](const std::string& what) {
+    Compared out;
+    out.paths = paths;
+    out.tolerance = options.tolerance;
     out.state = CaseState::Unreadable;
+    out.why = {what};
     return out;
-  }
-  const DeepImage &a = sides[0].image, &b = sides[1].image;
-  out.width = a.width;
-  out.height = a.height;
-  note_kinds(a, b, out);
-  if (a.width != b.width || a.height != b.height) {
-    out.state = CaseState::Size;
-    out.why = {fmt::format("{} x {} pixels are expected, and there are {} x {}", a.width, a.height, b.width,
-                           b.height)};
+  };
+  try {
+    Compared out;
+    out.paths = paths;
+    out.tolerance = options.tolerance;
+    compare_or_throw(options, memory, out);
     return out;
+  } catch (const UserError& error) {
+    return trouble(error.what());
+  } catch (const std::bad_alloc&) {
+    return trouble("there is not enough memory to compare it");
+  } catch (const std::exception& error) { // InternalError among them
+    return trouble(fmt::format("it cannot be compared, by a fault of rend itself: {}", error.what()));
   }
-  judge(sides, equal, options, out);
-  return out;
 }
 
 } // namespace rend

@@ -3,6 +3,7 @@
 
 #include "render/compare/cases.h"
 #include "render/compare/limits.h"
+#include "render/compare/memory_budget.h"
 
 #include <optional>
 #include <string>
@@ -16,7 +17,8 @@ enum class CaseState {
   Size,       // width or height differ: nothing is measured
   Missing,    // expected, and not there
   New,        // there, and not expected
-  Unreadable, // one of the two is no picture that can be read
+  Unreadable, // they cannot be compared: one of the two is no picture that can be read, or too large, or the
+              // mask does not fit
 };
 const char* name_of(CaseState state); // "match", "differ", ...
 const std::vector<CaseState>& all_states();
@@ -39,8 +41,12 @@ struct CompareOptions {
   int threads = 1;
 };
 
-// Pictures that cannot be read are a state. Throws UserError (BadInput, NoInput) for a mask that cannot be
-// used.
-Compared compare_case(const CasePaths& paths, const CompareOptions& options);
+// Whatever goes wrong with one pair (its pictures, its mask, the memory that it takes) is the state Unreadable,
+// and a sentence in `why`.
+Compared compare_case(const CasePaths& paths, const CompareOptions& options, MemoryBudget& memory);
+
+// Looks through a picture that is compared with nothing, and keeps none of it. Throws UserError: as png_head()
+// and check_png() do; Trouble where it would take more than the whole of the memory.
+PngHead check_picture(const std::filesystem::path& path, MemoryBudget& memory);
 
 } // namespace rend

@@ -29,7 +29,7 @@ Picture over_white(Picture picture) {
   if (!picture.alpha) return picture;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t n = 0; n < picture.pixels(); ++n) picture.planes[c][n] += 255.f - picture.planes[3][n];
-  picture.planes[3] = {};
+  picture.planes[3] = Levels(); // where {} would keep its room
   picture.alpha = false;
   return picture;
 }

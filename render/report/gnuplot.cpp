@@ -70,6 +70,10 @@ pid_t start(const Scratch& in, const Scratch& out, const Scratch& err) {
   const int error = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error == ENOENT) return 0;
+  if (error == EAGAIN || error == ENOMEM)
+    throw UserError(
+        Exit::OutOfBudget, {}, std::string("gnuplot could not be started: ") + std::strerror(error),
+        "run fewer programs at once, or allow more (ulimit -u, pids.max of a control group) and memory");
   if (error != 0) fail(std::strerror(error));
   return child;
 }

@@ -3,45 +3,19 @@
 #include "render/report/page_style.h"
 #include "sim/base/base64.h"
 #include "sim/base/check.h"
+#include "sim/base/printable.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
 
 namespace rend::html {
 namespace {
 
-constexpr std::string_view replacement = "\xEF\xBF\xBD"; // U+FFFD
-
-// The length of the character of UTF-8 at `at`, 0 where there is none that XML knows.
-std::size_t character(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
-  const unsigned char first = byte(at);
-  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : first == '\t' || first == '\n' ? 1 : 0;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4 || at + length > text.size()) return 0;
-  std::uint32_t code = first & (0xffu >> (length + 1));
-  for (std::size_t n = 1; n < length; ++n) {
-    if ((byte(at + n) & 0xc0) != 0x80) return 0;
-    code = code << 6 | (byte(at + n) & 0x3fu);
-  }
-  const std::uint32_t least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
-  const bool surrogate = code >= 0xd800 && code < 0xe000, none = (code & 0xfffe) == 0xfffe;
-  return code < least || code > 0x10ffff || surrogate || none ? 0 : length;
-}
-
-std::string escaped_text(std::string_view text) {
+std::string without_markup(std::string_view text) {
   std::string out;
-  out.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character(text, at);
-    if (length == 0) {
-      out += replacement;
-      ++at;
-      continue;
-    }
-    switch (text[at]) {
+  for (const char c : text) {
+    switch (c) {
     case '&':
       out += "&amp;";
       break;
@@ -58,11 +32,14 @@ std::string escaped_text(std::string_view text) {
       out += "&#39;";
       break;
     default:
-      out += text.substr(at, length);
+      out += c;
     }
-    at += length;
   }
   return out;
+}
+
+std::string escaped_text(std::string_view text) {
+  return without_markup(printable(text));
 }
 
 const char* name_of(Tone tone) {
@@ -86,6 +63,9 @@ const char* name_of(Tone tone) {
 Html escaped(std::string_view text) {
   return {escaped_text(text)};
 }
+Html escaped_lines(std::string_view text) {
+  return {without_markup(printable_lines(text))};
+}
 Html strong(std::string_view text) {
   return {"<strong>" + escaped_text(text) + "</strong>"};
 }
@@ -94,6 +74,16 @@ Html code(std::string_view text) {
 }
 Html link(std::string_view href, std::string_view text) {
   return {"<a href=\"" + escaped_text(href) + "\">" + escaped_text(text) + "</a>"};
+}
+// RFC 3986: in a relative address '?', '#', '%' and a ':' in the first part would mean something.
+std::string address_of(std::string_view path) {
+  std::string out;
+  for (const char c : path) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
+    out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return out;
 }
 Html muted(std::string_view text) {
   return {"<span class=\"muted\">" + escaped_text(text) + "</span>"};
@@ -116,7 +106,7 @@ Html list(const std::vector<Html>& items) {
   return {out + "</ul>\n"};
 }
 Html preformatted(std::string_view text) {
-  return {"<pre>" + escaped_text(text) + "</pre>\n"};
+  return {"<pre>" + escaped_lines(text).text + "</pre>\n"};
 }
 Html details(const Html& summary, const Html& body, bool open) {
   return {fmt::format("<details{}><summary>{}</summary>\n<div class=\"inner\">\n{}</div></details>\n",

@@ -28,10 +28,12 @@ struct Html {
 };
 
 // Within a line.
-Html escaped(std::string_view text); // what is no character of UTF-8 and XML becomes U+FFFD
+Html escaped(std::string_view text);       // as printable() shows it (sim/base/printable.h)
+Html escaped_lines(std::string_view text); // as printable_lines() does
 Html strong(std::string_view text);
 Html code(std::string_view text);                        // names, commands
 Html link(std::string_view href, std::string_view text); // href: relative, or #id
+std::string address_of(std::string_view path);           // of a file beside the page, as a href
 Html muted(std::string_view text);
 
 // A word on a colour; the word says it all by itself, for who prints or does not tell colours.

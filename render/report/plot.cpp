@@ -2,6 +2,7 @@
 
 #include "render/report/gnuplot.h"
 #include "sim/base/check.h"
+#include "sim/base/printable.h"
 
 #include <fmt/format.h>
 
@@ -35,12 +36,7 @@ const Look& look_of(const PlotSeries& series) {
 // everywhere) and, in some versions, the backquote: apostrophes of typography take their place.
 std::string quoted(const std::string& text) {
   std::string out = "'";
-  for (char c : text) {
-    if (c == '\'' || c == '`')
-      out += "\u2019";
-    else
-      out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
+  for (const char c : printable(text)) out += c == '\'' || c == '`' ? "\u2019" : std::string(1, c);
   return out + "'";
 }
 
@@ -180,15 +176,15 @@ std::string script_of(const Plot& plot, PlotFormat format) {
   Writer writer;
   for (const PlotSeries& series : plot.series) writer.add(series, edge);
   if (out && !plot.out_name.empty())
-    writer.parts.push_back("keyentry w points pt 2 ps mark lw 2 lc rgb '#555555' title " +
-                           quoted(plot.out_name));
+    writer.parts.emplace_back("keyentry w points pt 2 ps mark lw 2 lc rgb '#555555' title " +
+                              quoted(plot.out_name));
   if (hollow && !plot.hollow_name.empty())
-    writer.parts.push_back("keyentry w points pt 6 ps mark lw 1.5 lc rgb '#555555' title " +
-                           quoted(plot.hollow_name));
+    writer.parts.emplace_back("keyentry w points pt 6 ps mark lw 1.5 lc rgb '#555555' title " +
+                              quoted(plot.hollow_name));
   for (const PlotLevel& level : plot.levels)
     writer.parts.push_back(
         fmt::format("{:.17g} w lines lw 1.2 dt (3,3) lc rgb '#777777' title {}", level.y, quoted(level.name)));
-  if (writer.parts.empty()) writer.parts.push_back("NaN notitle");
+  if (writer.parts.empty()) writer.parts.emplace_back("NaN notitle");
   std::string script = head_of(plot, format) + axis_text("x", x, plot.log_x) + axis_text("y", y, plot.log_y) +
                        writer.data + "plot ";
   for (std::size_t n = 0; n < writer.parts.size(); ++n) script += (n == 0 ? "" : ", \\\n  ") + writer.parts[n];

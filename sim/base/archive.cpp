@@ -3,16 +3,52 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace rend {
 
+void refuse_unless_finite(std::span<const double> numbers) {
+  double seen = 0; // 0 times what is not finite is not 0
+  for (double each : numbers) seen += 0 * each;
+  refuse_unless(seen == 0, "a number is not finite");
+}
+
+void refuse_unless_finite(std::span<const float> numbers) {
+  float seen = 0;
+  for (float each : numbers) seen += 0 * each;
+  refuse_unless(seen == 0, "a number is not finite");
+}
+
+void refuse_unless_finite(std::span<const Record> records) {
+  std::array<double, 3> seen{};
+  bool fourth = false;
+  for (const Record& each : records) {
+    seen[0] += 0 * each.x;
+    seen[1] += 0 * each.y;
+    seen[2] += 0 * each.z;
+    fourth |= each.w != 0; // or NaN
+  }
+  refuse_unless_finite(seen);
+  refuse_unless(!fourth, "a vector has a fourth number");
+}
+
 void Archive::raw(void* data, std::size_t bytes) {
   if (bytes == 0) return;
   if (!reading()) return write(static_cast<const std::uint8_t*>(data), bytes);
-  if (from_->size() < bytes) throw ArchiveError("it ends too early");
-  std::memcpy(data, from_->data(), bytes);
-  from_ = from_->subspan(bytes);
+  if (left() < bytes) throw ArchiveError("it ends too early");
+  for (auto* to = static_cast<std::uint8_t*>(data); bytes > 0;) {
+    if (from_->empty()) {
+      from_ = source_();
+      if (from_->empty() || from_->size() > beyond_) throw ArchiveError("it ends too early, or too late");
+      beyond_ -= from_->size();
+    }
+    const std::size_t count = std::min(bytes, from_->size());
+    std::memcpy(to, from_->data(), count);
+    from_ = from_->subspan(count);
+    to += count;
+    bytes -= count;
+  }
 }
 
 void Archive::write(const std::uint8_t* from, std::size_t bytes) {
@@ -30,14 +66,14 @@ void Archive::write(const std::uint8_t* from, std::size_t bytes) {
 std::size_t Archive::count(std::size_t present, std::size_t bytes_each) {
   std::uint64_t number = present;
   raw(&number, sizeof number);
-  if (reading() && number > from_->size() / bytes_each)
-    throw ArchiveError("a list is longer than the rest of it");
+  if (reading() && number > left() / bytes_each) throw ArchiveError("a list is longer than the rest of it");
   return static_cast<std::size_t>(number);
 }
 
 void Archive::one(bool& value) {
   std::uint8_t byte = value ? 1 : 0;
   raw(&byte, 1);
+  refuse_unless(byte <= 1, "a flag is neither yes nor no");
   value = byte != 0;
 }
 
@@ -46,10 +82,26 @@ void Archive::one(std::string& value) {
   raw(value.data(), value.size());
 }
 
+void Archive::one_unbounded(double& value) {
+  raw(&value, sizeof value);
+  if (reading()) refuse_unless(!std::isnan(value), "a number is none");
+}
+
+void Archive::one_unbounded(std::optional<double>& value) {
+  bool there = value.has_value();
+  one(there);
+  if (reading()) value = there ? std::optional(0.0) : std::nullopt;
+  if (value) one_unbounded(*value);
+}
+
+// What stands there in its place is not told: it may be anything.
 void Archive::mark(std::string_view name) {
   std::string there(name);
-  one(there);
-  if (there != name) throw ArchiveError(fmt::format("'{}' stands where '{}' should", there, name));
+  if (count(name.size(), 1) == name.size())
+    raw(there.data(), there.size());
+  else
+    there.clear();
+  if (there != name) throw ArchiveError(fmt::format("'{}' does not stand where it should", name));
 }
 
 void Archive::same(std::uint64_t value, const char* what) {
@@ -60,8 +112,7 @@ void Archive::same(std::uint64_t value, const char* what) {
 
 void Archive::end() {
   if (sink_ && !bytes_.empty()) sink_(std::exchange(bytes_, {}));
-  if (reading() && !from_->empty())
-    throw ArchiveError(fmt::format("{} bytes of it are left over", from_->size()));
+  if (reading() && left() > 0) throw ArchiveError(fmt::format("{} bytes of it are left over", left()));
 }
 
 } // namespace rend

@@ -1,5 +1,7 @@
 #include "sim/base/wording.h"
 
+#include "sim/base/printable.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <fmt/format.h>
@@ -83,41 +85,13 @@ std::string suggestion(std::string_view name, std::span<const std::string> names
   return out + fmt::format("{}: {}", what, listed(names));
 }
 
-namespace {
-
-// How many bytes the UTF-8 character at the start of `text` has; 0: it is none (RFC 3629), or a control
-// character.
-std::size_t printable(std::string_view text) {
-  const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U; };
-  const unsigned first = byte(0);
-  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
-  const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  for (std::size_t n = 1; n < length; ++n)
-    if ((byte(n) & 0xC0U) != 0x80U) return 0;
-  const unsigned second = byte(1);
-  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-  const bool beyond =
-      (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90); // surrogates; U+110000 ..
-  return overlong || beyond || (first == 0xC2 && second < 0xA0) ? 0 : length;
-}
-
-} // namespace
-
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t most = 60;
   std::string out = "'";
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t length = printable(text.substr(at));
-    if (at + std::max<std::size_t>(length, 1) > most) return out + "...'";
-    if (length == 0)
-      out += ' ';
-    else
-      out += text.substr(at, length);
-    at += std::max<std::size_t>(length, 1);
+  while (!text.empty()) {
+    const std::string next = take_printable(text);
+    if (out.size() - 1 + next.size() > most) return out + "...'";
+    out += next;
   }
   return out + "'";
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 
 namespace rend {
 
@@ -80,6 +81,8 @@ CheckResult run_case(const CheckCase& which, const ReadPreset& read) {
       fail(finding.what.empty() ? "a figure lies outside of its bounds" : finding.what, finding.why);
   } catch (const UserError& error) {
     fail(error.what(), error.hint);
+  } catch (const std::bad_alloc&) { // of others, too
+    throw;
   } catch (const std::exception& error) { // a fault of ours: the others still run
     fail(error.what(), "this is a fault of rend itself");
   }

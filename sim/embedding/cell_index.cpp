@@ -3,6 +3,9 @@
 #include "sim/base/archive.h"
 #include "sim/topology/append_orbit.h"
 #include "sim/topology/dart_sort.h"
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -77,8 +80,53 @@ void CellIndex::number_anew(const GMap& map, std::vector<Slot>& from) {
   if (!orbit_.has(map.dimension())) slot_of_dart_.pack();
 }
 
-void CellIndex::store(Archive& archive) {
-  archive(slot_of_dart_, first_dart_, free_);
+// An edit gives new slots before it takes dead ones back: there may be more than darts, and no more than two to
+// one.
+void CellIndex::store(Archive& archive, const GMap& map) {
+  slot_of_dart_.store(archive, map.capacity());
+  archive.list(first_dart_, 2 * map.capacity(), "there are more slots than darts ever had");
+  archive.list(free_, first_dart_.size(), "there are more free slots than slots");
+  if (!archive.reading()) return;
+  if (const auto found = fault(map)) throw ArchiveError(*found);
+}
+
+std::optional<std::string> CellIndex::fault_of_free() const {
+  std::vector<bool> listed(slots());
+  for (const Slot slot : free_) {
+    if (slot >= slots() || alive(slot) || listed[slot])
+      return fmt::format("{}: slot {} is listed as free, and is not, or is twice", name(orbit_), slot);
+    listed[slot] = true;
+  }
+  const auto dead = std::count(first_dart_.begin(), first_dart_.end(), Dart{});
+  if (static_cast<std::size_t>(dead) != free_.size())
+    return fmt::format("{}: of {} free slots {} are listed", name(orbit_), dead, free_.size());
+  return {};
+}
+
+// A slot's orbit is walked from its smallest dart: where all walks together are as long as there are darts, no
+// orbit was left out.
+std::optional<std::string> CellIndex::fault(const GMap& map) const {
+  if (slot_of_dart_.size() != map.capacity()) return fmt::format("{}: not every dart has a slot", name(orbit_));
+  std::size_t walked = 0;
+  std::vector<Dart> darts;
+  for (Slot slot = 0; slot < slots(); ++slot) {
+    if (!alive(slot)) continue;
+    const Dart first = first_dart_[slot];
+    if (!map.alive(first)) return fmt::format("slot {} of {} lives without darts", slot, name(orbit_));
+    darts.clear();
+    collect(map, orbit_, first, darts);
+    for (const Dart d : darts)
+      if (slot_of_dart_[d] != slot || d < first)
+        return fmt::format("{} of dart {}: dart {} has another slot, or is smaller", name(orbit_), first.value,
+                           d.value);
+    walked += darts.size();
+  }
+  if (walked != map.dart_count())
+    return fmt::format("{}: of {} darts {} have a slot", name(orbit_), map.dart_count(), walked);
+  for (std::uint32_t d = 0; d < map.capacity(); ++d)
+    if (!map.alive(Dart{d}) && slot_of_dart_[Dart{d}] != no_slot)
+      return fmt::format("{}: dart {} was removed and has a slot", name(orbit_), d);
+  return fault_of_free();
 }
 
 std::size_t CellIndex::bytes() const {

@@ -10,6 +10,8 @@
 #include "sim/topology/gmap.h"
 #include "sim/topology/map_edit.h"
 
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -52,10 +54,16 @@ public:
   // Makes them so. `from`: the slot that each had before. Orbits know their smallest darts: no orbit is walked.
   void number_anew(const GMap& map, std::vector<Slot>& from);
 
-  void store(Archive& archive); // all of it (base/archive.h), of the map as it is then
+  // All of it (base/archive.h). ArchiveError: these are no slots of the map.
+  void store(Archive& archive, const GMap& map);
+
+  // What is wrong, if anything: every orbit of the map has a slot that no other has, and the slot knows its
+  // smallest dart; free slots are listed, each once; removed darts have none.
+  std::optional<std::string> fault(const GMap& map) const;
 
 private:
   struct Fragment;
+  std::optional<std::string> fault_of_free() const;
   void number(const GMap& map);
   void find_fragments(const GMap& map, const Journal& journal, std::vector<Fragment>& fragments);
   Fragment fragment_at(const GMap& map, Dart d) const;

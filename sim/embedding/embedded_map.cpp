@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace rend {
 
@@ -187,18 +188,52 @@ std::size_t EmbeddedMap::bytes() const {
 void EmbeddedMap::store(Archive& archive) {
   archive.mark("map");
   map_.store(archive);
+  std::array<std::optional<CellIndex>, orbit_kinds> was; // the slots, where others are read
   for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
     archive.same(cells_[mask] ? 1 : 0, "whether orbits have slots");
-    if (cells_[mask]) cells_[mask]->store(archive);
+    if (!cells_[mask]) continue;
+    if (archive.reading()) was[mask] = std::move(*cells_[mask]);
+    cells_[mask]->store(archive, map_);
   }
   archive.same(columns_.size(), "number of embeddings");
   for (const auto& column : columns_) {
-    archive.mark(column->name());
-    column->resize(cells_[column->orbit().mask]->slots());
-    archive.same(column->bytes(), "bytes of an embedding");
-    archive.raw(column->raw().data(), column->raw().size());
+    const auto& index = was[column->orbit().mask];
+    store(archive, *column, index ? &*index : nullptr);
   }
   if (archive.reading()) publish_whole();
+}
+
+namespace {
+
+// Whether all slots that are alive have the value that their smallest dart's slot had.
+bool same_values(std::span<const std::byte> now, const CellIndex& cells, std::span<const std::byte> then,
+                 const CellIndex& was) {
+  const std::size_t size = cells.slots() > 0 ? now.size() / cells.slots() : 0;
+  for (Slot slot = 0; slot < cells.slots(); ++slot)
+    if (cells.alive(slot) &&
+        std::memcmp(now.data() + slot * size, then.data() + was.slot(cells.first_dart(slot)) * size, size) != 0)
+      return false;
+  return true;
+}
+
+} // namespace
+
+// `was`: of its orbit, where it is read. No change of a law gives an embedding another value: fragments keep
+// that of the whole.
+void EmbeddedMap::store(Archive& archive, ColumnBase& column, const CellIndex* was) {
+  archive.mark(column.name());
+  const CellIndex& index = *cells_[column.orbit().mask];
+  std::vector<std::byte> then;
+  if (was && !moves(column)) then.assign(column.raw().begin(), column.raw().end());
+  column.resize(index.slots());
+  archive.same(column.bytes(), "bytes of an embedding");
+  archive.raw(column.raw().data(), column.raw().size());
+  if (!was) return;
+  if (moves(column))
+    refuse_unless_finite(static_cast<const VertexColumn&>(column).values());
+  else
+    refuse_unless(same_values(column.raw(), index, then, *was),
+                  "what the scene has from its preset is another");
 }
 
 std::uint32_t Edit::add_point(const Point& point) {
@@ -213,48 +248,13 @@ Point Edit::point(Dart d) const {
   return {embedded_.position()[v], embedded_.rest()[v], embedded_.velocity()[v]};
 }
 
-namespace {
-
-std::optional<std::string> fault_of_slots(const EmbeddedMap& embedded, const CellIndex& index) {
-  const GMap& map = embedded.map();
-  std::vector<char> met(index.slots(), 0);
-  std::vector<char> seen(map.capacity(), 0);
-  std::optional<std::string> fault;
-  std::vector<Dart> darts;
-  map.for_each_dart([&](Dart first) {
-    if (fault || seen[first.value]) return;
-    const Slot slot = index.slot(first);
-    const std::string where = fmt::format("{} of dart {}", name(index.orbit()), first.value);
-    if (slot == no_slot)
-      fault = where + " has no slot";
-    else if (met[slot])
-      fault = fmt::format("{} shares slot {} with another orbit", where, slot);
-    else if (index.first_dart(slot) != first)
-      fault = where + ": its slot does not know its smallest dart";
-    if (fault) return;
-    met[slot] = 1;
-    darts.clear();
-    collect(map, index.orbit(), first, darts);
-    for (Dart d : darts) {
-      seen[d.value] = 1;
-      if (index.slot(d) != slot) fault = fmt::format("{}: dart {} has another slot", where, d.value);
-    }
-  });
-  for (Slot slot = 0; slot < index.slots() && !fault; ++slot)
-    if (index.alive(slot) && !met[slot])
-      fault = fmt::format("slot {} of {} lives without darts", slot, name(index.orbit()));
-  return fault;
-}
-
-} // namespace
-
 std::optional<std::string> validate(const EmbeddedMap& embedded) {
   if (const auto fault = validate(embedded.map())) return fault->text();
   for (int mask = 0; mask < orbit_kinds; ++mask) {
     Orbit orbit;
     orbit.mask = static_cast<std::uint8_t>(mask);
     if (!embedded.uses(orbit)) continue;
-    if (auto fault = fault_of_slots(embedded, embedded.cells(orbit))) return fault;
+    if (auto fault = embedded.cells(orbit).fault(embedded.map())) return fault;
   }
   return {};
 }

@@ -113,7 +113,9 @@ public:
   std::size_t bytes() const; // of slots and columns; the map has its own
 
   // All of it (base/archive.h): links, slots with their order and free ones, and every column. Readers then
-  // find all of it changed. ArchiveError: it was of a map with other columns, or whose other orbits have slots.
+  // find all of it changed. What is read must have come from this map by changes of laws and by steps
+  // (GMap::store), so that all but positions and velocities is what it was at the same darts. ArchiveError: it
+  // did not, and this map is spoilt.
   void store(Archive& archive);
 
 private:
@@ -123,6 +125,8 @@ private:
   void bear_reshaped(ColumnBase& column);
   void publish();
   void publish_whole();
+  void store(Archive& archive, ColumnBase& column, const CellIndex* was);
+  bool moves(const ColumnBase& column) const { return &column == position_ || &column == velocity_; }
 
   GMap map_;
   std::array<std::unique_ptr<CellIndex>, orbit_kinds> cells_;

@@ -55,9 +55,15 @@ std::size_t SlotTable::bytes() const {
   return (wide_.capacity() + least_.capacity()) * sizeof(Slot) + step_.capacity();
 }
 
-void SlotTable::store(Archive& archive) {
-  archive(wide_, least_, step_);
+void SlotTable::store(Archive& archive, std::size_t darts) {
+  constexpr const char* what = "a table of slots is longer than its map";
+  archive.list(wide_, darts, what);
+  archive.list(least_, darts, what);
+  archive.list(step_, darts, what);
   if (!archive.reading()) return;
+  const bool wide = wide_.size() == darts && least_.empty() && step_.empty();
+  const bool packed = wide_.empty() && step_.size() == darts && least_.size() == (darts + group - 1) / group;
+  refuse_unless(wide || packed, "a table of slots is shorter than its map");
   wide_.shrink_to_fit(); // the other form's arrays keep their room else
   least_.shrink_to_fit();
   step_.shrink_to_fit();

@@ -39,7 +39,8 @@ public:
   void rename(std::span<const Slot> now); // every slot s becomes now[s]
   void pack();                            // does nothing where slots lie too far from each other
   std::size_t bytes() const;              // with room that is kept: it was written to
-  void store(Archive& archive);           // all of it (base/archive.h)
+  void store(Archive& archive,
+             std::size_t darts); // all of it (base/archive.h), read for a map of so many darts
 
 private:
   static constexpr std::size_t group = 64;      // darts with a least slot in common

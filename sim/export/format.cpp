@@ -1,5 +1,7 @@
 #include "sim/export/format.h"
 
+#include "sim/base/printable.h"
+
 #include <algorithm>
 
 namespace rend {
@@ -21,10 +23,11 @@ std::vector<std::string> export_format_names() {
   return names;
 }
 
-std::string one_word(std::string name) {
+std::string one_word(const std::string& name) {
+  std::string word = printable(name, "_");
   std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
-  return name.empty() ? "_" : name;
+      word.begin(), word.end(), [](char c) { return c == ' ' || c == '\\'; }, '_');
+  return word.empty() ? "_" : word;
 }
 
 } // namespace rend

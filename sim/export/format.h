@@ -38,8 +38,9 @@ const ExportFormat* find_export_format(const std::string& name); // null: there 
 std::vector<std::string> export_format_names();
 
 // A body's name as formats of text take it, in one word: blanks part the names of several groups (.obj), and
-// the end of a line ends a comment (.ply). What is no visible character becomes '_'; UTF-8 stays as it is.
-std::string one_word(std::string name);
+// the end of a line ends a comment (.ply). What is no visible character becomes '_', and so does a backslash,
+// which joins two lines of .obj; UTF-8 stays as it is.
+std::string one_word(const std::string& name);
 
 ExportFormat vtu_format();
 ExportFormat ply_format();

@@ -10,7 +10,11 @@
 namespace rend {
 
 void TearEvent::store(Archive& archive) {
-  archive(time, step, law, value, dart, place, fragments, born);
+  archive(time, step, law);
+  archive.unbounded(value);
+  archive(dart, place, fragments, born);
+  if (!archive.reading()) return;
+  refuse_unless(step >= 0 && law >= 0 && fragments >= -1, "a tear has no step, no law, or no fragments");
 }
 
 void Births::begin() {

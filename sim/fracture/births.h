@@ -31,7 +31,7 @@ struct TearEvent {
   long fragments = -1;       // of the body after this change; -1: nobody asked
   long born = 0;             // how many more that are than before; below 0 where whole pieces were deleted
 
-  void store(Archive& archive);
+  void store(Archive& archive); // whether its law and its dart are there is for others to say
 };
 
 class Births {

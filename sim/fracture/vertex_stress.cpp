@@ -1,5 +1,5 @@
 // The criterion of stress at vertices (thesis 7.2; Koschier et al. 2014): the largest eigenvalue of the mean of
-// its elements' σ, weighed by their masses there, with the plane across its eigenvector.
+// its elements' σ, weighed by their masses, with the plane across its eigenvector.
 //
 // λmax of a mean is at most that of the largest of the means' terms: only vertices of elements that exceed the
 // threshold themselves are looked at.

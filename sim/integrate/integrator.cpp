@@ -1,6 +1,5 @@
 #include "sim/integrate/integrator.h"
 
-#include "sim/base/check.h"
 #include "sim/solve/linear_solver.h"
 
 #include <algorithm>
@@ -8,10 +7,6 @@
 #include <limits>
 
 namespace rend {
-
-void Integrator::carry(std::span<const double> numbers) {
-  CHECK(numbers.empty());
-}
 
 void Integrator::sweep(System& system, double time, double step, const StateView& now, Record* force,
                        State& next) {
@@ -25,10 +20,18 @@ std::vector<double> carried_of(long newton, const LinearSolver& solver) {
           static_cast<double>(from.factorisations)};
 }
 
-long carry_into(LinearSolver& solver, std::span<const double> numbers) {
+bool is_whole_count(double number) {
+  return number >= 0 && number <= 1e15 && number == std::floor(number);
+}
+
+bool carry_into(LinearSolver& solver, long& newton, std::span<const double> numbers) {
+  numbers = numbers.first(carried_numbers);
+  if (!std::all_of(numbers.begin(), numbers.end(), is_whole_count) || numbers[1] > LinearSolver::most_hard)
+    return false;
   const auto whole = [&](std::size_t n) { return static_cast<long>(numbers[n]); };
+  newton = whole(0);
   solver.carry({static_cast<int>(whole(1)), whole(2), whole(3)});
-  return whole(0);
+  return true;
 }
 
 const std::vector<Scheme>& all_schemes() {

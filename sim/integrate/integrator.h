@@ -49,10 +49,10 @@ public:
   } // of its own arrays, which stay between steps, without the solver's
 
   // What one step hands on to the next besides the state of the body, for those who stop and go on later: a
-  // scheme made anew and given the same numbers goes on to the bit, and counts on. `carry` takes what `carried`
-  // gave (CHECK).
+  // scheme made anew and given the same numbers goes on to the bit, and counts on. `carry` takes as many
+  // numbers as `carried` gives. False: they are none that it could have given, and nothing was taken.
   virtual std::vector<double> carried() const { return {}; }
-  virtual void carry(std::span<const double> numbers);
+  virtual bool carry(std::span<const double>) { return true; }
 
   // Whether bodies move in time: where a step is an equilibrium, drives have neither inertia nor viscosity.
   virtual bool moves() const { return true; }
@@ -97,7 +97,9 @@ Scheme static_solve();
 class LinearSolver;
 constexpr std::size_t carried_numbers = 4;
 std::vector<double> carried_of(long newton, const LinearSolver& solver);
-long carry_into(LinearSolver& solver, std::span<const double> numbers); // returns the iterations
+// Takes the iterations, too. False: these are no such numbers.
+bool carry_into(LinearSolver& solver, long& newton, std::span<const double> numbers);
+bool is_whole_count(double number); // that a long was once
 
 // Limits that schemes share. With ω and d = ξω bounded separately, since they belong to different modes:
 double limit_symplectic(const StabilityBounds& bounds); // 2/(√(ω²+d²) + d)

@@ -27,7 +27,6 @@
 // edge of stability, where without that every third part is rejected. Both between a fifth and five times, and
 // not longer after a part that was tried again. How long, and the last error, one step tells the next
 // (carried). A part below 2^-20 of the step is not tried any more (Unsolved).
-#include "sim/base/check.h"
 #include "sim/integrate/integrator.h"
 #include "sim/solve/vectors.h"
 
@@ -179,12 +178,14 @@ public:
   std::vector<double> carried() const override {
     return {pace_, error_, static_cast<double>(parts_), static_cast<double>(rejected_)};
   }
-  void carry(std::span<const double> numbers) override {
-    CHECK(numbers.size() == 4);
+  bool carry(std::span<const double> numbers) override {
+    const bool goes_on = numbers[0] > 0 && numbers[1] >= least_error && std::isfinite(numbers[1]);
+    if (!goes_on || !is_whole_count(numbers[2]) || !is_whole_count(numbers[3])) return false;
     pace_ = numbers[0];
     error_ = numbers[1];
     parts_ = static_cast<long>(numbers[2]);
     rejected_ = static_cast<long>(numbers[3]);
+    return true;
   }
 
 private:

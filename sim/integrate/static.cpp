@@ -25,7 +25,6 @@
 // and so is one that can turn in a model of small displacements, where f does not turn with the body: no turn
 // ever meets a resistance. Once the body has stood, what comes off it is no reason to stop: such a piece takes
 // its own shape where it is, without loads.
-#include "sim/base/check.h"
 #include "sim/integrate/footing.h"
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/least_resistance.h"
@@ -74,11 +73,11 @@ public:
     numbers.push_back(footing_.keeps_turned);
     return numbers;
   }
-  void carry(std::span<const double> numbers) override {
-    CHECK(numbers.size() == carried_numbers + 2);
-    newton_ = carry_into(linear_, numbers);
+  bool carry(std::span<const double> numbers) override {
+    if (!carry_into(linear_, newton_, numbers)) return false;
     footing_.stood = numbers[carried_numbers] != 0;
     footing_.keeps_turned = numbers[carried_numbers + 1] != 0;
+    return true;
   }
 
 private:

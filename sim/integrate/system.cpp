@@ -13,9 +13,14 @@ void State::look() {
   }
 }
 
-void State::store(Archive& archive) {
-  archive(position, velocity, large);
+void State::store(Archive& archive, std::size_t most) {
+  archive.list(position, most, "a state is of more vertices than the body has");
+  archive.list(velocity, most, "a state is of more vertices than the body has");
+  archive(large);
   archive.raw(&probe, sizeof probe);
+  if (!archive.reading()) return;
+  refuse_unless(position.size() == velocity.size(), "a state has not as many velocities as positions");
+  refuse_unless(finite(), "a number of a state is not finite");
 }
 
 std::shared_ptr<const BlockPattern> System::pattern() {

@@ -45,7 +45,7 @@ struct State {
   bool finite() const { return std::isfinite(motion()); }
   void look(); // the same of what was written without put()
   std::size_t bytes() const { return bytes_of(position) + bytes_of(velocity); }
-  void store(Archive& archive);
+  void store(Archive& archive, std::size_t most); // of at most so many vertices
   Double4 probe{};
   bool large = false; // more than the caches hold
 };

@@ -2,6 +2,9 @@
 
 #include "sim/mechanics/hinge_law.h"
 #include "sim/mechanics/young.h"
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -38,12 +41,30 @@ struct Hinges final : Interaction {
   const double* unit(Slot owner, std::size_t) const override { return &(*column)[owner].k; }
 };
 
+// Whether a hinge is on any edge. If not on all edges between faces, a note says on how many it is not.
+bool has_hinge(const EmbeddedMap& map, std::vector<std::string>& notes) {
+  if (!has_inner_edge(map)) {
+    notes.emplace_back("bend was left out: no edge lies between two faces");
+    return false;
+  }
+  std::size_t inner = 0, hinges = 0;
+  map.map().for_each_dart([&](Dart d) {
+    if (map.map().is_free(2, d) || smallest_dart(map.map(), EdgeOfVolume, d) != d) return;
+    ++inner;
+    hinges += present(map.map(), d);
+  });
+  if (hinges < inner)
+    notes.push_back(fmt::format(
+        R"(bend kind="angular" {} one has more than four sides (kind="provot" bends there, too))",
+        hinges == 0
+            ? "was left out: at every edge between two faces"
+            : fmt::format("has no effect on {} of the {} edges between two faces:", inner - hinges, inner)));
+  return hinges > 0;
+}
+
 std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_bend_of_solid(map, request);
-  if (!has_inner_edge(map)) {
-    request.notes.push_back("bend was left out: no edge lies between two faces");
-    return nullptr;
-  }
+  if (!has_hinge(map, request.notes)) return nullptr;
   HingeEmbedding embedding;
   embedding.k = stiffness_of(request, nullptr);
   embedding.damping = request.node.number("damping");

@@ -17,7 +17,7 @@ bool present(const GMap& map, Dart d, std::size_t = 0) {
 std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_bend_of_solid(map, request);
   if (!has_inner_edge(map)) {
-    request.notes.push_back("bend was left out: no edge lies between two faces");
+    request.notes.emplace_back("bend was left out: no edge lies between two faces");
     return nullptr;
   }
   Pattern pattern{.owner = EdgeEndOfVolume,

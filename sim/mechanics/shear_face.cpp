@@ -35,7 +35,7 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
                   .units = diagonals,
                   .fold = {},
                   .present = [](const GMap& m, Dart d, std::size_t) { return sides_of_face(m, d) == 4; }};
-  if (map.dimension() == 3) pattern.fold.push_back("3");
+  if (map.dimension() == 3) pattern.fold.emplace_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.node.number("damping");
   return make_interaction<2>(map, "shear isotropic", spring_law(), pattern, damping,
@@ -60,7 +60,7 @@ bool carries(const GMap& map, Dart d) {
 
 std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const InteractionRequest& request) {
   if (!has_face(map, 4, 1 << 30)) {
-    request.notes.push_back("shear was left out: no face has a diagonal, every one is a triangle");
+    request.notes.emplace_back("shear was left out: no face has a diagonal, every one is a triangle");
     return nullptr;
   }
   Pattern pattern{.owner = VertexOfFace,
@@ -68,7 +68,7 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
                   .units = {across_corner},
                   .fold = {},
                   .present = [](const GMap& m, Dart d, std::size_t) { return sides_of_face(m, d) >= 4; }};
-  if (map.dimension() == 3) pattern.fold.push_back("3");
+  if (map.dimension() == 3) pattern.fold.emplace_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.node.number("damping");
   return make_interaction<1>(map, "shear anisotropic", spring_law(), pattern, damping,

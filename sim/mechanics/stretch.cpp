@@ -12,7 +12,7 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
                   .units = {{"", "0"}},
                   .fold = {"2"},
                   .present = [](const GMap& m, Dart d, std::size_t) { return !m.is_free(0, d); }};
-  if (map.dimension() == 3) pattern.fold.push_back("3");
+  if (map.dimension() == 3) pattern.fold.emplace_back("3");
   const StiffnessOf k = stiffness_of(request, &edge_stiffness);
   const double damping = request.node.number("damping");
   return make_interaction<1>(

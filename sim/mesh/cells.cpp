@@ -63,14 +63,14 @@ void check_corners(const CellMesh& mesh, std::size_t cell) {
   }
 }
 
-// Whether the cell is inside out. A height of 1e-12 of its length is round-off: such a cell has no volume.
+// Whether the cell is inside out. Beside the cube of its length 1e-12 is round-off: such a cell has no volume.
 bool inside_out(const CellMesh& mesh, std::size_t cell) {
   const double volume = signed_volume(mesh, cell);
   double square = 0;
   for (const std::uint32_t c : mesh.corners_of(cell))
     square = std::max(square, (mesh.points[c] - mesh.points[mesh.corners_of(cell)[0]]).squaredNorm());
   if (!(std::abs(volume) > 1e-12 * square * std::sqrt(square)))
-    refuse(mesh, cell, fmt::format("has no volume ({:.3g} m3)", volume));
+    refuse(mesh, cell, flaw_of_volume(volume, std::sqrt(square)));
   return volume < 0;
 }
 

@@ -16,4 +16,10 @@ struct MeshFault : std::invalid_argument {
   std::string flaw;    // "meets point 3 twice"
 };
 
+// What is wrong with a cell of this volume [m³] or area [m²], which is lost in round-off beside the cube or
+// square of its length [m]: "has no volume", or "has proportions too extreme to reckon with: 6.4e+09 m3 at a
+// length of 1e+10 m".
+std::string flaw_of_volume(double volume, double length);
+std::string flaw_of_area(double area, double length);
+
 } // namespace rend

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace rend {
 namespace {
@@ -56,6 +56,13 @@ void read_format(Msh& msh) {
   end_section(msh, "MeshFormat");
 }
 
+// The sign of a physical group tells an element's orientation (Gmsh reference manual), which is not asked for.
+int group_number(const Scanner& in, std::int64_t number) {
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  if (number < -most || number > most) in.fail("is too large for the number of a physical group");
+  return static_cast<int>(number < 0 ? -number : number);
+}
+
 void read_names(Msh& msh) { // ASCII in both forms
   Scanner& in = msh.in;
   const std::uint64_t count = in.size("the number of physical groups");
@@ -64,13 +71,12 @@ void read_names(Msh& msh) { // ASCII in both forms
     const std::int64_t dimension = in.integer("the dimension of a physical group");
     if (dimension < 0 || dimension > 3)
       in.fail(fmt::format("{} is no dimension of a physical group", dimension));
-    const std::int64_t number = in.integer("the number of a physical group");
-    if (std::abs(number) > 0x7fffffff) in.fail("is too large for the number of a physical group");
+    const int number = group_number(in, in.integer("the number of a physical group"));
     const std::string_view line = in.rest_of_line();
     const std::size_t open = line.find('"'), close = line.rfind('"');
     if (open == std::string_view::npos || close == open)
       in.fail("the name of a physical group stands in quotes");
-    msh.content.name_group(static_cast<int>(dimension), static_cast<int>(number),
+    msh.content.name_group(static_cast<int>(dimension), number,
                            std::string(line.substr(open + 1, close - open - 1)));
   }
 }
@@ -89,7 +95,7 @@ void read_entities(Msh& msh) {
       in.check_count(groups, msh.bytes(4), "groups");
       auto& list = msh.entities[{dimension, tag}];
       for (std::uint64_t g = 0; g < groups; ++g)
-        list.push_back(static_cast<int>(std::abs(std::int64_t{in.number<std::int32_t>("a physical group")})));
+        list.push_back(group_number(in, in.number<std::int32_t>("a physical group")));
       if (dimension == 0) continue;
       const auto borders = in.number<std::uint64_t>("the number of an entity's borders");
       in.check_count(borders, msh.bytes(4), "borders");
@@ -171,7 +177,7 @@ void read_element_2(Msh& msh, const MshType& type, Origin origin, std::int64_t t
   int group = 0;
   for (std::int64_t t = 0; t < tags; ++t) {
     const std::int64_t tag = fields.next("a tag of an element");
-    if (t == 0) group = static_cast<int>(tag);
+    if (t == 0) group = group_number(msh.in, tag);
   }
   nodes.clear();
   for (int n = 0; n < type.nodes; ++n)

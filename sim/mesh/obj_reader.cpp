@@ -44,11 +44,15 @@ void check_polygon(Scanner& in, std::size_t points, MeshFile& file) {
   file.origins.push_back(origin);
 }
 
-void check(MeshFile& file) {
+// The statements that matter, all of them well formed. tinyobjloader gets no others: of tags (t) it makes room
+// for what they announce, a hundred kilobytes a line.
+std::string checked(MeshFile& file) {
   Scanner in(file.source);
+  std::string kept;
   std::size_t points = 0;
-  for (; !in.at_end(); in.rest_of_line()) {
+  while (!in.at_end()) {
     const std::string_view head = in.token("a statement");
+    const std::size_t begin = in.last();
     if (head == "v") {
       for (int k = 0; k < 3; ++k) {
         if (in.line_ends()) in.fail("a point of fewer than three coordinates");
@@ -60,29 +64,41 @@ void check(MeshFile& file) {
     } else if (head.ends_with('\\')) {
       in.fail("lines that go on in the next one are not read");
     }
+    in.rest_of_line();
+    if (head == "v" || head == "f" || head == "g" || head == "o")
+      kept.append(file.source.bytes().substr(begin, in.offset() - begin));
   }
   if (file.origins.empty()) file.source.fail("holds no polygons");
+  return kept;
 }
 
-// A shape's name is what g or o said: "g left arm" puts polygons into two groups.
-void add_to_groups(MeshFile& file, const std::string& names, std::span<const std::uint32_t> corners) {
+// A shape's name is what g or o said: "g left arm" puts polygons into two groups. `members`: of all groups so
+// far; a file of a few bytes could put each polygon into very many.
+void add_to_groups(MeshFile& file, const std::string& names, std::span<const std::uint32_t> corners,
+                   std::size_t& members) {
   std::istringstream words(names);
   for (std::string name; words >> name;) {
+    members += corners.size();
+    if (members > 8 * file.source.bytes().size() + 1000000)
+      file.source.fail(
+          fmt::format("the polygons of group {} are in one group too many: there is a limit on how "
+                      "many polygons are in how many groups, of 8 corners a byte of the file",
+                      in_quotes(name)));
     auto& group = file.groups[name];
     group.insert(group.end(), corners.begin(), corners.end());
   }
 }
 
 void read(MeshFile& file) {
-  check(file);
+  std::istringstream text(checked(file));
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
   std::string warnings, errors;
-  std::istringstream text{std::string(file.source.bytes())};
   if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, &text, nullptr, false))
     file.source.fail("cannot be read: " + in_quotes(errors));
   PolygonMesh mesh;
+  std::size_t members = 0;
   mesh.first.push_back(0);
   for (std::size_t n = 0; n + 2 < attributes.vertices.size(); n += 3) {
     mesh.points.emplace_back(attributes.vertices[n], attributes.vertices[n + 1], attributes.vertices[n + 2]);
@@ -94,7 +110,7 @@ void read(MeshFile& file) {
       mesh.corners.push_back(static_cast<std::uint32_t>(index.vertex_index));
     for (const unsigned char corners : shape.mesh.num_face_vertices)
       mesh.first.push_back(mesh.first.back() + corners);
-    add_to_groups(file, shape.name, std::span(mesh.corners).subspan(begin));
+    add_to_groups(file, shape.name, std::span(mesh.corners).subspan(begin), members);
   }
   if (mesh.polygons() != file.origins.size())
     file.source.fail(fmt::format("{} polygons were read of {}", mesh.polygons(), file.origins.size()));

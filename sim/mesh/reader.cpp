@@ -53,7 +53,7 @@ namespace {
   file.source.fail(origin.offset, fmt::format("{} {} {}", kind, origin.tag, flaw));
 }
 
-// A height of 1e-12 of its length is round-off.
+// Beside the square of its length 1e-12 is round-off.
 void check_areas(const MeshFile& file, const PolygonMesh& mesh) {
   for (std::size_t p = 0; p < mesh.polygons(); ++p) {
     const std::span<const std::uint32_t> corners(mesh.corners.data() + mesh.first[p],
@@ -68,7 +68,7 @@ void check_areas(const MeshFile& file, const PolygonMesh& mesh) {
       area += 0.5 * a.cross(b).norm();
       square = std::max(square, a.squaredNorm());
     }
-    if (!(area > 1e-12 * square)) refuse(file, "polygon", p, fmt::format("has no area ({:.3g} m2)", area));
+    if (!(area > 1e-12 * square)) refuse(file, "polygon", p, flaw_of_area(area, std::sqrt(square)));
   }
 }
 
@@ -113,7 +113,8 @@ MeshBody sewn(MeshFile& file, MapMesh& mesh, std::vector<std::uint32_t>& point) 
       square = std::max(square, (body.map->rest_of(corner) - body.map->rest_of(d)).squaredNorm());
     if (!(extent > 1e-12 * square * (solid ? std::sqrt(square) : 1)))
       refuse(file, "dart", d.value,
-             solid ? "belongs to a volume of no extent" : "belongs to a face without area");
+             solid ? "belongs to a volume that " + flaw_of_volume(extent, std::sqrt(square))
+                   : "belongs to a face that " + flaw_of_area(extent, std::sqrt(square)));
   }
   body.notes = std::move(file.notes);
   return body;

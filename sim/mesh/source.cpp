@@ -4,8 +4,34 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sys/stat.h>
 
 namespace rend {
+
+namespace {
+
+constexpr std::size_t block = 4096, piece = 256 * block; // [bytes]
+
+// No mesh holds a block of zeros: of texts none holds a zero, and between the coordinates of a binary file
+// stand tags. A file of which parts were never written does, and can claim to be of any size without taking
+// room on the disk; so it is refused before it takes any here.
+void check_written(const std::string& name, std::size_t offset, std::string_view bytes) {
+  static const std::string zeros(block, '\0');
+  for (std::size_t at = 0; at + block <= bytes.size(); at += block)
+    if (bytes.compare(at, block, zeros) == 0)
+      throw UserError(
+          Exit::BadInput, {name},
+          fmt::format("byte {}: from here on {} bytes are zero, which no mesh holds", offset + at, block),
+          "it was not written to its end, or has a hole: write it again");
+}
+
+// What of a file's size is there. It may be less than its size by far.
+std::size_t bytes_on_disk(const std::filesystem::path& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 ? static_cast<std::size_t>(status.st_blocks) * 512 : 0;
+}
+
+} // namespace
 
 MeshSource MeshSource::open(const std::filesystem::path& path) {
   const std::string name = path.string();
@@ -16,10 +42,15 @@ MeshSource MeshSource::open(const std::filesystem::path& path) {
   const auto size = std::filesystem::file_size(path, error);
   std::ifstream file(path, std::ios::binary);
   if (!file || error) throw UserError(Exit::ReadWrite, {name}, "cannot be read", "check who may read it");
-  std::string bytes(size, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (file.bad() || file.gcount() != static_cast<std::streamsize>(size))
-    throw UserError(Exit::ReadWrite, {name}, "reading it failed");
+  std::string bytes, next(piece, '\0');
+  bytes.reserve(std::min<std::size_t>(size, bytes_on_disk(path)));
+  while (bytes.size() < size) {
+    const std::size_t count = std::min<std::size_t>(piece, size - bytes.size());
+    if (!file.read(next.data(), static_cast<std::streamsize>(count)))
+      throw UserError(Exit::ReadWrite, {name}, "reading it failed");
+    check_written(name, bytes.size(), std::string_view(next).substr(0, count));
+    bytes.append(next, 0, count);
+  }
   return {name, std::move(bytes)};
 }
 

@@ -13,7 +13,8 @@ namespace rend {
 
 class MeshSource {
 public:
-  // UserError: NoInput where there is no such file, BadInput if it is no file, ReadWrite if reading fails.
+  // UserError: NoInput where there is no such file, BadInput if it is no file or was not wholly written,
+  // ReadWrite if reading fails.
   static MeshSource open(const std::filesystem::path& path);
   MeshSource(std::string name, std::string bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
 

@@ -30,11 +30,12 @@ const VertexStress::Sum& VertexStress::of_element(Slot element, const Record* x)
   const auto next = static_cast<std::uint32_t>(sums_.size());
   const std::uint32_t place = place_.insert(element, next);
   if (place != next) return sums_[place];
-  Sum sum{Eigen::Matrix3d::Zero(), 0};
+  Sum sum{Eigen::Matrix3d::Zero(), 0, 0};
   const Dart d = map_->cells(element_orbit(map_->dimension())).first_dart(element);
   continuum_->each_of(d, x, nullptr, [&](const Continuum::Part& part, const UnitNow& now) {
     sum.stress += stress_of(part, now);
     ++sum.count;
+    sum.corners = now.particles;
   });
   sums_.push_back(sum);
   return sums_.back();
@@ -49,9 +50,12 @@ Eigen::Matrix3d VertexStress::at(Slot vertex, const Record* x) {
   std::sort(corners_.begin(), corners_.end());
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double whole = 0;
+  int first = 0; // corners of the first element. By ratios to it, equal kinds are weighed by no factor but 1
   for (Dart d : corners_) {
     const Sum& element = of_element(elements.slot(d), x);
-    const double m = (*mass_)[corners.slot(d)];
+    if (element.count == 0) continue;
+    if (first == 0) first = element.corners;
+    const double m = (*mass_)[corners.slot(d)] * (static_cast<double>(element.corners) / first);
     sum += m * element.stress;
     whole += m * element.count;
   }

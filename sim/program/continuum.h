@@ -1,7 +1,10 @@
 // The elements of a body's continuum, and the stress in them and at vertices (thesis 7.1, 7.2).
 //
 //   σ of an element:  ElementLaw::stress, in world space
-//   σ at a vertex:    Σ m σ / Σ m over its corners, m the masses of these corners
+//   σ at a vertex:    Σ m σ / Σ m over the elements around it, m the masses of whole elements
+//
+// An element's mass is that of one of its corners times their number: corners of an element have equal shares
+// (sim/mechanics/mass.h), and no separation changes them.
 //
 // Mass-tensors keep no elements: those that they were made of, linear ones, are made again.
 #pragma once
@@ -79,6 +82,7 @@ private:
   struct Sum { // of one element: usually one stress
     Eigen::Matrix3d stress;
     int count;
+    int corners; // of the element
   };
   const Sum& of_element(Slot element, const Record* x);
 

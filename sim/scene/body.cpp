@@ -7,12 +7,20 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace rend {
 namespace {
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// At borders of elements.
+std::size_t open_darts(const GMap& map) {
+  std::size_t count = 0;
+  map.for_each_dart([&](Dart d) { count += map.is_free(map.dimension(), d); });
+  return count;
 }
 
 } // namespace
@@ -230,17 +238,41 @@ void Body::rebind() {
 }
 
 // What is bound to the map is bound again; forces are evaluated at the start of the next step.
-void Body::store(Archive& archive) {
+void Body::store(Archive& archive, long done, double step) {
   archive.mark(name);
+  const bool fixed = archive.reading() && !tears();
+  const std::size_t open = fixed ? open_darts(map->map()) : 0, darts = map->map().dart_count();
   map->store(archive);
+  refuse_unless(!fixed || (open_darts(map->map()) == open && map->map().dart_count() == darts),
+                "a body is torn that nothing tears");
   std::vector<double> numbers = integrator->carried();
-  archive(events, gone, evaluations, time_, next, numbers);
+  archive.list(events, map->map().capacity(), "there are more tears than darts");
+  archive(gone, evaluations, time_);
+  next.store(archive, map->cells(Vertex).slots());
+  archive.same(numbers.size(), "numbers that its steps hand on");
+  for (double& number : numbers) archive.unbounded(number);
   for (Answer& answer : answers) archive(answer.asked, answer.measured);
   if (!archive.reading()) return;
-  integrator->carry(numbers);
+  check_read(done, step);
+  refuse_unless(integrator->carry(numbers), "what its steps hand on is nothing that they would");
   rebind();
   meet_program();
   outer(time_, map->position().values().data(), map->velocity().values().data());
+}
+
+// Times of steps are products of rounded numbers.
+void Body::check_read(long done, double step) const {
+  const double now = static_cast<double>(done) * step;
+  refuse_unless(is_count(evaluations), "forces were evaluated less often than never");
+  refuse_unless(std::abs(time_ - now) <= 1e-3 * step, "a body has another time than the scene");
+  refuse_unless(gone.has_value() == (map->map().dart_count() == 0),
+                "a body is gone that is there, or the reverse");
+  refuse_unless(!gone || (*gone >= 0 && *gone <= now), "a body was gone before the start, or later than now");
+  for (const TearEvent& event : events) {
+    refuse_unless(event.dart.value < map->map().capacity(), "a tear is at a dart that is not there");
+    refuse_unless(static_cast<std::size_t>(event.law) < laws.size(), "a tear is of a law that is not there");
+    refuse_unless(event.step <= done && event.time >= 0 && event.time <= now, "a tear is later than now");
+  }
 }
 
 void Body::commit() {

@@ -102,7 +102,8 @@ struct Body final : System {
   void commit();                                 // takes `next`
   void go_back(const State& start, double time); // [s]: start becomes the current state, of the same topology
   void spoil_next();                             // as `faulty` says
-  void store(Archive& archive);                  // between steps: all that a later one depends on
+  // Between steps, so many of which are done, of `step` [s] each: all that a later one depends on.
+  void store(Archive& archive, long done, double step);
 
   double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
   long evaluations = 0; // of the internal forces so far, but for those that probes ask for
@@ -115,6 +116,7 @@ struct Body final : System {
 private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   void follow_changes();
+  void check_read(long done, double step) const; // throws ArchiveError
   void meet_program();
   void reserve_for_separations();
   void clear_sums();

@@ -19,7 +19,7 @@ std::unique_ptr<Body> build_body(const Node& node, const World& world) {
   build_motion(*body, node);
   build_laws(*body, node);
   if (body->interactions.empty())
-    body->notes.push_back("nothing holds this body together: it has neither <springs> nor <elasticity>");
+    body->notes.emplace_back("nothing holds this body together: it has neither <springs> nor <elasticity>");
   build_contact(*body, node, world);
   build_probes(*body, node);
   return body;

@@ -109,7 +109,7 @@ bool wholly_fixed(const Body& body) {
 void build_laws(Body& body, const Node& node) {
   const std::vector<const Node*> laws = node.all("tear");
   if (laws.empty()) {
-    body.left_out.push_back("tearing: no law, so no criterion is bound and no border is remembered");
+    body.left_out.emplace_back("tearing: no law, so no criterion is bound and no border is remembered");
     return;
   }
   if (wholly_fixed(body))

@@ -84,7 +84,7 @@ Load load_of(Body& body, const Node& node) {
 
 void build_loads(Body& body, const Node& node) {
   for (const Node* load : node.all("load")) body.loads.add(load_of(body, *load));
-  if (body.loads.empty()) body.left_out.push_back("external forces: no load");
+  if (body.loads.empty()) body.left_out.emplace_back("external forces: no load");
 }
 
 } // namespace rend

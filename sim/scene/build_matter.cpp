@@ -202,7 +202,7 @@ void build_matter(Body& body, const Node& node) {
   if (const Node* springs = node.child("springs")) build_springs(body, *springs);
   if (const Node* elasticity = node.child("elasticity")) build_elasticity(body, *elasticity, node);
   if (const Node* viscosity = node.child("viscosity")) build_viscosity(body, *viscosity);
-  if (!body.drag) body.left_out.push_back("viscosity per particle: none, so no array of it");
+  if (!body.drag) body.left_out.emplace_back("viscosity per particle: none, so no array of it");
 }
 
 } // namespace rend

@@ -94,7 +94,7 @@ std::vector<ChildType> motion_types() {
 
 void build_motion(Body& body, const Node& node) {
   build_constraints(body, node);
-  if (body.constraints.motions().empty()) body.left_out.push_back("prescribed motions: no fix and no drive");
+  if (body.constraints.motions().empty()) body.left_out.emplace_back("prescribed motions: no fix and no drive");
   build_loads(body, node);
 }
 

@@ -255,12 +255,57 @@ void ContactPair::store(Archive& archive) {
   archive(body, vertex, face_body, triangle, neighbours);
 }
 
-void ContactPairs::Of::store(Archive& archive) {
-  archive(vertices, vertex_fragment, face_fragment, there, several);
+void ContactPairs::Of::store(Archive& archive, std::size_t most) {
+  constexpr const char* what = "contact is of more vertices or faces than the body has";
+  archive.list(vertices, most, what);
+  archive.list(vertex_fragment, most, what);
+  archive.list(face_fragment, most, what);
+  archive.list(there, most, what);
+  archive(several);
 }
 
-void ContactPairs::store(Archive& archive) {
-  archive(of_, pairs_, skin_, listed_, searches_);
+bool ContactPairs::Of::same_lists(const Of& other) const {
+  return vertices == other.vertices && vertex_fragment == other.vertex_fragment &&
+         face_fragment == other.face_fragment && several == other.several;
+}
+
+void ContactPairs::store(Archive& archive, const Bodies& bodies) {
+  std::uint64_t lists = of_.size(), pairs = pairs_.size();
+  archive(lists);
+  refuse_unless(lists == 0 || lists == bodies.size(), "contact is of more or fewer bodies");
+  of_.resize(lists);
+  for (std::size_t b = 0; b < of_.size(); ++b) {
+    of_[b].store(archive, bodies[b]->body->map->map().capacity());
+    if (!archive.reading()) continue;
+    Of now; // as it is listed of the map
+    if (bodies[b]->settings().fragments) list(*bodies[b], now);
+    refuse_unless(of_[b].same_lists(now), "contact is of other vertices or faces than the body has");
+  }
+  archive(pairs);
+  if (archive.reading()) pairs_.clear();
+  for (std::size_t n = 0; n < pairs; ++n) {
+    archive(archive.reading() ? pairs_.emplace_back() : pairs_[n]);
+    if (archive.reading()) check_pair(bodies, n);
+  }
+  archive(skin_, listed_, searches_);
+  if (!archive.reading()) return;
+  refuse_unless(skin_ >= 0 && is_count(searches_), "contact was looked for nowhere, or less often than never");
+  refuse_unless(listed_ == !of_.empty(), "contact knows nothing of its bodies");
+}
+
+// Pairs are sorted, and of vertices and triangles that there are.
+void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
+  const ContactPair& pair = pairs_[number];
+  refuse_unless(pair.body < of_.size() && pair.face_body < of_.size(),
+                "contact is between bodies that are not there");
+  const std::vector<Slot>& vertices = of_[pair.body].vertices;
+  refuse_unless(std::binary_search(vertices.begin(), vertices.end(), pair.vertex),
+                "contact is of a vertex that is not there");
+  refuse_unless(pair.triangle < bodies[pair.face_body]->faces.triangles().size(),
+                "contact is with a face that is not there");
+  const auto order = [](const ContactPair& p) { return std::tie(p.body, p.vertex, p.face_body, p.triangle); };
+  refuse_unless(number == 0 || order(pairs_[number - 1]) < order(pair),
+                "contact is listed in disorder, or twice");
 }
 
 std::size_t ContactPairs::bytes() const {

@@ -42,7 +42,7 @@ public:
   long searches() const { return searches_; }
   std::size_t pairs() const { return pairs_.size(); } // of the last search
   std::size_t bytes() const;
-  void store(Archive& archive); // of the same faces
+  void store(Archive& archive, const Bodies& bodies); // whose faces are those of their maps
 
 private:
   class FaceTrees;
@@ -53,8 +53,10 @@ private:
     std::vector<Vec3> there;                    // [m], at the last search, one per entry of `vertices`
     bool several = false;                       // fragments
 
-    void store(Archive& archive);
+    void store(Archive& archive, std::size_t most); // vertices or triangles
+    bool same_lists(const Of& other) const;         // but for where they were
   };
+  void check_pair(const Bodies& bodies, std::size_t number) const; // throws ArchiveError
   void list(const ContactBody& body, Of& of) const;
   bool anything(const Bodies& bodies) const;
   bool stale(const Bodies& bodies) const;

@@ -35,7 +35,7 @@ void Contacts::store(Archive& archive) {
     if (archive.reading()) body->faces.update();
     archive(body->changed);
   }
-  if (fragments_) fragments_->store(archive);
+  if (fragments_) fragments_->store(archive, bodies_);
 }
 
 std::size_t Contacts::bytes() const {

@@ -36,7 +36,7 @@ public:
   std::size_t touching() const { return touches_.size(); }       // in the last step
   long searches() const { return pairs_.searches(); }
   std::size_t pairs() const { return pairs_.pairs(); } // looked at in the last step
-  void store(Archive& archive) { pairs_.store(archive); }
+  void store(Archive& archive, const ContactPairs::Bodies& bodies) { pairs_.store(archive, bodies); }
   std::size_t bytes() const { return pairs_.bytes() + bytes_of(touches_); }
 
 private:

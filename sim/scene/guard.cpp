@@ -9,8 +9,8 @@
 namespace rend {
 namespace {
 
-constexpr double factor = 4;        // of energy
-constexpr long period = 64;         // steps of a stretch, at most
+constexpr double factor = 4; // of energy
+constexpr long period = Rewind::longest;
 constexpr long exact_period = 4096; // steps, after which B comes down
 constexpr long passing_period = 32; // steps, where speeds alone do not say that neighbours are resolved
 constexpr int most_parts = 1024;
@@ -19,6 +19,10 @@ constexpr double least_motion = 1e-6; // rest lengths in a step: less is no expl
 constexpr long longest_hold = 4096;   // steps
 constexpr double same = 0.1;   // of a growth: by how much half a step may change what is no matter of the step
 constexpr double close = 1.25; // of what may be there: what a redo leaves, unless still smaller parts leave it
+
+bool is_part_count(int parts) {
+  return parts >= 1 && parts <= most_parts && (parts & (parts - 1)) == 0;
+}
 
 } // namespace
 
@@ -220,14 +224,38 @@ long Guard::go_back() {
 
 void GuardFigures::store(Archive& archive) {
   archive(rejected, redone, looks, accepted, most_parts, smallest);
+  if (!archive.reading()) return;
+  for (const long figure : {rejected, redone, looks, accepted})
+    refuse_unless(is_count(figure), "steps were redone less often than never");
+  refuse_unless(is_part_count(most_parts) && smallest >= 0, "steps were redone in no parts");
 }
 
-void Guard::store(Archive& archive) {
+void Guard::store(Archive& archive, long done) {
   archive.mark("guard");
   archive.same(on() ? 1 : 0, "whether steps are guarded");
-  if (rewind_) rewind_->store(archive);
-  archive(figures_, budget_, threshold_, lately_, heaviest_, calm_, least_rest_, begins_, settled_, exactly_);
-  archive(redoing_, from_, goal_, parts_, start_, growth_, hold_until_, hold_length_, hold_parts_);
+  if (rewind_) rewind_->store(archive, done);
+  double least_rest = least_rest_;
+  archive(figures_);
+  archive.unbounded(budget_, threshold_, lately_, heaviest_, calm_, least_rest);
+  archive(begins_, settled_, exactly_, redoing_, from_, goal_, parts_);
+  archive.unbounded(start_, growth_);
+  archive(hold_until_, hold_length_, hold_parts_);
+  refuse_unless(least_rest == least_rest_, "neighbours are nearer at rest");
+  if (archive.reading() && rewind_) check_read(done);
+}
+
+// Between steps nothing is being redone, and nothing is known of steps to come but how long parts stay.
+void Guard::check_read(long done) const {
+  const auto gone = [&](long step) { return step >= -1 && step <= done; };
+  refuse_unless(gone(settled_) && gone(exactly_) && gone(from_) && gone(goal_),
+                "a stretch ends later than now");
+  refuse_unless(!redoing_, "a stretch is being redone");
+  refuse_unless(done > 0 || (begins_ && budget_ < 0), "energy is known before the first step");
+  refuse_unless(hold_length_ >= 0 && hold_length_ <= longest_hold && hold_until_ >= 0 &&
+                    hold_until_ <= done + longest_hold,
+                "parts of steps stay for longer than they would");
+  refuse_unless(is_part_count(hold_parts_) && parts_ >= 1 && parts_ <= 2 * most_parts,
+                "a step has no such parts");
 }
 
 void Guard::forget() {

@@ -65,12 +65,14 @@ public:
   long go_back(); // to the start of the stretch, to be gone in nominal steps; returns the steps done there
   bool has_gone(long done) const { return rewind_ && rewind_->first() < done; } // beyond that start
   void forget();                                                                // all before the present state
-  void store(Archive& archive);
+  // Between steps, so many of which are done; after the bodies.
+  void store(Archive& archive, long done);
 
 private:
   struct Held {
     double energy = 0, limit = 0, given = 0; // [J]
   };
+  void check_read(long done) const; // throws ArchiveError
   int usual(long step) const { return step < hold_until_ ? hold_parts_ : 1; }
   Trouble settle(long step, bool exact);
   Trouble judge(const Rewind::Account& account, bool exact);

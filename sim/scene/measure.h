@@ -15,8 +15,8 @@ std::vector<double> vertex_strain(const Body& body);
 // The largest elastic force that a spring or an element puts on the vertex [N].
 std::vector<double> vertex_force(const Body& body);
 
-// The largest eigenvalue of the mean of its elements' σ, weighed by the mass of their corners there (thesis
-// 7.2) [Pa]; 0 under compression alone, and without elements.
+// The largest eigenvalue of the mean of its elements' σ, weighed by their masses (thesis 7.2) [Pa]; 0 under
+// compression alone, and without elements.
 std::vector<double> vertex_stress(const Body& body);
 
 } // namespace rend

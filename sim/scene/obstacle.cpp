@@ -14,7 +14,10 @@ void Sphere::predict(double time, double step, const Vec3& gravity) {
 }
 
 void Sphere::store(Archive& archive) {
+  const Vec3 prescribed = velocity;
   archive(centre, velocity, next_centre, next_velocity);
+  if (archive.reading())
+    refuse_unless(falls() || velocity == prescribed, "a sphere moves as its preset does not say");
 }
 
 void Sphere::commit() {

@@ -172,16 +172,45 @@ void Rewind::add_pushes(const Body& body, const Start& start, Account& sum) cons
   sum.headroom += 2 * mass * push_ * push_;
 }
 
-void Rewind::Start::store(Archive& archive) {
-  archive(state, time, load, force, forces, omega_squared);
+void Rewind::Start::store(Archive& archive, const Body& body) {
+  state.store(archive, body.vertices());
+  archive(time);
+  archive.list(load, body.vertices(), "loads are of more vertices than the body has");
+  archive.list(force, body.vertices(), "forces are of more vertices than the body has");
+  archive(forces);
+  double omega = omega_squared;
+  archive(omega);
+  refuse_unless(omega == omega_squared, "a body's frequencies are others");
 }
 
 void Rewind::SphereStart::store(Archive& archive) {
   archive(centre, velocity);
 }
 
-void Rewind::store(Archive& archive) {
-  archive(first_, aside_, starts_, spheres_);
+void Rewind::store(Archive& archive, long done) {
+  archive(first_, aside_);
+  archive.same(starts_.size(), "number of bodies");
+  for (std::size_t b = 0; b < starts_.size(); ++b) starts_[b].store(archive, *bodies_[b]);
+  archive.fixed(spheres_, "number of spheres");
+  if (archive.reading()) check_read(done);
+}
+
+// After each step a start is aside, of the topology that there is. Before the first one there is none.
+void Rewind::check_read(long done) const {
+  refuse_unless(aside_ == (done > 0), "a stretch of steps has no start");
+  refuse_unless(first_ >= 0 && first_ <= done && done - first_ <= longest,
+                "a stretch of steps starts elsewhere");
+  for (std::size_t b = 0; aside_ && b < starts_.size(); ++b) {
+    const Body& body = *bodies_[b];
+    const Start& start = starts_[b];
+    const std::size_t driven = body.constraints.drives() ? body.constraints.vertices().size() : 0;
+    refuse_unless(start.state.position.size() == body.vertices(), "a stretch starts with another body");
+    refuse_unless(start.load.size() == (body.load ? body.vertices() : 0), "a stretch starts with other loads");
+    refuse_unless(start.force.size() == driven, "a stretch starts with other drives");
+    refuse_unless(std::abs(start.time - static_cast<double>(first_) * step_) <= 1e-3 * step_,
+                  "a stretch starts at another time");
+    refuse_unless(start.forces >= 0, "a stretch starts with a sum of forces below 0");
+  }
 }
 
 std::size_t Rewind::bytes() const {

@@ -29,6 +29,7 @@ namespace rend {
 class Rewind {
 public:
   using Bodies = std::vector<std::unique_ptr<Body>>;
+  static constexpr long longest = 64;                      // steps of a stretch, at most
   Rewind(World& world, const Bodies& bodies, double step); // step [s]
   void reserve_for_separations();
 
@@ -49,7 +50,7 @@ public:
   double elastic_energy() const; // [J], of the present state; some twenty times the price of the forces
 
   std::size_t bytes() const;
-  void store(Archive& archive);
+  void store(Archive& archive, long done); // so many steps are done; after the bodies
 
 private:
   struct Start { // of a body
@@ -59,12 +60,13 @@ private:
     std::vector<Record> force; // [N], internal, one for each of Constraints::vertices()
     double forces = 0;         // [N], Σ |F| over all vertices where spheres push; else 0
     double omega_squared = 0;  // [1/s²]; 0: nothing drives the body
-    void store(Archive& archive);
+    void store(Archive& archive, const Body& body);
   };
   struct SphereStart {
     Vec3 centre, velocity;
     void store(Archive& archive);
   };
+  void check_read(long done) const; // throws ArchiveError
   void add(const Body& body, const Start& start, Account& sum) const;
   void add_loads(Body& body, const Start& start, Account& sum) const;
   void add_drives(const Body& body, const Start& start, Account& sum) const;

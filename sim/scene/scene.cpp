@@ -6,6 +6,7 @@
 #include "sim/scene/build_body.h"
 #include "sim/scene/build_world.h"
 #include "sim/scene/guard.h"
+#include "sim/scene/scene_types.h"
 
 #include <fmt/format.h>
 
@@ -68,8 +69,9 @@ void Scene::check_contact(const Node& preset) {
     if (scheme_->name == "static")
       preset.child("time")->fail("integrator", "the static solve knows no contact",
                                  "leave <contact> out, or let it come to rest with symplectic and viscosity");
-    body->notes.push_back("contact: what rests on the floor under 'implicit' is pressed too much, the more the "
-                          "stiffer it is and the larger the step; symplectic does not have this");
+    body->notes.emplace_back(
+        "contact: what rests on the floor under 'implicit' is pressed too much, the more the "
+        "stiffer it is and the larger the step; symplectic does not have this");
   }
 }
 
@@ -85,7 +87,7 @@ double Scene::tolerance_of(const Node& time) const {
 // The step of an adaptive scheme is what it divides: by itself it takes that of symplectic, so that laws look
 // as often.
 void Scene::build_time(const Node& time) {
-  duration_ = time.number("duration");
+  duration_ = duration_of(time);
   step_place_ = time.place("step");
   automatic_ = time.is_word("step");
   step_ = automatic_ ? stable_step(time) : time.number("step");
@@ -114,6 +116,7 @@ double Scene::stability_limit(const Scheme& scheme) const {
 }
 
 double Scene::stable_step(const Node& time) const {
+  if (scheme_->name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
   const double limit = stability_limit(scheme_->adaptive ? *find_scheme("symplectic") : *scheme_);
   if (limit <= 0)
     time.fail("step",
@@ -271,17 +274,35 @@ void StageSeconds::store(Archive& archive) {
 void Scene::store(Archive& archive) {
   archive.mark("scene");
   double step = step_;
-  archive(step, steps_done_, next_answer_, looked_);
-  if (step != step_) throw ArchiveError("its steps have another length");
+  archive(step, steps_done_);
+  archive.unbounded(next_answer_);
+  archive(looked_);
+  refuse_unless(step == step_, "its steps have another length");
+  if (archive.reading())
+    refuse_unless(is_count(steps_done_) && looked_ == steps_done_ - 1, "it is not between two steps");
   archive.same(bodies_.size(), "number of bodies");
-  for (auto& body : bodies_) body->store(archive);
+  for (auto& body : bodies_) body->store(archive, steps_done_, step_);
   archive.same(world_.spheres.size(), "number of spheres");
   for (Sphere& sphere : world_.spheres) sphere.store(archive);
   if (contacts_) contacts_->store(archive);
-  guard_->store(archive);
+  guard_->store(archive, steps_done_);
   archive.mark("seconds"); // the last, since they differ from run to run
   archive(seconds_, timed_steps_);
   for (auto& body : bodies_) archive(body->change_seconds, body->rebind_seconds);
+  if (archive.reading()) check_read();
+}
+
+void Scene::check_read() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies_) {
+    for (const Answer& answer : body->answers) {
+      const double due = answer.at - 1e-6 * step_;
+      refuse_unless(answer.asked == (time() >= due), "an answer was measured before its time, or not then");
+      if (!answer.asked) next = std::min(next, due);
+    }
+  }
+  refuse_unless(next_answer_ == next, "an answer is measured at another time");
+  refuse_unless(is_count(timed_steps_), "steps were timed less often than never");
 }
 
 std::uint64_t Scene::hash() const {

@@ -80,8 +80,9 @@ public:
   Profile* profile() const { return profile_.get(); } // null: not asked for
 
   // Between steps: all that a later step, event or figure depends on, to a scene of the same preset and options
-  // and back (base/archive.h). It then goes on to the bit. Throws ArchiveError where it was of another scene;
-  // this one is spoilt.
+  // that has come no further, and back (base/archive.h). It then goes on to the bit. What is read may have been
+  // written by somebody who means harm: it is looked at before it is used, and what no run can come to is
+  // refused. Throws ArchiveError where it is so, or of another scene; this one is spoilt.
   void store(Archive& archive);
 
 private:
@@ -89,7 +90,8 @@ private:
   void check_probes(const Node& preset) const;
   void set_answers();
   void measure_answers();
-  void forget_answers(); // of later than the present time
+  void forget_answers();   // of later than the present time
+  void check_read() const; // throws ArchiveError
   void check_contact(const Node& preset);
   double stable_step(const Node& time) const;
   double tolerance_of(const Node& time) const;

@@ -9,6 +9,8 @@
 #include "sim/scene/build_shape.h"
 #include "sim/scene/build_world.h"
 
+#include <fmt/format.h>
+
 namespace rend {
 namespace {
 
@@ -66,7 +68,8 @@ const ElementType& time_type() {
     return ElementType{
         "time",
         "how time goes",
-        {number_or("step", {"auto"}, "s", "auto: 0.9 of what is stable (under rk45: with symplectic)")
+        {number_or("step", {"auto"}, "s",
+                   "auto: 0.9 of what is stable (under rk45: with symplectic; under static: the duration)")
              .above(0)
              .otherwise("auto"),
          word("integrator", names, "the scheme").otherwise("symplectic"),
@@ -78,10 +81,19 @@ const ElementType& time_type() {
              .at_least(1e-14)
              .at_most(0.1)
              .otherwise("1e-6"),
-         number("duration", "s", "of the clip").at_least(0).is_required()},
+         number("duration", "s", "of the clip; only static does without, and then it is 1").at_least(0)},
         {}};
   }();
   return type;
+}
+
+// An equilibrium takes no time: one step to the end, and any end.
+double duration_of(const Node& time) {
+  if (time.has("duration")) return time.number("duration");
+  if (time.text("integrator") == "static") return 1;
+  const AttributeType& type = *time.type().find("duration");
+  throw UserError(Exit::BadInput, time.place(), "<time> needs duration",
+                  fmt::format("duration: {}; expected {}", type.what, expected(type)));
 }
 
 } // namespace rend

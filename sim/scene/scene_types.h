@@ -9,4 +9,7 @@ const ElementType& body_type();
 const ElementType& world_type();
 const ElementType& time_type();
 
+// Of a <time> [s]. UserError where it has none and its integrator takes one: all but static do.
+double duration_of(const Node& time);
+
 } // namespace rend

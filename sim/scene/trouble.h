@@ -20,7 +20,7 @@ struct GuardFigures {
   int most_parts = 1;  // of a step
   double smallest = 0; // [s], of these parts; 0: none
 
-  void store(Archive& archive);
+  void store(Archive& archive); // ArchiveError: no guard counts so
 };
 
 } // namespace rend

@@ -8,7 +8,6 @@ namespace {
 constexpr double direct_below = 40; // iterations
 constexpr std::size_t most_blocks = 10'000'000;
 constexpr double single_from = 1e-2; // tolerance
-constexpr int hard_for = 10;         // matrices
 constexpr int least_iterations = 100, most_iterations = 20'000;
 
 } // namespace
@@ -58,7 +57,7 @@ bool LinearSolver::iterate(const Records& b, Records& x, double tolerance) {
 bool LinearSolver::solve(const Records& b, Records& x, double tolerance) {
   const bool at_once = direct();
   if (!at_once && iterate(b, x, tolerance)) return true;
-  if (!at_once) hard_ = hard_for;
+  if (!at_once) hard_ = most_hard;
   if (!factor_fits() || factorise() == Definiteness::Singular) return false;
   x.resize(b.size());
   factor_.solve(b.data(), x.data());

@@ -32,8 +32,9 @@ public:
 
   // What one solution hands on to the next: the way that is taken, and what is counted (see
   // Integrator::carried).
+  static constexpr int most_hard = 10; // matrices in a row that are not worth iterating
   struct Carried {
-    int hard = 0;
+    int hard = 0; // at most that
     long iterations = 0, factorisations = 0;
   };
   Carried carried() const { return {hard_, iterations_, factorisations_}; }

@@ -9,9 +9,63 @@ GMap::GMap(int dimension) : dimension_(dimension) {
   CHECK(dimension == 2 || dimension == 3);
 }
 
+// What an archive has of a map.
+struct GMap::Stored {
+  std::vector<Links> links;
+  std::vector<std::uint32_t> free;
+
+  bool removed(std::uint32_t dart) const { return links[dart][0] == Dart::none_value; }
+  bool is_free(std::size_t i, std::uint32_t dart) const { return links[dart][i] == dart; }
+
+  // Of a dart that is there, against what it was linked to in a valid map: within its element to the same,
+  // all of which are there; across its border (αn) to the same, or to nothing; and so the whole border, which
+  // is what keeps αiαn an involution. Links that are those of a valid map need no look at their own.
+  void check_dart(std::uint32_t d, const Links& was, std::size_t n) const {
+    const Links& now = links[d];
+    for (std::size_t i = 0; i < n; ++i) {
+      refuse_unless(now[i] == was[i], "a dart's link within its element is another");
+      refuse_unless(!removed(now[i]), "an element is there in part");
+    }
+    if (n == 2) refuse_unless(now[3] == d, "a dart of a sheet is not α3-free");
+    if (!is_free(n, d)) {
+      refuse_unless(now[n] == was[n], "a dart's link across its element's border is another");
+      refuse_unless(links[now[n]][n] == d, "a border is open on one side");
+    }
+    for (std::size_t i = 0; i + 2 <= n; ++i)
+      refuse_unless(is_free(n, now[i]) == is_free(n, d), "a border is open in part");
+  }
+
+  // That the free list names each removed dart once.
+  void check_free(std::size_t removed_darts) const {
+    std::vector<bool> named(links.size());
+    refuse_unless(free.size() == removed_darts, "the free darts are not as many as were removed");
+    for (const std::uint32_t d : free) {
+      refuse_unless(d < links.size() && removed(d) && !named[d], "a free dart is none, or is free twice");
+      named[d] = true;
+    }
+  }
+};
+
 void GMap::store(Archive& archive) {
   archive.same(static_cast<std::uint64_t>(dimension_), "dimension");
-  archive(links_, free_);
+  if (!archive.reading()) return archive(links_, free_);
+  Stored stored;
+  stored.links.resize(links_.size());
+  archive.fixed(stored.links, "number of darts");
+  archive.list(stored.free, links_.size(), "there are more free darts than darts");
+  std::size_t removed = 0;
+  constexpr Links none{Dart::none_value, Dart::none_value, Dart::none_value, Dart::none_value};
+  for (std::uint32_t d = 0; d < links_.size(); ++d) {
+    if (!stored.removed(d)) {
+      stored.check_dart(d, links_[d], static_cast<std::size_t>(dimension_));
+      continue;
+    }
+    refuse_unless(stored.links[d] == none, "a dart is removed in part");
+    ++removed;
+  }
+  stored.check_free(removed);
+  links_.swap(stored.links);
+  free_.swap(stored.free);
 }
 
 std::size_t GMap::bytes() const {

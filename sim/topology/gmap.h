@@ -48,10 +48,14 @@ public:
       if (links_[i][0] != Dart::none_value) f(Dart{i});
   }
 
-  void store(Archive& archive); // all of it (base/archive.h); ArchiveError: it was of another dimension
+  // All of it (base/archive.h). What is read must have come from this map by changes that separate elements and
+  // remove some, which are all that laws make: then it is a map, and every cell in it is of a shape that is
+  // known. ArchiveError: it did not, and this map is as it was.
+  void store(Archive& archive);
 
 private:
   friend class MapEdit;
+  struct Stored;
 
   int dimension_;
   std::vector<Links> links_;        // one per dart; α0 = none: removed

@@ -127,17 +127,18 @@ inline const ElementType& element(const ElementType& parent, const std::string& 
 }
 
 inline std::unique_ptr<Interaction> interaction(EmbeddedMap& map, const Spring& spring,
-                                                const std::optional<SpringMaterial>& material = {}) {
+                                                const std::optional<SpringMaterial>& material = {},
+                                                std::vector<std::string>* notes = nullptr) {
   const ElementType& type = element(element(body_type(), "springs"), spring.element);
   Node node(type, Place{});
   if (spring.k > 0) node.set(*type.find("k"), std::to_string(spring.k), Place{});
   node.set(*type.find("damping"), std::to_string(spring.damping), Place{});
   if (!spring.kind.empty()) node.set(*type.find("kind"), spring.kind, Place{});
   node.fill_defaults();
-  std::vector<std::string> notes;
+  std::vector<std::string> unread;
   for (const InteractionType& each : all_interactions())
     if (each.element == spring.element && each.kind == spring.kind)
-      return each.make(map, {node, material, notes});
+      return each.make(map, {node, material, notes ? *notes : unread});
   throw std::invalid_argument(spring.kind);
 }
 

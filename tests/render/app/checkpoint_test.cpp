@@ -136,21 +136,85 @@ TEST_F(Checkpoint, the_best_checkpoint_is_the_run_s_own_then_the_latest_of_the_o
   const auto write = [&](const char* name, long next) {
     write_checkpoint(place.path() / "c" / name, run.key, next, run.session, run.film);
   };
-  const auto found = [&](long first) {
+  const auto found = [&](long first, const Shard& shard) {
     std::vector<std::string> names;
-    for (const auto& one : find_checkpoints(place.path() / "c/own.checkpoint", run.key, first))
+    for (const auto& one : find_checkpoints(place.path() / "c", "clip", shard, run.key, first))
       names.push_back(one.path.filename().string());
     return names;
   };
-  EXPECT_TRUE(found(30).empty());
-  write("a.checkpoint", 3);
-  write("b.checkpoint", 9);
-  write("c.checkpoint", 20);
-  place.write("c/d.checkpoint", "hello");
-  EXPECT_THAT(found(10), testing::ElementsAre("b.checkpoint", "a.checkpoint"));
-  write("own.checkpoint", 5);
-  EXPECT_THAT(found(10), testing::ElementsAre("own.checkpoint", "b.checkpoint", "a.checkpoint"));
-  EXPECT_THAT(found(4), testing::ElementsAre("a.checkpoint"));
+  EXPECT_TRUE(found(30, {}).empty());
+  write("clip.1-of-3.checkpoint", 3);
+  write("clip.12-of-20.checkpoint", 9);
+  write("clip.3-of-3.checkpoint", 20);
+  place.write("c/clip.2-of-2.checkpoint", "hello");
+  EXPECT_THAT(found(10, {}), testing::ElementsAre("clip.12-of-20.checkpoint", "clip.1-of-3.checkpoint"));
+  write("clip.2-of-3.checkpoint", 5);
+  EXPECT_THAT(found(10, {2, 3}), testing::ElementsAre("clip.2-of-3.checkpoint", "clip.12-of-20.checkpoint",
+                                                      "clip.1-of-3.checkpoint"));
+  EXPECT_THAT(found(4, {2, 3}), testing::ElementsAre("clip.1-of-3.checkpoint"));
+}
+
+TEST_F(Checkpoint, only_files_that_a_run_of_this_name_writes_are_looked_at) {
+  Made run(place);
+  fs::create_directories(place.path() / "c");
+  for (const char* name :
+       {"other.checkpoint", "clip", "clipped.checkpoint", "clip.1-of-2.checkpoint.part",
+        "clip.0-of-2.checkpoint", "clip.3-of-2.checkpoint", "clip.01-of-2.checkpoint",
+        "clip.+1-of-2.checkpoint", "clip.1-of-.checkpoint", "clip.1of2.checkpoint",
+        "clip.1-of-2.extra.checkpoint", "clip.-1-of-2.checkpoint", "clip.99999999999999999999-of-2.checkpoint",
+        ".checkpoint", "clip.1-of-2.checkpoin", "clip.1-of-1.checkpoint"})
+    write_checkpoint(place.path() / "c" / name, run.key, 3, run.session, run.film);
+  const auto found = [&] { return find_checkpoints(place.path() / "c", "clip", {2, 9}, run.key, 30); };
+  EXPECT_TRUE(found().empty()) << found().front().path;
+  write_checkpoint(place.path() / "c/clip.checkpoint", run.key, 3, run.session, run.film);
+  write_checkpoint(place.path() / "c/clip.1-of-2.checkpoint", run.key, 3, run.session, run.film);
+  EXPECT_EQ(found().size(), 2u);
+}
+
+// Neither is waited for, nor opened through a link.
+TEST_F(Checkpoint, what_is_no_regular_file_is_refused_and_of_others_left_out) {
+  Made run(place);
+  fs::create_directories(place.path() / "c");
+  const fs::path own = place.path() / "c/clip.checkpoint", genuine = place.path() / "genuine";
+  write_checkpoint(genuine, run.key, 3, run.session, run.film);
+  const std::map<std::string, std::string> kinds{
+      {"a pipe", "mkfifo {}"}, {"a folder", "mkdir {}"}, {"a symbolic link", "ln -s ../genuine {}"}};
+  for (const auto& [kind, command] : kinds) {
+    EXPECT_EQ(place.shell(fmt::format(fmt::runtime(command), own.string())).code, 0);
+    const auto said = [&](const auto& reads) -> std::string {
+      try {
+        reads();
+      } catch (const UserError& error) {
+        EXPECT_EQ(error.code, Exit::BadInput);
+        return error.what();
+      }
+      return "nothing";
+    };
+    const std::string why = "a checkpoint is a regular file, and this is " + kind;
+    EXPECT_THAT(said([&] { read_checkpoint_head(own, run.key); }), HasSubstr(why));
+    EXPECT_THAT(said([&] { read_checkpoint(own, run.key, 30, run.session, run.film); }), HasSubstr(why));
+    EXPECT_THAT(said([&] { find_checkpoints(place.path() / "c", "clip", {}, run.key, 30); }), HasSubstr(why));
+    EXPECT_TRUE(find_checkpoints(place.path() / "c", "clip", {1, 2}, run.key, 30).empty()) << kind;
+    const Outcome outcome = place.rend("render clip.xml -q --resume -o c");
+    EXPECT_EQ(outcome.code, 65) << kind;
+    EXPECT_THAT(outcome.err, HasSubstr(why));
+    fs::remove_all(own);
+  }
+  EXPECT_TRUE(fs::exists(genuine));
+}
+
+// A terabyte by its size, and hardly anything on the disk.
+TEST_F(Checkpoint, a_file_that_is_nearly_all_holes_takes_neither_time_nor_memory) {
+  Made from(place), to(place);
+  const fs::path path = place.path() / "one.checkpoint";
+  from.session.run(5, {[](long) {}, {}});
+  write_checkpoint(path, from.key, 6, from.session, from.film);
+  const std::string bytes = content(path);
+  for (const std::size_t kept : {bytes.size(), bytes.size() / 2, std::size_t{50}}) {
+    place.write("one.checkpoint", bytes.substr(0, kept));
+    fs::resize_file(path, std::uintmax_t{1} << 40U);
+    EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.film), UserError) << kept;
+  }
 }
 
 } // namespace

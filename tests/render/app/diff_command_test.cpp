@@ -259,7 +259,7 @@ TEST_F(Diff, refuses_bad_tolerances_with_their_place) {
   put("small.png", picture(0, 8, 8));
   const Outcome small = diff("a b --mask small.png");
   EXPECT_EQ(small.code, 2);
-  EXPECT_THAT(small.err, HasSubstr("8 x 8"));
+  EXPECT_THAT(small.out, HasSubstr("8 x 8")); // of that pair
 }
 
 TEST_F(Diff, writes_a_page_maps_json_and_junit) {

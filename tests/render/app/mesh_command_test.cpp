@@ -84,7 +84,16 @@ TEST(MeshOfAPreset, lies_in_its_folder_or_below) {
     EXPECT_EQ(outside.code, 65);
     EXPECT_THAT(outside.err, HasSubstr("outside of the preset's folder"));
     EXPECT_EQ(run(file, "--allow-path").code, 0);
+    for (const char* command : {"check scenes/s.xml -q --only threads", "study --lean scenes/s.xml -q --quick",
+                                "study scenes/s.xml -q", "info scenes/s.xml"}) {
+      const Outcome other = place.rend(command);
+      EXPECT_EQ(other.code, 65) << command;
+      EXPECT_THAT(other.err, HasSubstr("outside of the preset's folder")) << command;
+    }
+    EXPECT_EQ(place.rend("check scenes/s.xml -q --only threads --allow-path").code, 0);
   }
+  fs::create_symlink("circle", place.path() / "scenes/circle");
+  EXPECT_EQ(run("circle/t.msh").code, 65);
 }
 
 TEST(MeshOfAPreset, has_groups_that_select) {
@@ -96,6 +105,24 @@ TEST(MeshOfAPreset, has_groups_that_select) {
   EXPECT_NEAR(outcome.json()["momentum"][2].get<double>(), -1.5 * 10 * 0.01, 1e-12); // three of four fall
   place.write("s.xml", preset("t.msh", "<fix group=\"tops\"/>"));
   EXPECT_THAT(place.rend("run s.xml").err, HasSubstr("did you mean 'top'?"));
+}
+
+TEST(MeshOfAPreset, of_hexagons_is_told_where_it_does_not_bend) {
+  const Place place;
+  const std::string bend = R"(<springs><stretch k="1"/><bend kind="angular" k="1"/></springs>)";
+  place.write("two.off", "OFF\n9 2 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n0 2 0\n1 2 0\n2 2 0\n"
+                         "6 0 1 2 5 4 3\n6 3 4 5 8 7 6\n");
+  place.write("mixed.off", "OFF\n9 3 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n0 2 0\n1 2 0\n2 2 0\n"
+                           "6 0 1 2 5 4 3\n4 3 4 7 6\n4 4 5 8 7\n");
+  for (const auto& [file, words] : {std::pair{"two.off", R"(bend kind="angular" was left out: at every edge)"},
+                                    std::pair{"mixed.off", "has no effect on 2 of the 3 edges"}}) {
+    place.write("s.xml", preset(file, bend));
+    const Outcome ran = place.rend("run s.xml");
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(words));
+    const auto left_out = place.rend("info s.xml --json").json()["bodies"][0]["left_out"];
+    EXPECT_THAT(left_out, testing::Contains(HasSubstr(words)));
+  }
 }
 
 } // namespace

@@ -60,10 +60,11 @@ protected:
   double moment() { return 0.02 + seconds * std::uniform_real_distribution<>(0, 1)(random); }
 
   // Stops it as soon as `ready`, a condition of the shell in which $pid is the program's, holds.
-  Outcome stopped_when(const std::string& ready, const std::string& arguments) const {
+  Outcome stopped_when(const std::string& ready, const std::string& arguments,
+                       const std::string& signal = "TERM") const {
     return place.shell(fmt::format("{} {} & pid=$!; until {} || ! kill -0 $pid; do sleep 0.005; done; "
-                                   "kill -TERM $pid; wait $pid",
-                                   REND_PROGRAM, arguments, ready));
+                                   "kill -{} $pid; wait $pid",
+                                   REND_PROGRAM, arguments, ready, signal));
   }
 
   // Stops runs into a folder at moments between too early and too late, until one leaves its checkpoint there.

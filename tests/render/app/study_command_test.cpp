@@ -129,6 +129,19 @@ TEST(StudyCommand, refuses_before_it_runs) {
   refused("-o hanging.xml", 73, "hanging.xml");
   refused("-o /proc/none", 73, "/proc/none");
   EXPECT_EQ(place.rend("study nothing.xml").code, 66);
+  // A mesh of a file has no cells to ask more of; as it is it can be studied.
+  place.write("two.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  std::string of_file = hanging;
+  const std::string generated = R"(<sheet cells="3 3" size="1 1"/>)";
+  place.write("file.xml",
+              of_file.replace(of_file.find(generated), generated.size(), R"(<mesh file="two.off"/>)"));
+  for (const char* factors : {"1,2", "3"}) {
+    const Outcome made = place.rend(std::string("study file.xml --quick -q --refine ") + factors);
+    EXPECT_EQ(made.code, 64) << made.err;
+    EXPECT_THAT(made.err, AllOf(HasSubstr(std::string("--refine ") + factors), HasSubstr("body 1 is of a file"),
+                                HasSubstr("<sheet>, <bar> or <tube>")));
+    EXPECT_EQ(made.out, "");
+  }
   EXPECT_FALSE(std::filesystem::exists(place.path() / "out"));
 }
 

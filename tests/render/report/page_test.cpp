@@ -53,15 +53,20 @@ TEST(Page, EscapesWhatIsMarkup) {
   EXPECT_EQ(link("a\"b", "<").text, "<a href=\"a&quot;b\">&lt;</a>");
 }
 
-TEST(Page, ReplacesWhatIsNoCharacter) {
-  const std::string no = "\xEF\xBF\xBD";
+TEST(Page, ShowsAsEscapesWhatIsNoCharacterOrActs) {
   EXPECT_EQ(escaped("ν = ½ → 𝄞").text, "ν = ½ → 𝄞");
-  EXPECT_EQ(escaped(std::string("a\0b", 3)).text, "a" + no + "b");
-  EXPECT_EQ(escaped("\xff").text, no);
-  EXPECT_EQ(escaped("\xc0\xaf").text, no + no);                   // too long for '/'
-  EXPECT_EQ(escaped("\xed\xa0\x80").text, no + no + no);          // half of a surrogate pair
-  EXPECT_EQ(escaped("\xe2\x82").text, no + no);                   // ends too early
-  EXPECT_EQ(escaped("\xf4\x90\x80\x80").text, no + no + no + no); // beyond U+10FFFF
+  EXPECT_EQ(escaped("a\n\tb").text, R"(a\n\tb)");
+  EXPECT_EQ(escaped_lines("a\n\tb\033<").text, "a\n\tb\\x1b&lt;");
+  EXPECT_EQ(preformatted("a\nb\n").text, "<pre>a\nb\n</pre>\n");
+  EXPECT_EQ(escaped(std::string("a\0\033b", 4)).text, R"(a\x00\x1bb)");
+  EXPECT_EQ(escaped("\xff\xc0\xaf").text, R"(\xff\xc0\xaf)");                 // no UTF-8, and too long for '/'
+  EXPECT_EQ(escaped("\u009b\u202e\uffff").text, R"(\u{9b}\u{202e}\u{ffff})"); // U+FFFF is not for XML
+}
+
+TEST(Page, WritesAddressesOfFilesOfAnyName) {
+  EXPECT_EQ(address_of("a/b-1_2.~x.png"), "a/b-1_2.~x.png");
+  EXPECT_EQ(address_of("javascript:x"), "javascript%3Ax");
+  EXPECT_EQ(address_of("a b?c#d%20\n\u00e9"), "a%20b%3Fc%23d%2520%0A%C3%A9");
 }
 
 // RFC 4648, section 10.

@@ -63,7 +63,7 @@ TEST(Plot, takes_every_text_as_a_text) {
   plot.series[1].name = "'; exit 3; '";
   plot.x_label = "50 % \\";
   const std::string script = script_of(plot, PlotFormat::Svg);
-  EXPECT_THAT(script, HasSubstr("set title 'it’s ’date’ \"$(date)\" x_1^2 {a} ; system ’false’' no"));
+  EXPECT_THAT(script, HasSubstr("set title 'it’s ’date’ \"$(date)\" x_1^2 {a}\\n; system ’false’' no"));
   if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
   EXPECT_THAT(*draw(plot, PlotFormat::Svg), HasSubstr("exit 3"));
 }

@@ -76,9 +76,9 @@ TEST(SlotTable, is_stored_as_it_is_and_takes_no_more_room_where_it_is_read) {
   for (const auto& [from, to] : {std::pair{&packed, &small}, {&packed, &wide}, {&wide, &once_packed}}) {
     SlotTable other = *to;
     Archive out;
-    from->store(out);
+    from->store(out, from->size());
     Archive in{std::span<const std::uint8_t>(out.bytes())};
-    other.store(in);
+    other.store(in, from->size());
     expect_same(other, slots);
     EXPECT_EQ(other.bytes(), from->bytes());
   }

@@ -63,7 +63,7 @@ inline Measured largest_of(const Eigen::Matrix3d& tensor, bool compression) {
 
 class PlainBody {
 public:
-  explicit PlainBody(const Body& body) : body_(body), map_(*body.map), elements_(polyhedra(map_)) {
+  explicit PlainBody(const Body& body) : map_(*body.map), elements_(polyhedra(map_)) {
     force_.assign(map_.cells(Vertex).slots(), Vec3::Zero());
   }
 
@@ -82,7 +82,6 @@ public:
   }
 
   void add_elements(ElasticModel model, Rotation rotation, const ElasticMaterial& material, double thickness) {
-    const int dimension = map_.dimension();
     for (const Polyhedron& p : elements_) {
       const auto at = element_at(map_.map(), p.first);
       if (!at) continue;
@@ -101,10 +100,10 @@ public:
       law->forces(unit.data(), state, f.data());
       stress_[p.first] = law->stress(unit.data(), state);
       strain_[p.first] = law->strain(unit.data(), state);
+      const double size = extent(p);
       for (std::size_t n = 0; n < corner.size(); ++n) {
         push(p, map_.vertex(corner[n]), f[n]);
-        const double m = (*body_.mass)[map_.slot(corner_orbit(dimension), corner[n])];
-        at_vertex_[map_.vertex(corner[n])].push_back({m, p.first});
+        at_vertex_[map_.vertex(corner[n])].push_back({size, p.first});
       }
     }
   }
@@ -200,6 +199,30 @@ private:
     return at == corner_.end() ? Vec3(Vec3::Zero()) : at->second;
   }
 
+  // The volume [m³] or area [m²] at rest, which is as the mass: a body has one density. Each face is its fan
+  // from the mean of its corners, and the volume that of the tetrahedra from there to its middle.
+  double extent(const Polyhedron& p) const {
+    const auto mean = [&](const std::vector<Slot>& of) {
+      Vec3 sum = Vec3::Zero();
+      for (Slot v : of) sum += map_.rest()[v].vec();
+      return Vec3(sum / static_cast<double>(of.size()));
+    };
+    std::vector<Slot> all;
+    for (const Polygon& face : p.faces) all.insert(all.end(), face.vertex.begin(), face.vertex.end());
+    const Vec3 middle = mean(all);
+    double sum = 0;
+    for (const Polygon& face : p.faces) {
+      const Vec3 c = mean(face.vertex);
+      for (std::size_t n = 0; n < face.vertex.size(); ++n) {
+        const Vec3 a = map_.rest()[face.vertex[n]].vec() - c;
+        const Vec3 twice = a.cross(map_.rest()[face.vertex[(n + 1) % face.vertex.size()]].vec() - c);
+        sum += p.faces.size() == 1 ? twice.norm() / 2 : std::abs(twice.dot(middle - c)) / 6;
+      }
+    }
+    return sum;
+  }
+
+  // Σ m σ / Σ m over the elements (e) around the vertex (thesis 7.2).
   Measured mean_stress(Slot v, bool compression) const {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     double whole = 0;
@@ -210,7 +233,6 @@ private:
     return largest_of(sum / whole, compression);
   }
 
-  const Body& body_;
   const EmbeddedMap& map_;
   std::vector<Polyhedron> elements_;
   std::vector<Vec3> force_;                      // [N], by vertex
@@ -218,7 +240,7 @@ private:
   std::map<Slot, Vec3> singles_at_;              // the largest [N]
   std::vector<Single> singles_;
   std::map<Dart, Eigen::Matrix3d> stress_, strain_;                // by element
-  std::map<Slot, std::vector<std::pair<double, Dart>>> at_vertex_; // mass [kg] and element
+  std::map<Slot, std::vector<std::pair<double, Dart>>> at_vertex_; // extents and elements
 };
 
 } // namespace rend::plain

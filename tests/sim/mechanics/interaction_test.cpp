@@ -3,6 +3,8 @@
 #include "sim/mechanics/spring_law.h"
 #include "sim/presets.h"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace rend {
@@ -118,6 +120,35 @@ TEST(Interaction, conserves_linear_and_angular_momentum) {
       EXPECT_LT(moment, 1e-13);
     }
   });
+}
+
+TEST(Interaction, of_hinges_says_at_how_many_edges_it_fits_no_face) {
+  PolygonMesh hexagons;
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) hexagons.points.push_back(Vec3(x, y, 0));
+  hexagons.add({0, 1, 2, 5, 4, 3});
+  hexagons.add({3, 4, 5, 8, 7, 6});
+  std::vector<Named> all = irregular();
+  all.push_back({"hexagons", hexagons});
+  for (const Named& each : all) {
+    SCOPED_TRACE(each.name);
+    BruteForce brute(each.mesh);
+    const auto map = sheet_from(each.mesh);
+    brute.look_at(*body(each.mesh, {}));
+    brute.add({"bend", "provot"});
+    const std::size_t inner = brute.units() / 2; // one at each end of an edge
+    brute.add({"bend", "angular"});
+    std::vector<std::string> notes;
+    const auto made = interaction(*map, {"bend", "angular"}, {}, &notes);
+    EXPECT_EQ(made != nullptr, brute.units() > 0);
+    const std::string expected =
+        brute.units() == 0 ? "left out"
+                           : fmt::format("no effect on {} of the {} edges", inner - brute.units(), inner);
+    if (brute.units() == inner)
+      EXPECT_THAT(notes, testing::IsEmpty());
+    else
+      EXPECT_THAT(notes, testing::ElementsAre(testing::HasSubstr(expected)));
+  }
 }
 
 TEST(Interaction, is_at_rest_at_rest) {

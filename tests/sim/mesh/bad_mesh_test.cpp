@@ -13,6 +13,7 @@ namespace rend {
 namespace {
 
 using files::Folder;
+namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 // While it lives, the process cannot take more than 256 MB beyond what it has: more is std::bad_alloc.
@@ -231,6 +232,84 @@ TEST(BadMesh, binary_files_name_the_byte) {
   EXPECT_THAT(refusal("a.msh", binary("bar-41b.msh", at + 8, 1000000, 8)),
               HasSubstr(fmt::format("a.msh: byte {}: 1000000 nodes are announced, and the", at + 8)));
   EXPECT_THAT(refusal("a.msh", text.substr(0, at + 100)), HasSubstr(fmt::format("a.msh: byte {}: ", at + 8)));
+}
+
+// Of 20 GB, of which nothing but the beginning is on the disk; while it is read nothing may take 256 MB.
+TEST(BadMesh, a_file_with_a_hole_takes_no_memory) {
+  const Folder folder;
+  for (const auto& [name, text] : good()) {
+    for (const std::string& beginning : {std::string(), text}) {
+      const fs::path path = folder.write("hole-" + name, beginning);
+      fs::resize_file(path, std::uintmax_t{20} << 30U);
+      const MemoryLimit limit;
+      try {
+        read_mesh(path);
+        FAIL() << name;
+      } catch (const UserError& error) {
+        EXPECT_EQ(error.code, Exit::BadInput);
+        EXPECT_THAT(error.what(), HasSubstr("hole-" + name + ": byte ")) << name;
+        EXPECT_THAT(error.what(), HasSubstr("4096 bytes are zero, which no mesh holds")) << name;
+      }
+      fs::remove(path);
+    }
+  }
+  // Two binary ends around a hole, and one that ends within it.
+  const std::string& binary = good().at("bar-41b.msh");
+  const fs::path path = folder.write("middle.msh", binary);
+  fs::resize_file(path, std::uintmax_t{1} << 34U);
+  std::ofstream(path, std::ios::binary | std::ios::app) << binary;
+  const MemoryLimit limit;
+  EXPECT_THROW(read_mesh(path), UserError);
+  EXPECT_NO_THROW(read_mesh(folder.write("whole.msh", binary)));
+}
+
+// Tags of nodes may be any: no array is as long as the largest is high.
+TEST(BadMesh, tags_far_apart_take_no_memory) {
+  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n";
+  const std::string tail = " 0 0 1\n$EndNodes\n$Elements\n1\n1 4 0 1 7 4000000000 ";
+  const std::string high = "9000000000000000000";
+  EXPECT_EQ(verdict("far.msh", head + "7 1 0 0\n4000000000 0 1 0\n" + high + tail + high + "\n$EndElements\n"),
+            Verdict::Taken);
+}
+
+// tinyobjloader makes room for what a tag announces, and polygons may be in any number of groups.
+TEST(BadMesh, obj_statements_that_announce_much_take_no_memory) {
+  const std::string sheet = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  std::string tags = sheet + "f 1 2 3\n", groups = sheet + "g";
+  for (int n = 0; n < 20000; ++n) tags += "t a 8192/8192/8192\n";
+  EXPECT_EQ(verdict("tags.obj", tags), Verdict::Taken);
+  for (int n = 0; n < 5000; ++n) groups += fmt::format(" {}", n);
+  groups += "\n";
+  for (int n = 0; n < 5000; ++n) groups += "f 1 2 3\n";
+  EXPECT_THAT(refusal("groups.obj", groups), HasSubstr("in one group too many"));
+}
+
+TEST(BadMesh, numbers_of_groups_are_of_32_bits_without_their_sign) {
+  const auto msh = [](const std::string& named, const std::string& used) {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 " + named +
+           " \"all\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 "
+           "1\n$EndNodes\n$Elements\n1\n"
+           "1 4 2 " +
+           used + " 0 1 2 3 4\n$EndElements\n";
+  };
+  const auto groups = [&](const std::string& named, const std::string& used) {
+    return files::read("a.msh", msh(named, used)).groups;
+  };
+  for (const char* number : {"-9223372036854775808", "9223372036854775807", "2147483648", "-2147483648"}) {
+    EXPECT_THAT(refusal("a.msh", msh(number, "1")), HasSubstr("a.msh:6:3: is too large for the number of a"));
+    EXPECT_THAT(refusal("a.msh", msh("1", number)), HasSubstr("a.msh:17:7: is too large for the number of a"));
+  }
+  EXPECT_THAT(refusal("a.msh", msh("1", "4294967297")), HasSubstr("too large")); // 1, in 32 bits
+  for (const char* used : {"2147483647", "-2147483647"})                         // reversed
+    EXPECT_EQ(groups("2147483647", used).count("all"), 1u) << used;
+  const auto of_entity = [](const char* number) {
+    return fmt::format("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 {} 0\n"
+                       "$EndEntities\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                       "$EndNodes\n$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n",
+                       number);
+  };
+  EXPECT_EQ(files::read("a.msh", of_entity("-7")).groups.count("7"), 1u);
+  EXPECT_THAT(refusal("a.msh", of_entity("-2147483648")), HasSubstr("a.msh:6:17: is too large"));
 }
 
 TEST(BadMesh, a_file_that_is_not_there_is_another_matter) {

@@ -111,6 +111,83 @@ TEST(Measure, of_a_uniform_strain_is_the_same_everywhere_for_every_model) {
   }
 }
 
+// A cell at rest and one that is pulled, which share a face: thesis 7.2 gives the vertices between them the
+// share of the pulled one's mass, however many corners each mass is spread over.
+struct Pair {
+  std::string name;
+  std::unique_ptr<EmbeddedMap> map;
+  Vec3 pulled;      // where the vertices are [m] that only the pulled one has
+  double share = 0; // of its mass
+};
+
+std::vector<Pair> pairs_of_cells() {
+  PolygonMesh flat;
+  flat.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(2, 0.5, 0)};
+  flat.add({0, 1, 2, 3});
+  flat.add({1, 4, 2});
+  CellMesh solid;
+  for (const Vec3& x : elements::regular(ElementKind::Hexahedron)) solid.points.push_back(x);
+  solid.points.push_back(Vec3(2, 0.5, 0.5));
+  solid.add(CellKind::Hexahedron, {0, 1, 2, 3, 4, 5, 6, 7});
+  solid.add(CellKind::Pyramid, {1, 5, 6, 2, 8});
+  std::vector<Pair> all;
+  all.push_back({"quad and triangle", sheet_from(flat), flat.points.back(), 0.5 / 1.5});
+  all.push_back({"hexahedron and pyramid", solid_from(solid), solid.points.back(), (1. / 3) / (4. / 3)});
+  return all;
+}
+
+// [Pa], the stress along x of a cell 1 m long whose end moves by 1 mm.
+double pulled_by_a_millimetre(int dimension) {
+  const ElasticMaterial m = ElasticMaterial::of(1000, 0.3, dimension);
+  return (m.lambda + 2 * m.mu) * 1e-3;
+}
+
+std::unique_ptr<Body> pulled_pair(Pair& pair, const std::string& model) {
+  auto body = elements::elastic_body(std::move(pair.map), {model});
+  body->prepare(*find_scheme("symplectic"), false, 1);
+  for (Record& x : body->map->position().values())
+    if (x.vec() == pair.pulled) x = Record(pair.pulled + Vec3(1e-3, 0, 0));
+  return body;
+}
+
+TEST(Measure, of_stress_weighs_elements_by_their_mass_not_by_that_of_a_corner) {
+  for (const char* model : {"linear", "corotational", "mass-tensor"}) {
+    for (Pair& pair : pairs_of_cells()) {
+      SCOPED_TRACE(pair.name + ", " + model);
+      const auto body = pulled_pair(pair, model);
+      const int dimension = body->map->dimension();
+      const double pulled = pulled_by_a_millimetre(dimension);
+      const std::vector<double> stress = vertex_stress(*body);
+      std::size_t between = 0;
+      for (Slot v = 0; v < stress.size(); ++v) {
+        const double x = body->map->rest()[v].x;
+        between += x == 1;
+        EXPECT_NEAR(stress[v], x == 2 ? pulled : x == 1 ? pair.share * pulled : 0, 1e-11 * pulled) << v;
+      }
+      EXPECT_EQ(between, dimension == 2 ? 2u : 4u);
+    }
+  }
+}
+
+TEST(Measure, of_stress_is_each_cells_own_once_they_have_let_go) {
+  for (Pair& pair : pairs_of_cells()) {
+    SCOPED_TRACE(pair.name);
+    const auto body = pulled_pair(pair, "corotational");
+    const int dimension = body->map->dimension();
+    const std::size_t corners = dimension == 2 ? 3 : 5; // of the pulled cell
+    const double pulled = pulled_by_a_millimetre(dimension);
+    body->map->edit(
+        [&](Edit& edit) { body->map->map().for_each_dart([&](Dart d) { unsew(edit, dimension, d); }); });
+    body->rebind();
+    std::size_t feel_it = 0;
+    for (double stress : vertex_stress(*body)) {
+      feel_it += stress > 0.5 * pulled;
+      EXPECT_NEAR(stress, stress > 0.5 * pulled ? pulled : 0, 1e-11 * pulled);
+    }
+    EXPECT_EQ(feel_it, corners);
+  }
+}
+
 TEST(Measure, of_force_is_the_largest_that_one_element_puts_on_the_vertex) {
   const auto body = elements::elastic_body(std::move(elements::irregular_maps()[0].map),
                                            {"corotational", "polar", 0, Cumulated::Auto, true});
