@@ -1,4 +1,4 @@
-// Topological changes: what a law does where its criterion says so (thesis 7.3; design: mechanics, section 4).
+// Topological changes: what a law does where its criterion says so (thesis 7.3; sim/README.md, "Tearing").
 //
 // Every change is made of one operation, the separation of two elements. Embeddings follow by their own
 // policies. Adding one: a file with a function `ChangeType my_change()`, and its name in all_changes().

@@ -1,5 +1,5 @@
-// Criteria: what is measured where, to be compared with a law's threshold (thesis 7.4; design: mechanics,
-// section 4).
+// Criteria: what is measured where, to be compared with a law's threshold (thesis 7.4;
+// sim/README.md, "Tearing").
 //
 // A criterion binds its own rows to the body and looks at the true forces of a state. It must not change the
 // map. Adding one: a file with a function `CriterionType my_criterion()`, and its name in all_criteria().

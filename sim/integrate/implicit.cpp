@@ -1,4 +1,4 @@
-// Implicit (backward) Euler (design: mechanics, "Time"): stable at any step, at the price of a damping of its
+// Implicit (backward) Euler (thesis 2.3.1, eq. 2.41): stable at any step, at the price of a damping of its
 // own.
 //
 //   M (v' − v) = h ( f(x', v') + M g − γ v' + loads ),    x' = x + h v'
@@ -19,7 +19,7 @@
 // ∂load/∂x + h ∂load/∂v (load_tangent.h).
 //
 // Prescribed coordinates are where they will be from the start, and their rows and columns are those of the
-// identity. Order 1. An undamped oscillator loses the factor 1/√(1 + ω²h²) a step (design: verify).
+// identity. Order 1. An undamped oscillator loses the factor 1/√(1 + ω²h²) a step.
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/load_tangent.h"
 

@@ -1,4 +1,5 @@
-// Time schemes (thesis 2.4; design: mechanics, "Time"): one file each, and one word in all_schemes().
+// Time schemes (thesis 2.3.1, eq. 2.38 to 2.41; sim/README.md, "Time schemes"): one file each, and one word in
+// all_schemes().
 #pragma once
 
 #include "sim/integrate/system.h"

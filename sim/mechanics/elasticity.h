@@ -1,4 +1,4 @@
-// <elasticity>: a continuum on the elements of a body (design: mechanics, "Element stiffness", "Mass-tensor").
+// <elasticity>: a continuum on the elements of a body (thesis 2.2.2, 5.2.4, eq. 2.27 to 2.33).
 //
 // One interaction for each kind of element that the body has; owner the element itself (FaceOfVolume of a
 // sheet, Volume of a solid), support the same, so that a separation leaves its numbers alone. A mass-tensor

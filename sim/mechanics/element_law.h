@@ -1,5 +1,4 @@
-// Linear and co-rotational elasticity of one element (thesis 2.3.3, 6.1; design: mechanics, "Element
-// stiffness").
+// Linear and co-rotational elasticity of one element (thesis 2.2.2, eq. 2.27, 2.33, 6.1).
 //
 // With F at each integration point (element.h), from x + βv where the material is damped (Rayleigh, stiffness
 // part), and R the rotation of the mean of F over the volume, from x alone (linear: none),
@@ -10,7 +9,7 @@
 // K (2.33 of the thesis has the wrong sign). A sheet has two rest axes, R is 3 × 2, and σ is that of plane
 // stress, λ' = Eν/(1 − ν²). For a simplex and the polar R the force is −∇Σ w(μ|ε|² + λ/2 (tr ε)²); elements
 // with one mean rotation have no energy, what is reported is that sum. A quad of a sheet turns by an R of its
-// own at each point, and has that energy: with one mean rotation (design: mechanics) a warped quad, which bends
+// own at each point, and has that energy: with one mean rotation (as of hexahedra) a warped quad, which bends
 // freely, reads its warp as compression and makes energy without end (0.2 to 7e4 J in 3 s of a free sheet of 8
 // × 8). The stiffness, with g_n = R G_n and P = R Rᵀ,
 //

@@ -1,5 +1,4 @@
-// The angular spring of a hinge A→B between two faces (thesis 6.2, fig. 6.23; design: mechanics, "Angular
-// bending").
+// The angular spring of a hinge A→B between two faces (thesis 6.3.2, fig. 6.23, eq. 6.2).
 //
 // Each side has two outer vertices, the far ends of the edges next to the hinge (the same vertex, twice, on a
 // triangle), and P between them. With u the unit vector of AB, d = |u × AP| the distance of P from the hinge

@@ -1,7 +1,7 @@
 // What an interaction is: an orbit that causes it, a pattern that names its particles, a law that gives the
 // force.
 //
-// (thesis 6.2; design: mechanics, "Interactions".) The parameters are embedded on the orbit that causes the
+// (thesis 5.2, 6.2; sim/README.md, "Interactions".) The parameters are embedded on the orbit that causes the
 // interaction (the owner), so that a separation leaves them alone. The pattern is data, words of α-links, so
 // that it can be walked forwards (to bind rows) and backwards (to find which rows an edit concerns). One owner
 // may carry several units: a rectangle carries two diagonals.

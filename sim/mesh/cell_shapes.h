@@ -7,8 +7,8 @@
 //
 // Faces are listed so that they turn counter-clockwise as seen from inside, the first ring first. Side s of a
 // cell, from a corner to the next of its face, has the darts 2s and 2s+1, at its two ends. Hence the first dart
-// of a cell stands at corner 0, looks to corner 1 and lies in the first ring: the words "", "0", "10", "210" of
-// design mechanics ("Order of an element's corners") lead to the corners 0 1 2 3 of a tetrahedron.
+// of a cell stands at corner 0, looks to corner 1 and lies in the first ring: the words "", "0", "10", "210"
+// (thesis 5.2.4, fig. 5.22) lead to the corners 0 1 2 3 of a tetrahedron.
 #pragma once
 
 #include <array>

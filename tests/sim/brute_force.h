@@ -97,8 +97,8 @@ public:
     return out;
   }
 
-  // Values of the criteria at every edge between two polygons, by the smallest dart of the edge (design:
-  // mechanics, section 4).
+  // Values of the criteria at every edge between two polygons, by the smallest dart of the edge (thesis
+  // 7.4.1, 7.4.3).
   std::map<Dart, double> border_values(const EmbeddedMap& map, bool atomic) const {
     std::map<Dart, double> values;
     for (const Edge& e : edges_) {

@@ -92,7 +92,7 @@ TEST_F(Answers, and_probes_are_columns_of_the_diagnostics) {
   EXPECT_THAT(first, HasSubstr(",1,1,0,0,0,0,,,,0,0,0,0,0,0,0,0,2.4525"));
 }
 
-// Presets of design/verify and their numbers of answers: none may fall silent.
+// Presets of presets/verify and their numbers of answers: none may fall silent.
 TEST(Verify, every_preset_holds) {
   const std::vector<std::pair<std::string, std::size_t>> presets{
       {"verify/bar-waves", 7},

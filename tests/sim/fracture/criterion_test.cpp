@@ -1,5 +1,4 @@
-// What the criteria measure, against their definitions computed from the polygons alone (design: mechanics,
-// section 4).
+// What the criteria measure, against their definitions computed from the polygons alone (thesis 7.4).
 #include "sim/brute_force.h"
 #include "sim/rules/rules.h"
 

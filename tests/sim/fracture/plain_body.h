@@ -1,5 +1,5 @@
 // What criteria measure, computed from lists of polyhedra (in a sheet: polygons) and the definitions alone
-// (design: mechanics, section 4): no rows, no folding, nothing ruled out early.
+// (thesis 7.4; sim/README.md, "Tearing"): no rows, no folding, nothing ruled out early.
 #pragma once
 
 #include "sim/elements.h"

@@ -76,7 +76,7 @@ TEST(ImplicitEuler, comes_to_rest_where_the_static_solve_is) {
   EXPECT_LT(s->kinetic_energy(), 1e-12);
 }
 
-// a cosh(x/a) through both ends (design: verify). The chain starts straight, and its right end comes nearer.
+// a cosh(x/a) through both ends. The chain starts straight, and its right end comes nearer.
 TEST(StaticSolve, finds_the_catenary) {
   struct Answer {
     double length, sag;
@@ -111,7 +111,7 @@ TEST(StaticSolve, solves_a_linear_model_in_one_iteration) {
   EXPECT_LT(lowest(s, 2), -1e-3);
 }
 
-// Tip load, PL²/EI = 5 (design: verify): v/L = 0.71379, u/L = 0.38763.
+// Tip load, PL²/EI = 5 (tests/README.md, "Closed forms"): v/L = 0.71379, u/L = 0.38763.
 TEST(StaticSolve, bends_the_elastica) {
   const auto s = cantilever("corotational", 240, 1,
                             fmt::format(R"(<load side="+x" force="0 0 {}"/>)", -5 * bending_stiffness));
@@ -263,7 +263,7 @@ TEST(StaticSolve, hangs_a_bar_from_its_corner_or_refuses) {
       moment += m * s.body().map->position()[v].vec();
       mass += m;
     }
-    // Elements with one mean rotation leave a moment of their own (design: verify): they hang a little off.
+    // Elements with one mean rotation leave a moment of their own (element_law.h): they hang a little off.
     const double off = std::string(pattern) == "tetrahedra" ? 1e-6 : 5e-3;
     EXPECT_NEAR(moment.x() / mass, 0, off) << pattern;
     EXPECT_NEAR(moment.y() / mass, 0, off) << pattern;

@@ -1,4 +1,4 @@
-// Every scheme on systems with known answers: free fall and damped oscillators (design: verify).
+// Every scheme on systems with known answers: free fall, damped oscillators (tests/README.md, "Closed forms").
 #include "sim/integrate/oscillators.h"
 
 #include "sim/base/math.h"
@@ -177,7 +177,7 @@ TEST(Schemes, step_many_vertices_as_they_step_one) {
   }
 }
 
-// ½(v² + ω²x²) − ½ω² dt x v, with the velocity first (design: verify).
+// ½(v² + ω²x²) − ½ω² dt x v, with the velocity first (tests/README.md, "Closed forms").
 TEST(SymplecticEuler, keeps_its_invariant) {
   const double dt = 1.9 / omega; // just below what is stable
   Oscillators system({{omega, 0, 0}});

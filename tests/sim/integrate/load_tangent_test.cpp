@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Where the end of a strip of length 1 that a moment M L/EI = t bends is on a circle (design: verify).
+// Where the end of a strip of length 1 that a moment M L/EI = t bends is on a circle: (sin t/t, (1 − cos t)/t).
 TEST(StaticSolve, bends_a_strip_by_a_moment_along_a_circle_in_few_iterations) {
   const double thick = 0.05, stiffness = 1e7 * 0.05 * thick * thick * thick / 12; // [m], EI [N·m²]
   const auto s = presets::load(fmt::format(

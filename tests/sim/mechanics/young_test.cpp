@@ -1,4 +1,4 @@
-// Stiffness from Young's modulus: by formula, and by pulling the sheet (design: mechanics, "Stiffness from E").
+// Stiffness from Young's modulus: by formula, and by pulling the sheet (thesis eq. 2.20 to 2.22; young.h).
 #include "sim/mechanics/young.h"
 
 #include "sim/presets.h"
@@ -113,7 +113,7 @@ TEST(Young, is_given_back_by_equilateral_triangles_at_poisson_one_third) {
   EXPECT_NEAR(found.poisson, 1.0 / 3, 1e-12);
 }
 
-TEST(Young, of_right_isosceles_triangles_is_what_the_design_says) {
+TEST(Young, of_right_isosceles_triangles_is_what_the_note_to_the_author_says) {
   const Elastic found = constants(membrane(sheet(SheetPattern::Triangles, 6, 6), 1.0 / 3, 0));
   EXPECT_NEAR(found.young, 1.125 * E, 1e-9 * E);
   EXPECT_NEAR(found.poisson, 0, 1e-12);

@@ -99,7 +99,7 @@ TEST(Cells, of_each_kind_have_their_corners_edges_and_faces) {
   }
 }
 
-// design/mechanics.md, "Order of an element's corners".
+// The order of an element's corners (cell_shapes.h; thesis 5.2.4, fig. 5.22).
 TEST(Cells, lead_from_their_first_dart_to_their_corners_by_words) {
   using Words = std::vector<std::string>;
   const std::map<CellKind, Words> words{

@@ -1,5 +1,5 @@
-// Orders of convergence of displacements, for every kind of element (design: verify; tests/bench/convergence
-// goes further).
+// Orders of convergence of displacements, for every kind of element (tests/README.md, "Convergence";
+// tests/bench/convergence goes further).
 #include "sim/presets.h"
 
 #include <fmt/format.h>

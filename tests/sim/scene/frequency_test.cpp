@@ -1,5 +1,5 @@
 // Natural frequencies: eigenvalues of the assembled stiffness over the lumped masses, against those of bars
-// and beams that are fixed at one end (design: verify).
+// and beams that are fixed at one end (tests/README.md, "Closed forms").
 #include "sim/base/math.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"

@@ -62,7 +62,8 @@ TEST(Probe, finds_the_force_that_a_turning_body_takes) {
   EXPECT_NEAR((*reading(scene).reaction - rate * Vec3(0, 1, 0).cross(scene->momentum())).norm(), 0, 1e-11);
 }
 
-// Plane stress of u = G X, with E = 1e6 and ν = 0.25: σx = σy = 1333.3, τ = 400 (design: verify, patch test).
+// The patch test of MacNeal & Harder (1985), plane stress: u = G X with E = 1e6 and ν = 0.25 gives
+// σx = σy = 1333.3, τ = 400.
 TEST(Probe, tells_the_stress_of_the_elements_there) {
   for (const char* pattern : {"quads", "triangles", "mixed"}) {
     const auto scene = presets::load(R"(<scene><body><sheet pattern=")" + std::string(pattern) +
