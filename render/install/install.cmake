@@ -1,5 +1,5 @@
 # What cmake --install puts where, in two components:
-#   program      rend, its manual, completions, presets, the schema and the README
+#   program      rend, its manual, completions, presets, the schema and the READMEs
 #   development  libraries, headers, the CMake package and pkg-config files
 # The manual and the completions are printed by the program itself, while it is installed: a build does not wait for them.
 include(GNUInstallDirs)
@@ -27,6 +27,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets/ DESTINATION ${CMAKE_INSTALL_DAT
         FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd" PATTERN "*.msh" PATTERN "*.obj" PATTERN "*.off" PATTERN "*.moka"
         PATTERN gallery EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+foreach(folder presets sim render tests) # where its links lead
+  install(FILES ${PROJECT_SOURCE_DIR}/${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
+endforeach()
 
 # The libraries: rend::sim, rend::render, and rend::rend, which is all with the reader of presets. Those of one folder are
 # called after it: rend::topology.
