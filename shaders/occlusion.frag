@@ -1,4 +1,4 @@
-// Of one pixel along one slice, x: what is kept from it; y: its depth [m]. See render/occlusion.h.
+// Of one pixel along one slice, x: what is kept from it; y: its depth [m]. See render/draw/occlusion.h.
 uniform sampler2D depths;
 uniform vec2 texel;    // in texture coordinates
 uniform vec4 ray;      // of pixel (x, y) at depth 1 [m]: ray.xy + (x, y) * ray.zw

@@ -1,10 +1,10 @@
 #include "render/compare/compare.h"
 
 #include "render/compare/heat.h"
-#include "render/png.h"
+#include "render/files/png.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
-#include "sim/program/threads.h"
+#include "sim/base/threads.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "render/compare/difference.h"
 
 #include "sim/base/check.h"
-#include "sim/program/threads.h"
+#include "sim/base/threads.h"
 
 #include <algorithm>
 #include <cmath>

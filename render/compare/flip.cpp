@@ -3,7 +3,7 @@
 #include "render/compare/flip_colour.h"
 #include "render/compare/flip_filters.h"
 #include "sim/base/check.h"
-#include "sim/program/threads.h"
+#include "sim/base/threads.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/compare/picture.h"
-#include "render/image.h"
+#include "render/files/image.h"
 
 namespace rend {
 

@@ -6,7 +6,7 @@
 // it equals one whose alpha is 255 everywhere.
 #pragma once
 
-#include "render/png_reader.h"
+#include "render/files/png_reader.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "render/compare/ssim.h"
 
 #include "sim/base/check.h"
-#include "sim/program/threads.h"
+#include "sim/base/threads.h"
 
 #include <algorithm>
 

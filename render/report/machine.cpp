@@ -1,7 +1,7 @@
 #include "render/report/machine.h"
 
 #include "render/report/commit.h" // made by commit.cmake
-#include "sim/program/threads.h"
+#include "sim/base/threads.h"
 
 #include <fmt/format.h>
 

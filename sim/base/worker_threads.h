@@ -37,7 +37,7 @@ int startable_threads(int wanted);
 [[noreturn]] void refuse_without_thread(const std::string& what);
 
 // How many starts the system has refused so far, of any library. Counted in programs that have
-// render/app/thread_starts.cpp; elsewhere 0.
+// render/commands/thread_starts.cpp; elsewhere 0.
 long refused_thread_starts();
 void count_refused_thread_start();
 

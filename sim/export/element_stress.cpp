@@ -1,6 +1,6 @@
 #include "sim/export/element_stress.h"
 
-#include "sim/program/continuum.h"
+#include "sim/rows/continuum.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // The stress of elements as it is exported.
 #pragma once
 
-#include "sim/scene/body.h"
+#include "sim/body/body.h"
 
 #include <span>
 

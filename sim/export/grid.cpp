@@ -1,10 +1,10 @@
 #include "sim/export/grid.h"
 
+#include "sim/body/probe.h"
 #include "sim/export/element_stress.h"
 #include "sim/mechanics/element.h"
 #include "sim/mechanics/winding.h"
 #include "sim/mesh/cell_shapes.h"
-#include "sim/scene/probe.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
 

@@ -1,9 +1,9 @@
 #include "sim/export/skin.h"
 
+#include "sim/body/measure.h"
+#include "sim/body/probe.h"
 #include "sim/export/element_stress.h"
 #include "sim/mechanics/winding.h"
-#include "sim/scene/measure.h"
-#include "sim/scene/probe.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
 

@@ -5,8 +5,8 @@
 // their sum is 0): its linear elements count. The kernel tells which elements exceed the threshold, and they
 // alone are looked at one by one.
 #include "sim/fracture/single_springs.h"
-#include "sim/program/continuum.h"
-#include "sim/program/kernels.h"
+#include "sim/rows/continuum.h"
+#include "sim/rows/kernels.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 // one row, and its key says how many of the fields count.
 #pragma once
 
-#include "sim/program/binder.h"
+#include "sim/rows/binder.h"
 
 namespace rend {
 

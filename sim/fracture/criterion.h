@@ -6,7 +6,7 @@
 #pragma once
 
 #include "sim/fracture/cell.h"
-#include "sim/program/program.h"
+#include "sim/rows/program.h"
 
 #include <functional>
 #include <memory>

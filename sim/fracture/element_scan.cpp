@@ -1,6 +1,6 @@
 #include "sim/fracture/element_scan.h"
 
-#include "sim/program/element_lanes.h"
+#include "sim/rows/element_lanes.h"
 
 #include <limits>
 

@@ -15,7 +15,7 @@
 #pragma once
 
 #include "sim/fracture/criterion.h"
-#include "sim/program/continuum.h"
+#include "sim/rows/continuum.h"
 
 #include <optional>
 

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "sim/fracture/criterion.h"
-#include "sim/program/unit_now.h"
+#include "sim/rows/unit_now.h"
 
 namespace rend {
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "sim/base/bytes.h"
+#include "sim/base/threads.h"
 #include "sim/mechanics/law.h"
-#include "sim/program/block_matrix.h"
-#include "sim/program/threads.h"
+#include "sim/rows/block_matrix.h"
 
 #include <cmath>
 #include <cstddef>

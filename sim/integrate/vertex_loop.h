@@ -5,8 +5,8 @@
 // vertices and then in their order, so that neither threads nor where a loop is broken off show.
 #pragma once
 
+#include "sim/base/threads.h"
 #include "sim/integrate/system.h"
-#include "sim/program/threads.h"
 
 #include <algorithm>
 

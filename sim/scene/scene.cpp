@@ -2,11 +2,11 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/hash.h"
-#include "sim/program/frequency.h"
-#include "sim/scene/build_body.h"
-#include "sim/scene/build_world.h"
-#include "sim/scene/guard.h"
-#include "sim/scene/scene_types.h"
+#include "sim/build/build_body.h"
+#include "sim/build/build_world.h"
+#include "sim/build/scene_types.h"
+#include "sim/guard/guard.h"
+#include "sim/rows/frequency.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // A scene: bodies, their surroundings, and the time. step() goes from one state to the next.
 #pragma once
 
-#include "sim/scene/body.h"
-#include "sim/scene/contacts.h"
-#include "sim/scene/trouble.h"
-#include "sim/scene/world.h"
+#include "sim/body/body.h"
+#include "sim/contact/contacts.h"
+#include "sim/guard/trouble.h"
+#include "sim/outside/world.h"
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 // The steps of a scene, and how one ends that goes wrong.
-#include "sim/scene/guard.h"
+#include "sim/guard/guard.h"
 #include "sim/scene/scene.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 // nothing resists).
 #pragma once
 
-#include "sim/program/block_matrix.h"
+#include "sim/rows/block_matrix.h"
 #include "sim/solve/vectors.h"
 
 namespace rend {

@@ -1,7 +1,7 @@
 // What factors do to blocks.
 #pragma once
 
-#include "sim/program/block_matrix.h"
+#include "sim/rows/block_matrix.h"
 
 namespace rend {
 

@@ -1,6 +1,6 @@
 #include "sim/solve/preconditioner.h"
 
-#include "sim/program/threads.h"
+#include "sim/base/threads.h"
 #include "sim/solve/block_products.h"
 #include "sim/solve/vertex_order.h"
 

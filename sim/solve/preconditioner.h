@@ -25,7 +25,7 @@
 // took 314 (ν 0.3 and 0.45; CPU time of a machine that others used).
 #pragma once
 
-#include "sim/program/block_matrix.h"
+#include "sim/rows/block_matrix.h"
 #include "sim/solve/vectors.h"
 
 namespace rend {

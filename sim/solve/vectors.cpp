@@ -1,6 +1,6 @@
 #include "sim/solve/vectors.h"
 
-#include "sim/program/threads.h"
+#include "sim/base/threads.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // incomplete factors leave out less.
 #pragma once
 
-#include "sim/program/block_matrix.h"
+#include "sim/rows/block_matrix.h"
 
 namespace rend {
 

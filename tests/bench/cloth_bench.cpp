@@ -1,8 +1,8 @@
 // The cloth of the thesis's table 7.1: steps, criteria, flat against walk, and a plain loop over the same
 // springs.
 #include "bench/plain_cloth.h"
+#include "sim/boundary/surface.h"
 #include "sim/presets.h"
-#include "sim/surface/surface.h"
 #include "sim/topology/count.h"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // A body of a million tetrahedra that breaks: whether a step in which much is parted takes much longer than any
 // other.
+#include "sim/boundary/solid_surface.h"
 #include "sim/presets.h"
-#include "sim/surface/solid_surface.h"
 
 #include <benchmark/benchmark.h>
 

@@ -2,7 +2,7 @@
 // loop, with symplectic Euler, without map, tearing or guard.
 #pragma once
 
-#include "sim/scene/body.h"
+#include "sim/body/body.h"
 
 #include <cmath>
 #include <vector>

@@ -1,9 +1,9 @@
 // What a walk, a separation and a subdivision cost. Run alone: cmake -DREND_BENCH=ON, then topology_bench.
 #include "bench/walk_orbits.h"
 #include "sim/base/archive.h"
+#include "sim/boundary/solid_surface.h"
 #include "sim/elements.h"
 #include "sim/rules/rules.h"
-#include "sim/surface/solid_surface.h"
 #include "sim/topology/walk.h"
 
 #include <benchmark/benchmark.h>

@@ -1,5 +1,5 @@
 // A scene from a preset's text, stepped: a sheet that falls freely. Prints how far, in millimetres.
-#include "render/app/preset_types.h"
+#include "render/picture/scene_preset.h"
 #include "sim/scene/scene.h"
 
 #include <cstdio>

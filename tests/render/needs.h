@@ -1,8 +1,8 @@
 // Tests that a rend built with less skips.
 #pragma once
 
-#include "render/png.h"
-#include "render/video.h"
+#include "render/files/png.h"
+#include "render/files/video.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Small frames and a place for files, for the tests of render/.
 #pragma once
 
-#include "render/frame.h"
-#include "render/image.h"
+#include "render/draw/frame.h"
+#include "render/files/image.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // PNG files made chunk by chunk, to say what no encoder would.
 #pragma once
 
-#include "render/png_chunks.h"
+#include "render/files/png_chunks.h"
 
 #include <cstdint>
 #include <string>

@@ -4,8 +4,8 @@
 
 #include "sim/mechanics/elasticity.h"
 #include "sim/mesh/bar.h"
-#include "sim/program/frequency.h"
 #include "sim/random_meshes.h"
+#include "sim/rows/frequency.h"
 
 #include <Eigen/Geometry>
 

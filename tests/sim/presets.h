@@ -1,9 +1,9 @@
 // Scenes for tests, from the text of a preset.
 #pragma once
 
-#include "render/app/preset_reader.h"
+#include "sim/build/scene_types.h"
+#include "sim/preset/preset_reader.h"
 #include "sim/scene/scene.h"
-#include "sim/scene/scene_types.h"
 
 #include <memory>
 #include <string>

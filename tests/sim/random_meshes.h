@@ -2,9 +2,9 @@
 // what is computed from the polygons alone.
 #pragma once
 
+#include "sim/body/body.h"
+#include "sim/build/scene_types.h"
 #include "sim/mesh/sheet.h"
-#include "sim/scene/body.h"
-#include "sim/scene/scene_types.h"
 
 #include <memory>
 #include <random>

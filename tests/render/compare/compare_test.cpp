@@ -1,7 +1,7 @@
 // One case compared: whatever is wrong with a pair is its own trouble, and its memory is known before.
 #include "render/compare/compare.h"
 
-#include "render/png.h"
+#include "render/files/png.h"
 #include "tests/render/needs.h"
 #include "tests/render/peak.h"
 #include "tests/render/pictures.h"

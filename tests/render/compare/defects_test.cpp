@@ -1,12 +1,12 @@
 // Defects that pictures have had, in this program or in others: each is put into a picture of a preset, a frame
 // of it or its scene, and the tolerances of the goldens must not let it pass. And the same picture again must
 // always pass.
-#include "render/app/diff_tolerances.h"
-#include "render/app/picture.h"
-#include "render/app/session.h"
-#include "render/device.h"
-#include "render/stage.h"
-#include "tests/render/app/program_run.h"
+#include "render/clip/session.h"
+#include "render/compare/tolerances.h"
+#include "render/draw/device.h"
+#include "render/draw/stage.h"
+#include "render/picture/scene_picture.h"
+#include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "sim/check/case.h"
 
-#include "render/app/check_report.h"
-#include "render/app/check_run.h"
-#include "render/app/preset_types.h"
+#include "render/pages/check_report.h"
+#include "render/picture/scene_preset.h"
+#include "render/studies/check_run.h"
 #include "sim/check/families.h"
 #include "sim/check/watch.h"
 

@@ -1,6 +1,6 @@
 #include "sim/check/step_limit.h"
 
-#include "render/app/preset_types.h"
+#include "render/picture/scene_preset.h"
 
 #include <cmath>
 #include <fmt/format.h>

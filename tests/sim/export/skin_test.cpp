@@ -2,9 +2,9 @@
 // positions.
 #include "sim/export/skin.h"
 
+#include "sim/boundary/solid_surface.h"
+#include "sim/boundary/surface.h"
 #include "sim/presets.h"
-#include "sim/surface/solid_surface.h"
-#include "sim/surface/surface.h"
 #include "sim/topology/count.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // Bodies of every kind of mesh for tests of topological changes, and a criterion that says what it is told to.
 #pragma once
 
+#include "sim/boundary/solid_surface.h"
+#include "sim/boundary/solids.h"
+#include "sim/boundary/surface.h"
 #include "sim/elements.h"
 #include "sim/fracture/law.h"
-#include "sim/surface/solid_surface.h"
-#include "sim/surface/solids.h"
-#include "sim/surface/surface.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
 

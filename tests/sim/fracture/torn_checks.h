@@ -1,9 +1,9 @@
 // What every topological change must keep, asked of a body before and after it.
 #pragma once
 
-#include "sim/scene/body.h"
-#include "sim/surface/solid_surface.h"
-#include "sim/surface/surface.h"
+#include "sim/body/body.h"
+#include "sim/boundary/solid_surface.h"
+#include "sim/boundary/surface.h"
 
 #include <cstring>
 #include <gtest/gtest.h>

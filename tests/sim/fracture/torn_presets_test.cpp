@@ -4,9 +4,9 @@
 //
 // By default the first torn steps of each; with REND_WHOLE in the environment the whole clips (tests/run
 // --all).
-#include "render/app/preset_types.h"
+#include "render/picture/scene_preset.h"
 #include "sim/fracture/torn_checks.h"
-#include "sim/program/walk_forces.h"
+#include "sim/rows/walk_forces.h"
 #include "sim/scene/scene.h"
 
 #include <algorithm>

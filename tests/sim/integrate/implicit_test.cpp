@@ -1,5 +1,5 @@
 // Implicit Euler and the static solve on whole scenes.
-#include "sim/program/frequency.h"
+#include "sim/rows/frequency.h"
 #include "sim/scene/scene.h"
 
 #include "sim/presets.h"

@@ -1,7 +1,7 @@
 // Sheets that are built by rules, as in the thesis (3.4.2), against those of the generator, and what
 // subdivision does to a body that already carries masses and springs (thesis figs. 6.13 to 6.15).
 #include "sim/mesh/sheet.h"
-#include "sim/program/program.h"
+#include "sim/rows/program.h"
 #include "sim/rules/rules.h"
 #include "sim/topology/count.h"
 #include "sim/topology/isomorphism.h"

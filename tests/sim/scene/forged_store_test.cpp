@@ -1,5 +1,5 @@
 // What is read into a scene is looked at: each field that somebody set to what no run comes to is refused in
-// words that name it. (tests/render/app/forged_checkpoint_test.cpp changes bytes anywhere.)
+// words that name it. (tests/render/clip/forged_checkpoint_test.cpp changes bytes anywhere.)
 #include "sim/base/archive.h"
 #include "sim/presets.h"
 #include "sim/scene/scene.h"

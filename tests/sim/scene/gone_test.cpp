@@ -1,7 +1,7 @@
 // Scenes whose bodies lose their last element: everything that hangs on a body goes on with nothing.
+#include "sim/body/measure.h"
 #include "sim/fracture/torn_bodies.h"
 #include "sim/presets.h"
-#include "sim/scene/measure.h"
 
 #include <gtest/gtest.h>
 

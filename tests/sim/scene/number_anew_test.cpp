@@ -1,10 +1,10 @@
 // What is bound to a map that is numbered anew (embedding/reorder.h), after elements were deleted and vertices
 // split: it is what would be built now, whatever stood in its place before; and a run goes on as if nothing had
 // happened.
+#include "sim/contact/contact_faces.h"
 #include "sim/fracture/torn_bodies.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
-#include "sim/scene/contact_faces.h"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 //
 // Small bodies, which run on one thread otherwise, are parted here as well. By default the first steps, and
 // those with laws to their first tears where that is cheap; with REND_WHOLE in the environment whole clips
-// (tests/run --all). Vector units: tests/render/app/presets_test.cpp; builds and other processors:
+// (tests/run --all). Vector units: tests/render/commands/presets_test.cpp; builds and other processors:
 // tests/same-states.
-#include "render/app/preset_types.h"
+#include "render/picture/scene_preset.h"
 #include "sim/house_presets.h"
 #include "sim/scene/scene.h"
 

@@ -2,11 +2,11 @@
 // scheme.
 //
 // Steady: no law tries a change, the guard throws no step away, and contact does not look for its pairs anew.
-#include "render/app/preset_types.h"
+#include "render/picture/scene_preset.h"
 #include "sim/allocations.h"
+#include "sim/guard/guard.h"
 #include "sim/house_presets.h"
 #include "sim/presets.h"
-#include "sim/scene/guard.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

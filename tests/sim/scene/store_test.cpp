@@ -3,7 +3,7 @@
 //
 // By default to its first tears and a little further; with REND_WHOLE in the environment each clip is stored
 // seven times on its way (tests/run --all).
-#include "render/app/preset_types.h"
+#include "render/picture/scene_preset.h"
 #include "sim/base/archive.h"
 #include "sim/house_presets.h"
 #include "sim/presets.h"

@@ -1,7 +1,7 @@
 // Steps whose forces are found while vertices move on give the bytes of steps that find all forces first.
 //
 // Small bodies in parts (SceneOptions) are never swept: they are what a sweep is compared with.
-#include "render/app/preset_types.h"
+#include "render/picture/scene_preset.h"
 #include "sim/house_presets.h"
 #include "sim/presets.h"
 #include "sim/scene/scene.h"

@@ -1,0 +1,164 @@
+#include "render/batch/batch_jobs.h"
+
+#include "sim/base/error.h"
+#include "sim/base/hash.h"
+#include "sim/base/wording.h"
+#include "sim/preset/override.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Input {
+  std::string file, name;
+};
+
+std::vector<Input> presets_in(const fs::path& folder) {
+  std::vector<Input> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || entry.path().extension() != ".xml") continue;
+    // By its name in the folder: what a link leads to may lie anywhere.
+    all.push_back(
+        {entry.path().string(), entry.path().lexically_relative(folder).replace_extension().string()});
+  }
+  std::sort(all.begin(), all.end(), [](const Input& a, const Input& b) { return a.name < b.name; });
+  if (all.empty())
+    throw UserError(Exit::NoInput, {folder.string()}, "there are no presets in this folder",
+                    "presets are .xml files");
+  return all;
+}
+
+std::vector<Input> presets_of(const std::vector<std::string>& inputs) {
+  std::vector<Input> all;
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    if (!fs::exists(input, error))
+      throw UserError(Exit::NoInput, {input}, "there is no such file or folder",
+                      "nothing of the batch was begun");
+    if (fs::is_directory(input, error)) {
+      const std::vector<Input> found = presets_in(input);
+      all.insert(all.end(), found.begin(), found.end());
+    } else {
+      all.push_back({input, fs::path(input).stem().string()});
+    }
+  }
+  return all;
+}
+
+// Distinct where texts are.
+std::string short_hash(const std::string& text) {
+  return fmt::format("{:08x}", hash_bytes(text.data(), text.size()) & 0xffffffffU);
+}
+
+// Of "body[left].tear.threshold=3 4" "body[left].tear.threshold=3,4". The path as a whole: its last word is
+// that of other attributes, too, and with fewer words a name would depend on what else is swept. No value holds
+// a comma, so that one can stand for a blank; where anything else is replaced a hash keeps names distinct.
+std::string words_of(const std::string& set) {
+  std::string words = set;
+  bool replaced = false;
+  for (char& c : words) {
+    if (std::isalnum(static_cast<unsigned char>(c)) || std::string_view("=.-+[]_").find(c) != std::string::npos)
+      continue;
+    replaced = replaced || c != ' ';
+    c = c == ' ' ? ',' : '_';
+  }
+  return replaced ? words + "-" + short_hash(set) : words;
+}
+
+constexpr std::size_t longest = 160; // [bytes], of a folder's name: systems take 255
+
+// Not within a character of UTF-8.
+std::string cut(const std::string& name) {
+  if (name.size() <= longest) return name;
+  std::size_t end = longest - 9;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0U) == 0x80U) --end;
+  return name.substr(0, end) + "-" + short_hash(name);
+}
+
+// Below the batch's folder, and not in the place of its page: index.html, index.2-of-7.html.
+std::string folder_of(const std::string& name) {
+  fs::path folder;
+  for (const fs::path& part : fs::path(name)) {
+    std::string own = cut(part.string());
+    const bool is_page =
+        folder.empty() && own.starts_with("index.") && (own.ends_with(".html") || own.ends_with(".html.part"));
+    if (is_page || own == "." || own == "..") own += "_";
+    folder /= own;
+  }
+  return folder.string();
+}
+
+// Every choice of one value of each sweep.
+std::vector<std::vector<std::string>> crossed(const std::vector<Sweep>& sweeps) {
+  std::vector<std::vector<std::string>> all{{}};
+  for (const Sweep& sweep : sweeps) {
+    std::vector<std::vector<std::string>> longer;
+    for (const auto& one : all)
+      for (const std::string& value : sweep.values) {
+        longer.push_back(one);
+        longer.back().push_back(sweep.path + "=" + value);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+} // namespace
+
+Sweep parse_sweep(const std::string& text) {
+  const Override one = parse_override(text);
+  Sweep sweep{one.path, {}};
+  for (std::size_t at = 0; at <= one.value.size();) {
+    const std::size_t comma = std::min(one.value.find(',', at), one.value.size());
+    sweep.values.push_back(one.value.substr(at, comma - at));
+    at = comma + 1;
+  }
+  for (const std::string& value : sweep.values)
+    if (value.empty())
+      throw UserError(Exit::Usage, {}, fmt::format("{}: a value is empty", in_quotes(text)),
+                      "values are such as time.step=1e-3,2e-3");
+  return sweep;
+}
+
+BatchSettings batch_settings(const ElementType& root, const std::vector<std::string>& sets,
+                             const std::vector<std::string>& sweeps) {
+  BatchSettings out;
+  for (const std::string& text : sets) {
+    const Override one = parse_override(text);
+    const bool is_text = overridden(root, one).kind == AttributeKind::Text;
+    if (!is_text && one.value.find(',') != std::string::npos)
+      out.sweeps.push_back(parse_sweep(text));
+    else
+      out.sets.push_back(text);
+  }
+  for (const std::string& text : sweeps) out.sweeps.push_back(parse_sweep(text));
+  for (const std::string& text : out.sets) check_override(root, parse_override(text));
+  for (const Sweep& sweep : out.sweeps)
+    for (const std::string& value : sweep.values) check_override(root, {sweep.path, value});
+  return out;
+}
+
+std::vector<BatchJob> batch_jobs(const std::vector<std::string>& inputs, const std::vector<Sweep>& sweeps) {
+  std::vector<BatchJob> jobs;
+  std::set<std::string> names;
+  for (const Input& input : presets_of(inputs)) {
+    for (const auto& sets : crossed(sweeps)) {
+      std::string name = input.name;
+      for (const std::string& set : sets) name += fmt::format("_{}", words_of(set));
+      std::string own = folder_of(name);
+      for (int n = 2; !names.insert(own).second; ++n) own = folder_of(fmt::format("{}-{}", name, n));
+      jobs.push_back({own, input.file, sets});
+    }
+  }
+  return jobs;
+}
+
+} // namespace rend

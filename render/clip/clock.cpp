@@ -1,0 +1,106 @@
+#include "render/clip/clock.h"
+
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+#include "sim/base/wording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+namespace rend {
+namespace {
+
+// Times are products of rounded numbers: what differs by less is meant to be equal.
+constexpr double slack = 1e-12;
+
+std::optional<long> whole_number(std::string_view text) {
+  long value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || text.empty() || value < 0) return {};
+  return value;
+}
+
+} // namespace
+
+FrameClock::FrameClock(double duration, double step, double fps) : duration_(duration), step_(step), fps_(fps) {
+  CHECK(duration >= 0 && step > 0 && fps > 0 && duration / step < 1e15 && duration * fps < 1e15);
+  steps_ = static_cast<long>(std::ceil(duration / step * (1 - slack)));
+  frames_ = static_cast<long>(std::floor(duration * fps * (1 + slack))) + 1;
+}
+
+long FrameClock::step_of(long frame) const {
+  const double steps = std::ceil(static_cast<double>(frame) / (fps_ * step_) * (1 - slack));
+  return std::min(static_cast<long>(steps), steps_);
+}
+
+FrameChoice::FrameChoice(const std::string& text) : all_(false) {
+  const auto fail = [&](const std::string& what) {
+    throw UserError(Exit::Usage, {}, fmt::format("--frames {}: {}", in_quotes(text), what),
+                    "frames are such as 7, 0-100, 0-100x2 (every second), 10- or 0,5,20-30");
+  };
+  for (std::string_view rest = text; !rest.empty() || ranges_.empty();) {
+    std::string_view part = rest.substr(0, rest.find(','));
+    if (part.size() + 1 == rest.size()) fail("it ends with a comma");
+    rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+    Range range;
+    const std::size_t dash = part.find('-'), times = part.find('x');
+    if (times != std::string_view::npos) {
+      const auto stride = whole_number(part.substr(times + 1));
+      if (!stride || *stride == 0 || dash == std::string_view::npos) fail(in_quotes(part) + " is no range");
+      range.stride = *stride;
+      part = part.substr(0, times);
+    }
+    const auto first = whole_number(part.substr(0, dash));
+    auto last = first;
+    if (dash != std::string_view::npos)
+      last = dash + 1 == part.size() ? std::numeric_limits<long>::max() : whole_number(part.substr(dash + 1));
+    if (!first || !last) fail(in_quotes(part) + " is no frame and no range");
+    if (*last < *first) fail(in_quotes(part) + " runs backwards");
+    range.first = *first;
+    range.last = *last;
+    ranges_.push_back(range);
+  }
+}
+
+bool FrameChoice::has(long frame) const {
+  return all_ || std::any_of(ranges_.begin(), ranges_.end(), [&](const Range& range) {
+           return frame >= range.first && frame <= range.last && (frame - range.first) % range.stride == 0;
+         });
+}
+
+long FrameChoice::last(long frames) const {
+  if (all_) return frames - 1;
+  long best = -1;
+  for (const Range& range : ranges_) {
+    const long end = std::min(range.last, frames - 1);
+    if (end >= range.first) best = std::max(best, end - (end - range.first) % range.stride);
+  }
+  return best;
+}
+
+long last_chosen(const FrameChoice& choice, const FrameClock& clock) {
+  const long last = choice.last(clock.frames());
+  if (last < 0)
+    throw UserError(Exit::Usage, {}, "--frames asks for none of the frames of this clip",
+                    fmt::format("they are 0 to {}", clock.frames() - 1));
+  return last;
+}
+
+PictureSize parse_size(const std::string& text) {
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  const auto width = whole_number(std::string_view(text).substr(0, cross));
+  const auto height = whole_number(std::string_view(text).substr(std::min(cross + 1, text.size())));
+  const auto fits = [](std::optional<long> side) { return side && *side >= 16 && *side <= 8192; };
+  if (!fits(width) || !fits(height))
+    throw UserError(Exit::Usage, {}, fmt::format("--size {} is no size of a picture", in_quotes(text)),
+                    "a size is such as 1280x720, each side from 16 to 8192 pixels");
+  return {static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+} // namespace rend

@@ -1,0 +1,77 @@
+#include "render/clip/export_series.h"
+
+#include "render/files/output.h"
+#include "sim/base/wording.h"
+
+#include <fmt/format.h>
+
+namespace rend {
+
+ExportSeries::ExportSeries(const Session& session, const ExportFormat& format,
+                           const std::filesystem::path& folder, const FrameChoice& choice)
+    : session_(session), format_(format), folder_(folder), choice_(choice),
+      exporter_(format.make(session.scene())) {}
+
+void ExportSeries::name_files(NamedFiles& files) const {
+  const std::string what = "--export " + format_.name;
+  files.writes_frames(what, folder_.path(), format_.extension,
+                      [this](long frame) { return frame < session_.clock().frames() && choice_.has(frame); });
+  if (!index_name().empty()) files.writes(what, folder_.path() / index_name());
+}
+
+void ExportSeries::take(long frame) {
+  const double start = wall_clock();
+  const long step = session_.scene().steps_done();
+  if (step != held_step_) release();
+  if (choice_.has(frame) && (step != held_step_ || format_.every_frame)) {
+    if (step != held_step_) held_ = exporter_->state();
+    held_files_.push_back({session_.scene().time(), fmt::format("{:05d}{}", frame, format_.extension)});
+    held_step_ = step;
+  }
+  seconds_ += wall_clock() - start;
+}
+
+void ExportSeries::release() {
+  for (ExportedFile& file : held_files_) {
+    write(file.name, held_);
+    files_.push_back(std::move(file));
+  }
+  held_files_.clear();
+}
+
+void ExportSeries::write(const std::string& name, const std::string& bytes) {
+  folder_.make();
+  write_whole(folder_.path() / name, bytes);
+  bytes_ += bytes.size();
+}
+
+void ExportSeries::finish() {
+  const double start = wall_clock();
+  release();
+  if (!files_.empty() && !index_name().empty()) write(index_name(), exporter_->index(files_));
+  folder_.sync();
+  seconds_ += wall_clock() - start;
+}
+
+void ExportSeries::abandon() {
+  held_files_.clear();
+  finish();
+}
+
+nlohmann::ordered_json ExportSeries::figures() const {
+  nlohmann::ordered_json out{{"format", format_.name}, {"folder", folder_.path().string()}};
+  if (!index_name().empty()) out["index"] = index_name();
+  out["files"] = files_.size();
+  out["bytes"] = bytes_;
+  out["seconds"] = seconds_;
+  return out;
+}
+
+const ExportFormat& export_format(const std::string& name) {
+  if (const ExportFormat* format = find_export_format(name)) return *format;
+  const std::vector<std::string> names = export_format_names();
+  throw UserError(Exit::Usage, {}, fmt::format("--export {}: there is no such format", in_quotes(name)),
+                  suggestion(name, names, "formats"));
+}
+
+} // namespace rend

@@ -1,0 +1,194 @@
+#include "render/clip/picture_check.h"
+
+#include "render/draw/camera.h"
+#include "sim/export/skin.h"
+#include "sim/topology/count.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace rend {
+namespace {
+
+using Bounds = Eigen::AlignedBox3d;
+
+std::string in_words(const Vec3& x) {
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", x.x(), x.y(), x.z());
+}
+
+// The solid angle that a triangle fills, as its corners are seen from an eye in the origin (Van Oosterom and
+// Strackee 1983).
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+// The bodies' surfaces at the start; made when first asked for, since most cameras are far from all of them.
+class StartSkin {
+public:
+  explicit StartSkin(const Scene& scene) : scene_(scene) {}
+
+  // Calls f(corners of a face, one after another) for the faces of a body.
+  template <class F> void each_face(std::size_t body, F&& f) {
+    if (!skin_) skin_ = SkinMaker(scene_).skin();
+    std::vector<Vec3> ring;
+    for (std::size_t face = body == 0 ? 0 : skin_->bodies[body - 1].faces_end;
+         face < skin_->bodies[body].faces_end; ++face) {
+      ring.clear();
+      for (auto c = static_cast<std::size_t>(face == 0 ? 0 : skin_->ends[face - 1]);
+           c < static_cast<std::size_t>(skin_->ends[face]); ++c)
+        ring.emplace_back(skin_->points.data() + 3 * static_cast<std::size_t>(skin_->corners[c]));
+      f(ring);
+    }
+  }
+
+  // Whether a solid closes around the eye: its faces then fill the whole sphere of sight, and otherwise nothing
+  // of it.
+  bool surrounds(std::size_t body, const Vec3& eye) {
+    double filled = 0;
+    each_face(body, [&](const std::vector<Vec3>& ring) {
+      for (std::size_t n = 1; n + 1 < ring.size(); ++n)
+        filled += solid_angle(ring[0] - eye, ring[n] - eye, ring[n + 1] - eye);
+    });
+    return std::abs(filled) > 2 * std::numbers::pi;
+  }
+
+private:
+  const Scene& scene_;
+  std::optional<Skin> skin_;
+};
+
+// Which sides of the view a point lies beyond: 1, 2, 4, 8, and 16 behind the eye.
+unsigned beyond(const Eigen::Matrix4d& world_to_clip, const Vec3& x) {
+  const Eigen::Vector4d p = world_to_clip * x.homogeneous();
+  return (p.x() < -p.w() ? 1u : 0u) | (p.x() > p.w() ? 2u : 0u) | (p.y() < -p.w() ? 4u : 0u) |
+         (p.y() > p.w() ? 8u : 0u) | (p.w() <= 0 ? 16u : 0u);
+}
+
+class Check {
+public:
+  Check(const Node& preset, const Scene& scene, double aspect, const FrameClock& clock)
+      : scene_(scene), camera_(preset.child("camera")), viewpoint_(preset, scene, aspect, clock.duration()),
+        clock_(clock), aspect_(aspect), skin_(scene) {
+    if (has_eye())
+      for (const auto& body : scene.bodies()) bounds_.push_back(bounds_of(*body));
+  }
+
+  void check_camera() {
+    if (has_eye()) check_first_eye();
+  }
+
+  std::vector<std::string> notes() {
+    if (has_eye()) {
+      look_from_first();
+      follow_the_way();
+    }
+    look_at_colours();
+    return std::move(notes_);
+  }
+
+private:
+  bool has_eye() const { return camera_ && (camera_->given("eye") || !camera_->all("key").empty()); }
+
+  // The first solid around an eye.
+  std::optional<std::size_t> around(const Vec3& eye) {
+    for (std::size_t n = 0; n < bounds_.size(); ++n)
+      if (scene_.bodies()[n]->map->dimension() == 3 && bounds_[n].contains(eye) && skin_.surrounds(n, eye))
+        return n;
+    return {};
+  }
+
+  void check_first_eye() {
+    const Vec3 eye = viewpoint_.at(0).eye;
+    const std::optional<std::size_t> body = around(eye);
+    if (!body) return;
+    const bool keyed = !camera_->all("key").empty();
+    const Node& node = keyed ? *camera_->all("key").front() : *camera_;
+    node.fail("eye",
+              fmt::format("the camera stands inside of the body '{}', and sees nothing of it",
+                          scene_.bodies()[*body]->name),
+              fmt::format("the body is between {} and {} m", in_words(bounds_[*body].min()),
+                          in_words(bounds_[*body].max())));
+  }
+
+  // By vertices, which nearly always tells; then by faces, which may fill the picture with no vertex in it.
+  bool sees(const FrameCamera& camera, std::size_t n) {
+    const Eigen::Matrix4d view = view_of(camera, bounds_[n], aspect_).world_to_clip();
+    const EmbeddedMap& map = *scene_.bodies()[n]->map;
+    const CellIndex& cells = map.cells(Vertex);
+    for (Slot v = 0; v < cells.slots(); ++v)
+      if (cells.alive(v) && beyond(view, map.position()[v].vec()) == 0) return true;
+    bool seen = false;
+    skin_.each_face(n, [&](const std::vector<Vec3>& ring) {
+      unsigned all = ~0u; // sides that the whole face lies beyond
+      for (const Vec3& x : ring) all &= beyond(view, x);
+      seen = seen || all == 0;
+    });
+    return seen;
+  }
+
+  void look_from_first() {
+    const FrameCamera camera = viewpoint_.at(0);
+    for (std::size_t n = 0; n < bounds_.size(); ++n)
+      if (sees(camera, n)) return;
+    std::string where;
+    for (std::size_t n = 0; n < std::min<std::size_t>(bounds_.size(), 3); ++n)
+      where += fmt::format("{}body '{}' is between {} and {} m", n ? ", " : "", scene_.bodies()[n]->name,
+                           in_words(bounds_[n].min()), in_words(bounds_[n].max()));
+    notes_.push_back(
+        fmt::format("at the start the camera sees nothing of any body: it is at {} and looks at {}; {}; "
+                    "with frame=\"auto\" it finds them",
+                    in_words(camera.eye), in_words(camera.target), where));
+  }
+
+  void follow_the_way() {
+    constexpr long most = 1000; // looks along the way
+    const long stride = std::max(1L, clock_.frames() / most);
+    for (long frame = stride; frame < clock_.frames(); frame += stride) {
+      const double time = clock_.time_of(frame);
+      const std::optional<std::size_t> body = around(viewpoint_.at(time).eye);
+      if (!body) continue;
+      notes_.push_back(
+          fmt::format("at {:.3g} s the camera is where the body '{}' is at the start: inside of it there is "
+                      "nothing to see",
+                      time, scene_.bodies()[*body]->name));
+      return;
+    }
+  }
+
+  void look_at_colours() {
+    for (const auto& body : scene_.bodies()) {
+      const Node* look = body->node->child("look");
+      if (!look || look->text("by") != "fragment" || body->tears()) continue;
+      if (count_cells(body->map->map()).fragments > 1) continue;
+      notes_.push_back(fmt::format(
+          "body '{}' is coloured by fragment, and nothing tears it: it stays one, of one colour", body->name));
+    }
+  }
+
+  const Scene& scene_;
+  const Node* camera_; // null: none is given
+  Viewpoint viewpoint_;
+  const FrameClock& clock_;
+  double aspect_; // width / height
+  StartSkin skin_;
+  std::vector<Bounds> bounds_; // of each body
+  std::vector<std::string> notes_;
+};
+
+} // namespace
+
+void check_camera(const Node& preset, const Scene& scene, double aspect, const FrameClock& clock) {
+  if (preset.child("camera")) Check(preset, scene, aspect, clock).check_camera();
+}
+
+std::vector<std::string> picture_notes(const Node& preset, const Scene& scene, double aspect,
+                                       const FrameClock& clock) {
+  return Check(preset, scene, aspect, clock).notes();
+}
+
+} // namespace rend

@@ -1,0 +1,206 @@
+#include "render/clip/session.h"
+
+#include "render/clip/picture_check.h"
+#include "render/console/console.h"
+#include "render/console/signals.h"
+#include "render/help/number_option.h"
+#include "render/report/machine.h"
+#include "sim/base/hash.h"
+#include "sim/base/start_threads.h"
+#include "sim/base/threads.h"
+#include "sim/build/shape.h"
+#include "sim/preset/paths.h"
+#include "sim/preset/preset_reader.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace rend {
+
+double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void add_preset_options(CLI::App& app, SessionOptions& options) {
+  app.add_option("preset", options.preset, "the scene, an XML file")->required()->type_name("PRESET");
+  app.add_option("--set", options.sets, "replace an attribute, such as time.step=1e-4 (any number of times)")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the preset's folder, too");
+}
+
+void add_run_options(CLI::App& app, SessionOptions& options) {
+  add_preset_options(app, options);
+  app.add_option("--steps", options.steps, "so many steps instead of the duration")
+      ->type_name("N")
+      ->transform(whole_number(0, 1000000000));
+  app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the preset's")
+      ->type_name("N")
+      ->transform(real_number(1e-6, 1e6));
+  app.add_option("--threads", options.threads,
+                 "threads of the simulation (the result is the same for any number)")
+      ->type_name("N")
+      ->transform(whole_number(1, 256));
+  app.add_option("--kernels", options.kernels,
+                 "flat; or walk: every force by walking the map (slow, for comparison)")
+      ->type_name("flat|walk")
+      ->check(CLI::IsMember({"flat", "walk"}));
+  app.add_flag(
+      "!--no-guard", options.guard,
+      "stop at a step that goes wrong, in place of redoing it in parts (to find where a step is too large)");
+  app.add_flag("-q,--quiet", options.quiet, "no progress and no notes");
+}
+
+namespace {
+
+// Of its content, piece after piece; of nothing where it cannot be read.
+std::uint64_t hash_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> piece(std::size_t{1} << 20U);
+  std::uint64_t hash = 0;
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0)
+    hash = hash_bytes(piece.data(), static_cast<std::size_t>(file.gcount()), hash);
+  return hash;
+}
+
+// Of those that the steps of the scene are going to use.
+void note_refused_threads(const Scene& scene) {
+  int wanted = 1;
+  for (const auto& body : scene.bodies()) wanted = std::max(wanted, body->program->parts());
+  start_threads(wanted);
+  if (threads_refused()) note_fewer_threads();
+}
+
+} // namespace
+
+Session::Session(const SessionOptions& options) : options_(options) {
+  std::vector<Override> overrides;
+  for (const std::string& set : options.sets) overrides.push_back(parse_override(set));
+  const std::string text = read_preset_file(options.preset);
+  text_hash_ = hash_bytes(text.data(), text.size());
+  preset_ = load_scene_text(text, options.preset, overrides);
+  if (!options.allow_path) check_paths(*preset_);
+  image_ = image_settings(*preset_);
+  if (options.fps) image_.fps = *options.fps;
+  scene_ = std::make_unique<Scene>(
+      *preset_,
+      SceneOptions{options.kernels == "walk", threads(), options.births, options.guard, {}, options.profile});
+  check_counts();
+  const double step = scene_->step_size();
+  const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
+  clock_ = std::make_unique<FrameClock>(duration, step, image_.fps);
+  check_camera(*preset_, *scene_, static_cast<double>(image_.width) / image_.height, *clock_);
+  if (options.quiet) return;
+  note_refused_threads(*scene_);
+  for (const std::string& note : scene_->notes()) print_note(note);
+  for (const auto& body : scene_->bodies())
+    for (const std::string& note : body->notes) print_note(fmt::format("body '{}': {}", body->name, note));
+}
+
+int Session::threads() const {
+  return options_.threads > 0 ? options_.threads : hardware_threads();
+}
+
+std::uint64_t Session::key() const {
+  std::string words = fmt::format("rend {}\n{:016x}\n", this_machine().version, text_hash_);
+  for (const std::string& set : options_.sets) words += "set " + set + "\n";
+  words += fmt::format("steps {} fps {} kernels {} guard {}\n", options_.steps.value_or(-1),
+                       options_.fps.value_or(-1), options_.kernels, options_.guard);
+  for (const Node* body : preset_->all("body")) {
+    for (const Node* mesh : body->all("mesh"))
+      words += fmt::format("mesh {:016x}\n", hash_of(mesh_path(*mesh)));
+  }
+  return hash_bytes(words.data(), words.size());
+}
+
+void Session::check_counts() const {
+  constexpr double most = std::numeric_limits<int>::max() / 2;
+  const double step = scene_->step_size();
+  const double duration = options_.steps ? static_cast<double>(*options_.steps) * step : scene_->duration();
+  if (duration * image_.fps < most) return;
+  preset_->child("time")->fail(
+      "duration",
+      fmt::format("{:g} s at {:g} pictures a second are more than {:.0f} frames", duration, image_.fps, most));
+}
+
+Stopped Session::run(long last_frame, const Calls& calls, long first_frame) {
+  const double start = wall_clock();
+  double away = 0; // [s] in the calls at frames
+  Stopped stopped = Stopped::No;
+  try {
+    stopped = loop(first_frame, last_frame, calls, away);
+  } catch (const Unstable& error) {
+    failure_ = error;
+    stopped = Stopped::Unstable;
+  }
+  step_seconds_ = wall_clock() - start - away;
+  return stopped;
+}
+
+long Session::last_step(long last_frame) const {
+  const bool to_the_end = last_frame + 1 >= clock_->frames();
+  return to_the_end ? clock_->steps() : clock_->step_of(last_frame);
+}
+
+Stopped Session::loop(long first_frame, long last_frame, const Calls& calls, double& away) {
+  constexpr long never = std::numeric_limits<long>::max();
+  const long last_step = this->last_step(last_frame);
+  long frame = first_frame;                                        // the next
+  long due = frame <= last_frame ? clock_->step_of(frame) : never; // the step that it waits for
+  while (true) {
+    if (scene_->steps_done() >= due || scene_->steps_done() >= last_step) scene_->check_sound();
+    if (scene_->steps_done() >= due) {
+      const double since = wall_clock();
+      for (; frame <= last_frame && clock_->step_of(frame) <= scene_->steps_done(); ++frame) calls.frame(frame);
+      due = frame <= last_frame ? clock_->step_of(frame) : never;
+      away += wall_clock() - since;
+    }
+    if (scene_->steps_done() >= last_step) return Stopped::No;
+    if (stop_signal() != 0) return Stopped::Interrupted;
+    scene_->step();
+    if (calls.step) calls.step();
+  }
+}
+
+namespace {
+
+void say_what_is_gone(const Scene& scene) {
+  for (const auto& body : scene.bodies())
+    if (body->gone)
+      print_note(fmt::format("body '{}' is gone: every element of it was deleted at {:.6g} s", body->name,
+                             *body->gone));
+}
+
+void say_what_was_redone(const Scene& scene) {
+  const GuardFigures& guard = scene.guard();
+  if (guard.rejected == 0 || guard.redone == 0) return;
+  print_note(fmt::format(
+      "{} steps were thrown away, and {} parts of steps made in place of steps that were too large; "
+      "a step of {:.3g} s would hold",
+      guard.rejected, guard.redone, guard.smallest));
+}
+
+} // namespace
+
+Exit end_of(const Session& session, Stopped stopped) {
+  if (!session.quiet()) {
+    say_what_is_gone(session.scene());
+    say_what_was_redone(session.scene());
+  }
+  if (stopped == Stopped::No) return Exit::Done;
+  if (stopped == Stopped::Unstable) {
+    print_error(session.failure()->what(), session.failure()->hint);
+    return Exit::Unstable;
+  }
+  print_error(fmt::format("stopped by a signal at {:.6g} s (step {} of {})", session.scene().time(),
+                          session.scene().steps_done(), session.clock().steps()));
+  return exit_of_a_signal();
+}
+
+} // namespace rend

@@ -1,0 +1,246 @@
+// rend batch: many presets, beside each other.
+#include "render/batch/available_memory.h"
+#include "render/batch/batch_queue.h"
+#include "render/clip/clock.h"
+#include "render/clip/session.h"
+#include "render/clip/shard.h"
+#include "render/commands/command.h"
+#include "render/console/console.h"
+#include "render/console/json_text.h"
+#include "render/console/signals.h"
+#include "render/files/named_files.h"
+#include "render/files/output.h"
+#include "render/files/output_folder.h"
+#include "render/files/png.h"
+#include "render/files/video.h"
+#include "render/files/video_format.h"
+#include "render/help/number_option.h"
+#include "render/help/usage.h"
+#include "render/pages/batch_page.h"
+#include "render/picture/scene_preset.h"
+#include "sim/base/printable.h"
+#include "sim/base/threads.h"
+#include "sim/base/wording.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BatchOptions {
+  std::vector<std::string> inputs, sets, sweeps;
+  std::string folder = "out/batch", shard, memory;
+  std::string frames, size, fps, video, checkpoint_every;
+  int jobs = 0, threads = 0; // 0: not given
+  bool no_png = false, allow_path = false, resume = false, json = false, quiet = false;
+};
+
+// "800M", "4G", "1.5G": bytes.
+std::size_t parse_memory(const std::string& text) {
+  const std::string units = "kMG";
+  constexpr double most = 1e18; // [bytes], within what a size_t holds
+  double bytes = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data(), end, bytes, std::chars_format::fixed);
+  const std::size_t unit = after + 1 == end ? units.find(*after) : std::string::npos;
+  const bool whole = error == std::errc() && (after == end || unit != std::string::npos);
+  for (std::size_t n = 0; unit != std::string::npos && n <= unit; ++n) bytes *= 1024;
+  if (!whole || !(bytes >= 1 && bytes <= most)) // nor what is no number
+    throw UserError(Exit::Usage, {}, fmt::format("--memory {} is no amount of memory", in_quotes(text)),
+                    "an amount is such as 800M or 4G");
+  return static_cast<std::size_t>(bytes);
+}
+
+BatchLimits limits_of(const BatchOptions& options) {
+  BatchLimits limits;
+  limits.jobs = options.jobs > 0 ? options.jobs : hardware_threads();
+  limits.memory = options.memory.empty() ? available_memory() / 10 * 8 : parse_memory(options.memory);
+  return limits;
+}
+
+// Those of this shard. Where there are fewer jobs than shards, all of them: then each makes its part of their
+// frames.
+std::vector<BatchJob> jobs_of(const BatchOptions& options, const BatchSettings& settings, const Shard& shard,
+                              bool& frames_are_shared) {
+  const std::vector<BatchJob> all = batch_jobs(options.inputs, settings.sweeps);
+  frames_are_shared = !shard.whole() && static_cast<long>(all.size()) < shard.count;
+  if (frames_are_shared) return all;
+  std::vector<BatchJob> ours;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (static_cast<long>(n) % shard.count == shard.number - 1) ours.push_back(all[n]);
+  return ours;
+}
+
+std::vector<std::string> arguments_of(const BatchOptions& options, const BatchSettings& settings,
+                                      const BatchLimits& limits, const BatchJob& job, const Shard& frames,
+                                      bool resume) {
+  std::vector<std::string> words{
+      "render", job.preset, "-o",      (fs::path(options.folder) / job.name).string(),
+      "--json", "-q",       "--shard", frames.text()};
+  const auto pass = [&](const char* name, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {name, value});
+  };
+  for (const std::string& set : settings.sets) pass("--set", set);
+  for (const std::string& set : job.sets) pass("--set", set);
+  pass("--frames", options.frames);
+  pass("--size", options.size);
+  pass("--fps", options.fps);
+  pass("--video", options.video);
+  pass("--checkpoint-every", options.checkpoint_every);
+  const int threads = options.threads > 0 ? options.threads : limits.jobs > 1 ? 1 : 0;
+  if (threads > 0) pass("--threads", std::to_string(threads));
+  if (options.no_png) words.emplace_back("--no-png");
+  if (options.allow_path) words.emplace_back("--allow-path");
+  if (resume) words.emplace_back("--resume");
+  return words;
+}
+
+// What every job would find out, each for itself.
+void check(const BatchOptions& options) {
+  if (!options.frames.empty()) FrameChoice{options.frames};
+  if (!options.size.empty()) parse_size(options.size);
+  if (!options.video.empty()) require_video(options.video);
+  if (!options.no_png) require_png();
+  if (options.no_png && options.video.empty())
+    throw UserError(Exit::Usage, {}, "--no-png without --video leaves nothing to write", "add --video mp4");
+}
+
+std::string closing_words(const BatchReport& report, const fs::path& page) {
+  std::size_t done = 0;
+  for (const BatchResult& result : report.results) done += state_of(result) == "done";
+  std::string out = fmt::format("{} of {} job{} done, in {}; see {}\n", done, report.jobs.size(),
+                                report.jobs.size() == 1 ? "" : "s", seconds_in_words(report.seconds),
+                                printable(page.string()));
+  for (std::size_t n = 0; n < report.jobs.size(); ++n)
+    if (failed(report.results[n]))
+      out += printable(fmt::format(
+                 "{}: {}: {}", state_of(report.results[n]), report.jobs[n].name,
+                 line_of(report.jobs[n], report.results[n]).value("message", "no reason was given"))) +
+             "\n";
+  return out;
+}
+
+Exit end_of(const BatchReport& report) {
+  if (stop_signal() != 0) return exit_of_a_signal();
+  const bool all = std::all_of(report.results.begin(), report.results.end(),
+                               [](const BatchResult& result) { return state_of(result) == "done"; });
+  return all ? Exit::Done : Exit::No;
+}
+
+Exit batch(const BatchOptions& options) {
+  const double start = wall_clock();
+  check(options);
+  const BatchSettings settings = batch_settings(scene_type(), options.sets, options.sweeps);
+  const Shard shard = shard_for(options.shard);
+  bool frames_are_shared = false;
+  BatchReport report{
+      options.folder, jobs_of(options, settings, shard, frames_are_shared), {}, limits_of(options), 0};
+  if (frames_are_shared && !options.video.empty())
+    throw UserError(Exit::Usage, {},
+                    "there are fewer jobs than shards, so that these share frames; a video is of all",
+                    "use at most as many shards as jobs, or leave --video out");
+  const Shard frames = frames_are_shared ? shard : Shard{};
+  const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
+  const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
+  NamedFiles files; // each job sees to its own
+  files.writes("the page", page);
+  for (const BatchJob& job : report.jobs) files.reads("the preset", job.preset);
+  const OutputFolder folder(options.folder);
+  const Keeping keeping;
+  folder.make();
+  std::size_t finished = 0;
+  BatchQueue queue(
+      report.jobs, report.limits,
+      [&](const BatchJob& job, bool again) {
+        return arguments_of(options, settings, report.limits, job, frames, options.resume || again);
+      },
+      [&](std::size_t n, const BatchResult& result) {
+        ++finished;
+        if (options.json) print_result(text_of(line_of(report.jobs[n], result)) + "\n");
+        if (!options.quiet)
+          print_progress(fmt::format("{:>3} of {}  {:8}  {:>8}  {}\n", finished, report.jobs.size(),
+                                     state_of(result), seconds_in_words(result.seconds),
+                                     printable(report.jobs[n].name)));
+      });
+  report.results = queue.run();
+  if (queue.has_fewer_jobs() && !options.quiet)
+    print_note("fewer jobs ran at once than were wanted: the system started no more");
+  report.seconds = wall_clock() - start;
+  write_whole(page, batch_page(report));
+  folder.sync();
+  if (!options.json) print_result(closing_words(report, page));
+  return end_of(report);
+}
+
+void declare_passed_on(CLI::App& app, BatchOptions& options) {
+  app.add_option("--frames", options.frames, "only these: 7, 0-100, 0-100x5, 10-, or several with commas")
+      ->type_name("LIST")
+      ->check(some_word());
+  app.add_option("--size", options.size, "of the pictures in pixels, instead of the presets'")
+      ->type_name("WxH")
+      ->check(some_word());
+  app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the presets'")
+      ->type_name("N")
+      ->transform(real_number(1e-6, 1e6));
+  app.add_option("--video", options.video, "also a video of each job")
+      ->type_name(choices(video_format_names()));
+  app.add_flag("--no-png", options.no_png, "the videos alone");
+  app.add_option("--threads", options.threads,
+                 "threads of each simulation; default: one, where jobs run in parallel")
+      ->type_name("N")
+      ->transform(whole_number(1, 256));
+  app.add_option("--checkpoint-every", options.checkpoint_every, "as of rend render")
+      ->type_name("S")
+      ->transform(real_number(0, 1e9));
+  app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the presets' folders, too");
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<BatchOptions>();
+  app.add_option("inputs", options->inputs, "presets, and folders of them")->required()->type_name("PRESET...");
+  app.add_option("-o,--output", options->folder, "folder of all jobs' folders, and of index.html")
+      ->type_name("DIR")
+      ->capture_default_str();
+  app.add_option(
+         "--set", options->sets,
+         "replace an attribute in all jobs (any number of times); several values with commas are a sweep, "
+         "unless the attribute is a free text")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--sweep", options->sweeps,
+                 "one job for each of these values of an attribute, free texts too; several sweeps are crossed")
+      ->type_name("PATH=V,V,...")
+      ->allow_extra_args(false);
+  app.add_option("-j,--jobs", options->jobs, "jobs at once; default: as many as the machine has threads")
+      ->type_name("N")
+      ->transform(whole_number(1, 1024));
+  app.add_option("--memory", options->memory,
+                 "that all jobs together may take, such as 4G; default: 80 % of what is available")
+      ->type_name("SIZE")
+      ->check(some_word());
+  app.add_option(
+         "--shard", options->shard,
+         "of the jobs only part I of N; default: as Slurm says of an array task. With fewer jobs than shards: "
+         "a part of each job's frames")
+      ->type_name("I/N")
+      ->check(some_word());
+  app.add_flag("--resume", options->resume, "keep the pictures that are there and whole, and make the rest");
+  declare_passed_on(app, *options);
+  app.add_flag("--json", options->json, "one JSON object a line for each job, as it ends");
+  app.add_flag("-q,--quiet", options->quiet, "no progress");
+  return [options] { return batch(*options); };
+}
+
+} // namespace
+
+Command batch_command() {
+  return {"batch", "render many presets in parallel, with a page of what came of them", declare};
+}
+
+} // namespace rend

@@ -1,0 +1,248 @@
+// rend check: numerical stability on stiff and extreme cases.
+#include "render/clip/session.h"
+#include "render/commands/command.h"
+#include "render/console/console.h"
+#include "render/console/json_text.h"
+#include "render/console/signals.h"
+#include "render/files/named_files.h"
+#include "render/files/output.h"
+#include "render/files/temporaries.h"
+#include "render/help/number_option.h"
+#include "render/pages/check_report.h"
+#include "render/picture/scene_preset.h"
+#include "render/studies/check_run.h"
+#include "sim/base/printable.h"
+#include "sim/base/threads.h"
+#include "sim/base/wording.h"
+#include "sim/check/preset_check.h"
+#include "sim/preset/paths.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fnmatch.h>
+#include <memory>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CheckOptions {
+  std::vector<std::string> presets; // empty: the suite
+  std::string folder;               // empty: no files are left
+  std::vector<std::string> only;    // patterns of names
+  bool list = false, json = false, quick = false, quiet = false, allow_path = false;
+  int jobs = 0; // 0: as many as the machine has threads
+};
+
+// A folder for presets that nobody asked to keep.
+class TemporaryFolder {
+public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "rend-check-XXXXXX").string();
+    if (!mkdtemp(name.data()))
+      throw UserError(Exit::CannotCreate, {},
+                      "no folder can be made in " + in_quotes(fs::temp_directory_path().string()),
+                      "give one with -o");
+    path_ = name;
+    temporary_.is(path_.c_str());
+    temporary_.holds_files();
+  }
+  ~TemporaryFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+private:
+  fs::path path_;
+  TemporaryPath temporary_; // path_
+};
+
+// Part of a name is enough: "static" means "*static*".
+bool is_wanted(const CheckCase& which, const CheckOptions& options) {
+  if (options.quick && options.presets.empty() && !which.quick) return false;
+  return options.only.empty() ||
+         std::any_of(options.only.begin(), options.only.end(), [&](const std::string& pattern) {
+           return fnmatch(("*" + pattern + "*").c_str(), which.name.c_str(), 0) == 0;
+         });
+}
+
+CheckChapter chapter_of(const std::string& preset, const CheckOptions& options) {
+  const fs::path path(preset);
+  CheckFamily family{
+      path.stem().string(), preset,
+      "Is it stable as it is, with what margin, at which step does it break, and which scheme would do.",
+      nullptr};
+  CheckChapter chapter{family, {}, {}};
+  for (CheckCase& one : preset_cases(family.name, preset))
+    if (is_wanted(one, options)) chapter.cases.push_back(std::move(one));
+  return chapter;
+}
+
+CheckChapter chapter_of(const CheckFamily& family, const CheckOptions& options) {
+  CheckChapter chapter{family, {}, {}};
+  for (CheckCase& one : family.cases())
+    if (is_wanted(one, options)) chapter.cases.push_back(std::move(one));
+  return chapter;
+}
+
+// Each case reads the preset anew, which of a pipe gives nothing the second time, or waits for ever.
+void refuse_pipe(const fs::path& preset) {
+  std::error_code error;
+  const fs::file_status there = fs::status(preset, error);
+  if (!fs::exists(there) || fs::is_regular_file(there) || fs::is_directory(there)) return;
+  throw UserError(Exit::NoInput, {preset.string()}, "this is no ordinary file, and is read once for each case",
+                  "copy it to a file");
+}
+
+std::vector<CheckChapter> wanted(const CheckOptions& options) {
+  std::vector<CheckChapter> chapters;
+  const auto add = [&](CheckChapter chapter) {
+    if (!chapter.cases.empty()) chapters.push_back(std::move(chapter));
+  };
+  for (const std::string& preset : options.presets) {
+    refuse_pipe(preset);
+    const auto scene = load_scene(preset); // what is bad is said before anything slow
+    if (!options.allow_path) check_paths(*scene);
+    add(chapter_of(preset, options));
+  }
+  if (options.presets.empty())
+    for (const CheckFamily& family : all_families()) add(chapter_of(family, options));
+  if (!chapters.empty()) return chapters;
+  std::vector<std::string> names;
+  for (const CheckFamily& family : all_families()) names.push_back(family.name);
+  throw UserError(Exit::Usage, {}, "no case has such a name",
+                  "the families are " + listed(names) + "; --list names all");
+}
+
+// What is read is not written over.
+void check_files(const CheckOptions& options) {
+  if (options.folder.empty()) return;
+  NamedFiles files;
+  for (const std::string& preset : options.presets) files.reads("the preset", preset);
+  for (const char* file : {"check.json", "index.html"})
+    files.writes("the report", fs::path(options.folder) / file);
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error)
+    throw UserError(Exit::CannotCreate, {path.string(), 0, 0}, "the folder cannot be made: " + error.message());
+}
+
+std::string line_of(std::size_t number, std::size_t all, const CheckCase& which, const CheckResult& result) {
+  const Finding& f = result.finding;
+  std::string line = fmt::format("[{:>4}/{}] {:<11} {:7.2f} s  {}", number, all, name_of(f.verdict),
+                                 result.seconds, printable(which.name));
+  if (f.verdict == Verdict::Failed) {
+    line += fmt::format("\n             expected: {}\n             {}", which.expectation, printable(f.what));
+    for (const Measure& m : f.measures)
+      if (!m.holds())
+        line += fmt::format("\n             {}: {:.6g}, not within {:.6g} and {:.6g}", m.what, m.got, m.low,
+                            m.high);
+  }
+  return line + "\n";
+}
+
+// Runs all cases of all chapters as one list, so that no thread waits at a family's end.
+void run_all(std::vector<CheckChapter>& chapters, const fs::path& folder, const CheckOptions& options) {
+  std::vector<CheckCase> cases;
+  for (const CheckChapter& chapter : chapters)
+    cases.insert(cases.end(), chapter.cases.begin(), chapter.cases.end());
+  write_cases(folder, cases);
+  std::size_t count = 0;
+  const auto say = [&](std::size_t n, const CheckResult& result) {
+    ++count;
+    if (!options.quiet) print_progress(line_of(count, cases.size(), cases[n], result));
+  };
+  const int jobs = options.jobs > 0 ? options.jobs : hardware_threads();
+  const auto fewer = [&] {
+    if (!options.quiet) note_fewer_threads();
+  };
+  std::vector<CheckResult> results = run_cases(folder, cases, jobs, say, fewer);
+  if (results.size() < cases.size()) return; // a signal
+  auto next = results.begin();
+  for (CheckChapter& chapter : chapters)
+    for (std::size_t n = 0; n < chapter.cases.size(); ++n) chapter.results.push_back(std::move(*next++));
+}
+
+std::string summary_of(const std::vector<CheckChapter>& chapters, double seconds, const std::string& folder) {
+  const CheckCounts counts = count(chapters);
+  std::string out = fmt::format(
+      "{} cases in {}: {} ok, {} refused as they should be, {} known limits, {} failed\n", counts.all(),
+      seconds_in_words(seconds), counts.ok, counts.refused, counts.limits, counts.failed);
+  for (const CheckChapter& chapter : chapters)
+    for (std::size_t n = 0; n < chapter.results.size(); ++n)
+      if (chapter.results[n].finding.verdict == Verdict::Failed)
+        out += fmt::format("  failed: {}: {}\n", printable(chapter.cases[n].name),
+                           printable(chapter.results[n].finding.what));
+  if (!folder.empty()) out += fmt::format("  {}\n", printable((fs::path(folder) / "index.html").string()));
+  return out;
+}
+
+Exit check(const CheckOptions& options) {
+  std::vector<CheckChapter> chapters = wanted(options);
+  if (options.list) {
+    std::string names;
+    for (const CheckChapter& chapter : chapters)
+      for (const CheckCase& one : chapter.cases) names += printable(one.name) + "\n";
+    print_result(names);
+    return Exit::Done;
+  }
+  check_files(options);
+  const double start = wall_clock();
+  const Keeping keeping;
+  std::unique_ptr<TemporaryFolder> temporary;
+  if (options.folder.empty()) temporary = std::make_unique<TemporaryFolder>();
+  const fs::path cases = temporary ? temporary->path() : fs::path(options.folder) / "cases";
+  make_folder(cases);
+  run_all(chapters, cases, options);
+  if (chapters.front().results.empty()) {
+    print_error("stopped by a signal: nothing is reported");
+    return exit_of_a_signal();
+  }
+  const double seconds = wall_clock() - start;
+  const nlohmann::ordered_json json = check_json(chapters, seconds);
+  if (!options.folder.empty()) {
+    write_whole(fs::path(options.folder) / "check.json", text_of(json, 2) + "\n");
+    write_whole(fs::path(options.folder) / "index.html", check_page(chapters, seconds, true));
+    sync_folder(options.folder);
+  }
+  print_result(options.json ? text_of(json, 2) + "\n" : summary_of(chapters, seconds, options.folder));
+  return count(chapters).failed > 0 ? Exit::No : Exit::Done;
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<CheckOptions>();
+  app.add_option("presets", options->presets, "scenes to check; none: the suite")->type_name("PRESET...");
+  app.add_option("-o,--output", options->folder,
+                 "write index.html, check.json and the presets of all cases there")
+      ->type_name("DIR");
+  app.add_option("--only", options->only, "cases whose names hold this (* and ? stand for anything)")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
+  app.add_flag("--allow-path", options->allow_path, "read meshes from outside of the presets' folders, too");
+  app.add_flag("--quick", options->quick, "the few cases that stand for the others");
+  app.add_flag("--list", options->list, "the names of the cases, one a line");
+  app.add_flag("--json", options->json, "the findings as one JSON object");
+  app.add_option("--jobs", options->jobs, "cases at once; default: the threads of the machine")
+      ->type_name("N")
+      ->transform(whole_number(1, 256));
+  app.add_flag("-q,--quiet", options->quiet, "no line for each case");
+  return [options] { return check(*options); };
+}
+
+} // namespace
+
+Command check_command() {
+  return {"check", "check numerical stability on stiff and extreme cases", declare};
+}
+
+} // namespace rend

@@ -1,0 +1,248 @@
+// rend diff: pictures, or folders of pictures, compared.
+#include "render/batch/available_memory.h"
+#include "render/commands/command.h"
+#include "render/compare/tolerances.h"
+#include "render/compare/update.h"
+#include "render/console/console.h"
+#include "render/console/signals.h"
+#include "render/files/named_files.h"
+#include "render/files/output.h"
+#include "render/files/png.h"
+#include "render/help/number_option.h"
+#include "render/pages/diff_page.h"
+#include "render/pages/diff_report.h"
+#include "sim/base/printable.h"
+#include "sim/base/start_threads.h"
+#include "sim/base/threads.h"
+#include "sim/base/worker_threads.h"
+#include "sim/preset/paths.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <optional>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DiffOptions {
+  std::string a, b, folder, junit, tolerances, mask;
+  std::vector<std::string> limits, update;
+  bool allow_path = false, json = false, json_lines = false, quiet = false;
+  int threads = 0; // 0: as many as the machine has
+};
+
+Tolerances tolerances_of(const DiffOptions& options) {
+  Tolerances out =
+      options.tolerances.empty() ? Tolerances() : Tolerances(options.tolerances, options.allow_path);
+  for (const std::string& limit : options.limits) out.add(limit);
+  if (!options.mask.empty()) out.mask_all(options.mask);
+  return out;
+}
+
+// Tells each case as soon as all before it are known, so that lines come in order whatever the threads do.
+class InOrder {
+public:
+  InOrder(std::vector<std::optional<Compared>>& results, bool json_lines)
+      : results_(results), say_(json_lines) {}
+  void put(std::size_t n, Compared&& one) {
+    const std::lock_guard lock(mutex_);
+    results_[n] = std::move(one);
+    for (; next_ < results_.size() && results_[next_]; ++next_)
+      if (say_) print_result(text_of(case_json(*results_[next_], false)) + "\n");
+  }
+
+private:
+  std::vector<std::optional<Compared>>& results_;
+  bool say_;
+  std::size_t next_ = 0;
+  std::mutex mutex_;
+};
+
+// One case after the other on all threads where there are few; many at once where there are many. Empty after a
+// signal.
+std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tolerances& tolerances,
+                                  const DiffOptions& options, MemoryBudget& memory) {
+  const int threads = options.threads > 0 ? options.threads : hardware_threads();
+  const int jobs = cases.size() >= 2 * static_cast<std::size_t>(threads) ? std::min(threads, 8) : 1;
+  std::vector<std::optional<Compared>> results(cases.size());
+  InOrder in_order(results, options.json_lines && options.update.empty());
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::exception_ptr> errors(static_cast<std::size_t>(jobs));
+  const auto work = [&](std::size_t job) {
+    try {
+      for (std::size_t n = next++; n < cases.size() && stop_signal() == 0; n = next++) {
+        CompareOptions one = tolerances.of(cases[n].name);
+        one.heat = !options.folder.empty();
+        one.threads = std::max(1, threads / jobs);
+        in_order.put(n, compare_case(cases[n], one, memory));
+      }
+    } catch (...) {
+      errors[job] = std::current_exception();
+      next = cases.size();
+    }
+  };
+  if (threads > jobs) start_threads(threads);
+  {
+    WorkerThreads others;
+    while (1 + others.count() < jobs &&
+           others.start([&work, job = static_cast<std::size_t>(1 + others.count())] { work(job); })) {
+    }
+    if ((1 + others.count() < jobs || threads_refused()) && !options.quiet) note_fewer_threads();
+    work(0);
+  }
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+  std::vector<Compared> out;
+  for (auto& result : results)
+    if (result) out.push_back(std::move(*result));
+  if (out.size() < cases.size()) out.clear();
+  return out;
+}
+
+std::vector<std::string> remarks_of(const Cases& cases, const Tolerances& tolerances) {
+  std::vector<std::string> names;
+  for (const CasePaths& one : cases.all) names.push_back(one.name);
+  std::vector<std::string> out = tolerances.remarks(names);
+  if (cases.left_out > 0)
+    out.push_back(fmt::format("{} file{} in the folders {} not called .png, and left out", cases.left_out,
+                              cases.left_out == 1 ? "" : "s", cases.left_out == 1 ? "is" : "are"));
+  return out;
+}
+
+void print_report(const DiffOptions& options, const DiffReport& report) {
+  if (options.json_lines) {
+    for (std::size_t n = 0; n < report.cases.size() && !options.update.empty(); ++n)
+      print_result(text_of(case_json(report.cases[n], report.updated[n])) + "\n");
+  } else if (options.json) {
+    print_result(text_of(diff_json(report), 2) + "\n");
+  } else if (!options.quiet) {
+    print_result(diff_text(report) +
+                 (options.folder.empty()
+                      ? ""
+                      : "  " + printable((fs::path(options.folder) / "index.html").string()) + "\n"));
+  }
+}
+
+// What is read is not written over.
+void check_files(const DiffOptions& options, const Cases& cases) {
+  NamedFiles files;
+  for (const char* file : {"index.html", "diff.json"})
+    if (!options.folder.empty()) files.writes("the report", fs::path(options.folder) / file);
+  if (!options.junit.empty()) files.writes("--junit", followed(options.junit));
+  if (!options.tolerances.empty()) files.reads("the file of tolerances", options.tolerances);
+  if (!options.mask.empty()) files.reads("the mask", options.mask);
+  for (const CasePaths& one : cases.all)
+    for (const fs::path& picture : {one.a, one.b})
+      if (!picture.empty() && !options.junit.empty()) files.reads("the picture", picture);
+}
+
+// A report within what is compared would be compared itself the next time; and maps of differences are pictures
+// called as those are that differ.
+void check_folder(const fs::path& report, const Cases& cases) {
+  std::vector<fs::path> pictures = cases.folders;
+  for (const CasePaths& one : cases.all)
+    if (cases.folders.empty()) pictures.insert(pictures.end(), {one.a, one.b});
+  for (const fs::path& inputs : pictures) {
+    if (lies_in(report, inputs))
+      throw UserError(Exit::Usage, {},
+                      fmt::format("-o {} lies in {}, whose pictures are compared", in_quotes(report.string()),
+                                  in_quotes(inputs.string())),
+                      "choose a folder beside it for the report");
+    if (lies_in(inputs, report / "maps"))
+      throw UserError(Exit::Usage, {},
+                      fmt::format("-o {} has its maps where {} lies, which is compared",
+                                  in_quotes(report.string()), in_quotes(inputs.string())),
+                      "choose another folder for the report");
+  }
+}
+
+Exit diff(const DiffOptions& options) {
+  require_png();
+  const Tolerances tolerances = tolerances_of(options);
+  const Cases cases = cases_of(options.a, options.b);
+  const std::set<std::size_t> chosen = named_cases(options.update, cases.all);
+  check_files(options, cases);
+  if (!options.folder.empty()) check_folder(options.folder, cases);
+  const Keeping keeping;
+  DiffReport report;
+  report.a = options.a;
+  report.b = options.b;
+  report.remarks = remarks_of(cases, tolerances);
+  DiffFiles files(options.folder, options.junit);
+  MemoryBudget memory(MemoryBudget::of_machine(available_memory()));
+  report.cases = compare_all(cases.all, tolerances, options, memory);
+  if (report.cases.empty()) {
+    print_error("stopped by a signal: nothing is reported");
+    return exit_of_a_signal();
+  }
+  report.updated.assign(report.cases.size(), false);
+  for (const std::size_t n : chosen) report.updated[n] = true;
+  const std::string page = options.folder.empty() ? "" : diff_page(report); // shows what was expected until now
+  update_expected(report.cases, chosen, options.a, memory);
+  files.write(page, report);
+  if (!options.quiet)
+    for (const std::string& remark : report.remarks) print_note(remark);
+  print_report(options, report);
+  return exit_of(report);
+}
+
+// Whatever of the input cannot be compared is trouble, as for diff(1).
+Exit run(const DiffOptions& options) {
+  try {
+    return diff(options);
+  } catch (const UserError& error) {
+    if (error.code != Exit::BadInput && error.code != Exit::NoInput) throw;
+    print_error(error.what(), error.hint);
+    return Exit::Trouble;
+  }
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<DiffOptions>();
+  app.add_option("expected", options->a, "a PNG picture, or a folder of them")
+      ->required()
+      ->type_name("EXPECTED");
+  app.add_option("now", options->b, "what is compared with it: of a folder, pictures of the same names")
+      ->required()
+      ->type_name("NOW");
+  app.add_option("-t,--tolerances", options->tolerances, "what may differ, by picture; without it nothing may")
+      ->type_name("FILE.xml");
+  app.add_option("--limit", options->limits,
+                 "one such limit for all pictures: max=1, flip=0.002, share=any, threshold=4")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--mask", options->mask, "a PNG: white counts, black does not")->type_name("FILE.png");
+  app.add_flag("--allow-path", options->allow_path,
+               "let the tolerances name masks outside of their folder, too");
+  app.add_option("-o,--output", options->folder, "write index.html, diff.json and maps of what differs there")
+      ->type_name("DIR");
+  app.add_option("--junit", options->junit, "write the findings as JUnit XML there")->type_name("FILE.xml");
+  auto* json = app.add_flag("--json", options->json, "the findings as one JSON object");
+  app.add_flag("--json-lines", options->json_lines, "one JSON object a picture, each as soon as it is known")
+      ->excludes(json);
+  app.add_option("--update", options->update,
+                 "these pictures (or folders of them) are right as they are now: make "
+                 "them what is expected")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  app.add_option("--threads", options->threads, "threads; default: all that the machine has")
+      ->transform(whole_number(1, 256));
+  app.add_flag("-q,--quiet", options->quiet, "nothing but the exit code, JSON and files");
+  app.footer("Ends with 0 where all pictures match, 1 where one does not, 2 where one cannot be compared.");
+  return [options] { return run(*options); };
+}
+
+} // namespace
+
+Command diff_command() {
+  return {"diff", "compare pictures, or folders of pictures", declare};
+}
+
+} // namespace rend

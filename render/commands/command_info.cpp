@@ -1,0 +1,40 @@
+// rend info: what a preset builds, in bytes, and what it leaves out.
+#include "render/commands/command.h"
+#include "render/console/console.h"
+#include "render/console/json_text.h"
+#include "render/facts/inventory.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace rend {
+namespace {
+
+struct InfoOptions {
+  SessionOptions session;
+  bool json = false;
+};
+
+Exit info(InfoOptions options) {
+  options.session.quiet = true; // notes are part of the answer
+  Session session(options.session);
+  const nlohmann::ordered_json inventory = inventory_of(session);
+  print_result(options.json ? text_of(inventory, 2) + "\n" : inventory_in_words(inventory));
+  return Exit::Done;
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<InfoOptions>();
+  add_preset_options(app, options->session);
+  app.add_flag("--json", options->json, "the same as one JSON object");
+  return [options] { return info(*options); };
+}
+
+} // namespace
+
+Command info_command() {
+  return {"info", "tell what a preset builds, and what it leaves out", declare};
+}
+
+} // namespace rend

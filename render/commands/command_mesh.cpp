@@ -1,0 +1,73 @@
+// rend mesh: what a mesh file holds, and the same in another format.
+#include "render/commands/command.h"
+#include "render/console/console.h"
+#include "render/console/signals.h"
+#include "render/facts/mesh_facts.h"
+#include "render/files/named_files.h"
+#include "render/files/output.h"
+#include "sim/base/wording.h"
+#include "sim/mesh/moka.h"
+#include "sim/mesh/msh_writer.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace rend {
+namespace {
+
+struct MeshOptions {
+  std::string in, out;
+  bool json = false;
+};
+
+Exit info(const MeshOptions& options) {
+  const nlohmann::ordered_json facts =
+      mesh_facts(sew(read_mesh(std::filesystem::path(options.in))), options.in);
+  print_result(options.json ? facts_in_json(facts) : facts_in_words(facts));
+  return Exit::Done;
+}
+
+Exit convert(const MeshOptions& options) {
+  const std::filesystem::path out = options.out;
+  const bool moka = out.extension() == ".moka";
+  if (!moka && out.extension() != ".msh")
+    throw UserError(Exit::Usage, {}, fmt::format("{} is no format that can be written", in_quotes(options.out)),
+                    "a name that ends in .moka or .msh tells the format");
+  const std::filesystem::path file = followed(out);
+  NamedFiles files;
+  files.reads("the mesh", options.in);
+  files.writes("the new one", file);
+  const MeshBody body = sew(read_mesh(std::filesystem::path(options.in)));
+  for (const std::string& note : body.notes) print_note(note);
+  if (moka && !body.groups.empty()) print_note("groups are left out: .moka has none");
+  const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
+  const Keeping keeping;
+  write_whole(file, text);
+  sync_folder(file.parent_path());
+  return Exit::Done;
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<MeshOptions>();
+  auto chosen = std::make_shared<Exit (*)(const MeshOptions&)>(nullptr);
+  app.require_subcommand(1);
+  CLI::App* tell = app.add_subcommand("info", "cells, sizes and groups of a mesh");
+  tell->add_option("file", options->in, "a mesh")->required()->type_name("FILE");
+  tell->add_flag("--json", options->json, "the same as one JSON object");
+  tell->callback([chosen] { *chosen = info; });
+  CLI::App* change = app.add_subcommand("convert", "write a mesh as .moka, or as .msh 2.2");
+  change->add_option("in", options->in, "a mesh")->required()->type_name("IN");
+  change->add_option("out", options->out, "the new file")->required()->type_name("OUT");
+  change->callback([chosen] { *chosen = convert; });
+  return [options, chosen] { return (*chosen)(*options); };
+}
+
+} // namespace
+
+Command mesh_command() {
+  return {"mesh", "look at a mesh, or convert it", declare};
+}
+
+} // namespace rend

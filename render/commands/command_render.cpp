@@ -1,0 +1,188 @@
+// rend render: pictures, and a video beside them.
+#include "render/clip/figures.h"
+#include "render/clip/film.h"
+#include "render/clip/session.h"
+#include "render/clip/shard.h"
+#include "render/clip/shoot.h"
+#include "render/commands/command.h"
+#include "render/console/console.h"
+#include "render/console/json_text.h"
+#include "render/console/signals.h"
+#include "render/files/named_files.h"
+#include "render/files/output_folder.h"
+#include "render/files/png.h"
+#include "render/files/video.h"
+#include "render/files/video_format.h"
+#include "render/help/number_option.h"
+#include "render/help/usage.h"
+#include "sim/base/printable.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace rend {
+namespace {
+
+struct RenderOptions {
+  SessionOptions session;
+  std::string folder, frames, size, video; // empty: not given
+  std::string shard;                       // i/n; empty: not given
+  double checkpoint_every = ShootOptions{}.checkpoint_every;
+  bool no_png = false, json = false, resume = false;
+};
+
+PipelineOptions pipeline_options(const RenderOptions& options, const Session& session) {
+  PipelineOptions out;
+  const std::string& name = session.scene().name();
+  out.folder = folder_for(options.folder, name);
+  out.name = name;
+  out.width = session.image().width;
+  out.height = session.image().height;
+  if (!options.size.empty()) {
+    const PictureSize size = parse_size(options.size);
+    out.width = size.width;
+    out.height = size.height;
+  }
+  out.samples = session.image().samples;
+  if (session.image().transparent && !options.video.empty())
+    throw UserError(Exit::Usage, session.preset().child("image")->place("background"),
+                    "a transparent background is for PNG files: rend writes videos without alpha",
+                    "leave --video out, or add --set image.background=#ffffff");
+  out.fps = session.image().fps;
+  out.png = !options.no_png;
+  out.video = !options.video.empty();
+  if (out.video) out.extension = "." + find_video_format(options.video)->name;
+  return out;
+}
+
+std::string closing_words(const Shoot& shoot, const PipelineOptions& files, double seconds) {
+  if (shoot.made() + shoot.kept() == 0) return "no frame was written\n";
+  std::string out = fmt::format("{} frame{}", shoot.made(), shoot.made() == 1 ? "" : "s");
+  if (files.png) out += " in " + printable(files.folder.string());
+  if (files.video)
+    out +=
+        (files.png ? ", and " : " in ") + printable((files.folder / (files.name + files.extension)).string());
+  if (shoot.kept() > 0) out += fmt::format("; {} were there already", shoot.kept());
+  return out + fmt::format(", in {}\n", seconds_in_words(seconds));
+}
+
+// Before anything slow is done.
+void check_output(const RenderOptions& options) {
+  if (options.no_png && options.video.empty())
+    throw UserError(Exit::Usage, {}, "--no-png without --video leaves nothing to write", "add --video mp4");
+  if (!options.no_png) require_png();
+  if (!options.video.empty()) require_video(options.video);
+  if (!options.frames.empty()) FrameChoice{options.frames};
+  if (!options.size.empty()) parse_size(options.size);
+  if (!shard_for(options.shard).whole() && !options.video.empty())
+    throw UserError(Exit::Usage, {}, "a shard makes pictures, and a video is of all of them",
+                    "leave --video out; when all shards are done, --shard 1/1 --resume --video " +
+                        options.video + " makes the video of what they made");
+}
+
+ShootOptions shoot_options(const RenderOptions& options, const Session& session) {
+  ShootOptions out;
+  out.files = pipeline_options(options, session);
+  if (!options.frames.empty()) out.choice = FrameChoice(options.frames);
+  out.shard = shard_for(options.shard);
+  out.resume = options.resume;
+  out.checkpoint_every = options.checkpoint_every;
+  if (!out.shard.whole() && options.shard.empty() && !session.quiet())
+    print_note(fmt::format("makes part {} of the frames, as Slurm says of its array task (--shard 1/1: all)",
+                           out.shard.text()));
+  return out;
+}
+
+// What is read is not written over.
+void check_files(const Session& session, const ShootOptions& options) {
+  const PipelineOptions& out = options.files;
+  NamedFiles files;
+  files.reads("the preset", session.preset_path());
+  files.reads_meshes(session.preset());
+  if (out.video) files.writes("the video", out.folder / (out.name + out.extension));
+  if (!out.png) return;
+  files.writes("the stored state", checkpoint_path(out.folder, out.name, options.shard));
+  files.writes_frames("a picture", out.folder, ".png", [&](long frame) {
+    return frame < session.clock().frames() && options.choice.has(frame);
+  });
+}
+
+void print_figures(const RenderOptions& options, const Session& session, const Shoot& shoot, Stopped stopped,
+                   const PipelineOptions& files, double total) {
+  if (options.json) {
+    const Film& film = shoot.film();
+    nlohmann::ordered_json figures =
+        figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()},
+                   shoot.simulates());
+    figures["frames"] = shoot.made();
+    figures["kept"] = shoot.kept();
+    print_result(text_of(figures, 2) + "\n");
+  } else if (!session.quiet()) {
+    print_result(closing_words(shoot, files, total));
+  }
+}
+
+Exit render(const RenderOptions& options) {
+  const double start = wall_clock();
+  check_output(options);
+  Session session(options.session);
+  const ShootOptions wanted = shoot_options(options, session);
+  check_files(session, wanted);
+  Shoot shoot(session, wanted);
+  const Keeping keeping;
+  const Stopped stopped = shoot.run();
+  print_figures(options, session, shoot, stopped, wanted.files, wall_clock() - start);
+  const Exit end = end_of(session, stopped);
+  if (shoot.left_checkpoint() && !session.quiet())
+    print_note("the same command with --resume goes on from here");
+  return end;
+}
+
+std::string video_formats_in_words() {
+  std::string out;
+  for (const VideoFormat& format : video_formats())
+    out += fmt::format("{}{} ({})", out.empty() ? "" : ", ", format.name, format.what);
+  return out;
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<RenderOptions>();
+  add_run_options(app, options->session);
+  app.add_option("-o,--output", options->folder, "folder of the pictures; default: out/ and the scene's name")
+      ->type_name("DIR");
+  app.add_option("--frames", options->frames, "only these: 7, 0-100, 0-100x2, 10-, or several with commas")
+      ->type_name("LIST")
+      ->check(some_word());
+  app.add_option("--size", options->size, "of the pictures in pixels, instead of the preset's")
+      ->type_name("WxH")
+      ->check(some_word());
+  app.add_option("--video", options->video, "also a video, called as the scene is: " + video_formats_in_words())
+      ->type_name(choices(video_format_names()));
+  app.add_flag("--no-png", options->no_png, "the video alone");
+  app.add_flag("--resume", options->resume,
+               "keep the pictures that are there and whole, and go on from where a run was stopped");
+  app.add_option(
+         "--shard", options->shard,
+         "of the frames only part I of N that follow each other; default: as Slurm says of an array task")
+      ->type_name("I/N")
+      ->check(some_word());
+  app.add_option(
+         "--checkpoint-every", options->checkpoint_every,
+         "seconds on the clock after which the run's state is stored for --resume; 0: only when a signal comes")
+      ->type_name("S")
+      ->transform(real_number(0, 1e9))
+      ->capture_default_str();
+  app.add_flag("--json", options->json, "the figures as one JSON object, instead of the closing words");
+  return [options] { return render(*options); };
+}
+
+} // namespace
+
+Command render_command() {
+  return {"render", "simulate a preset and make pictures of it", declare};
+}
+
+} // namespace rend

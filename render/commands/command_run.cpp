@@ -1,0 +1,155 @@
+// rend run: the simulation alone, with its figures.
+#include "render/clip/export_series.h"
+#include "render/clip/figures.h"
+#include "render/clip/records.h"
+#include "render/clip/session.h"
+#include "render/commands/command.h"
+#include "render/console/console.h"
+#include "render/console/json_text.h"
+#include "render/console/progress.h"
+#include "render/console/signals.h"
+#include "render/facts/profile_report.h"
+#include "render/files/named_files.h"
+#include "render/help/number_option.h"
+#include "render/help/usage.h"
+#include "sim/base/profile.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+namespace rend {
+namespace {
+
+struct RunOptions {
+  SessionOptions session;
+  bool json = false;
+  std::string diagnostics, events;    // files; empty: none
+  std::string format, folder, frames; // of what is exported; empty: not given
+};
+
+// Before anything slow is done.
+void check_export(const RunOptions& options) {
+  if (!options.format.empty()) {
+    export_format(options.format);
+    return;
+  }
+  if (!options.folder.empty() || !options.frames.empty())
+    throw UserError(Exit::Usage, {}, "-o and --frames say where and when states are exported, and none are",
+                    "add --export vtu (or ply, or obj), or make pictures with rend render");
+}
+
+NamedFiles files_of(const RunOptions& options) {
+  NamedFiles files;
+  files.reads("the preset", options.session.preset);
+  if (!options.diagnostics.empty()) files.writes("--diagnostics", followed(options.diagnostics));
+  if (!options.events.empty()) files.writes("--events", followed(options.events));
+  return files;
+}
+
+std::unique_ptr<ExportSeries> export_of(const Session& session, const RunOptions& options) {
+  if (options.format.empty()) return nullptr;
+  const FrameChoice choice = options.frames.empty() ? FrameChoice() : FrameChoice(options.frames);
+  last_chosen(choice, session.clock());
+  return std::make_unique<ExportSeries>(session, export_format(options.format),
+                                        folder_for(options.folder, session.scene().name()), choice);
+}
+
+Stopped simulate(Session& session, const RunOptions& options, ExportSeries* series) {
+  std::optional<Diagnostics> diagnostics;
+  std::optional<EventFile> events;
+  if (!options.diagnostics.empty()) diagnostics.emplace(followed(options.diagnostics));
+  if (!options.events.empty()) events.emplace(followed(options.events));
+  Progress progress(session.quiet(), session.clock().steps(), session.clock().duration(), 0);
+  Session::Calls calls;
+  Profile* const profile = session.scene().profile();
+  calls.frame = [&](long frame) {
+    const Within within(profile, Stage::Output);
+    if (diagnostics) diagnostics->add(frame, session.scene());
+    if (series) series->take(frame);
+  };
+  calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
+  if (profile) profile->restart();
+  const Stopped stopped = session.run(session.clock().frames() - 1, calls);
+  const Within within(profile, Stage::Output);
+  if (diagnostics && stopped == Stopped::Unstable)
+    diagnostics->abandon();
+  else if (diagnostics)
+    diagnostics->finish();
+  if (series) stopped == Stopped::Unstable ? series->abandon() : series->finish();
+  if (events && (stopped != Stopped::Unstable || session.scene().tears() > 0)) events->write(session.scene());
+  return stopped;
+}
+
+// Those that were reached.
+bool answers_hold(const Scene& scene) {
+  for (const auto& body : scene.bodies())
+    for (const Answer& answer : body->answers)
+      if (answer.asked && !answer.holds()) return false;
+  return true;
+}
+
+Exit run(const RunOptions& options) {
+  const double start = wall_clock();
+  check_export(options);
+  NamedFiles files = files_of(options);
+  SessionOptions wanted = options.session;
+  wanted.births = !options.events.empty();
+  Session session(wanted);
+  files.reads_meshes(session.preset());
+  const std::unique_ptr<ExportSeries> series = export_of(session, options);
+  if (series) series->name_files(files);
+  const Keeping keeping;
+  const Stopped stopped = simulate(session, options, series.get());
+  Costs costs;
+  costs.total = wall_clock() - start;
+  nlohmann::ordered_json figures = figures_of(session, stopped, costs);
+  if (series) figures["export"] = series->figures();
+  const bool profile = wanted.profile && session.scene().steps_done() > 0;
+  if (profile) figures["profile"] = profile_json(session);
+  if (options.json)
+    print_result(text_of(figures, 2) + "\n");
+  else
+    print_result(summary_of(figures) + (profile ? profile_in_words(figures["profile"]) : ""));
+  const Exit end = end_of(session, stopped);
+  return end == Exit::Done && !answers_hold(session.scene()) ? Exit::No : end;
+}
+
+std::string export_formats_in_words() {
+  std::string out;
+  for (const ExportFormat& format : all_export_formats())
+    out += fmt::format("{}{} ({})", out.empty() ? "" : "; ", format.name, format.what);
+  return out;
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  add_run_options(app, options->session);
+  app.add_flag("--json", options->json, "the figures as one JSON object");
+  app.add_flag("--profile", options->session.profile,
+               "as well where time and bytes went, by stage and by interaction, and what the machine can do");
+  app.add_option("--diagnostics", options->diagnostics, "energies, momenta and counts at every frame, as CSV")
+      ->type_name("FILE");
+  app.add_option("--events", options->events, "every topological change, one JSON object a line")
+      ->type_name("FILE");
+  app.add_option("--export", options->format,
+                 "the state at every frame as a file for other programs: " + export_formats_in_words())
+      ->type_name(choices(export_format_names()));
+  app.add_option("-o,--output", options->folder, "folder of these files; default: out/ and the scene's name")
+      ->type_name("DIR");
+  app.add_option("--frames", options->frames,
+                 "export only these: 7, 0-100, 0-100x2, 10-, or several with commas")
+      ->type_name("LIST")
+      ->check(some_word());
+  return [options] { return run(*options); };
+}
+
+} // namespace
+
+Command run_command() {
+  return {"run", "simulate a preset and print its figures", declare};
+}
+
+} // namespace rend

@@ -1,0 +1,142 @@
+// rend sheet: a contact sheet, one row a preset: how it starts, tears and ends.
+#include "render/clip/session.h"
+#include "render/commands/command.h"
+#include "render/console/console.h"
+#include "render/console/progress.h"
+#include "render/console/signals.h"
+#include "render/draw/device.h"
+#include "render/draw/stage.h"
+#include "render/files/named_files.h"
+#include "render/files/output.h"
+#include "render/files/png.h"
+#include "render/help/number_option.h"
+#include "render/picture/scene_picture.h"
+#include "render/picture/scene_preset.h"
+#include "sim/base/printable.h"
+#include "sim/base/wording.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace rend {
+namespace {
+
+constexpr int columns = 3;
+constexpr int gap = 6; // [pixels]
+
+struct SheetOptions {
+  SessionOptions session;
+  std::vector<std::string> presets;
+  std::string file, size;
+};
+
+// The three frames of a row, chosen while the clip runs: the first; the one a twentieth of the clip after the
+// first tear (the middle one where nothing tears by then); the last.
+class Row {
+public:
+  explicit Row(long frames) : middle_(frames / 2), last_(frames - 1), lag_(frames / 20) {}
+
+  bool wants(long frame, bool torn) {
+    if (torn && !tear_) tear_ = std::min(frame + lag_, last_);
+    return frame == 0 || frame == last_ || frame == middle_ || frame == tear_;
+  }
+  void put(long frame, const Frame& picture) {
+    if (frame == 0) frames_[0] = picture;
+    if (frame == (tear_ ? *tear_ : middle_)) frames_[1] = picture;
+    if (frame == last_) frames_[2] = picture;
+  }
+  const std::array<Frame, columns>& frames() const { return frames_; }
+
+private:
+  long middle_, last_, lag_;
+  std::optional<long> tear_;
+  std::array<Frame, columns> frames_;
+};
+
+Exit run(Session& session, double aspect, Row& row) {
+  PictureMaker maker(session.preset(), session.scene(), aspect, session.clock().duration(),
+                     session.clock().frames());
+  const long last = session.clock().frames() - 1;
+  const Keeping keeping; // no more than a word on how far it came
+  Progress progress(session.quiet(), session.last_step(last), session.clock().duration(), 0);
+  Session::Calls calls;
+  calls.frame = [&](long frame) {
+    maker.observe();
+    if (row.wants(frame, session.scene().tears() > 0))
+      row.put(frame, maker.draw(frame, session.clock().time_of(frame)));
+  };
+  calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
+  return end_of(session, session.run(last, calls));
+}
+
+// Copies `tile` into `sheet` with its upper left corner at (x, y).
+void paste(const Image& tile, int x, int y, Image& sheet) {
+  for (int r = 0; r < tile.height; ++r)
+    std::copy_n(tile.row(r), tile.stride(), sheet.row(y + r) + 3 * static_cast<std::size_t>(x));
+}
+
+Exit make_sheet(const SheetOptions& options) {
+  require_png(); // before anything slow
+  if (std::filesystem::path(options.file).extension() != ".png")
+    throw UserError(Exit::Usage, {}, fmt::format("-o {}: a contact sheet is a PNG", in_quotes(options.file)),
+                    "a name that ends in .png");
+  const PictureSize size = parse_size(options.size);
+  const std::filesystem::path file = followed(options.file);
+  NamedFiles files;
+  files.writes("the contact sheet", file);
+  for (const std::string& preset : options.presets) {
+    files.reads("the preset", preset);
+    files.reads_meshes(*load_scene(preset, {})); // what is bad is said before anything slow
+  }
+  Image sheet(columns * (size.width + gap) - gap,
+              static_cast<int>(options.presets.size()) * (size.height + gap) - gap);
+  std::fill(sheet.pixels.begin(), sheet.pixels.end(), std::uint8_t{255});
+  for (std::size_t n = 0; n < options.presets.size(); ++n) {
+    SessionOptions one = options.session;
+    one.preset = options.presets[n];
+    Session session(one);
+    Row row(session.clock().frames());
+    const Exit end = run(session, static_cast<double>(size.width) / size.height, row);
+    if (end != Exit::Done) return end;
+    const auto device = make_device();
+    Stage stage(size.width, size.height, session.image().samples);
+    for (int k = 0; k < columns; ++k) {
+      Frame frame = row.frames()[static_cast<std::size_t>(k)];
+      frame.transparent = false; // the sheet is paper
+      stage.draw(frame);
+      paste(stage.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
+    }
+  }
+  const Keeping keeping;
+  write_png(file, sheet);
+  sync_folder(file.parent_path());
+  if (!options.session.quiet)
+    print_result(fmt::format("{}: {} row{} of {} pictures\n", printable(options.file), options.presets.size(),
+                             options.presets.size() == 1 ? "" : "s", columns));
+  return Exit::Done;
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<SheetOptions>();
+  app.add_option("presets", options->presets, "one row each")->required()->type_name("PRESET...");
+  app.add_option("-o,--output", options->file, "the picture to write")->required()->type_name("FILE.png");
+  app.add_option("--size", options->size, "of each picture in pixels")
+      ->type_name("WxH")
+      ->check(some_word())
+      ->default_val("480x270");
+  app.add_option("--threads", options->session.threads, "threads; default: all that the machine has")
+      ->transform(whole_number(1, 256));
+  app.add_flag("-q,--quiet", options->session.quiet, "no progress and no notes");
+  return [options] { return make_sheet(*options); };
+}
+
+} // namespace
+
+Command sheet_command() {
+  return {"sheet", "make a contact sheet of presets: how they start, tear and end", declare};
+}
+
+} // namespace rend

@@ -1,0 +1,101 @@
+#include "render/console/signals.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <ctime>
+#include <unistd.h>
+
+namespace rend {
+namespace {
+
+constexpr std::array all{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
+
+// Of the handler, which runs in any thread: two may be in it at once.
+std::atomic<int> caught = 0, keeping = 0;
+std::atomic<double> first_at = 0; // [s], of the first signal
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
+
+// [s] What comes within it of the first signal was sent to several at once, or by several, and is the same.
+constexpr double same = 0.3;
+
+double now() {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Whether the system said it and not somebody: every second, from a limit of processor time to the next.
+bool is_repeated(const siginfo_t& how) {
+  return how.si_signo == SIGXCPU && how.si_code == SI_KERNEL;
+}
+
+void on_signal(int signal, siginfo_t* how, void* /*context*/) {
+  if (keeping == 0) _exit(128 + signal);
+  double none = 0;
+  const double at = now();
+  if (first_at.compare_exchange_strong(none, at))
+    caught = signal;
+  else if (at - first_at > same && !is_repeated(*how))
+    _exit(128 + signal);
+}
+
+bool is_ignored(int signal) {
+  struct sigaction before {};
+  sigaction(signal, nullptr, &before);
+  return before.sa_handler == SIG_IGN;
+}
+
+} // namespace
+
+// Calls that wait are not cut short: what they wait for may be on its way, and none of them looks for EINTR.
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_sigaction = on_signal;
+  action.sa_flags = static_cast<int>(SA_RESTART | SA_SIGINFO);
+  sigemptyset(&action.sa_mask);
+  for (const int signal : all) sigaddset(&action.sa_mask, signal);
+  for (const int signal : all)
+    if ((signal != SIGHUP && signal != SIGINT) || !is_ignored(signal)) sigaction(signal, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+SignalsHeld::SignalsHeld() {
+  sigset_t held;
+  sigemptyset(&held);
+  for (const int signal : all) sigaddset(&held, signal);
+  pthread_sigmask(SIG_BLOCK, &held, &before_);
+}
+
+SignalsHeld::~SignalsHeld() {
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+void SignalsHeld::let_in() const {
+  for (const int signal : all)
+    if (!is_ignored(signal)) std::signal(signal, SIG_DFL);
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+Keeping::Keeping() {
+  ++keeping;
+}
+Keeping::~Keeping() {
+  --keeping;
+}
+
+int stop_signal() {
+  return caught;
+}
+
+Exit exit_of_a_signal() {
+  return Exit{128 + stop_signal()};
+}
+
+bool is_of_a_signal(int code) {
+  return std::find(all.begin(), all.end(), code - 128) != all.end();
+}
+
+} // namespace rend

@@ -1,0 +1,48 @@
+#include "render/draw/packing.h"
+
+#include "sim/base/check.h"
+
+#include <utility>
+
+namespace rend {
+namespace {
+
+using Eigen::Vector3f;
+using ConstMap = Eigen::Map<const Vector3f>;
+
+// The three corners of a triangle; wound: their order says which side is its front.
+void wind(Corner* corner, bool wound) {
+  const ConstMap a(corner[0].position.data()), b(corner[1].position.data()), c(corner[2].position.data());
+  const Vector3f across = (b - a).cross(c - a); // twice the area, along the side that winds counter-clockwise
+  // The sum of all numbers is finite only if each of them is, or if it overflowed: a frame is not that large.
+  Vector3f sum = a + b + c, normals = Vector3f::Zero();
+  for (int k = 0; k < 3; ++k) normals += ConstMap(corner[k].normal.data());
+  CHECK_NOTE((sum + normals).allFinite(), "a frame holds a number that is not finite");
+
+  const bool flat = normals.isZero(0.0f);
+  if (flat) {
+    const float length = across.norm();
+    if (!(length > 0)) return;
+    for (int k = 0; k < 3; ++k) Eigen::Map<Vector3f>(corner[k].normal.data()) = across / length;
+  } else if (!wound && normals.dot(across) < 0) {
+    std::swap(corner[1], corner[2]);
+    for (int k = 0; k < 3; ++k) std::swap(corner[k].line[1], corner[k].line[2]);
+  }
+}
+
+} // namespace
+
+Eigen::AlignedBox3d bounds_of(const FrameBody& body) {
+  Eigen::AlignedBox3f bounds;
+  for (const Corner& corner : body.corners) bounds.extend(ConstMap(corner.position.data()));
+  return bounds.isEmpty() ? Eigen::AlignedBox3d() : bounds.cast<double>();
+}
+
+void pack(const FrameBody& body, std::vector<Corner>& packed) {
+  CHECK(body.corners.size() % 3 == 0);
+  const std::size_t first = packed.size();
+  packed.insert(packed.end(), body.corners.begin(), body.corners.end());
+  for (std::size_t i = first; i < packed.size(); i += 3) wind(&packed[i], !body.two_sided);
+}
+
+} // namespace rend

@@ -1,0 +1,360 @@
+#include "render/draw/stage.h"
+
+#include "render/draw/packing.h"
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace rend {
+namespace {
+
+// [texels]. With four taps an edge is some five texels wide: softer than at 2048, and 1.4 ms instead of 5.5.
+constexpr int shadow_side = 1024;
+constexpr float shadow_spread = 2.0f; // of the four taps [texels]
+constexpr float far_side_tint = 0.74f;
+constexpr double sunk = 0.002;          // what may lie in the floor and still be seen, in the same distances
+constexpr float shadow_step_out = 2.5f; // along the normal [texels]
+
+// From [-1, 1]³ to [0, 1]³.
+Eigen::Matrix4d to_texture(const Eigen::Matrix4d& clip) {
+  Eigen::Matrix4d half = Eigen::Matrix4d::Identity() * 0.5;
+  half.topRightCorner<3, 1>().setConstant(0.5);
+  half(3, 3) = 1;
+  return half * clip;
+}
+
+// RGBA to RGB. Four bytes at once, of which the last is written over by the next pixel: a third of the time.
+void drop_alpha(const std::uint8_t* from, std::uint8_t* to, int pixels) {
+  for (int x = 0; x + 1 < pixels; ++x) std::memcpy(to + std::ptrdiff_t{3} * x, from + std::ptrdiff_t{4} * x, 4);
+  std::memcpy(to + std::ptrdiff_t{3} * (pixels - 1), from + std::ptrdiff_t{4} * (pixels - 1), 3);
+}
+
+// What was multiplied by its alpha, as it was before: PNG keeps them apart.
+void unmultiply(const std::uint8_t* from, std::uint8_t* to, int pixels) {
+  for (int x = 0; x < pixels; ++x, from += 4, to += 4) {
+    const int alpha = from[3];
+    for (int c = 0; c < 3; ++c)
+      to[c] = alpha == 0 ? 0 : static_cast<std::uint8_t>(std::min(255, (from[c] * 255 + alpha / 2) / alpha));
+    to[3] = from[3];
+  }
+}
+
+} // namespace
+
+Stage::Stage(int width, int height, int samples)
+    : width_(width), height_(height), samples_(samples), fine_(samples == 16 ? 2 : 1),
+      taken_(std::min(samples, 4)), composite_(width, height), blocks_(blocks_of(width, height)) {
+  CHECK(samples == 1 || samples == 4 || samples == 16);
+  GLint largest = 0, most = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  largest /= fine_;
+  if (width < 1 || height < 1 || width > largest || height > largest)
+    throw UserError(Exit::BadInput, {}, fmt::format("a picture of {} x {} cannot be drawn.", width, height),
+                    fmt::format("Each side may have from 1 to {} pixels.", largest));
+  if (taken_ > most)
+    throw UserError(Exit::BadInput, {}, "this machine's OpenGL cannot take 4 samples a pixel.",
+                    "Set samples=\"1\" and draw a larger picture.");
+  make_picture();
+  make_target(width * fine_, height * fine_); // whether there is room for the most that may be needed
+  make_shadow_map();
+  make_vertex_array();
+  check_gl("Stage");
+}
+
+// Of the framebuffer bound: what is larger than the machine's OpenGL can hold is known only by trying.
+void Stage::must_hold() const {
+  const bool full = glGetError() == GL_OUT_OF_MEMORY;
+  if (!full && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  const std::string picture =
+      fmt::format("a picture of {} x {} with {} samples a pixel", width_, height_, samples_);
+  const std::string hint = "draw a smaller one, or take fewer samples: --set image.samples=1";
+  if (can_ever_hold())
+    throw UserError(Exit::OutOfBudget, {}, "there is not enough memory for " + picture, hint);
+  throw UserError(Exit::BadInput, {}, picture + " is more than this machine's OpenGL can hold", hint);
+}
+
+// Whether it could with memory enough. A proxy asks for none; that of depths takes as much.
+bool Stage::can_ever_hold() const {
+  const int width = width_ * fine_, height = height_ * fine_;
+  const bool many = taken_ > 1;
+  const GLenum proxy = many ? GL_PROXY_TEXTURE_2D_MULTISAMPLE : GL_PROXY_TEXTURE_2D;
+  if (many)
+    glTexImage2DMultisample(proxy, taken_, GL_RGBA8, width, height, GL_TRUE);
+  else
+    glTexImage2D(proxy, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  GLint held = 0;
+  glGetTexLevelParameteriv(proxy, 0, GL_TEXTURE_WIDTH, &held);
+  return held == width;
+}
+
+void Stage::make_picture() {
+  glBindRenderbuffer(GL_RENDERBUFFER, picture_colour_.name());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_, height_);
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, picture_colour_.name());
+  must_hold();
+}
+
+void Stage::make_target(int width, int height) {
+  const BodiesPicture bodies = bodies_picture({});
+  const auto make = [&](const GlTexture& texture, GLenum format, GLenum channels, GLenum numbers) {
+    glBindTexture(bodies.kind(), texture.name());
+    if (taken_ > 1) return glTexImage2DMultisample(bodies.kind(), taken_, format, width, height, GL_TRUE);
+    glTexImage2D(bodies.kind(), 0, static_cast<GLint>(format), width, height, 0, channels, numbers, nullptr);
+    glTexParameteri(bodies.kind(), GL_TEXTURE_MAX_LEVEL, 0);
+    glTexParameteri(bodies.kind(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  };
+  make(target_colour_, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+  make(target_depth_, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
+  glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, bodies.kind(), bodies.colours, 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, bodies.kind(), bodies.depth, 0);
+  must_hold();
+  target_width_ = width;
+  target_height_ = height;
+}
+
+// Made anew where what is to be drawn does not fit, or is less than half of it; in coarse steps, which bodies
+// that move seldom take. It begins where the picture does: elsewhere, corners of triangles would be rounded to
+// other parts of a pixel.
+void Stage::fit_target(const PixelBox& covered) {
+  constexpr int step = 128; // [pixels]
+  const auto rounded = [&](int size, int most) {
+    return std::min((size + step - 1) / step * step, most) * fine_;
+  };
+  const int width = rounded(covered.x + covered.width, width_),
+            height = rounded(covered.y + covered.height, height_);
+  const bool fits = width <= target_width_ && height <= target_height_;
+  if (!fits || 2L * width * height < 1L * target_width_ * target_height_) make_target(width, height);
+}
+
+BodiesPicture Stage::bodies_picture(const PixelBox& covered) const {
+  return {target_colour_.name(), target_depth_.name(), taken_, fine_, covered};
+}
+
+void Stage::make_shadow_map() {
+  glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, shadow_side, shadow_side, 0, GL_DEPTH_COMPONENT,
+               GL_FLOAT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_map_.name(), 0);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+  check_framebuffer("Stage, shadow map");
+}
+
+void Stage::make_vertex_array() {
+  const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
+  constexpr GLsizei stride = sizeof(Corner);
+  glBindVertexArray(corners_array_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, corners_buffer_.name());
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Corner, position)));
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Corner, normal)));
+  glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, at(offsetof(Corner, colour)));
+  glVertexAttribIPointer(3, 4, GL_UNSIGNED_BYTE, stride, at(offsetof(Corner, line)));
+  for (GLuint attribute = 0; attribute < 4; ++attribute) glEnableVertexAttribArray(attribute);
+}
+
+void Stage::draw(const Frame& frame) {
+  CHECK(!frame.floor || std::isfinite(frame.floor->z));
+  CHECK(Eigen::Map<const Eigen::Array3f>(frame.background.data()).isFinite().all());
+  upload(frame);
+  const double aspect = static_cast<double>(width_) / height_;
+  Eigen::AlignedBox3d bounds;
+  for (const Draw& draw : draws_) bounds.extend(draw.bounds);
+  const View view = view_of(frame.camera, bounds, aspect);
+  const Lights lights = lights_of(frame);
+  const Eigen::AlignedBox3d lit = lit_bounds(frame.camera, aspect, bounds);
+  const LightView light = light_view(lights.key, lit);
+
+  glEnable(GL_DEPTH_CLAMP);
+  draw_shadow_map(light);
+  if (frame.floor && !frame.transparent)
+    floor_shadow_.build(frame.floor->z, view.distance, lights.key, lit, casting(), [this] { draw_all(); });
+  glDisable(GL_DEPTH_CLAMP);
+
+  blocks_.clear();
+  for (const Draw& draw : draws_) mark_covered(blocks_, corners_of(draw), view, width_, height_);
+  const BodiesPicture bodies = bodies_picture(box_of(blocks_.bounds(), width_, height_));
+  draw_bodies(frame, view, lights, light, bodies);
+  const bool occluded = frame.occlusion && bodies.covered.width > 0;
+  if (occluded) occlude(frame, view, bodies);
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+  composite_.draw(frame, view, bodies, blocks_, floor_shadow_, occluded ? &*occlusion_ : nullptr);
+  transparent_ = frame.transparent;
+  check_gl("Stage::draw");
+}
+
+void Stage::upload(const Frame& frame) {
+  packed_.clear();
+  draws_.clear();
+  for (const auto* bodies : {&frame.bodies, &frame.obstacles})
+    for (const FrameBody& body : *bodies) {
+      if (body.corners.empty()) continue;
+      const auto first = static_cast<GLint>(packed_.size());
+      draws_.push_back({first, static_cast<GLsizei>(body.corners.size()), &body, bounds_of(body)});
+      pack(body, packed_);
+    }
+  glBindBuffer(GL_ARRAY_BUFFER, corners_buffer_.name());
+  if (packed_.size() > capacity_) {
+    capacity_ = packed_.size() + packed_.size() / 4; // tearing adds a few corners a frame
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_ * sizeof(Corner)), nullptr, GL_STREAM_DRAW);
+  }
+  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(packed_.size() * sizeof(Corner)), packed_.data());
+}
+
+std::span<const Corner> Stage::corners_of(const Draw& draw) const {
+  return {packed_.data() + draw.first, static_cast<std::size_t>(draw.count)};
+}
+
+std::vector<std::span<const Corner>> Stage::casting() const {
+  std::vector<std::span<const Corner>> all;
+  for (const Draw& draw : draws_)
+    if (draw.body->filled) all.push_back(corners_of(draw));
+  return all;
+}
+
+void Stage::draw_all() const {
+  glBindVertexArray(corners_array_.name());
+  for (const Draw& draw : draws_)
+    if (draw.body->filled) glDrawArrays(GL_TRIANGLES, draw.first, draw.count); // wires throw no shadow
+}
+
+void Stage::draw_shadow_map(const LightView& light) {
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow_.name());
+  glViewport(0, 0, shadow_side, shadow_side);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_SCISSOR_TEST); // an empty rim: beyond the edge there is no shadow
+  glScissor(1, 1, shadow_side - 2, shadow_side - 2);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(2, 2);
+  depth_.use();
+  depth_.set("world_to_clip", light.world_to_clip);
+  draw_all();
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
+                        const BodiesPicture& bodies) {
+  if (bodies.covered.width == 0) return;
+  fit_target(bodies.covered);
+  glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
+  glViewport(0, 0, width_ * fine_, height_ * fine_);
+  glEnable(GL_DEPTH_TEST);
+  glClearColor(0, 0, 0, 0); // nothing: the studio goes behind
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
+  glBindVertexArray(corners_array_.name());
+  glEnable(GL_CLIP_DISTANCE0);
+  for (const bool filled : {true, false}) { // one sees through wires to what is behind them
+    if (std::none_of(draws_.begin(), draws_.end(),
+                     [&](const Draw& draw) { return draw.body->filled == filled; }))
+      continue;
+    const GlProgram& program = body_program(filled);
+    program.use();
+    set_view(program, frame, view);
+    if (filled) set_light(program, lights, light);
+    for (const Draw& draw : draws_)
+      if (draw.body->filled == filled) draw_body(program, draw);
+  }
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_CLIP_DISTANCE0);
+}
+
+const GlProgram& Stage::body_program(bool filled) {
+  std::optional<GlProgram>& program = filled ? body_ : wires_;
+  if (!program)
+    program.emplace("body.vert", "body.frag",
+                    fmt::format("#define WIRES {}\n#define SHADOW_SPREAD {}\n", filled ? 0 : 1,
+                                shadow_spread / shadow_side));
+  return *program;
+}
+
+void Stage::set_view(const GlProgram& program, const Frame& frame, const View& view) const {
+  program.set("world_to_clip", view.world_to_clip());
+  program.set("eye", Eigen::Vector3f(view.eye.cast<float>()));
+  program.set("line_scale", std::max(static_cast<float>(height_) / 720.0f, 0.5f) * static_cast<float>(fine_));
+  const bool floor_seen = frame.floor && view.eye.z() > frame.floor->z;
+  const double hidden_below = floor_seen ? frame.floor->z - sunk * view.distance : -1e30;
+  program.set("hidden_below", static_cast<float>(hidden_below));
+}
+
+void Stage::set_light(const GlProgram& program, const Lights& lights, const LightView& light) {
+  const auto texel = static_cast<float>(2 * light.half / shadow_side);
+  program.set("world_to_shadow", to_texture(light.world_to_clip));
+  program.set("key", Eigen::Vector3f(lights.key.cast<float>()));
+  program.set("fill", Eigen::Vector3f(lights.fill.cast<float>()));
+  program.set("sky", Eigen::Vector3f(lights.sky.cast<float>()));
+  program.set("shadow_offset", shadow_step_out * texel);
+  program.set("shadow", 0);
+}
+
+void Stage::set_finish(const GlProgram& program, const FrameBody& body) {
+  const Finish& finish = body.finish;
+  const float transmission = body.two_sided ? finish.transmission : 0;
+  program.set("finish",
+              Eigen::Vector4f(finish.gloss, finish.rim, transmission, finish.wrap / (1 + finish.wrap)));
+  CHECK(finish.sharpness >= 0 && finish.sharpness < 8);
+  const auto bit = [&](int n) { return static_cast<float>(finish.sharpness >> n & 1); };
+  program.set("sheen", Eigen::Vector3f(bit(0), bit(1), bit(2)));
+}
+
+void Stage::draw_body(const GlProgram& program, const Draw& draw) const {
+  const FrameBody& body = *draw.body;
+  program.set("cells", body.edges ? 1 : 0);
+  if (body.filled) set_finish(program, body);
+  Eigen::Vector4f back(0, 0, 0,
+                       body.sides ? far_side_tint : 1); // what the far side has of its own, and of the near
+  if (body.back && body.sides) {
+    const auto& colour = *body.back;
+    back = Eigen::Vector4f(colour[0], colour[1], colour[2], 0) / 255;
+  }
+  program.set("back", back);
+  const bool culled = !body.two_sided && body.filled;
+  (culled ? glEnable : glDisable)(GL_CULL_FACE);
+  if (!body.filled) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+  }
+  glDrawArrays(GL_TRIANGLES, draw.first, draw.count);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+}
+
+void Stage::occlude(const Frame& frame, const View& view, const BodiesPicture& bodies) {
+  if (!occlusion_) occlusion_.emplace(width_, height_, taken_, fine_);
+  const bool floor = frame.floor && !frame.transparent && view.eye.z() > frame.floor->z;
+  occlusion_->find(bodies, view, floor ? std::optional(frame.floor->z) : std::nullopt);
+}
+
+Image Stage::read() {
+  pixels_.resize(static_cast<std::size_t>(width_) * height_ * 4);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+  check_gl("Stage::read");
+  Image image(width_, height_, transparent_ ? 4 : 3);
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* from = pixels_.data() + static_cast<std::size_t>(height_ - 1 - y) * width_ * 4;
+    (transparent_ ? unmultiply : drop_alpha)(from, image.row(y), width_);
+  }
+  return image;
+}
+
+} // namespace rend

@@ -1,0 +1,121 @@
+#include "render/facts/passes.h"
+
+#include "sim/scene/memory.h"
+#include "sim/topology/count.h"
+
+namespace rend {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Passes {
+public:
+  Passes(const Scene& scene, Json& to) : scene_(scene), to_(to) {}
+
+  void of(const Body& body) {
+    body_ = &body;
+    vertices_ = body.vertices() * sizeof(Record);
+    const Program& program = *body.program;
+    const bool elementary = !program.elementary().empty() && !body.view().corner_room;
+    const double evaluations = evaluations_of(body);
+    const std::size_t corner = elementary ? bytes_of(body.corner_force) : 0;
+    add_forces("forces", elementary ? program.elementary() : program.rows(), 1, corner);
+    if (evaluations > 1) add_forces("further forces", program.rows(), evaluations - 1, 0);
+    add_loads(evaluations);
+    add_laws();
+    add_integration();
+    if (body.floor_contact) add("contact", "the floor", body.vertices(), "vertices", 1, body.next.bytes());
+  }
+
+  void of_all() {
+    body_ = nullptr;
+    const Contacts* contacts = scene_.contacts();
+    if (!contacts) return;
+    for (const auto& each : contacts->bodies())
+      add("contact", "obstacles, and " + each->body->name, each->faces.triangles().size(), "triangles", 1,
+          each->bytes());
+    if (const FragmentContact* fragments = contacts->fragments())
+      add("contact", "fragments and bodies", fragments->pairs(), "pairs", 1, fragments->bytes());
+  }
+
+private:
+  void add(const char* stage, const std::string& what, std::size_t count, const char* of, double times,
+           std::size_t bytes) {
+    to_.push_back({{"body", body_ ? Json(body_->name) : Json(nullptr)},
+                   {"stage", stage},
+                   {"what", what},
+                   {"count", count},
+                   {"of", of},
+                   {"times", times},
+                   {"bytes", bytes}});
+  }
+
+  // Of the forces, a step.
+  double evaluations_of(const Body& body) const {
+    const Scheme& scheme = scene_.scheme();
+    return scheme.solves ? 1.0 + static_cast<double>(body.integrator->solver().newton) : scheme.evaluations;
+  }
+
+  void add_forces(const char* stage, const std::vector<Binder>& binders, double times, std::size_t corners) {
+    bool damped = false;
+    for (const Binder& binder : binders) {
+      damped = damped || binder.interaction()->damped;
+      add(stage, binder.interaction()->name, binder.rows().live_count(), "rows", times, binder.rows().bytes());
+    }
+    add(stage, damped ? "positions, velocities; forces" : "positions; forces", body_->vertices(), "vertices",
+        times, (damped ? 3 : 2) * vertices_ + corners);
+  }
+
+  void add_loads(double evaluations) {
+    const Loads& loads = body_->loads;
+    if (loads.empty()) return;
+    bool constant = !loads.wind();
+    std::size_t cells = loads.wind() ? loads.wind()->faces() : 0;
+    for (const Load& load : loads.loads()) {
+      constant = constant && load.constant() && load.settings().until <= load.settings().from;
+      cells += load.cells();
+    }
+    add("loads", constant ? "constant: summed up once" : "of the state, and their sum", cells, "cells",
+        constant ? 0 : evaluations, loads.bytes());
+  }
+
+  void add_laws() {
+    const GMap& map = body_->map->map();
+    for (const TearLaw& law : body_->laws) {
+      const LawSettings& settings = law.settings();
+      add("laws", settings.criterion->name, count_cells(map, orbit_of(settings.cell, map.dimension())), "cells",
+          1, law.bytes() + vertices_);
+    }
+  }
+
+  void add_integration() {
+    const std::vector<Holding> all = footprint_of(*body_);
+    const std::size_t weights = body_->vertices() * sizeof(double) * (body_->drag_rate ? 2 : 1);
+    const std::size_t loads = body_->load ? vertices_ : 0;
+    if (const std::size_t bytes = bytes_of_part(all, "solver"))
+      add("solve", "matrix and factors, preconditioner", body_->assembly->pattern()->blocks(), "blocks",
+          static_cast<double>(body_->integrator->solver().newton), bytes);
+    add("integration", scene_.scheme().name, body_->vertices(), "vertices", 1,
+        3 * vertices_ + loads + weights + body_->next.bytes() + bytes_of_part(all, "integrator"));
+    if (const auto held = body_->constraints.vertices().size())
+      add("integration", "prescribed motions", held, "vertices", scene_.scheme().evaluations,
+          body_->constraints.bytes() + held * 3 * sizeof(Record));
+  }
+
+  const Scene& scene_;
+  Json& to_;
+  const Body* body_ = nullptr;
+  std::size_t vertices_ = 0; // bytes of a record for each vertex slot
+};
+
+} // namespace
+
+Json passes_of(const Scene& scene) {
+  Json all = Json::array();
+  Passes passes(scene, all);
+  for (const auto& body : scene.bodies()) passes.of(*body);
+  passes.of_all();
+  return all;
+}
+
+} // namespace rend

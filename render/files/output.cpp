@@ -1,0 +1,192 @@
+#include "render/files/output.h"
+
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason() {
+  return std::strerror(errno);
+}
+
+// "x.2.part" of "x.part".
+fs::path numbered(const fs::path& temporary, int n) {
+  if (n == 1) return temporary;
+  return temporary.parent_path() /
+         (temporary.stem().string() + "." + std::to_string(n) + temporary.extension().string());
+}
+
+// Whether a file that was opened still has that name: who had it before may have renamed or removed it.
+bool is_called(int file, const fs::path& path) {
+  struct stat ours {
+  }, there{};
+  return ::fstat(file, &ours) == 0 && ::lstat(path.c_str(), &there) == 0 && ours.st_ino == there.st_ino &&
+         ours.st_dev == there.st_dev;
+}
+
+// Whether it may be what a killed run left: no link, pipe or folder, not another user's, nor a file that is
+// known by another name too.
+bool may_be_leftover(const struct stat& there) {
+  return S_ISREG(there.st_mode) && there.st_nlink == 1 && there.st_uid == ::geteuid();
+}
+
+// Removes what a killed run left under this name. False where something else is there, or what a running
+// program writes to. It is looked at before it is opened, which may already do something (a pipe's other end
+// sees it), and again once it is locked.
+bool remove_if_leftover(const fs::path& temporary) {
+  struct stat there {};
+  if (::lstat(temporary.c_str(), &there) != 0) return errno == ENOENT;
+  if (!may_be_leftover(there)) return false;
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return errno == ENOENT;
+  const bool removed = ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstat(file, &there) == 0 &&
+                       may_be_leftover(there) && is_called(file, temporary) && ::unlink(temporary.c_str()) == 0;
+  ::close(file);
+  return removed;
+}
+
+// A descriptor of a temporary file that was not there before, locked; -1, with errno. Where files cannot be
+// locked (some network file systems) it has no lock, and none is taken for a leftover.
+int make_temporary(const fs::path& wanted, fs::path& temporary) {
+  constexpr int most = 1000; // names that are taken, and programs that change one while we look
+  constexpr int anew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  for (int n = 1, tries = 0; tries < most; ++tries) {
+    temporary = numbered(wanted, n);
+    const int file = ::open(temporary.c_str(), anew, 0666);
+    if (file < 0 && errno != EEXIST) return -1;
+    if (file < 0) {
+      n += !remove_if_leftover(temporary);
+      continue;
+    }
+    // Another may have taken it for a leftover before it was locked.
+    const bool theirs = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!theirs && is_called(file, temporary)) return file;
+    ::close(file);
+  }
+  errno = EBUSY;
+  return -1;
+}
+
+// Removes the leftovers up to the first number that is not there: the file without a number goes when its
+// program ends, and others may still be there.
+void remove_leftovers(const fs::path& wanted) {
+  struct stat there {};
+  for (int n = 1; n == 1 || ::lstat(numbered(wanted, n).c_str(), &there) == 0; ++n)
+    remove_if_leftover(numbered(wanted, n));
+}
+
+// Whether it can be replaced by a file.
+void check_what_is_there(const fs::path& path, const fs::file_status& there) {
+  if (fs::is_directory(there))
+    throw UserError(Exit::CannotCreate, {path.string()}, "a folder of this name is in the way.",
+                    "Choose another name for the output.");
+  if (fs::is_other(there) && there.type() != fs::file_type::unknown) // which says why when it is opened
+    throw UserError(
+        Exit::CannotCreate, {path.string()}, "this is no ordinary file, and would be replaced by one.",
+        "Name a file; what is written appears whole or not at all, which a pipe or device cannot do.");
+}
+
+} // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, {}) {}
+
+OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& temporary)
+    : path_(path), wanted_(temporary.empty() ? path.string() + ".part"
+                                             : (path.parent_path() / temporary.filename()).string()) {
+  if (path_ == "-")
+    throw UserError(Exit::Usage, {}, "'-' is no file, and what is written there appears whole or not at all",
+                    "name a file; ./- is one of that name");
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(path_, error);
+  if (!fs::is_symlink(there)) check_what_is_there(path_, there);
+  file_ = make_temporary(wanted_, temporary_);
+  if (file_ < 0)
+    throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",
+                    "Check that the folder is there and may be written to.");
+  part_.is(temporary_.c_str());
+}
+
+OutputFile::~OutputFile() {
+  if (file_ < 0) return;
+  if (is_called(file_, temporary_)) ::unlink(temporary_.c_str()); // while it is locked
+  ::close(file_);
+}
+
+void OutputFile::write(std::span<const std::uint8_t> bytes) {
+  CHECK(file_ >= 0);
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0)
+      throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + reason() + ".",
+                      "Free some space on the disk, or write elsewhere.");
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+}
+
+std::int64_t OutputFile::seek(std::int64_t offset, int whence) {
+  return ::lseek(file_, offset, whence);
+}
+
+void OutputFile::commit() {
+  CHECK(file_ >= 0);
+  errno = ENOENT; // should the name be another's by now
+  const bool kept =
+      is_called(file_, temporary_) && ::fsync(file_) == 0 && ::rename(temporary_.c_str(), path_.c_str()) == 0;
+  const std::string why = kept ? "" : reason();
+  if (!kept && is_called(file_, temporary_)) ::unlink(temporary_.c_str());
+  part_.is_gone();
+  ::close(file_);
+  file_ = -1;
+  if (!kept)
+    throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why + ".",
+                    "Check that the folder is still there and has room.");
+  remove_leftovers(wanted_);
+}
+
+void remove_leftover(const fs::path& path) {
+  remove_leftovers(path.string() + ".part");
+}
+
+void write_whole(const std::filesystem::path& path, const std::string& bytes) {
+  OutputFile file(path);
+  file.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  file.commit();
+}
+
+fs::path followed(const fs::path& path) {
+  constexpr int most = 40; // links, as the system allows
+  std::error_code error;
+  check_what_is_there(path, fs::status(path, error)); // what /dev/stdout leads to has no name
+  fs::path at = path;
+  for (int n = 0; n < most; ++n) {
+    if (!fs::is_symlink(at, error)) return at;
+    at = at.parent_path() / fs::read_symlink(at, error); // the latter alone, where it begins with a slash
+  }
+  throw UserError(Exit::CannotCreate, {path.string()}, "this link leads in a circle.",
+                  "Choose another name for the output.");
+}
+
+void sync_folder(const fs::path& folder) {
+  const fs::path path = folder.empty() ? fs::path(".") : folder;
+  const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool hidden = file < 0 && errno == EACCES;                        // one may write there, and not look
+  const bool kept = file >= 0 && (::fsync(file) == 0 || errno == EINVAL); // or knows nothing of it
+  const std::string why = reason();
+  if (file >= 0) ::close(file);
+  if (!kept && !hidden)
+    throw UserError(Exit::ReadWrite, {path.string()}, "the folder cannot be brought to the disk: " + why + ".",
+                    "Check that it is still there.");
+}
+
+} // namespace rend

@@ -1,0 +1,116 @@
+#include "render/files/temporaries.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <ctime>
+#include <dirent.h>
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace rend {
+namespace {
+
+TemporaryPath* newest = nullptr;
+std::atomic_flag taken;         // the list; no mutex, which a signal handler could not take
+std::atomic<int> opening = 0;   // files that are being created, and not in the list yet
+std::atomic<bool> over = false; // all has been removed, or is about to be
+
+constexpr int most_waits = 100; // of a millisecond: a file system may not answer at all
+
+void wait_a_moment() {
+  const timespec moment{0, 1'000'000};
+  ::nanosleep(&moment, nullptr);
+}
+
+class Taken {
+public:
+  Taken() {
+    while (taken.test_and_set()) ::sched_yield();
+  }
+  ~Taken() { taken.clear(); }
+  Taken(const Taken&) = delete;
+  Taken& operator=(const Taken&) = delete;
+};
+
+void wait_for_the_end() {
+  while (over) ::pause();
+}
+
+// readdir() asks for memory.
+void remove_files_in(const char* path) {
+  const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  alignas(8) static std::array<char, 32768> entries;
+  for (long count; (count = ::syscall(SYS_getdents64, folder, entries.data(), entries.size())) > 0;) {
+    for (long at = 0; at < count;) {
+      const char* entry = entries.data() + at; // struct linux_dirent64
+      std::uint16_t length = 0;
+      std::memcpy(&length, entry + 16, sizeof length);
+      ::unlinkat(folder, entry + 19, 0);
+      at += length;
+    }
+  }
+  ::close(folder);
+}
+
+} // namespace
+
+TemporaryPath::TemporaryPath() {
+  ++opening;
+  if (!over) return;
+  --opening;
+  wait_for_the_end();
+}
+
+TemporaryPath::TemporaryPath(const char* path) : TemporaryPath() {
+  is(path);
+}
+
+TemporaryPath::~TemporaryPath() {
+  is_gone();
+}
+
+void TemporaryPath::is(const char* path) {
+  path_ = path;
+  {
+    const Taken list;
+    before_ = newest;
+    if (newest != nullptr) newest->after_ = this;
+    newest = this;
+  }
+  if (opening_) --opening;
+  opening_ = false;
+}
+
+void TemporaryPath::holds_files() {
+  with_files_ = true;
+}
+
+void TemporaryPath::is_gone() {
+  if (opening_) --opening;
+  opening_ = false;
+  if (path_ == nullptr) return;
+  const Taken list;
+  (after_ != nullptr ? after_->before_ : newest) = before_;
+  if (before_ != nullptr) before_->after_ = after_;
+  before_ = after_ = nullptr;
+  path_ = nullptr;
+}
+
+void TemporaryPath::remove() const noexcept {
+  if (with_files_) remove_files_in(path_);
+  if (::unlink(path_) != 0) ::rmdir(path_);
+}
+
+void remove_temporaries() noexcept {
+  over = true;
+  for (int n = 0; n < most_waits && opening > 0; ++n) wait_a_moment();
+  for (int n = 0; n < most_waits && taken.test_and_set(); ++n) wait_a_moment();
+  for (const TemporaryPath* one = newest; one != nullptr; one = one->before_) one->remove();
+}
+
+} // namespace rend

@@ -1,0 +1,253 @@
+#include "render/files/video.h"
+
+#include "render/files/video_format.h"
+#include "sim/base/check.h"
+#include "sim/base/error.h"
+#include "sim/base/wording.h"
+
+#ifdef REND_VIDEO
+#include "render/files/video_filter.h"
+#include "render/files/video_sink.h"
+#include "sim/base/worker_threads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+extern "C" {
+#include <libavutil/log.h>
+#include <libavutil/opt.h>
+}
+
+namespace rend {
+namespace {
+
+int even(int side) {
+  return side + (side & 1);
+}
+
+std::filesystem::path part_of(const std::filesystem::path& path) {
+  return path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
+}
+
+// RGB of that size, the last column and row repeated.
+Image padded(const Image& image, int width, int height) {
+  Image out(width, height, 3);
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* from = image.row(std::min(y, image.height - 1));
+    std::uint8_t* to = out.row(y);
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) *to++ = from[std::min(x, image.width - 1) * image.channels + c];
+  }
+  return out;
+}
+
+} // namespace
+
+// One video under way.
+struct VideoWriter::Encoder {
+  Encoder(const std::filesystem::path& path, const VideoFormat& format, int width, int height, double fps);
+  void add(const Image& image);
+  void close();
+
+private:
+  void open_codec(AVRational rate);
+  void set_colours();
+  void send(const AVFrame* frame); // null: no more frames
+
+  const VideoFormat& kind_;
+  int width_, height_, wide_, high_; // [pixels], of the pictures given, and padded
+  VideoSink sink_;
+  VideoFilter filter_;
+  Owned<AVCodecContext> codec_;
+  Owned<AVFrame> frame_;
+  Owned<AVPacket> packet_;
+  AVStream* stream_ = nullptr; // owned by the container
+};
+
+VideoWriter::Encoder::Encoder(const std::filesystem::path& path, const VideoFormat& format, int width,
+                              int height, double fps)
+    : kind_(format), width_(width), height_(height), wide_(format.even ? even(width) : width),
+      high_(format.even ? even(height) : height), sink_(path, part_of(path), format.muxer),
+      filter_(format.chain, wide_, high_, av_d2q(fps, 100000), path) {
+  open_codec(av_d2q(fps, 100000));
+  sink_.begin(format.writing);
+}
+
+void VideoWriter::Encoder::open_codec(AVRational rate) {
+  require_encoder(kind_);
+  const AVCodec* codec = avcodec_find_encoder_by_name(kind_.encoder.c_str());
+  codec_.reset(must_be_made(avcodec_alloc_context3(codec)));
+  codec_->width = filter_.width();
+  codec_->height = filter_.height();
+  codec_->pix_fmt = filter_.pixels();
+  codec_->framerate = rate;
+  codec_->time_base = filter_.time_base();
+  codec_->sample_aspect_ratio = {1, 1};
+  set_colours();
+  codec_->gop_size = std::clamp(static_cast<int>(std::ceil(av_q2d(rate))), 1, 60); // a second: a fragment
+  codec_->thread_count = 2; // fixed: what an encoder decides may depend on it
+  codec_->flags |= AV_CODEC_FLAG_BITEXACT;
+  if ((sink_.container()->oformat->flags & AVFMT_GLOBALHEADER) != 0)
+    codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+  AvOptions quality(kind_.quality);
+  const long refused = refused_thread_starts();
+  const int result = avcodec_open2(codec_.get(), codec, quality.get());
+  if (result < 0 && refused_thread_starts() > refused) refuse_without_thread("the encoder");
+  sink_.must(result, "starting the encoder");
+  CHECK(av_dict_count(*quality.get()) == 0); // all are known
+
+  stream_ = must_be_made(avformat_new_stream(sink_.container(), nullptr));
+  sink_.must(avcodec_parameters_from_context(stream_->codecpar, codec_.get()), "describing the video");
+  stream_->time_base = codec_->time_base;
+  stream_->avg_frame_rate = rate;
+  packet_.reset(must_be_made(av_packet_alloc()));
+}
+
+void VideoWriter::Encoder::set_colours() {
+  codec_->color_primaries = AVCOL_PRI_BT709;
+  if (kind_.even) {
+    codec_->color_range = AVCOL_RANGE_MPEG;
+    codec_->color_trc = AVCOL_TRC_BT709;
+    codec_->colorspace = AVCOL_SPC_BT709;
+    codec_->chroma_sample_location = AVCHROMA_LOC_LEFT;
+  } else {
+    codec_->color_range = AVCOL_RANGE_JPEG;
+    codec_->color_trc = AVCOL_TRC_IEC61966_2_1;
+    codec_->colorspace = AVCOL_SPC_RGB;
+  }
+}
+
+void VideoWriter::Encoder::add(const Image& image) {
+  CHECK(image.width == width_ && image.height == height_);
+  const bool fits = image.channels == 3 && wide_ == width_ && high_ == height_;
+  const Image copy = fits ? Image() : padded(image, wide_, high_);
+  filter_.push(fits ? &image : &copy, [this](const AVFrame* frame) { send(frame); });
+}
+
+void VideoWriter::Encoder::send(const AVFrame* frame) {
+  sink_.must(avcodec_send_frame(codec_.get(), frame), "encoding");
+  while (true) {
+    const int result = avcodec_receive_packet(codec_.get(), packet_.get());
+    if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
+    sink_.must(result, "encoding");
+    packet_->duration = 1;
+    av_packet_rescale_ts(packet_.get(), codec_->time_base, stream_->time_base);
+    packet_->stream_index = stream_->index;
+    sink_.write(packet_.get());
+  }
+}
+
+void VideoWriter::Encoder::close() {
+  filter_.push(nullptr, [this](const AVFrame* frame) { send(frame); });
+  send(nullptr);
+  sink_.end();
+  if (kind_.remuxed)
+    remux(sink_.file().temporary(), sink_.file().path(), kind_.muxer); // what was written goes with this
+  else
+    sink_.commit();
+}
+
+bool video_available() {
+  return true;
+}
+
+namespace {
+
+bool can_encode(const VideoFormat& format) {
+  return avcodec_find_encoder_by_name(format.encoder.c_str()) &&
+         av_guess_format(format.muxer.c_str(), nullptr, nullptr);
+}
+
+} // namespace
+
+void require_encoder(const VideoFormat& format) {
+  if (can_encode(format)) return;
+  std::vector<std::string> others;
+  for (const VideoFormat& other : video_formats())
+    if (can_encode(other)) others.push_back(other.name);
+  throw UserError(
+      Exit::CannotCreate, {},
+      fmt::format("this machine's FFmpeg libraries cannot write {}: they lack {}", format.name, format.encoder),
+      others.empty() ? "install libavcodec with it, or make PNG files alone"
+                     : "install libavcodec with it, or take one that they can write: " + listed(others));
+}
+
+void require_video(const std::string& name) {
+  if (const VideoFormat* format = find_video_format(name)) return require_encoder(*format);
+  throw UserError(Exit::Usage, {}, fmt::format("{} is no kind of video that is known here", in_quotes(name)),
+                  suggestion(name, video_format_names(), "there are"));
+}
+
+VideoWriter::VideoWriter() = default;
+VideoWriter::~VideoWriter() = default;
+VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
+VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
+
+void VideoWriter::open(const std::filesystem::path& path, int width, int height, double fps) {
+  CHECK(encoder_ == nullptr && width > 0 && height > 0 && std::isfinite(fps) && fps > 0);
+  av_log_set_level(AV_LOG_QUIET);
+  require_video(path.extension().string());
+  const VideoFormat* format = find_video_format(path.extension().string());
+  encoder_ = std::make_unique<Encoder>(path, *format, width, height, fps);
+}
+
+void VideoWriter::add(const Image& image) {
+  CHECK(is_open());
+  encoder_->add(image);
+}
+
+void VideoWriter::close() {
+  CHECK(is_open());
+  const std::unique_ptr<Encoder> last = std::move(encoder_); // whatever happens, it is over
+  last->close();
+}
+
+bool VideoWriter::is_open() const {
+  return encoder_ != nullptr;
+}
+
+} // namespace rend
+
+#else
+
+namespace rend {
+
+struct VideoWriter::Encoder {};
+
+bool video_available() {
+  return false;
+}
+void require_video(const std::string&) {
+  throw UserError(Exit::Usage, {}, "this rend was built without video",
+                  "leave --video out, or build with -DREND_VIDEO=ON");
+}
+
+void require_encoder(const VideoFormat&) {
+  require_video({});
+}
+
+VideoWriter::VideoWriter() = default;
+VideoWriter::~VideoWriter() = default;
+VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
+VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
+
+void VideoWriter::open(const std::filesystem::path&, int, int, double) {
+  require_video({});
+}
+
+void VideoWriter::add(const Image&) {
+  CHECK(is_open());
+}
+void VideoWriter::close() {
+  CHECK(is_open());
+}
+bool VideoWriter::is_open() const {
+  return encoder_ != nullptr;
+}
+
+} // namespace rend
+
+#endif

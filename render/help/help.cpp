@@ -1,0 +1,148 @@
+#include "render/help/help.h"
+
+#include "render/help/table.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+#include <string_view>
+
+namespace rend {
+namespace {
+
+constexpr std::size_t page_width = 100; // columns
+
+struct Style {
+  bool colour;
+  std::string strong(std::string_view text) const { return wrap("\033[1m", text); }
+  std::string faint(std::string_view text) const { return wrap("\033[2m", text); }
+
+private:
+  std::string wrap(std::string_view code, std::string_view text) const {
+    return colour ? fmt::format("{}{}\033[0m", code, text) : std::string(text);
+  }
+};
+
+// Columns that a UTF-8 text takes on a terminal; units and names here hold no double-width letters.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+// Breaks `text` at blanks into lines that fit behind an indent of `indent` columns.
+std::vector<std::string> folded(std::string_view text, std::size_t indent) {
+  std::vector<std::string> lines(1);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (word.empty()) continue;
+    if (!lines.back().empty() && indent + width(lines.back()) + 1 + width(word) > page_width)
+      lines.emplace_back();
+    if (!lines.back().empty()) lines.back() += ' ';
+    lines.back() += word;
+  }
+  return lines;
+}
+
+std::string multiplicity(int at_least, int at_most) {
+  if (at_least == 1 && at_most == 1) return "exactly one";
+  if (at_least == 0 && at_most == 1) return "at most one";
+  if (at_least == 0 && at_most < 0) return "any number";
+  if (at_least == 1 && at_most < 0) return "one or more";
+  if (at_most < 0) return fmt::format("{} or more", at_least);
+  return at_least == at_most ? fmt::format("exactly {}", at_least) : fmt::format("{} to {}", at_least, at_most);
+}
+
+std::string value_of(const AttributeType& attribute) {
+  const std::string out = expected(attribute);
+  if (attribute.required) return out + "; required";
+  if (!attribute.fallback) return out + "; optional";
+  return out + (attribute.fallback->empty() ? "; default empty" : "; default " + *attribute.fallback);
+}
+
+// name, then what it is and what it takes, behind a column of names.
+void print_attributes(const ElementType& type, const Style& style, std::string& out) {
+  std::size_t longest = 8;
+  for (const AttributeType& attribute : type.attributes) longest = std::max(longest, width(attribute.name));
+  const std::size_t indent = 4 + longest + 2;
+  for (const AttributeType& attribute : type.attributes) {
+    out += "    " + style.strong(attribute.name) + std::string(longest + 2 - width(attribute.name), ' ');
+    std::string gap;
+    for (const std::string& line : folded(attribute.what, indent)) {
+      out += gap + line + '\n';
+      gap.assign(indent, ' ');
+    }
+    for (const std::string& line : folded(value_of(attribute), indent))
+      out += std::string(indent, ' ') + style.faint(line) + '\n';
+  }
+}
+
+void print_entry(const TableEntry& entry, const Style& style, std::string& out) {
+  const bool is_root = entry.path().find('.') == std::string::npos;
+  for (const TablePlace& place : entry.places) {
+    const std::string count = is_root ? "the root" : multiplicity(place.at_least, place.at_most);
+    out += style.strong(place.path) + style.faint("  (" + count + ")") + '\n';
+  }
+  for (const std::string& line : folded(entry.type->what, 2)) out += "  " + line + '\n';
+  if (!entry.type->attributes.empty()) {
+    out += "  Attributes:\n";
+    print_attributes(*entry.type, style, out);
+  }
+  if (entry.type->children.empty()) return;
+  std::size_t longest = 8;
+  for (const ChildType& child : entry.type->children) longest = std::max(longest, width(child.type->name));
+  out += "  Elements:\n";
+  for (const ChildType& child : entry.type->children) {
+    out += "    " + style.strong(child.type->name) + std::string(longest + 2 - width(child.type->name), ' ');
+    const std::string what =
+        fmt::format("{} ({})", child.type->what, multiplicity(child.at_least, child.at_most));
+    std::string gap;
+    for (const std::string& line : folded(what, 4 + longest + 2)) {
+      out += gap + line + '\n';
+      gap.assign(4 + longest + 2, ' ');
+    }
+  }
+}
+
+// Whether `asked` is the entry's name or one of its paths, with or without the root's name before it.
+bool matches(const TableEntry& entry, const std::string& root, const std::string& asked) {
+  if (entry.type->name == asked) return true;
+  return std::any_of(entry.places.begin(), entry.places.end(), [&](const TablePlace& place) {
+    return place.path == asked || place.path == root + "." + asked;
+  });
+}
+
+} // namespace
+
+std::string introduction(const ElementType& root) {
+  return fmt::format(
+      "A preset is an XML file with one <{0}>. Elements may stand in any order. Units are SI; vectors "
+      "are numbers separated by blanks. On the command line, --set PATH=VALUE replaces an attribute; "
+      "a path is written as below without \"{0}.\", and ends with the attribute's name.",
+      root.name);
+}
+
+std::string help_preset(const ElementType& root, const std::optional<std::string>& element, bool colour) {
+  const Style style{colour};
+  const std::vector<TableEntry> entries = table_entries(root);
+  std::string out;
+  if (!element) {
+    for (const std::string& line : folded(introduction(root), 0)) out += line + '\n';
+  }
+  bool found = false;
+  for (const TableEntry& entry : entries) {
+    if (element && !matches(entry, root.name, *element)) continue;
+    if (!out.empty()) out += '\n';
+    print_entry(entry, style, out);
+    found = true;
+  }
+  if (found) return out;
+  std::set<std::string> names;
+  for (const TableEntry& entry : entries) names.insert(entry.type->name);
+  const std::vector<std::string> list(names.begin(), names.end());
+  throw UserError(Exit::Usage, {}, fmt::format("a preset has no element {}", in_quotes(*element)),
+                  suggestion(*element, list, "there are"));
+}
+
+} // namespace rend

@@ -1,0 +1,50 @@
+#include "render/help/number_option.h"
+
+#include "sim/base/wording.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace rend {
+namespace {
+
+template <class T> std::optional<T> number_in(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1); // from_chars takes none
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+// The text becomes a form that is read in one way only.
+template <class T> CLI::Validator number_between(T low, T high, const char* kind, const char* what) {
+  const auto read = [=](std::string& text) -> std::string {
+    const std::optional<T> value = number_in<T>(text);
+    if (!value || !(*value >= low && *value <= high)) // nor what is no number
+      return fmt::format("{} is no {} from {} to {}", in_quotes(text), what, low, high);
+    text = fmt::format("{}", *value);
+    return {};
+  };
+  return {read, fmt::format("{} in [{} - {}]", kind, low, high)};
+}
+
+} // namespace
+
+CLI::Validator whole_number(long low, long high) {
+  return number_between(low, high, "INT", "whole number");
+}
+
+CLI::Validator real_number(double low, double high) {
+  return number_between(low, high, "FLOAT", "number");
+}
+
+CLI::Validator some_word() {
+  return {[](std::string& text) { return std::string(text.empty() ? "'' says nothing" : ""); }, ""};
+}
+
+} // namespace rend

@@ -1,0 +1,169 @@
+#include "render/pages/batch_page.h"
+
+#include "render/console/console.h"
+#include "render/files/png.h"
+#include "render/pages/provenance.h"
+#include "render/report/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+
+namespace rend {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using namespace html;
+
+constexpr int thumbnail_width = 176; // [pixels]
+
+// Each pixel the mean of those of the larger picture that it covers.
+Image made_smaller(const Image& from, int width) {
+  const int height = std::max(1, from.height * width / from.width);
+  Image to(width, height, from.channels);
+  for (int y = 0; y < height; ++y) {
+    const int top = y * from.height / height, bottom = std::max(top + 1, (y + 1) * from.height / height);
+    for (int x = 0; x < width; ++x) {
+      const int left = x * from.width / width, right = std::max(left + 1, (x + 1) * from.width / width);
+      const int count = (bottom - top) * (right - left);
+      for (int c = 0; c < from.channels; ++c) {
+        int sum = 0;
+        for (int v = top; v < bottom; ++v)
+          for (int u = left; u < right; ++u) sum += from.row(v)[u * from.channels + c];
+        to.row(y)[x * to.channels + c] = static_cast<std::uint8_t>((sum + count / 2) / count);
+      }
+    }
+  }
+  return to;
+}
+
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> all;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->path().extension() == ".png") all.push_back(at->path());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// Of the picture two thirds of the way through: a good deal has happened by then.
+Html thumbnail(const fs::path& folder, const std::string& name) {
+  const std::vector<fs::path> all = pictures_in(folder);
+  if (all.empty() || !png_available()) return muted("no pictures");
+  const fs::path& path = all[2 * (all.size() - 1) / 3];
+  try {
+    const Image image = read_png(path);
+    const std::vector<std::uint8_t> bytes =
+        encode_png(image.width > thumbnail_width ? made_smaller(image, thumbnail_width) : image);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return figure(PictureFormat::Png, text, fmt::format("{}, {}", name, path.filename().string()));
+  } catch (const UserError&) {
+    return muted("its picture cannot be read");
+  }
+}
+
+Tone tone_of(const std::string& state) {
+  return state == "done"       ? Tone::Good
+         : state == "stopped"  ? Tone::Note
+         : state == "unstable" ? Tone::Limit
+                               : Tone::Bad;
+}
+
+// The first line of what it said went wrong; of one that was ended from outside, by what.
+std::string message_of(const BatchResult& result) {
+  const std::string mark = "rend: error: ",
+                    before = "\n" + mark; // a name may hold those words, but no line end
+  const std::size_t last = result.err.rfind(before);
+  const std::size_t at = last != std::string::npos ? last + 1 : result.err.starts_with(mark) ? 0 : last;
+  if (at == std::string::npos) {
+    const int signal = result.code - 128;
+    if (!result.ran || signal <= 0 || signal >= NSIG) return {};
+    return fmt::format("it was ended by signal {} ({}), not by this batch", signal, ::strsignal(signal));
+  }
+  const std::size_t begin = at + mark.size();
+  return result.err.substr(begin, result.err.find('\n', begin) - begin);
+}
+
+std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
+  const BatchJob& job = report.jobs[n];
+  const BatchResult& result = report.results[n];
+  const Json line = line_of(job, result);
+  const std::string state = state_of(result), message = message_of(result);
+  Html words = link(address_of(job.name) + "/", job.name) + Html{"<br>"} + muted(job.preset);
+  if (!message.empty()) words += paragraph(escaped(message));
+  const auto number = [&](const char* name) {
+    const bool known = line.contains(name) && !line[name].is_null();
+    return Cell{escaped(known ? line[name].dump() : line.contains(name) ? "–" : "")};
+  };
+  return {{thumbnail(report.folder / job.name, job.name), job.name},
+          {words, job.name},
+          {badge(tone_of(state), state)},
+          number("frames"),
+          number("kept"),
+          number("tears"),
+          {escaped(seconds_in_words(result.seconds)), fmt::format("{}", result.seconds)},
+          {escaped(bytes_in_words(result.peak)), fmt::format("{}", result.peak)}};
+}
+
+} // namespace
+
+std::string state_of(const BatchResult& result) {
+  if (!result.ran) return "stopped";
+  if (result.code == static_cast<int>(Exit::Done)) return "done";
+  return result.code == static_cast<int>(Exit::Unstable) ? "unstable" : "failed";
+}
+
+bool failed(const BatchResult& result) {
+  return result.ran && result.code != static_cast<int>(Exit::Done);
+}
+
+Json line_of(const BatchJob& job, const BatchResult& result) {
+  Json line{{"job", job.name},           {"preset", job.preset},     {"set", job.sets},
+            {"state", state_of(result)}, {"code", result.code},      {"tries", result.tries},
+            {"seconds", result.seconds}, {"peak_bytes", result.peak}};
+  const Json figures = Json::parse(result.out, nullptr, false);
+  if (figures.is_object())
+    for (const char* name : {"frames", "kept", "steps", "time", "tears", "hash"})
+      if (figures.contains(name)) line[name] = figures[name];
+  if (const std::string message = message_of(result); !message.empty()) line["message"] = message;
+  return line;
+}
+
+std::string batch_page(const BatchReport& report) {
+  std::size_t done = 0, bad = 0;
+  double sum = 0;
+  for (const BatchResult& result : report.results) {
+    done += state_of(result) == "done";
+    bad += failed(result);
+    sum += result.seconds;
+  }
+  const std::size_t stopped = report.results.size() - done - bad;
+  Html body = tiles({{std::to_string(done), "done", Tone::Good},
+                     {std::to_string(bad), "failed", bad > 0 ? Tone::Bad : Tone::Plain},
+                     {std::to_string(stopped), "stopped or not begun", stopped > 0 ? Tone::Note : Tone::Plain},
+                     {seconds_in_words(report.seconds), "for all of it", Tone::Plain},
+                     {seconds_in_words(sum), "of all jobs together", Tone::Plain}});
+  std::vector<std::size_t> order(report.jobs.size());
+  for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t n) { return failed(report.results[n]); });
+  Table t{
+      {{""},
+       {"job"},
+       {"state"},
+       {"frames", true},
+       {"kept", true},
+       {"tears", true},
+       {"time", true},
+       {"memory", true}},
+      {},
+      true,
+      "Failures first; a click on a column's name sorts by it. Frames were made now, kept ones were there."};
+  for (std::size_t n : order) t.rows.push_back(row_of(report, n));
+  body += table(t) + heading(2, "Made on") + facts_of(provenance_of_build());
+  return page("rend batch", body);
+}
+
+} // namespace rend

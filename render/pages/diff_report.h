@@ -1,0 +1,43 @@
+// What a comparison found: as text, JSON, JSON lines and JUnit.
+#pragma once
+
+#include "render/compare/compare.h"
+#include "render/console/json_text.h"
+#include "sim/base/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace rend {
+
+struct DiffReport {
+  std::string a, b;                 // as they were named
+  std::vector<Compared> cases;      // by name
+  std::vector<bool> updated;        // one per case: what is expected has been replaced
+  std::vector<std::string> remarks; // on the whole, such as patterns that fit nothing
+};
+
+// How many cases are in that state, without those that were updated.
+std::size_t count(const DiffReport& report, CaseState state);
+std::size_t updated(const DiffReport& report);
+// Indices of the cases: what failed first, by states in the order of all_states(), the largest mean of FLIP
+// first among those that differ; then what was updated and what matches, by name.
+std::vector<std::size_t> failures_first(const DiffReport& report);
+bool failed(const DiffReport& report, std::size_t n);
+
+// 0: all match or were updated; 2: one is unreadable; else 1.
+Exit exit_of(const DiffReport& report);
+
+// Name, state, figures, reasons. psnr is null where the pictures are equal (it would be infinite).
+nlohmann::ordered_json case_json(const Compared& one, bool updated);
+nlohmann::ordered_json diff_json(const DiffReport& report);
+
+// One line a failure, then a summary; of a single pair its figures.
+std::string diff_text(const DiffReport& report);
+
+// As Jenkins, GitLab and others read it: a failure for every case that fails, an error for the unreadable.
+std::string diff_junit(const DiffReport& report);
+
+} // namespace rend

@@ -1,0 +1,25 @@
+// The page of a study: what it found, in words made from its numbers; plots, tables, and where it all comes
+// from.
+#pragma once
+
+#include "render/pages/provenance.h"
+#include "sim/study/study.h"
+
+#include <string>
+#include <vector>
+
+namespace rend {
+
+// A plot as it goes into the page.
+struct DrawnPlot {
+  std::string svg; // a whole file; empty: it could not be drawn
+  std::string caption;
+};
+
+// Sentences, the most important first: which scheme reaches what the cheapest, orders, failures, the reference.
+std::vector<std::string> findings_of(const StudyReport& report);
+
+std::string page_of(const StudyReport& report, const std::string& name, const std::vector<DrawnPlot>& plots,
+                    const Provenance& provenance);
+
+} // namespace rend

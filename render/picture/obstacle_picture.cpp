@@ -1,0 +1,80 @@
+#include "render/picture/obstacle_picture.h"
+
+#include "sim/base/math.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+constexpr int sphere_segments = 16; // to an eighth of a turn: 0.06 % of the radius from round
+constexpr int box_segments = 3;
+constexpr double rounding = 0.02; // of a box's edges, in shares of its smallest size
+
+// Along one side of a cube: from −1 to 1, and 0 twice, once for each half.
+struct Tick {
+  double at, half; // half: −1, 1
+};
+std::vector<Tick> ticks(int segments) {
+  std::vector<Tick> all;
+  for (int half = -1; half <= 1; half += 2)
+    for (int n = 0; n <= segments; ++n) {
+      const double share = static_cast<double>(half < 0 ? segments - n : n) / segments;
+      const double tangent =
+          sine_of_degrees(45 * share) / cosine_of_degrees(45 * share); // even over the sphere
+      all.push_back({half * tangent, static_cast<double>(half)});
+    }
+  return all;
+}
+
+struct Lattice {
+  Vec3 centre, core;
+  double radius;
+  Corner at(int axis, double side, const Tick& a, const Tick& b, const Colour& colour) const {
+    Vec3 direction, half;
+    direction[axis] = half[axis] = side;
+    direction[(axis + 1) % 3] = a.at;
+    half[(axis + 1) % 3] = a.half;
+    direction[(axis + 2) % 3] = b.at;
+    half[(axis + 2) % 3] = b.half;
+    direction.normalize();
+    const Vec3 x = centre + half.cwiseProduct(core) + radius * direction;
+    return {as_floats(x), as_floats(direction), {colour[0], colour[1], colour[2], 255}, {0, 0, 0, 0}};
+  }
+};
+
+} // namespace
+
+FrameBody rounded_box(const Vec3& centre, const Vec3& core, double radius, int segments, const Colour& colour) {
+  FrameBody out;
+  out.edges = false;
+  out.two_sided = false;
+  const Lattice lattice{centre, core, radius};
+  const std::vector<Tick> tick = ticks(segments);
+  for (int axis = 0; axis < 3; ++axis)
+    for (double side : {-1.0, 1.0})
+      for (std::size_t i = 0; i + 1 < tick.size(); ++i)
+        for (std::size_t j = 0; j + 1 < tick.size(); ++j) {
+          const auto corner = [&](std::size_t a, std::size_t b) {
+            return lattice.at(axis, side, tick[i + a], tick[j + b], colour);
+          };
+          Corner quad[4] = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+          if (side < 0) std::swap(quad[1], quad[3]);
+          for (int k : {0, 1, 2, 0, 2, 3}) out.corners.push_back(quad[k]);
+        }
+  return out;
+}
+
+FrameBody picture_of(const Sphere& sphere) {
+  return rounded_box(sphere.centre, Vec3::Zero(), sphere.radius, sphere_segments,
+                     colour_of(*sphere.node, "colour"));
+}
+
+FrameBody picture_of(const Box& box) {
+  const Vec3 size = box.high - box.low;
+  const double radius = rounding * size.minCoeff();
+  return rounded_box(0.5 * (box.low + box.high), 0.5 * size - Vec3::Constant(radius), radius, box_segments,
+                     colour_of(*box.node, "colour"));
+}
+
+} // namespace rend

@@ -1,0 +1,276 @@
+#include "render/picture/scene_picture.h"
+
+#include "render/console/units.h"
+#include "render/draw/hud.h"
+#include "render/picture/dart_picture.h"
+#include "render/picture/obstacle_picture.h"
+#include "render/picture/scene_preset.h"
+#include "sim/base/archive.h"
+#include "sim/body/measure.h"
+#include "sim/topology/count.h"
+#include "sim/topology/orientation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace rend {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+static_assert(static_cast<int>(Side::Inner) == static_cast<int>(Line::None) &&
+              static_cast<int>(Side::Cell) == static_cast<int>(Line::Cell) &&
+              static_cast<int>(Side::Border) == static_cast<int>(Line::Border) &&
+              static_cast<int>(Side::Torn) == static_cast<int>(Line::Torn) &&
+              static_cast<int>(Side::Crease) == static_cast<int>(Line::Crease));
+
+Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const std::array<Side, 3>& side) {
+  const auto line = [&](std::size_t k) { return static_cast<std::uint8_t>(side[k]); };
+  return {
+      as_floats(x), as_floats(normal), {colour[0], colour[1], colour[2], 255}, {line(0), line(1), line(2), 0}};
+}
+
+} // namespace
+
+BodyPicture::BodyPicture(Body& body)
+    : body_(&body), orientable_(body.map->dimension() == 3 || is_orientable(body.map->map())) {
+  if (body.map->dimension() == 2)
+    sheet_.emplace(body);
+  else
+    solid_.emplace(body);
+  const ElementType& type = *std::find_if(body.node->type().children.begin(), body.node->type().children.end(),
+                                          [](const ChildType& child) { return child.type->name == "look"; })
+                                 ->type;
+  Node silent(type, body.node->place());
+  silent.fill_defaults();
+  const Node* given = body.node->child("look");
+  const Node& look = given ? *given : silent;
+  colour_ = colour_of(look, "colour");
+  inside_ = colour_of(look, "inside");
+  edges_ = look.flag("edges");
+  if (look.given("back")) back_ = colour_of(look, "back");
+  finish_ = finish_called(look.text("finish"));
+  const std::string& as = look.text("as");
+  as_ = as == "wires"      ? DrawnAs::Wires
+        : as == "exploded" ? DrawnAs::Exploded
+        : as == "darts"    ? DrawnAs::Darts
+                           : DrawnAs::Surface;
+  apart_ = look.number("apart");
+  if (as_ == DrawnAs::Darts && body.map->map().dart_count() > most_drawn_darts)
+    look.fail("as",
+              fmt::format("the body has {} darts, and a picture of more than {} tells nothing",
+                          body.map->map().dart_count(), most_drawn_darts),
+              "draw fewer cells, or as=\"exploded\"");
+  given_ = look.given("most");
+  if (given_) scale_ = look.number("most");
+  const std::string& by = look.text("by");
+  by_ = by == "strain"     ? ShownBy::Strain
+        : by == "stress"   ? ShownBy::Stress
+        : by == "force"    ? ShownBy::Force
+        : by == "fragment" ? ShownBy::Fragment
+                           : ShownBy::Plain;
+}
+
+constexpr double at_rest = 1e-9; // strain
+
+void BodyPicture::observe(std::size_t& fragments_seen) {
+  if (by_ == ShownBy::Fragment) label_fragments(fragments_seen);
+  if (by_ == ShownBy::Plain || by_ == ShownBy::Fragment) return;
+  values_ = by_ == ShownBy::Strain   ? vertex_strain(*body_)
+            : by_ == ShownBy::Stress ? vertex_stress(*body_)
+                                     : vertex_force(*body_);
+  if (given_) return;
+  double most = 0;
+  for (double value : values_) most = std::max(most, value);
+  if (by_ != ShownBy::Strain && most > 0 && scale_ == 0) { // at rest all is round-off, and no colour
+    const std::vector<double> strain = vertex_strain(*body_);
+    if (*std::max_element(strain.begin(), strain.end()) < at_rest) most = 0;
+  }
+  if (by_ == ShownBy::Strain && most < at_rest) most = 0;
+  scale_ = std::max(scale_, rounded_up(most));
+}
+
+std::optional<HudLegend> BodyPicture::legend() const {
+  if (by_ == ShownBy::Plain || by_ == ShownBy::Fragment || scale_ == 0) return {};
+  HudLegend legend;
+  legend.title = std::string(by_ == ShownBy::Strain   ? "largest strain"
+                             : by_ == ShownBy::Stress ? "largest principal stress"
+                                                      : "largest force");
+  const char* unit = by_ == ShownBy::Strain ? "" : by_ == ShownBy::Stress ? "Pa" : "N";
+  legend.low = in_units(0, "");
+  legend.high = in_units(scale_, unit);
+  for (int n = 0; n < 64; ++n) legend.colours.push_back(colour_of_share(n / 63.0));
+  return legend;
+}
+
+void BodyPicture::label_fragments(std::size_t& fragments_seen) {
+  labels_ = rend::label_fragments(body_->map->map());
+  fragment_colours_.clear();
+  body_->map->map().for_each_dart([&](Dart d) { // the first dart of a label is its smallest
+    if (labels_[d.value] != fragment_colours_.size()) return;
+    const auto [at, added] = numbers_.try_emplace(d.value, fragments_seen);
+    if (added) ++fragments_seen;
+    fragment_colours_.push_back(colour_of_number(at->second));
+  });
+}
+
+void BodyPicture::colour_vertices() {
+  std::array<Colour, 256> table;
+  for (std::size_t n = 0; n < table.size(); ++n) table[n] = colour_of_share(static_cast<double>(n) / 255);
+  const double factor = scale_ > 0 ? 255 / scale_ : 0;
+  vertex_colours_.resize(values_.size());
+  for (std::size_t v = 0; v < values_.size(); ++v)
+    vertex_colours_[v] = table[static_cast<std::size_t>(std::min(255.0, values_[v] * factor + 0.5))];
+}
+
+FrameBody BodyPicture::draw() {
+  if (by_ != ShownBy::Plain && by_ != ShownBy::Fragment) colour_vertices();
+  FrameBody out;
+  out.edges = edges_;
+  out.two_sided = sheet_.has_value();
+  out.sides = orientable_;
+  out.back = back_;
+  out.finish = finish_;
+  out.filled = as_ != DrawnAs::Wires;
+  if (as_ == DrawnAs::Darts)
+    draw_darts(*body_, out);
+  else if (as_ == DrawnAs::Exploded)
+    draw_exploded(
+        *body_, apart_, [this](const CellCorner& at) { return colour_at(at); }, out);
+  else
+    sheet_ ? draw_sheet(out) : draw_solid(out);
+  return out;
+}
+
+Colour BodyPicture::colour_at(const CellCorner& at) const {
+  if (by_ == ShownBy::Fragment) return fragment_colours_[labels_[at.dart.value]];
+  if (!vertex_colours_.empty()) return vertex_colours_[at.vertex];
+  return at.inner ? inside_ : colour_;
+}
+
+void BodyPicture::draw_sheet(FrameBody& out) {
+  sheet_->update();
+  sheet_->normals(normals_);
+  out.corners.reserve(3 * sheet_->triangles());
+  const bool by_vertex = !vertex_colours_.empty();
+  const auto& x = body_->map->position().values();
+  sheet_->for_each_triangle([&](const Surface::Triangle& triangle) {
+    const auto [a, b, c] = triangle.vertex;
+    const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
+    Colour colour = colour_;
+    if (by_ == ShownBy::Fragment)
+      colour = fragment_colours_[labels_[body_->map->cells(FaceOfVolume).first_dart(triangle.face).value]];
+    for (Slot v : triangle.vertex) {
+      // A vertex normal's sign is its own: within a triangle all are turned to the triangle's side.
+      Vec3 normal = normals_[v];
+      const double side = normal.dot(flat);
+      if (side < 0) normal = -normal;
+      if (side == 0 && normal.isZero(0) && !flat.isZero(0)) normal = flat.normalized();
+      if (by_vertex) colour = vertex_colours_[v];
+      out.corners.push_back(corner(x[v], normal, colour, triangle.side));
+    }
+  });
+}
+
+void BodyPicture::draw_solid(FrameBody& out) {
+  solid_->update();
+  solid_->normals(normals_);
+  out.corners.reserve(3 * solid_->triangles());
+  const bool by_vertex = !vertex_colours_.empty();
+  const auto& x = body_->map->position().values();
+  solid_->for_each_triangle([&](const SolidSurface::Triangle& triangle) {
+    Colour colour = triangle.bare ? inside_ : colour_;
+    if (by_ == ShownBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Slot v = triangle.vertex[k];
+      if (by_vertex) colour = vertex_colours_[v];
+      out.corners.push_back(corner(x[v], normals_[triangle.corner[k]], colour, triangle.side));
+    }
+  });
+}
+
+PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, double duration, long frames)
+    : scene_(scene), viewpoint_(preset, scene, aspect, duration) {
+  if (const Node* hud = preset.child("hud"); hud && hud_available()) hud_.emplace(*hud, scene, frames);
+  const Colour background = image_settings(preset).background;
+  transparent_ = image_settings(preset).transparent;
+  occlusion_ = image_settings(preset).occlusion;
+  for (std::size_t c = 0; c < 3; ++c) background_[c] = static_cast<float>(background[c]) / 255;
+  const double start = now();
+  for (const auto& body : scene.bodies()) bodies_.push_back(std::make_unique<BodyPicture>(*body));
+  seconds_ = now() - start;
+}
+
+void PictureMaker::observe() {
+  const double start = now();
+  for (auto& body : bodies_) body->observe(fragments_seen_);
+  if (hud_) hud_->observe();
+  viewpoint_.observe(scene_);
+  seconds_ += now() - start;
+}
+
+Frame PictureMaker::draw(long number, double time) {
+  const double start = now();
+  Frame frame;
+  frame.time = scene_.time();
+  frame.number = static_cast<int>(number);
+  for (auto& body : bodies_) frame.bodies.push_back(body->draw());
+  for (const Sphere& sphere : scene_.world().spheres) frame.obstacles.push_back(picture_of(sphere));
+  for (const Box& box : scene_.world().boxes) frame.obstacles.push_back(picture_of(box));
+  if (scene_.world().floor) frame.floor = FrameFloor{*scene_.world().floor};
+  frame.camera = viewpoint_.at(time);
+  frame.background = background_;
+  frame.transparent = transparent_;
+  frame.occlusion = occlusion_;
+  if (hud_) frame.hud = hud_->content(legends());
+  seconds_ += now() - start;
+  return frame;
+}
+
+// Each kind of scale once: bodies that share it need not say it twice.
+std::vector<HudLegend> PictureMaker::legends() const {
+  std::vector<HudLegend> all;
+  if (!hud_->wants_legends()) return all;
+  for (const auto& body : bodies_)
+    if (auto legend = body->legend()) {
+      const auto same = [&](const HudLegend& l) { return l.title == legend->title && l.high == legend->high; };
+      if (std::none_of(all.begin(), all.end(), same)) all.push_back(std::move(*legend));
+    }
+  return all;
+}
+
+void BodyPicture::store(Archive& archive) {
+  const double given = scale_;
+  const std::size_t darts = body_->map->map().capacity();
+  archive(scale_);
+  archive.table(numbers_, darts, "more fragments have a colour than there are darts");
+  if (!archive.reading()) return;
+  refuse_unless(given_ ? scale_ == given : scale_ >= 0, "the scale of colours is another, or below 0");
+  refuse_unless(numbers_.empty() || numbers_.rbegin()->first < darts,
+                "a fragment is of a dart that is not there");
+}
+
+void PictureMaker::store(Archive& archive) {
+  archive.mark("pictures");
+  archive.same(hud_ ? 1 : 0, "whether something is written over the pictures");
+  for (auto& body : bodies_) body->store(archive);
+  if (hud_) hud_->store(archive);
+  viewpoint_.store(archive, scene_.time());
+  archive(fragments_seen_);
+  if (!archive.reading()) return;
+  std::size_t seen = 0;
+  for (const auto& body : bodies_) seen += body->fragments_seen();
+  refuse_unless(seen == fragments_seen_, "not as many fragments were seen as have a colour");
+}
+
+std::size_t PictureMaker::bytes() const {
+  std::size_t total = 0;
+  for (const auto& body : bodies_) total += body->bytes();
+  return total;
+}
+
+} // namespace rend

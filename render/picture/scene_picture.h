@@ -1,0 +1,92 @@
+// From the state of a scene to a Frame: triangles with normals, colours and lines; obstacles; the floor; the
+// camera.
+//
+// Colours that depend on a scale or on an order of things must not flicker, and a frame drawn alone must be
+// that of the whole clip. So observe() is called for every frame of the clip, drawn or not: a scale is the
+// largest value seen so far, rounded up to 1, 2 or 5 times a power of ten; and a fragment has the colour that
+// its smallest dart was given when it was first seen, so that of two parts one stays as it was.
+#pragma once
+
+#include "render/draw/frame.h"
+#include "render/picture/colour.h"
+#include "render/picture/exploded_picture.h"
+#include "render/picture/hud_writer.h"
+#include "render/picture/viewpoint.h"
+#include "sim/boundary/solid_surface.h"
+#include "sim/boundary/surface.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace rend {
+
+enum class ShownBy { Plain, Strain, Stress, Force, Fragment };
+enum class DrawnAs { Surface, Wires, Exploded, Darts };
+
+// How one body is shown, and its surface.
+class BodyPicture {
+public:
+  explicit BodyPicture(Body& body);
+
+  void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that were given a colour
+  FrameBody draw();                          // of the state that was observed
+  std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
+  std::size_t bytes() const { return sheet_ ? sheet_->bytes() : solid_->bytes(); }
+  std::size_t fragments_seen() const { return numbers_.size(); } // of this body
+  void store(Archive& archive);                                  // what it has seen
+
+private:
+  void draw_sheet(FrameBody& out);
+  void draw_solid(FrameBody& out);
+  void label_fragments(std::size_t& fragments_seen);
+  void colour_vertices();
+  Colour colour_at(const CellCorner& at) const;
+
+  Body* body_;
+  std::optional<Surface> sheet_; // one of the two
+  std::optional<SolidSurface> solid_;
+  ShownBy by_ = ShownBy::Plain;
+  DrawnAs as_ = DrawnAs::Surface;
+  Colour colour_{}, inside_{};
+  std::optional<Colour> back_;
+  Finish finish_;
+  double apart_ = 0; // of exploded cells
+  bool edges_ = true, orientable_ = true;
+  double scale_ = 0;           // the quantity at the end of the colours
+  bool given_ = false;         // by the preset: it stays
+  std::vector<Vec3> normals_;  // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)
+  std::vector<double> values_; // of strain or force, one per vertex slot
+  std::vector<Colour> vertex_colours_;           // one per vertex slot; empty unless by strain or force
+  std::vector<std::uint32_t> labels_;            // fragment of each dart; empty unless by fragment
+  std::vector<Colour> fragment_colours_;         // one per label
+  std::map<std::uint32_t, std::size_t> numbers_; // smallest dart of a fragment → number of its colour
+};
+
+class PictureMaker {
+public:
+  // aspect: width / height; duration [s] and frames of the clip.
+  PictureMaker(const Node& preset, Scene& scene, double aspect, double duration, long frames);
+
+  void observe(); // the state is that of a frame
+  Frame draw(long number,
+             double time); // `time` [s] of the frame in the clip, for the camera; observe() came before
+  FrameCamera camera(double time) const { return viewpoint_.at(time); }
+  std::size_t bytes() const;                  // of surfaces
+  double seconds() const { return seconds_; } // spent in observe() and draw()
+  void store(Archive& archive);               // what it has seen, of the frames so far
+
+private:
+  std::vector<HudLegend> legends() const;
+  Scene& scene_;
+  Viewpoint viewpoint_;
+  std::array<float, 3> background_{};
+  bool transparent_ = false, occlusion_ = true;
+  std::vector<std::unique_ptr<BodyPicture>> bodies_;
+  std::optional<HudWriter> hud_; // none: nothing is written over the pictures
+  std::size_t fragments_seen_ = 0;
+  double seconds_ = 0;
+};
+
+} // namespace rend

@@ -1,0 +1,208 @@
+#include "render/picture/viewpoint.h"
+
+#include "render/draw/camera.h"
+#include "sim/base/archive.h"
+#include "sim/base/math.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+using Bounds = Eigen::AlignedBox3d;
+
+Vec3 corner_of(const Bounds& box, int n) {
+  return box.corner(static_cast<Bounds::CornerType>(n));
+}
+
+// Whether prescribed vertices hold the body on all sides: then it sags, but does not swing down.
+bool held_all_around(const Body& body, const Bounds& box, int vertical) {
+  Bounds held;
+  for (Slot v : body.constraints.vertices()) held.extend(body.map->position()[v].vec());
+  if (held.isEmpty()) return false;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != vertical && held.sizes()[axis] < 0.9 * box.sizes()[axis]) return false;
+  return true;
+}
+
+Bounds room_of(const Body& body, double duration) {
+  const Bounds box = bounds_of(body);
+  Bounds room = box;
+  for (const Motion& motion : body.constraints.motions())
+    for (int n = 0; n < 8; ++n) room.extend(corner_of(box, n) + motion.offset(corner_of(box, n), duration));
+  const Vec3 gravity = body.gravity;
+  if (gravity.norm() == 0) return room;
+  int vertical = 0;
+  gravity.cwiseAbs().maxCoeff(&vertical);
+  const double size = box.sizes().maxCoeff();
+  const double hang = held_all_around(body, box, vertical) ? 0 : 0.9 * size - box.sizes()[vertical];
+  const Vec3 down = gravity.normalized() * std::max(0.15 * size, hang);
+  const Bounds below(room.min() + down, room.max() + down);
+  return room.merged(below);
+}
+
+// Towards the side that a flat thing shows: from the front, a little from the right and from above.
+Vec3 best_direction(const Bounds& box) {
+  int thin = 0;
+  box.sizes().minCoeff(&thin);
+  if (thin == 2) return {0.45, -1, 0.75};
+  return thin == 1 ? Vec3(0.35, -1, 0.25) : Vec3(1, -0.35, 0.25);
+}
+
+Bounds bounds_of(const Sphere& sphere) {
+  const Vec3 reach = Vec3::Constant(sphere.radius);
+  return {sphere.start - reach, sphere.start + reach};
+}
+
+// What a sphere needs that moves: where it starts, and where it goes to as far as that is in the bodies' room,
+// or it would make them small.
+Bounds room_of(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, double duration) {
+  const Bounds start = bounds_of(sphere);
+  Vec3 way = duration * sphere.velocity;
+  if (sphere.falls()) way += 0.5 * duration * duration * gravity;
+  const Bounds end(start.min() + way, start.max() + way);
+  return start.merged(bodies.intersection(start.merged(end)));
+}
+
+} // namespace
+
+Bounds bounds_of(const Body& body) {
+  Bounds box;
+  const CellIndex& cells = body.map->cells(Vertex);
+  for (Slot v = 0; v < cells.slots(); ++v)
+    if (cells.alive(v)) box.extend(body.map->position()[v].vec());
+  return box;
+}
+
+Bounds room_of(const Scene& scene, double duration) {
+  Bounds start, room;
+  for (const auto& body : scene.bodies()) {
+    start.extend(bounds_of(*body));
+    room.extend(room_of(*body, duration));
+  }
+  const World& world = scene.world();
+  for (const Box& box : world.boxes) room.extend(box.low).extend(box.high);
+  const Bounds bodies = room;
+  for (const Sphere& sphere : world.spheres) room.extend(room_of(sphere, bodies, world.gravity, duration));
+  if (const auto floor = world.floor)
+    room.min().z() = std::max(room.min().z(), std::min(*floor, start.min().z()));
+  return room;
+}
+
+Viewpoint::Viewpoint(const Node& preset, const Scene& scene, double aspect, double duration)
+    : aspect_(aspect), duration_(duration) {
+  const Node* camera = preset.child("camera");
+  Bounds start;
+  for (const auto& body : scene.bodies()) start.extend(bounds_of(*body));
+  const bool has_eye = camera && camera->given("eye");
+  if (camera) {
+    start_.up = camera->vector("up");
+    start_.fov = camera->number("fov");
+    turn_ = camera->number("turn");
+  }
+  start_.target = camera && camera->given("target") ? camera->vector("target") : Vec3(start.center());
+  Vec3 direction = best_direction(start);
+  if (has_eye) {
+    start_.eye = camera->vector("eye");
+    direction = start_.eye - start_.target;
+    if (direction.norm() < 1e-9 * (1 + start_.target.norm()))
+      camera->fail("eye", "the camera's eye stands at its target", "move it away from there");
+  }
+  if (camera) read_keys(*camera);
+  const std::string frame = camera && camera->has("frame") ? camera->text("frame") : has_eye ? "given" : "auto";
+  follows_ = frame == "follow";
+  direction_ = direction;
+  start_middle_ = start.center();
+  reach_ = 3 * start.sizes().norm();
+  if (frame == "given") return;
+  const FrameCamera fitted = frame_auto(room_of(scene, duration), start_.fov, aspect, direction);
+  start_.eye = fitted.eye;
+  start_.target = fitted.target;
+}
+
+void Viewpoint::read_keys(const Node& camera) {
+  for (const Node* node : camera.all("key")) {
+    Key key;
+    key.time = node->number("at");
+    key.camera << node->vector("eye"), node->given("target") ? node->vector("target") : start_.target,
+        node->given("fov") ? node->number("fov") : start_.fov;
+    if (key.camera.head<3>() == key.camera.segment<3>(3))
+      node->fail("eye", "the camera's eye stands at its target", "move it away from there");
+    if (!keys_.empty() && key.time <= keys_.back().time)
+      node->fail(
+          "at",
+          fmt::format("this key comes at {:g} s, and the one before it at {:g} s", key.time, keys_.back().time),
+          "put them in the order of time");
+    keys_.push_back(key);
+  }
+}
+
+// Cubic Hermite pieces, whose slopes are those between the neighbours; it stands still before the first and
+// after the last.
+FrameCamera Viewpoint::between_keys(double time) const {
+  FrameCamera camera = start_;
+  const auto set = [&](const Eigen::Matrix<double, 7, 1>& at) {
+    camera.eye = at.head<3>();
+    camera.target = at.segment<3>(3);
+    camera.fov = std::clamp(at[6], 1.0, 170.0);
+  };
+  if (time <= keys_.front().time) return set(keys_.front().camera), camera;
+  if (time >= keys_.back().time) return set(keys_.back().camera), camera;
+  std::size_t n = 0;
+  while (keys_[n + 1].time <= time) ++n;
+  const auto slope = [&](std::size_t k) -> Eigen::Matrix<double, 7, 1> {
+    if (k == 0 || k + 1 == keys_.size()) return Eigen::Matrix<double, 7, 1>::Zero();
+    return (keys_[k + 1].camera - keys_[k - 1].camera) / (keys_[k + 1].time - keys_[k - 1].time);
+  };
+  const double span = keys_[n + 1].time - keys_[n].time, t = (time - keys_[n].time) / span;
+  const double a = t * t * (3 - 2 * t), b = t * (1 - t) * (1 - t), c = t * t * (t - 1);
+  set((1 - a) * keys_[n].camera + a * keys_[n + 1].camera + span * (b * slope(n) + c * slope(n + 1)));
+  return camera;
+}
+
+void Viewpoint::observe(const Scene& scene) {
+  if (!follows_) return;
+  constexpr double lag = 0.3; // [s]
+  Bounds box;
+  for (const auto& body : scene.bodies()) box.extend(bounds_of(*body));
+  box =
+      box.intersection(Bounds(start_middle_ - Vec3::Constant(reach_), start_middle_ + Vec3::Constant(reach_)));
+  if (box.isEmpty()) return; // all is far away
+  const double passed = last_ < 0 ? 0 : scene.time() - last_, share = passed / (passed + lag);
+  last_ = scene.time();
+  const double distance = (start_.eye - start_.target).norm();
+  const FrameCamera wanted = frame_auto(box, start_.fov, aspect_, direction_);
+  start_.target += share * (wanted.target - start_.target);
+  Bounds around = box; // with its mirror image, so that the target is its middle
+  around.extend(2 * start_.target - box.min()).extend(2 * start_.target - box.max());
+  const FrameCamera needed = frame_auto(around, start_.fov, aspect_, direction_);
+  const double near = (needed.eye - needed.target).norm(), far = (wanted.eye - wanted.target).norm();
+  start_.eye = start_.target + direction_.normalized() * std::max(distance + share * (far - distance), near);
+}
+
+void Viewpoint::store(Archive& archive, double now) {
+  const FrameCamera given = start_;
+  archive(start_.eye, start_.target, last_);
+  if (!archive.reading()) return;
+  refuse_unless(last_ == -1 || (last_ >= 0 && last_ <= now), "the camera looked at a later state");
+  if (follows_)
+    refuse_unless(std::isfinite((start_.eye - start_.target).squaredNorm()) && start_.eye != start_.target,
+                  "the camera is at its target, or without end away from it");
+  else
+    refuse_unless(start_.eye == given.eye && start_.target == given.target, "the camera stands elsewhere");
+}
+
+FrameCamera Viewpoint::at(double time) const {
+  FrameCamera camera = keys_.empty() ? start_ : between_keys(time);
+  if (turn_ == 0 || duration_ <= 0) return camera;
+  const double angle = turn_ * time / duration_;
+  const double c = cosine_of_degrees(angle), s = sine_of_degrees(angle);
+  const Vec3 axis = camera.up.normalized(), arm = camera.eye - camera.target;
+  camera.eye = camera.target + c * arm + s * axis.cross(arm) + (1 - c) * axis.dot(arm) * axis;
+  return camera;
+}
+
+} // namespace rend

@@ -1,0 +1,35 @@
+// What `rend study` is asked for, and the plan that it makes of it.
+#pragma once
+
+#include "render/clip/session.h"
+#include "sim/study/study.h"
+
+namespace rend {
+
+struct StudyOptions {
+  SessionOptions session;          // the preset, --set, --allow-path, --quiet
+  std::string folder;              // empty: out/NAME-study
+  std::string integrators;         // "a,b"; empty: all
+  std::string refine;              // "1,2,4"; empty: the preset's mesh alone
+  std::vector<std::string> sweeps; // "PATH=a,b,c"
+  int steps = 7;                   // a scheme
+  std::optional<double> duration;  // [s]
+  int reruns = 7;
+  bool quick = false, json = false;
+  bool lean = false;                // what features cost, in place of errors
+  std::vector<std::string> further; // presets, with `lean`
+};
+void declare_study(CLI::App& app, StudyOptions& options);
+
+struct StudyTask {
+  std::string name; // of the scene
+  std::string text; // of the preset, as it is studied
+  StudyPlan plan;
+  MakeScene make;
+};
+
+// Reads the preset in each of the groups' forms, so that whatever is wrong is said before anything runs.
+// UserError.
+StudyTask study_task(const StudyOptions& options);
+
+} // namespace rend

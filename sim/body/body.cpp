@@ -1,0 +1,284 @@
+#include "sim/body/body.h"
+
+#include "sim/base/archive.h"
+#include "sim/base/profile.h"
+#include "sim/embedding/reorder.h"
+#include "sim/integrate/footing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// At borders of elements.
+std::size_t open_darts(const GMap& map) {
+  std::size_t count = 0;
+  map.for_each_dart([&](Dart d) { count += map.is_free(map.dimension(), d); });
+  return count;
+}
+
+} // namespace
+
+Body::~Body() {
+  program.reset(); // lets go of the map
+  if (map) map->unsubscribe(changes);
+}
+
+void Body::prepare(const Scheme& scheme, bool walk, int threads, double tolerance) {
+  const bool elementary =
+      std::any_of(laws.begin(), laws.end(), [](const TearLaw& law) { return law.settings().elementary(); });
+  ProgramOptions options;
+  options.elementary = elementary;
+  options.fold = cumulated != Cumulated::No;
+  options.walk = walk;
+  sums_ = elementary && sums_fit(interactions, options) &&
+          std::all_of(laws.begin(), laws.end(), [](const TearLaw& law) {
+            return !law.settings().elementary() || law.settings().by_sums();
+          });
+  options.folded = !elementary || scheme.evaluations > 1 || sums_;
+  options.threads = threads;
+  options.timed = profile != nullptr;
+  options.small_in_parts = small_in_parts;
+  program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
+  if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
+  const double size = extent(map->rest().values(), program->inverse_mass());
+  integrator = scheme.make({tolerance, size > 0 ? size : 1});
+  if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
+  map->subscribe(changes);
+  if (tears()) reserve_for_separations();
+  constrain(0, map->position().values().data(), map->velocity().values().data());
+}
+
+void Body::reserve_for_separations() {
+  map->reserve_for_separations();
+  program->reserve_for_separations();
+  for (TearLaw& law : laws) law.reserve_for_separations();
+  force.reserve(map->slots_when_separated(Vertex));
+  next.position.reserve(map->slots_when_separated(Vertex));
+  next.velocity.reserve(map->slots_when_separated(Vertex));
+  loads.reserve_for_separations(*map);
+}
+
+void Body::forces(double time, const Record* position, const Record* velocity, Record* out) {
+  {
+    const Within within(profile, Stage::Forces);
+    program->forces(position, velocity, out);
+  }
+  ++evaluations;
+  if (faulty.armed(StepStage::Forces)) faulty.spoil(program->inverse_mass(), vertices(), out);
+  outer(time, position, velocity);
+}
+
+void Body::forces_in_stretches(double time, const Record* position, const Record* velocity, Record* out,
+                               PartWork whole) {
+  outer(time, position, velocity);
+  program->forces_in_stretches(position, velocity, out, stretch, whole);
+  ++evaluations;
+}
+
+void Body::outer(double time, const Record* position, const Record* velocity) {
+  const Within within(loads.empty() ? nullptr : profile, Stage::Loads);
+  load = loads.evaluate(*map, time, position, velocity);
+  if (load && faulty.armed(StepStage::Loads))
+    load = faulty.spoil_copy(program->inverse_mass(), vertices(), load);
+}
+
+void Body::constrain(double time, Record* position, Record* velocity) {
+  if (!constraints.vertices().empty()) constraints.apply(*map, time, position, velocity);
+}
+
+void Body::add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
+                         double by_velocity, BlockMatrix& out) {
+  const Within within(profile, Stage::Stiffness);
+  assembly->add(position, velocity, tangent, by_position, by_velocity, out);
+}
+
+void Body::hold(double time, std::uint8_t* axes) {
+  constraints.mark(time, axes);
+}
+
+// Profiles tell forces and integration apart, and what tears looks at forces.
+bool Body::may_leave_forces() const {
+  return integrator->sweeps() && !tears() && !profile && !program->options().walk && !small_in_parts &&
+         !faulty.armed(StepStage::Forces);
+}
+
+void Body::meet_program() {
+  inverse_mass = program->inverse_mass(); // rebinding may have moved them
+  drag_rate = program->drag_rate();
+  force.resize(vertices());
+}
+
+void Body::leave_forces() {
+  meet_program();
+  forces_left_ = true;
+}
+
+void Body::evaluate() {
+  const Within within(profile, Stage::Forces);
+  meet_program();
+  forces_left_ = false;
+  const Record *x = map->position().values().data(), *v = map->velocity().values().data();
+  if (sums_)
+    program->forces_with_sums(x, v, force.data());
+  else if (corner_force.empty())
+    program->forces(x, v, force.data());
+  else
+    program->corner_forces(x, v, corner_force.data(), force.data());
+  ++evaluations;
+  if (faulty.armed(StepStage::Forces)) faulty.spoil(inverse_mass, vertices(), force.data());
+  outer(time_, x, v);
+}
+
+ForceView Body::view() const {
+  return {*map,
+          *program,
+          *mass,
+          map->position().values().data(),
+          map->velocity().values().data(),
+          force.data(),
+          corner_force.empty() || sums_ ? nullptr : corner_force.data(),
+          sums_ ? corner_force.data() : nullptr};
+}
+
+void Body::clear_sums() {
+  for (Record& f : force) f.w = 0;
+}
+
+CriterionRequest Body::request_for(const LawSettings& law) const {
+  return {*map, interactions, *mass, law.kind, law.compression};
+}
+
+int Body::tear(double time, long number, const std::function<void()>& sound) {
+  const std::size_t before = events.size();
+  int made = 0;
+  for (std::size_t n = 0; n < laws.size(); ++n)
+    if (laws[n].active(time)) made += apply_law(n, time, number, sound);
+  if (made == 0) return 0;
+  if (births) births->settle(map->map(), std::span(events).subspan(before));
+  if (map->map().dart_count() == 0 && !gone) gone = time;
+  return made;
+}
+
+int Body::apply_law(std::size_t number, double time, long step, const std::function<void()>& sound) {
+  const ForceView now = view();
+  if (laws[number].find(now).empty()) return 0;
+  sound();
+  if (witness) witness(false);
+  const Within within(profile, Stage::Changes);
+  const double start = seconds_now();
+  const std::size_t before = events.size();
+  const int made = laws[number].apply(*map, now, events, births.get());
+  for (std::size_t e = before; e < events.size(); ++e) {
+    events[e].time = time;
+    events[e].step = step;
+    events[e].law = static_cast<int>(number);
+  }
+  change_seconds += seconds_now() - start;
+  if (made > 0) follow_changes();
+  if (witness) witness(true);
+  return made;
+}
+
+void Body::follow_changes() {
+  const double start = seconds_now();
+  if (slots_scattered(*map)) map->number_anew();
+  rebind();
+  evaluate();
+  rebind_seconds += seconds_now() - start;
+}
+
+void Body::advance(double time, double step) {
+  const Within within(profile, Stage::Integration);
+  if (sums_) clear_sums();
+  next.resize(vertices());
+  next.probe = Double4{};
+  next_time_ = time + step;
+  const StateView now{map->position().values().data(), map->velocity().values().data()};
+  if (forces_left_)
+    integrator->sweep(*this, time, step, now, force.data(), next);
+  else
+    integrator->advance(*this, time, step, now, force.data(), next);
+  if (faulty.armed(StepStage::Integration)) spoil_next();
+  if (next.large) finish_streams(); // of schemes that put their state on this thread
+  if (!floor_contact) return;
+  const Within contact_within(profile, Stage::Contact);
+  floor_contact->apply(next, step);
+  constrain(time + step, next.position.data(), next.velocity.data()); // what is prescribed yields to no floor
+}
+
+void Body::go_back(const State& start, double time) {
+  map->position().values() = start.position;
+  map->velocity().values() = start.velocity;
+  time_ = time;
+}
+
+void Body::spoil_next() {
+  faulty.spoil(program->inverse_mass(), vertices(), next.velocity.data());
+  next.look();
+}
+
+void Body::rebind() {
+  if (!changes.any) return;
+  const Within within(profile, Stage::Rebinding);
+  program->rebind();
+  if (assembly) assembly->rebind();
+  if (!corner_force.empty()) corner_force.resize(map->cells(mass->orbit()).slots());
+  constraints.rebind(*map, changes);
+  loads.rebind(*map);
+  for (TearLaw& law : laws) law.rebind(changes);
+  if (changes.whole && tears()) reserve_for_separations(); // there may be more rows than once were thought of
+  changes.clear();
+}
+
+// What is bound to the map is bound again; forces are evaluated at the start of the next step.
+void Body::store(Archive& archive, long done, double step) {
+  archive.mark(name);
+  const bool fixed = archive.reading() && !tears();
+  const std::size_t open = fixed ? open_darts(map->map()) : 0, darts = map->map().dart_count();
+  map->store(archive);
+  refuse_unless(!fixed || (open_darts(map->map()) == open && map->map().dart_count() == darts),
+                "a body is torn that nothing tears");
+  std::vector<double> numbers = integrator->carried();
+  archive.list(events, map->map().capacity(), "there are more tears than darts");
+  archive(gone, evaluations, time_);
+  next.store(archive, map->cells(Vertex).slots());
+  archive.same(numbers.size(), "numbers that its steps hand on");
+  for (double& number : numbers) archive.unbounded(number);
+  for (Answer& answer : answers) archive(answer.asked, answer.measured);
+  if (!archive.reading()) return;
+  check_read(done, step);
+  refuse_unless(integrator->carry(numbers), "what its steps hand on is nothing that they would");
+  rebind();
+  meet_program();
+  outer(time_, map->position().values().data(), map->velocity().values().data());
+}
+
+// Times of steps are products of rounded numbers.
+void Body::check_read(long done, double step) const {
+  const double now = static_cast<double>(done) * step;
+  refuse_unless(is_count(evaluations), "forces were evaluated less often than never");
+  refuse_unless(std::abs(time_ - now) <= 1e-3 * step, "a body has another time than the scene");
+  refuse_unless(gone.has_value() == (map->map().dart_count() == 0),
+                "a body is gone that is there, or the reverse");
+  refuse_unless(!gone || (*gone >= 0 && *gone <= now), "a body was gone before the start, or later than now");
+  for (const TearEvent& event : events) {
+    refuse_unless(event.dart.value < map->map().capacity(), "a tear is at a dart that is not there");
+    refuse_unless(static_cast<std::size_t>(event.law) < laws.size(), "a tear is of a law that is not there");
+    refuse_unless(event.step <= done && event.time >= 0 && event.time <= now, "a tear is later than now");
+  }
+}
+
+void Body::commit() {
+  map->position().values().swap(next.position);
+  map->velocity().values().swap(next.velocity);
+  time_ = next_time_;
+}
+
+} // namespace rend

@@ -1,0 +1,128 @@
+// A body: a map with all that it carries, the interactions on it, and what is built upon them.
+#pragma once
+
+#include "sim/body/answer.h"
+#include "sim/fracture/law.h"
+#include "sim/integrate/integrator.h"
+#include "sim/outside/constraint.h"
+#include "sim/outside/floor_contact.h"
+#include "sim/outside/injected_fault.h"
+#include "sim/outside/load.h"
+#include "sim/rows/assembly.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+class Profile;
+
+// Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was a border when
+// its element was born: what is a border now and was none then is torn.
+struct BornBorder {
+  using Value = std::uint8_t;
+  explicit BornBorder(int dimension = 2) : orbit(dimension == 2 ? EdgeOfFace : FaceOfVolume) {}
+  std::string name = "born border";
+  Orbit orbit;
+  Orbit support = SingleDart;
+  Value birth(const EmbeddedMap& map, Dart d) const { return map.map().is_free(map.dimension(), d) ? 1 : 0; }
+  Value split(const Value& whole) const { return whole; }
+  Value merge(const Value& kept, const Value&) const { return kept; }
+};
+using BorderColumn = Column<BornBorder>;
+
+enum class Cumulated { Auto, Yes, No };
+
+struct Body final : System {
+  std::string name;
+  const Node* node = nullptr; // of the preset, for those who read more of it (look)
+  std::unique_ptr<EmbeddedMap> map;
+  std::map<std::string, std::vector<Slot>>
+      groups; // of the mesh file: increasing slots of vertices, at the start
+  MassColumn* mass = nullptr;
+  DragColumn* drag = nullptr;     // null: no viscosity per particle
+  BorderColumn* border = nullptr; // null: nothing tears
+  std::vector<std::unique_ptr<Interaction>> interactions;
+  Cumulated cumulated = Cumulated::Auto;
+  Constraints constraints;
+  Loads loads;
+  std::vector<TearLaw> laws;
+  std::optional<ContactSettings> contact; // as the preset has it
+  std::optional<FloorContact> floor_contact;
+  std::vector<Probe> probes;
+  std::vector<Answer> answers;
+  std::vector<std::string> notes;    // what the preset's author should know
+  std::vector<std::string> left_out; // what this body does without, and why
+
+  std::unique_ptr<Program> program;
+  std::unique_ptr<Assembly> assembly; // null: the scheme does not solve
+  std::unique_ptr<Integrator> integrator;
+  std::vector<Record> force;                // internal [N] at the start of the step, one per vertex slot
+  mutable std::vector<Record> corner_force; // [N], one per corner slot; empty unless a law looks at elements
+  State next;      // where the integrator writes: the old state stays whole until the step is kept
+  Changes changes; // since constraints and laws were last bound
+  std::vector<TearEvent> events;
+  std::function<void(bool made)> witness; // called before and after a law makes its changes; may be empty
+  std::unique_ptr<Births> births;         // null: nobody asks how many fragments each change left
+  std::optional<double> gone; // [s], when the last element was deleted; the body goes on with nothing
+
+  ~Body() override;
+  bool tears() const { return !laws.empty(); }
+
+  // Builds the program and all that the time loop needs. To be called once, when everything is declared.
+  void prepare(const Scheme& scheme, bool walk, int threads, double tolerance = SchemeSettings{}.tolerance);
+
+  // System
+  std::size_t vertices() const override { return program->vertices(); }
+  int parts() const override { return program->parts(); }
+  void forces(double time, const Record* position, const Record* velocity, Record* out) override;
+  void forces_in_stretches(double time, const Record* position, const Record* velocity, Record* out,
+                           PartWork whole) override;
+  void outer(double time, const Record* position, const Record* velocity) override;
+  void constrain(double time, Record* position, Record* velocity) override;
+  std::shared_ptr<const BlockPattern> pattern() override { return assembly->pattern(); }
+  void add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
+                     double by_velocity, BlockMatrix& out) override;
+  void hold(double time, std::uint8_t* axes) override;
+
+  void evaluate();     // force and corner_force of the current state
+  void leave_forces(); // to advance(), which finds them on its way: where nobody looks at them before
+  bool may_leave_forces() const;
+  ForceView view() const; // of that
+  CriterionRequest request_for(const LawSettings& law) const;
+  double time() const { return time_; } // [s], of the current state
+
+  // Criteria, changes, rebinding; returns how many changes. Before anything is changed, `sound` may throw.
+  int tear(double time, long number, const std::function<void()>& sound);
+  void advance(double time, double step);        // the current state to `next`
+  void rebind();                                 // program, constraints, laws
+  void commit();                                 // takes `next`
+  void go_back(const State& start, double time); // [s]: start becomes the current state, of the same topology
+  void spoil_next();                             // as `faulty` says
+  // Between steps, so many of which are done, of `step` [s] each: all that a later one depends on.
+  void store(Archive& archive, long done, double step);
+
+  double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
+  long evaluations = 0; // of the internal forces so far, but for those that probes ask for
+  FaultySpot faulty;
+
+  // Before prepare().
+  Profile* profile = nullptr;  // null: nobody asks
+  bool small_in_parts = false; // ProgramOptions
+
+private:
+  int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
+  void follow_changes();
+  void check_read(long done, double step) const; // throws ArchiveError
+  void meet_program();
+  void reserve_for_separations();
+  void clear_sums();
+  bool forces_left_ = false;
+  bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
+  double time_ = 0, next_time_ = 0; // [s], of the current state and of `next`
+};
+
+} // namespace rend

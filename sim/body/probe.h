@@ -1,0 +1,59 @@
+// Probes: what an experimenter would measure on a body, at vertices that were chosen at rest.
+//
+// Each chosen vertex counts the same, and the fragments of one that was split have its part together, by their
+// element corners (share.h); what was deleted does not count any more. With w_n the parts, Σ w_n = 1:
+//
+//   position       Σ w_n x_n
+//   displacement   Σ w_n (x_n − X_n)
+//   reaction       Σ R_n over the fixed and driven vertices among them, along the axes that are prescribed:
+//                  R = m a − f − load − m g + γ v, the force [N] that the support exerts on the body there; a
+//                  is the prescribed acceleration (0 but for rotations), f the internal force. At rest: what
+//                  bears it. A static solve has neither a nor v.
+//
+//   stress         the mean σ [Pa] of the elements that have one of its vertices, each counting the same
+//
+// A floor is no support in this sense: it acts by impulses (contact.h).
+#pragma once
+
+#include "sim/outside/share.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+struct Body;
+
+struct ProbeReading {
+  Vec3 position = Vec3::Zero(), displacement = Vec3::Zero(); // [m]
+  std::optional<Vec3> reaction;                              // [N]; none where nothing is prescribed
+  std::optional<Eigen::Matrix3d> stress; // [Pa], in world space; none without finite elements
+};
+
+class Probe {
+public:
+  Probe(EmbeddedMap& map, std::string name, const std::vector<Slot>& vertices);
+  const std::string& name() const { return name_; }
+
+  // Of the present state, which it does not change: forces are evaluated anew. None if all its elements were
+  // deleted.
+  std::optional<ProbeReading> read(Body& body) const;
+
+  bool on_support(const Body& body) const; // some of its vertices are prescribed
+
+private:
+  std::vector<Slot> vertices(const EmbeddedMap& map) const; // increasing
+  Vec3 reaction(Body& body) const;
+  std::optional<Eigen::Matrix3d> stress(const Body& body) const;
+  std::string name_;
+  ShareColumn* shares_;
+};
+
+// What can be asked of a reading: x, y, z, dx, dy, dz, d, reaction-x, reaction-y, reaction-z, reaction,
+// stress-xx ... NaN if it is not there.
+const std::vector<std::string>& probe_quantities();
+bool has_stress(const Body& body); // there are finite elements that know theirs
+double quantity_of(const ProbeReading& reading, const std::string& quantity);
+
+} // namespace rend

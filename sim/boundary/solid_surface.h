@@ -1,0 +1,105 @@
+// What is seen of a solid: its α3-free faces, as triangles with the true edges of cells, and their normals.
+//
+// Faces are bound one by one, rebuilt only where the map changed, and equal to a full rebuild (drawn_faces.h).
+// They run counter-clockwise seen from outside, which is known from the rest state and not from how the map was
+// built; so the far side of a triangle is never seen and need not be drawn.
+//
+// Corners around a vertex that bend little share a normal, so that a coarse mesh of a smooth shape looks
+// smooth: a fan of corners (hull.h) falls into groups at creases, which are edges where two faces make more
+// than 40° at rest. (By the rest state, or creases would come and go as the body bends.) A face that fracture
+// laid bare is flat and keeps to itself. The normal of a group is, over its corners with the sides a and b,
+//
+//   n ~ Σ a × b / (|a|² |b|²),
+//
+// exact for points on a sphere (Max, Weights for computing vertex normals, 1999), and costs no angle. Nothing
+// here is kept for faces inside.
+#pragma once
+
+#include "sim/body/body.h"
+#include "sim/boundary/drawn_faces.h"
+#include "sim/topology/marks.h"
+
+namespace rend {
+
+class SolidSurface {
+public:
+  explicit SolidSurface(Body& body); // CHECK: a solid
+  ~SolidSurface();
+  SolidSurface(const SolidSurface&) = delete;
+  SolidSurface& operator=(const SolidSurface&) = delete;
+
+  void update(); // after edits; costs as much as they touched
+
+  struct Triangle {
+    std::array<Slot, 3> vertex;          // counter-clockwise seen from outside, at rest
+    std::array<std::uint32_t, 3> corner; // index into normals
+    std::array<Side, 3> side;            // opposite to vertex k
+    Dart first;                          // the smallest of its face
+    bool bare;                           // laid bare by fracture
+  };
+  std::size_t faces() const { return drawn_.count(); }
+  std::size_t triangles() const { return drawn_.corner_count() - 2 * drawn_.count(); }
+
+  // Calls f(Triangle), face after face by their smallest darts. A face becomes a fan around its first corner.
+  template <class F> void for_each_triangle(F&& f) const {
+    std::uint32_t base = 0;
+    drawn_.for_each([&](const DrawnFaces::Face& face, std::span<const DrawnFaces::Corner> corner) {
+      for (std::uint32_t k = 1; k + 1 < face.sides; ++k) {
+        const Side last = k + 2 == face.sides ? corner[k + 1].side : Side::Inner;
+        const Side lead = k == 1 ? corner[0].side : Side::Inner;
+        f(Triangle{{corner[0].vertex, corner[k].vertex, corner[k + 1].vertex},
+                   {base, base + k, base + k + 1},
+                   {corner[k].side, last, lead},
+                   face.first,
+                   face.bare});
+      }
+      base += face.sides;
+    });
+  }
+
+  // Normals of the current state, unit and outward, or 0 where there is none; one per corner of a drawn face.
+  void normals(std::vector<Vec3>& out);
+
+  std::size_t bytes() const { return drawn_.bytes() + numbers_.size() * sizeof(std::uint32_t); }
+  bool same_as(const SolidSurface& other) const { return drawn_ == other.drawn_; }
+
+private:
+  struct FanCorner {
+    Dart even, odd; // its two darts
+    Vec3 area;      // of its face at rest
+    bool bare;
+  };
+
+  void rebuild();
+  void queue(Dart d);             // the face of d, if it is drawn
+  void queue_around_edge(Dart d); // the two faces of the hull there
+  void queue_volume(Dart d);      // the drawn faces of d's volume, and their neighbours
+  void empty_queue();             // and its marks
+  void bind();                    // the faces that were queued
+  void write_face(Dart first);
+  void write_fan(Dart d);
+  void collect_fan(Dart d);
+  void write_group(std::size_t begin, std::size_t end); // of the fan, modulo its size
+  bool bare(Dart d) const;
+  Side side_of(Dart d, const Vec3& area) const;
+  FanCorner fan_corner(Dart even, Dart odd) const;
+  void number_groups();
+
+  Body& body_;
+  DrawnFaces drawn_;
+  Changes changes_;
+  std::vector<std::uint32_t> numbers_; // of its group, one per corner of a drawn face
+  std::size_t groups_ = 0;
+  bool numbered_ = false;  // numbers_ are those of drawn_
+  std::vector<Vec3> sums_; // one per group
+
+  // Scratch of update().
+  std::vector<Dart> queue_;   // smallest darts of the faces to be bound
+  Marks queued_;              // on their darts
+  std::vector<Dart> volumes_; // darts of volumes that were queued
+  Marks in_volumes_;          // on those
+  std::vector<FanCorner> fan_;
+  bool fan_closed_ = false;
+};
+
+} // namespace rend

@@ -1,0 +1,169 @@
+#include "sim/boundary/surface.h"
+
+#include "sim/base/check.h"
+#include "sim/topology/walk.h"
+
+#include <algorithm>
+
+namespace rend {
+
+Surface::Surface(Body& body) : body_(body), triangles_(5, 0, 0), corners_(3, 0, 0) {
+  CHECK(body.map->dimension() == 2);
+  body.map->use(FaceOfVolume);
+  body.map->use(VertexOfFace);
+  rebuild();
+  body.map->subscribe(changes_);
+}
+
+Surface::~Surface() {
+  body_.map->unsubscribe(changes_);
+}
+
+std::size_t Surface::most_sides() const {
+  const EmbeddedMap& map = *body_.map;
+  const CellIndex& faces = map.cells(FaceOfVolume);
+  int most = 3;
+  for (Slot f = 0; f < faces.slots(); ++f)
+    if (faces.alive(f)) most = std::max(most, sides_of_face(map.map(), faces.first_dart(f)));
+  return static_cast<std::size_t>(most);
+}
+
+void Surface::rebuild() {
+  const EmbeddedMap& map = *body_.map;
+  fan_ = most_sides() - 2;
+  full_ = 0;
+  triangles_ = PackedRows(5, 0, 0);
+  corners_ = PackedRows(3, 0, 0);
+  triangles_.resize(map.cells(FaceOfVolume).slots() * fan_);
+  corners_.resize(map.cells(VertexOfFace).slots());
+  for (Slot face = 0; face < map.cells(FaceOfVolume).slots(); ++face) write_face(face);
+  for (Slot vertex = 0; vertex < map.cells(Vertex).slots(); ++vertex) write_corners(vertex);
+  triangles_.seal();
+  corners_.seal();
+}
+
+Side Surface::side_of(Dart d) const {
+  const EmbeddedMap& map = *body_.map;
+  if (!map.map().is_free(2, d)) return Side::Cell;
+  const bool torn = body_.border && (*body_.border)[map.slot(EdgeOfFace, d)] == 0;
+  return torn ? Side::Torn : Side::Border;
+}
+
+void Surface::write_face(Slot face) {
+  const EmbeddedMap& map = *body_.map;
+  const CellIndex& faces = map.cells(FaceOfVolume);
+  const Dart first = faces.first_dart(face);
+  const bool seen = faces.alive(face);
+  const int sides = seen ? sides_of_face(map.map(), first) : 0;
+  Dart at = seen ? map.map().alpha(1, map.map().alpha(0, first)) : first; // starts the side after the first
+  if (triangles_.live(face * fan_ + fan_ - 1)) --full_;
+  if (sides == static_cast<int>(fan_) + 2) ++full_;
+  for (std::size_t n = 0; n < fan_; ++n) {
+    const std::size_t key = face * fan_ + n;
+    if (static_cast<int>(n) + 2 >= sides) {
+      triangles_.erase(key);
+      continue;
+    }
+    const Dart next = map.map().alpha(1, map.map().alpha(0, at));
+    const Side opposite = side_of(at);
+    const Side last = static_cast<int>(n) + 3 == sides ? side_of(next) : Side::Inner;
+    const Side lead = n == 0 ? side_of(first) : Side::Inner;
+    const std::array<std::uint32_t, 5> row{map.vertex(first), map.vertex(at), map.vertex(next),
+                                           static_cast<std::uint32_t>(opposite) |
+                                               static_cast<std::uint32_t>(last) << 2 |
+                                               static_cast<std::uint32_t>(lead) << 4,
+                                           face};
+    triangles_.set(key, row.data(), nullptr);
+    at = next;
+  }
+}
+
+// All corners around a vertex: α1 and α2 in turn, from the smallest dart both ways.
+void Surface::write_corners(Slot vertex) {
+  const EmbeddedMap& map = *body_.map;
+  const CellIndex& vertices = map.cells(Vertex);
+  if (!vertices.alive(vertex)) return;
+  const Dart first = vertices.first_dart(vertex);
+  const auto write = [&](Dart even) {
+    const Dart odd = map.map().alpha(1, even);
+    const std::array<std::uint32_t, 3> row{vertex, map.vertex(map.map().alpha(0, even)),
+                                           map.vertex(map.map().alpha(0, odd))};
+    corners_.set(map.slot(VertexOfFace, even), row.data(), nullptr);
+  };
+  for (Dart even = first;;) { // even dart, its corner, the odd one, over the edge to the next even one
+    write(even);
+    const Dart odd = map.map().alpha(1, even), next = map.map().alpha(2, odd);
+    if (next == first) return; // once around
+    if (odd == even || next == odd) break;
+    even = next;
+  }
+  for (Dart odd = map.map().alpha(2, first); odd != first;) { // the other way, where the vertex is on a border
+    const Dart even = map.map().alpha(1, odd);
+    if (even == first || even == odd) break;
+    write(even);
+    const Dart next = map.map().alpha(2, even);
+    if (next == even || next == map.map().alpha(2, first)) break;
+    odd = next;
+  }
+}
+
+void Surface::update() {
+  if (!changes_.any) return;
+  if (changes_.whole) {
+    changes_.clear();
+    return rebuild();
+  }
+  const EmbeddedMap& map = *body_.map;
+  thread_local IndexSet faces_seen, vertices_seen;
+  faces_seen.clear();
+  vertices_seen.clear();
+  triangles_.resize(map.cells(FaceOfVolume).slots() * fan_);
+  corners_.resize(map.cells(VertexOfFace).slots());
+  const auto face = [&](Slot f) {
+    if (faces_seen.insert(f)) write_face(f);
+  };
+  const auto vertex = [&](Slot v) {
+    if (vertices_seen.insert(v)) write_corners(v);
+  };
+  for (const auto& touched : changes_.touched) {
+    for (Dart d : touched) {
+      if (!map.map().alive(d)) continue;
+      if (static_cast<std::size_t>(sides_of_face(map.map(), d)) > fan_ + 2) {
+        changes_.clear();
+        return rebuild();
+      }
+      face(map.slot(FaceOfVolume, d));
+      vertex(map.vertex(d));
+    }
+  }
+  for (Slot f : changes_.slots[FaceOfVolume.mask]) face(f);
+  for (Slot c : changes_.slots[VertexOfFace.mask])
+    if (!map.cells(VertexOfFace).alive(c)) corners_.erase(c);
+  for (Slot v : changes_.slots[Vertex.mask]) vertex(v);
+  for (Dart d : changes_.moved[Vertex.mask]) {
+    if (!map.map().alive(d)) continue;
+    face(map.slot(FaceOfVolume, d));
+    vertex(map.vertex(map.map().alpha(0, d)));
+  }
+  changes_.clear();
+  if (full_ == 0 && fan_ > 1) return rebuild(); // the last face with so many sides is gone
+  triangles_.seal();
+  corners_.seal();
+}
+
+void Surface::normals(std::vector<Vec3>& out) const {
+  const auto& x = body_.map->position().values();
+  out.assign(x.size(), Vec3::Zero());
+  corners_.for_each([&](std::size_t, std::size_t row) {
+    const Slot v = corners_.index(0)[row];
+    const Vec3 even = x[corners_.index(1)[row]].vec() - x[v].vec(),
+               odd = x[corners_.index(2)[row]].vec() - x[v].vec();
+    out[v] += even.cross(odd);
+  });
+  for (Vec3& normal : out) {
+    const double length = normal.norm();
+    if (length > 0) normal /= length;
+  }
+}
+
+} // namespace rend

@@ -1,0 +1,71 @@
+// What is seen of a sheet: triangles of its faces, with the true edges of cells and normals. (Of a solid:
+// solid_surface.h.)
+//
+// Rows are bound like those of the program (packed_rows.h), with the face slot as key, rebuilt only where the
+// map changed, and equal byte for byte to a full rebuild. Positions and normals are read from the state when a
+// picture is made.
+//
+// A face becomes a fan around its first dart's vertex; only its own sides are lines, so that a quad shows as a
+// quad. A vertex normal is the sum over its element corners of (even end − v) × (odd end − v), where darts
+// around the vertex are even and odd in turn from its smallest dart on: the corners then agree without any
+// orientation of the whole, on a Möbius band as well.
+#pragma once
+
+#include "sim/body/body.h"
+#include "sim/boundary/side.h"
+#include "sim/rows/packed_rows.h"
+
+namespace rend {
+
+class Surface {
+public:
+  explicit Surface(Body& body); // CHECK: a sheet
+  ~Surface();
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+
+  void update(); // after edits; does nothing where there were none
+
+  struct Triangle {
+    std::array<Slot, 3> vertex;
+    std::array<Side, 3> side; // opposite to vertex k
+    Slot face;                // slot of <0,1>
+  };
+  std::size_t triangles() const { return triangles_.live_count(); }
+
+  // Calls f(Triangle) in the order of rows.
+  template <class F> void for_each_triangle(F&& f) const {
+    triangles_.for_each([&](std::size_t, std::size_t row) {
+      const std::uint32_t sides = triangles_.index(3)[row];
+      f(Triangle{
+          {triangles_.index(0)[row], triangles_.index(1)[row], triangles_.index(2)[row]},
+          {static_cast<Side>(sides & 3), static_cast<Side>(sides >> 2 & 3), static_cast<Side>(sides >> 4 & 3)},
+          triangles_.index(4)[row]});
+    });
+  }
+
+  // Normals of the current state, unit or 0, one per vertex slot. Their sign is a vertex's own: within a
+  // triangle they are to be turned to its side.
+  void normals(std::vector<Vec3>& out) const;
+
+  std::size_t bytes() const { return triangles_.bytes() + corners_.bytes(); }
+  bool same_as(const Surface& other) const {
+    return triangles_.same_as(other.triangles_) && corners_.same_as(other.corners_);
+  }
+
+private:
+  void rebuild();
+  void write_face(Slot face);
+  void write_corners(Slot vertex);
+  Side side_of(Dart d) const;
+  std::size_t most_sides() const;
+
+  Body& body_;
+  std::size_t fan_ = 0;  // triangles reserved per face: what the face with the most sides takes
+  std::size_t full_ = 0; // faces that take all of them
+  PackedRows triangles_; // key: face slot × fan_ + n; vertices, sides, face
+  PackedRows corners_;   // key: corner slot; vertex, even end, odd end
+  Changes changes_;
+};
+
+} // namespace rend

@@ -1,0 +1,13 @@
+// From the <world> of a checked preset to what surrounds the bodies.
+#pragma once
+
+#include "sim/outside/world.h"
+
+namespace rend {
+
+const ElementType& world_type(); // <world>, as the parameter table has it
+
+// UserError, with its place, for what cannot be built.
+World build_world(const Node* node); // null: the preset says nothing of it
+
+} // namespace rend

@@ -1,0 +1,319 @@
+#include "sim/contact/contact_pairs.h"
+
+#include "sim/base/archive.h"
+#include "sim/outside/obstacle.h"
+#include "sim/topology/count.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <unsupported/Eigen/BVH>
+
+namespace rend {
+namespace {
+
+using Bounds = Eigen::AlignedBox3d;
+
+using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;
+
+// Where it is in the step.
+Bounds around(const ContactBody& body, Slot v) {
+  return Bounds(body.from(v)).extend(body.position(v).vec());
+}
+
+Bounds around(const ContactBody& body, const ContactFaces::Triangle& triangle) {
+  Bounds box;
+  for (Slot v : triangle.vertex) box.extend(around(body, v));
+  return box;
+}
+
+Bounds grown(const Bounds& box, double by) {
+  return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
+}
+
+// Calls f(object) for objects of a tree below a node, unless a box around them is apart from this one.
+template <class F> void meet(const Tree& tree, Tree::Index node, const Bounds& box, const F& f) {
+  Tree::VolumeIterator below{}, below_end{};
+  Tree::ObjectIterator object{}, object_end{};
+  tree.getChildren(node, below, below_end, object, object_end);
+  for (; below != below_end; ++below)
+    if (tree.getVolume(*below).intersects(box)) meet(tree, *below, box, f);
+  for (; object != object_end; ++object) f(*object);
+}
+
+// Whether they may come as near as `thickness` before one of them has moved by half the skin: by how far they
+// are apart at the end of the step, and how far they moved against each other in it.
+bool may_meet(const ContactBody& body, Slot v, const ContactBody& other, const ContactFaces::Triangle& triangle,
+              double reach) {
+  const Vec3 x = body.position(v), moved = x - body.from(v);
+  TriangleCorners y;
+  double most = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    y[k] = other.position(triangle.vertex[k]);
+    most = std::max(most, (moved - (y[k] - other.from(triangle.vertex[k]))).squaredNorm());
+  }
+  const Weights w = nearest_in_triangle(y, x);
+  return (x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2]).norm() <= reach + std::sqrt(most);
+}
+
+bool is_corner(Slot v, const ContactFaces::Triangle& triangle) {
+  return std::find(triangle.vertex.begin(), triangle.vertex.end(), v) != triangle.vertex.end();
+}
+
+// [m], of a vertex from a triangle of the same body.
+double apart_at_rest(const ContactBody& body, Slot v, const ContactFaces::Triangle& triangle) {
+  const auto& rest = body.body->map->rest();
+  const TriangleCorners x{rest[triangle.vertex[0]], rest[triangle.vertex[1]], rest[triangle.vertex[2]]};
+  const Weights w = nearest_in_triangle(x, rest[v]);
+  return (rest[v].vec() - w[0] * x[0] - w[1] * x[1] - w[2] * x[2]).norm();
+}
+
+} // namespace
+
+// All faces, those of each fragment in a tree of their own, and those trees in one: most faces near a vertex
+// are those of its own fragment, and are not even looked at.
+class ContactPairs::FaceTrees {
+public:
+  struct Face {
+    std::uint32_t body, fragment, triangle;
+  };
+  FaceTrees(std::vector<Face>&& faces, const Bodies& bodies, double margin) : faces_(std::move(faces)) {
+    std::stable_sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) {
+      return std::tie(a.body, a.fragment) < std::tie(b.body, b.fragment);
+    });
+    for (const Face& face : faces_)
+      boxes_.push_back(
+          grown(around(*bodies[face.body], bodies[face.body]->faces.triangles()[face.triangle]), margin));
+    std::vector<std::uint32_t> each(faces_.size());
+    std::iota(each.begin(), each.end(), 0U);
+    std::vector<Bounds> whole; // of each fragment
+    for (std::size_t begin = 0, end = 0; begin < faces_.size(); begin = end) {
+      Bounds box;
+      while (end < faces_.size() && faces_[end].body == faces_[begin].body &&
+             faces_[end].fragment == faces_[begin].fragment)
+        box.extend(boxes_[end++]);
+      const auto at = static_cast<std::ptrdiff_t>(begin), to = static_cast<std::ptrdiff_t>(end);
+      trees_.emplace_back(each.begin() + at, each.begin() + to, boxes_.begin() + at, boxes_.begin() + to);
+      first_.push_back(static_cast<std::uint32_t>(begin));
+      whole.push_back(box);
+    }
+    fragments_ = Tree(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(trees_.size()), whole.begin(),
+                      whole.end());
+    whole_ = std::move(whole);
+  }
+
+  // Calls f(face) for all whose boxes meet this one, but for those of fragments for which skip(face), of any
+  // face of it.
+  template <class Skip, class F> void each_near(const Bounds& box, const Skip& skip, const F& f) const {
+    if (faces_.empty()) return;
+    meet(fragments_, fragments_.getRootIndex(), box, [&](std::uint32_t n) {
+      if (skip(faces_[first_[n]]) || !whole_[n].intersects(box)) return;
+      meet(trees_[n], trees_[n].getRootIndex(), box, [&](std::uint32_t face) {
+        if (boxes_[face].intersects(box)) f(faces_[face]);
+      });
+    });
+  }
+
+private:
+  std::vector<Face> faces_;           // sorted by body and fragment
+  std::vector<Bounds> boxes_, whole_; // [m], one per face, one per fragment
+  std::vector<Tree> trees_;           // one per fragment
+  std::vector<std::uint32_t> first_;  // one per fragment: its first face
+  Tree fragments_;
+};
+
+void ContactPairs::list(const ContactBody& body, Of& of) const {
+  const EmbeddedMap& map = *body.body->map;
+  const std::vector<std::uint32_t> label = label_fragments(map.map());
+  of.vertices.clear();
+  of.vertex_fragment.clear();
+  of.face_fragment.clear();
+  of.several = false;
+  for (const ContactFaces::Triangle& triangle : body.faces.triangles()) {
+    of.vertices.insert(of.vertices.end(), triangle.vertex.begin(), triangle.vertex.end());
+    of.face_fragment.push_back(label[map.cells(FaceOfVolume).first_dart(triangle.face).value]);
+    of.several = of.several || of.face_fragment.back() != of.face_fragment.front();
+  }
+  std::sort(of.vertices.begin(), of.vertices.end());
+  of.vertices.erase(std::unique(of.vertices.begin(), of.vertices.end()), of.vertices.end());
+  for (Slot v : of.vertices) of.vertex_fragment.push_back(label[map.cells(Vertex).first_dart(v).value]);
+}
+
+const std::vector<ContactPair>& ContactPairs::find(const Bodies& bodies) {
+  of_.resize(bodies.size());
+  bool changed = !listed_;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]->settings().fragments || (listed_ && !bodies[b]->changed)) continue;
+    list(*bodies[b], of_[b]);
+    changed = true;
+  }
+  listed_ = true;
+  if (!anything(bodies))
+    pairs_.clear();
+  else if (changed || stale(bodies))
+    search(bodies);
+  return pairs_;
+}
+
+bool ContactPairs::anything(const Bodies& bodies) const {
+  std::size_t asking = 0;
+  bool several = false;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]->settings().fragments) continue;
+    ++asking;
+    several = several || of_[b].several || bodies[b]->settings().self;
+  }
+  return several || asking > 1;
+}
+
+// Whether something moved by half the skin since the last search. What all do together brings nothing nearer.
+bool ContactPairs::stale(const Bodies& bodies) const {
+  Vec3 mean = Vec3::Zero();
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Of& of = of_[b];
+    if (of.there.size() != of.vertices.size()) return true;
+    for (std::size_t n = 0; n < of.vertices.size(); ++n)
+      mean += bodies[b]->position(of.vertices[n]).vec() - of.there[n];
+    count += of.vertices.size();
+  }
+  if (count > 0) mean /= static_cast<double>(count);
+  const double most = 0.25 * skin_ * skin_;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (std::size_t n = 0; n < of_[b].vertices.size(); ++n)
+      if ((bodies[b]->position(of_[b].vertices[n]).vec() - of_[b].there[n] - mean).squaredNorm() > most)
+        return true;
+  return false;
+}
+
+void ContactPairs::search(const Bodies& bodies) {
+  ++searches_;
+  std::vector<FaceTrees::Face> faces;
+  double thickness = 0, sizes = 0;
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    if (!bodies[b]->settings().fragments) continue;
+    thickness = std::max(thickness, bodies[b]->settings().thickness);
+    const auto& triangles = bodies[b]->faces.triangles();
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      faces.push_back({b, of_[b].face_fragment[t], t});
+      sizes += around(*bodies[b], triangles[t]).diagonal().norm();
+    }
+  }
+  pairs_.clear();
+  if (faces.empty()) return;
+  skin_ = std::max(2 * thickness, 0.25 * sizes / static_cast<double>(faces.size()));
+  const FaceTrees trees(std::move(faces), bodies, skin_ + thickness);
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) search_for(bodies, b, trees, skin_ + thickness);
+}
+
+void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach) {
+  Of& of = of_[b];
+  of.there.clear();
+  for (std::size_t n = 0; n < of.vertices.size(); ++n) {
+    const Slot v = of.vertices[n];
+    of.there.push_back(bodies[b]->position(v));
+    const std::size_t begin = pairs_.size();
+    const auto own = [&](const FaceTrees::Face& face) {
+      return face.body == b && face.fragment == of.vertex_fragment[n] && !bodies[b]->settings().self;
+    };
+    trees.each_near(around(*bodies[b], v), own, [&](const FaceTrees::Face& face) {
+      ContactPair pair{b, v, face.body, face.triangle};
+      const ContactFaces::Triangle& triangle = bodies[face.body]->faces.triangles()[face.triangle];
+      if (allowed(bodies, n, pair) && may_meet(*bodies[b], v, *bodies[face.body], triangle, reach) &&
+          !joined(bodies, n, pair))
+        pairs_.push_back(pair);
+    });
+    std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(begin), pairs_.end(),
+              [](const ContactPair& a, const ContactPair& other) {
+                return std::tie(a.face_body, a.triangle) < std::tie(other.face_body, other.triangle);
+              });
+  }
+}
+
+bool ContactPairs::same_fragment(std::size_t entry, const ContactPair& pair) const {
+  const Of& of = of_[pair.body];
+  return pair.body == pair.face_body && of.vertex_fragment[entry] == of.face_fragment[pair.triangle];
+}
+
+bool ContactPairs::allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const {
+  if (!same_fragment(entry, pair)) return true;
+  const ContactBody& body = *bodies[pair.body];
+  return body.settings().self && !is_corner(pair.vertex, body.faces.triangles()[pair.triangle]);
+}
+
+// Whether what joins them holds them apart; finds out whether they are neighbours.
+bool ContactPairs::joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const {
+  if (pair.body != pair.face_body) return false;
+  const ContactBody& body = *bodies[pair.body];
+  const double apart = apart_at_rest(body, pair.vertex, body.faces.triangles()[pair.triangle]);
+  pair.neighbours = apart <= body.settings().thickness;
+  return same_fragment(entry, pair) && apart <= 2 * body.settings().thickness;
+}
+
+void ContactPair::store(Archive& archive) {
+  archive(body, vertex, face_body, triangle, neighbours);
+}
+
+void ContactPairs::Of::store(Archive& archive, std::size_t most) {
+  constexpr const char* what = "contact is of more vertices or faces than the body has";
+  archive.list(vertices, most, what);
+  archive.list(vertex_fragment, most, what);
+  archive.list(face_fragment, most, what);
+  archive.list(there, most, what);
+  archive(several);
+}
+
+bool ContactPairs::Of::same_lists(const Of& other) const {
+  return vertices == other.vertices && vertex_fragment == other.vertex_fragment &&
+         face_fragment == other.face_fragment && several == other.several;
+}
+
+void ContactPairs::store(Archive& archive, const Bodies& bodies) {
+  std::uint64_t lists = of_.size(), pairs = pairs_.size();
+  archive(lists);
+  refuse_unless(lists == 0 || lists == bodies.size(), "contact is of more or fewer bodies");
+  of_.resize(lists);
+  for (std::size_t b = 0; b < of_.size(); ++b) {
+    of_[b].store(archive, bodies[b]->body->map->map().capacity());
+    if (!archive.reading()) continue;
+    Of now; // as it is listed of the map
+    if (bodies[b]->settings().fragments) list(*bodies[b], now);
+    refuse_unless(of_[b].same_lists(now), "contact is of other vertices or faces than the body has");
+  }
+  archive(pairs);
+  if (archive.reading()) pairs_.clear();
+  for (std::size_t n = 0; n < pairs; ++n) {
+    archive(archive.reading() ? pairs_.emplace_back() : pairs_[n]);
+    if (archive.reading()) check_pair(bodies, n);
+  }
+  archive(skin_, listed_, searches_);
+  if (!archive.reading()) return;
+  refuse_unless(skin_ >= 0 && is_count(searches_), "contact was looked for nowhere, or less often than never");
+  refuse_unless(listed_ == !of_.empty(), "contact knows nothing of its bodies");
+}
+
+// Pairs are sorted, and of vertices and triangles that there are.
+void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
+  const ContactPair& pair = pairs_[number];
+  refuse_unless(pair.body < of_.size() && pair.face_body < of_.size(),
+                "contact is between bodies that are not there");
+  const std::vector<Slot>& vertices = of_[pair.body].vertices;
+  refuse_unless(std::binary_search(vertices.begin(), vertices.end(), pair.vertex),
+                "contact is of a vertex that is not there");
+  refuse_unless(pair.triangle < bodies[pair.face_body]->faces.triangles().size(),
+                "contact is with a face that is not there");
+  const auto order = [](const ContactPair& p) { return std::tie(p.body, p.vertex, p.face_body, p.triangle); };
+  refuse_unless(number == 0 || order(pairs_[number - 1]) < order(pair),
+                "contact is listed in disorder, or twice");
+}
+
+std::size_t ContactPairs::bytes() const {
+  std::size_t sum = bytes_of(pairs_);
+  for (const Of& of : of_)
+    sum +=
+        bytes_of(of.vertices) + bytes_of(of.vertex_fragment) + bytes_of(of.face_fragment) + bytes_of(of.there);
+  return sum;
+}
+
+} // namespace rend

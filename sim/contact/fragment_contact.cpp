@@ -1,0 +1,117 @@
+#include "sim/contact/fragment_contact.h"
+
+#include "sim/outside/obstacle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+constexpr int sweeps = 4;
+constexpr double relaxation = 0.05;  // [s]
+constexpr double coincident = 1e-10; // of the thickness and the face's size
+constexpr double deepest = 0.2; // of a face's size: below a solid's face that is still taken for an overlap
+constexpr double beside = 1.5;  // thicknesses at which a way passes by a face
+
+TriangleCorners mixed(const TriangleCorners& a, const TriangleCorners& b, double share) {
+  TriangleCorners out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = a[k] + share * (b[k] - a[k]);
+  return out;
+}
+
+Vec3 at(const TriangleCorners& x, const Weights& w) {
+  return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
+}
+
+bool over(const Weights& w) { // and not beside
+  return w[0] > 0 && w[1] > 0 && w[2] > 0;
+}
+
+// Of a vertex at x and a face: the nearest point, and the direction in which the vertex is to be kept.
+struct Facing {
+  Weights weight{};
+  Vec3 normal = Vec3::Zero();
+  double gap = 0; // [m], below 0: under the face of a solid
+};
+std::optional<Facing> facing(const Vec3& x, const TriangleCorners& face, bool solid, double thickness) {
+  Facing out;
+  out.weight = nearest_in_triangle(face, x);
+  const Vec3 way = x - at(face, out.weight);
+  const double distance = way.norm();
+  const Vec3 area = (face[1] - face[0]).cross(face[2] - face[0]);
+  const double size = area.norm();
+  const bool known = distance > coincident * (thickness + distance + (face[1] - face[0]).norm());
+  if (solid && size > 0 && (over(out.weight) || !known)) {
+    out.normal = area / size;
+    out.gap = out.normal.dot(way);
+    return out.gap > -std::max(thickness, deepest * std::sqrt(size)) ? std::optional(out) : std::nullopt;
+  }
+  if (!known || (solid && way.dot(area) < 0)) return {};
+  out.normal = way / distance;
+  out.gap = distance;
+  return out;
+}
+
+} // namespace
+
+std::optional<FragmentContact::Touch> FragmentContact::touch(const ContactPairs::Bodies& bodies,
+                                                             const ContactPair& pair, double step) const {
+  const ContactBody &body = *bodies[pair.body], &other = *bodies[pair.face_body];
+  const double thickness = ContactPairs::thickness(body, other);
+  const auto& slots = other.faces.triangles()[pair.triangle].vertex;
+  const Vec3 x0 = body.from(pair.vertex), x1 = body.position(pair.vertex);
+  const TriangleCorners y0{other.from(slots[0]), other.from(slots[1]), other.from(slots[2])};
+  const TriangleCorners y1{other.position(slots[0]), other.position(slots[1]), other.position(slots[2])};
+  const bool solid = other.body->map->dimension() == 3;
+  auto start = facing(x0, y0, solid, thickness);
+  if (!start) return {};
+  const double before = start->gap, after = start->normal.dot(x1 - at(y1, start->weight));
+  if (after >= thickness) return {};
+  if (before > thickness) { // where the way comes as near as that: it may pass by
+    const double share = (before - thickness) / (before - after);
+    const Vec3 there = x0 + share * (x1 - x0);
+    const Vec3 side = start->normal;
+    start = facing(there, mixed(y0, y1, share), solid, thickness);
+    if (!start || start->gap > beside * thickness || start->normal.dot(side) <= 0) return {};
+  }
+  double wanted = std::min(thickness, before);
+  const double short_of = (before < 0 ? 0 : thickness) - before;
+  if (short_of > 0 && (before < 0 || !pair.neighbours)) wanted += std::min(1.0, step / relaxation) * short_of;
+  const double friction = std::max(body.settings().friction, other.settings().friction);
+  const ContactPoint vertex = ContactPoint::at(body, pair.vertex), face{&other, slots, start->weight};
+  const Vec3 normal = start->normal;
+  return Touch{vertex, face, normal, wanted, friction, vertex.held(normal), face.held(normal)};
+}
+
+void FragmentContact::meet(const Touch& touch, double step) {
+  Vec3 yields = Vec3::Zero();
+  if (!touch.vertex_held) yields += touch.vertex.inverse_mass();
+  if (!touch.face_held) yields += touch.face.inverse_mass();
+  const double w = yield_along(touch.normal, yields);
+  const double left = touch.gap - touch.normal.dot(touch.vertex.position() - touch.face.position());
+  if (left <= 0 || w == 0) return;
+  const Vec3 u = touch.vertex.velocity() - touch.face.velocity();
+  const Impulse impulse = impact(u, touch.normal, touch.friction, yields);
+  const Vec3 dragged = step * impulse.friction;
+  const double after = left - touch.normal.dot(yields.cwiseProduct(dragged));
+  const Vec3 by = dragged + std::max(0.0, after) / w * touch.normal;
+  if (!touch.vertex_held) {
+    touch.vertex.push(impulse.whole(), 0);
+    touch.vertex.shift(by);
+  }
+  if (!touch.face_held) {
+    touch.face.push(-impulse.whole(), 0);
+    touch.face.shift(-by);
+  }
+}
+
+void FragmentContact::advance(const ContactPairs::Bodies& bodies, double step) {
+  touches_.clear();
+  for (const ContactPair& pair : pairs_.find(bodies))
+    if (auto found = touch(bodies, pair, step)) touches_.push_back(*found);
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (const Touch& touch : touches_) meet(touch, step);
+}
+
+} // namespace rend

@@ -1,0 +1,240 @@
+#include "sim/contact/obstacle_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+constexpr int sweeps = 8;
+constexpr int passes = 2;            // over faces: what one puts out, its neighbour may put in
+constexpr double touching = 1e-9;    // [m]
+constexpr double relaxation = 0.05;  // [s], of what was inside at the start of the step
+constexpr double fastest = 0.1;      // [m/s], of that
+constexpr double own_friction = 0.5; // between obstacles that say nothing of it
+
+using Bounds = Eigen::AlignedBox3d;
+
+// A sphere in a step, as the templates below see it.
+struct MovingSphere {
+  const Sphere* sphere;
+  Vec3 velocity() const { return sphere->next_velocity; }
+  Bounds bounds(double margin) const {
+    const Vec3 reach = Vec3::Constant(sphere->radius + margin);
+    Bounds box(sphere->next_centre - reach, sphere->next_centre + reach);
+    return box.extend(sphere->centre - reach).extend(sphere->centre + reach);
+  }
+  double depth(const Vec3& from, double margin) const {
+    return sphere->radius + margin - (from - sphere->centre).norm();
+  }
+  std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
+    const Vec3 a = from - sphere->centre, b = to - sphere->next_centre;
+    auto plane = Sphere::stop(a, b, sphere->radius + margin);
+    if (plane) plane->offset += plane->normal.dot(sphere->next_centre);
+    return plane;
+  }
+  Weights deepest(const TriangleCorners& x) const { return nearest_in_triangle(x, sphere->next_centre); }
+};
+
+struct StandingBox {
+  const Box* box;
+  Vec3 velocity() const { return Vec3::Zero(); }
+  Bounds bounds(double margin) const {
+    return {box->low - Vec3::Constant(margin), box->high + Vec3::Constant(margin)};
+  }
+  double depth(const Vec3& from, double margin) const {
+    return margin + std::min((from - box->low).minCoeff(), (box->high - from).minCoeff());
+  }
+  std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
+    return box->stop(from, to, margin);
+  }
+  Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
+};
+
+// On which sides a point is outside: bits 2 a and 2 a + 1 for less and more along axis a (Cohen and
+// Sutherland's).
+using Outside = std::uint8_t;
+Outside outside(const Bounds& near, const Vec3& x) {
+  unsigned code = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    code |= static_cast<unsigned>(x[axis] <= near.min()[axis]) << (2 * axis) |
+            static_cast<unsigned>(x[axis] >= near.max()[axis]) << (2 * axis + 1);
+  return static_cast<Outside>(code);
+}
+
+// Calls f(point, plane) for each vertex of the body that the obstacle is to stop. `codes`: where that leaves
+// each slot.
+template <class Shape, class F>
+void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, F&& f) {
+  const double margin = body.settings().thickness;
+  const Bounds near = shape.bounds(margin - touching); // what lies on a side is not looked at
+  codes.resize(body.vertices());
+  for (Slot v = 0; v < body.vertices(); ++v) {
+    const Vec3 to = body.position(v);
+    codes[v] = outside(near, to);
+    if (codes[v] != 0 && (codes[v] & outside(near, body.from(v))) != 0) continue;
+    if (!body.alive(v)) continue;
+    const auto plane = shape.stop(body.from(v), to, margin);
+    if (!plane) continue;
+    f(ContactPoint::at(body, v), *plane, shape.depth(body.from(v), margin));
+    codes[v] = outside(near, body.position(v));
+  }
+}
+
+// The same for the deepest point of each face, with those codes.
+template <class Shape, class F>
+void for_each_face(const Shape& shape, const ContactBody& body, const std::vector<Outside>& codes, F&& f) {
+  const double margin = body.settings().thickness;
+  for (const ContactFaces::Triangle& triangle : body.faces.triangles()) {
+    const auto [a, b, c] = triangle.vertex;
+    if ((codes[a] & codes[b] & codes[c]) != 0) continue;
+    const TriangleCorners x{body.position(a), body.position(b), body.position(c)};
+    const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
+    if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
+    const auto plane = shape.stop(point.from(), point.position(), margin);
+    if (plane) f(point, *plane, shape.depth(point.from(), margin));
+  }
+}
+
+// How deep [m] a point may still be at the end of a step that was as deep as `before` at its start.
+double still_deep(double before, double step) {
+  return before > 0 ? before - std::min(before * std::min(1.0, step / relaxation), fastest * step) : 0;
+}
+
+// By positions alone, but for a depth that is kept [m].
+void put_out(const ContactPoint& point, const Plane& plane, double kept) {
+  const double gap = plane.normal.dot(point.position()) - plane.offset + kept;
+  if (gap < 0) point.shift(-gap / yield_along(plane.normal, point.inverse_mass()) * plane.normal);
+}
+
+// Puts a point out of an obstacle that does not yield.
+void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacle, double friction, double kept,
+              double step) {
+  if (plane.normal.dot(point.position()) >= plane.offset || point.held(plane.normal)) return;
+  const Impulse impulse = impact(point.velocity() - obstacle, plane.normal, friction, point.inverse_mass());
+  point.push(impulse.whole(), 0);
+  point.shift(step * impulse.friction);
+  put_out(point, plane, kept);
+}
+
+template <class Shape>
+void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, double friction,
+                   double step, bool falls) {
+  const Vec3 velocity = shape.velocity();
+  const auto act = [&](const ContactPoint& point, const Plane& plane, double before) {
+    const double kept = still_deep(before, step);
+    if (!falls) return keep_out(point, plane, velocity, friction, kept, step);
+    if (!point.held(plane.normal)) put_out(point, plane, kept); // momentum was traded before
+  };
+  for_each_vertex(shape, body, codes, act);
+  for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, codes, act);
+}
+
+// The point of the box that is nearest to x.
+Vec3 nearest(const Box& box, const Vec3& x) {
+  return x.cwiseMax(box.low).cwiseMin(box.high);
+}
+
+// The plane that keeps a sphere's centre out of a box.
+std::optional<Plane> plane_against(const Box& box, const Sphere& sphere) {
+  const Vec3 to = sphere.next_centre, at = nearest(box, to), from = to - at;
+  const double distance = from.norm();
+  if (distance >= sphere.radius) return {};
+  if (distance == 0) return box.stop(sphere.centre, to, sphere.radius);
+  return Plane{from / distance, from.dot(at) / distance + sphere.radius};
+}
+
+// By what does not yield.
+void stop(Sphere& sphere, const Vec3& normal, double friction) {
+  sphere.next_velocity += impact(sphere.next_velocity, normal, friction, Vec3::Ones()).whole();
+}
+
+} // namespace
+
+void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& bodies, double time,
+                              double step) {
+  for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity);
+  trade(bodies, step);
+  for (const auto& body : bodies) {
+    if (!body->settings().obstacles) continue;
+    const double own = body->settings().friction;
+    for (const Sphere& sphere : world_.spheres)
+      keep_body_out(MovingSphere{&sphere}, *body, codes_, sphere.friction.value_or(own), step, sphere.falls());
+    for (const Box& box : world_.boxes)
+      keep_body_out(StandingBox{&box}, *body, codes_, box.friction.value_or(own), step, false);
+  }
+}
+
+void ObstacleContact::trade(const std::vector<std::unique_ptr<ContactBody>>& bodies, double step) {
+  touches_.clear();
+  bool falls = false;
+  for (std::size_t s = 0; s < world_.spheres.size(); ++s) {
+    if (!world_.spheres[s].falls()) continue;
+    falls = true;
+    for (const auto& body : bodies)
+      if (body->settings().obstacles) find_touches(s, *body);
+  }
+  if (!falls) return;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (Touch& touch : touches_) meet(touch, step);
+    for (Sphere& a : world_.spheres)
+      for (Sphere& b : world_.spheres)
+        if (&a < &b) collide(a, b);
+    for (Sphere& sphere : world_.spheres)
+      if (sphere.falls()) support(sphere);
+  }
+  for (Sphere& sphere : world_.spheres)
+    if (sphere.falls()) settle(sphere, step);
+}
+
+void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) {
+  const Sphere& sphere = world_.spheres[number];
+  const double friction = sphere.friction.value_or(body.settings().friction);
+  const auto keep = [&](const ContactPoint& point, const Plane& plane, double) {
+    touches_.push_back({number, point, plane.normal, friction, point.held(plane.normal)});
+  };
+  for_each_vertex(MovingSphere{&sphere}, body, codes_, keep);
+  for_each_face(MovingSphere{&sphere}, body, codes_, keep);
+}
+
+void ObstacleContact::meet(Touch& touch, double step) {
+  Sphere& sphere = world_.spheres[touch.sphere];
+  const double W = sphere.inverse_mass();
+  const Vec3 yields = Vec3::Constant(W) + (touch.held ? Vec3(Vec3::Zero()) : touch.point.inverse_mass());
+  const Vec3 impulse =
+      impact(touch.point.velocity() - sphere.next_velocity, touch.normal, touch.friction, yields).whole();
+  if (!touch.held) touch.point.push(impulse, step);
+  sphere.next_velocity -= W * impulse;
+}
+
+// The floor and boxes under a sphere that falls.
+void ObstacleContact::support(Sphere& sphere) {
+  const double own = sphere.friction.value_or(own_friction);
+  if (world_.floor && sphere.next_centre.z() < *world_.floor + sphere.radius)
+    stop(sphere, Vec3::UnitZ(), world_.floor_friction.value_or(own));
+  for (const Box& box : world_.boxes)
+    if (const auto plane = plane_against(box, sphere)) stop(sphere, plane->normal, box.friction.value_or(own));
+}
+
+void ObstacleContact::collide(Sphere& a, Sphere& b) {
+  const Vec3 apart = b.next_centre - a.next_centre;
+  const double distance = apart.norm(), w = a.inverse_mass() + b.inverse_mass();
+  if (w == 0 || distance == 0 || distance >= a.radius + b.radius) return;
+  const double friction = a.friction.value_or(b.friction.value_or(own_friction));
+  const Vec3 impulse =
+      impact(b.next_velocity - a.next_velocity, apart / distance, friction, Vec3::Constant(w)).whole();
+  a.next_velocity -= a.inverse_mass() * impulse;
+  b.next_velocity += b.inverse_mass() * impulse;
+}
+
+// With its velocity to where it ends, but not into what stands there.
+void ObstacleContact::settle(Sphere& sphere, double step) {
+  sphere.next_centre = sphere.centre + step * sphere.next_velocity;
+  for (const Box& box : world_.boxes)
+    if (const auto plane = plane_against(box, sphere))
+      sphere.next_centre +=
+          std::max(0.0, plane->offset - plane->normal.dot(sphere.next_centre)) * plane->normal;
+  if (world_.floor) sphere.next_centre.z() = std::max(sphere.next_centre.z(), *world_.floor + sphere.radius);
+}
+
+} // namespace rend

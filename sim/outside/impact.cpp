@@ -1,0 +1,21 @@
+#include "sim/outside/impact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+
+Impulse impact(const Vec3& u, const Vec3& normal, double friction, const Vec3& yields) {
+  Impulse out;
+  const double lost = std::max(0.0, -u.dot(normal)), along = yield_along(normal, yields);
+  if (lost == 0 || along == 0) return out;
+  out.normal = lost / along * normal;
+  const Vec3 after = u + yields.cwiseProduct(out.normal);
+  const Vec3 sliding = after - after.dot(normal) * normal;
+  const double square = sliding.squaredNorm(), across = sliding.dot(yields.cwiseProduct(sliding));
+  if (across > 0)
+    out.friction = -std::min(square / across, friction * lost / (along * std::sqrt(square))) * sliding;
+  return out;
+}
+
+} // namespace rend

@@ -1,0 +1,35 @@
+#include "sim/outside/injected_fault.h"
+
+#include <limits>
+
+namespace rend {
+
+const char* name_of(StepStage stage) {
+  switch (stage) {
+  case StepStage::Forces:
+    return "forces";
+  case StepStage::Loads:
+    return "loads";
+  case StepStage::Integration:
+    return "integration";
+  case StepStage::Contact:
+    return "contact";
+  }
+  return "";
+}
+
+void FaultySpot::spoil(const double* inverse_mass, std::size_t count, Record* values) {
+  std::size_t first = 0;
+  while (first < count && inverse_mass[first] == 0) ++first;
+  if (first == count) return;
+  values[first].x = std::numeric_limits<double>::quiet_NaN();
+  if (!armed_->lasting) disarm();
+}
+
+const Record* FaultySpot::spoil_copy(const double* inverse_mass, std::size_t count, const Record* values) {
+  copy_.assign(values, values + count);
+  spoil(inverse_mass, count, copy_.data());
+  return copy_.data();
+}
+
+} // namespace rend

@@ -1,0 +1,101 @@
+// Loads: forces from outside, on a patch of the body's boundary (patch.h).
+//
+//   force F      f_n = a_n F              a_n: the vertex's share of area or length at rest; Σ a_n = 1
+//   moment M     f_n = a_n θ × (x_n − c)  c = Σ a_n x_n / Σ a_n; θ such that Σ (x_n − c) × f_n = M; Σ f_n = 0
+//   pressure p   f_n = −p A_n             A_n: the vertex's vector area now, outwards
+//
+// A moment is what a bending stress gives, linear over the section, in the present position: its value stays
+// exact however the patch turns. On a straight edge it has no part along the edge. With follows = body, F and M
+// turn with the patch: by the rotation R that brings it closest to where it is, in the sense of least squares
+// (Kabsch 1976), R = U diag(1, 1, det UVᵀ) Vᵀ of Σ (x_n − c)(X_n − C)ᵀ; of edges and single vertices, with the
+// elements that they belong to. Shares are those of the body as it was built: what is torn off carries its own
+// along, and what is deleted takes it away.
+#pragma once
+
+#include "sim/outside/wind.h"
+
+#include <limits>
+#include <optional>
+
+namespace rend {
+
+struct LoadSettings {
+  enum class Kind { Force, Moment, Pressure };
+  Kind kind = Kind::Force;
+  Vec3 amount = Vec3::Zero(); // [N] or [N·m]
+  double pressure = 0;        // [Pa]
+  bool with_body = false;
+  double from = 0,
+         until = -std::numeric_limits<double>::infinity(); // [s]; grows from `from` to `until`, if later
+
+  double share(double time) const; // 0 to 1
+};
+
+class Load {
+public:
+  // The patch must have cells; see Patch.
+  Load(const EmbeddedMap& map, const LoadSettings& settings, Patch patch);
+  void rebind(const EmbeddedMap& map);
+
+  const LoadSettings& settings() const { return settings_; }
+  bool constant() const { return settings_.kind == LoadSettings::Kind::Force && !settings_.with_body; }
+  const std::vector<Slot>& vertices() const { return patch_.cells().vertices(); } // with repetitions
+
+  std::size_t cells() const { return patch_.cells().size(); }
+  std::size_t bytes() const { return patch_.bytes() + bytes_of(part_) + bytes_of(frame_); }
+
+  // Whether a moment can be had at all: not along a straight line of vertices.
+  bool possible(const EmbeddedMap& map) const;
+
+  // Adds the force [N] on each vertex; [m] and [N], one per vertex slot.
+  void add(const EmbeddedMap& map, double time, const Record* position, Record* force) const;
+
+private:
+  struct Section; // of a moment
+  Section section(const Record* position) const;
+  void share_out(const EmbeddedMap& map);
+  void add_moment(const Vec3& moment, const Record* position, Record* force) const;
+  void add_pressure(double pressure, const Record* position, Record* force) const;
+  Eigen::Matrix3d rotation(const EmbeddedMap& map, const Record* position) const;
+
+  LoadSettings settings_;
+  Patch patch_;
+  double whole_ = 0;         // the measure of the whole patch, as it was built [m²], [m] or 1
+  std::vector<double> part_; // of it, one for each of vertices(); not of a pressure
+  std::vector<Slot> frame_;  // whose rotation counts, with repetitions; empty unless it follows the body
+  bool line_ = false;        // at rest, all vertices lie on a straight line
+};
+
+// All of a body.
+class Loads {
+public:
+  void add(Load load);
+  void set(WindLoad wind);
+  bool empty() const { return loads_.empty() && !wind_; }
+  const std::vector<Load>& loads() const { return loads_; }
+  const std::optional<WindLoad>& wind() const { return wind_; }
+  std::size_t bytes() const; // of lists and of the sum, besides the embeddings
+
+  void rebind(const EmbeddedMap& map); // after edits
+  void reserve_for_separations(const EmbeddedMap& map);
+
+  bool constant() const; // neither on time, once they are whole, nor on the state
+
+  // The sum [N], one per vertex slot; null if there are none. Stays until the next call.
+  const Record* evaluate(const EmbeddedMap& map, double time, const Record* position, const Record* velocity);
+
+  // How fast wind damps the body where it is at rest, at most [1/s].
+  double damping_rate(const EmbeddedMap& map, const double* inverse_mass) const {
+    return wind_ ? wind_->damping_rate(map, inverse_mass) : 0;
+  }
+
+private:
+  bool up_to_date(double time) const;
+  std::vector<Load> loads_;
+  std::optional<WindLoad> wind_;
+  std::vector<Record> sum_;   // [N], one per vertex slot
+  std::vector<double> share_; // of each load, in sum_
+  bool known_ = false;        // sum_ is of the present map
+};
+
+} // namespace rend

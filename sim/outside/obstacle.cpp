@@ -1,0 +1,158 @@
+#include "sim/outside/obstacle.h"
+
+#include "sim/base/archive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rend {
+
+void Sphere::predict(double time, double step, const Vec3& gravity) {
+  next_velocity = falls() ? Vec3(velocity + step * gravity) : velocity;
+  next_centre = falls() ? Vec3(centre + step * next_velocity) : Vec3(start + time * velocity);
+}
+
+void Sphere::store(Archive& archive) {
+  const Vec3 prescribed = velocity;
+  archive(centre, velocity, next_centre, next_velocity);
+  if (archive.reading())
+    refuse_unless(falls() || velocity == prescribed, "a sphere moves as its preset does not say");
+}
+
+void Sphere::commit() {
+  centre = next_centre;
+  velocity = next_velocity;
+}
+
+namespace {
+
+Plane tangent(const Vec3& at, double reach) {
+  const double length = at.norm();
+  return {length > 0 ? Vec3(at / length) : Vec3(Vec3::UnitZ()), reach};
+}
+
+constexpr double grazing = 0.02; // of the radius: how deep a way may pass through without being stopped
+constexpr double alike = 0.8;    // cosine between two normals, of which the later one is then taken
+
+// Where the way first meets the sphere; `from` itself where it is inside.
+Vec3 met(const Vec3& from, const Vec3& way, double reach) {
+  const double c = from.squaredNorm() - reach * reach, b = from.dot(way), a = way.squaredNorm();
+  if (c <= 0 || a == 0) return from;
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  return from + std::clamp((-b - root) / a, 0.0, 1.0) * way;
+}
+
+} // namespace
+
+std::optional<Plane> Sphere::stop(const Vec3& from, const Vec3& to, double reach) {
+  const double left = to.squaredNorm(), square = reach * reach;
+  const Vec3 way = to - from;
+  if (left < square) {
+    const Vec3 entry = met(from, way, reach);
+    const bool guides = 4 * left > square && entry.dot(to) > alike * entry.norm() * to.norm();
+    return tangent(guides ? to : entry, reach);
+  }
+  const double length = way.squaredNorm(), passed = (1 - grazing) * (1 - grazing) * square;
+  if (length < square - passed) return {}; // too short a chord to pass so deep
+  const double share = -from.dot(way) / length;
+  if (share <= 0 || share >= 1 || (from + share * way).squaredNorm() > passed) return {};
+  return tangent(met(from, way, reach), reach);
+}
+
+std::optional<Plane> Box::stop(const Vec3& from, const Vec3& to, double margin) const {
+  double in = -1, out = 1, least = 1e300; // shares of the way; depth [m] of `from` below the nearest side
+  Plane entry, nearest;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double ends[2] = {low[axis] - margin, high[axis] + margin};
+    for (int end = 0; end < 2; ++end) {
+      const double sign = end == 0 ? -1 : 1;
+      const double above = sign * (from[axis] - ends[end]), above_later = sign * (to[axis] - ends[end]);
+      if (above >= 0 && above_later >= 0) return {};
+      const double share = above / (above - above_later);
+      const Plane side{Vec3(sign * Vec3::Unit(axis)), sign * ends[end]};
+      if (above >= 0 && share > in) {
+        in = share;
+        entry = side;
+      } else if (above < 0 && above_later > 0) {
+        out = std::min(out, share);
+      }
+      if (above < 0 && -above < least) {
+        least = -above;
+        nearest = side;
+      }
+    }
+  }
+  if (in >= out) return {}; // it passes a corner
+  if (in >= 0) return entry;
+  const bool inside = ((to - low).array() > -margin).all() && ((high - to).array() > -margin).all();
+  return inside ? std::optional(nearest) : std::nullopt;
+}
+
+Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point) {
+  const Vec3 ab = x[1] - x[0], ac = x[2] - x[0], ap = point - x[0];
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+  const Vec3 bp = point - x[1];
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const double s = d1 > d3 ? d1 / (d1 - d3) : 0;
+    return {1 - s, s, 0};
+  }
+  const Vec3 cp = point - x[2];
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const double s = d2 > d6 ? d2 / (d2 - d6) : 0;
+    return {1 - s, 0, s};
+  }
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const double along = d4 - d3, all = along + (d5 - d6);
+    const double s = all > 0 ? along / all : 0;
+    return {0, 1 - s, s};
+  }
+  const double whole = va + vb + vc;
+  return {va / whole, vb / whole, vc / whole};
+}
+
+namespace {
+
+// Where in [0, 1] a convex function is least, by golden section, to 1/300; and its value.
+template <class F> std::pair<double, double> least(F&& f) {
+  constexpr double golden = 0.6180339887498949;
+  double low = 0, high = 1, a = 1 - golden, b = golden, fa = f(a), fb = f(b);
+  for (int n = 0; n < 10; ++n) {
+    if (fa < fb) {
+      high = b;
+      b = a;
+      fb = fa;
+      a = high - golden * (high - low);
+      fa = f(a);
+    } else {
+      low = a;
+      a = b;
+      fa = fb;
+      b = low + golden * (high - low);
+      fb = f(b);
+    }
+  }
+  return fa < fb ? std::pair(a, fa) : std::pair(b, fb);
+}
+
+} // namespace
+
+Weights deepest_in_box(const TriangleCorners& x, const Box& box) {
+  const Vec3 centre = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
+  const Vec3 from = x[0] - centre, side = x[1] - x[0], across = x[2] - x[1];
+  const auto along_chord = [&](double s) { // chords are parallel to the side across from corner 0
+    return least([&](double t) { return ((from + s * side + s * t * across).cwiseAbs() - half).maxCoeff(); });
+  };
+  const double s = least([&](double at) { return along_chord(at).second; }).first, t = along_chord(s).first;
+  return {1 - s, s * (1 - t), s * t};
+}
+
+} // namespace rend

@@ -1,0 +1,67 @@
+#include "sim/outside/wind.h"
+
+#include "sim/mechanics/winding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+
+WindLoad::WindLoad(EmbeddedMap& map, const Wind& wind) : wind_(wind), sheet_(map.dimension() == 2) {
+  map.use(FaceOfVolume);
+  rebind(map);
+}
+
+void WindLoad::rebind(const EmbeddedMap& map) {
+  faces_.clear();
+  const CellIndex& cells = map.cells(FaceOfVolume);
+  std::vector<Slot> vertices;
+  for (Slot f = 0; f < cells.slots(); ++f) {
+    if (!cells.alive(f)) continue;
+    const Dart d = cells.first_dart(f);
+    if (!map.map().is_free(3, d)) continue;
+    vertices_of_face(map, d, !sheet_ && !winds_outward(map, d), vertices);
+    faces_.add(vertices);
+  }
+}
+
+void WindLoad::add(const Record* position, const Record* velocity, Record* force) const {
+  std::vector<Vec3>&x = corners_, &area = areas_;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const std::span<const Slot> vertices = faces_[f];
+    x.clear();
+    for (Slot v : vertices) x.push_back(position[v].vec());
+    area.resize(x.size());
+    corner_areas(x, area);
+    Vec3 normal = Vec3::Zero();
+    for (const Vec3& a : area) normal += a;
+    const double whole = normal.norm();
+    if (!(whole > 0)) continue; // a face without area
+    normal /= whole;
+    Vec3 air = wind_.velocity;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      air -= area[i].dot(normal) / whole * velocity[vertices[i]].vec();
+    const double along = air.dot(normal);
+    if (!sheet_ && along >= 0) continue;
+    const Vec3 pressure = wind_.drag * std::abs(along) * along * normal;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      force[vertices[i]] = Record(force[vertices[i]].vec() + area[i].dot(normal) * pressure);
+  }
+}
+
+double WindLoad::damping_rate(const EmbeddedMap& map, const double* inverse_mass) const {
+  std::vector<double> seen(map.cells(Vertex).slots()); // area [m²] of each vertex
+  std::vector<Vec3> x, area;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    x.clear();
+    for (Slot v : faces_[f]) x.push_back(map.rest()[v].vec());
+    area.resize(x.size());
+    corner_areas(x, area);
+    for (std::size_t i = 0; i < x.size(); ++i) seen[faces_[f][i]] += area[i].norm();
+  }
+  double most = 0;
+  for (std::size_t v = 0; v < seen.size(); ++v) most = std::max(most, seen[v] * inverse_mass[v]);
+  return 2 * wind_.drag * wind_.velocity.norm() * most;
+}
+
+} // namespace rend

@@ -1,0 +1,233 @@
+// The kernel of mechanics/element_law.h, four elements at a time, one pass over what they carry.
+//
+// For each kind of element, with or without rotation and damping: positions are gathered and turned into lanes,
+// F is formed at each integration point, R from their mean (at each point of a sheet's quad), and P = w R σ
+// goes back through J⁻ᵀ to the corners. Nothing but J⁻¹ and w is read: 80 bytes of a tetrahedron, 640 of a
+// hexahedron (its 24 × 24 stiffness would be 4608). Points of a hexahedron are read twice, the second time from
+// the nearest cache.
+#pragma once
+
+#include "sim/mechanics/element_law.h"
+#include "sim/rows/element_lanes.h"
+#include "sim/rows/rotation_lanes.h"
+
+namespace rend::lanes {
+
+enum class Turning { None, Qr, Polar };
+
+// J⁻¹ of a point: F's column c is Σ_r D_r A[r][c].
+template <int Dim> struct Inverse {
+  Double4 A[Dim][Dim];
+  Double4 weight;
+  static constexpr std::size_t stride = (Dim * Dim + 1) * PackedRows::lanes;
+  explicit REND_INLINE Inverse(const double* values) {
+    for (int r = 0; r < Dim; ++r)
+      for (int c = 0; c < Dim; ++c) A[r][c] = load_four(values + 4 * (Dim * r + c));
+    weight = load_four(values + 4 * Dim * Dim);
+  }
+};
+
+template <class Shape, int Dim>
+REND_INLINE Matrix<Dim> gradient_at(int g, const Vector* D, const Inverse<Dim>& inverse) {
+  Matrix<Dim> F;
+  for (int c = 0; c < Dim; ++c) {
+    F.column[c] = inverse.A[0][c] * D[Shape::column(g, 0)];
+    for (int r = 1; r < Dim; ++r) F.column[c] = F.column[c] + inverse.A[r][c] * D[Shape::column(g, r)];
+  }
+  return F;
+}
+
+// w R σ(sym(RᵀF) − I).
+template <int Dim>
+REND_INLINE Matrix<Dim> turned_stress(const Matrix<Dim>& R, const Matrix<Dim>& F, const Double4& weight,
+                                      double lambda, double mu) {
+  Double4 U[Dim][Dim]; // RᵀF
+  for (int r = 0; r < Dim; ++r)
+    for (int c = 0; c < Dim; ++c) U[r][c] = dot(R.column[r], F.column[c]);
+  Double4 trace = U[0][0];
+  for (int r = 1; r < Dim; ++r) trace += U[r][r];
+  trace = (lambda * weight) * (trace - static_cast<double>(Dim));
+  const Double4 once = mu * weight, twice = 2.0 * once;
+  Matrix<Dim> P;
+  for (int c = 0; c < Dim; ++c) {
+    P.column[c] = (twice * (U[c][c] - 1.0) + trace) * R.column[c];
+    for (int r = 0; r < Dim; ++r)
+      if (r != c) P.column[c] = P.column[c] + (once * (U[r][c] + U[c][r])) * R.column[r];
+  }
+  return P;
+}
+
+// The same with R = I: w σ.
+REND_INLINE Matrix<3> stress(const Matrix<3>& F, const Double4& weight, double lambda, double mu) {
+  const Vector &f0 = F.column[0], &f1 = F.column[1], &f2 = F.column[2];
+  const Double4 once = mu * weight, twice = 2.0 * once;
+  const Double4 trace = (lambda * weight) * (f0.x + f1.y + f2.z - 3.0);
+  const Double4 xy = once * (f1.x + f0.y), xz = once * (f2.x + f0.z), yz = once * (f2.y + f1.z);
+  return {{{twice * (f0.x - 1.0) + trace, xy, xz},
+           {xy, twice * (f1.y - 1.0) + trace, yz},
+           {xz, yz, twice * (f2.z - 1.0) + trace}}};
+}
+
+// Where R is the polar factor of F itself, RᵀF is symmetric, and w R σ = w (2μ (F − R) + λ tr(RᵀF − I) R).
+template <int Dim>
+REND_INLINE Matrix<Dim> stretched_stress(const Matrix<Dim>& R, const Matrix<Dim>& F, const Double4& weight,
+                                         double lambda, double mu) {
+  Double4 trace = dot(R.column[0], F.column[0]);
+  for (int c = 1; c < Dim; ++c) trace += dot(R.column[c], F.column[c]);
+  const Double4 twice = (2.0 * mu) * weight;
+  const Double4 turned = (lambda * weight) * (trace - static_cast<double>(Dim)) - twice;
+  Matrix<Dim> P;
+  for (int c = 0; c < Dim; ++c) P.column[c] = twice * F.column[c] + turned * R.column[c];
+  return P;
+}
+
+// Whether a block reaches beyond its part, and of an element with several points whether it is damped, are
+// asked while it runs: that takes no time which can be measured, and the compiler would have to write a kernel
+// for each.
+enum class Damping { No, Yes, Asked };
+
+template <class Shape, Turning turning, Damping damping> struct ElementLanes {
+  static constexpr int N = Shape::N, Dim = Shape::dim;
+  static constexpr bool flat = turning == Turning::None && Dim == 2; // carries its axes
+  static constexpr bool turned = turning != Turning::None;
+  static constexpr Rotation rotation = turning == Turning::Qr ? Rotation::Qr : Rotation::Polar;
+  static constexpr int frames = turned && turns_by_point(Dim, Shape::points) ? Shape::points : 1;
+
+  // Forces on the corners of the rows at .. at + 3.
+  static REND_INLINE void forces(const KernelArguments& a, const ElasticMaterial& m, std::size_t at,
+                                 Vector* f) {
+    const double* values = a.rows.lanes_at(at);
+    if constexpr (Shape::points == 1) // several are long enough a run for the processor to follow
+      for (std::size_t n = 0; n < Inverse<Dim>::stride; n += 8) expect<3072>(values + n);
+    Matrix<Dim> R[frames];
+    if constexpr (flat) {
+      for (int c = 0; c < 2; ++c, values += 12)
+        R[0].column[c] = {load_four(values), load_four(values + 4), load_four(values + 8)};
+    }
+    Vector x[N], D[Shape::columns_count];
+    from_first_corner(a.position, a, at, x);
+    Matrix<Dim> F[Shape::points], mean;
+    Double4 volume{};
+    const bool damped = damping == Damping::Asked ? a.damped : damping == Damping::Yes;
+    if (turned || !damped) {
+      Shape::columns(x, D);
+      mean_gradient(values, D, F, mean, volume);
+    }
+    if constexpr (turned)
+      for (int g = 0; g < frames; ++g) turn<rotation, Dim>(frames == 1 ? mean : F[g], volume, R[g]);
+    if (damped) {
+      Vector v[N];
+      from_first_corner(a.velocity, a, at, v);
+      for (int n = 1; n < N; ++n) x[n] = x[n] + splat(m.damping) * v[n];
+      Shape::columns(x, D);
+    }
+    Vector H[Shape::columns_count] = {};
+    for (int g = 0; g < Shape::points; ++g) {
+      const Inverse<Dim> inverse(values + static_cast<std::size_t>(g) * Inverse<Dim>::stride);
+      if (damped) F[g] = gradient_at<Shape, Dim>(g, D, inverse);
+      Matrix<Dim> P;
+      if constexpr (Dim == 3 && !turned)
+        P = stress(F[g], inverse.weight, m.lambda, m.mu);
+      else if constexpr (Shape::points == 1 && turning == Turning::Polar && damping == Damping::No)
+        P = stretched_stress<Dim>(R[0], F[0], inverse.weight, m.lambda, m.mu);
+      else
+        P = turned_stress<Dim>(R[frames == 1 ? 0 : g], F[g], inverse.weight, m.lambda, m.mu);
+      for (int r = 0; r < Dim; ++r) {
+        Vector& sum = H[Shape::column(g, r)];
+        for (int c = 0; c < Dim; ++c) sum = sum + inverse.A[r][c] * P.column[c];
+      }
+    }
+    Shape::corners(H, f);
+  }
+
+private:
+  static REND_INLINE void from_first_corner(const Record* records, const KernelArguments& a, std::size_t at,
+                                            Vector* x) {
+    const Vector first = gather(records, a.rows.index(0) + at);
+    x[0] = Vector{};
+    for (int n = 1; n < N; ++n) x[n] = gather(records, a.rows.index(n) + at) - first;
+  }
+
+  // F at each point, and Σ w F / Σ w. Of padding, 0/0 is 0.
+  static REND_INLINE void mean_gradient(const double* values, const Vector* D, Matrix<Dim>* F,
+                                        Matrix<Dim>& mean, Double4& volume) {
+    for (int g = 0; g < Shape::points; ++g) {
+      const Inverse<Dim> inverse(values + static_cast<std::size_t>(g) * Inverse<Dim>::stride);
+      F[g] = gradient_at<Shape, Dim>(g, D, inverse);
+      if constexpr (!turned) continue;
+      volume += inverse.weight;
+      for (int c = 0; c < Dim; ++c)
+        mean.column[c] =
+            g == 0 ? inverse.weight * F[g].column[c] : mean.column[c] + inverse.weight * F[g].column[c];
+    }
+    if constexpr (Shape::points == 1) {
+      mean = F[0];
+    } else if constexpr (turned) {
+      const Double4 share = volume > 0.0 ? 1.0 / volume : Double4{};
+      for (int c = 0; c < Dim; ++c) mean.column[c] = share * mean.column[c];
+    }
+  }
+};
+
+// The rows of a block; `whole`: all that they write to is this part's.
+template <class Lanes, bool corners>
+REND_INLINE void run_rows(const KernelArguments& a, const ElasticMaterial& m, std::size_t block, bool whole) {
+  constexpr int first = corners ? Lanes::N : 0; // index column
+  const std::size_t begin = a.rows.begin(block), end = begin + a.rows.padded_in(block);
+  for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
+    Vector f[Lanes::N];
+    Lanes::forces(a, m, at, f);
+    if (corners || whole)
+      for (int n = 0; n < Lanes::N; ++n) scatter<true>(a, a.rows.index(first + n) + at, f[n]);
+    else
+      for (int n = 0; n < Lanes::N; ++n) scatter<false>(a, a.rows.index(first + n) + at, f[n]);
+  }
+}
+
+template <class Lanes, bool corners>
+REND_INLINE void run_blocks(const KernelArguments& a, const ElasticMaterial& m) {
+  for (std::size_t block = a.first; block < a.last; ++block) {
+    const PackedRows::Range range = a.rows.range(block);
+    const bool whole = range.low >= a.low && range.high < a.high;
+    if (corners || whole || (range.low < a.high && range.high >= a.low))
+      run_rows<Lanes, corners>(a, m, block, whole);
+  }
+}
+
+template <class Shape, Turning turning, bool corners>
+REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMaterial& m) {
+  if constexpr (Shape::points > 1)
+    run_blocks<ElementLanes<Shape, turning, Damping::Asked>, corners>(a, m);
+  else if (a.damped)
+    run_blocks<ElementLanes<Shape, turning, Damping::Yes>, corners>(a, m);
+  else
+    run_blocks<ElementLanes<Shape, turning, Damping::No>, corners>(a, m);
+}
+
+// What a law asks for, with the loop inside: to be run by at_width.
+template <class Shape, bool corners> REND_INLINE void run_elements(const KernelArguments& a) {
+  const auto& law = static_cast<const ElementLaw&>(a.law);
+  if (law.model() == ElasticModel::Linear)
+    run_damped_or_not<Shape, Turning::None, corners>(a, law.material());
+  else if (law.rotation() == Rotation::Qr)
+    run_damped_or_not<Shape, Turning::Qr, corners>(a, law.material());
+  else
+    run_damped_or_not<Shape, Turning::Polar, corners>(a, law.material());
+}
+
+// One file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`:
+// KernelArguments::corner_forces.
+void triangles(const KernelArguments& a);
+void quads(const KernelArguments& a);
+void tetrahedra(const KernelArguments& a);
+void hexahedra(const KernelArguments& a);
+void prisms(const KernelArguments& a);
+void pyramids(const KernelArguments& a);
+void triangle_corners(const KernelArguments& a);
+void quad_corners(const KernelArguments& a);
+void tetrahedron_corners(const KernelArguments& a);
+void hexahedron_corners(const KernelArguments& a);
+void prism_corners(const KernelArguments& a);
+void pyramid_corners(const KernelArguments& a);
+
+} // namespace rend::lanes

@@ -1,0 +1,44 @@
+// The inner loops: forces of packed rows, added in the order of the rows.
+//
+// A kernel runs over the blocks of a table and writes to vertices (or to element corners) in [low, high) alone.
+// A block that reaches beyond is run by every part it touches, and each part writes what it owns: the sum at a
+// vertex is that of its rows in their order, whatever the number of parts, and no atomics are needed.
+//
+// A law needs no kernel of its own: the plain one gathers a unit's particles and asks the law. Adding one: a
+// file with a function `Kernel my_kernel()`, and its name in kernel_of().
+#pragma once
+
+#include "sim/base/record.h"
+#include "sim/mechanics/law.h"
+#include "sim/rows/packed_rows.h"
+
+namespace rend {
+
+struct KernelArguments {
+  const Law& law;
+  const PackedRows& rows;
+  const Record* position;  // [m], one per vertex slot
+  const Record* velocity;  // [m/s], one per vertex slot
+  const Record* rest;      // [m], one per vertex slot
+  Record* force;           // [N], one per vertex slot; with corners: one per corner slot
+  std::uint32_t low, high; // vertex slots to write; ignored with corners
+  std::size_t first, last; // blocks of rows to run: [first, last)
+  bool damped;             // some row has damping; else springs and hinges have no column for it
+};
+
+struct Kernel {
+  bool (*fits)(const Law& law);
+  void (*forces)(const KernelArguments& a);        // into vertices: index columns 0 .. particles − 1
+  void (*corner_forces)(const KernelArguments& a); // into corners: index columns particles .. 2 particles − 1
+};
+
+const Kernel& kernel_of(const Law& law); // the first that fits
+
+Kernel
+spring_kernel();       // spring_law.h, four rows at a time: 2.3 ns a spring where a plain loop takes 4.2 to 4.9
+Kernel hinge_kernel(); // hinge_law.h, four rows at a time: 18 ns a hinge where the law takes 130
+Kernel element_kernel(); // element_law.h: element_kernel.h
+Kernel tensor_kernel();  // mass_tensor.h, four rows at a time
+Kernel plain_kernel();   // any law, unit after unit
+
+} // namespace rend

@@ -1,0 +1,138 @@
+// The rotations of mechanics/rotation.h, of four elements at once.
+//
+// Lanes where the short way does not lead there (flat, inverted) are left to the reference, one by one; rows of
+// padding, whose weight is 0, get none. What a lane becomes never depends on the others: those that have
+// arrived stand still.
+#pragma once
+
+#include "sim/mechanics/rotation.h"
+#include "sim/rows/lanes.h"
+
+namespace rend::lanes {
+
+template <int Columns> void write_lane(Matrix<Columns>& R, int lane, const Eigen::Matrix3d& value) {
+  for (int c = 0; c < Columns; ++c) {
+    R.column[c].x[lane] = value(0, c);
+    R.column[c].y[lane] = value(1, c);
+    R.column[c].z[lane] = value(2, c);
+  }
+}
+
+template <int Columns> Eigen::Matrix3d read_lane(const Matrix<Columns>& F, int lane) {
+  Eigen::Matrix3d value = Eigen::Matrix3d::Zero();
+  for (int c = 0; c < Columns; ++c)
+    value.col(c) = Vec3(F.column[c].x[lane], F.column[c].y[lane], F.column[c].z[lane]);
+  return value;
+}
+
+// One lane by the reference, or none (0) for padding.
+template <Rotation rotation, int Columns>
+[[gnu::noinline]] void turn_lane(Matrix<Columns>& R, const Matrix<Columns>& F, const Double4& weight,
+                                 int lane) {
+  const Eigen::Matrix3d f = read_lane(F, lane);
+  if (weight[lane] == 0)
+    write_lane(R, lane, Eigen::Matrix3d::Zero());
+  else if (rotation == Rotation::Qr)
+    write_lane(R, lane, gram_schmidt(f, Columns));
+  else
+    write_lane(R, lane, Columns == 3 ? closest_rotation(f) : closest_sheet_rotation(f));
+}
+
+REND_INLINE bool all(const Long4& mask) {
+  return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+}
+REND_INLINE bool any(const Long4& mask) {
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+}
+
+// Returns the lanes that are done.
+REND_INLINE Long4 gram_schmidt_lanes(const Matrix<3>& F, Matrix<3>& R) {
+  const Vector &f0 = F.column[0], &f1 = F.column[1];
+  const Double4 s0 = dot(f0, f0), s1 = dot(f1, f1), s2 = dot(F.column[2], F.column[2]);
+  const Double4 i0 = 1.0 / square_root(s0);
+  R.column[0] = i0 * f0;
+  const Vector rest = f1 - dot(R.column[0], f1) * R.column[0];
+  const Double4 s = dot(rest, rest), i1 = 1.0 / square_root(s);
+  R.column[1] = i1 * rest;
+  R.column[2] = cross(R.column[0], R.column[1]);
+  const Double4 least = 1e-24 * (s0 + s1 + s2);
+  return (s0 > least) & (s > 1e-6 * s1); // nearer to a line it needs a second pass
+}
+
+REND_INLINE Long4 gram_schmidt_lanes(const Matrix<2>& F, Matrix<2>& R) {
+  const Vector &f0 = F.column[0], &f1 = F.column[1];
+  const Double4 s0 = dot(f0, f0), s1 = dot(f1, f1), i0 = 1.0 / square_root(s0);
+  R.column[0] = i0 * f0;
+  const Vector rest = f1 - dot(R.column[0], f1) * R.column[0];
+  const Double4 s = dot(rest, rest), i1 = 1.0 / square_root(s);
+  R.column[1] = i1 * rest;
+  const Double4 least = 1e-24 * (s0 + s1);
+  return (s0 > least) & (s > 1e-6 * s1); // nearer to a line it needs a second pass
+}
+
+// The largest root of (s² − I)² = 4 II + 8 J s, from √(3 I) ≥ s: all roots being real, Halley's iteration comes
+// down to it without passing, with three times the digits each time. `open`: the lanes that are asked for;
+// those that arrived go.
+REND_INLINE Double4 sum_of_singular_values(const Double4& first, const Double4& second, const Double4& J,
+                                           Long4& open) {
+  constexpr double near = 3e-6; // of s: what is left is its third power
+  Double4 s = square_root(3.0 * first);
+  for (int n = 0; n < 8; ++n) {
+    const Double4 t = s * s - first, value = t * t - 4.0 * second - 8.0 * J * s;
+    const Double4 slope = 4.0 * s * t - 8.0 * J, bend = 4.0 * t + 8.0 * s * s;
+    const Double4 step = value * slope / (slope * slope - 0.5 * value * bend);
+    s -= (Double4)((Long4)step & open);
+    open &= ~((step < near * s) & (step > -near * s));
+    if (!any(open)) break;
+  }
+  return s;
+}
+
+// The closest rotation from the invariants of C = FᵀF. With singular values λ of F (the smallest negative where
+// F is inverted) and I = tr C, II = |cof F|², J = det F, the sum s = Σ λ is a root of (s² − I)² = 4 II + 8 J s,
+// and R is its derivative by F (Hoger and Carlson 1984 for the invariants; Lin, Chitalu and Komura 2022):
+//
+//   R = ( (s² + I) F − 2 F C + 2 s cof F ) / ( s (s² − I) − 2 J )
+//
+// The denominator is 2 (λ1 + λ2)(λ2 + λ3)(λ3 + λ1): where it is little beside s³ a direction is lost, and
+// digits are.
+REND_INLINE Long4 closest_lanes(const Matrix<3>& F, Matrix<3>& R) {
+  constexpr double least = 0.02; // of s³: more leaves 12 digits
+  const Vector &f0 = F.column[0], &f1 = F.column[1], &f2 = F.column[2];
+  const Vector g0 = cross(f1, f2), g1 = cross(f2, f0), g2 = cross(f0, f1);
+  const Double4 c00 = dot(f0, f0), c11 = dot(f1, f1), c22 = dot(f2, f2);
+  const Double4 first = c00 + c11 + c22, second = dot(g0, g0) + dot(g1, g1) + dot(g2, g2), J = dot(f0, g0);
+  const Long4 sized = first > 0.0; // neither padding nor what is not a number
+  Long4 open = sized;
+  const Double4 s = sum_of_singular_values(first, second, J, open), square = s * s;
+  const Double4 below = s * (square - first) - 2.0 * J;
+  const Double4 inverse = 1.0 / below, twice = 2.0 * inverse, own = inverse * (square + first),
+                other = twice * s;
+  const Double4 c01 = twice * dot(f0, f1), c02 = twice * dot(f0, f2), c12 = twice * dot(f1, f2);
+  R.column[0] = (own - twice * c00) * f0 - c01 * f1 - c02 * f2 + other * g0;
+  R.column[1] = (own - twice * c11) * f1 - c01 * f0 - c12 * f2 + other * g1;
+  R.column[2] = (own - twice * c22) * f2 - c02 * f0 - c12 * f1 + other * g2;
+  return sized & ~open & (below > least * square * s);
+}
+
+// In the plane of Gram–Schmidt's frame F is the triangle (p q; 0 r), whose rotation is known.
+REND_INLINE Long4 closest_lanes(const Matrix<2>& F, Matrix<2>& R) {
+  Matrix<2> frame;
+  const Long4 done = gram_schmidt_lanes(F, frame);
+  const Vector &a = frame.column[0], &b = frame.column[1];
+  const Double4 c = dot(a, F.column[0]) + dot(b, F.column[1]), s = -dot(a, F.column[1]);
+  const Double4 inverse = 1.0 / square_root(c * c + s * s), cosine = c * inverse, sine = s * inverse;
+  R.column[0] = cosine * a + sine * b;
+  R.column[1] = cosine * b - sine * a;
+  return done;
+}
+
+template <Rotation rotation, int Columns>
+REND_INLINE void turn(const Matrix<Columns>& F, const Double4& weight, Matrix<Columns>& R) {
+  const Long4 done = rotation == Rotation::Qr ? gram_schmidt_lanes(F, R) : closest_lanes(F, R);
+  if (all(done)) return;
+  for (int lane = 0; lane < 4; ++lane)
+    if (!done[lane]) turn_lane<rotation, Columns>(R, F, weight, lane);
+}
+
+} // namespace rend::lanes

@@ -1,0 +1,379 @@
+// Batches: every job as rend render alone would do it, whatever becomes of the others.
+#include "render/batch/batch_jobs.h"
+#include "render/clip/shard.h"
+#include "render/picture/scene_preset.h"
+#include "sim/base/error.h"
+#include "tests/render/commands/program_run.h"
+#include "tests/render/needs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace rend {
+namespace {
+
+using program::content;
+using program::Outcome;
+using program::Place;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class Batch : public testing::Test {
+protected:
+  Batch() {
+    fs::create_directories(place.path() / "presets/more");
+    for (const char* name : {"presets/a.xml", "presets/more/b.xml"}) place.write(name, program::pulled);
+  }
+
+  std::map<std::string, std::string> pictures(const std::string& folder) const {
+    std::map<std::string, std::string> all;
+    std::error_code error;
+    for (fs::recursive_directory_iterator at(place.path() / folder, error), end; !error && at != end;
+         at.increment(error))
+      if (at->path().extension() == ".png") all[at->path().filename().string()] = content(at->path());
+    return all;
+  }
+  static std::vector<nlohmann::json> lines(const std::string& text) {
+    std::vector<nlohmann::json> all;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) all.push_back(nlohmann::json::parse(line));
+    return all;
+  }
+
+  const Place place;
+};
+
+TEST_F(Batch, crosses_sweeps_and_names_each_job) {
+  const auto sweeps = std::vector{parse_sweep("time.step=1e-3,2e-3"), parse_sweep("body.mass.total=1,2,3")};
+  const std::string presets = (place.path() / "presets").string();
+  const auto jobs = batch_jobs({presets, presets + "/a.xml"}, sweeps);
+  ASSERT_EQ(jobs.size(), 18u);
+  EXPECT_EQ(jobs[0].name, "a_time.step=1e-3_body.mass.total=1");
+  EXPECT_THAT(jobs[5].sets, ElementsAre("time.step=2e-3", "body.mass.total=3"));
+  EXPECT_EQ(jobs[6].name, "more/b_time.step=1e-3_body.mass.total=1");
+  EXPECT_EQ(jobs[12].name, "a_time.step=1e-3_body.mass.total=1-2") << "the same preset, named twice";
+  EXPECT_THROW(parse_sweep("time.step=1e-3,,2"), UserError);
+  EXPECT_THROW(batch_jobs({presets + "/none.xml"}, {}), UserError);
+  fs::create_directories(place.path() / "empty");
+  EXPECT_THROW(batch_jobs({(place.path() / "empty").string()}, {}), UserError);
+}
+
+TEST_F(Batch, a_preset_that_is_a_link_is_called_by_the_link) {
+  fs::create_directories(place.path() / "in/below");
+  fs::create_symlink("../presets/a.xml", place.path() / "in/link.xml");
+  fs::create_symlink("../../presets/a.xml", place.path() / "in/below/link.xml");
+  for (const char* in : {"in", "in/", "in/.", "./in"}) {
+    const auto jobs = batch_jobs({(place.path() / in).string()}, {});
+    ASSERT_EQ(jobs.size(), 2u);
+    EXPECT_EQ(jobs[0].name, "below/link") << in;
+    EXPECT_EQ(jobs[1].name, "link") << in;
+  }
+}
+
+TEST_F(Batch, names_are_of_one_choice_alone_and_fit_into_a_folder) {
+  const std::string a = (place.path() / "presets/a.xml").string();
+  std::set<std::string> names;
+  const std::string long_value(300, '1');
+  const std::vector<std::string> sweeps{"body.springs.stretch.k=10,20",
+                                        "body.springs.bend.k=10,20",
+                                        "image.size=64 48,64_48,64/48,64*48",
+                                        "body[a b].mass.total=1",
+                                        "body[a_b].mass.total=1",
+                                        "body[a/b].mass.total=1",
+                                        "body.mass.total=" + long_value,
+                                        "body.mass.total=" + long_value + "2"};
+  std::size_t count = 0;
+  for (const std::string& sweep : sweeps) {
+    for (const BatchJob& job : batch_jobs({a}, {parse_sweep(sweep)})) {
+      ++count;
+      EXPECT_TRUE(names.insert(job.name).second) << job.name;
+      EXPECT_LE(job.name.size(), 200u);
+      EXPECT_EQ(job.name.find('/'), std::string::npos) << job.name;
+    }
+  }
+  EXPECT_EQ(names.size(), count);
+}
+
+TEST_F(Batch, no_job_stands_in_the_place_of_the_page_or_above_its_folder) {
+  NEEDS_PNG;
+  fs::create_directories(place.path() / "odd/index.3-of-4.html");
+  for (const char* name :
+       {"index.html.xml", "index.1-of-2.html.xml", "index.3-of-4.html/a.xml", "..xml", "...xml"})
+    place.write(std::string("odd/") + name, program::pulled);
+  const std::string odd = (place.path() / "odd").string();
+  auto jobs = batch_jobs({odd}, {});
+  for (const char* file : {"/..xml", "/...xml", "/index.html.xml"})
+    jobs.push_back(batch_jobs({odd + file}, {})[0]);
+  for (const BatchJob& job : jobs)
+    for (const fs::path& part : fs::path(job.name)) {
+      EXPECT_FALSE(part.string().starts_with("index.") && part.extension() == ".html") << job.name;
+      EXPECT_NE(part, ".");
+      EXPECT_NE(part, "..");
+    }
+  EXPECT_EQ(place.rend("batch odd/index.html.xml -o page -q --frames 0").code, 0);
+  EXPECT_TRUE(fs::is_regular_file(place.path() / "page/index.html"));
+}
+
+TEST_F(Batch, a_job_has_the_bytes_of_rend_render_and_one_that_fails_stops_no_other) {
+  NEEDS_PNG;
+  place.write("presets/bad.xml", "<scene name=\"bad\"></scene>");
+  place.write("presets/wild.xml", program::pulled);
+  EXPECT_EQ(place.rend("render presets/a.xml -q -o alone").code, 0);
+  const Outcome outcome = place.rend("batch presets -o many --json -q --jobs 2 --memory 4G");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  const auto all = lines(outcome.out);
+  ASSERT_EQ(all.size(), 4u);
+  for (const auto& line : all) {
+    const bool bad = line["job"] == "bad";
+    EXPECT_EQ(line["state"], bad ? "failed" : "done") << line;
+    EXPECT_EQ(line["code"], bad ? 65 : 0);
+    if (bad) {
+      EXPECT_THAT(line["message"].get<std::string>(), HasSubstr("bad.xml"));
+      continue;
+    }
+    EXPECT_EQ(line["frames"], 7);
+    EXPECT_GT(line["peak_bytes"], 1000000);
+  }
+  for (const char* name : {"a", "more/b", "wild"})
+    EXPECT_EQ(pictures(std::string("many/") + name), pictures("alone")) << name;
+  const std::string page = content(place.path() / "many/index.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("more/b/"), HasSubstr("data:image/png"), HasSubstr("failed")));
+}
+
+TEST_F(Batch, sweeps_and_frames_and_what_is_set_for_all) {
+  NEEDS_PNG;
+  const Outcome outcome = place.rend("batch presets/a.xml -o swept -q --frames 1-5x2 --set time.duration=0.25 "
+                                     "--sweep body.mass.total=0.1,0.2");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2 of 2 jobs done"));
+  EXPECT_EQ(pictures("swept/a_body.mass.total=0.1").size(), 3u);
+  EXPECT_NE(pictures("swept/a_body.mass.total=0.1"), pictures("swept/a_body.mass.total=0.2"));
+}
+
+TEST_F(Batch, goes_on_with_what_is_missing) {
+  NEEDS_PNG;
+  EXPECT_EQ(place.rend("batch presets -o many -q").code, 0);
+  const auto before = pictures("many");
+  fs::remove(place.path() / "many/a/00003.png");
+  const Outcome outcome = place.rend("batch presets -o many -q --resume --json");
+  EXPECT_EQ(outcome.code, 0);
+  int made = 0, kept = 0;
+  for (const auto& line : lines(outcome.out)) {
+    made += line["frames"].get<int>();
+    kept += line["kept"].get<int>();
+  }
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(kept, 13);
+  EXPECT_EQ(pictures("many"), before);
+}
+
+TEST_F(Batch, shards_share_jobs_and_where_there_are_too_few_their_frames) {
+  NEEDS_PNG;
+  EXPECT_EQ(place.rend("batch presets -o serial -q").code, 0);
+  for (int count : {1, 2, 3, 7}) {
+    const std::string folder = fmt::format("sharded-{}", count);
+    for (int n = 1; n <= count; ++n)
+      EXPECT_EQ(place.rend(fmt::format("batch presets -o {} -q --shard {}/{}", folder, n, count)).code, 0);
+    for (const char* name : {"a", "more/b"})
+      EXPECT_EQ(pictures(fmt::format("{}/{}", folder, name)), pictures(fmt::format("serial/{}", name)))
+          << count;
+  }
+}
+
+TEST_F(Batch, a_budget_that_nothing_fits_into_runs_one_job_after_another) {
+  NEEDS_PNG;
+  const Outcome outcome = place.rend("batch presets -o tight -q --jobs 4 --memory 1M");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(pictures("tight/a").size(), 7u);
+}
+
+// A shell's words: waits until that holds, 20 s at the most.
+std::string until(const std::string& condition) {
+  return "n=0; until " + condition + " || [ $n -ge 2000 ]; do sleep 0.01; n=$((n+1)); done; ";
+}
+
+TEST_F(Batch, a_signal_stops_all_jobs_and_going_on_makes_the_rest) {
+  NEEDS_PNG;
+  const std::string options = " -q --set time.step=5e-7 --jobs 2 --memory 8G"; // many seconds: one starts later
+  EXPECT_EQ(place.rend("batch presets -o whole" + options).code, 0);
+  const Outcome outcome =
+      place.shell(std::string(REND_PROGRAM) + " batch presets -o cut" + options + " & " +
+                  until("[ -e cut/a/00001.png ] && [ -e cut/more/b/00001.png ]") + "kill -TERM $!; wait $!");
+  EXPECT_EQ(outcome.code, 143) << outcome.err;
+  for (const char* name : {"a", "more/b"}) {
+    const fs::path folder = place.path() / "cut" / name;
+    EXPECT_TRUE(fs::exists(folder / "pulled.checkpoint")) << name;
+    EXPECT_FALSE(fs::exists(folder / "00006.png")) << name << " was over before the signal";
+  }
+  EXPECT_TRUE(fs::exists(place.path() / "cut/index.html"));
+  EXPECT_EQ(place.rend("batch presets -o cut --resume" + options).code, 0);
+  for (const char* name : {"a", "more/b"})
+    EXPECT_EQ(pictures(std::string("cut/") + name), pictures(std::string("whole/") + name));
+  for (const std::string& file : place.files()) EXPECT_FALSE(file.ends_with(".checkpoint")) << file;
+}
+
+// By anyone but the batch: a job that waits for its preset, from a pipe, is there to be found.
+TEST_F(Batch, a_job_that_was_ended_from_outside_is_not_done) {
+  NEEDS_PNG;
+  for (const auto& [signal, code] : {std::pair{"TERM", 143}, {"KILL", 137}}) {
+    const Outcome outcome =
+        place.shell(std::string("rm -f pipe.xml; mkfifo pipe.xml; ") + REND_PROGRAM +
+                    " batch pipe.xml presets/a.xml -o ended --json -q --jobs 2 --memory 8G & batch=$!; " +
+                    until("job=$(pgrep -P $batch -f pipe.xml)") + "kill -" + signal + " $job; wait $batch");
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    for (const auto& line : lines(outcome.out)) {
+      if (line["job"] != "pipe") continue;
+      EXPECT_EQ(line["state"], "failed");
+      EXPECT_EQ(line["code"], code);
+      EXPECT_THAT(line["message"].get<std::string>(), HasSubstr("signal"));
+    }
+    EXPECT_EQ(lines(outcome.out).size(), 2u);
+  }
+}
+
+// Memory that pictures take: sizes are such that two jobs of one preset begin, and have no room beside each
+// other.
+class TightBatch : public Batch {
+protected:
+  TightBatch() {
+    std::string text = program::pulled;
+    text.replace(text.find("64 48"), 5, "4800 3600");
+    place.write("large.xml", text);
+    const Outcome alone =
+        place.rend("batch presets/a.xml large.xml -o whole -q --json --jobs 1 --set time.duration=0.15");
+    EXPECT_EQ(alone.code, 0) << alone.err;
+    // The small preset comes first: what it takes is then expected of the others.
+    for (const auto& line : lines(alone.out))
+      (line["job"] == "a" ? small_ : large_) = line["peak_bytes"].get<std::size_t>();
+    EXPECT_GT(budget(), 2 * small_);
+  }
+  // [bytes] On a busy machine the large one takes less than it did; and two jobs of which nothing is known yet,
+  // of which 200 MB are expected each, are not to begin together.
+  std::size_t budget() const { return std::min(large_ * 65 / 100, std::size_t{390} << 20U); }
+  std::size_t small_ = 0, large_ = 0; // [bytes]
+};
+
+TEST_F(TightBatch, a_job_that_made_room_before_it_had_a_checkpoint_begins_anew) {
+  NEEDS_PNG;
+  fs::create_directories(place.path() / "tight/pipe");
+  place.write("tight/pipe/pulled.checkpoint", "of an earlier batch");
+  // It builds its scene for as long as its preset is not there: until the large one is done.
+  const Outcome outcome = place.shell(fmt::format("mkfifo pipe.xml; {} batch presets/a.xml large.xml pipe.xml "
+                                                  "-o tight -q --json --jobs 2 --set time.duration=0.15 "
+                                                  "--memory {} & batch=$!; ",
+                                                  REND_PROGRAM, budget()) +
+                                      until("[ -e tight/large/00004.png ]") +
+                                      "sleep 0.5; timeout 20 cat presets/a.xml > pipe.xml; wait $batch");
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  for (const auto& line : lines(outcome.out)) {
+    EXPECT_EQ(line["tries"], line["job"] == "pipe" ? 2 : 1) << line;
+    EXPECT_EQ(line["state"], "done") << line;
+  }
+  EXPECT_EQ(pictures("tight/pipe"), pictures("whole/a"));
+}
+
+// The large one waits for its preset until the one begun after it is on its way, and then takes more than there
+// is.
+TEST_F(TightBatch, a_job_that_made_room_goes_on_from_its_checkpoint) {
+  NEEDS_PNG;
+  std::string text = program::pulled;
+  text.replace(text.find("step=\"1e-3\""), 11, "step=\"2e-7\"");
+  place.write("slow.xml", text);
+  EXPECT_EQ(place.rend("render slow.xml -q -o alone --set time.duration=0.15").code, 0);
+  const std::string checkpoint = "[ -e tight/slow/pulled.checkpoint ]";
+  const Outcome outcome = place.shell(
+      fmt::format("mkfifo pipe.xml; {} batch presets/a.xml pipe.xml slow.xml -o tight -q --json --jobs 2 "
+                  "--set time.duration=0.15 --memory {} & batch=$!; ",
+                  REND_PROGRAM, budget()) +
+      until("[ -e tight/slow/00000.png ]") + "timeout 20 cat large.xml > pipe.xml; " + until(checkpoint) +
+      checkpoint + " && touch it_was_there; wait $batch");
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  EXPECT_TRUE(fs::exists(place.path() / "it_was_there"));
+  for (const auto& line : lines(outcome.out)) {
+    EXPECT_EQ(line["tries"], line["job"] == "slow" ? 2 : 1) << line;
+    if (line["job"] == "slow") {
+      EXPECT_GE(line["kept"], 1) << line;
+    }
+  }
+  EXPECT_EQ(pictures("tight/slow"), pictures("alone"));
+}
+
+TEST_F(Batch, refuses_a_bad_command_line) {
+  for (const auto& [line, code] :
+       std::vector<std::pair<const char*, int>>{{"batch", 64},
+                                                {"batch none.xml", 66},
+                                                {"batch presets --memory much", 64},
+                                                {"batch presets --shard 5/3", 64},
+                                                {"batch presets --sweep time.step", 64},
+                                                {"batch presets --jobs 0", 64},
+                                                {"batch presets --memory 1e15G", 64},
+                                                {"batch presets --memory 1000000000000G", 64},
+                                                {"batch presets --memory 0x10G", 64},
+                                                {"batch presets --memory 1e-9", 64},
+                                                {"batch presets --memory 0.1", 64},
+                                                {"batch presets --memory inf", 64},
+                                                {"batch presets --memory -4G", 64},
+                                                {"batch presets --memory 4GG", 64},
+                                                {"batch presets --size 10", 64},
+                                                {"batch presets --frames foo", 64},
+                                                {"batch presets --fps -1", 64},
+                                                {"batch presets --fps many", 64},
+                                                {"batch presets --checkpoint-every -1", 64},
+                                                {"batch presets --set foo", 64},
+                                                {"batch presets --set time.stp=1", 64},
+                                                {"batch presets --set time.stp=1,2", 64},
+                                                {"batch presets --set time.step=1e-3,much", 65},
+                                                {"batch presets --sweep time.stp=1,2", 64},
+                                                {"batch presets --sweep time=1,2", 64},
+                                                {"batch presets --no-png", 64}}) {
+    const Outcome outcome = place.rend(line);
+    EXPECT_EQ(outcome.code, code) << line << outcome.err;
+    EXPECT_EQ(outcome.out, "") << line;
+  }
+  EXPECT_FALSE(fs::exists(place.path() / "out")) << "a job was begun";
+}
+
+TEST_F(Batch, what_is_said_is_utf8_whatever_files_are_called) {
+  NEEDS_PNG;
+  place.write("b\xff.xml", program::pulled);
+  const Outcome outcome = place.rend("batch b*.xml presets -o many -q --json --frames 0");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  std::set<std::string> names;
+  for (const auto& line : lines(outcome.out)) names.insert(line["job"].get<std::string>());
+  EXPECT_THAT(names, ElementsAre("a", "b\xef\xbf\xbd", "more/b"));
+  EXPECT_TRUE(fs::exists(place.path() / "many/index.html"));
+  EXPECT_EQ(place.rend("render b*.xml -o alone -q --json --frames 0").json()["frames"], 1);
+}
+
+// Without stdout, or any of the three: what a job says is caught all the same.
+TEST_F(Batch, jobs_run_where_standard_streams_are_closed) {
+  NEEDS_PNG;
+  for (const char* closed : {">&-", "2>&-", "<&- >&- 2>&-"}) {
+    place.rend(fmt::format("batch presets -o closed -q --frames 0-2 {}", closed));
+    EXPECT_EQ(pictures("closed/a").size(), 3u) << closed;
+    EXPECT_THAT(content(place.path() / "closed/index.html"), HasSubstr("class=\"badge good\"")) << closed;
+    fs::remove_all(place.path() / "closed");
+  }
+}
+
+TEST_F(Batch, several_values_of_a_set_are_a_sweep_where_a_comma_is_no_part_of_a_value) {
+  const BatchSettings settings = batch_settings(
+      scene_type(), {"time.step=1e-3,2e-3", "name=a,b", "time.duration=1", "image.samples=1,4"}, {"name=c,d"});
+  EXPECT_THAT(settings.sets, ElementsAre("name=a,b", "time.duration=1"));
+  std::vector<std::string> swept;
+  for (const Sweep& sweep : settings.sweeps) {
+    swept.push_back(sweep.path);
+    swept.insert(swept.end(), sweep.values.begin(), sweep.values.end());
+  }
+  EXPECT_THAT(swept, ElementsAre("time.step", "1e-3", "2e-3", "image.samples", "1", "4", "name", "c", "d"));
+}
+
+} // namespace
+} // namespace rend

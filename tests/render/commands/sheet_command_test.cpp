@@ -1,0 +1,65 @@
+// rend sheet, against the pictures of rend render.
+#include "render/files/png.h"
+#include "tests/render/commands/program_run.h"
+#include "tests/render/needs.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+using program::Outcome;
+using program::Place;
+
+Image part(const Image& sheet, int column, int row, int width, int height) {
+  Image out(width, height);
+  for (int y = 0; y < height; ++y)
+    std::copy_n(sheet.at(column * (width + 6), row * (height + 6) + y), out.stride(), out.row(y));
+  return out;
+}
+
+TEST(Sheet, shows_the_start_the_tear_and_the_end_as_render_draws_them) {
+  NEEDS_PNG;
+  const Place place;
+  place.write("pulled.xml", program::pulled);
+  const Outcome made = place.rend("sheet pulled.xml pulled.xml -o sheet.png --size 96x54 -q");
+  ASSERT_EQ(made.code, 0) << made.err;
+  ASSERT_EQ(place.rend("render pulled.xml -o all --size 96x54 -q").code, 0);
+  const Outcome run = place.rend("run pulled.xml --diagnostics d.csv --events e.jsonl -q");
+  ASSERT_EQ(run.code, 0) << run.err;
+
+  std::vector<Image> frames;
+  for (int n = 0;; ++n) {
+    const std::string name = fmt::format("all/{:05d}.png", n);
+    if (!std::filesystem::exists(place.path() / name)) break;
+    frames.push_back(read_png(place.path() / name));
+  }
+  const std::string events = program::content(place.path() / "e.jsonl");
+  ASSERT_FALSE(events.empty());
+  const double torn = nlohmann::json::parse(events.substr(0, events.find('\n'))).at("time");
+  const Image sheet = read_png(place.path() / "sheet.png");
+  ASSERT_EQ(sheet.width, 3 * 96 + 2 * 6);
+  ASSERT_EQ(sheet.height, 2 * 54 + 6);
+  for (int row = 0; row < 2; ++row) {
+    EXPECT_EQ(part(sheet, 0, row, 96, 54), frames.front());
+    EXPECT_EQ(part(sheet, 2, row, 96, 54), frames.back());
+    const auto at = std::find(frames.begin(), frames.end(), part(sheet, 1, row, 96, 54));
+    ASSERT_NE(at, frames.end());
+    EXPECT_GE(static_cast<double>(at - frames.begin()) / 30, torn - 1.0 / 30);
+  }
+}
+
+TEST(Sheet, leaves_nothing_where_a_preset_is_bad) {
+  NEEDS_PNG;
+  const Place place;
+  place.write("pulled.xml", program::pulled);
+  const Outcome made = place.rend("sheet pulled.xml missing.xml -o sheet.png --size 96x54");
+  EXPECT_EQ(made.code, 66);
+  EXPECT_FALSE(std::filesystem::exists(place.path() / "sheet.png"));
+}
+
+} // namespace
+} // namespace rend

@@ -1,0 +1,129 @@
+// rend info: its sum of bytes against what the heap has grown by, and what is left out against what is there.
+#include "render/facts/inventory.h"
+#include "sim/scene/memory.h"
+#include "tests/render/commands/program_run.h"
+
+#include <gmock/gmock.h>
+#include <malloc.h>
+
+#include <cmath>
+
+namespace rend {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+// What the program has from the allocator [bytes].
+std::size_t on_heap() {
+  malloc_trim(0);
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+struct Built {
+  explicit Built(const std::string& preset, std::vector<std::string> sets = {}) {
+    SessionOptions options;
+    options.preset = std::string(REND_ROOT) + "/presets/" + preset;
+    options.sets = std::move(sets);
+    options.quiet = true;
+    options.threads = 1;
+    { // what libraries keep for themselves is there after this
+      Session first(options);
+      first.scene().step();
+    }
+    const std::size_t before = on_heap();
+    session = std::make_unique<Session>(options);
+    session->scene().step();
+    grown = static_cast<double>(on_heap() - before);
+    listed = static_cast<double>(bytes_of_all(session->scene()));
+  }
+  std::unique_ptr<Session> session;
+  double grown = 0, listed = 0; // [bytes]
+};
+
+// Fixed objects, names and the preset take some 50 kB; nothing else may be missing.
+void expect_all_is_listed(const Built& built) {
+  EXPECT_GT(built.listed, 1e6); // else 50 kB would be much
+  EXPECT_LT(std::abs(built.grown - built.listed), 5e4 + 0.005 * built.grown)
+      << built.listed << " bytes are listed, and the heap has grown by " << built.grown;
+}
+
+TEST(Inventory, lists_all_of_a_cloth) {
+  for (const char* integrator : {"symplectic", "verlet", "midpoint", "rk4"})
+    expect_all_is_listed(
+        Built("cloth/quads.xml",
+              {"body.sheet.cells=64 64", std::string("time.integrator=") + integrator, "time.step=1e-5"}));
+}
+
+TEST(Inventory, lists_all_of_a_solid) {
+  expect_all_is_listed(Built("elastic/bar-corotational.xml", {"body.bar.cells=20 8 8"}));
+  expect_all_is_listed(Built("elastic/bar-mass-tensor.xml", {"body.bar.cells=20 8 8"}));
+}
+
+TEST(Inventory, lists_all_of_a_scheme_that_solves) {
+  for (const char* integrator : {"implicit", "static"})
+    expect_all_is_listed(
+        Built("verify/cantilever-tip-load.xml", {std::string("time.integrator=") + integrator}));
+}
+
+TEST(Inventory, lists_all_of_wind_loads_and_contact) {
+  expect_all_is_listed(Built("contact/drape.xml", {"body.sheet.cells=60 60"}));
+}
+
+// Of what is listed by name, in the order of the preset's parts.
+std::size_t listed(const Json& arrays) {
+  std::size_t sum = 0;
+  for (const Json& one : arrays) sum += one["bytes"].get<std::size_t>();
+  return sum;
+}
+
+TEST(Inventory, sums_up_what_it_lists_in_every_preset) {
+  namespace fs = std::filesystem;
+  const program::Place place;
+  for (const char* folder : {"tear", "contact", "elastic"}) {
+    for (const auto& entry : fs::directory_iterator(fs::path(REND_ROOT) / "presets" / folder)) {
+      if (entry.path().extension() != ".xml") continue;
+      const Json info = Json::parse(place.rend("info '" + entry.path().string() + "' --json").out);
+      std::size_t sum = listed(info["arrays"]);
+      for (const Json& body : info["bodies"]) {
+        sum += listed(body["arrays"]);
+        std::size_t tables = 0, parts = 0; // the tables that name what they are on say the same
+        for (const char* table : {"slots", "embeddings", "laws"}) tables += listed(body[table]);
+        for (const char* part : {"slots", "embeddings", "laws"})
+          parts += body["bytes"].value(part, std::size_t{0});
+        EXPECT_EQ(tables, parts) << entry.path();
+      }
+      EXPECT_EQ(info["bytes"]["total"], sum) << entry.path();
+    }
+  }
+}
+
+TEST(Inventory, of_a_step_has_each_interaction_as_often_as_the_scheme_evaluates) {
+  const program::Place place;
+  place.write("pulled.xml", program::pulled); // rk4
+  const Json info = Json::parse(place.rend("info pulled.xml --json").out);
+  std::map<std::string, double> evaluations;
+  for (const Json& pass : info["step"])
+    if (pass["of"] == "rows") evaluations[pass["what"]] += pass["times"].get<double>();
+  EXPECT_EQ(evaluations,
+            (std::map<std::string, double>{{"stretch", 4}, {"shear isotropic", 4}, {"bend provot", 4}}));
+}
+
+TEST(Inventory, says_why_something_is_not_there) {
+  const program::Place place;
+  place.write("pulled.xml", program::pulled);
+  const Json body = Json::parse(place.rend("info pulled.xml --json").out)["bodies"][0];
+  for (const char* why : {"'rk4' does not solve", "no law compares the forces of single elements", "births",
+                          "60 of stretch act between particles that others join", "no damping of stretch"})
+    EXPECT_THAT(body["left_out"], Contains(HasSubstr(why)));
+  const Json solves =
+      Json::parse(place.rend("info pulled.xml --json --set time.integrator=implicit").out)["bodies"][0];
+  EXPECT_THAT(solves["left_out"], Not(Contains(HasSubstr("does not solve"))));
+  EXPECT_GT(solves["bytes"]["solver"], 0);
+}
+
+} // namespace
+} // namespace rend

@@ -1,0 +1,49 @@
+// Drawn obstacles against solid geometry.
+#include "render/picture/obstacle_picture.h"
+
+#include "sim/base/math.h"
+
+#include <gtest/gtest.h>
+
+namespace rend {
+namespace {
+
+Vec3 vec(const std::array<float, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+// By the divergence theorem: only a closed surface that runs counter-clockwise everywhere gives it.
+double volume(const FrameBody& body) {
+  double sum = 0;
+  for (std::size_t n = 0; n < body.corners.size(); n += 3)
+    sum += vec(body.corners[n].position)
+               .dot(vec(body.corners[n + 1].position).cross(vec(body.corners[n + 2].position))) /
+           6;
+  return sum;
+}
+
+TEST(ObstaclePicture, a_sphere_has_its_volume_and_normals) {
+  const Vec3 centre(0.3, -0.2, 0.1);
+  const FrameBody ball = rounded_box(centre, Vec3::Zero(), 0.5, 16, {1, 2, 3});
+  EXPECT_NEAR(volume(ball), 4 * pi / 3 * 0.125, 0.002);
+  for (const Corner& corner : ball.corners) {
+    EXPECT_NEAR((vec(corner.position) - centre - 0.5 * vec(corner.normal)).norm(), 0, 1e-6);
+    EXPECT_EQ(corner.colour, (std::array<std::uint8_t, 4>{1, 2, 3, 255}));
+  }
+  EXPECT_FALSE(ball.two_sided);
+}
+
+TEST(ObstaclePicture, a_box_has_the_volume_of_a_box_with_round_edges) {
+  const Vec3 core(0.4, 0.3, 0.2); // half sizes
+  const double r = 0.1;
+  const FrameBody box = rounded_box(Vec3(1, 2, 3), core, r, 8, {});
+  const double inner = 8 * core.prod();
+  const double sides = 8 * r * (core.x() * core.y() + core.y() * core.z() + core.z() * core.x());
+  const double edges = 2 * pi * r * r * core.sum(), corners = 4 * pi / 3 * r * r * r;
+  EXPECT_NEAR(volume(box), inner + sides + edges + corners, 2e-4);
+  for (const Corner& corner : box.corners)
+    EXPECT_LE(((vec(corner.position) - Vec3(1, 2, 3)).cwiseAbs() - core).maxCoeff(), r + 1e-6);
+}
+
+} // namespace
+} // namespace rend

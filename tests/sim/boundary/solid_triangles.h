@@ -1,0 +1,58 @@
+// What a solid's surface draws, taken from its triangles one by one, for tests of it.
+#pragma once
+
+#include "sim/boundary/solid_surface.h"
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace rend::solids {
+
+using Triangle = SolidSurface::Triangle;
+
+inline std::vector<Triangle> triangles_of(const SolidSurface& surface) {
+  std::vector<Triangle> all;
+  surface.for_each_triangle([&](const Triangle& t) { all.push_back(t); });
+  return all;
+}
+
+inline std::vector<Vec3> normals_of(SolidSurface& surface) {
+  std::vector<Vec3> normals;
+  surface.normals(normals);
+  return normals;
+}
+
+inline Vec3 place(const Body& body, Slot v) {
+  return body.map->position()[v].vec();
+}
+
+inline Vec3 area_vector(const Body& body, const Triangle& t) {
+  const Vec3 a = place(body, t.vertex[0]);
+  return 0.5 * (place(body, t.vertex[1]) - a).cross(place(body, t.vertex[2]) - a);
+}
+
+// Of what the triangles enclose.
+inline double volume_of(const Body& body, const SolidSurface& surface) {
+  double sum = 0;
+  for (const Triangle& t : triangles_of(surface)) sum += place(body, t.vertex[0]).dot(area_vector(body, t)) / 3;
+  return sum;
+}
+
+// How often each directed side of a triangle occurs, less how often its opposite does: nothing remains of what
+// is closed.
+inline std::map<std::pair<Slot, Slot>, int> open_sides(const SolidSurface& surface) {
+  std::map<std::pair<Slot, Slot>, int> count;
+  for (const Triangle& t : triangles_of(surface))
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Slot a = t.vertex[k], b = t.vertex[(k + 1) % 3];
+      if (a < b)
+        ++count[{a, b}];
+      else
+        --count[{b, a}];
+    }
+  std::erase_if(count, [](const auto& side) { return side.second == 0; });
+  return count;
+}
+
+} // namespace rend::solids
