@@ -1,8 +1,9 @@
-# rend_library(FOLDER DEPENDS folder... LINKS target... [EXCLUDE file...])
+# rend_library(FOLDER [TOOL] DEPENDS folder... LINKS target... [EXCLUDE file...])
 #
 # Makes one library of all .cpp files of FOLDER (such as sim/topology) and lets it include headers of its own
 # folder and of DEPENDS and what those depend on, and of no other: the check runs before the library compiles.
-# The library of sim/topology is called rend_topology.
+# The library of sim/topology is called rend_topology. TOOL: nothing waits for it, so it is compiled with less
+# optimisation.
 
 if(CMAKE_SCRIPT_MODE_FILE)
   cmake_policy(VERSION 3.25) # a script starts without policies; IN_LIST needs one
@@ -33,8 +34,11 @@ function(rend_use_precompiled TARGET HEADERS)
 endfunction()
 
 function(rend_library FOLDER)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;LINKS;EXCLUDE" ${ARGN})
+  cmake_parse_arguments(ARG "TOOL" "" "DEPENDS;LINKS;EXCLUDE" ${ARGN})
   get_filename_component(name ${FOLDER} NAME)
+  if(TARGET rend_${name})
+    message(FATAL_ERROR "two folders are called ${name}, and ${FOLDER} is one: libraries are called after their folders")
+  endif()
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${FOLDER}/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${FOLDER}/*.h)
   foreach(file IN LISTS ARG_EXCLUDE)
@@ -63,8 +67,12 @@ function(rend_library FOLDER)
 
   if(sources)
     add_library(rend_${name} STATIC ${sources})
-    string(REGEX MATCH "^[a-z]+" part ${FOLDER}) # sim, render
-    rend_use_precompiled(rend_${name} rend_headers_${part})
+    if(ARG_TOOL)
+      target_compile_options(rend_${name} PRIVATE ${rend_tool_options})
+      rend_use_precompiled(rend_${name} rend_headers_tools)
+    else()
+      rend_use_precompiled(rend_${name} rend_headers_core)
+    endif()
     target_link_libraries(rend_${name} PUBLIC rend_flags ${libraries} ${ARG_LINKS})
   else()
     add_library(rend_${name} INTERFACE)

@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view first_line = "rend checkpoint 2\n"; // with the format's version
 
-using Fields = std::array<std::uint64_t, 2>; // key, next frame
-constexpr std::size_t head_size = first_line.size() + sizeof(Fields);
+using HeadNumbers = std::array<std::uint64_t, 2>; // key, next frame
+constexpr std::size_t head_size = first_line.size() + sizeof(HeadNumbers);
 
 // Of what came before, and one more piece.
 std::uint64_t sum_with(std::uint64_t sum, std::span<const std::uint8_t> piece) {
@@ -106,7 +106,7 @@ private:
 // None: this is no checkpoint that this rend can read.
 std::optional<CheckpointHead> head_in(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < head_size || !std::equal(first_line.begin(), first_line.end(), bytes.begin())) return {};
-  Fields fields;
+  HeadNumbers fields;
   std::memcpy(fields.data(), bytes.data() + first_line.size(), sizeof fields);
   return CheckpointHead{fields[0], static_cast<long>(fields[1])};
 }
@@ -163,7 +163,7 @@ std::string checkpoint_key(const std::string& picture_key) {
 }
 
 void write_checkpoint(const fs::path& path, const std::string& key, long next, Session& session, Film& film) {
-  const Fields fields{number_of(key), static_cast<std::uint64_t>(next)};
+  const HeadNumbers fields{number_of(key), static_cast<std::uint64_t>(next)};
   std::vector<std::uint8_t> head(first_line.begin(), first_line.end());
   head.insert(head.end(), bytes_of(fields).begin(), bytes_of(fields).end());
   sync_folder(path.parent_path()); // it says that the frames before it are there

@@ -5,8 +5,8 @@
 // readers go by the numbers alone. The index comes last, and lists what there is.
 #pragma once
 
+#include "render/clip/named_files.h"
 #include "render/clip/session.h"
-#include "render/files/named_files.h"
 #include "render/files/output_folder.h"
 #include "sim/export/format.h"
 

@@ -31,7 +31,7 @@ std::size_t elements_of(const Body& body) {
 }
 
 Json seconds_json(const Session& session, const Costs& costs) {
-  const StageSeconds s = session.scene().seconds();
+  const SceneSeconds s = session.scene().seconds();
   return {{"total", costs.total},
           {"build", s.build},
           {"bind", s.bind},
@@ -155,8 +155,8 @@ Json answers_json(const Scene& scene) {
 Json laws_json(const Scene& scene) {
   Json laws = Json::array();
   for (const auto& body : scene.bodies()) {
-    for (std::size_t n = 0; n < body->laws.size(); ++n) {
-      const LawSettings& law = body->laws[n].settings();
+    for (std::size_t n = 0; n < body->tear_laws.size(); ++n) {
+      const LawSettings& law = body->tear_laws[n].settings();
       const auto made = [&](const TearEvent& event) { return event.law == static_cast<int>(n); };
       const auto first = std::find_if(body->events.begin(), body->events.end(), made);
       laws.push_back({{"body", body->name},
@@ -264,7 +264,7 @@ Json state_json(const Scene& scene) {
              {"vertices", vertices},
              {"elements", elements},
              {"darts", darts},
-             {"fragments", fragments_of(scene)},
+             {"fragments", scene.fragments()},
              {"tears", scene.tears()},
              {"laws", laws_json(scene)},
              {"energy",
@@ -286,12 +286,6 @@ Json state_json(const Scene& scene) {
 }
 
 } // namespace
-
-std::size_t fragments_of(const Scene& scene) {
-  std::size_t count = 0;
-  for (const auto& body : scene.bodies()) count += count_cells(body->map->map(), Component);
-  return count;
-}
 
 Json figures_of(const Session& session, Stopped stopped, const Costs& costs, bool simulated) {
   const Scene& scene = session.scene();

@@ -2,8 +2,8 @@
 // summary to read.
 #pragma once
 
-#include "render/clip/pipeline.h"
 #include "render/clip/session.h"
+#include "render/pipeline/pipeline.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -24,7 +24,5 @@ nlohmann::ordered_json figures_of(const Session& session, Stopped stopped, const
                                   bool simulated = true);
 
 std::string summary_of(const nlohmann::ordered_json& figures);
-
-std::size_t fragments_of(const Scene& scene);
 
 } // namespace rend

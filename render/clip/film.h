@@ -11,10 +11,10 @@
 #pragma once
 
 #include "render/clip/frame_plan.h"
-#include "render/clip/pipeline.h"
 #include "render/clip/session.h"
 #include "render/files/output_folder.h"
 #include "render/picture/scene_picture.h"
+#include "render/pipeline/pipeline.h"
 
 #include <memory>
 #include <optional>

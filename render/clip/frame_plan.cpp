@@ -1,6 +1,6 @@
 #include "render/clip/frame_plan.h"
 
-#include "render/clip/pipeline.h"
+#include "render/pipeline/pipeline.h"
 #include "sim/base/threads.h"
 
 #include <algorithm>

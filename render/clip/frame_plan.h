@@ -6,7 +6,7 @@
 // name or date say.
 #pragma once
 
-#include "render/clip/clock.h"
+#include "render/clip/frame_clock.h"
 #include "render/clip/shard.h"
 #include "render/files/png.h"
 

@@ -71,7 +71,7 @@ unsigned beyond(const Eigen::Matrix4d& world_to_clip, const Vec3& x) {
 
 class Check {
 public:
-  Check(const Node& preset, const Scene& scene, double aspect, const FrameClock& clock)
+  Check(const PresetNode& preset, const Scene& scene, double aspect, const FrameClock& clock)
       : scene_(scene), camera_(preset.child("camera")), viewpoint_(preset, scene, aspect, clock.duration()),
         clock_(clock), aspect_(aspect), skin_(scene) {
     if (has_eye())
@@ -107,7 +107,7 @@ private:
     const std::optional<std::size_t> body = around(eye);
     if (!body) return;
     const bool keyed = !camera_->all("key").empty();
-    const Node& node = keyed ? *camera_->all("key").front() : *camera_;
+    const PresetNode& node = keyed ? *camera_->all("key").front() : *camera_;
     node.fail("eye",
               fmt::format("the camera stands inside of the body '{}', and sees nothing of it",
                           scene_.bodies()[*body]->name),
@@ -162,7 +162,7 @@ private:
 
   void look_at_colours() {
     for (const auto& body : scene_.bodies()) {
-      const Node* look = body->node->child("look");
+      const PresetNode* look = body->node->child("look");
       if (!look || look->text("by") != "fragment" || body->tears()) continue;
       if (count_cells(body->map->map()).fragments > 1) continue;
       notes_.push_back(fmt::format(
@@ -171,7 +171,7 @@ private:
   }
 
   const Scene& scene_;
-  const Node* camera_; // null: none is given
+  const PresetNode* camera_; // null: none is given
   Viewpoint viewpoint_;
   const FrameClock& clock_;
   double aspect_; // width / height
@@ -182,11 +182,11 @@ private:
 
 } // namespace
 
-void check_camera(const Node& preset, const Scene& scene, double aspect, const FrameClock& clock) {
+void check_camera(const PresetNode& preset, const Scene& scene, double aspect, const FrameClock& clock) {
   if (preset.child("camera")) Check(preset, scene, aspect, clock).check_camera();
 }
 
-std::vector<std::string> picture_notes(const Node& preset, const Scene& scene, double aspect,
+std::vector<std::string> picture_notes(const PresetNode& preset, const Scene& scene, double aspect,
                                        const FrameClock& clock) {
   return Check(preset, scene, aspect, clock).notes();
 }

@@ -6,7 +6,7 @@
 // the place of a body that is there no more: these are told, and the clip is made.
 #pragma once
 
-#include "render/clip/clock.h"
+#include "render/clip/frame_clock.h"
 #include "render/picture/viewpoint.h"
 
 #include <string>
@@ -16,10 +16,10 @@ namespace rend {
 
 // UserError with the camera's place where there is no way to look, or the first picture's eye, if it is given,
 // is inside of a solid. Cheap, and of no picture's size: asked of every preset.
-void check_camera(const Node& preset, const Scene& scene, double aspect, const FrameClock& clock);
+void check_camera(const PresetNode& preset, const Scene& scene, double aspect, const FrameClock& clock);
 
 // What is to be told to who makes pictures. aspect: width / height.
-std::vector<std::string> picture_notes(const Node& preset, const Scene& scene, double aspect,
+std::vector<std::string> picture_notes(const PresetNode& preset, const Scene& scene, double aspect,
                                        const FrameClock& clock);
 
 } // namespace rend

@@ -61,7 +61,7 @@ void Diagnostics::add(long frame, const Scene& scene) {
   // {} of a double is the shortest text that reads back as the same number.
   held_ = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", frame, scene.steps_done(), scene.time(),
                       scene.kinetic_energy(), scene.elastic_energy(), scene.gravity_energy(), p.x(), p.y(),
-                      p.z(), l.x(), l.y(), l.z(), scene.tears(), fragments_of(scene), probe_cells(scene));
+                      p.z(), l.x(), l.y(), l.z(), scene.tears(), scene.fragments(), probe_cells(scene));
 }
 
 void Diagnostics::flush() {
@@ -99,7 +99,7 @@ void EventFile::write(const Scene& scene) {
                    [](const Entry& a, const Entry& b) { return a.event->step < b.event->step; });
   std::string text;
   for (const auto& [body, event] : entries) {
-    const LawSettings& law = body->laws[static_cast<std::size_t>(event->law)].settings();
+    const LawSettings& law = body->tear_laws[static_cast<std::size_t>(event->law)].settings();
     const Json line{{"time", event->time},
                     {"step", event->step},
                     {"body", body->name},

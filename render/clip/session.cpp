@@ -2,13 +2,13 @@
 
 #include "render/clip/picture_check.h"
 #include "render/console/console.h"
+#include "render/console/number_option.h"
 #include "render/console/signals.h"
-#include "render/help/number_option.h"
 #include "render/report/machine.h"
 #include "sim/base/hash.h"
 #include "sim/base/start_threads.h"
 #include "sim/base/threads.h"
-#include "sim/build/shape.h"
+#include "sim/build/build_scene.h"
 #include "sim/preset/paths.h"
 #include "sim/preset/preset_reader.h"
 
@@ -22,10 +22,6 @@
 #include <limits>
 
 namespace rend {
-
-double wall_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 void add_preset_options(CLI::App& app, SessionOptions& options) {
   app.add_option("preset", options.preset, "the scene, an XML file")->required()->type_name("PRESET");
@@ -89,7 +85,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
   image_ = image_settings(*preset_);
   if (options.fps) image_.fps = *options.fps;
   scene_ = std::make_unique<Scene>(
-      *preset_,
+      read_scene(*preset_),
       SceneOptions{options.kernels == "walk", threads(), options.births, options.guard, {}, options.profile});
   check_counts();
   const double step = scene_->step_size();
@@ -112,8 +108,8 @@ std::uint64_t Session::key() const {
   for (const std::string& set : options_.sets) words += "set " + set + "\n";
   words += fmt::format("steps {} fps {} kernels {} guard {}\n", options_.steps.value_or(-1),
                        options_.fps.value_or(-1), options_.kernels, options_.guard);
-  for (const Node* body : preset_->all("body")) {
-    for (const Node* mesh : body->all("mesh"))
+  for (const PresetNode* body : preset_->all("body")) {
+    for (const PresetNode* mesh : body->all("mesh"))
       words += fmt::format("mesh {:016x}\n", hash_of(mesh_path(*mesh)));
   }
   return hash_bytes(words.data(), words.size());

@@ -1,8 +1,9 @@
 // A run of a preset: what its options say, and the time loop that stops at every frame.
 #pragma once
 
-#include "render/clip/clock.h"
+#include "render/clip/frame_clock.h"
 #include "render/picture/scene_preset.h"
+#include "sim/base/wall_clock.h"
 #include "sim/scene/scene.h"
 
 #include <functional>
@@ -42,7 +43,7 @@ public:
   // notes.
   explicit Session(const SessionOptions& options);
 
-  const Node& preset() const { return *preset_; }
+  const PresetNode& preset() const { return *preset_; }
   // Of all that the states of this run hang on: the preset's text, what was set, meshes, how it is run, rend's
   // version. Reads the meshes once more.
   std::uint64_t key() const;
@@ -75,7 +76,7 @@ private:
 
   SessionOptions options_;
   std::uint64_t text_hash_ = 0; // of the preset, as it was read
-  std::unique_ptr<Node> preset_;
+  std::unique_ptr<PresetNode> preset_;
   std::unique_ptr<Scene> scene_; // reads from the preset for as long as it lives
   std::unique_ptr<FrameClock> clock_;
   ImageSettings image_;
@@ -85,7 +86,5 @@ private:
 
 // The exit code of a run; says what went wrong, if anything did, and which bodies are gone.
 Exit end_of(const Session& session, Stopped stopped);
-
-double wall_clock(); // [s], since any moment
 
 } // namespace rend

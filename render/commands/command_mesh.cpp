@@ -1,9 +1,9 @@
 // rend mesh: what a mesh file holds, and the same in another format.
+#include "render/clip/named_files.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"
 #include "render/console/signals.h"
 #include "render/facts/mesh_facts.h"
-#include "render/files/named_files.h"
 #include "render/files/output.h"
 #include "sim/base/wording.h"
 #include "sim/mesh/moka.h"

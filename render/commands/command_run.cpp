@@ -1,16 +1,16 @@
 // rend run: the simulation alone, with its figures.
 #include "render/clip/export_series.h"
 #include "render/clip/figures.h"
+#include "render/clip/named_files.h"
 #include "render/clip/records.h"
 #include "render/clip/session.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"
 #include "render/console/json_text.h"
+#include "render/console/number_option.h"
 #include "render/console/progress.h"
 #include "render/console/signals.h"
 #include "render/facts/profile_report.h"
-#include "render/files/named_files.h"
-#include "render/help/number_option.h"
 #include "render/help/usage.h"
 #include "sim/base/profile.h"
 
@@ -64,16 +64,16 @@ Stopped simulate(Session& session, const RunOptions& options, ExportSeries* seri
   if (!options.events.empty()) events.emplace(followed(options.events));
   Progress progress(session.quiet(), session.clock().steps(), session.clock().duration(), 0);
   Session::Calls calls;
-  Profile* const profile = session.scene().profile();
+  Profile* const profile = &session.scene().profile();
   calls.frame = [&](long frame) {
-    const Within within(profile, Stage::Output);
+    const Within within(profile, Phase::Output);
     if (diagnostics) diagnostics->add(frame, session.scene());
     if (series) series->take(frame);
   };
   calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
-  if (profile) profile->restart();
+  profile->restart();
   const Stopped stopped = session.run(session.clock().frames() - 1, calls);
-  const Within within(profile, Stage::Output);
+  const Within within(profile, Phase::Output);
   if (diagnostics && stopped == Stopped::Unstable)
     diagnostics->abandon();
   else if (diagnostics)

@@ -1,10 +1,10 @@
 // rend study: error against run time.
+#include "render/clip/named_files.h"
 #include "render/clip/session.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"
 #include "render/console/json_text.h"
 #include "render/console/signals.h"
-#include "render/files/named_files.h"
 #include "render/files/output.h"
 #include "render/pages/lean_report.h"
 #include "render/pages/study_page.h"

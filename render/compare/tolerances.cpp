@@ -42,11 +42,11 @@ const ElementType& case_type() {
   return type;
 }
 
-bool fits(const Node& one, const std::string& name) {
+bool fits(const PresetNode& one, const std::string& name) {
   return one.name() == "default" || fnmatch(one.text("name").c_str(), name.c_str(), 0) == 0;
 }
 
-void apply(const Node& node, const std::filesystem::path& folder, CompareOptions& options) {
+void apply(const PresetNode& node, const std::filesystem::path& folder, CompareOptions& options) {
   if (node.given("threshold")) options.tolerance.threshold = node.number("threshold");
   if (node.given("window-size")) options.tolerance.window_side = node.integer("window-size");
   if (node.given("mask")) options.mask = node.text("mask").empty() ? "" : folder / node.text("mask");
@@ -60,7 +60,7 @@ void apply(const Node& node, const std::filesystem::path& folder, CompareOptions
   }
 }
 
-void check_mask(const Node& node, const std::filesystem::path& folder) {
+void check_mask(const PresetNode& node, const std::filesystem::path& folder) {
   if (!node.given("mask") || node.text("mask").empty() || stays_below(folder, node.text("mask"))) return;
   node.fail("mask", in_quotes(node.text("mask")) + " is outside of the tolerances' folder",
             "put the mask beside the tolerances, or allow it with --allow-path");
@@ -68,7 +68,7 @@ void check_mask(const Node& node, const std::filesystem::path& folder) {
 
 // "name" where a node gives it, and it does nothing: neither of `limits` holds for any picture that the node
 // fits.
-bool idle(const Tolerances& all, const Node& node, const char* setting,
+bool idle(const Tolerances& all, const PresetNode& node, const char* setting,
           std::initializer_list<const char*> limits, const std::vector<std::string>& names) {
   if (!node.given(setting)) return false;
   bool fits_one = false;
@@ -83,8 +83,8 @@ bool idle(const Tolerances& all, const Node& node, const char* setting,
 }
 
 // A setting of the command line as it would stand in a <default/>.
-std::unique_ptr<Node> node_of(const std::string& name, const std::string& value) {
-  auto node = std::make_unique<Node>(default_type(), Place{});
+std::unique_ptr<PresetNode> node_of(const std::string& name, const std::string& value) {
+  auto node = std::make_unique<PresetNode>(default_type(), Place{});
   const AttributeType* attribute = default_type().find(name);
   try {
     if (attribute && name != "mask") node->set(*attribute, value, {});
@@ -139,7 +139,7 @@ std::vector<std::string> Tolerances::remarks(const std::vector<std::string>& nam
   std::vector<std::string> out;
   for (const std::string& pattern : unused(names))
     out.emplace_back("the tolerances name " + in_quotes(pattern) + ", and no picture is called so");
-  const auto look_at = [&](const Node& node, const std::string& where) {
+  const auto look_at = [&](const PresetNode& node, const std::string& where) {
     if (idle(*this, node, "threshold", {"share", "window"}, names))
       out.push_back(where + " gives a threshold, which changes nothing without a limit on share or window");
     if (idle(*this, node, "window-size", {"window"}, names))
@@ -154,7 +154,7 @@ std::vector<std::string> Tolerances::remarks(const std::vector<std::string>& nam
 std::vector<std::string> Tolerances::unused(const std::vector<std::string>& names) const {
   std::vector<std::string> out;
   if (!file_) return out;
-  for (const Node* one : file_->all("case")) {
+  for (const PresetNode* one : file_->all("case")) {
     const auto used = [&](const std::string& name) { return fits(*one, name); };
     if (std::none_of(names.begin(), names.end(), used)) out.push_back(one->text("name"));
   }

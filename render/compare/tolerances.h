@@ -47,7 +47,7 @@ public:
 private:
   std::vector<std::string> unused(const std::vector<std::string>& names) const;
 
-  std::shared_ptr<const Node> file_;
+  std::shared_ptr<const PresetNode> file_;
   std::filesystem::path folder_; // of the file: masks are named from there
   std::vector<std::pair<std::string, std::string>> settings_;
   std::filesystem::path mask_;

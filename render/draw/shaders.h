@@ -1,4 +1,5 @@
-// The texts of shaders/, embedded when rend is built (render/draw/embed.cmake), so that the program is one file.
+// The texts of shaders/, embedded when rend is built (render/draw/embed.cmake), so that the program is one
+// file.
 #pragma once
 
 #include <string_view>

@@ -87,7 +87,7 @@ Json interactions_json(const Program& program) {
 
 Json laws_json(const Body& body) {
   Json all = Json::array();
-  for (const TearLaw& law : body.laws) {
+  for (const TearLaw& law : body.tear_laws) {
     const LawSettings& s = law.settings();
     all.push_back({{"criterion", s.criterion->name},
                    {"what", s.criterion->what},

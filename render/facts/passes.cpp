@@ -81,7 +81,7 @@ private:
 
   void add_laws() {
     const GMap& map = body_->map->map();
-    for (const TearLaw& law : body_->laws) {
+    for (const TearLaw& law : body_->tear_laws) {
       const LawSettings& settings = law.settings();
       add("laws", settings.criterion->name, count_cells(map, orbit_of(settings.cell, map.dimension())), "cells",
           1, law.bytes() + vertices_);

@@ -16,17 +16,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // The stage that a pass of a step belongs to.
-Stage stage_of(const std::string& pass) {
-  if (pass == "loads") return Stage::Loads;
-  if (pass == "laws") return Stage::Criteria;
-  if (pass == "contact") return Stage::Contact;
-  if (pass == "integration" || pass == "solve") return Stage::Integration;
-  return Stage::Forces;
+Phase stage_of(const std::string& pass) {
+  if (pass == "loads") return Phase::Loads;
+  if (pass == "laws") return Phase::Criteria;
+  if (pass == "contact") return Phase::Contact;
+  if (pass == "integration" || pass == "solve") return Phase::Integration;
+  return Phase::Forces;
 }
 
 // [byte] a step, by stage.
-std::array<double, stage_count> bytes_by_stage(const Scene& scene) {
-  std::array<double, stage_count> bytes{};
+std::array<double, phase_count> bytes_by_stage(const Scene& scene) {
+  std::array<double, phase_count> bytes{};
   for (const Json& pass : passes_of(scene))
     bytes[static_cast<std::size_t>(stage_of(pass["stage"].get<std::string>()))] +=
         pass["times"].get<double>() * pass["bytes"].get<double>();
@@ -38,14 +38,14 @@ Json share_or_null(double part, double whole) {
 }
 
 Json stages_json(const Scene& scene, const MachineSpeed& machine) {
-  const Profile& profile = *scene.profile();
-  const std::array<double, stage_count> bytes = bytes_by_stage(scene);
+  const Profile& profile = scene.profile();
+  const std::array<double, phase_count> bytes = bytes_by_stage(scene);
   const auto steps = static_cast<double>(scene.steps_done());
   Json all = Json::array();
-  for (std::size_t n = 0; n < stage_count; ++n) {
-    const Profile::Spent spent = profile.spent(static_cast<Stage>(n));
+  for (std::size_t n = 0; n < phase_count; ++n) {
+    const Profile::Spent spent = profile.spent(static_cast<Phase>(n));
     if (spent.turns == 0) continue;
-    Json one{{"stage", name_of(static_cast<Stage>(n))},
+    Json one{{"stage", name_of(static_cast<Phase>(n))},
              {"seconds", spent.seconds},
              {"share", share_or_null(spent.seconds, profile.total())},
              {"turns", spent.turns},
@@ -137,10 +137,10 @@ Json profile_json(const Session& session) {
   int threads = 1;
   for (const auto& body : scene.bodies()) threads = std::max(threads, body->program->parts());
   const MachineSpeed machine = measure_machine(threads);
-  const Profile& profile = *scene.profile();
+  const Profile& profile = scene.profile();
   long turns = 0;
-  for (std::size_t n = 0; n < stage_count; ++n) turns += profile.spent(static_cast<Stage>(n)).turns;
-  const StageSeconds before = scene.seconds();
+  for (std::size_t n = 0; n < phase_count; ++n) turns += profile.spent(static_cast<Phase>(n)).turns;
+  const SceneSeconds before = scene.seconds();
   return {{"before", {{"build", before.build}, {"bind", before.bind}}}, // [s]
           {"seconds", profile.total()},
           {"stages", stages_json(scene, machine)},

@@ -1,7 +1,7 @@
 #include "render/pages/diff_page.h"
 
-#include "render/report/comparison.h"
 #include "render/report/page.h"
+#include "render/report/picture_viewer.h"
 #include "sim/base/error.h"
 
 #include <fmt/format.h>

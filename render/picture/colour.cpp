@@ -34,7 +34,7 @@ std::uint8_t encoded(double linear) {
 
 } // namespace
 
-Colour colour_of(const Node& node, std::string_view attribute) {
+Colour colour_of(const PresetNode& node, std::string_view attribute) {
   const std::string& text = node.text(attribute);
   Colour colour{};
   bool fits = text.size() == 7 && text[0] == '#';

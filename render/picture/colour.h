@@ -13,7 +13,7 @@ namespace rend {
 using Colour = std::array<std::uint8_t, 3>;
 
 // The colour "#rrggbb" that an attribute holds. UserError with its place where it holds none.
-Colour colour_of(const Node& node, std::string_view attribute);
+Colour colour_of(const PresetNode& node, std::string_view attribute);
 
 // The colour of a quantity, share = 0 to 1 of its scale: viridis (van der Walt and Smith 2015), which is even
 // to the eye, also to one that tells red from green badly. Values outside are as the nearest end.

@@ -1,6 +1,5 @@
 #include "render/picture/hud_writer.h"
 
-#include "render/clip/figures.h"
 #include "render/console/units.h"
 #include "render/picture/colour.h"
 #include "sim/base/archive.h"
@@ -34,7 +33,7 @@ const ElementType& hud_type() {
   return type;
 }
 
-HudWriter::HudWriter(const Node& hud, const Scene& scene, long frames) : scene_(scene), frames_(frames) {
+HudWriter::HudWriter(const PresetNode& hud, const Scene& scene, long frames) : scene_(scene), frames_(frames) {
   const auto& show = hud.words("show");
   const auto has = [&](const char* word) { return std::find(show.begin(), show.end(), word) != show.end(); };
   if (has("title")) {
@@ -92,12 +91,12 @@ HudContent HudWriter::content(std::vector<HudLegend> legends) const {
   out.subtitle = subtitle_;
   if (time_) out.figures.push_back(fmt::format("{:.3f} s", scene_.time()));
   if (tears_) {
-    const std::size_t tears = scene_.tears(), fragments = fragments_of(scene_);
+    const std::size_t tears = scene_.tears(), fragments = scene_.fragments();
     out.figures.push_back(fmt::format("{} tear{}", tears, tears == 1 ? "" : "s"));
     out.figures.push_back(fmt::format("{} fragment{}", fragments, fragments == 1 ? "" : "s"));
   }
   if (cost_ && scene_.steps_done() > 0) {
-    const StageSeconds s = scene_.seconds();
+    const SceneSeconds s = scene_.seconds();
     const double sum = s.forces + s.criteria + s.change + s.rebind + s.integrate;
     out.figures.push_back(in_units(sum / static_cast<double>(scene_.steps_done()), "s") + " a step");
   }

@@ -18,7 +18,7 @@ const ElementType& hud_type();
 class HudWriter {
 public:
   // `hud` is the preset's element; frames: of the clip.
-  HudWriter(const Node& hud, const Scene& scene, long frames);
+  HudWriter(const PresetNode& hud, const Scene& scene, long frames);
 
   void observe(); // the state is that of a frame
   HudContent content(std::vector<HudLegend> legends) const;

@@ -6,6 +6,7 @@
 #include "render/picture/obstacle_picture.h"
 #include "render/picture/scene_preset.h"
 #include "sim/base/archive.h"
+#include "sim/base/wall_clock.h"
 #include "sim/body/measure.h"
 #include "sim/topology/count.h"
 #include "sim/topology/orientation.h"
@@ -13,14 +14,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 namespace rend {
 namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 static_assert(static_cast<int>(Side::Inner) == static_cast<int>(Line::None) &&
               static_cast<int>(Side::Cell) == static_cast<int>(Line::Cell) &&
@@ -39,16 +35,16 @@ Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const s
 BodyPicture::BodyPicture(Body& body)
     : body_(&body), orientable_(body.map->dimension() == 3 || is_orientable(body.map->map())) {
   if (body.map->dimension() == 2)
-    sheet_.emplace(body);
+    sheet_.emplace(*body.map, body.border);
   else
-    solid_.emplace(body);
+    solid_.emplace(*body.map, body.border);
   const ElementType& type = *std::find_if(body.node->type().children.begin(), body.node->type().children.end(),
                                           [](const ChildType& child) { return child.type->name == "look"; })
                                  ->type;
-  Node silent(type, body.node->place());
+  PresetNode silent(type, body.node->place());
   silent.fill_defaults();
-  const Node* given = body.node->child("look");
-  const Node& look = given ? *given : silent;
+  const PresetNode* given = body.node->child("look");
+  const PresetNode& look = given ? *given : silent;
   colour_ = colour_of(look, "colour");
   inside_ = colour_of(look, "inside");
   edges_ = look.flag("edges");
@@ -193,28 +189,28 @@ void BodyPicture::draw_solid(FrameBody& out) {
   });
 }
 
-PictureMaker::PictureMaker(const Node& preset, Scene& scene, double aspect, double duration, long frames)
+PictureMaker::PictureMaker(const PresetNode& preset, Scene& scene, double aspect, double duration, long frames)
     : scene_(scene), viewpoint_(preset, scene, aspect, duration) {
-  if (const Node* hud = preset.child("hud"); hud && hud_available()) hud_.emplace(*hud, scene, frames);
+  if (const PresetNode* hud = preset.child("hud"); hud && hud_available()) hud_.emplace(*hud, scene, frames);
   const Colour background = image_settings(preset).background;
   transparent_ = image_settings(preset).transparent;
   occlusion_ = image_settings(preset).occlusion;
   for (std::size_t c = 0; c < 3; ++c) background_[c] = static_cast<float>(background[c]) / 255;
-  const double start = now();
+  const double start = wall_clock();
   for (const auto& body : scene.bodies()) bodies_.push_back(std::make_unique<BodyPicture>(*body));
-  seconds_ = now() - start;
+  seconds_ = wall_clock() - start;
 }
 
 void PictureMaker::observe() {
-  const double start = now();
+  const double start = wall_clock();
   for (auto& body : bodies_) body->observe(fragments_seen_);
   if (hud_) hud_->observe();
   viewpoint_.observe(scene_);
-  seconds_ += now() - start;
+  seconds_ += wall_clock() - start;
 }
 
 Frame PictureMaker::draw(long number, double time) {
-  const double start = now();
+  const double start = wall_clock();
   Frame frame;
   frame.time = scene_.time();
   frame.number = static_cast<int>(number);
@@ -227,7 +223,7 @@ Frame PictureMaker::draw(long number, double time) {
   frame.transparent = transparent_;
   frame.occlusion = occlusion_;
   if (hud_) frame.hud = hud_->content(legends());
-  seconds_ += now() - start;
+  seconds_ += wall_clock() - start;
   return frame;
 }
 

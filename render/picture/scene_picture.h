@@ -67,7 +67,7 @@ private:
 class PictureMaker {
 public:
   // aspect: width / height; duration [s] and frames of the clip.
-  PictureMaker(const Node& preset, Scene& scene, double aspect, double duration, long frames);
+  PictureMaker(const PresetNode& preset, Scene& scene, double aspect, double duration, long frames);
 
   void observe(); // the state is that of a frame
   Frame draw(long number,

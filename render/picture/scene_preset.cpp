@@ -61,7 +61,7 @@ const ElementType& image_type() {
 }
 
 // A name that is a path, hides its file, or acts on the terminal that lists it, would surprise.
-void check_name(const Node& scene) {
+void check_name(const PresetNode& scene) {
   const std::string& name = scene.text("name");
   const char* hint = "pictures and videos are called by it: letters, digits and - do";
   if (name.find_first_not_of(" \t\r\n") == std::string::npos)
@@ -76,7 +76,7 @@ void check_name(const Node& scene) {
   if (name.size() > 200) scene.fail("name", "the name of the scene is too long: " + in_quotes(name), hint);
 }
 
-void check_camera(const Node& camera) {
+void check_camera(const PresetNode& camera) {
   if (camera.vector("up").norm() == 0)
     camera.fail("up", "the camera's up has no direction", "up=\"0 0 1\" is usual");
   const bool eye = camera.given("eye"), target = camera.given("target");
@@ -88,7 +88,7 @@ void check_camera(const Node& camera) {
     camera.fail("eye", "the camera's eye stands at its target", "move it away from there");
 }
 
-void check_look(const Node& look) {
+void check_look(const PresetNode& look) {
   colour_of(look, "colour");
   colour_of(look, "inside");
   if (look.given("back")) colour_of(look, "back");
@@ -99,7 +99,7 @@ void check_look(const Node& look) {
 }
 
 // Colours show what elements or springs know.
-void check_colours(const Node& body, const Node& look) {
+void check_colours(const PresetNode& body, const PresetNode& look) {
   const std::string& by = look.text("by");
   const bool springs = body.child("springs"), elements = body.child("elasticity");
   const std::string name = in_quotes(body.text("name"));
@@ -116,19 +116,19 @@ void check_colours(const Node& body, const Node& look) {
 }
 
 // What only pictures need is looked at as well, so that a preset is good or bad for all commands alike.
-std::unique_ptr<Node> checked(std::unique_ptr<Node> scene) {
+std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
   check_name(*scene);
   duration_of(*scene->child("time")); // said by all commands alike
   image_settings(*scene);             // its colour
-  for (const Node* body : scene->all("body"))
-    if (const Node* look = body->child("look")) {
+  for (const PresetNode* body : scene->all("body"))
+    if (const PresetNode* look = body->child("look")) {
       check_look(*look);
       check_colours(*body, *look);
     }
-  if (const Node* world = scene->child("world"))
+  if (const PresetNode* world = scene->child("world"))
     for (const char* name : {"sphere", "box"})
-      for (const Node* obstacle : world->all(name)) colour_of(*obstacle, "colour");
-  if (const Node* camera = scene->child("camera")) check_camera(*camera);
+      for (const PresetNode* obstacle : world->all(name)) colour_of(*obstacle, "colour");
+  if (const PresetNode* camera = scene->child("camera")) check_camera(*camera);
   return scene;
 }
 
@@ -149,20 +149,20 @@ const ElementType& scene_type() {
   return type;
 }
 
-std::unique_ptr<Node> load_scene(const std::filesystem::path& path, std::span<const Override> overrides) {
+std::unique_ptr<PresetNode> load_scene(const std::filesystem::path& path, std::span<const Override> overrides) {
   return checked(read_preset(path, scene_type(), overrides));
 }
 
-std::unique_ptr<Node> load_scene_text(std::string_view text, const std::string& file,
-                                      std::span<const Override> overrides) {
+std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::string& file,
+                                            std::span<const Override> overrides) {
   return checked(read_preset_text(text, file, scene_type(), overrides));
 }
 
-ImageSettings image_settings(const Node& scene) {
-  Node silent(image_type(), scene.place());
+ImageSettings image_settings(const PresetNode& scene) {
+  PresetNode silent(image_type(), scene.place());
   silent.fill_defaults();
-  const Node* given = scene.child("image");
-  const Node& image = given ? *given : silent;
+  const PresetNode* given = scene.child("image");
+  const PresetNode& image = given ? *given : silent;
   ImageSettings settings;
   settings.width = static_cast<int>(image.integers("size")[0]);
   settings.height = static_cast<int>(image.integers("size")[1]);

@@ -15,11 +15,12 @@ const ElementType& scene_type();
 
 // Reads a preset, checked against the table. Its name must do as a file name, since pictures are called by it.
 // Throws UserError as read_preset does.
-std::unique_ptr<Node> load_scene(const std::filesystem::path& path, std::span<const Override> overrides = {});
+std::unique_ptr<PresetNode> load_scene(const std::filesystem::path& path,
+                                       std::span<const Override> overrides = {});
 
 // The same for a text; `file` is what its places are called by.
-std::unique_ptr<Node> load_scene_text(std::string_view text, const std::string& file,
-                                      std::span<const Override> overrides = {});
+std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::string& file,
+                                            std::span<const Override> overrides = {});
 
 // What <image> says, or the table where it is silent or absent.
 struct ImageSettings {
@@ -30,6 +31,6 @@ struct ImageSettings {
   bool transparent = false;                 // there is no background
   bool occlusion = true;                    // ambient occlusion
 };
-ImageSettings image_settings(const Node& scene);
+ImageSettings image_settings(const PresetNode& scene);
 
 } // namespace rend

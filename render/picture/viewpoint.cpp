@@ -92,9 +92,9 @@ Bounds room_of(const Scene& scene, double duration) {
   return room;
 }
 
-Viewpoint::Viewpoint(const Node& preset, const Scene& scene, double aspect, double duration)
+Viewpoint::Viewpoint(const PresetNode& preset, const Scene& scene, double aspect, double duration)
     : aspect_(aspect), duration_(duration) {
-  const Node* camera = preset.child("camera");
+  const PresetNode* camera = preset.child("camera");
   Bounds start;
   for (const auto& body : scene.bodies()) start.extend(bounds_of(*body));
   const bool has_eye = camera && camera->given("eye");
@@ -123,8 +123,8 @@ Viewpoint::Viewpoint(const Node& preset, const Scene& scene, double aspect, doub
   start_.target = fitted.target;
 }
 
-void Viewpoint::read_keys(const Node& camera) {
-  for (const Node* node : camera.all("key")) {
+void Viewpoint::read_keys(const PresetNode& camera) {
+  for (const PresetNode* node : camera.all("key")) {
     Key key;
     key.time = node->number("at");
     key.camera << node->vector("eye"), node->given("target") ? node->vector("target") : start_.target,

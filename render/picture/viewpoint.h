@@ -25,7 +25,7 @@ Eigen::AlignedBox3d room_of(const Scene& scene, double duration);
 class Viewpoint {
 public:
   // aspect: width / height. UserError where the camera looks at nothing.
-  Viewpoint(const Node& preset, const Scene& scene, double aspect, double duration);
+  Viewpoint(const PresetNode& preset, const Scene& scene, double aspect, double duration);
 
   void observe(const Scene& scene);  // the state is that of a frame; only needed by a camera that follows
   FrameCamera at(double time) const; // [s]
@@ -36,7 +36,7 @@ private:
     double time;                        // [s]
     Eigen::Matrix<double, 7, 1> camera; // eye, target [m], fov [degrees]
   };
-  void read_keys(const Node& camera);
+  void read_keys(const PresetNode& camera);
   FrameCamera between_keys(double time) const;
 
   FrameCamera start_;

@@ -14,7 +14,7 @@ struct SmallPictures::Studio {
 SmallPictures::SmallPictures() : studio_(std::make_unique<Studio>()) {}
 SmallPictures::~SmallPictures() = default;
 
-Image SmallPictures::of(const Node& preset, Scene& scene) {
+Image SmallPictures::of(const PresetNode& preset, Scene& scene) {
   Stage& stage = studio_->stage;
   PictureMaker maker(preset, scene, static_cast<double>(stage.width()) / stage.height(), 1, 1);
   maker.observe();

@@ -12,7 +12,7 @@ class SmallPictures {
 public:
   SmallPictures(); // starts OpenGL
   ~SmallPictures();
-  Image of(const Node& preset, Scene& scene);
+  Image of(const PresetNode& preset, Scene& scene);
 
 private:
   struct Studio;

@@ -2,6 +2,7 @@
 
 #include "render/picture/scene_preset.h"
 #include "render/studies/lean_picture.h"
+#include "sim/build/build_scene.h"
 #include "sim/scene/memory.h"
 #include "sim/study/bare_loop.h"
 
@@ -26,7 +27,7 @@ public:
     for (const Setting& setting : side.settings) overrides.push_back({setting.path, setting.value});
     preset_ = load_scene_text(with(with(scene.text, "body", side.element), "world", side.surroundings),
                               scene.file.empty() ? scene.name : scene.file, overrides);
-    scene_ = std::make_unique<Scene>(*preset_, SceneOptions{side.walk, 1, side.births});
+    scene_ = std::make_unique<Scene>(read_scene(*preset_), SceneOptions{side.walk, 1, side.births});
     if (!bare_) return;
     if (const std::string more = more_than_bare(*scene_); !more.empty())
       throw UserError(Exit::BadInput, preset_->place(), "the scene has " + more);
@@ -50,7 +51,7 @@ public:
   Image picture(SmallPictures& pictures) { return pictures.of(*preset_, *scene_); }
 
 private:
-  std::unique_ptr<Node> preset_;
+  std::unique_ptr<PresetNode> preset_;
   std::unique_ptr<Scene> scene_; // reads from the preset
   std::unique_ptr<BareLoop> loop_;
   bool bare_;

@@ -4,7 +4,7 @@
 
 #include "render/studies/lean_features.h"
 #include "sim/preset/override.h"
-#include "sim/study/comparison.h"
+#include "sim/study/paired_timing.h"
 
 namespace rend {
 

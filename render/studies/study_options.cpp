@@ -1,7 +1,8 @@
 #include "render/studies/study_options.h"
 
-#include "render/help/number_option.h"
+#include "render/console/number_option.h"
 #include "render/help/usage.h"
+#include "sim/build/build_scene.h"
 #include "sim/preset/paths.h"
 
 #include <CLI/CLI.hpp>
@@ -84,15 +85,15 @@ std::string multiplied(const std::vector<double>& cells, int factor) {
 }
 
 // What makes a body's mesh so many times finer: more cells of its generator. A mesh of a file has none.
-Setting refinement_of(const Node& body, std::size_t number, int factor, const std::string& option) {
+Setting refinement_of(const PresetNode& body, std::size_t number, int factor, const std::string& option) {
   for (const char* shape : {"sheet", "bar", "tube"})
-    if (const Node* node = body.child(shape))
+    if (const PresetNode* node = body.child(shape))
       return {fmt::format("body[{}].{}.cells", number, shape), multiplied(node->integers("cells"), factor)};
   refuse(option, fmt::format("the mesh of body {} is of a file, and cannot be made finer", number),
          "a <sheet>, <bar> or <tube> can; or study presets with coarser and finer files one by one");
 }
 
-Values values_of_refine(const Node& preset, const std::string& refine) {
+Values values_of_refine(const PresetNode& preset, const std::string& refine) {
   const std::string option = "--refine " + refine;
   Values values;
   for (const std::string& text : split(refine, option)) {
@@ -135,13 +136,13 @@ struct Source {
   std::vector<Override> overrides;
   bool allow_path = false;
 
-  std::unique_ptr<Node> load(const Variant& variant) const {
+  std::unique_ptr<PresetNode> load(const Variant& variant) const {
     std::vector<Override> all = overrides;
     for (const Setting& setting : variant.settings) all.push_back({setting.path, setting.value});
     if (!variant.integrator.empty()) all.push_back({"time.integrator", variant.integrator});
     if (variant.step > 0) all.push_back({"time.step", fmt::format("{:.17g}", variant.step)});
     if (variant.tolerance) all.push_back({"time.tolerance", fmt::format("{:.17g}", *variant.tolerance)});
-    std::unique_ptr<Node> node = load_scene_text(text, preset, all);
+    std::unique_ptr<PresetNode> node = load_scene_text(text, preset, all);
     if (!allow_path) check_paths(*node);
     return node;
   }
@@ -149,10 +150,10 @@ struct Source {
 
 // A scene and the preset that it keeps reading from, gone in this order.
 std::shared_ptr<Scene> build(const Source& source, const Variant& variant) {
-  std::shared_ptr<Node> node = source.load(variant);
+  std::shared_ptr<PresetNode> node = source.load(variant);
   SceneOptions options;
   options.guard = false; // a step that is too large is to be seen as it is
-  return {new Scene(*node, options), [node](const Scene* scene) { delete scene; }};
+  return {new Scene(read_scene(*node), options), [node](const Scene* scene) { delete scene; }};
 }
 
 } // namespace
@@ -197,7 +198,7 @@ StudyTask study_task(const StudyOptions& options) {
   StudyTask task;
   task.text = source.text;
   task.plan.integrators = integrators_of(options);
-  const std::unique_ptr<Node> preset = source.load({});
+  const std::unique_ptr<PresetNode> preset = source.load({});
   task.name = preset->text("name");
   std::vector<Values> dimensions;
   if (!options.refine.empty()) dimensions.push_back(values_of_refine(*preset, options.refine));

@@ -1,4 +1,4 @@
-// The Node of sim/base/parameters.h: values read from their text, and asked for.
+// The PresetNode of sim/base/parameters.h: values read from their text, and asked for.
 #include "sim/base/check.h"
 #include "sim/base/parameters.h"
 
@@ -41,7 +41,7 @@ template <class T> std::errc parse(std::string_view token, T& out) {
 
 } // namespace
 
-struct Node::Reading {
+struct PresetNode::Reading {
   const AttributeType& type;
   const std::string& element;
   const std::string& text;
@@ -152,24 +152,29 @@ struct Node::Reading {
   }
 };
 
-Node::Node(const ElementType& type, Place place) : type_(&type), place_(std::move(place)) {}
+PresetNode::PresetNode(const ElementType& type, Place place) : type_(&type), place_(std::move(place)) {}
 
-const Place& Node::place(std::string_view attribute) const {
+const Place& PresetNode::place(std::string_view attribute) const {
   CHECK_NOTE(type_->find(attribute), fmt::format("{} of <{}>", attribute, name()));
   const auto found = values_.find(attribute);
   return found != values_.end() && found->second.given ? found->second.place : place_;
 }
 
-bool Node::has(std::string_view attribute) const {
+bool PresetNode::has(std::string_view attribute) const {
   CHECK_NOTE(type_->find(attribute), fmt::format("{} of <{}>", attribute, name()));
   return values_.find(attribute) != values_.end();
 }
 
-bool Node::given(std::string_view attribute) const {
+const AttributeValue* PresetNode::find(std::string_view attribute) const {
+  return has(attribute) ? &values_.find(attribute)->second : nullptr;
+}
+
+bool PresetNode::given(std::string_view attribute) const {
   return has(attribute) && values_.find(attribute)->second.given;
 }
 
-const Node::Value& Node::value(std::string_view attribute, std::initializer_list<AttributeKind> kinds) const {
+const PresetNode::Value& PresetNode::value(std::string_view attribute,
+                                           std::initializer_list<AttributeKind> kinds) const {
   const AttributeType* type = type_->find(attribute);
   const auto found = values_.find(attribute);
   const std::string note = fmt::format("{} of <{}>", attribute, name());
@@ -178,78 +183,78 @@ const Node::Value& Node::value(std::string_view attribute, std::initializer_list
   return found->second;
 }
 
-double Node::number(std::string_view attribute) const {
+double PresetNode::number(std::string_view attribute) const {
   const Value& out = value(attribute, {AttributeKind::Number, AttributeKind::NumberOrWord});
   CHECK_NOTE(!out.word, std::string(attribute));
   return out.numbers.front();
 }
 
-Eigen::Vector3d Node::vector(std::string_view attribute) const {
+Eigen::Vector3d PresetNode::vector(std::string_view attribute) const {
   const std::vector<double>& x = numbers(attribute);
   CHECK_NOTE(x.size() == 3, std::string(attribute));
   return {x[0], x[1], x[2]};
 }
 
-const std::vector<double>& Node::numbers(std::string_view attribute) const {
+const std::vector<double>& PresetNode::numbers(std::string_view attribute) const {
   return value(attribute, {AttributeKind::Numbers, AttributeKind::Integers}).numbers;
 }
 
-int Node::integer(std::string_view attribute) const {
+int PresetNode::integer(std::string_view attribute) const {
   return static_cast<int>(value(attribute, {AttributeKind::Integer}).numbers.front());
 }
 
-bool Node::flag(std::string_view attribute) const {
+bool PresetNode::flag(std::string_view attribute) const {
   return value(attribute, {AttributeKind::Flag}).text == "yes";
 }
 
-const std::string& Node::text(std::string_view attribute) const {
+const std::string& PresetNode::text(std::string_view attribute) const {
   const Value& out = value(attribute, {AttributeKind::Text, AttributeKind::Word, AttributeKind::NumberOrWord});
   CHECK_NOTE(out.numbers.empty(), std::string(attribute));
   return out.text;
 }
 
-const std::vector<std::string>& Node::words(std::string_view attribute) const {
+const std::vector<std::string>& PresetNode::words(std::string_view attribute) const {
   return value(attribute, {AttributeKind::Words}).words;
 }
 
-bool Node::is_word(std::string_view attribute) const {
+bool PresetNode::is_word(std::string_view attribute) const {
   return value(attribute, {AttributeKind::NumberOrWord}).word;
 }
 
-const Node* Node::child(std::string_view name) const {
+const PresetNode* PresetNode::child(std::string_view name) const {
   for (const auto& child : children_) {
     if (child->name() == name) return child.get();
   }
   return nullptr;
 }
 
-std::vector<const Node*> Node::all(std::string_view name) const {
-  std::vector<const Node*> out;
+std::vector<const PresetNode*> PresetNode::all(std::string_view name) const {
+  std::vector<const PresetNode*> out;
   for (const auto& child : children_) {
     if (child->name() == name) out.push_back(child.get());
   }
   return out;
 }
 
-void Node::fail(std::string_view attribute, const std::string& what, const std::string& hint) const {
+void PresetNode::fail(std::string_view attribute, const std::string& what, const std::string& hint) const {
   throw UserError(Exit::BadInput, place(attribute), what, hint);
 }
 
-void Node::set(const AttributeType& attribute, const std::string& value, const Place& place, bool given) {
+void PresetNode::set(const AttributeType& attribute, const std::string& value, const Place& place, bool given) {
   CHECK_NOTE(type_->find(attribute.name) == &attribute, attribute.name);
   Value read = Reading{attribute, type_->name, value, place}.read();
   read.given = given;
   values_.insert_or_assign(attribute.name, std::move(read));
 }
 
-Node& Node::add(std::unique_ptr<Node> child) {
+PresetNode& PresetNode::add(std::unique_ptr<PresetNode> child) {
   const auto fits = [&](const ChildType& allowed) { return allowed.type == child->type_; };
   CHECK_NOTE(std::any_of(type_->children.begin(), type_->children.end(), fits), child->name());
   children_.push_back(std::move(child));
   return *children_.back();
 }
 
-void Node::fill_defaults() {
+void PresetNode::fill_defaults() {
   for (const AttributeType& attribute : type_->attributes) {
     if (!attribute.fallback || has(attribute.name)) continue;
     try {
@@ -261,14 +266,14 @@ void Node::fill_defaults() {
   for (const auto& child : children_) child->fill_defaults();
 }
 
-void Node::check_complete() const {
+void PresetNode::check_complete() const {
   for (const AttributeType& attribute : type_->attributes) {
     if (!attribute.required || has(attribute.name)) continue;
     throw UserError(Exit::BadInput, place_, fmt::format("<{}> needs {}", name(), attribute.name),
                     fmt::format("{}: {}; expected {}", attribute.name, attribute.what, expected(attribute)));
   }
   for (const ChildType& allowed : type_->children) {
-    const std::vector<const Node*> present = all(allowed.type->name);
+    const std::vector<const PresetNode*> present = all(allowed.type->name);
     const int count = static_cast<int>(present.size());
     if (count < allowed.at_least)
       throw UserError(Exit::BadInput, place_,

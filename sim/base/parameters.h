@@ -1,9 +1,9 @@
 // The parameter table: every element and attribute that a preset may hold, said once.
 //
 // An ElementType stands beside the code that uses it (a force declares its stiffness beside its formula). The
-// one table drives the reader, the defaults, `rend help preset` and the schema presets/scene.xsd. A Node is one
-// element of a preset after it was checked against its type: every attribute is there, with its default where
-// the preset is silent, finite and in range.
+// one table drives the reader, the defaults, `rend help preset` and the schema presets/scene.xsd. A
+// PresetNode is one element of a preset after it was checked against its type: every attribute is there, with
+// its default where the preset is silent, finite and in range.
 #pragma once
 
 #include "sim/base/error.h"
@@ -80,14 +80,22 @@ struct ElementType {
   const AttributeType* find(std::string_view attribute) const; // null if there is none
 };
 
+// What stands in a preset for an attribute, read as its kind says.
+struct AttributeValue {
+  std::string text; // without blanks around it (Text: with them)
+  std::vector<double> numbers;
+  std::vector<std::string> words;
+  bool word = false; // NumberOrWord: a word stands there
+};
+
 // What a value must be, for messages and help: "2 whole numbers, each of at least 1", "auto, or a number above
 // 0 [s]".
 std::string expected(const AttributeType& attribute);
 
 // One checked element of a preset.
-class Node {
+class PresetNode {
 public:
-  Node(const ElementType& type, Place place);
+  PresetNode(const ElementType& type, Place place);
 
   const ElementType& type() const { return *type_; }
   const std::string& name() const { return type_->name; }
@@ -96,6 +104,8 @@ public:
 
   bool has(std::string_view attribute) const;   // given, or by default
   bool given(std::string_view attribute) const; // stands in the preset (or was set on the command line)
+
+  const AttributeValue* find(std::string_view attribute) const; // null: neither given, nor by default
 
   // Values. CHECK that the attribute is of that kind and is there.
   double number(std::string_view attribute) const;
@@ -108,9 +118,9 @@ public:
   const std::vector<std::string>& words(std::string_view attribute) const; // Words, in their order
   bool is_word(std::string_view attribute) const;                          // NumberOrWord: a word stands there
 
-  std::span<const std::unique_ptr<Node>> children() const { return children_; }
-  const Node* child(std::string_view name) const; // the first of that name, or null
-  std::vector<const Node*> all(std::string_view name) const;
+  std::span<const std::unique_ptr<PresetNode>> children() const { return children_; }
+  const PresetNode* child(std::string_view name) const; // the first of that name, or null
+  std::vector<const PresetNode*> all(std::string_view name) const;
 
   // A bad value: file:line:column of the attribute, exit 65.
   [[noreturn]] void fail(std::string_view attribute, const std::string& what,
@@ -118,16 +128,13 @@ public:
 
   // For readers: sets an attribute from its text. Throws UserError with `place` where it does not fit its type.
   void set(const AttributeType& attribute, const std::string& value, const Place& place, bool given = true);
-  Node& add(std::unique_ptr<Node> child);
+  PresetNode& add(std::unique_ptr<PresetNode> child);
   void fill_defaults();        // of this element and those below
   void check_complete() const; // required attributes, too few or too many children, here and below
 
 private:
-  struct Value {
-    std::string text; // as it stands, without blanks around it (Text: with them)
-    std::vector<double> numbers;
-    std::vector<std::string> words;
-    bool word = false, given = false;
+  struct Value : AttributeValue {
+    bool given = false;
     Place place;
   };
   struct Reading; // turns a text into a Value
@@ -136,7 +143,7 @@ private:
   const ElementType* type_;
   Place place_;
   std::map<std::string, Value, std::less<>> values_;
-  std::vector<std::unique_ptr<Node>> children_;
+  std::vector<std::unique_ptr<PresetNode>> children_;
 };
 
 } // namespace rend

@@ -1,15 +1,17 @@
 #include "sim/base/profile.h"
 
+#include "sim/base/archive.h"
+
 #include <algorithm>
 #include <limits>
 
 namespace rend {
 
-const char* name_of(Stage stage) {
-  static constexpr std::array<const char*, stage_count> names{
+const char* name_of(Phase phase) {
+  static constexpr std::array<const char*, phase_count> names{
       "forces",    "loads",   "criteria", "changes", "rebinding", "integration",
       "stiffness", "contact", "guard",    "output",  "rest"};
-  return names[static_cast<std::size_t>(stage)];
+  return names[static_cast<std::size_t>(phase)];
 }
 
 double clock_reading() {
@@ -22,31 +24,78 @@ double clock_reading() {
   return least;
 }
 
-Profile::Profile() : reading_(clock_reading()) {
+Profile::Profile(Extent extent) : extent_(extent), reading_(clock_reading()) {
   restart();
 }
 
 void Profile::restart() {
+  state_ = every_step() ? State::Timed : State::Off;
   spent_.fill({});
-  stage_ = Stage::Rest;
+  phase_ = Phase::Rest;
   since_ = Clock::now();
+  steps_ = timed_steps_ = 0;
 }
 
-Stage Profile::turn_to(Stage next) {
+// Not the first step, whose caches are cold.
+void Profile::begin_step(long number) {
+  ++steps_;
+  if (every_step()) {
+    ++timed_steps_;
+  } else if (number % sampled == sampled - 1) {
+    ++timed_steps_;
+    state_ = State::Timed;
+    phase_ = Phase::Rest;
+    since_ = Clock::now();
+  }
+}
+
+void Profile::end_step() {
+  if (!every_step()) state_ = State::Off;
+}
+
+bool Profile::enter(Phase phase, Phase& before) {
+  if (state_ == State::Off && always(phase)) {
+    state_ = State::AChange;
+    phase_ = Phase::Rest;
+    since_ = Clock::now();
+  } else if (state_ == State::Off || (state_ == State::AChange && !always(phase))) {
+    return false;
+  }
+  before = phase_;
+  turn_to(phase);
+  return true;
+}
+
+void Profile::leave(Phase before) {
+  turn_to(before);
+  if (state_ == State::AChange && before == Phase::Rest) state_ = State::Off;
+}
+
+void Profile::turn_to(Phase next) {
   const Clock::time_point now = Clock::now();
-  const Stage before = stage_;
   const double seconds = std::chrono::duration<double>(now - since_).count() - reading_;
-  spent_[static_cast<std::size_t>(before)].seconds += std::max(seconds, 0.0);
+  spent_[static_cast<std::size_t>(phase_)].seconds += std::max(seconds, 0.0);
   ++spent_[static_cast<std::size_t>(next)].turns;
-  stage_ = next;
+  phase_ = next;
   since_ = now;
-  return before;
+}
+
+double Profile::seconds(Phase phase) const {
+  const double measured = spent(phase).seconds;
+  if (always(phase)) return measured;
+  return timed_steps_ > 0 ? measured * static_cast<double>(steps_) / static_cast<double>(timed_steps_) : 0;
 }
 
 double Profile::total() const {
   double sum = 0;
   for (const Spent& spent : spent_) sum += spent.seconds;
   return sum;
+}
+
+void Profile::store(Archive& archive) {
+  archive(steps_, timed_steps_);
+  if (archive.reading()) refuse_unless(is_count(timed_steps_), "steps were timed less often than never");
+  for (Spent& spent : spent_) archive(spent.seconds, spent.turns);
 }
 
 } // namespace rend

@@ -1,9 +1,11 @@
-// Where the time of a run goes, stage by stage, for those who ask (rend run --profile).
+// Where the time of a run goes, phase by phase.
 //
-// One stage is current at any moment. Within turns to another, and back where it ends: each second belongs to
-// the innermost stage alone, and all stages together are the whole. Reading the clock takes as long as a small
-// body's forces: what a reading takes is measured and taken off at each turn. Where nobody asks there is no
-// Profile, and a Within tests a pointer. For the thread that makes the steps.
+// One phase is current at any moment. Within turns to another, and back where it ends: each second belongs to
+// the innermost phase alone. Reading the clock takes as long as a small body's forces: so only one step in
+// `sampled` is timed, and its seconds count that often; what changes the topology is rare, and timed in every
+// step. Who asks for a profile (rend run --profile) has every step timed, and then all phases together are the
+// whole; what a reading of the clock takes is taken off at each turn. In a step that is not timed a Within
+// tests a flag. For the thread that makes the steps.
 #pragma once
 
 #include <array>
@@ -12,7 +14,9 @@
 
 namespace rend {
 
-enum class Stage {
+class Archive;
+
+enum class Phase {
   Forces,      // of interactions, in all evaluations
   Loads,       // of loads and wind
   Criteria,    // what the laws look at
@@ -25,8 +29,8 @@ enum class Stage {
   Output, // what is written at frames
   Rest    // of the time loop
 };
-constexpr std::size_t stage_count = static_cast<std::size_t>(Stage::Rest) + 1;
-const char* name_of(Stage stage);
+constexpr std::size_t phase_count = static_cast<std::size_t>(Phase::Rest) + 1;
+const char* name_of(Phase phase);
 
 class Profile {
 public:
@@ -34,36 +38,57 @@ public:
     double seconds = 0;
     long turns = 0; // to it
   };
+  enum class Extent { SampledSteps, EveryStep };
+  static constexpr long sampled = 16; // one step in so many
 
-  Profile();
-  void restart();            // forgets all; Rest is current
-  Stage turn_to(Stage next); // returns the one before
-  Spent spent(Stage stage) const { return spent_[static_cast<std::size_t>(stage)]; } // up to the last turn
-  double reading() const { return reading_; }                                        // [s] that the clock takes
-  double total() const;                                                              // [s]
+  explicit Profile(Extent extent);
+  bool every_step() const { return extent_ == Extent::EveryStep; }
+  void restart(); // forgets all; Rest is current
+
+  void begin_step(long number); // steps done before it
+  void end_step();
+  bool timed() const { return state_ == State::Timed; } // the present step is
+
+  Spent spent(Phase phase) const { return spent_[static_cast<std::size_t>(phase)]; } // up to the last turn
+  double seconds(Phase phase) const;          // [s], over all steps: of sampled ones, scaled up
+  double reading() const { return reading_; } // [s] that the clock takes
+  double total() const;                       // [s], of what was timed
+
+  void store(Archive& archive);
 
 private:
+  friend class Within;
   using Clock = std::chrono::steady_clock;
-  std::array<Spent, stage_count> spent_;
-  Stage stage_ = Stage::Rest;
+  // Off: the present step is not timed. AChange: nor is it, but for the change of topology it is making.
+  enum class State { Off, Timed, AChange };
+  static bool always(Phase phase) { return phase == Phase::Changes || phase == Phase::Rebinding; }
+  bool enter(Phase phase, Phase& before); // false: it is not timed, and nothing was turned
+  void leave(Phase before);
+  void turn_to(Phase next);
+
+  Extent extent_;
+  State state_ = State::Off;
+  std::array<Spent, phase_count> spent_;
+  Phase phase_ = Phase::Rest;
   Clock::time_point since_;
   double reading_ = 0; // [s]
+  long steps_ = 0, timed_steps_ = 0;
 };
 
+// The phase of a scope.
 class Within {
 public:
-  Within(Profile* profile, Stage stage) : profile_(profile) {
-    if (profile_) before_ = profile_->turn_to(stage);
-  }
+  Within(Profile* profile, Phase phase)
+      : profile_(profile && profile->enter(phase, before_) ? profile : nullptr) {}
   ~Within() {
-    if (profile_) profile_->turn_to(before_);
+    if (profile_) profile_->leave(before_);
   }
   Within(const Within&) = delete;
   Within& operator=(const Within&) = delete;
 
 private:
-  Profile* profile_; // null: nobody asks
-  Stage before_ = Stage::Rest;
+  Phase before_ = Phase::Rest;
+  Profile* profile_; // null: the scope is not timed
 };
 
 double clock_reading(); // [s] between two readings of the clock that follow each other

@@ -6,15 +6,10 @@
 #include "sim/integrate/footing.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace rend {
 namespace {
-
-double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // At borders of elements.
 std::size_t open_darts(const GMap& map) {
@@ -31,19 +26,19 @@ Body::~Body() {
 }
 
 void Body::prepare(const Scheme& scheme, bool walk, int threads, double tolerance) {
-  const bool elementary =
-      std::any_of(laws.begin(), laws.end(), [](const TearLaw& law) { return law.settings().elementary(); });
+  const bool elementary = std::any_of(tear_laws.begin(), tear_laws.end(),
+                                      [](const TearLaw& law) { return law.settings().elementary(); });
   ProgramOptions options;
   options.elementary = elementary;
   options.fold = cumulated != Cumulated::No;
   options.walk = walk;
   sums_ = elementary && sums_fit(interactions, options) &&
-          std::all_of(laws.begin(), laws.end(), [](const TearLaw& law) {
+          std::all_of(tear_laws.begin(), tear_laws.end(), [](const TearLaw& law) {
             return !law.settings().elementary() || law.settings().by_sums();
           });
   options.folded = !elementary || scheme.evaluations > 1 || sums_;
   options.threads = threads;
-  options.timed = profile != nullptr;
+  options.timed = profile && profile->every_step();
   options.small_in_parts = small_in_parts;
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
@@ -58,7 +53,7 @@ void Body::prepare(const Scheme& scheme, bool walk, int threads, double toleranc
 void Body::reserve_for_separations() {
   map->reserve_for_separations();
   program->reserve_for_separations();
-  for (TearLaw& law : laws) law.reserve_for_separations();
+  for (TearLaw& law : tear_laws) law.reserve_for_separations();
   force.reserve(map->slots_when_separated(Vertex));
   next.position.reserve(map->slots_when_separated(Vertex));
   next.velocity.reserve(map->slots_when_separated(Vertex));
@@ -67,7 +62,7 @@ void Body::reserve_for_separations() {
 
 void Body::forces(double time, const Record* position, const Record* velocity, Record* out) {
   {
-    const Within within(profile, Stage::Forces);
+    const Within within(profile, Phase::Forces);
     program->forces(position, velocity, out);
   }
   ++evaluations;
@@ -83,7 +78,7 @@ void Body::forces_in_stretches(double time, const Record* position, const Record
 }
 
 void Body::outer(double time, const Record* position, const Record* velocity) {
-  const Within within(loads.empty() ? nullptr : profile, Stage::Loads);
+  const Within within(loads.empty() ? nullptr : profile, Phase::Loads);
   load = loads.evaluate(*map, time, position, velocity);
   if (load && faulty.armed(StepStage::Loads))
     load = faulty.spoil_copy(program->inverse_mass(), vertices(), load);
@@ -95,7 +90,7 @@ void Body::constrain(double time, Record* position, Record* velocity) {
 
 void Body::add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
                          double by_velocity, BlockMatrix& out) {
-  const Within within(profile, Stage::Stiffness);
+  const Within within(profile, Phase::Stiffness);
   assembly->add(position, velocity, tangent, by_position, by_velocity, out);
 }
 
@@ -104,9 +99,9 @@ void Body::hold(double time, std::uint8_t* axes) {
 }
 
 // Profiles tell forces and integration apart, and what tears looks at forces.
-bool Body::may_leave_forces() const {
-  return integrator->sweeps() && !tears() && !profile && !program->options().walk && !small_in_parts &&
-         !faulty.armed(StepStage::Forces);
+bool Body::may_defer_forces() const {
+  return integrator->sweeps() && !tears() && !(profile && profile->every_step()) && !program->options().walk &&
+         !small_in_parts && !faulty.armed(StepStage::Forces);
 }
 
 void Body::meet_program() {
@@ -115,15 +110,15 @@ void Body::meet_program() {
   force.resize(vertices());
 }
 
-void Body::leave_forces() {
+void Body::defer_forces() {
   meet_program();
-  forces_left_ = true;
+  forces_deferred_ = true;
 }
 
 void Body::evaluate() {
-  const Within within(profile, Stage::Forces);
+  const Within within(profile, Phase::Forces);
   meet_program();
-  forces_left_ = false;
+  forces_deferred_ = false;
   const Record *x = map->position().values().data(), *v = map->velocity().values().data();
   if (sums_)
     program->forces_with_sums(x, v, force.data());
@@ -158,8 +153,8 @@ CriterionRequest Body::request_for(const LawSettings& law) const {
 int Body::tear(double time, long number, const std::function<void()>& sound) {
   const std::size_t before = events.size();
   int made = 0;
-  for (std::size_t n = 0; n < laws.size(); ++n)
-    if (laws[n].active(time)) made += apply_law(n, time, number, sound);
+  for (std::size_t n = 0; n < tear_laws.size(); ++n)
+    if (tear_laws[n].active(time)) made += apply_law(n, time, number, sound);
   if (made == 0) return 0;
   if (births) births->settle(map->map(), std::span(events).subspan(before));
   if (map->map().dart_count() == 0 && !gone) gone = time;
@@ -168,47 +163,49 @@ int Body::tear(double time, long number, const std::function<void()>& sound) {
 
 int Body::apply_law(std::size_t number, double time, long step, const std::function<void()>& sound) {
   const ForceView now = view();
-  if (laws[number].find(now).empty()) return 0;
+  if (tear_laws[number].find(now).empty()) return 0;
   sound();
   if (witness) witness(false);
-  const Within within(profile, Stage::Changes);
-  const double start = seconds_now();
-  const std::size_t before = events.size();
-  const int made = laws[number].apply(*map, now, events, births.get());
-  for (std::size_t e = before; e < events.size(); ++e) {
-    events[e].time = time;
-    events[e].step = step;
-    events[e].law = static_cast<int>(number);
-  }
-  change_seconds += seconds_now() - start;
+  const int made = make_changes(number, now, time, step);
   if (made > 0) follow_changes();
   if (witness) witness(true);
   return made;
 }
 
+int Body::make_changes(std::size_t number, const ForceView& now, double time, long step) {
+  const Within within(profile, Phase::Changes);
+  const std::size_t before = events.size();
+  const int made = tear_laws[number].apply(*map, now, events, births.get());
+  for (std::size_t e = before; e < events.size(); ++e) {
+    events[e].time = time;
+    events[e].step = step;
+    events[e].law = static_cast<int>(number);
+  }
+  return made;
+}
+
 void Body::follow_changes() {
-  const double start = seconds_now();
+  const Within within(profile, Phase::Rebinding);
   if (slots_scattered(*map)) map->number_anew();
   rebind();
   evaluate();
-  rebind_seconds += seconds_now() - start;
 }
 
 void Body::advance(double time, double step) {
-  const Within within(profile, Stage::Integration);
+  const Within within(profile, Phase::Integration);
   if (sums_) clear_sums();
   next.resize(vertices());
   next.probe = Double4{};
   next_time_ = time + step;
   const StateView now{map->position().values().data(), map->velocity().values().data()};
-  if (forces_left_)
+  if (forces_deferred_)
     integrator->sweep(*this, time, step, now, force.data(), next);
   else
     integrator->advance(*this, time, step, now, force.data(), next);
   if (faulty.armed(StepStage::Integration)) spoil_next();
   if (next.large) finish_streams(); // of schemes that put their state on this thread
   if (!floor_contact) return;
-  const Within contact_within(profile, Stage::Contact);
+  const Within contact_within(profile, Phase::Contact);
   floor_contact->apply(next, step);
   constrain(time + step, next.position.data(), next.velocity.data()); // what is prescribed yields to no floor
 }
@@ -226,13 +223,12 @@ void Body::spoil_next() {
 
 void Body::rebind() {
   if (!changes.any) return;
-  const Within within(profile, Stage::Rebinding);
   program->rebind();
   if (assembly) assembly->rebind();
   if (!corner_force.empty()) corner_force.resize(map->cells(mass->orbit()).slots());
   constraints.rebind(*map, changes);
   loads.rebind(*map);
-  for (TearLaw& law : laws) law.rebind(changes);
+  for (TearLaw& law : tear_laws) law.rebind(changes);
   if (changes.whole && tears()) reserve_for_separations(); // there may be more rows than once were thought of
   changes.clear();
 }
@@ -270,7 +266,8 @@ void Body::check_read(long done, double step) const {
   refuse_unless(!gone || (*gone >= 0 && *gone <= now), "a body was gone before the start, or later than now");
   for (const TearEvent& event : events) {
     refuse_unless(event.dart.value < map->map().capacity(), "a tear is at a dart that is not there");
-    refuse_unless(static_cast<std::size_t>(event.law) < laws.size(), "a tear is of a law that is not there");
+    refuse_unless(static_cast<std::size_t>(event.law) < tear_laws.size(),
+                  "a tear is of a law that is not there");
     refuse_unless(event.step <= done && event.time >= 0 && event.time <= now, "a tear is later than now");
   }
 }

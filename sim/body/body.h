@@ -2,7 +2,8 @@
 #pragma once
 
 #include "sim/body/answer.h"
-#include "sim/fracture/law.h"
+#include "sim/boundary/born_border.h"
+#include "sim/fracture/tear_law.h"
 #include "sim/integrate/integrator.h"
 #include "sim/outside/constraint.h"
 #include "sim/outside/floor_contact.h"
@@ -20,25 +21,9 @@ namespace rend {
 
 class Profile;
 
-// Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was a border when
-// its element was born: what is a border now and was none then is torn.
-struct BornBorder {
-  using Value = std::uint8_t;
-  explicit BornBorder(int dimension = 2) : orbit(dimension == 2 ? EdgeOfFace : FaceOfVolume) {}
-  std::string name = "born border";
-  Orbit orbit;
-  Orbit support = SingleDart;
-  Value birth(const EmbeddedMap& map, Dart d) const { return map.map().is_free(map.dimension(), d) ? 1 : 0; }
-  Value split(const Value& whole) const { return whole; }
-  Value merge(const Value& kept, const Value&) const { return kept; }
-};
-using BorderColumn = Column<BornBorder>;
-
-enum class Cumulated { Auto, Yes, No };
-
 struct Body final : System {
   std::string name;
-  const Node* node = nullptr; // of the preset, for those who read more of it (look)
+  const PresetNode* node = nullptr; // of the preset, for those who read more of it (look)
   std::unique_ptr<EmbeddedMap> map;
   std::map<std::string, std::vector<Slot>>
       groups; // of the mesh file: increasing slots of vertices, at the start
@@ -49,7 +34,7 @@ struct Body final : System {
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
   Loads loads;
-  std::vector<TearLaw> laws;
+  std::vector<TearLaw> tear_laws;
   std::optional<ContactSettings> contact; // as the preset has it
   std::optional<FloorContact> floor_contact;
   std::vector<Probe> probes;
@@ -70,7 +55,7 @@ struct Body final : System {
   std::optional<double> gone; // [s], when the last element was deleted; the body goes on with nothing
 
   ~Body() override;
-  bool tears() const { return !laws.empty(); }
+  bool tears() const { return !tear_laws.empty(); }
 
   // Builds the program and all that the time loop needs. To be called once, when everything is declared.
   void prepare(const Scheme& scheme, bool walk, int threads, double tolerance = SchemeSettings{}.tolerance);
@@ -89,8 +74,8 @@ struct Body final : System {
   void hold(double time, std::uint8_t* axes) override;
 
   void evaluate();     // force and corner_force of the current state
-  void leave_forces(); // to advance(), which finds them on its way: where nobody looks at them before
-  bool may_leave_forces() const;
+  void defer_forces(); // to advance(), which evaluates them on its way: where nobody looks at them before
+  bool may_defer_forces() const;
   ForceView view() const; // of that
   CriterionRequest request_for(const LawSettings& law) const;
   double time() const { return time_; } // [s], of the current state
@@ -105,22 +90,22 @@ struct Body final : System {
   // Between steps, so many of which are done, of `step` [s] each: all that a later one depends on.
   void store(Archive& archive, long done, double step);
 
-  double change_seconds = 0, rebind_seconds = 0; // wall clock, of all changes so far
   long evaluations = 0; // of the internal forces so far, but for those that probes ask for
   FaultySpot faulty;
 
   // Before prepare().
-  Profile* profile = nullptr;  // null: nobody asks
+  Profile* profile = nullptr;  // of the scene; null: there is none
   bool small_in_parts = false; // ProgramOptions
 
 private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
+  int make_changes(std::size_t number, const ForceView& now, double time, long step);
   void follow_changes();
   void check_read(long done, double step) const; // throws ArchiveError
   void meet_program();
   void reserve_for_separations();
   void clear_sums();
-  bool forces_left_ = false;
+  bool forces_deferred_ = false;
   bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
   double time_ = 0, next_time_ = 0; // [s], of the current state and of `next`
 };

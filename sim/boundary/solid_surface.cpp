@@ -19,18 +19,18 @@ bool sharp(const Vec3& a, const Vec3& b) {
 
 } // namespace
 
-SolidSurface::SolidSurface(Body& body) : body_(body) {
-  CHECK(body.map->dimension() == 3);
+SolidSurface::SolidSurface(EmbeddedMap& map, const BorderColumn* border) : map_(map), border_(border) {
+  CHECK(map.dimension() == 3);
   rebuild();
-  body.map->subscribe(changes_);
+  map.subscribe(changes_);
 }
 
 SolidSurface::~SolidSurface() {
-  body_.map->unsubscribe(changes_);
+  map_.unsubscribe(changes_);
 }
 
 void SolidSurface::rebuild() {
-  const GMap& map = body_.map->map();
+  const GMap& map = map_.map();
   drawn_.resize(map.capacity());
   queued_.fit(map.capacity());
   map.for_each_dart([&](Dart d) { queue(d); });
@@ -45,7 +45,7 @@ void SolidSurface::update() {
     drawn_ = {};
     return rebuild();
   }
-  const GMap& map = body_.map->map();
+  const GMap& map = map_.map();
   drawn_.resize(map.capacity());
   queued_.fit(map.capacity());
   in_volumes_.fit(map.capacity());
@@ -67,14 +67,14 @@ void SolidSurface::update() {
 
 void SolidSurface::empty_queue() {
   for (const Dart first : queue_)
-    walk_two(body_.map->map(), 0, 1, first, [&](Dart d) { queued_.take_around(d.value); });
+    walk_two(map_.map(), 0, 1, first, [&](Dart d) { queued_.take_around(d.value); });
   for (const Dart d : volumes_) in_volumes_.take_around(d.value);
   queue_.clear();
   volumes_.clear();
 }
 
 void SolidSurface::queue(Dart d) {
-  const GMap& map = body_.map->map();
+  const GMap& map = map_.map();
   if (!map.is_free(3, d) || queued_.has(d.value)) return;
   Dart first = d;
   walk_two(map, 0, 1, d, [&](Dart e) {
@@ -85,11 +85,11 @@ void SolidSurface::queue(Dart d) {
 }
 
 void SolidSurface::queue_around_edge(Dart d) {
-  walk_two(body_.map->map(), 2, 3, d, [&](Dart e) { queue(e); });
+  walk_two(map_.map(), 2, 3, d, [&](Dart e) { queue(e); });
 }
 
 void SolidSurface::queue_volume(Dart d) {
-  const GMap& map = body_.map->map();
+  const GMap& map = map_.map();
   if (in_volumes_.has(d.value)) return;
   const std::size_t begin = volumes_.size();
   collect_marked(map, Volume, d, volumes_, in_volumes_);
@@ -102,7 +102,7 @@ void SolidSurface::queue_volume(Dart d) {
 }
 
 void SolidSurface::bind() {
-  const GMap& map = body_.map->map();
+  const GMap& map = map_.map();
   for (Dart first : queue_) write_face(first);
   for (Dart first : queue_) {
     const DrawnFaces::Found found = drawn_.find(first);
@@ -117,31 +117,31 @@ void SolidSurface::bind() {
 }
 
 bool SolidSurface::bare(Dart d) const {
-  return body_.border && (*body_.border)[body_.map->slot(FaceOfVolume, d)] == 0;
+  return border_ && (*border_)[map_.slot(FaceOfVolume, d)] == 0;
 }
 
 // d: where the side starts; area: of its face, walked from d.
 Side SolidSurface::side_of(Dart d, const Vec3& area) const {
-  const Dart other = across_hull_edge(body_.map->map(), d);
+  const Dart other = across_hull_edge(map_.map(), d);
   if (other == d || bare(d) != bare(other)) return Side::Crease;
-  return sharp(area, -rest_area_vector(*body_.map, other)) ? Side::Crease : Side::Cell;
+  return sharp(area, -rest_area_vector(map_, other)) ? Side::Crease : Side::Cell;
 }
 
 void SolidSurface::write_face(Dart first) {
   thread_local std::vector<DrawnFaces::Corner> corners;
   corners.clear();
-  const GMap& map = body_.map->map();
+  const GMap& map = map_.map();
   bool closed = true;
   walk_two(map, 0, 1, first, [&](Dart d) {
     if (d != first) drawn_.erase(d); // the key of a face that became part of this one
     closed = closed && !map.is_free(0, d) && !map.is_free(1, d);
   });
-  const bool turned = closed && !winds_outward(*body_.map, first), is_bare = bare(first);
+  const bool turned = closed && !winds_outward(map_, first), is_bare = bare(first);
   const Dart start = turned ? map.alpha(1, first) : first;
-  const Vec3 area = rest_area_vector(*body_.map, start);
+  const Vec3 area = rest_area_vector(map_, start);
   Dart at = start;
   do {
-    corners.push_back({body_.map->vertex(at), is_bare ? first : Dart{}, side_of(at, area)});
+    corners.push_back({map_.vertex(at), is_bare ? first : Dart{}, side_of(at, area)});
     at = map.follow(at, to_next_side);
   } while (at != start);
   if (!closed || corners.size() < 3) { // nothing that has an area
@@ -152,12 +152,12 @@ void SolidSurface::write_face(Dart first) {
 }
 
 SolidSurface::FanCorner SolidSurface::fan_corner(Dart even, Dart odd) const {
-  return {even, odd, rest_area_vector(*body_.map, even), bare(even)};
+  return {even, odd, rest_area_vector(map_, even), bare(even)};
 }
 
 // The corners around the vertex of d that hang together on the hull, in turn; areas agree in their side.
 void SolidSurface::collect_fan(Dart d) {
-  const GMap& map = body_.map->map();
+  const GMap& map = map_.map();
   fan_.clear();
   fan_closed_ = false;
   for (Dart even = d;;) {
@@ -196,7 +196,7 @@ void SolidSurface::write_fan(Dart d) {
 }
 
 void SolidSurface::write_group(std::size_t begin, std::size_t end) {
-  const GMap& map = body_.map->map();
+  const GMap& map = map_.map();
   const auto at = [&](std::size_t k) -> const FanCorner& { return fan_[k % fan_.size()]; };
   if (at(begin).bare) return; // by itself, and named by its face
   Dart group = at(begin).even;
@@ -228,7 +228,7 @@ void SolidSurface::number_groups() {
 
 void SolidSurface::normals(std::vector<Vec3>& out) {
   if (!numbered_) number_groups();
-  const auto& x = body_.map->position().values();
+  const auto& x = map_.position().values();
   sums_.assign(groups_, Vec3::Zero());
   std::size_t c = 0;
   drawn_.for_each([&](const DrawnFaces::Face& face, std::span<const DrawnFaces::Corner> corners) {

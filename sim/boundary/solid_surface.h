@@ -15,7 +15,7 @@
 // here is kept for faces inside.
 #pragma once
 
-#include "sim/body/body.h"
+#include "sim/boundary/born_border.h"
 #include "sim/boundary/drawn_faces.h"
 #include "sim/topology/marks.h"
 
@@ -23,7 +23,8 @@ namespace rend {
 
 class SolidSurface {
 public:
-  explicit SolidSurface(Body& body); // CHECK: a solid
+  SolidSurface(EmbeddedMap& map,
+               const BorderColumn* border); // CHECK: a solid. border: null where nothing tears
   ~SolidSurface();
   SolidSurface(const SolidSurface&) = delete;
   SolidSurface& operator=(const SolidSurface&) = delete;
@@ -85,7 +86,8 @@ private:
   FanCorner fan_corner(Dart even, Dart odd) const;
   void number_groups();
 
-  Body& body_;
+  EmbeddedMap& map_;
+  const BorderColumn* border_;
   DrawnFaces drawn_;
   Changes changes_;
   std::vector<std::uint32_t> numbers_; // of its group, one per corner of a drawn face

@@ -7,20 +7,21 @@
 
 namespace rend {
 
-Surface::Surface(Body& body) : body_(body), triangles_(5, 0, 0), corners_(3, 0, 0) {
-  CHECK(body.map->dimension() == 2);
-  body.map->use(FaceOfVolume);
-  body.map->use(VertexOfFace);
+Surface::Surface(EmbeddedMap& map, const BorderColumn* border)
+    : map_(map), border_(border), triangles_(5, 0, 0), corners_(3, 0, 0) {
+  CHECK(map.dimension() == 2);
+  map.use(FaceOfVolume);
+  map.use(VertexOfFace);
   rebuild();
-  body.map->subscribe(changes_);
+  map.subscribe(changes_);
 }
 
 Surface::~Surface() {
-  body_.map->unsubscribe(changes_);
+  map_.unsubscribe(changes_);
 }
 
 std::size_t Surface::most_sides() const {
-  const EmbeddedMap& map = *body_.map;
+  const EmbeddedMap& map = map_;
   const CellIndex& faces = map.cells(FaceOfVolume);
   int most = 3;
   for (Slot f = 0; f < faces.slots(); ++f)
@@ -29,7 +30,7 @@ std::size_t Surface::most_sides() const {
 }
 
 void Surface::rebuild() {
-  const EmbeddedMap& map = *body_.map;
+  const EmbeddedMap& map = map_;
   fan_ = most_sides() - 2;
   full_ = 0;
   triangles_ = PackedRows(5, 0, 0);
@@ -43,14 +44,14 @@ void Surface::rebuild() {
 }
 
 Side Surface::side_of(Dart d) const {
-  const EmbeddedMap& map = *body_.map;
+  const EmbeddedMap& map = map_;
   if (!map.map().is_free(2, d)) return Side::Cell;
-  const bool torn = body_.border && (*body_.border)[map.slot(EdgeOfFace, d)] == 0;
+  const bool torn = border_ && (*border_)[map.slot(EdgeOfFace, d)] == 0;
   return torn ? Side::Torn : Side::Border;
 }
 
 void Surface::write_face(Slot face) {
-  const EmbeddedMap& map = *body_.map;
+  const EmbeddedMap& map = map_;
   const CellIndex& faces = map.cells(FaceOfVolume);
   const Dart first = faces.first_dart(face);
   const bool seen = faces.alive(face);
@@ -80,7 +81,7 @@ void Surface::write_face(Slot face) {
 
 // All corners around a vertex: α1 and α2 in turn, from the smallest dart both ways.
 void Surface::write_corners(Slot vertex) {
-  const EmbeddedMap& map = *body_.map;
+  const EmbeddedMap& map = map_;
   const CellIndex& vertices = map.cells(Vertex);
   if (!vertices.alive(vertex)) return;
   const Dart first = vertices.first_dart(vertex);
@@ -113,7 +114,7 @@ void Surface::update() {
     changes_.clear();
     return rebuild();
   }
-  const EmbeddedMap& map = *body_.map;
+  const EmbeddedMap& map = map_;
   thread_local IndexSet faces_seen, vertices_seen;
   faces_seen.clear();
   vertices_seen.clear();
@@ -152,7 +153,7 @@ void Surface::update() {
 }
 
 void Surface::normals(std::vector<Vec3>& out) const {
-  const auto& x = body_.map->position().values();
+  const auto& x = map_.position().values();
   out.assign(x.size(), Vec3::Zero());
   corners_.for_each([&](std::size_t, std::size_t row) {
     const Slot v = corners_.index(0)[row];

@@ -11,7 +11,7 @@
 // orientation of the whole, on a Möbius band as well.
 #pragma once
 
-#include "sim/body/body.h"
+#include "sim/boundary/born_border.h"
 #include "sim/boundary/side.h"
 #include "sim/rows/packed_rows.h"
 
@@ -19,7 +19,7 @@ namespace rend {
 
 class Surface {
 public:
-  explicit Surface(Body& body); // CHECK: a sheet
+  Surface(EmbeddedMap& map, const BorderColumn* border); // CHECK: a sheet. border: null where nothing tears
   ~Surface();
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
@@ -60,7 +60,8 @@ private:
   Side side_of(Dart d) const;
   std::size_t most_sides() const;
 
-  Body& body_;
+  EmbeddedMap& map_;
+  const BorderColumn* border_;
   std::size_t fan_ = 0;  // triangles reserved per face: what the face with the most sides takes
   std::size_t full_ = 0; // faces that take all of them
   PackedRows triangles_; // key: face slot × fan_ + n; vertices, sides, face

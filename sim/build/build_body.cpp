@@ -9,7 +9,7 @@
 
 namespace rend {
 
-std::unique_ptr<Body> build_body(const Node& node, const World& world) {
+std::unique_ptr<Body> build_body(const PresetNode& node, const World& world) {
   auto body = std::make_unique<Body>();
   body->name = node.text("name");
   body->node = &node;

@@ -7,6 +7,6 @@
 namespace rend {
 
 // UserError, with its place, for what cannot be built. The body is not prepared yet.
-std::unique_ptr<Body> build_body(const Node& node, const World& world);
+std::unique_ptr<Body> build_body(const PresetNode& node, const World& world);
 
 } // namespace rend

@@ -49,7 +49,7 @@ void say_what_starts_below(Body& body, double height) {
                                    depth));
 }
 
-ContactSettings settings_of(const Node& contact) {
+ContactSettings settings_of(const PresetNode& contact) {
   const auto& with = contact.words("with");
   const auto has = [&](const char* word) { return std::find(with.begin(), with.end(), word) != with.end(); };
   ContactSettings settings;
@@ -62,7 +62,7 @@ ContactSettings settings_of(const Node& contact) {
   return settings;
 }
 
-void check_world(const Node& contact, const ContactSettings& settings, const World& world) {
+void check_world(const PresetNode& contact, const ContactSettings& settings, const World& world) {
   const auto& with = contact.words("with");
   const auto fail = [&](const char* what, const char* hint) {
     if (contact.given("with")) contact.fail("with", what, hint);
@@ -78,8 +78,8 @@ void check_world(const Node& contact, const ContactSettings& settings, const Wor
 
 } // namespace
 
-void build_contact(Body& body, const Node& node, const World& world) {
-  const Node* contact = node.child("contact");
+void build_contact(Body& body, const PresetNode& node, const World& world) {
+  const PresetNode* contact = node.child("contact");
   if (!contact) return say_what_it_passes(body, world, false, false);
   ContactSettings settings = settings_of(*contact);
   check_world(*contact, settings, world);

@@ -9,6 +9,6 @@ namespace rend {
 const ElementType& contact_type(); // <contact>, as the parameter table has it
 
 // UserError, with its place, where the world has nothing to be in contact with.
-void build_contact(Body& body, const Node& node, const World& world);
+void build_contact(Body& body, const PresetNode& node, const World& world);
 
 } // namespace rend

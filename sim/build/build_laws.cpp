@@ -41,7 +41,7 @@ const ElementType& tear_type() {
 }
 
 // The change that was asked for, or the one that is the cell's own.
-const ChangeType* change_of(const Node& node, const CriterionType& criterion, Cell cell, int dimension) {
+const ChangeType* change_of(const PresetNode& node, const CriterionType& criterion, Cell cell, int dimension) {
   std::string fitting;
   for (const ChangeType& type : all_changes()) {
     if (!type.fits(cell, dimension)) continue;
@@ -54,7 +54,7 @@ const ChangeType* change_of(const Node& node, const CriterionType& criterion, Ce
             "these do: " + fitting);
 }
 
-LawSettings law_settings(const Node& node, const Body& body) {
+LawSettings law_settings(const PresetNode& node, const Body& body) {
   LawSettings law;
   for (const CriterionType& type : all_criteria())
     if (type.name == node.text("criterion")) law.criterion = &type;
@@ -106,8 +106,8 @@ bool wholly_fixed(const Body& body) {
 
 } // namespace
 
-void build_laws(Body& body, const Node& node) {
-  const std::vector<const Node*> laws = node.all("tear");
+void build_laws(Body& body, const PresetNode& node) {
+  const std::vector<const PresetNode*> laws = node.all("tear");
   if (laws.empty()) {
     body.left_out.emplace_back("tearing: no law, so no criterion is bound and no border is remembered");
     return;
@@ -117,10 +117,10 @@ void build_laws(Body& body, const Node& node) {
         "tearing: every vertex is fixed, so that nothing moves and a law sees the same forces in "
         "every step");
   body.border = &body.map->add(BornBorder(body.map->dimension()));
-  for (const Node* law : laws) {
+  for (const PresetNode* law : laws) {
     const LawSettings settings = law_settings(*law, body);
-    body.laws.emplace_back(body.request_for(settings), settings);
-    if (body.laws.back().settings().elementary() && body.cumulated == Cumulated::Yes)
+    body.tear_laws.emplace_back(body.request_for(settings), settings);
+    if (body.tear_laws.back().settings().elementary() && body.cumulated == Cumulated::Yes)
       law->fail("criterion", "looks at each element by itself, and cumulated=\"yes\" folds what they do",
                 "leave cumulated at auto");
   }

@@ -10,6 +10,6 @@ namespace rend {
 std::vector<ChildType> law_types();
 
 // Laws of tearing, on a body that has its interactions. UserError, with its place, for what cannot be built.
-void build_laws(Body& body, const Node& node);
+void build_laws(Body& body, const PresetNode& node);
 
 } // namespace rend

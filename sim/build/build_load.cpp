@@ -34,7 +34,7 @@ const ElementType& load_type() {
 
 namespace {
 
-LoadSettings settings_of(const Node& node) {
+LoadSettings settings_of(const PresetNode& node) {
   using Kind = LoadSettings::Kind;
   int given = 0;
   for (const char* name : {"force", "moment", "pressure"}) given += node.given(name);
@@ -62,7 +62,7 @@ LoadSettings settings_of(const Node& node) {
   return settings;
 }
 
-Load load_of(Body& body, const Node& node) {
+Load load_of(Body& body, const PresetNode& node) {
   using Kind = LoadSettings::Kind;
   const LoadSettings settings = settings_of(node);
   const std::vector<Slot> vertices = select_vertices(body, node);
@@ -82,8 +82,8 @@ Load load_of(Body& body, const Node& node) {
 
 } // namespace
 
-void build_loads(Body& body, const Node& node) {
-  for (const Node* load : node.all("load")) body.loads.add(load_of(body, *load));
+void build_loads(Body& body, const PresetNode& node) {
+  for (const PresetNode* load : node.all("load")) body.loads.add(load_of(body, *load));
   if (body.loads.empty()) body.left_out.emplace_back("external forces: no load");
 }
 

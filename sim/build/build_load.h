@@ -9,6 +9,6 @@ namespace rend {
 const ElementType& load_type();
 
 // The loads of a body that has its shape. UserError, with its place, for what cannot be built.
-void build_loads(Body& body, const Node& node);
+void build_loads(Body& body, const PresetNode& node);
 
 } // namespace rend

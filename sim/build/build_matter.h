@@ -10,6 +10,6 @@ namespace rend {
 std::vector<ChildType> matter_types();
 
 // Interactions and drag, on a body that has its shape. UserError, with its place, for what cannot be built.
-void build_matter(Body& body, const Node& node);
+void build_matter(Body& body, const PresetNode& node);
 
 } // namespace rend

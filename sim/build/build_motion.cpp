@@ -39,7 +39,7 @@ const ElementType& drive_type() {
   return type;
 }
 
-void set_rotation(Motion& motion, const Node& node) {
+void set_rotation(Motion& motion, const PresetNode& node) {
   const std::vector<double>& given = node.numbers("rotate");
   const Vec3 axis(given[0], given[1], given[2]);
   if (!(axis.norm() > 0))
@@ -49,7 +49,7 @@ void set_rotation(Motion& motion, const Node& node) {
   motion.centre = node.vector("centre");
 }
 
-Motion motion_of(const Node& node) {
+Motion motion_of(const PresetNode& node) {
   Motion motion;
   const std::string& axes = node.text("axes");
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -77,7 +77,7 @@ Motion motion_of(const Node& node) {
   return motion;
 }
 
-void build_constraints(Body& body, const Node& node) {
+void build_constraints(Body& body, const PresetNode& node) {
   for (const auto& child : node.children()) {
     if (child->name() != "fix" && child->name() != "drive") continue;
     if (body.constraints.motions().size() == 64)
@@ -92,7 +92,7 @@ std::vector<ChildType> motion_types() {
   return {{&fix_type(), 0, -1}, {&drive_type(), 0, -1}, {&load_type(), 0, -1}};
 }
 
-void build_motion(Body& body, const Node& node) {
+void build_motion(Body& body, const PresetNode& node) {
   build_constraints(body, node);
   if (body.constraints.motions().empty()) body.left_out.emplace_back("prescribed motions: no fix and no drive");
   build_loads(body, node);

@@ -10,6 +10,6 @@ namespace rend {
 std::vector<ChildType> motion_types();
 
 // Constraints and loads, on a body that has its shape. UserError, with its place, for what cannot be built.
-void build_motion(Body& body, const Node& node);
+void build_motion(Body& body, const PresetNode& node);
 
 } // namespace rend

@@ -39,7 +39,7 @@ const ElementType& answer_type() {
   return type;
 }
 
-void check_name(const Node& node) {
+void check_name(const PresetNode& node) {
   const std::string& name = node.text("name");
   const auto fits = [](unsigned char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
@@ -51,7 +51,7 @@ void check_name(const Node& node) {
   if (name.empty()) node.fail("name", "the name of the probe is empty", "letters, digits, - and _ do");
 }
 
-Answer answer_of(const Body& body, const Node& node) {
+Answer answer_of(const Body& body, const PresetNode& node) {
   Answer answer;
   std::vector<std::string> names;
   for (const Probe& probe : body.probes) names.push_back(probe.name());
@@ -81,12 +81,12 @@ std::vector<ChildType> probe_types() {
   return {{&probe_type(), 0, -1}, {&answer_type(), 0, -1}};
 }
 
-void build_probes(Body& body, const Node& node) {
-  for (const Node* probe : node.all("probe")) {
+void build_probes(Body& body, const PresetNode& node) {
+  for (const PresetNode* probe : node.all("probe")) {
     check_name(*probe);
     body.probes.emplace_back(*body.map, probe->text("name"), select_vertices(body, *probe));
   }
-  for (const Node* answer : node.all("answer")) body.answers.push_back(answer_of(body, *answer));
+  for (const PresetNode* answer : node.all("answer")) body.answers.push_back(answer_of(body, *answer));
 }
 
 } // namespace rend

@@ -11,6 +11,6 @@ std::vector<ChildType> probe_types();
 
 // Probes and answers, on a body that has its shape, constraints and loads. UserError, with its place, for what
 // cannot be built.
-void build_probes(Body& body, const Node& node);
+void build_probes(Body& body, const PresetNode& node);
 
 } // namespace rend

@@ -33,7 +33,7 @@ const ElementType& mass_type() {
 // Energies and volumes are products of a few lengths: beyond this they need not be numbers any more.
 constexpr double farthest = 1e30; // [m]
 
-void check_reach(const Body& body, const Node& shape) {
+void check_reach(const Body& body, const PresetNode& shape) {
   for (const Record& x : body.map->rest().values())
     for (double component : {x.x, x.y, x.z})
       if (!(std::abs(component) <= farthest))
@@ -44,13 +44,13 @@ void check_reach(const Body& body, const Node& shape) {
             "scale and translate of <place>, and the sizes of the shape, are in metres");
 }
 
-void build_map(Body& body, const Node& node) {
+void build_map(Body& body, const PresetNode& node) {
   std::vector<std::string> names;
-  const Node* chosen = nullptr;
+  const PresetNode* chosen = nullptr;
   const ShapeType* how = nullptr;
   for (const ShapeType& shape : all_shapes()) {
     names.push_back(shape.type().name);
-    const Node* here = node.child(names.back());
+    const PresetNode* here = node.child(names.back());
     if (!here) continue;
     if (chosen)
       throw UserError(Exit::BadInput, here->place(),
@@ -77,7 +77,7 @@ double extent(const EmbeddedMap& map) {
   return sum;
 }
 
-void build_mass(Body& body, const Node& node) {
+void build_mass(Body& body, const PresetNode& node) {
   const bool sheet = body.map->dimension() == 2;
   const bool total = node.given("total"), density = node.given("density");
   if (total == density)
@@ -110,7 +110,7 @@ std::vector<ChildType> shape_types() {
   return types;
 }
 
-void build_shape(Body& body, const Node& node) {
+void build_shape(Body& body, const PresetNode& node) {
   build_map(body, node);
   build_mass(body, *node.child("mass"));
 }

@@ -10,6 +10,6 @@ namespace rend {
 std::vector<ChildType> shape_types();
 
 // Map, rest positions and mass. UserError, with its place, for what cannot be built.
-void build_shape(Body& body, const Node& node);
+void build_shape(Body& body, const PresetNode& node);
 
 } // namespace rend

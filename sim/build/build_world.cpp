@@ -50,11 +50,11 @@ const ElementType& box_type() {
   return type;
 }
 
-std::optional<double> friction_of(const Node& node) {
+std::optional<double> friction_of(const PresetNode& node) {
   return node.given("friction") ? std::optional(node.number("friction")) : std::nullopt;
 }
 
-Sphere sphere_of(const Node& node) {
+Sphere sphere_of(const PresetNode& node) {
   Sphere sphere;
   sphere.start = sphere.centre = sphere.next_centre = node.vector("centre");
   sphere.velocity = sphere.next_velocity = node.vector("velocity");
@@ -65,7 +65,7 @@ Sphere sphere_of(const Node& node) {
   return sphere;
 }
 
-Box box_of(const Node& node) {
+Box box_of(const PresetNode& node) {
   const Box box{node.vector("low"), node.vector("high"), friction_of(node), &node};
   if (!(box.low.array() < box.high.array()).all())
     node.fail("high", "the box has no inside: each number of high must be above that of low",
@@ -84,17 +84,18 @@ const ElementType& world_type() {
   return type;
 }
 
-World build_world(const Node* node) {
+World build_world(const PresetNode* node) {
   World world;
   if (!node) return world;
   world.gravity = node->vector("gravity");
-  if (const Node* floor = node->child("floor")) {
+  if (const PresetNode* floor = node->child("floor")) {
     world.floor = floor->number("z");
     world.floor_friction = friction_of(*floor);
   }
-  if (const Node* wind = node->child("wind")) world.wind = Wind{wind->vector("velocity"), wind->number("drag")};
-  for (const Node* sphere : node->all("sphere")) world.spheres.push_back(sphere_of(*sphere));
-  for (const Node* box : node->all("box")) world.boxes.push_back(box_of(*box));
+  if (const PresetNode* wind = node->child("wind"))
+    world.wind = Wind{wind->vector("velocity"), wind->number("drag")};
+  for (const PresetNode* sphere : node->all("sphere")) world.spheres.push_back(sphere_of(*sphere));
+  for (const PresetNode* box : node->all("box")) world.boxes.push_back(box_of(*box));
   return world;
 }
 

@@ -8,6 +8,6 @@ namespace rend {
 const ElementType& world_type(); // <world>, as the parameter table has it
 
 // UserError, with its place, for what cannot be built.
-World build_world(const Node* node); // null: the preset says nothing of it
+World build_world(const PresetNode* node); // null: the preset says nothing of it
 
 } // namespace rend

@@ -88,7 +88,7 @@ const ElementType& time_type() {
 }
 
 // An equilibrium takes no time: one step to the end, and any end.
-double duration_of(const Node& time) {
+double duration_of(const PresetNode& time) {
   if (time.has("duration")) return time.number("duration");
   if (time.text("integrator") == "static") return 1;
   const AttributeType& type = *time.type().find("duration");

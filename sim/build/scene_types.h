@@ -10,6 +10,6 @@ const ElementType& world_type();
 const ElementType& time_type();
 
 // Of a <time> [s]. UserError where it has none and its integrator takes one: all but static do.
-double duration_of(const Node& time);
+double duration_of(const PresetNode& time);
 
 } // namespace rend

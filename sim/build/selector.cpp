@@ -55,7 +55,7 @@ std::vector<Slot> nearest_vertex(const EmbeddedMap& map, const Vec3& to) {
   return {best};
 }
 
-const std::vector<Slot>& vertices_of_group(const Body& body, const Node& node) {
+const std::vector<Slot>& vertices_of_group(const Body& body, const PresetNode& node) {
   const std::string& name = node.text("group");
   const auto group = body.groups.find(name);
   if (group != body.groups.end()) return group->second;
@@ -68,7 +68,7 @@ const std::vector<Slot>& vertices_of_group(const Body& body, const Node& node) {
 
 } // namespace
 
-std::vector<Slot> select_vertices(const Body& body, const Node& node) {
+std::vector<Slot> select_vertices(const Body& body, const PresetNode& node) {
   const EmbeddedMap& map = *body.map;
   std::vector<std::string> given;
   for (const char* name : {"near", "box", "side", "group", "all"})

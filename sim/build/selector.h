@@ -16,6 +16,6 @@ namespace rend {
 void add_selector(std::vector<AttributeType>& attributes);
 
 // Increasing slots. UserError: no selector, several, or one that selects nothing.
-std::vector<Slot> select_vertices(const Body& body, const Node& node);
+std::vector<Slot> select_vertices(const Body& body, const PresetNode& node);
 
 } // namespace rend

@@ -23,7 +23,7 @@ Eigen::Matrix3d rotation_about(int axis, double degrees) {
 
 } // namespace
 
-Placement::Placement(const Node* place) {
+Placement::Placement(const PresetNode* place) {
   if (!place) return;
   const Vec3 angles = place->vector("rotate");
   turn = place->number("scale") * rotation_about(2, angles.z()) * rotation_about(1, angles.y()) *

@@ -15,7 +15,7 @@ namespace rend {
 struct Placement {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(); // with the scale
   Vec3 shift = Vec3::Zero();                          // [m]
-  explicit Placement(const Node* place);              // null: none
+  explicit Placement(const PresetNode* place);        // null: none
   void apply(std::vector<Vec3>& points) const;
 };
 
@@ -23,7 +23,7 @@ struct ShapeType {
   const ElementType& (*type)();
   // Makes body.map, with its points where `place` puts them. UserError, with its place, for what cannot be
   // built.
-  void (*build)(Body& body, const Node& node, const Placement& place);
+  void (*build)(Body& body, const PresetNode& node, const Placement& place);
 };
 
 const std::vector<ShapeType>& all_shapes();
@@ -32,8 +32,5 @@ ShapeType sheet_shape();
 ShapeType bar_shape();
 ShapeType tube_shape();
 ShapeType mesh_shape();
-
-// The file of a <mesh>: relative to the preset's folder.
-std::filesystem::path mesh_path(const Node& mesh);
 
 } // namespace rend

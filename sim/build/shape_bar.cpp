@@ -21,7 +21,7 @@ const ElementType& bar_type() {
   return type;
 }
 
-void build(Body& body, const Node& node, const Placement& place) {
+void build(Body& body, const PresetNode& node, const Placement& place) {
   BarShape shape;
   const std::string& pattern = node.text("pattern");
   shape.pattern = pattern == "hexahedra"    ? BarPattern::Hexahedra

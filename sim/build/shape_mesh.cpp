@@ -1,5 +1,6 @@
 #include "sim/build/shape.h"
 #include "sim/mesh/reader.h"
+#include "sim/preset/paths.h"
 
 namespace rend {
 namespace {
@@ -19,7 +20,7 @@ const ElementType& mesh_type() {
   return type;
 }
 
-void build(Body& body, const Node& node, const Placement& place) {
+void build(Body& body, const PresetNode& node, const Placement& place) {
   MeshFile file = [&] {
     try {
       return read_mesh(mesh_path(node));
@@ -37,10 +38,6 @@ void build(Body& body, const Node& node, const Placement& place) {
 }
 
 } // namespace
-
-std::filesystem::path mesh_path(const Node& mesh) {
-  return (std::filesystem::path(mesh.place().file).parent_path() / mesh.text("file")).lexically_normal();
-}
 
 ShapeType mesh_shape() {
   return {mesh_type, build};

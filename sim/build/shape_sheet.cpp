@@ -22,7 +22,7 @@ const ElementType& sheet_type() {
   return type;
 }
 
-SheetShape sheet_of(const Node& node) {
+SheetShape sheet_of(const PresetNode& node) {
   SheetShape shape;
   const std::string& pattern = node.text("pattern");
   shape.pattern = pattern == "quads"       ? SheetPattern::Quads
@@ -60,7 +60,7 @@ SheetShape sheet_of(const Node& node) {
   return shape;
 }
 
-void build(Body& body, const Node& node, const Placement& place) {
+void build(Body& body, const PresetNode& node, const Placement& place) {
   PolygonMesh mesh = sheet_polygons(sheet_of(node));
   place.apply(mesh.points);
   body.map = sheet_from(mesh);

@@ -22,7 +22,7 @@ const ElementType& tube_type() {
   return type;
 }
 
-void build(Body& body, const Node& node, const Placement& place) {
+void build(Body& body, const PresetNode& node, const Placement& place) {
   TubeShape shape;
   shape.around = static_cast<int>(node.integers("cells")[0]);
   shape.along = static_cast<int>(node.integers("cells")[1]);

@@ -1,4 +1,5 @@
 #include "sim/check/case.h"
+#include "sim/build/build_scene.h"
 
 #include "sim/check/families.h"
 
@@ -47,14 +48,14 @@ bool Finding::holds() const {
 Trial Bench::open(const Sets& sets, SceneOptions options) const {
   Trial trial;
   trial.preset = (*read_)(*case_, nullptr, sets);
-  trial.scene = std::make_unique<Scene>(*trial.preset, options);
+  trial.scene = std::make_unique<Scene>(read_scene(*trial.preset), options);
   return trial;
 }
 
 Trial Bench::open_text(const std::string& preset) const {
   Trial trial;
   trial.preset = (*read_)(*case_, &preset, {});
-  trial.scene = std::make_unique<Scene>(*trial.preset, SceneOptions{});
+  trial.scene = std::make_unique<Scene>(read_scene(*trial.preset), SceneOptions{});
   return trial;
 }
 

@@ -52,7 +52,7 @@ struct Finding {
 
 // A scene, and the nodes that it reads from for as long as it lives.
 struct Trial {
-  std::unique_ptr<Node> preset;
+  std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
   Scene* operator->() const { return scene.get(); }
   Body& body(std::size_t n = 0) const { return *scene->bodies()[n]; }
@@ -70,7 +70,7 @@ using Sets = std::vector<std::pair<std::string, std::string>>; // as --set PATH=
 struct CheckCase;
 // Reads a case's preset as a user's file, or another text in its place. Throws UserError.
 using ReadPreset =
-    std::function<std::unique_ptr<Node>(const CheckCase&, const std::string* instead, const Sets&)>;
+    std::function<std::unique_ptr<PresetNode>(const CheckCase&, const std::string* instead, const Sets&)>;
 
 // What a case runs with.
 class Bench {

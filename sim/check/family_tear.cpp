@@ -35,24 +35,24 @@ const std::vector<Strain>& strains() {
   return all;
 }
 
-struct Law {
+struct ForceLaw {
   std::string criterion, kind, change; // change empty: the cell's own
   double threshold;                    // in units of E (stress), E L² (force), 1 (strain)
 };
 
-const std::vector<Law>& spring_laws() {
-  static const std::vector<Law> all{{"atomic-spring", "stretch", "delete-edge", 0.03},
-                                    {"atomic-spring", "stretch", "split-vertex", 0.03},
-                                    {"atomic-spring", "shear", "delete-element", 0.03},
-                                    {"strain", "stretch", "delete-edge", 0.2},
-                                    {"atomic-vertex", "", "split-vertex", 0.03},
-                                    {"cumulative-vertex", "", "split-vertex", 0.001},
-                                    {"atomic-border", "", "separate", 0.02},
-                                    {"global-border", "", "separate", 0.004}};
+const std::vector<ForceLaw>& spring_laws() {
+  static const std::vector<ForceLaw> all{{"atomic-spring", "stretch", "delete-edge", 0.03},
+                                         {"atomic-spring", "stretch", "split-vertex", 0.03},
+                                         {"atomic-spring", "shear", "delete-element", 0.03},
+                                         {"strain", "stretch", "delete-edge", 0.2},
+                                         {"atomic-vertex", "", "split-vertex", 0.03},
+                                         {"cumulative-vertex", "", "split-vertex", 0.001},
+                                         {"atomic-border", "", "separate", 0.02},
+                                         {"global-border", "", "separate", 0.004}};
   return all;
 }
-const std::vector<Law>& element_laws() {
-  static const std::vector<Law> all{
+const std::vector<ForceLaw>& element_laws() {
+  static const std::vector<ForceLaw> all{
       {"atomic-element", "", "delete-element", 0.2},    {"strain", "", "delete-element", 0.2},
       {"vertex-stress", "", "split-vertex", 0.2},       {"atomic-vertex", "", "split-vertex", 0.002},
       {"cumulative-vertex", "", "split-vertex", 0.002}, {"atomic-border", "", "separate", 0.002},
@@ -74,7 +74,7 @@ const std::vector<Pulled>& bodies() {
 }
 
 // Time is measured by that which sound takes along 1 m: T = L √(ρ/E), ρ = 1000 kg/m³.
-std::string preset_of(const Pulled& body, const Law& law, const Strain& strain) {
+std::string preset_of(const Pulled& body, const ForceLaw& law, const Strain& strain) {
   const double L = strain.length, E = 1e4 * strain.stiffness, T = L * std::sqrt(1000 / E);
   const std::string l = in_short(L);
   Sketch sketch;
@@ -116,7 +116,7 @@ void scramble(Body& body, double reach) {
   put(body, [&](const Vec3& rest, std::size_t slot) { return Vec3(rest + reach * push[slot].vec()); });
 }
 
-CheckCase tear_case(const Pulled& body, const Law& law, const Strain& strain) {
+CheckCase tear_case(const Pulled& body, const ForceLaw& law, const Strain& strain) {
   CheckCase one;
   const std::string what = law.criterion + (law.kind.empty() ? "" : "(" + law.kind + ")") + ", " + law.change;
   one.name = fmt::format("tear/{}/{}/{}", body.name, what, strain.name);
@@ -159,7 +159,7 @@ CheckCase tear_case(const Pulled& body, const Law& law, const Strain& strain) {
 std::vector<CheckCase> cases() {
   std::vector<CheckCase> all;
   for (const Pulled& body : bodies())
-    for (const Law& law : body.springs ? spring_laws() : element_laws())
+    for (const ForceLaw& law : body.springs ? spring_laws() : element_laws())
       for (const Strain& strain : strains()) all.push_back(tear_case(body, law, strain));
   return all;
 }

@@ -75,7 +75,7 @@ private:
   // Calls f(smallest dart) for elements of a part with a force above the threshold, give or take rounding.
   template <class F> void each_above(const ForceView& view, std::size_t part, double threshold, F&& f) {
     const Binder& binder = rows_[part];
-    const Law& law = *continuum_.parts()[part].law;
+    const ForceLaw& law = *continuum_.parts()[part].law;
     const PackedRows& rows = binder.rows();
     corner_.assign(view.map.cells(view.mass.orbit()).slots(), Record());
     kernel_of(law).corner_forces({.law = law,

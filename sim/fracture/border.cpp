@@ -2,6 +2,7 @@
 
 #include "sim/base/check.h"
 #include "sim/mechanics/mass.h"
+#include "sim/topology/walk.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ Vec3 face_normal(const EmbeddedMap& map, const Record* x, Dart d) {
   return sum;
 }
 
-constexpr int most_sides = static_cast<int>(most_fields / 3);
+constexpr int most_sides = static_cast<int>(most_columns / 3);
 
 int most_sides_of(const EmbeddedMap& map) {
   int most = 3;
@@ -68,17 +69,17 @@ Binder faces_of_solid(EmbeddedMap& map, Borders::Carry carry) {
                     return !m.is_free(3, d) && sides_of_face(m, d) == static_cast<int>(unit) + 3;
                   }};
   map.use(Face);
-  std::vector<Field> fields;
+  std::vector<IndexColumn> columns;
   const auto add = [&](bool other, int vertex, Orbit orbit) { // those beyond a face's own repeat its first
     map.use(orbit);
-    Field& field = fields.emplace_back(Field{{}, orbit});
-    for (int sides = 3; sides <= most; ++sides) field.word.push_back(around(other, vertex % sides));
+    IndexColumn& column = columns.emplace_back(IndexColumn{{}, orbit});
+    for (int sides = 3; sides <= most; ++sides) column.word.push_back(around(other, vertex % sides));
   };
   for (int k = 0; k < most && carry == Borders::Carry::Corners; ++k)
     for (bool other : {false, true}) add(other, k, corner_orbit(3));
   for (int k = 0; k < most; ++k) add(false, k, Vertex);
   pattern.units.resize(static_cast<std::size_t>(most - 2));
-  return Binder(map, pattern, std::move(fields), 0);
+  return Binder(map, pattern, std::move(columns), 0);
 }
 
 } // namespace

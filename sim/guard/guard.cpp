@@ -46,7 +46,7 @@ bool Guard::asks_for_forces() const {
 }
 
 void Guard::before_laws(long step) {
-  const Within within(profile_, Stage::Guard);
+  const Within within(profile_, Phase::Guard);
   if (rewind_ && !rewind_->fits()) forget();
   if (energy_ && budget_ < 0) {
     begins_ = true;
@@ -61,7 +61,7 @@ void Guard::before_laws(long step) {
 }
 
 Trouble Guard::before_change(long step) {
-  const Within within(profile_, Stage::Guard);
+  const Within within(profile_, Phase::Guard);
   if (!energy_) return Trouble::None;
   const Trouble trouble = settle(step, false);
   if (trouble == Trouble::None) begins_ = true;
@@ -69,7 +69,7 @@ Trouble Guard::before_change(long step) {
 }
 
 void Guard::after_laws(long step) {
-  const Within within(profile_, Stage::Guard);
+  const Within within(profile_, Phase::Guard);
   if (!rewind_ || !(begins_ || !energy_)) return;
   rewind_->begin(step);
   threshold_ = std::max(factor * lately_, heaviest_ > 0 ? 2 * budget_ / heaviest_ : 0);
@@ -129,7 +129,7 @@ bool Guard::passing(int parts) const {
 }
 
 Trouble Guard::after_step(long done) {
-  const Within within(profile_, Stage::Guard);
+  const Within within(profile_, Phase::Guard);
   if (!energy_) {
     if (redoing_ && done == goal_) go_on(done, budget_, true);
     return Trouble::None;

@@ -52,7 +52,7 @@ public:
   void after_laws(long step);
   void after_part() {
     if (!rewind_) return;
-    const Within within(profile_, Stage::Guard);
+    const Within within(profile_, Phase::Guard);
     rewind_->keep();
   }
   Trouble after_step(long done); // steps done with it

@@ -4,7 +4,7 @@
 
 #include "sim/base/bytes.h"
 #include "sim/base/threads.h"
-#include "sim/mechanics/law.h"
+#include "sim/mechanics/force_law.h"
 #include "sim/rows/block_matrix.h"
 
 #include <cmath>

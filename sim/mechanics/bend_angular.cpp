@@ -67,7 +67,7 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
   if (!has_hinge(map, request.notes)) return nullptr;
   HingeEmbedding embedding;
   embedding.k = stiffness_of(request, nullptr);
-  embedding.damping = request.node.number("damping");
+  embedding.damping = request.settings.damping;
   auto made = std::make_unique<Hinges>();
   made->name = embedding.name;
   made->law = hinge_law();

@@ -26,7 +26,7 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
                   .fold = {"0", "121"},
                   .present = &present};
   const StiffnessOf k = stiffness_of(request, nullptr);
-  const double damping = request.node.number("damping");
+  const double damping = request.settings.damping;
   return make_interaction<1>(map, "bend provot", spring_law(), pattern, damping,
                              [=](const EmbeddedMap& body, Dart d, int) {
                                const std::vector<Vec3> x = rest_positions(body, d, across);

@@ -74,26 +74,32 @@ std::unique_ptr<Interaction> made(EmbeddedMap& map, const std::shared_ptr<const 
   return interaction;
 }
 
+template <ElementKind kind>
+std::unique_ptr<Interaction> made_of(EmbeddedMap& map, const std::shared_ptr<const ElementLaw>& law,
+                                     double thickness, const Place& place) {
+  using enum ElasticModel;
+  if (law->model() == Linear) return made<unit_values(kind, Linear)>(map, law, thickness, place);
+  return made<unit_values(kind, Corotational)>(map, law, thickness, place);
+}
+
 std::unique_ptr<Interaction> make_one(EmbeddedMap& map, const std::shared_ptr<const ElementLaw>& law,
                                       double thickness, const Place& place) {
-  switch (law->values()) {
-  case 5:
-    return made<5>(map, law, thickness, place);
-  case 11:
-    return made<11>(map, law, thickness, place);
-  case 20:
-    return made<20>(map, law, thickness, place);
-  case 26:
-    return made<26>(map, law, thickness, place);
-  case 10:
-    return made<10>(map, law, thickness, place);
-  case 60:
-    return made<60>(map, law, thickness, place);
-  case 80:
-    return made<80>(map, law, thickness, place);
-  default:
-    return nullptr;
+  using enum ElementKind;
+  switch (law->shape().kind) {
+  case Triangle:
+    return made_of<Triangle>(map, law, thickness, place);
+  case Quad:
+    return made_of<Quad>(map, law, thickness, place);
+  case Tetrahedron:
+    return made_of<Tetrahedron>(map, law, thickness, place);
+  case Hexahedron:
+    return made_of<Hexahedron>(map, law, thickness, place);
+  case Prism:
+    return made_of<Prism>(map, law, thickness, place);
+  case Pyramid:
+    return made_of<Pyramid>(map, law, thickness, place);
   }
+  return nullptr;
 }
 
 struct Census {
@@ -130,43 +136,46 @@ struct MadeWhenAsked final : Interaction {
   }
 };
 
-double thickness_of(const Node& node, int dimension) {
+double thickness_of(const ElasticitySettings& settings, int dimension) {
   if (dimension == 3) {
-    if (node.given("thickness"))
-      node.fail("thickness", "a solid has its own thickness", "leave it out; it is for sheets");
+    if (settings.thickness)
+      settings.source.fail("thickness", "a solid has its own thickness", "leave it out; it is for sheets");
     return 1;
   }
-  if (!node.given("thickness"))
-    throw UserError(Exit::BadInput, node.place(), "elasticity of a sheet needs its thickness",
-                    "thickness=\"0.001\"");
-  return node.number("thickness");
+  if (!settings.thickness)
+    settings.source.fail("", "elasticity of a sheet needs its thickness", "thickness=\"0.001\"");
+  return *settings.thickness;
+}
+
+ElasticMaterial material_of(const ElasticitySettings& settings, int dimension) {
+  ElasticMaterial material = ElasticMaterial::of(settings.young, settings.poisson, dimension);
+  material.damping = settings.damping_stiffness;
+  return material;
 }
 
 } // namespace
 
-const ElementType& elasticity_type() {
-  static const ElementType type{
-      "elasticity",
-      "a continuum: finite elements on triangles, quads, tetrahedra, hexahedra, prisms and pyramids",
-      {word(
-           "model", {"linear", "corotational", "mass-tensor"},
-           "linear: small displacements; corotational: large ones, each element in its own frame; mass-tensor: "
-           "linear, stored on vertices and edges")
-           .otherwise("corotational"),
-       number("young", "Pa", "Young's modulus").above(0).is_required(),
-       number("poisson", "", "Poisson's ratio").at_least(0).at_most(0.4999).otherwise("0.3"),
-       number("thickness", "m", "of a sheet").above(0),
-       word("rotation", {"polar", "qr"}, "corotational: the closest rotation, or Gram-Schmidt of the edges")
-           .otherwise("polar"),
-       number("damping-mass", "1/s", "Rayleigh damping: a force -value m v").at_least(0).otherwise("0"),
-       number("damping-stiffness", "s", "Rayleigh damping: a force -value K v").at_least(0).otherwise("0"),
-       word("cumulated", {"auto", "yes", "no"},
-            "mass-tensor: fold tensors between the same particles into one: auto folds unless a law looks at "
-            "each "
-            "element by itself")
-           .otherwise("auto")},
-      {}};
-  return type;
+template <> const Fields<ElasticitySettings>& fields_of() {
+  using S = ElasticitySettings;
+  static const Fields<S> fields{
+      field(&S::model,
+            word("model", {"linear", "corotational", "mass-tensor"},
+                 "linear: small displacements; corotational: large ones, each element in its own frame; "
+                 "mass-tensor: linear, stored on vertices and edges")),
+      field(&S::young, number("young", "Pa", "Young's modulus").above(0).is_required()),
+      field(&S::poisson, number("poisson", "", "Poisson's ratio").at_least(0).at_most(0.4999)),
+      field(&S::thickness, number("thickness", "m", "of a sheet").above(0)),
+      field(&S::rotation, word("rotation", {"polar", "qr"},
+                               "corotational: the closest rotation, or Gram-Schmidt of the edges")),
+      field(&S::damping_mass,
+            number("damping-mass", "1/s", "Rayleigh damping: a force -value m v").at_least(0)),
+      field(&S::damping_stiffness,
+            number("damping-stiffness", "s", "Rayleigh damping: a force -value K v").at_least(0)),
+      field(&S::cumulated,
+            word("cumulated", {"auto", "yes", "no"},
+                 "mass-tensor: fold tensors between the same particles into one: auto folds unless a law looks "
+                 "at each element by itself"))};
+  return fields;
 }
 
 std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map,
@@ -188,12 +197,6 @@ std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map
   return all;
 }
 
-ElasticMaterial elastic_material(const Node& node, int dimension) {
-  ElasticMaterial material = ElasticMaterial::of(node.number("young"), node.number("poisson"), dimension);
-  material.damping = node.number("damping-stiffness");
-  return material;
-}
-
 void refuse_flat_element(const Place& place, const ElementShape& shape, const std::vector<Vec3>& rest) {
   std::string corners;
   for (const Vec3& x : rest) corners += fmt::format(" ({:.6g}, {:.6g}, {:.6g})", x.x(), x.y(), x.z());
@@ -203,31 +206,31 @@ void refuse_flat_element(const Place& place, const ElementShape& shape, const st
                   "elasticity needs elements that are neither flat nor inside out: move these corners");
 }
 
-std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, const ElasticityRequest& request) {
-  const Node& node = request.node;
+std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, const ElasticitySettings& settings,
+                                                          std::vector<std::string>& notes) {
   const int dimension = map.dimension();
-  const double thickness = thickness_of(node, dimension);
-  const ElasticMaterial material = elastic_material(node, dimension);
+  const double thickness = thickness_of(settings, dimension);
+  const ElasticMaterial material = material_of(settings, dimension);
+  const Place place = settings.source.place();
   map.use(element_orbit(dimension));
   const Census census = count_elements(map);
   if (census.others > 0)
-    request.notes.push_back(
+    notes.push_back(
         fmt::format("elasticity leaves out {} cells that are no {}", census.others,
                     dimension == 2 ? "triangles or quads" : "tetrahedra, hexahedra, prisms or pyramids"));
   std::vector<std::unique_ptr<Interaction>> all;
-  if (node.text("model") == "mass-tensor") {
-    all = make_mass_tensors(map, {material, thickness, node.place()});
+  if (settings.model == ContinuumModel::MassTensor) {
+    all = make_mass_tensors(map, {material, thickness, place});
   } else {
     const ElasticModel model =
-        node.text("model") == "linear" ? ElasticModel::Linear : ElasticModel::Corotational;
-    const Rotation rotation = node.text("rotation") == "qr" ? Rotation::Qr : Rotation::Polar;
+        settings.model == ContinuumModel::Linear ? ElasticModel::Linear : ElasticModel::Corotational;
     for (std::size_t kind = 0; kind < census.of_kind.size(); ++kind)
       if (census.of_kind[kind] > 0)
-        all.push_back(make_one(map, element_law(static_cast<ElementKind>(kind), model, rotation, material),
-                               thickness, node.place()));
+        all.push_back(make_one(map,
+                               element_law(static_cast<ElementKind>(kind), model, settings.rotation, material),
+                               thickness, place));
   }
-  if (all.empty())
-    throw UserError(Exit::BadInput, node.place(), "no cell of this body is an element that elasticity fits");
+  if (all.empty()) settings.source.fail("", "no cell of this body is an element that elasticity fits");
   return all;
 }
 

@@ -13,24 +13,30 @@ namespace rend {
 
 struct MassTensorRequest;
 
-const ElementType& elasticity_type();
+enum class ContinuumModel { Linear, Corotational, MassTensor };
 
-struct ElasticityRequest {
-  const Node& node;                // <elasticity>
-  std::vector<std::string>& notes; // what the preset's author should know
+struct ElasticitySettings {
+  ContinuumModel model = ContinuumModel::Corotational;
+  double young = 0;                // E [Pa]
+  double poisson = 0.3;            // ν
+  std::optional<double> thickness; // [m], of a sheet
+  Rotation rotation = Rotation::Polar;
+  double damping_mass = 0;      // Rayleigh's α [1/s]
+  double damping_stiffness = 0; // Rayleigh's β [s]
+  Cumulated cumulated = Cumulated::Auto;
+  SettingsSource source = {};
 };
+template <> const Fields<ElasticitySettings>& fields_of();
 
 // Adds the embeddings to the map. UserError: an element without volume, by its name and place; a sheet without
-// thickness, or a solid with one; no element that fits.
-std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, const ElasticityRequest& request);
+// thickness, or a solid with one; no element that fits. `notes`: what the body's author should know.
+std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, const ElasticitySettings& settings,
+                                                          std::vector<std::string>& notes);
 
 // The linear elements that mass-tensors are made of, to be asked for stress and forces. They are no embedding:
 // the numbers of a unit are made when they are asked for, and last until the next are.
 std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map,
                                                           const MassTensorRequest& request);
-
-// E and ν of the request, β from its damping-stiffness.
-ElasticMaterial elastic_material(const Node& node, int dimension);
 
 [[noreturn]] void refuse_flat_element(const Place& place, const ElementShape& shape,
                                       const std::vector<Vec3>& rest);

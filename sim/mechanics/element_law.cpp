@@ -248,9 +248,11 @@ ElasticMaterial ElasticMaterial::of(double young, double poisson, int dimension)
 
 ElementLaw::ElementLaw(const ElementShape& shape, ElasticModel model, Rotation rotation,
                        const ElasticMaterial& material)
-    : Law((model == ElasticModel::Linear ? "linear " : "co-rotational ") + shape.name, shape.corners,
-          shape.values() + (model == ElasticModel::Linear && shape.dimension == 2 ? 6 : 0)),
-      shape_(&shape), model_(model), rotation_(rotation), material_(material) {}
+    : ForceLaw((model == ElasticModel::Linear ? "linear " : "co-rotational ") + shape.name, shape.corners,
+               unit_values(shape.kind, model)),
+      shape_(&shape), model_(model), rotation_(rotation), material_(material) {
+  CHECK(first_point() == (model == ElasticModel::Linear && shape.dimension == 2 ? 6 : 0));
+}
 
 namespace {
 

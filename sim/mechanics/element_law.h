@@ -30,13 +30,22 @@ constexpr bool turns_by_point(int dimension, int points) {
   return dimension == 2 && points > 1;
 }
 
+// How many numbers a unit carries: 3 × 3 and a weight for each integration point, of a sheet 2 × 2; of a linear
+// sheet its rest axes before them.
+constexpr int unit_values(ElementKind kind, ElasticModel model) {
+  using enum ElementKind;
+  const bool sheet = kind == Triangle || kind == Quad;
+  const int points = kind == Triangle || kind == Tetrahedron ? 1 : kind == Quad ? 4 : kind == Prism ? 6 : 8;
+  return points * (sheet ? 5 : 10) + (sheet && model == ElasticModel::Linear ? 6 : 0);
+}
+
 struct ElasticMaterial {
   double lambda = 0, mu = 0; // Lamé's [Pa]; of a sheet λ is that of plane stress
   double damping = 0;        // Rayleigh's β [s]
   static ElasticMaterial of(double young, double poisson, int dimension);
 };
 
-class ElementLaw : public Law {
+class ElementLaw : public ForceLaw {
 public:
   const ElementShape& shape() const { return *shape_; }
   ElasticModel model() const { return model_; }

@@ -105,9 +105,9 @@ HingePoints points_of(const Vec3* x) {
   return points;
 }
 
-class HingeLaw final : public Law {
+class HingeLaw final : public ForceLaw {
 public:
-  HingeLaw() : Law("hinge", 8, 4, 1) {}
+  HingeLaw() : ForceLaw("hinge", 8, 4, 1) {}
 
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
     const HingePoints f = hinge_forces(HingeParameters::of(unit), points_of(s.position), points_of(s.velocity));
@@ -160,8 +160,8 @@ public:
 
 } // namespace
 
-const std::shared_ptr<const Law>& hinge_law() {
-  static const std::shared_ptr<const Law> law = std::make_shared<HingeLaw>();
+const std::shared_ptr<const ForceLaw>& hinge_law() {
+  static const std::shared_ptr<const ForceLaw> law = std::make_shared<HingeLaw>();
   return law;
 }
 

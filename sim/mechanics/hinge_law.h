@@ -30,7 +30,7 @@
 // energy φ₁ φ₂ ½kθ² has no jump.
 #pragma once
 
-#include "sim/mechanics/law.h"
+#include "sim/mechanics/force_law.h"
 
 #include <array>
 #include <memory>
@@ -64,6 +64,6 @@ double hinge_moment(const HingeParameters& p, const HingePoints& x, const HingeP
 HingePoints hinge_forces(const HingeParameters& p, const HingePoints& x, const HingePoints& v);
 double hinge_energy(const HingeParameters& p, const HingePoints& x); // [J]
 
-const std::shared_ptr<const Law>& hinge_law(); // 8 particles; HingeParameters
+const std::shared_ptr<const ForceLaw>& hinge_law(); // 8 particles; HingeParameters
 
 } // namespace rend

@@ -20,16 +20,6 @@ const std::vector<InteractionType>& all_interactions() {
   return list;
 }
 
-int sides_of_face(const GMap& map, Dart d) {
-  int darts = 0;
-  bool closed = true;
-  walk_two(map, 0, 1, d, [&](Dart e) {
-    ++darts;
-    closed = closed && !map.is_free(0, e) && !map.is_free(1, e);
-  });
-  return closed ? darts / 2 : 0;
-}
-
 void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f) {
   std::vector<char> seen(body.map().capacity(), 0);
   body.map().for_each_dart([&](Dart d) {

@@ -9,9 +9,9 @@
 // Adding one: a file with a function `InteractionType my_interaction()`, and its name in all_interactions().
 #pragma once
 
-#include "sim/base/parameters.h"
+#include "sim/base/settings.h"
 #include "sim/embedding/embedded_map.h"
-#include "sim/mechanics/law.h"
+#include "sim/mechanics/force_law.h"
 
 #include <array>
 #include <functional>
@@ -40,7 +40,7 @@ class Interaction {
 public:
   virtual ~Interaction() = default;
   std::string name; // "stretch", "shear isotropic", ...
-  std::shared_ptr<const Law> law;
+  std::shared_ptr<const ForceLaw> law;
   Pattern pattern;
   bool damped = false; // some unit has damping
 
@@ -55,13 +55,30 @@ struct SpringMaterial {
   double thickness = 0; // h [m]
 };
 
-// A body's request for an interaction: one element of its <springs>.
+// Of one kind of spring or hinge.
+struct SpringSettings {
+  std::optional<double> k; // [N/m], of hinges [N·m/rad], of each elementary one; none: from the material
+  double damping = 0;      // [N·s/m], [N·m·s/rad]
+  SettingsSource source = {};
+};
+
+// Whether rows between the same particles are folded into one.
+enum class Cumulated {
+  Auto, // unless a law looks at each by itself
+  Yes,
+  No
+};
+
+// A body's request for an interaction.
 struct InteractionRequest {
-  const Node& node; // k, damping, kind, ...
+  const SpringSettings& settings;
+  const std::string& element; // what it is called, for messages: "stretch"
   std::optional<SpringMaterial> material;
   std::vector<std::string>& notes; // what the preset's author should know
   bool surface = false;            // only on faces that are on the surface when they are born
 };
+
+template <> const Fields<SpringSettings>& fields_of();
 
 struct InteractionType {
   std::string element; // "stretch", "shear", "bend"
@@ -74,9 +91,6 @@ struct InteractionType {
 };
 
 const std::vector<InteractionType>& all_interactions();
-
-// The sides of the face of d; 0 if it is not closed.
-int sides_of_face(const GMap& map, Dart d);
 
 // Calls f(first dart) for every face (<0,1>), in the order of their smallest darts.
 void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f);
@@ -117,7 +131,7 @@ template <int Units> struct UnitEmbedding {
 // Puts an interaction of springs or hinges together from its parts.
 template <int Units>
 std::unique_ptr<Interaction>
-make_interaction(EmbeddedMap& map, std::string name, std::shared_ptr<const Law> law, Pattern pattern,
+make_interaction(EmbeddedMap& map, std::string name, std::shared_ptr<const ForceLaw> law, Pattern pattern,
                  double damping, std::function<UnitParameters(const EmbeddedMap&, Dart, int)> bear) {
   struct Carried final : Interaction {
     const Column<UnitEmbedding<Units>>* column = nullptr;

@@ -5,7 +5,7 @@
 // last bit.
 #pragma once
 
-#include "sim/embedding/embedded_map.h"
+#include "sim/embedding/cell_size.h"
 
 namespace rend {
 
@@ -13,17 +13,6 @@ namespace rend {
 constexpr Orbit corner_orbit(int dimension) {
   return dimension == 2 ? VertexOfFace : VertexOfVolume;
 }
-constexpr Orbit element_orbit(int dimension) {
-  return dimension == 2 ? FaceOfVolume : Volume;
-}
-
-double rest_area(const EmbeddedMap& map,
-                 Dart d); // [m²], of the face of d (a warped one: of its fan from the centre)
-
-// [m³], of the volume of d, each face taken as its fan from the mean of its corners: exact where faces are
-// flat.
-double rest_volume(const EmbeddedMap& map, Dart d);
-int corners_of_volume(const GMap& map, Dart d);
 
 // Element mass / number of corners [kg]. As for drag, orbit and support are a sheet's; on() says those of a
 // map.

@@ -132,8 +132,9 @@ template <int Units, int Values> struct TensorEmbedding {
 };
 
 template <int Units, int Values>
-std::unique_ptr<Interaction> made(EmbeddedMap& map, const std::string& name, std::shared_ptr<const Law> law,
-                                  Pattern pattern, const MassTensorRequest& request) {
+std::unique_ptr<Interaction> made(EmbeddedMap& map, const std::string& name,
+                                  std::shared_ptr<const ForceLaw> law, Pattern pattern,
+                                  const MassTensorRequest& request) {
   struct Carried final : Interaction {
     const Column<TensorEmbedding<Units, Values>>* column = nullptr;
     const double* unit(Slot owner, std::size_t unit) const override {

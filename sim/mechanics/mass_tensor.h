@@ -28,14 +28,14 @@ struct MassTensorRequest {
 
 // Of one particle: K_ii row by row, and the largest eigenvalue of the whole element's K. Of two: K_ij row by
 // row.
-class MassTensorLaw : public Law {
+class MassTensorLaw : public ForceLaw {
 public:
   double damping() const { return request_.material.damping; } // β [s]
   const MassTensorRequest& request() const { return request_; }
 
 protected:
   MassTensorLaw(std::string name, int particles, int values, MassTensorRequest request)
-      : Law(std::move(name), particles, values), request_(std::move(request)) {}
+      : ForceLaw(std::move(name), particles, values), request_(std::move(request)) {}
 
 private:
   MassTensorRequest request_;

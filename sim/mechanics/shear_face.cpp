@@ -37,7 +37,7 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
                   .present = [](const GMap& m, Dart d, std::size_t) { return sides_of_face(m, d) == 4; }};
   if (map.dimension() == 3) pattern.fold.emplace_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
-  const double damping = request.node.number("damping");
+  const double damping = request.settings.damping;
   return make_interaction<2>(map, "shear isotropic", spring_law(), pattern, damping,
                              [=, surface = request.surface](const EmbeddedMap& body, Dart d, int unit) {
                                if (surface && !body.map().is_free(3, d)) return UnitParameters{};
@@ -70,7 +70,7 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
                   .present = [](const GMap& m, Dart d, std::size_t) { return sides_of_face(m, d) >= 4; }};
   if (map.dimension() == 3) pattern.fold.emplace_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
-  const double damping = request.node.number("damping");
+  const double damping = request.settings.damping;
   return make_interaction<1>(map, "shear anisotropic", spring_law(), pattern, damping,
                              [=, surface = request.surface](const EmbeddedMap& body, Dart d, int) {
                                if (surface && !body.map().is_free(3, d)) return UnitParameters{};

@@ -31,8 +31,8 @@ UnitParameters along(const EmbeddedMap& body, Dart d, const std::vector<Word>& u
 
 void refuse_surface(const InteractionRequest& request) {
   if (request.surface)
-    throw UserError(Exit::BadInput, request.node.place(), "springs on the surface have no diagonals inside",
-                    "leave it out, or take where=\"face\"");
+    throw UserError(Exit::BadInput, request.settings.source.place(),
+                    "springs on the surface have no diagonals inside", "leave it out, or take where=\"face\"");
 }
 
 std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionRequest& request) {
@@ -44,7 +44,7 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
   const Pattern pattern{
       .owner = Volume, .support = Volume, .units = diagonals, .fold = {}, .present = &in_hexahedron};
   const StiffnessOf k = stiffness_of(request, nullptr);
-  const double damping = request.node.number("damping");
+  const double damping = request.settings.damping;
   return make_interaction<4>(map, "shear isotropic volume", spring_law(), pattern, damping,
                              [=](const EmbeddedMap& body, Dart d, int unit) {
                                if (!in_hexahedron(body.map(), d, 0)) return UnitParameters{};
@@ -65,7 +65,7 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
                         .fold = {},
                         .present = &in_hexahedron};
   const StiffnessOf k = stiffness_of(request, nullptr);
-  const double damping = request.node.number("damping");
+  const double damping = request.settings.damping;
   return make_interaction<1>(map, "shear anisotropic volume", spring_law(), pattern, damping,
                              [=](const EmbeddedMap& body, Dart d, int) {
                                const GMap& m = body.map();

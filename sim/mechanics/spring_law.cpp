@@ -27,9 +27,9 @@ void spread(const Eigen::Matrix3d& block, UnitMatrix& matrix) {
   matrix.topRightCorner<3, 3>() = matrix.bottomLeftCorner<3, 3>() = -block;
 }
 
-class SpringLaw final : public Law {
+class SpringLaw final : public ForceLaw {
 public:
-  SpringLaw() : Law("spring", 2, 3, 1) {}
+  SpringLaw() : ForceLaw("spring", 2, 3, 1) {}
 
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
     force[0] =
@@ -81,8 +81,8 @@ public:
 
 } // namespace
 
-const std::shared_ptr<const Law>& spring_law() {
-  static const std::shared_ptr<const Law> law = std::make_shared<SpringLaw>();
+const std::shared_ptr<const ForceLaw>& spring_law() {
+  static const std::shared_ptr<const ForceLaw> law = std::make_shared<SpringLaw>();
   return law;
 }
 

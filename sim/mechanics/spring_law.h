@@ -9,7 +9,7 @@
 //   −∂f_i/∂x_i = k (s (I − u uᵀ) + u uᵀ),   −∂f_i/∂v_i = λ u uᵀ,   and the opposite for j
 #pragma once
 
-#include "sim/mechanics/law.h"
+#include "sim/mechanics/force_law.h"
 
 #include <memory>
 
@@ -18,6 +18,6 @@ namespace rend {
 Vec3 spring_force(const UnitParameters& p, const Vec3& xi, const Vec3& xj, const Vec3& vi, const Vec3& vj);
 double spring_energy(const UnitParameters& p, const Vec3& xi, const Vec3& xj); // [J]
 
-const std::shared_ptr<const Law>& spring_law(); // 2 particles; k, damping, rest length
+const std::shared_ptr<const ForceLaw>& spring_law(); // 2 particles; k, damping, rest length
 
 } // namespace rend

@@ -14,7 +14,7 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
                   .present = [](const GMap& m, Dart d, std::size_t) { return !m.is_free(0, d); }};
   if (map.dimension() == 3) pattern.fold.emplace_back("3");
   const StiffnessOf k = stiffness_of(request, &edge_stiffness);
-  const double damping = request.node.number("damping");
+  const double damping = request.settings.damping;
   return make_interaction<1>(
       map, "stretch", spring_law(), pattern, damping,
       [=, surface = request.surface](const EmbeddedMap& body, Dart d, int) {

@@ -1,5 +1,7 @@
 #include "sim/mechanics/young.h"
 
+#include "sim/topology/walk.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -31,6 +33,14 @@ std::string place_of(const EmbeddedMap& map, Dart d) {
 
 } // namespace
 
+template <> const Fields<SpringSettings>& fields_of() {
+  using S = SpringSettings;
+  static const Fields<S> fields{
+      field(&S::k, number("k", "", "stiffness of each elementary spring; or by formula from young").above(0)),
+      field(&S::damping, number("damping", "N.s/m", "along the spring (N.m.s/rad about a hinge)").at_least(0))};
+  return fields;
+}
+
 double edge_stiffness(const SpringMaterial& m, const EmbeddedMap& map, Dart d) {
   const double E = m.young, nu = m.poisson, h = m.thickness;
   const std::vector<double> side = side_lengths(map, d);
@@ -57,20 +67,19 @@ double diagonal_stiffness(const SpringMaterial& m, const EmbeddedMap& map, Dart 
 }
 
 StiffnessOf stiffness_of(const InteractionRequest& request, StiffnessFormula formula) {
-  const Node& node = request.node;
-  if (node.given("k")) {
+  const SettingsSource& source = request.settings.source;
+  if (request.settings.k) {
     if (request.material && formula)
-      node.fail("k", "this spring has a stiffness of its own and a material (young) as well",
-                "leave out k here, or young in <springs>");
-    const double k = node.number("k");
-    return [k](const EmbeddedMap&, Dart) { return k; };
+      source.fail("k", "this spring has a stiffness of its own and a material (young) as well",
+                  "leave out k here, or young in <springs>");
+    return [k = *request.settings.k](const EmbeddedMap&, Dart) { return k; };
   }
   if (!formula || !request.material)
-    throw UserError(Exit::BadInput, node.place(), fmt::format("<{}> needs its stiffness k", node.name()),
-                    formula ? "give k, or, on a sheet, young, poisson and thickness in <springs>"
-                            : "no formula gives this stiffness from young; give k");
+    source.fail("", fmt::format("<{}> needs its stiffness k", request.element),
+                formula ? "give k, or, on a sheet, young, poisson and thickness in <springs>"
+                        : "no formula gives this stiffness from young; give k");
   const SpringMaterial material = *request.material;
-  const Place place = node.place();
+  const Place place = source.place();
   return [=](const EmbeddedMap& map, Dart d) {
     if (sides_of_face(map.map(), d) > 4)
       throw UserError(Exit::BadInput, place, "stiffness from young is known for triangles and quads alone",
@@ -88,7 +97,7 @@ StiffnessOf stiffness_of(const InteractionRequest& request, StiffnessFormula for
 
 void refuse_bend_of_solid(const EmbeddedMap& map, const InteractionRequest& request) {
   if (map.dimension() == 3)
-    throw UserError(Exit::BadInput, request.node.place(), "<bend> is for sheets",
+    throw UserError(Exit::BadInput, request.settings.source.place(), "<bend> is for sheets",
                     "a solid resists bending by its volume: leave it out, or add shear or elasticity");
 }
 

@@ -1,6 +1,5 @@
 #include "sim/mesh/msh_writer.h"
 
-#include "sim/mechanics/mass.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/mesh/msh_types.h"
 #include "sim/topology/walk.h"

@@ -1,7 +1,7 @@
 #include "sim/mesh/reader.h"
 
 #include "sim/base/wording.h"
-#include "sim/mechanics/mass.h"
+#include "sim/embedding/cell_size.h"
 #include "sim/mesh/fault.h"
 #include "sim/mesh/locality.h"
 #include "sim/topology/walk.h"

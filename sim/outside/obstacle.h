@@ -29,10 +29,10 @@ struct Plane {
 };
 
 struct Sphere {
-  Vec3 start = Vec3::Zero();      // [m], its centre at time 0
-  double radius = 0, mass = 0;    // [m], [kg]; mass 0: moves as prescribed
-  std::optional<double> friction; // Coulomb's coefficient; none: that of the body
-  const Node* node = nullptr;     // of the preset, for those who read more of it (colour)
+  Vec3 start = Vec3::Zero();        // [m], its centre at time 0
+  double radius = 0, mass = 0;      // [m], [kg]; mass 0: moves as prescribed
+  std::optional<double> friction;   // Coulomb's coefficient; none: that of the body
+  const PresetNode* node = nullptr; // of the preset, for those who read more of it (colour)
 
   Vec3 centre = start, velocity = Vec3::Zero();           // [m], [m/s], of the current state
   Vec3 next_centre = start, next_velocity = Vec3::Zero(); // at the end of the step that is being made
@@ -54,7 +54,7 @@ struct Sphere {
 struct Box {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero(); // [m]
   std::optional<double> friction;
-  const Node* node = nullptr;
+  const PresetNode* node = nullptr;
 
   // As for a sphere, but in world space; `margin` [m] is kept from it.
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const;

@@ -46,7 +46,7 @@ public:
   const AttributeType& attribute(const ElementType& element) const { return attribute(element, parts_.back()); }
   void check(const ElementType& root) const {
     const ElementType& type = element(root);
-    Node(type, place_).set(attribute(type), value_, place_);
+    PresetNode(type, place_).set(attribute(type), value_, place_);
   }
 
 private:

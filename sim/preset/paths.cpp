@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check(const Node& mesh) {
+void check(const PresetNode& mesh) {
   if (stays_below(fs::path(mesh.place().file).parent_path(), mesh.text("file"))) return;
   mesh.fail("file", fmt::format("{} is outside of the preset's folder", in_quotes(mesh.text("file"))),
             "put the mesh beside the preset, or allow it with --allow-path");
@@ -38,9 +38,13 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-void check_paths(const Node& scene) {
-  for (const Node* body : scene.all("body"))
-    for (const Node* mesh : body->all("mesh")) check(*mesh);
+std::filesystem::path mesh_path(const PresetNode& mesh) {
+  return (fs::path(mesh.place().file).parent_path() / mesh.text("file")).lexically_normal();
+}
+
+void check_paths(const PresetNode& scene) {
+  for (const PresetNode* body : scene.all("body"))
+    for (const PresetNode* mesh : body->all("mesh")) check(*mesh);
 }
 
 } // namespace rend

@@ -6,6 +6,8 @@
 
 #include <filesystem>
 
+#include <filesystem>
+
 namespace rend {
 
 // Whether `name`, which a file in `folder` gives, leads there or below, links followed: false for an absolute
@@ -13,10 +15,13 @@ namespace rend {
 bool stays_below(const std::filesystem::path& folder, const std::filesystem::path& name);
 
 // UserError, at the attribute, for a <mesh> of a preset whose file does not.
-void check_paths(const Node& scene);
+void check_paths(const PresetNode& scene);
 
 // Whether `path`, links followed, is `folder` or lies below it. A file that is not there lies where its name
 // says.
 bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+// The file of a <mesh>: relative to the preset's folder.
+std::filesystem::path mesh_path(const PresetNode& mesh);
 
 } // namespace rend

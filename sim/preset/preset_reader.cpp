@@ -73,8 +73,8 @@ void check_version(const RawElement& root) {
                               in_quotes(version->text), preset_version));
 }
 
-std::unique_ptr<Node> checked(const RawElement& raw) {
-  auto node = std::make_unique<Node>(*raw.type, raw.place);
+std::unique_ptr<PresetNode> checked(const RawElement& raw) {
+  auto node = std::make_unique<PresetNode>(*raw.type, raw.place);
   for (const RawAttribute& attribute : raw.attributes)
     node->set(*attribute.type, attribute.text, attribute.place);
   for (const auto& child : raw.children) node->add(checked(*child));
@@ -114,17 +114,17 @@ std::string read_preset_file(const fs::path& path) {
   return text;
 }
 
-std::unique_ptr<Node> read_preset(const fs::path& path, const ElementType& root,
-                                  std::span<const Override> overrides) {
+std::unique_ptr<PresetNode> read_preset(const fs::path& path, const ElementType& root,
+                                        std::span<const Override> overrides) {
   return read_preset_text(read_preset_file(path), path.string(), root, overrides);
 }
 
-std::unique_ptr<Node> read_preset_text(std::string_view text, const std::string& file, const ElementType& root,
-                                       std::span<const Override> overrides) {
+std::unique_ptr<PresetNode> read_preset_text(std::string_view text, const std::string& file,
+                                             const ElementType& root, std::span<const Override> overrides) {
   const std::unique_ptr<RawElement> raw = read_raw_preset(text, file, root);
   apply_overrides(*raw, overrides);
   check_version(*raw);
-  std::unique_ptr<Node> node = checked(*raw);
+  std::unique_ptr<PresetNode> node = checked(*raw);
   node->fill_defaults();
   node->check_complete();
   return node;

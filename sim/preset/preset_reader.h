@@ -22,12 +22,12 @@ inline constexpr std::size_t max_preset_bytes = std::size_t{16} << 20U;
 // `root` must outlive the Nodes. Throws UserError: NoInput where there is no such file (the hint tells near
 // names), BadInput for what is in it, Usage for a path of an override that is not there, ReadWrite if reading
 // fails.
-std::unique_ptr<Node> read_preset(const std::filesystem::path& path, const ElementType& root,
-                                  std::span<const Override> overrides = {});
+std::unique_ptr<PresetNode> read_preset(const std::filesystem::path& path, const ElementType& root,
+                                        std::span<const Override> overrides = {});
 
 // The same for a text; `file` is what its places are called by.
-std::unique_ptr<Node> read_preset_text(std::string_view text, const std::string& file, const ElementType& root,
-                                       std::span<const Override> overrides = {});
+std::unique_ptr<PresetNode> read_preset_text(std::string_view text, const std::string& file,
+                                             const ElementType& root, std::span<const Override> overrides = {});
 
 // The file's text, for those who read it several times. The same errors.
 std::string read_preset_file(const std::filesystem::path& path);

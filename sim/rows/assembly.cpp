@@ -81,7 +81,7 @@ void Assembly::add_rows(std::size_t binder, const Record* x, const Record* v, Ta
                         std::size_t low, std::size_t high, BlockMatrix& out) const {
   const Interaction& interaction = *program_->rows()[binder].interaction();
   const PackedRows& rows = program_->rows()[binder].rows();
-  const Law& law = *interaction.law;
+  const ForceLaw& law = *interaction.law;
   const int particles = law.particles();
   const Record* rest = map_->rest().values().data();
   thread_local Gathered g;

@@ -8,13 +8,13 @@
 namespace rend {
 namespace {
 
-std::vector<Field> particle_fields(const Pattern& pattern, Orbit orbit) {
-  std::vector<Field> fields(pattern.units.front().size());
-  for (std::size_t p = 0; p < fields.size(); ++p) {
-    fields[p].orbit = orbit;
-    for (const auto& unit : pattern.units) fields[p].word.push_back(unit[p]);
+std::vector<IndexColumn> particle_columns(const Pattern& pattern, Orbit orbit) {
+  std::vector<IndexColumn> columns(pattern.units.front().size());
+  for (std::size_t p = 0; p < columns.size(); ++p) {
+    columns[p].orbit = orbit;
+    for (const auto& unit : pattern.units) columns[p].word.push_back(unit[p]);
   }
-  return fields;
+  return columns;
 }
 
 // A word that stays in the owner's own orbit ends in it wherever it starts.
@@ -31,24 +31,24 @@ Dart follow_back(const GMap& map, Dart d, const Word& word, std::size_t length) 
 
 Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, bool fold,
                   std::optional<Orbit> corners) {
-  std::vector<Field> fields = particle_fields(interaction.pattern, Vertex);
-  const int places = static_cast<int>(fields.size());
+  std::vector<IndexColumn> columns = particle_columns(interaction.pattern, Vertex);
+  const int places = static_cast<int>(columns.size());
   if (corners) {
-    const std::vector<Field> more = particle_fields(interaction.pattern, *corners);
-    fields.insert(fields.end(), more.begin(), more.end());
+    const std::vector<IndexColumn> more = particle_columns(interaction.pattern, *corners);
+    columns.insert(columns.end(), more.begin(), more.end());
   }
-  Binder binder(map, interaction.pattern, std::move(fields), places);
+  Binder binder(map, interaction.pattern, std::move(columns), places);
   binder.interaction_ = &interaction;
   binder.fold_ = fold && !interaction.pattern.fold.empty();
-  binder.rows_ = PackedRows(static_cast<int>(binder.fields_.size()), places, interaction.law->values(),
+  binder.rows_ = PackedRows(static_cast<int>(binder.columns_.size()), places, interaction.law->values(),
                             interaction.damped ? -1 : interaction.law->damping_value());
   return binder;
 }
 
-Binder::Binder(const EmbeddedMap& map, Pattern pattern, std::vector<Field> fields, int places)
-    : map_(&map), pattern_(std::move(pattern)), fields_(std::move(fields)),
-      rows_(static_cast<int>(fields_.size()), places, 0) {
-  CHECK(fields_.size() <= Row{}.index.size());
+Binder::Binder(const EmbeddedMap& map, Pattern pattern, std::vector<IndexColumn> columns, int places)
+    : map_(&map), pattern_(std::move(pattern)), columns_(std::move(columns)),
+      rows_(static_cast<int>(columns_.size()), places, 0) {
+  CHECK(columns_.size() <= Row{}.index.size());
 }
 
 bool Binder::present(Slot owner, std::size_t unit) const {
@@ -59,8 +59,8 @@ bool Binder::present(Slot owner, std::size_t unit) const {
 bool Binder::fill(Slot owner, std::size_t unit, Row& row) const {
   if (!present(owner, unit)) return false;
   const Dart d = map_->cells(pattern_.owner).first_dart(owner);
-  for (std::size_t c = 0; c < fields_.size(); ++c)
-    row.index[c] = map_->slot(fields_[c].orbit, map_->map().follow(d, fields_[c].word[unit]));
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    row.index[c] = map_->slot(columns_[c].orbit, map_->map().follow(d, columns_[c].word[unit]));
   if (!interaction_) return true;
   row.value = interaction_->unit(owner, unit);
   return interaction_->law->acts(row.value, row.index.data());
@@ -184,14 +184,14 @@ void Binder::reach(const Changes& changes, std::vector<Slot>& owners) {
   };
   for (Slot owner : changes.slots[pattern_.owner.mask])
     if (owners_seen.insert(owner)) owners.push_back(owner);
-  std::array<bool, orbit_kinds> inside{}; // some field of that index space has a word that stays inside
-  for (const Field& field : fields_) {
-    for (const Word& word : field.word) {
+  std::array<bool, orbit_kinds> inside{}; // some column of that index space has a word that stays inside
+  for (const IndexColumn& column : columns_) {
+    for (const Word& word : column.word) {
       by_links(word);
       if (stays_in(pattern_.owner, word))
-        inside[field.orbit.mask] = true;
+        inside[column.orbit.mask] = true;
       else
-        for (Dart x : changes.moved[field.orbit.mask])
+        for (Dart x : changes.moved[column.orbit.mask])
           if (map.alive(x)) add_owner(follow_back(map, x, word, word.size()), owners);
     }
   }

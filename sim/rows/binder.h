@@ -16,12 +16,12 @@
 namespace rend {
 
 // An index column: the slot, in the index space of `orbit`, of the dart where `word[unit]` leads to.
-struct Field {
+struct IndexColumn {
   std::vector<Word> word; // one per unit
   Orbit orbit;
 };
 
-constexpr std::size_t most_fields = 64;
+constexpr std::size_t most_columns = 64;
 
 class Binder {
 public:
@@ -31,7 +31,7 @@ public:
                    std::optional<Orbit> corners);
 
   // Rows of a pattern without parameters (criteria).
-  Binder(const EmbeddedMap& map, Pattern pattern, std::vector<Field> fields, int places);
+  Binder(const EmbeddedMap& map, Pattern pattern, std::vector<IndexColumn> columns, int places);
 
   const PackedRows& rows() const { return rows_; }
   const Pattern& pattern() const { return pattern_; }
@@ -48,8 +48,8 @@ public:
 
 private:
   struct Row {
-    std::array<std::uint32_t, most_fields> index; // as many as there are fields
-    const double* value = nullptr;                // the unit's numbers; null: the pattern has none
+    std::array<std::uint32_t, most_columns> index; // as many as there are columns
+    const double* value = nullptr;                 // the unit's numbers; null: the pattern has none
   };
   bool present(Slot owner, std::size_t unit) const;
   bool fill(Slot owner, std::size_t unit, Row& row) const; // false: silent
@@ -66,7 +66,7 @@ private:
 
   const EmbeddedMap* map_;
   Pattern pattern_;
-  std::vector<Field> fields_;
+  std::vector<IndexColumn> columns_;
   const Interaction* interaction_ = nullptr;
   bool fold_ = false;
   PackedRows rows_;

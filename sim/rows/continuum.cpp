@@ -14,7 +14,7 @@ namespace rend {
 Continuum::Continuum(const EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction>>& interactions)
     : map_(&map) {
   for (std::size_t n = 0; n < interactions.size(); ++n) {
-    const Law* law = interactions[n]->law.get();
+    const ForceLaw* law = interactions[n]->law.get();
     if (const auto* element = dynamic_cast<const ElementLaw*>(law))
       parts_.push_back({interactions[n].get(), element, n});
     const auto* tensors = dynamic_cast<const MassTensorLaw*>(law);

@@ -25,7 +25,7 @@ void (*kernel_of_kind(const KernelArguments& a, bool corners))(const KernelArgum
 } // namespace
 
 Kernel element_kernel() {
-  return {[](const Law& law) { return dynamic_cast<const ElementLaw*>(&law) != nullptr; },
+  return {[](const ForceLaw& law) { return dynamic_cast<const ElementLaw*>(&law) != nullptr; },
           [](const KernelArguments& a) { kernel_of_kind(a, false)(a); },
           [](const KernelArguments& a) { kernel_of_kind(a, true)(a); }};
 }

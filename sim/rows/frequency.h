@@ -1,6 +1,6 @@
 // How fast a body can swing at most: what limits the step of an explicit scheme.
 //
-// Each unit bounds what it adds to the stiffness of its particles by a diagonal (Law::bound: Gershgorin's
+// Each unit bounds what it adds to the stiffness of its particles by a diagonal (ForceLaw::bound: Gershgorin's
 // discs, an element's largest eigenvalue). Summed over each element corner by itself and divided by the
 // corner's mass, the largest is a bound for the whole (Irons: no assembly swings faster than its fastest
 // element), and no separation changes it, since a separation changes no corner.

@@ -4,7 +4,7 @@
 // For what goes row by row; the kernels of common laws take four rows at a time and gather in lanes (lanes.h).
 #pragma once
 
-#include "sim/mechanics/law.h"
+#include "sim/mechanics/force_law.h"
 #include "sim/rows/packed_rows.h"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace rend {
 class Gathered {
 public:
   // Positions [m], velocities [m/s] (null: at rest) and rest positions [m], one per vertex slot.
-  void take(const Law& law, const PackedRows& rows, std::size_t row, const Record* position,
+  void take(const ForceLaw& law, const PackedRows& rows, std::size_t row, const Record* position,
             const Record* velocity, const Record* rest) {
     for (int p = 0; p < law.particles(); ++p) {
       const std::uint32_t vertex = rows.index(p)[row];
@@ -33,7 +33,7 @@ public:
 
 private:
   std::array<Vec3, most_particles> x_, v_, rest_;
-  std::vector<double> unit_; // as Law::values()
+  std::vector<double> unit_; // as ForceLaw::values()
 };
 
 } // namespace rend

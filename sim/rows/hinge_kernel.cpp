@@ -149,7 +149,7 @@ template <bool damped, bool corners> REND_INLINE void run(const KernelArguments&
 } // namespace
 
 Kernel hinge_kernel() {
-  return {[](const Law& law) { return &law == hinge_law().get(); },
+  return {[](const ForceLaw& law) { return &law == hinge_law().get(); },
           [](const KernelArguments& a) {
             a.damped ? at_width<run<true, false>>(a) : at_width<run<false, false>>(a);
           },

@@ -9,13 +9,13 @@
 #pragma once
 
 #include "sim/base/record.h"
-#include "sim/mechanics/law.h"
+#include "sim/mechanics/force_law.h"
 #include "sim/rows/packed_rows.h"
 
 namespace rend {
 
 struct KernelArguments {
-  const Law& law;
+  const ForceLaw& law;
   const PackedRows& rows;
   const Record* position;  // [m], one per vertex slot
   const Record* velocity;  // [m/s], one per vertex slot
@@ -27,12 +27,12 @@ struct KernelArguments {
 };
 
 struct Kernel {
-  bool (*fits)(const Law& law);
+  bool (*fits)(const ForceLaw& law);
   void (*forces)(const KernelArguments& a);        // into vertices: index columns 0 .. particles − 1
   void (*corner_forces)(const KernelArguments& a); // into corners: index columns particles .. 2 particles − 1
 };
 
-const Kernel& kernel_of(const Law& law); // the first that fits
+const Kernel& kernel_of(const ForceLaw& law); // the first that fits
 
 Kernel
 spring_kernel();       // spring_law.h, four rows at a time: 2.3 ns a spring where a plain loop takes 4.2 to 4.9

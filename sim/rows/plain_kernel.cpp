@@ -47,10 +47,10 @@ void corner_forces(const KernelArguments& a) {
 } // namespace
 
 Kernel plain_kernel() {
-  return {[](const Law&) { return true; }, &forces, &corner_forces};
+  return {[](const ForceLaw&) { return true; }, &forces, &corner_forces};
 }
 
-const Kernel& kernel_of(const Law& law) {
+const Kernel& kernel_of(const ForceLaw& law) {
   static const std::array<Kernel, 5> kernels{spring_kernel(), hinge_kernel(), element_kernel(), tensor_kernel(),
                                              plain_kernel()};
   for (const Kernel& kernel : kernels)

@@ -258,7 +258,7 @@ double Program::elastic_energy(const Record* x) const {
   double sum = 0;
   thread_local Gathered g; // keeps its room: the guard asks in the midst of a run
   for (const Binder& binder : rows()) {
-    const Law& law = *binder.interaction()->law;
+    const ForceLaw& law = *binder.interaction()->law;
     binder.rows().for_each([&](std::size_t, std::size_t row) {
       g.take(law, binder.rows(), row, x, nullptr, map_->rest().values().data());
       sum += law.energy(g.unit(), g.state());

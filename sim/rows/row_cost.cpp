@@ -102,7 +102,7 @@ std::size_t records(const PackedRows& rows, int first, int last) {
 
 } // namespace
 
-std::optional<double> operations_of(const Law& law, bool damped) {
+std::optional<double> operations_of(const ForceLaw& law, bool damped) {
   if (&law == spring_law().get()) return spring_operations(damped);
   if (&law == hinge_law().get()) return hinge_operations(damped);
   if (const auto* tensor = dynamic_cast<const MassTensorLaw*>(&law))
@@ -113,7 +113,7 @@ std::optional<double> operations_of(const Law& law, bool damped) {
 
 RowCost cost_of(const Binder& binder, bool corners) {
   const Interaction& interaction = *binder.interaction();
-  const Law& law = *interaction.law;
+  const ForceLaw& law = *interaction.law;
   const auto live = static_cast<double>(binder.rows().live_count());
   RowCost cost;
   cost.operations = operations_of(law, interaction.damped);

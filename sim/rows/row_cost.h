@@ -24,6 +24,6 @@ struct RowCost {
 // With `corners`, forces go to element corners. Goes through all rows once.
 RowCost cost_of(const Binder& binder, bool corners);
 
-std::optional<double> operations_of(const Law& law, bool damped);
+std::optional<double> operations_of(const ForceLaw& law, bool damped);
 
 } // namespace rend

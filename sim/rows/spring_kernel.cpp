@@ -110,7 +110,7 @@ void spring_forces_with_sums(const KernelArguments& a) {
 }
 
 Kernel spring_kernel() {
-  return {[](const Law& law) { return &law == spring_law().get(); },
+  return {[](const ForceLaw& law) { return &law == spring_law().get(); },
           [](const KernelArguments& a) {
             a.damped ? at_width<run<true, false>>(a) : at_width<run<false, false>>(a);
           },

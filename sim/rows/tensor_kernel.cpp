@@ -65,7 +65,7 @@ template <int particles, bool corners> REND_INLINE void run(const KernelArgument
 } // namespace
 
 Kernel tensor_kernel() {
-  return {[](const Law& law) { return dynamic_cast<const MassTensorLaw*>(&law) != nullptr; },
+  return {[](const ForceLaw& law) { return dynamic_cast<const MassTensorLaw*>(&law) != nullptr; },
           [](const KernelArguments& a) {
             a.law.particles() == 1 ? at_width<run<1, false>>(a) : at_width<run<2, false>>(a);
           },

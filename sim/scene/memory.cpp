@@ -55,7 +55,7 @@ std::vector<Holding> footprint_of(const Body& body) {
   Gathering to;
   add_map(*body.map, to);
   add_program(*body.program, to);
-  for (const TearLaw& law : body.laws) to.add("laws", law.settings().criterion->name, "", law.bytes());
+  for (const TearLaw& law : body.tear_laws) to.add("laws", law.settings().criterion->name, "", law.bytes());
   if (body.assembly) to.add("solver", "places of blocks and their pattern", "block", body.assembly->bytes());
   to.add("solver", "matrix, factors and preconditioner", "block", body.integrator->solver().bytes);
   to.add("integrator", "the scheme's own", "vertex", body.integrator->bytes());

@@ -2,106 +2,87 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/hash.h"
-#include "sim/build/build_body.h"
-#include "sim/build/build_world.h"
-#include "sim/build/scene_types.h"
+#include "sim/base/wall_clock.h"
 #include "sim/guard/guard.h"
 #include "sim/rows/frequency.h"
+#include "sim/topology/count.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <set>
+#include <utility>
 
 namespace rend {
-namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-} // namespace
-
-Scene::Scene(const Node& preset, const SceneOptions& options)
-    : profile_(options.profile ? std::make_unique<Profile>() : nullptr), fault_(options.fault) {
-  const double start = now();
-  name_ = preset.text("name");
-  world_ = build_world(preset.child("world"));
-  std::set<std::string> names;
-  for (const Node* node : preset.all("body")) {
-    if (!names.insert(node->text("name")).second)
-      throw UserError(Exit::BadInput, node->place(),
-                      fmt::format("two bodies are called '{}'", node->text("name")),
-                      "give each a name of its own");
-    bodies_.push_back(build_body(*node, world_));
-    bodies_.back()->profile = profile_.get();
-    bodies_.back()->small_in_parts = options.small_in_parts;
-    if (options.births) bodies_.back()->births = std::make_unique<Births>();
-    if (world_.wind) bodies_.back()->loads.set(WindLoad(*bodies_.back()->map, *world_.wind));
+Scene::Scene(SceneDefinition definition, const SceneOptions& options)
+    : name_(std::move(definition.name)), world_(std::move(definition.world)),
+      profile_(std::make_unique<Profile>(options.profile ? Profile::Extent::EveryStep
+                                                         : Profile::Extent::SampledSteps)),
+      bodies_(std::move(definition.bodies)), time_(definition.time), fault_(options.fault) {
+  const double start = wall_clock();
+  build_seconds_ = definition.build_seconds;
+  for (auto& body : bodies_) {
+    body->profile = profile_.get();
+    body->small_in_parts = options.small_in_parts;
+    if (options.births) body->births = std::make_unique<Births>();
   }
-  check_probes(preset);
-  const Node& time = *preset.child("time");
-  scheme_ = find_scheme(time.text("integrator"));
-  seconds_.build = now() - start;
-  check_contact(preset);
+  check_contact();
   contacts_ = Contacts::of(world_, bodies_);
-  for (auto& body : bodies_) body->prepare(*scheme_, options.walk, options.threads, tolerance_of(time));
-  build_time(time);
-  guard_ = std::make_unique<Guard>(world_, bodies_, *scheme_, step_, options.guard, profile_.get());
+  for (auto& body : bodies_) body->prepare(scheme(), options.walk, options.threads, checked_tolerance());
+  set_step();
+  guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
   set_answers();
-  seconds_.bind = now() - start - seconds_.build;
+  bind_seconds_ = wall_clock() - start;
 }
 
 Scene::~Scene() = default;
 
 // Contact acts by impulses after the step, which a scheme that solves for the end of the step does not see; nor
 // does an equilibrium tell where what is free goes.
-void Scene::check_contact(const Node& preset) {
-  if (!scheme_->solves) return;
+void Scene::check_contact() {
+  if (!scheme().solves) return;
   for (const auto& body : bodies_) {
-    if (scheme_->name == "static" && body->tears())
+    if (scheme().name == "static" && body->tears())
       body->notes.push_back(
           "static: what tears off and nothing holds keeps its place, without its weight and loads; "
           "under implicit it falls");
     if (!body->contact) continue;
-    if (scheme_->name == "static")
-      preset.child("time")->fail("integrator", "the static solve knows no contact",
-                                 "leave <contact> out, or let it come to rest with symplectic and viscosity");
+    if (scheme().name == "static")
+      throw UserError(Exit::BadInput, time_.integrator_place, "the static solve knows no contact",
+                      "leave <contact> out, or let it come to rest with symplectic and viscosity");
     body->notes.emplace_back(
         "contact: what rests on the floor under 'implicit' is pressed too much, the more the "
         "stiffer it is and the larger the step; symplectic does not have this");
   }
 }
 
-double Scene::tolerance_of(const Node& time) const {
-  if (time.given("tolerance") && !scheme_->adaptive)
-    time.fail(
-        "tolerance",
-        fmt::format("the tolerance belongs to rk45, which chooses its steps by it, not to '{}'", scheme_->name),
+double Scene::checked_tolerance() const {
+  if (time_.tolerance && !scheme().adaptive)
+    throw UserError(
+        Exit::BadInput, time_.tolerance_place,
+        fmt::format("the tolerance belongs to rk45, which chooses its steps by it, not to '{}'", scheme().name),
         "leave it out, or write integrator=\"rk45\"");
-  return time.number("tolerance");
+  return time_.tolerance.value_or(SchemeSettings{}.tolerance);
 }
 
 // The step of an adaptive scheme is what it divides: by itself it takes that of symplectic, so that laws look
 // as often.
-void Scene::build_time(const Node& time) {
-  duration_ = duration_of(time);
-  step_place_ = time.place("step");
-  automatic_ = time.is_word("step");
-  step_ = automatic_ ? stable_step(time) : time.number("step");
-  if (automatic_ && duration_ > 0) step_ = duration_ / std::ceil(duration_ / step_); // ends where the clip does
-  if (const double limit = stability_limit(); !automatic_ && step_ > limit)
+void Scene::set_step() {
+  step_ = automatic_step() ? stable_step() : *time_.step;
+  const double duration = time_.duration;
+  if (automatic_step() && duration > 0)
+    step_ = duration / std::ceil(duration / step_); // ends where the clip does
+  if (const double limit = stability_limit(); !automatic_step() && step_ > limit)
     notes_.push_back(
         fmt::format("the step of {:.3g} s is above {:.3g} s, up to which '{}' is surely stable here", step_,
-                    limit, scheme_->name));
-  if (duration_ / step_ > 1e12)
-    time.fail("step", fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration_, step_));
+                    limit, scheme().name));
+  if (duration / step_ > 1e12)
+    throw UserError(Exit::BadInput, time_.step_place,
+                    fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration, step_));
 }
 
 double Scene::stability_limit() const {
-  return stability_limit(*scheme_);
+  return stability_limit(scheme());
 }
 
 double Scene::stability_limit(const Scheme& scheme) const {
@@ -115,22 +96,23 @@ double Scene::stability_limit(const Scheme& scheme) const {
   return limit;
 }
 
-double Scene::stable_step(const Node& time) const {
-  if (scheme_->name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
-  const double limit = stability_limit(scheme_->adaptive ? *find_scheme("symplectic") : *scheme_);
+double Scene::stable_step() const {
+  if (scheme().name == "static") return time_.duration > 0 ? time_.duration : 1; // one step, one equilibrium
+  const double limit = stability_limit(scheme().adaptive ? *find_scheme("symplectic") : scheme());
   if (limit <= 0)
-    time.fail("step",
-              fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the "
-                          "surroundings damps every motion",
-                          scheme_->name),
-              "use symplectic, verlet or rk4, or add viscosity");
+    throw UserError(Exit::BadInput, time_.step_place,
+                    fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the "
+                                "surroundings damps every motion",
+                                scheme().name),
+                    "use symplectic, verlet or rk4, or add viscosity");
   if (std::isinf(limit))
-    time.fail("step",
-              scheme_->solves
-                  ? fmt::format("with '{}' the step is a matter of accuracy, and there is no automatic one",
-                                scheme_->name)
-                  : "nothing in the scene limits the step",
-              scheme_->solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
+    throw UserError(
+        Exit::BadInput, time_.step_place,
+        scheme().solves
+            ? fmt::format("with '{}' the step is a matter of accuracy, and there is no automatic one",
+                          scheme().name)
+            : "nothing in the scene limits the step",
+        scheme().solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
   return 0.9 * limit;
 }
 
@@ -138,24 +120,15 @@ double Scene::time() const {
   return static_cast<double>(steps_done_) * step_;
 }
 
-void Scene::check_probes(const Node& preset) const {
-  std::set<std::string> names;
-  for (const Node* body : preset.all("body"))
-    for (const Node* probe : body->all("probe"))
-      if (!names.insert(probe->text("name")).second)
-        probe->fail("name", fmt::format("two probes are called '{}'", probe->text("name")),
-                    "give each a name of its own, also in different bodies");
-}
-
 // Times of steps are products of rounded numbers: an answer is due a little before its time.
 void Scene::set_answers() {
   const double slack = 1e-6 * step_;
   for (auto& body : bodies_) {
     for (Answer& answer : body->answers) {
-      if (std::isinf(answer.at)) answer.at = duration_;
-      if (answer.at > duration_ + slack)
+      if (std::isinf(answer.at)) answer.at = time_.duration;
+      if (answer.at > time_.duration + slack)
         notes_.push_back(fmt::format("{}: the clip ends at {:g} s, before this answer at {:g} s is asked for",
-                                     answer.place.text(), duration_, answer.at));
+                                     answer.place.text(), time_.duration, answer.at));
       next_answer_ = std::min(next_answer_, answer.at - slack);
     }
   }
@@ -178,23 +151,20 @@ void Scene::measure_answers() {
   }
 }
 
-double Scene::tearing_seconds() const {
-  double sum = 0;
-  for (const auto& body : bodies_) sum += body->change_seconds + body->rebind_seconds;
-  return sum;
-}
-
-StageSeconds Scene::seconds() const {
-  StageSeconds all = seconds_;
-  const double scale =
-      timed_steps_ > 0 ? static_cast<double>(steps_done_) / static_cast<double>(timed_steps_) : 0;
-  for (double StageSeconds::*stage : {&StageSeconds::forces, &StageSeconds::criteria, &StageSeconds::integrate})
-    all.*stage *= scale;
-  for (const auto& body : bodies_) {
-    all.change += body->change_seconds;
-    all.rebind += body->rebind_seconds;
-  }
-  return all;
+SceneSeconds Scene::seconds() const {
+  const auto of = [&](std::initializer_list<Phase> phases) {
+    double sum = 0;
+    for (const Phase phase : phases) sum += profile_->seconds(phase);
+    return sum;
+  };
+  using enum Phase;
+  return {.build = build_seconds_,
+          .bind = bind_seconds_,
+          .forces = of({Forces, Loads}),
+          .criteria = of({Criteria}),
+          .change = of({Changes}),
+          .rebind = of({Rebinding}),
+          .integrate = of({Integration, Stiffness, Contact, Guard})};
 }
 
 // What was measured in steps that are gone again.
@@ -212,6 +182,12 @@ void Scene::forget_answers() {
 std::size_t Scene::tears() const {
   std::size_t count = 0;
   for (const auto& body : bodies_) count += body->events.size();
+  return count;
+}
+
+std::size_t Scene::fragments() const {
+  std::size_t count = 0;
+  for (const auto& body : bodies_) count += count_cells(body->map->map(), Component);
   return count;
 }
 
@@ -266,10 +242,6 @@ Vec3 Scene::angular_momentum() const {
   return sum;
 }
 
-void StageSeconds::store(Archive& archive) {
-  archive(build, bind, forces, criteria, change, rebind, integrate);
-}
-
 // A fault on purpose (fault.h) is no part of a run that is gone on with.
 void Scene::store(Archive& archive) {
   archive.mark("scene");
@@ -287,8 +259,7 @@ void Scene::store(Archive& archive) {
   if (contacts_) contacts_->store(archive);
   guard_->store(archive, steps_done_);
   archive.mark("seconds"); // the last, since they differ from run to run
-  archive(seconds_, timed_steps_);
-  for (auto& body : bodies_) archive(body->change_seconds, body->rebind_seconds);
+  archive(build_seconds_, bind_seconds_, *profile_);
   if (archive.reading()) check_read();
 }
 
@@ -302,7 +273,6 @@ void Scene::check_read() const {
     }
   }
   refuse_unless(next_answer_ == next, "an answer is measured at another time");
-  refuse_unless(is_count(timed_steps_), "steps were timed less often than never");
 }
 
 std::uint64_t Scene::hash() const {

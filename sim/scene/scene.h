@@ -1,10 +1,9 @@
 // A scene: bodies, their surroundings, and the time. step() goes from one state to the next.
 #pragma once
 
-#include "sim/body/body.h"
 #include "sim/contact/contacts.h"
 #include "sim/guard/trouble.h"
-#include "sim/outside/world.h"
+#include "sim/scene/definition.h"
 
 #include <optional>
 
@@ -16,14 +15,14 @@ struct SceneOptions {
   bool births = false; // events tell how many fragments there are
   bool guard = true;   // false: what goes wrong is not redone; what is not finite still stops the run
   std::optional<Fault> fault = {};
-  bool profile = false;        // where the time of steps goes is asked for
+  bool profile = false;        // every step is timed (base/profile.h)
   bool small_in_parts = false; // ProgramOptions
 };
 
-// Wall-clock seconds by stage; those of step() are sampled every few steps and scaled up.
-struct StageSeconds {
+// Wall clock [s]; those of step() by the scene's profile, of which `forces` holds loads, and `integrate` the
+// solver, contact and the guard.
+struct SceneSeconds {
   double build = 0, bind = 0, forces = 0, criteria = 0, change = 0, rebind = 0, integrate = 0;
-  void store(Archive& archive);
 };
 
 struct Unstable : UserError {
@@ -34,8 +33,8 @@ class Guard;
 
 class Scene {
 public:
-  // From a checked preset. UserError where it cannot be built.
-  Scene(const Node& preset, const SceneOptions& options);
+  // UserError (BadInput) where its parts do not fit together.
+  Scene(SceneDefinition definition, const SceneOptions& options);
   ~Scene();
 
   const std::string& name() const { return name_; }
@@ -47,10 +46,10 @@ public:
   double time() const; // [s]
   long steps_done() const { return steps_done_; }
   double step_size() const { return step_; } // [s]
-  double duration() const { return duration_; }
-  const Scheme& scheme() const { return *scheme_; }
+  double duration() const { return time_.duration; }
+  const Scheme& scheme() const { return *time_.scheme; }
   const std::vector<std::string>& notes() const { return notes_; } // besides those of bodies
-  bool automatic_step() const { return automatic_; }
+  bool automatic_step() const { return !time_.step; }
 
   // One step; where that goes wrong the guard has the last ones redone in parts (guard.h). Throws Unstable
   // (exit 76) where that does not help, with the positions and velocities before the step whole; what tore at
@@ -67,7 +66,8 @@ public:
   double stability_limit(const Scheme& scheme) const;
 
   std::size_t tears() const;
-  long evaluations() const; // of internal forces, of all bodies, for all steps so far
+  std::size_t fragments() const; // walks the maps
+  long evaluations() const;      // of internal forces, of all bodies, for all steps so far
   // Of bodies, and of spheres that fall.
   double kinetic_energy() const;
   double elastic_energy() const;
@@ -76,8 +76,8 @@ public:
   Vec3 momentum() const;
   Vec3 angular_momentum() const;
   std::uint64_t hash() const; // of positions, velocities and topology, and of spheres that move
-  StageSeconds seconds() const;
-  Profile* profile() const { return profile_.get(); } // null: not asked for
+  SceneSeconds seconds() const;
+  Profile& profile() const { return *profile_; }
 
   // Between steps: all that a later step, event or figure depends on, to a scene of the same preset and options
   // that has come no further, and back (base/archive.h). It then goes on to the bit. What is read may have been
@@ -86,24 +86,26 @@ public:
   void store(Archive& archive);
 
 private:
-  void build_time(const Node& time);
-  void check_probes(const Node& preset) const;
+  void set_step();
   void set_answers();
   void measure_answers();
   void forget_answers();   // of later than the present time
   void check_read() const; // throws ArchiveError
-  void check_contact(const Node& preset);
-  double stable_step(const Node& time) const;
-  double tolerance_of(const Node& time) const;
+  void check_contact();
+  double stable_step() const;
+  double checked_tolerance() const;
   double stability_limit() const; // [s]
-  double tearing_seconds() const;
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
-  Trouble move();
-  Trouble make_part(int part, int parts);
-  Trouble look_at_laws();
-  Trouble advance(double time, double step); // [s]
-  void meet_contacts(double time, double step);
+  Trouble try_step();
+  Trouble nominal_step();
+  Trouble substep(double time, double step); // [s]
+  void evaluate_forces();
+  Trouble apply_laws();
+  Trouble integrate(double time, double step);        // [s]
+  Trouble resolve_contacts(double time, double step); // [s]
+  void act_by_contacts(double time, double step);
+  void commit();
   bool finite() const;
   void redo(Trouble trouble, long entry);
   bool was_set();
@@ -114,17 +116,15 @@ private:
 
   std::string name_;
   World world_;
-  std::unique_ptr<Profile> profile_; // null: nobody asks
+  std::unique_ptr<Profile> profile_;
   std::vector<std::unique_ptr<Body>> bodies_;
   std::unique_ptr<Contacts> contacts_; // null: no body meets more than the floor
-  const Scheme* scheme_ = nullptr;
-  double step_ = 0, duration_ = 0;
-  bool automatic_ = false;
-  long steps_done_ = 0, timed_steps_ = 0;
+  TimeSettings time_;
+  double step_ = 0; // [s]
+  long steps_done_ = 0;
   double next_answer_ = std::numeric_limits<double>::infinity(); // [s], to be measured
   std::vector<std::string> notes_;
-  Place step_place_; // of time.step in the preset
-  StageSeconds seconds_;
+  double build_seconds_ = 0, bind_seconds_ = 0;
   std::unique_ptr<Guard> guard_;
   std::optional<Unsolved> unsolved_; // why the last try of the step failed; none: it did not, or by its numbers
   long looked_ = -1;                 // steps done when laws last looked

@@ -5,20 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
 namespace rend {
 namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// Reading the clock costs more than the step of a small body: one step in so many is timed, and counted so
-// often.
-constexpr long sampled = 16;
 
 bool equal_bytes(const std::vector<Record>& a, const std::vector<Record>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
@@ -33,7 +24,7 @@ struct Distrust { // of the state that is about to be torn
 void Scene::step() {
   const long entry = steps_done_;
   while (steps_done_ <= entry) {
-    const Trouble trouble = move();
+    const Trouble trouble = try_step();
     if (trouble != Trouble::None)
       redo(trouble, entry);
     else if (time() >= next_answer_)
@@ -41,49 +32,52 @@ void Scene::step() {
   }
 }
 
-// A nominal step, in as many parts as the guard says. In trouble: steps_done() are those that were made.
-Trouble Scene::move() {
+Trouble Scene::try_step() {
   if (fault_ && fault_->step <= steps_done_) arm_fault();
-  const int parts = guard_->parts(steps_done_);
-  for (int part = 0; part < parts; ++part)
-    if (const Trouble trouble = make_part(part, parts); trouble != Trouble::None) return trouble;
+  profile_->begin_step(steps_done_);
+  const Trouble trouble = nominal_step();
+  profile_->end_step();
+  return trouble;
+}
+
+// In as many substeps as the guard says. In trouble: steps_done() are those that were made.
+Trouble Scene::nominal_step() {
+  const int substeps = guard_->parts(steps_done_);
+  const double step = step_ / substeps;
+  for (int n = 0; n < substeps; ++n)
+    if (const Trouble trouble = substep(time() + n * step, step); trouble != Trouble::None) return trouble;
   ++steps_done_;
   unsolved_.reset();
   return guard_->after_step(steps_done_);
 }
 
-Trouble Scene::make_part(int part, int parts) {
-  const bool timed = part == 0 && steps_done_ % sampled == sampled - 1; // not the first, whose caches are cold
-  double last = timed ? now() : 0;
-  const auto lap = [&](double StageSeconds::*stage) {
-    if (!timed) return;
-    const double at = now();
-    seconds_.*stage += at - last;
-    last = at;
-  };
-  const bool asked = timed || guard_->asks_for_forces();
-  for (auto& body : bodies_) asked || !body->may_leave_forces() ? body->evaluate() : body->leave_forces();
-  lap(&StageSeconds::forces);
-  const double tearing = tearing_seconds(), step = step_ / parts, time = this->time() + part * step;
-  if (part == 0 && steps_done_ != looked_)
-    if (const Trouble trouble = look_at_laws(); trouble != Trouble::None) return trouble;
-  if (timed) last += tearing_seconds() - tearing; // timed by itself, in every step
-  lap(&StageSeconds::criteria);
-  if (const Trouble trouble = advance(time, step); trouble != Trouble::None) return trouble;
-  meet_contacts(time, step);
-  if (!finite()) return Trouble::NotFinite; // any body, before one of them moves on
-  for (auto& body : bodies_) body->commit();
-  for (Sphere& sphere : world_.spheres) sphere.commit();
+Trouble Scene::substep(double time, double step) {
+  evaluate_forces();
+  Trouble trouble = apply_laws();
+  if (trouble == Trouble::None) trouble = integrate(time, step);
+  if (trouble == Trouble::None) trouble = resolve_contacts(time, step);
+  if (trouble != Trouble::None) return trouble;
+  commit();
   guard_->after_part();
-  lap(&StageSeconds::integrate);
-  timed_steps_ += timed;
   return Trouble::None;
 }
 
-// A step has its laws looked at once, however often it is made. (Of one that tore, the guard goes back no
-// further.)
-Trouble Scene::look_at_laws() {
-  const Within within(profile_.get(), Stage::Criteria);
+// Of the present state; where nobody looks at them beforehand, they are left to the integrator, which evaluates
+// them on its way. A step that is timed tells forces and integration apart.
+void Scene::evaluate_forces() {
+  const bool wanted = profile_->timed() || guard_->asks_for_forces();
+  for (auto& body : bodies_) {
+    if (wanted || !body->may_defer_forces())
+      body->evaluate();
+    else
+      body->defer_forces();
+  }
+}
+
+// Laws look once at a step, however often it is made. (Of one that tore, the guard goes back no further.)
+Trouble Scene::apply_laws() {
+  if (steps_done_ == looked_) return Trouble::None;
+  const Within within(profile_.get(), Phase::Criteria);
   guard_->before_laws(steps_done_);
   const auto sound = [&] {
     if (const Trouble trouble = guard_->before_change(steps_done_); trouble != Trouble::None)
@@ -99,26 +93,37 @@ Trouble Scene::look_at_laws() {
   return Trouble::None;
 }
 
-Trouble Scene::advance(double time, double step) {
+Trouble Scene::integrate(double time, double step) {
   for (auto& body : bodies_) {
     try {
       body->advance(time, step);
     } catch (const Unsolved& error) {
-      if (!guard_->redoing() && (scheme_->solves || !guard_->on())) stop(*body, error.what(), error.hint);
-      unsolved_ = error; // a scheme that solves has parted the step as far as it helps
+      if (!guard_->redoing() && (scheme().solves || !guard_->on())) stop(*body, error.what(), error.hint);
+      unsolved_ = error; // a scheme that solves has divided the step as far as it helps
       return Trouble::NotFinite;
     }
   }
   return Trouble::None;
 }
 
-void Scene::meet_contacts(double time, double step) {
-  const Within within(contacts_ ? profile_.get() : nullptr, Stage::Contact);
+// All bodies are looked at before one of them moves on.
+Trouble Scene::resolve_contacts(double time, double step) {
+  act_by_contacts(time, step);
+  return finite() ? Trouble::None : Trouble::NotFinite;
+}
+
+void Scene::act_by_contacts(double time, double step) {
+  const Within within(contacts_ ? profile_.get() : nullptr, Phase::Contact);
   if (contacts_) contacts_->advance(time, step);
   for (auto& body : bodies_) {
     if (body->faulty.armed(StepStage::Contact)) body->spoil_next();
     if (body->contact && body->contact->faces()) body->next.look(); // what contact made of it
   }
+}
+
+void Scene::commit() {
+  for (auto& body : bodies_) body->commit();
+  for (Sphere& sphere : world_.spheres) sphere.commit();
 }
 
 // The fault's step begins, or is over.
@@ -153,7 +158,7 @@ bool Scene::was_set() {
   }
   const std::vector<Sphere> spheres = world_.spheres;
   go_back(guard_->go_back());
-  while (steps_done_ < done && move() == Trouble::None) continue;
+  while (steps_done_ < done && try_step() == Trouble::None) continue;
   bool same = steps_done_ == done;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const EmbeddedMap& map = *bodies_[b]->map;
@@ -199,7 +204,7 @@ void Scene::give_up(Trouble trouble, long entry) {
   }
   if (guard_->on()) {
     go_back(guard_->go_back());
-    while (steps_done_ < entry && move() == Trouble::None) continue;
+    while (steps_done_ < entry && try_step() == Trouble::None) continue;
   }
   const std::string parts = guard_->on() ? ", in 1024 parts of the step as well" : "";
   if (trouble == Trouble::NotFinite && unsolved_) stop(*body, unsolved_->what() + parts, unsolved_->hint);
@@ -231,14 +236,14 @@ std::string Scene::whose_number(const Body*& whose) {
   const auto look_at_next = [&](StepStage stage) {
     for (auto& body : bodies_) look(*body, stage, body->next.position.data(), body->next.velocity.data());
   };
-  if (found.empty() && advance(time(), step_) == Trouble::None) look_at_next(StepStage::Integration);
-  if (found.empty()) meet_contacts(time(), step_);
+  if (found.empty() && integrate(time(), step_) == Trouble::None) look_at_next(StepStage::Integration);
+  if (found.empty()) act_by_contacts(time(), step_);
   if (found.empty()) look_at_next(StepStage::Contact);
   return found.empty() ? "a number of its state is not finite" : found;
 }
 
 void Scene::check_sound() const {
-  if (guard_->on() || steps_done_ == 0 || scheme_->solves || scheme_->adaptive) return;
+  if (guard_->on() || steps_done_ == 0 || scheme().solves || scheme().adaptive) return;
   for (const auto& body : bodies_) {
     const auto pair = fastest_neighbours(*body, body->map->velocity().values().data());
     if (pair && pair->rate * step_ > most_rest_lengths)
@@ -250,18 +255,18 @@ void Scene::stop(const Body& body, const std::string& what) const {
   const double limit = stability_limit(), tried = guard_->on() ? step_ / 1024 : step_;
   std::string hint;
   if (limit <= 0)
-    hint = fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme_->name);
+    hint = fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme().name);
   else if (guard_->on() && tried < limit)
     hint = fmt::format("no smaller step would have held: parts of {:.3g} s did not", tried);
   else if (!std::isinf(limit))
     hint = fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)",
-                       limit, scheme_->name);
+                       limit, scheme().name);
   stop(body, what, hint);
 }
 
 void Scene::stop(const Body& body, const std::string& what, const std::string& hint) const {
   throw Unstable(
-      Exit::Unstable, step_place_,
+      Exit::Unstable, time_.step_place,
       fmt::format("the simulation was stopped as unstable at {:.6g} s (step {} of {:.3g} s) in body '{}': {}",
                   time(), steps_done_, step_, body.name, what),
       hint);

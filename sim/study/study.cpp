@@ -1,9 +1,9 @@
 #include "sim/study/study.h"
 
 #include "sim/base/check.h"
+#include "sim/study/duration.h"
 #include "sim/study/reference.h"
 #include "sim/study/runs.h"
-#include "sim/study/stretch.h"
 #include "sim/study/sweep.h"
 
 #include <fmt/format.h>
@@ -36,8 +36,9 @@ public:
 
 private:
   void choose_stretch() {
-    const Stretch stretch = plan_.duration > 0 ? Stretch{plan_.duration, "as asked for"}
-                                               : stretch_of(make_, plan_.groups.front().settings, calls_);
+    const StudyDuration stretch = plan_.duration > 0
+                                      ? StudyDuration{plan_.duration, "as asked for"}
+                                      : study_duration(make_, plan_.groups.front().settings, calls_);
     report_.duration = stretch.seconds;
     report_.why_duration = stretch.why;
     Variant own;

@@ -40,7 +40,7 @@ struct StudyPlan {
   std::vector<std::string> integrators; // names of schemes
   std::vector<StudyGroup> groups;       // at least one; the first counts as the most exact
   int steps = 7;                        // below each scheme's limit, over two decades
-  double duration = 0;                  // [s]; 0: by the rule of stretch_of()
+  double duration = 0;                  // [s]; 0: by the rule of study_duration()
   int reruns = 7;                       // timed runs of each, after one that is not
   bool above_limit = true;              // two steps above the limit, to see them fail
 };

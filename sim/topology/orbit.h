@@ -44,4 +44,8 @@ constexpr int orbit_kinds = 16; // masks 0..15
 std::string to_string(Orbit orbit); // "<0,2,3>"
 const char* name(Orbit orbit);      // "Edge"
 
+constexpr Orbit element_orbit(int dimension) {
+  return dimension == 2 ? FaceOfVolume : Volume;
+}
+
 } // namespace rend

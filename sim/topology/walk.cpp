@@ -35,4 +35,14 @@ bool same_cell(const GMap& map, Orbit orbit, Dart a, Dart b) {
   return std::find(darts.begin(), darts.end(), b) != darts.end();
 }
 
+int sides_of_face(const GMap& map, Dart d) {
+  int darts = 0;
+  bool closed = true;
+  walk_two(map, 0, 1, d, [&](Dart e) {
+    ++darts;
+    closed = closed && !map.is_free(0, e) && !map.is_free(1, e);
+  });
+  return closed ? darts / 2 : 0;
+}
+
 } // namespace rend

@@ -51,6 +51,9 @@ template <class F> void walk_two(const GMap& map, int i, int j, Dart d, F&& f) {
   }
 }
 
+// The sides of the face of d; 0 if it is not closed.
+int sides_of_face(const GMap& map, Dart d);
+
 // Calls f on every dart of the vertex of d in a sheet.
 template <class F> void walk_sheet_vertex(const GMap& map, Dart d, F&& f) {
   walk_two(map, 1, 2, d, f);

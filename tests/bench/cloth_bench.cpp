@@ -55,7 +55,7 @@ void criterion_step(benchmark::State& state, const std::string& attributes, bool
     const presets::Loaded scene = cloth(threshold);
     Body& body = scene.body();
     body.evaluate();
-    LawSettings settings = body.laws.front().settings();
+    LawSettings settings = body.tear_laws.front().settings();
     settings.threshold = 1e-12;
     TearLaw all(body.request_for(settings), settings);
     threshold = 2 * all.find(body.view()).front().value;
@@ -118,7 +118,7 @@ void one_separation(benchmark::State& state) {
   const int cells = static_cast<int>(state.range(0));
   presets::Loaded scene = presets::load(presets::cloth("quads", cells, global_law, small_steps));
   Body& body = scene.body();
-  Surface surface(body);
+  Surface surface(*body.map, body.border);
   std::vector<Dart> edges; // between rows of faces, from the border inwards
   for (int row = cells / 8; row + 1 < cells; row += 3)
     for (int column = 0; column + 3 < cells; ++column)

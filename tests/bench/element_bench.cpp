@@ -61,7 +61,7 @@ void corotational_step(benchmark::State& state, const std::string& criterion, bo
     TearLaw all(body.request_for(settings), settings);
     if (near) threshold = 1.5 * all.find(body.view()).front().value;
     settings.threshold = threshold;
-    body.laws.emplace_back(body.request_for(settings), settings);
+    body.tear_laws.emplace_back(body.request_for(settings), settings);
   }
   for (auto _ : state) scene->step();
 }

@@ -5,13 +5,13 @@
 // bodies: 1280 x 720, four samples, key light's shadow, floor, HUD. Frames are made beforehand: what is
 // measured is what follows a simulation. Parts are measured by processor time of all threads, which neighbours
 // on the machine disturb little.
-#include "render/clip/pipeline.h"
 #include "render/draw/camera.h"
 #include "render/draw/device.h"
 #include "render/draw/hud.h"
 #include "render/draw/stage.h"
 #include "render/files/png.h"
 #include "render/files/video.h"
+#include "render/pipeline/pipeline.h"
 #include "tests/render/pictures.h"
 
 #include <benchmark/benchmark.h>

@@ -26,7 +26,7 @@ std::string slab(const std::string& cells) {
 
 void million(benchmark::State& state) {
   presets::Loaded scene = presets::load(slab("152 102 11"));
-  SolidSurface surface(scene.body());
+  SolidSurface surface(*scene.body().map, scene.body().border);
   std::vector<double> seconds; // of each step, with what follows from it for the surface
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();

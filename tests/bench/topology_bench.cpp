@@ -146,7 +146,7 @@ struct TornCube {
     body->map->subscribe(body->changes);
     body->map->reserve_for_separations();
     body->program->reserve_for_separations();
-    surface = std::make_unique<SolidSurface>(*body);
+    surface = std::make_unique<SolidSurface>(*body->map, body->border);
     find_cracks();
   }
 

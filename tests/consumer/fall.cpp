@@ -1,5 +1,6 @@
 // A scene from a preset's text, stepped: a sheet that falls freely. Prints how far, in millimetres.
 #include "render/picture/scene_preset.h"
+#include "sim/build/build_scene.h"
 #include "sim/scene/scene.h"
 
 #include <cstdio>
@@ -14,7 +15,7 @@ int main() {
   </scene>)";
   try {
     const auto preset = rend::load_scene_text(text, "fall.xml");
-    rend::Scene scene(*preset, {});
+    rend::Scene scene(rend::read_scene(*preset), {});
     const double before = scene.gravity_energy();
     while (scene.time() < scene.duration() - 1e-9) scene.step();
     std::printf("%.6f\n", (before - scene.gravity_energy()) / 8 * 1000); // of 1 kg

@@ -131,15 +131,15 @@ struct Elastic {
 };
 
 inline void add_elasticity(Body& body, const Elastic& recipe) {
-  const ElementType& type = elasticity_type();
-  Node node(type, Place{"test.xml", 1, 1});
-  node.set(*type.find("model"), recipe.model, Place{});
-  node.set(*type.find("rotation"), recipe.rotation, Place{});
-  node.set(*type.find("young"), "1000", Place{});
-  if (body.map->dimension() == 2) node.set(*type.find("thickness"), "0.1", Place{});
-  node.set(*type.find("damping-stiffness"), std::to_string(recipe.beta), Place{});
-  node.fill_defaults();
-  for (auto& made : make_elasticity(*body.map, {node, body.notes}))
+  ElasticitySettings settings;
+  settings.model = recipe.model == "linear"        ? ContinuumModel::Linear
+                   : recipe.model == "mass-tensor" ? ContinuumModel::MassTensor
+                                                   : ContinuumModel::Corotational;
+  settings.rotation = recipe.rotation == "qr" ? Rotation::Qr : Rotation::Polar;
+  settings.young = 1000;
+  if (body.map->dimension() == 2) settings.thickness = 0.1;
+  settings.damping_stiffness = recipe.beta;
+  for (auto& made : make_elasticity(*body.map, settings, body.notes))
     body.interactions.push_back(std::move(made));
 }
 

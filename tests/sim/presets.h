@@ -1,6 +1,7 @@
 // Scenes for tests, from the text of a preset.
 #pragma once
 
+#include "sim/build/build_scene.h"
 #include "sim/build/scene_types.h"
 #include "sim/preset/preset_reader.h"
 #include "sim/scene/scene.h"
@@ -22,7 +23,7 @@ inline const ElementType& scene_type() {
 
 // A scene and the preset that it keeps reading from.
 struct Loaded {
-  std::unique_ptr<Node> preset;
+  std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
   Scene* operator->() const { return scene.get(); }
   Body& body(std::size_t n = 0) const { return *scene->bodies()[n]; }
@@ -31,7 +32,7 @@ struct Loaded {
 inline Loaded load(const std::string& xml, const SceneOptions& options = {}) {
   Loaded loaded;
   loaded.preset = read_preset_text(xml, "test.xml", scene_type());
-  loaded.scene = std::make_unique<Scene>(*loaded.preset, options);
+  loaded.scene = std::make_unique<Scene>(read_scene(*loaded.preset), options);
   return loaded;
 }
 

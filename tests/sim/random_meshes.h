@@ -120,25 +120,16 @@ struct Recipe {
   int threads = 1;
 };
 
-inline const ElementType& element(const ElementType& parent, const std::string& name) {
-  for (const ChildType& child : parent.children)
-    if (child.type->name == name) return *child.type;
-  throw std::invalid_argument(name);
-}
-
 inline std::unique_ptr<Interaction> interaction(EmbeddedMap& map, const Spring& spring,
                                                 const std::optional<SpringMaterial>& material = {},
                                                 std::vector<std::string>* notes = nullptr) {
-  const ElementType& type = element(element(body_type(), "springs"), spring.element);
-  Node node(type, Place{});
-  if (spring.k > 0) node.set(*type.find("k"), std::to_string(spring.k), Place{});
-  node.set(*type.find("damping"), std::to_string(spring.damping), Place{});
-  if (!spring.kind.empty()) node.set(*type.find("kind"), spring.kind, Place{});
-  node.fill_defaults();
+  SpringSettings settings;
+  if (spring.k > 0) settings.k = spring.k;
+  settings.damping = spring.damping;
   std::vector<std::string> unread;
   for (const InteractionType& each : all_interactions())
     if (each.element == spring.element && each.kind == spring.kind)
-      return each.make(map, {node, material, notes ? *notes : unread});
+      return each.make(map, {settings, spring.element, material, notes ? *notes : unread});
   throw std::invalid_argument(spring.kind);
 }
 
@@ -169,7 +160,7 @@ inline std::unique_ptr<Body> body(const PolygonMesh& mesh, const Recipe& recipe 
   if (!recipe.criteria.empty()) made->border = &made->map->add(BornBorder{});
   for (const std::string& name : recipe.criteria) {
     const LawSettings settings = law(name, recipe.threshold);
-    made->laws.emplace_back(made->request_for(settings), settings);
+    made->tear_laws.emplace_back(made->request_for(settings), settings);
   }
   made->prepare(*find_scheme(recipe.scheme), false, recipe.threads);
   return made;

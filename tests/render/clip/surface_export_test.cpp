@@ -35,7 +35,7 @@ protected:
   }
   Json read(const std::string& reader, const std::string& name) const {
     const Outcome outcome =
-        place.shell("/usr/bin/python3 " REND_ROOT "/tests/render/app/" + reader + " " + name);
+        place.shell("/usr/bin/python3 " REND_ROOT "/tests/render/clip/" + reader + " " + name);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return outcome.json();
   }

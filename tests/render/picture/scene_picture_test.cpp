@@ -4,6 +4,7 @@
 #include "render/draw/hud.h"
 #include "render/picture/scene_preset.h"
 #include "render/picture/viewpoint.h"
+#include "sim/build/build_scene.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using Eigen::Vector3f;
 
 // A cloth that is pulled apart, with `sheet`, `look` and more elements of the scene.
 struct Shown {
-  std::unique_ptr<Node> preset;
+  std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
   std::unique_ptr<PictureMaker> maker;
 
@@ -31,7 +32,7 @@ struct Shown {
                             moves + R"(<tear criterion="global-border" threshold="2"/>)" + look + "</body>" +
                             R"(<time step="1e-3" integrator="rk4" duration="1"/>)" + more + "</scene>",
                         "shown.xml");
-    scene = std::make_unique<Scene>(*preset, SceneOptions{});
+    scene = std::make_unique<Scene>(read_scene(*preset), SceneOptions{});
     maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0, 31);
   }
   void steps(int count) {
@@ -145,7 +146,7 @@ TEST(Picture, TakesColourAndSceneFromThePreset) {
 
 // A bar of 4 × 2 × 2 boxes that remembers its borders, and whose halves a test may part.
 struct ShownBar {
-  std::unique_ptr<Node> preset;
+  std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
   std::unique_ptr<PictureMaker> maker;
 
@@ -155,7 +156,7 @@ struct ShownBar {
                                  R"(<springs><stretch k="60"/></springs><drive side="+x" velocity="4 0 0"/>)" +
                                  look + R"(</body><time step="1e-3" duration="1"/></scene>)",
                              "bar.xml");
-    scene = std::make_unique<Scene>(*preset, SceneOptions{});
+    scene = std::make_unique<Scene>(read_scene(*preset), SceneOptions{});
     body().border = &body().map->add(BornBorder(3));
     maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0, 31);
   }
@@ -324,7 +325,7 @@ TEST(PictureMaker, exploded_cells_are_all_there_whole_and_apart) {
                     R"(<time duration="1"/></scene>)",
                     pattern),
         "bar.xml");
-    Scene scene(*preset, {});
+    Scene scene(read_scene(*preset), {});
     PictureMaker maker(*preset, scene, 1.5, 1, 31);
     maker.observe();
     const Frame frame = maker.draw(0, 0);

@@ -1,5 +1,6 @@
 // A camera that moves: by keys, and after the bodies.
 #include "render/picture/viewpoint.h"
+#include "sim/build/build_scene.h"
 
 #include "render/draw/camera.h"
 #include "render/picture/scene_preset.h"
@@ -9,7 +10,7 @@
 namespace rend {
 namespace {
 
-std::unique_ptr<Node> scene_with(const std::string& camera, const std::string& hold = "") {
+std::unique_ptr<PresetNode> scene_with(const std::string& camera, const std::string& hold = "") {
   return load_scene_text(R"(<scene name="seen"><body><sheet cells="6 6" size="1 1"/><mass total="0.1"/>)"
                          R"(<springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>)" +
                              hold + "</body>" + R"(<time step="2e-3" duration="2"/>)" + camera + "</scene>",
@@ -20,7 +21,7 @@ TEST(Viewpoint, keys_are_met_and_held_at_the_ends) {
   const auto preset =
       scene_with(R"(<camera fov="30"><key at="0.5" eye="3 0 1"/><key at="1" eye="0 -4 2" target="0 0 1"/>)"
                  R"(<key at="2" eye="-3 0 1" fov="50"/></camera>)");
-  const Scene scene(*preset, {});
+  const Scene scene(read_scene(*preset), {});
   const Viewpoint view(*preset, scene, 1.5, 2);
   EXPECT_EQ(view.at(0).eye, Vec3(3, 0, 1));
   EXPECT_EQ(view.at(0.5).eye, Vec3(3, 0, 1));
@@ -34,7 +35,7 @@ TEST(Viewpoint, keys_are_met_and_held_at_the_ends) {
 TEST(Viewpoint, between_keys_it_neither_jumps_nor_jerks) {
   const auto preset = scene_with(R"(<camera><key at="0" eye="3 0 1"/><key at="0.4" eye="0 -4 2"/>)"
                                  R"(<key at="2" eye="-3 0 1"/></camera>)");
-  const Scene scene(*preset, {});
+  const Scene scene(read_scene(*preset), {});
   const Viewpoint view(*preset, scene, 1.5, 2);
   constexpr double h = 1e-3;
   Vec3 last = Vec3::Zero();
@@ -47,14 +48,14 @@ TEST(Viewpoint, between_keys_it_neither_jumps_nor_jerks) {
 
 TEST(Viewpoint, keys_out_of_order_are_refused) {
   const auto preset = scene_with(R"(<camera><key at="1" eye="3 0 1"/><key at="1" eye="0 -4 2"/></camera>)");
-  const Scene scene(*preset, {});
+  const Scene scene(read_scene(*preset), {});
   EXPECT_THROW(Viewpoint(*preset, scene, 1.5, 2), UserError);
 }
 
 // Two bodies' worth of fall: every vertex stays inside of the picture.
 TEST(Viewpoint, one_that_follows_loses_nothing_out_of_sight) {
   const auto preset = scene_with(R"(<camera frame="follow"/>)", R"(<fix near="0 0 0"/>)");
-  Scene scene(*preset, {});
+  Scene scene(read_scene(*preset), {});
   Viewpoint view(*preset, scene, 1.5, 2);
   const Vec3 start = view.at(0).target;
   for (int frame = 0; frame < 60; ++frame) {

@@ -2,6 +2,7 @@
 // bytes. Times are not looked at here.
 #include "render/picture/scene_preset.h"
 #include "render/studies/lean_study.h"
+#include "sim/build/build_scene.h"
 #include "sim/study/bare_loop.h"
 #include "tests/render/commands/program_run.h"
 
@@ -67,7 +68,7 @@ TEST(BareLoop, goes_as_the_scene_does) {
     const auto preset =
         load_scene_text(lean_scenes()[0].text, "p",
                         std::vector<Override>{{"body.sheet.cells", "8 8"}, {"time.integrator", integrator}});
-    Scene scene(*preset, {}), same(*preset, {});
+    Scene scene(read_scene(*preset), {}), same(read_scene(*preset), {});
     BareLoop bare(same);
     for (int n = 0; n < 100; ++n) {
       scene.step();

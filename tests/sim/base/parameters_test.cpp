@@ -24,8 +24,8 @@ const ElementType twig{
 
 const Place somewhere{"tree.xml", 3, 14};
 
-Node with(std::string_view attribute, const std::string& value) {
-  Node node(twig, {"tree.xml", 3, 1});
+PresetNode with(std::string_view attribute, const std::string& value) {
+  PresetNode node(twig, {"tree.xml", 3, 1});
   node.set(*twig.find(attribute), value, somewhere);
   return node;
 }
@@ -160,9 +160,9 @@ TEST(Parameters, TakesANumberOrAWord) {
 }
 
 TEST(Parameters, DefaultsFillWhatThePresetLeavesOut) {
-  Node node(twig, somewhere);
+  PresetNode node(twig, somewhere);
   node.set(*twig.find("step"), "2", somewhere);
-  Node& child = node.add(std::make_unique<Node>(bud, somewhere));
+  PresetNode& child = node.add(std::make_unique<PresetNode>(bud, somewhere));
   node.fill_defaults();
   EXPECT_EQ(node.text("kind"), "birch");
   EXPECT_EQ(node.number("step"), 2);
@@ -175,12 +175,12 @@ TEST(Parameters, DefaultsFillWhatThePresetLeavesOut) {
 
 TEST(Parameters, ADefaultThatDoesNotFitIsOurOwnSlip) {
   const ElementType wrong{"wrong", "", {number("k", "N/m", "stiffness").above(0).otherwise("0")}, {}};
-  Node node(wrong, somewhere);
+  PresetNode node(wrong, somewhere);
   EXPECT_THROW(node.fill_defaults(), InternalError);
 }
 
 TEST(Parameters, APlaceIsThatOfTheValueOrElseOfTheElement) {
-  Node node = with("step", "1");
+  PresetNode node = with("step", "1");
   node.fill_defaults();
   EXPECT_EQ(node.place("step").text(), "tree.xml:3:14");
   EXPECT_EQ(node.place("kind").text(), "tree.xml:3:1"); // a default
@@ -190,9 +190,9 @@ TEST(Parameters, APlaceIsThatOfTheValueOrElseOfTheElement) {
 }
 
 TEST(Parameters, RefusesANodeWithoutWhatItNeeds) {
-  Node node(twig, somewhere);
+  PresetNode node(twig, somewhere);
   EXPECT_EQ(refusal([&] { node.check_complete(); }), "<twig> needs a <leaf> and has none | A leaf.");
-  Node& first = node.add(std::make_unique<Node>(leaf, Place{"tree.xml", 4, 5}));
+  PresetNode& first = node.add(std::make_unique<PresetNode>(leaf, Place{"tree.xml", 4, 5}));
   EXPECT_EQ(refusal([&] { node.check_complete(); }, "tree.xml:4:5"),
             "<leaf> needs area | area: its area; expected a number above 0 [m2]");
   first.set(leaf.attributes[0], "1", somewhere);
@@ -200,20 +200,21 @@ TEST(Parameters, RefusesANodeWithoutWhatItNeeds) {
 }
 
 TEST(Parameters, RefusesMoreChildrenThanMayStand) {
-  Node node(twig, somewhere);
+  PresetNode node(twig, somewhere);
   for (int line = 4; line < 7; ++line) {
-    node.add(std::make_unique<Node>(leaf, Place{"tree.xml", line, 5})).set(leaf.attributes[0], "1", somewhere);
-    node.add(std::make_unique<Node>(bud, Place{"tree.xml", line, 9}));
+    node.add(std::make_unique<PresetNode>(leaf, Place{"tree.xml", line, 5}))
+        .set(leaf.attributes[0], "1", somewhere);
+    node.add(std::make_unique<PresetNode>(bud, Place{"tree.xml", line, 9}));
   }
   EXPECT_EQ(refusal([&] { node.check_complete(); }, "tree.xml:6:5"),
             "<twig> may hold only 2 <leaf> | the first is at tree.xml:4:5");
 }
 
 TEST(Parameters, ChildrenAreFoundByTheirNames) {
-  Node node(twig, somewhere);
-  node.add(std::make_unique<Node>(bud, somewhere));
-  const Node& second = node.add(std::make_unique<Node>(leaf, somewhere));
-  node.add(std::make_unique<Node>(bud, somewhere));
+  PresetNode node(twig, somewhere);
+  node.add(std::make_unique<PresetNode>(bud, somewhere));
+  const PresetNode& second = node.add(std::make_unique<PresetNode>(leaf, somewhere));
+  node.add(std::make_unique<PresetNode>(bud, somewhere));
   EXPECT_EQ(node.child("leaf"), &second);
   EXPECT_EQ(node.child("root"), nullptr);
   EXPECT_EQ(node.all("bud").size(), 2U);
@@ -221,16 +222,16 @@ TEST(Parameters, ChildrenAreFoundByTheirNames) {
 }
 
 TEST(Parameters, AskingForTheWrongKindIsOurOwnSlip) {
-  const Node node = with("step", "auto");
+  const PresetNode node = with("step", "auto");
   EXPECT_THROW(node.number("step"), InternalError);   // a word stands there
   EXPECT_THROW(node.integer("step"), InternalError);  // another kind
   EXPECT_THROW(node.number("length"), InternalError); // not there
   EXPECT_THROW(node.number("lenght"), InternalError); // not in the table
   EXPECT_THROW(node.has("lenght"), InternalError);
   EXPECT_THROW(with("knots", "1 2").vector("knots"), InternalError);
-  Node other(bud, somewhere);
+  PresetNode other(bud, somewhere);
   EXPECT_THROW(other.set(*twig.find("kind"), "hazel", somewhere), InternalError);
-  EXPECT_THROW(other.add(std::make_unique<Node>(leaf, somewhere)), InternalError);
+  EXPECT_THROW(other.add(std::make_unique<PresetNode>(leaf, somewhere)), InternalError);
 }
 
 TEST(Parameters, SaysWhatIsExpected) {

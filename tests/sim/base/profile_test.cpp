@@ -19,65 +19,84 @@ double seconds_since(Clock::time_point start) {
 }
 
 // However long the machine does something else in between.
-TEST(Profile, gives_each_second_to_the_innermost_stage) {
+TEST(Profile, gives_each_second_to_the_innermost_phase) {
   const auto before = Clock::now();
-  Profile profile;
+  Profile profile(Profile::Extent::EveryStep);
   double inside = 0;
   {
-    const Within integration(&profile, Stage::Integration);
+    const Within integration(&profile, Phase::Integration);
     const auto start = Clock::now();
     std::this_thread::sleep_for(5ms);
     {
-      const Within forces(&profile, Stage::Forces);
+      const Within forces(&profile, Phase::Forces);
       std::this_thread::sleep_for(20ms);
     }
     std::this_thread::sleep_for(5ms);
     inside = seconds_since(start);
   }
   const double all = seconds_since(before);
-  const double forces = profile.spent(Stage::Forces).seconds,
-               integration = profile.spent(Stage::Integration).seconds;
+  const double forces = profile.spent(Phase::Forces).seconds,
+               integration = profile.spent(Phase::Integration).seconds;
   EXPECT_GE(forces, 0.0199); // sleeping lasts at least so long, but for a reading
   EXPECT_GE(integration, 0.0099);
   EXPECT_LE(profile.total(), all);
   EXPECT_GE(forces + integration, inside - 3 * profile.reading() - 1e-9); // taken off; and rounding
-  EXPECT_EQ(profile.spent(Stage::Integration).turns, 2);                  // there, and back to it
-  EXPECT_EQ(profile.spent(Stage::Forces).turns, 1);
-  EXPECT_EQ(profile.spent(Stage::Contact).turns, 0);
+  EXPECT_EQ(profile.spent(Phase::Integration).turns, 2);                  // there, and back to it
+  EXPECT_EQ(profile.spent(Phase::Forces).turns, 1);
+  EXPECT_EQ(profile.spent(Phase::Contact).turns, 0);
 }
 
 TEST(Profile, forgets_what_was_before) {
-  Profile profile;
+  Profile profile(Profile::Extent::EveryStep);
   {
-    const Within guard(&profile, Stage::Guard);
+    const Within guard(&profile, Phase::Guard);
     std::this_thread::sleep_for(2ms);
   }
   profile.restart();
   EXPECT_EQ(profile.total(), 0);
-  EXPECT_EQ(profile.turn_to(Stage::Forces), Stage::Rest);
+  const Within forces(&profile, Phase::Forces);
+  EXPECT_EQ(profile.spent(Phase::Forces).turns, 1);
+  EXPECT_EQ(profile.spent(Phase::Guard).turns, 0);
 }
 
 // Of many tries one at least is not interrupted.
 TEST(Profile, takes_the_reading_of_the_clock_off) {
-  Profile profile;
+  Profile profile(Profile::Extent::EveryStep);
   EXPECT_GT(profile.reading(), 0);
   double least = 1;
   for (int tries = 0; tries < 50; ++tries) {
     profile.restart();
-    for (int n = 0; n < 2000; ++n) const Within forces(&profile, Stage::Forces);
-    least = std::min(least, profile.spent(Stage::Forces).seconds);
+    for (int n = 0; n < 2000; ++n) const Within forces(&profile, Phase::Forces);
+    least = std::min(least, profile.spent(Phase::Forces).seconds);
   }
   EXPECT_LT(least, 2000 * profile.reading()); // next to nothing was done
 }
 
 TEST(Profile, that_nobody_asks_for_is_no_profile) {
-  const Within nothing(nullptr, Stage::Forces);
+  const Within nothing(nullptr, Phase::Forces);
 }
 
-TEST(Profile, names_each_stage) {
+TEST(Profile, times_one_step_in_sixteen_and_changes_of_topology_in_all) {
+  Profile profile(Profile::Extent::SampledSteps);
+  for (long step = 0; step < 32; ++step) {
+    profile.begin_step(step);
+    {
+      const Within forces(&profile, Phase::Forces);
+      const Within changes(&profile, Phase::Changes);
+      const Within inside(&profile, Phase::Forces); // of a change: not by itself where the step is not timed
+    }
+    profile.end_step();
+  }
+  EXPECT_EQ(profile.spent(Phase::Changes).turns, 32 + 2); // there; and back to it in the two timed steps
+  EXPECT_EQ(profile.spent(Phase::Forces).turns, 2 * 3);
+  EXPECT_EQ(profile.seconds(Phase::Changes), profile.spent(Phase::Changes).seconds);
+  EXPECT_DOUBLE_EQ(profile.seconds(Phase::Forces), 16 * profile.spent(Phase::Forces).seconds);
+}
+
+TEST(Profile, names_each_phase) {
   std::set<std::string> names;
-  for (std::size_t n = 0; n < stage_count; ++n) names.insert(name_of(static_cast<Stage>(n)));
-  EXPECT_EQ(names.size(), stage_count);
+  for (std::size_t n = 0; n < phase_count; ++n) names.insert(name_of(static_cast<Phase>(n)));
+  EXPECT_EQ(names.size(), phase_count);
 }
 
 } // namespace

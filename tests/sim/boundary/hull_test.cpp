@@ -4,6 +4,7 @@
 #include "sim/boundary/drawn_faces.h"
 #include "sim/boundary/solids.h"
 #include "sim/mechanics/interaction.h"
+#include "sim/topology/walk.h"
 
 #include <gtest/gtest.h>
 #include <map>

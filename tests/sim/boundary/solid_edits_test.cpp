@@ -173,7 +173,7 @@ TEST(SolidSurface, equals_brute_force_and_a_new_one_along_storms_of_separations_
     SCOPED_TRACE(solid.name);
     const auto body = solids::body(solid.mesh);
     const std::set<Dart> born = free_faces(body->map->map());
-    SolidSurface surface(*body);
+    SolidSurface surface(*body->map, body->border);
     Noise noise(5);
     std::vector<std::pair<Dart, Dart>> open;
     for (int round = 0; round < 12; ++round) {
@@ -192,7 +192,7 @@ TEST(SolidSurface, equals_brute_force_and_a_new_one_along_storms_of_separations_
       });
       for (Record& x : body->map->position().values()) x = Record(x.vec() + 0.01 * noise.vector());
       surface.update();
-      ASSERT_TRUE(surface.same_as(SolidSurface(*body))) << round;
+      ASSERT_TRUE(surface.same_as(SolidSurface(*body->map, body->border))) << round;
       EXPECT_TRUE(open_sides(surface).empty());
       expect_equal(surface, *body, BruteForce(*body, born));
       if (testing::Test::HasFailure()) return;
@@ -209,7 +209,7 @@ TEST(SolidSurface, equals_a_new_one_along_storms_of_any_edit) {
     SCOPED_TRACE(solid.name);
     for (unsigned seed = 1; seed < 4; ++seed) {
       const auto body = solids::body(solid.mesh);
-      SolidSurface surface(*body);
+      SolidSurface surface(*body->map, body->border);
       Noise noise(seed);
       for (int round = 0; round < 30; ++round) {
         const auto any = [&] {
@@ -227,7 +227,8 @@ TEST(SolidSurface, equals_a_new_one_along_storms_of_any_edit) {
           if (round % 11 == 6) body->map->edit([&](Edit& edit) { unsew(edit, 2, any()); });
         }
         surface.update();
-        ASSERT_TRUE(surface.same_as(SolidSurface(*body))) << "seed " << seed << ", round " << round;
+        ASSERT_TRUE(surface.same_as(SolidSurface(*body->map, body->border)))
+            << "seed " << seed << ", round " << round;
         for (const Vec3& n : normals_of(surface)) ASSERT_LT(std::abs(n.norm() - 0.5), 0.5 + 1e-12);
       }
     }
@@ -244,10 +245,10 @@ void remove_cells(Body& body, std::initializer_list<std::uint32_t> cells) {
 TEST(SolidSurface, of_a_vertex_with_two_fans_sees_both) {
   const auto body = solids::body(bar(BarPattern::Hexahedra, 2, 2, 2));
   const std::set<Dart> born = free_faces(body->map->map());
-  SolidSurface surface(*body);
+  SolidSurface surface(*body->map, body->border);
   remove_cells(*body, {0, 7});
   surface.update();
-  EXPECT_TRUE(surface.same_as(SolidSurface(*body)));
+  EXPECT_TRUE(surface.same_as(SolidSurface(*body->map, body->border)));
   EXPECT_TRUE(open_sides(surface).empty());
   EXPECT_NEAR(volume_of(*body, surface), 6, 1e-12);
   std::set<Dart> in_the_middle;
@@ -261,10 +262,10 @@ TEST(SolidSurface, of_a_vertex_with_two_fans_sees_both) {
 // Two cells between the same two layers that share nothing but an edge's ends: four faces there, two by two.
 TEST(SolidSurface, of_an_edge_that_two_sheets_of_the_hull_touch_along_keeps_them_apart) {
   const auto body = solids::body(bar(BarPattern::Hexahedra, 2, 2, 3), false);
-  SolidSurface surface(*body);
+  SolidSurface surface(*body->map, body->border);
   remove_cells(*body, {5, 6});
   surface.update();
-  EXPECT_TRUE(surface.same_as(SolidSurface(*body)));
+  EXPECT_TRUE(surface.same_as(SolidSurface(*body->map, body->border)));
   EXPECT_TRUE(open_sides(surface).empty());
   EXPECT_NEAR(volume_of(*body, surface), 10, 1e-12);
   std::size_t along = 0;

@@ -44,7 +44,7 @@ TEST(SolidSurface, draws_the_faces_that_only_one_cell_has) {
     SewnSolid sewn = sew_cells(solid.mesh);
     const std::vector<std::uint32_t> point = sewn.point;
     const auto body = solids::body(std::move(sewn.map));
-    const SolidSurface surface(*body);
+    const SolidSurface surface(*body->map, body->border);
     std::map<Dart, std::set<std::uint32_t>> faces;
     for (const Triangle& t : triangles_of(surface))
       for (Slot v : t.vertex) faces[t.first].insert(point[v]);
@@ -59,7 +59,7 @@ TEST(SolidSurface, is_closed_and_encloses_the_volume_of_the_cells) {
   for (const Named& solid : all()) {
     SCOPED_TRACE(solid.name);
     const auto body = solids::body(solid.mesh);
-    const SolidSurface surface(*body);
+    const SolidSurface surface(*body->map, body->border);
     EXPECT_TRUE(open_sides(surface).empty());
     double expected = 0;
     for (std::size_t c = 0; c < solid.mesh.cells(); ++c) expected += signed_volume(solid.mesh, c);
@@ -73,7 +73,7 @@ TEST(SolidSurface, of_a_ball_has_the_euler_characteristic_of_a_sphere_and_of_a_t
     const auto body = solids::body(solid.mesh);
     std::set<Slot> vertices;
     std::map<std::pair<Slot, Slot>, int> edges;
-    const auto triangles = triangles_of(SolidSurface(*body));
+    const auto triangles = triangles_of(SolidSurface(*body->map, body->border));
     for (const Triangle& t : triangles)
       for (std::size_t k = 0; k < 3; ++k) {
         vertices.insert(t.vertex[k]);
@@ -89,7 +89,7 @@ TEST(SolidSurface, of_a_ball_has_the_euler_characteristic_of_a_sphere_and_of_a_t
 TEST(SolidSurface, faces_outward_however_the_darts_are_numbered) {
   for (BarPattern pattern : all_patterns) {
     const auto body = solids::body(bar(pattern, 4, 3, 2));
-    SolidSurface surface(*body);
+    SolidSurface surface(*body->map, body->border);
     const auto normals = normals_of(surface);
     for (const Triangle& t : triangles_of(surface)) {
       const Vec3 out = (place(*body, t.vertex[0]) + place(*body, t.vertex[1]) + place(*body, t.vertex[2])) / 3 -
@@ -99,13 +99,13 @@ TEST(SolidSurface, faces_outward_however_the_darts_are_numbered) {
     }
   }
   const auto row = solids::body(assets::row_of_cubes(3)); // by hand
-  EXPECT_NEAR(volume_of(*row, SolidSurface(*row)), 3, 1e-12);
+  EXPECT_NEAR(volume_of(*row, SolidSurface(*row->map, row->border)), 3, 1e-12);
 }
 
 TEST(SolidSurface, of_a_bar_has_sharp_edges_between_flat_sides) {
   for (BarPattern pattern : all_patterns) {
     const auto body = solids::body(bar(pattern, 4, 2, 2));
-    SolidSurface surface(*body);
+    SolidSurface surface(*body->map, body->border);
     const auto normals = normals_of(surface);
     for (const Triangle& t : triangles_of(surface)) {
       const Vec3 flat = area_vector(*body, t).normalized();
@@ -126,7 +126,7 @@ TEST(SolidSurface, of_a_bar_has_sharp_edges_between_flat_sides) {
 TEST(SolidSurface, of_a_ball_is_smooth) {
   for (BarPattern pattern : all_patterns) {
     const auto body = solids::body(ball(pattern, 8));
-    SolidSurface surface(*body);
+    SolidSurface surface(*body->map, body->border);
     const auto normals = normals_of(surface);
     double worst = 1;
     for (const Triangle& t : triangles_of(surface))
@@ -140,7 +140,7 @@ TEST(SolidSurface, of_a_ball_is_smooth) {
 
 TEST(SolidSurface, turns_and_bends_its_normals_with_the_body_but_keeps_its_creases) {
   const auto body = solids::body(bar(BarPattern::Hexahedra, 12, 2, 2));
-  SolidSurface surface(*body);
+  SolidSurface surface(*body->map, body->border);
   for (Record& x : body->map->position().values()) { // a quarter of a ring of radius 8 in the middle
     const double angle = x.vec().x() / 8, r = 7 + x.vec().z();
     x = Record(Vec3(r * std::sin(angle), x.vec().y(), r * std::cos(angle)));
@@ -161,19 +161,19 @@ TEST(SolidSurface, turns_and_bends_its_normals_with_the_body_but_keeps_its_creas
 TEST(SolidSurface, of_a_collapsed_solid_has_no_normals_and_no_nan) {
   const auto body = solids::body(bar(BarPattern::Mixed, 3, 1, 1));
   for (Record& x : body->map->position().values()) x = Record(1, 2, 3);
-  SolidSurface surface(*body);
+  SolidSurface surface(*body->map, body->border);
   for (const Vec3& n : normals_of(surface)) EXPECT_EQ(n, Vec3::Zero());
 }
 
 TEST(SolidSurface, marks_what_is_laid_bare_around_a_cell_cut_free_and_keeps_it_flat) {
   const auto body = solids::body(bar(BarPattern::Hexahedra, 3, 3, 3));
-  SolidSurface surface(*body);
+  SolidSurface surface(*body->map, body->border);
   const Dart middle{13u * 48};
   body->map->edit([&](Edit& edit) {
     for (Dart d : darts_of(edit.map(), Volume, middle)) unsew(edit, 3, d);
   });
   surface.update();
-  EXPECT_TRUE(surface.same_as(SolidSurface(*body)));
+  EXPECT_TRUE(surface.same_as(SolidSurface(*body->map, body->border)));
   EXPECT_EQ(surface.faces(), 54u + 12);
   EXPECT_TRUE(open_sides(surface).empty());
   EXPECT_NEAR(volume_of(*body, surface), 27, 1e-12);
@@ -194,7 +194,7 @@ TEST(SolidSurface, marks_what_is_laid_bare_around_a_cell_cut_free_and_keeps_it_f
 TEST(SolidSurface, keeps_the_hull_smooth_and_the_bare_faces_flat_on_a_warped_solid) {
   CellMesh mesh = ball(BarPattern::Hexahedra, 6);
   const auto body = solids::body(mesh);
-  SolidSurface surface(*body);
+  SolidSurface surface(*body->map, body->border);
   body->map->edit([&](Edit& edit) { // all that is sewn through the middle
     for (std::uint32_t d = 0; d < edit.map().capacity(); ++d) {
       double most = 0;
@@ -219,12 +219,12 @@ TEST(SolidSurface, keeps_the_hull_smooth_and_the_bare_faces_flat_on_a_warped_sol
 
 TEST(SolidSurface, marks_nothing_bare_where_nothing_may_tear) {
   const auto body = solids::body(bar(BarPattern::Mixed, 3, 2, 2), false);
-  SolidSurface surface(*body);
+  SolidSurface surface(*body->map, body->border);
   body->map->edit([&](Edit& edit) {
     for (std::uint32_t d = 0; d < edit.map().capacity(); d += 7) unsew(edit, 3, Dart{d});
   });
   surface.update();
-  EXPECT_TRUE(surface.same_as(SolidSurface(*body)));
+  EXPECT_TRUE(surface.same_as(SolidSurface(*body->map, body->border)));
   for (const Triangle& t : triangles_of(surface)) EXPECT_FALSE(t.bare);
   EXPECT_FALSE(body->map->uses(FaceOfVolume)); // nor is there a slot for any face
 }

@@ -1,6 +1,7 @@
 // What a solid's surface draws, taken from its triangles one by one, for tests of it.
 #pragma once
 
+#include "sim/body/body.h"
 #include "sim/boundary/solid_surface.h"
 
 #include <map>

@@ -40,7 +40,7 @@ TEST(Surface, cuts_every_polygon_into_triangles_of_its_own_vertices) {
   for (const Named& sheet : irregular(0)) {
     SCOPED_TRACE(sheet.name);
     const auto body = tearing(sheet.mesh);
-    const Surface surface(*body);
+    const Surface surface(*body->map, body->border);
     std::size_t expected = 0;
     for (std::size_t p = 0; p < sheet.mesh.polygons(); ++p)
       expected += sheet.mesh.first[p + 1] - sheet.mesh.first[p] - 2;
@@ -58,7 +58,7 @@ TEST(Surface, cuts_every_polygon_into_triangles_of_its_own_vertices) {
 
 TEST(Surface, of_a_flat_sheet_covers_it_once) {
   const auto body = tearing(bricks(8, 4));
-  const Surface surface(*body);
+  const Surface surface(*body->map, body->border);
   double area = 0;
   for (const Surface::Triangle& t : triangles_of(surface)) {
     const auto x = [&](std::size_t k) { return positions(*body)[t.vertex[k]].vec(); };
@@ -71,7 +71,7 @@ TEST(Surface, draws_every_side_of_every_polygon_and_no_diagonal) {
   for (const Named& sheet : irregular()) {
     SCOPED_TRACE(sheet.name);
     const auto body = tearing(sheet.mesh);
-    const Surface surface(*body);
+    const Surface surface(*body->map, body->border);
     std::map<std::pair<Slot, Slot>, int> sides;
     for (std::size_t s = 0; s < sheet.mesh.corners.size(); ++s) {
       const Dart d{2 * s};
@@ -90,7 +90,7 @@ TEST(Surface, draws_every_side_of_every_polygon_and_no_diagonal) {
 
 TEST(Surface, shows_a_quad_with_four_sides_and_an_inner_diagonal) {
   const auto body = tearing(sheet(SheetPattern::Quads, 1, 1));
-  const Surface surface(*body);
+  const Surface surface(*body->map, body->border);
   const auto triangles = triangles_of(surface);
   ASSERT_EQ(triangles.size(), 2u);
   for (const Surface::Triangle& t : triangles) {
@@ -103,7 +103,7 @@ TEST(Surface, marks_both_lips_of_a_tear_and_no_border) {
   for (const Named& sheet : irregular()) {
     SCOPED_TRACE(sheet.name);
     const auto body = tearing(sheet.mesh);
-    Surface surface(*body);
+    Surface surface(*body->map, body->border);
     const auto count = [&](Side side) {
       std::size_t n = 0;
       for (const auto& line : lines_of(surface)) n += line.second == side;
@@ -124,14 +124,14 @@ TEST(Surface, marks_both_lips_of_a_tear_and_no_border) {
       EXPECT_EQ(count(Side::Border), border);
     }
     EXPECT_GT(torn, 8u);
-    const Surface anew(*body); // what is torn is known to the body, not to the surface
+    const Surface anew(*body->map, body->border); // what is torn is known to the body, not to the surface
     EXPECT_TRUE(anew.same_as(surface));
   }
 }
 
 TEST(Surface, marks_what_a_removed_element_leaves_as_torn) {
   const auto body = tearing(sheet(SheetPattern::Quads, 3, 3));
-  Surface surface(*body);
+  Surface surface(*body->map, body->border);
   body->map->edit([](Edit& edit) { remove_element(edit, Dart{8u * 4u}); }); // the middle one
   surface.update();
   std::map<Side, int> count;
@@ -146,7 +146,7 @@ TEST(Surface, marks_no_tear_where_nothing_may_tear) {
   recipe.springs = {};
   const auto body = meshes::body(sheet(SheetPattern::Mixed, 3, 3), recipe);
   EXPECT_EQ(body->border, nullptr);
-  const Surface surface(*body);
+  const Surface surface(*body->map, body->border);
   for (const auto& line : lines_of(surface)) EXPECT_NE(line.second, Side::Torn);
 }
 
@@ -154,7 +154,7 @@ TEST(Surface, normals_of_a_flat_sheet_are_across_it) {
   for (auto pattern :
        {SheetPattern::Quads, SheetPattern::Triangles, SheetPattern::Crossed, SheetPattern::Mixed}) {
     const auto body = tearing(sheet(pattern, 4, 3));
-    const Surface surface(*body);
+    const Surface surface(*body->map, body->border);
     std::vector<Vec3> normals;
     surface.normals(normals);
     ASSERT_EQ(normals.size(), body->program->vertices());
@@ -167,7 +167,7 @@ TEST(Surface, normals_of_a_flat_sheet_are_across_it) {
 
 TEST(Surface, normals_of_a_cylinder_are_radial) {
   const auto body = tearing(sheet(SheetPattern::Quads, 24, 3, SheetClosure::Loop));
-  const Surface surface(*body);
+  const Surface surface(*body->map, body->border);
   std::vector<Vec3> normals;
   surface.normals(normals);
   for (Slot v = 0; v < normals.size(); ++v) {
@@ -181,7 +181,7 @@ TEST(Surface, normals_are_the_sums_over_corners_up_to_their_sign) {
   for (const Named& sheet : irregular()) {
     SCOPED_TRACE(sheet.name);
     const auto body = tearing(sheet.mesh);
-    const Surface surface(*body);
+    const Surface surface(*body->map, body->border);
     std::vector<Vec3> normals;
     surface.normals(normals);
     // Around each point the corners' vectors, turned to agree with their neighbours by walking over shared
@@ -227,7 +227,7 @@ TEST(Surface, normals_are_the_sums_over_corners_up_to_their_sign) {
 
 TEST(Surface, normals_of_a_moebius_band_are_unit_vectors_everywhere) {
   const auto body = tearing(sheet(SheetPattern::Mixed, 16, 3, SheetClosure::Twist));
-  Surface surface(*body);
+  Surface surface(*body->map, body->border);
   for (int n = 0; n < 2; ++n) {
     std::vector<Vec3> normals;
     surface.normals(normals);
@@ -241,16 +241,16 @@ TEST(Surface, normals_of_a_moebius_band_are_unit_vectors_everywhere) {
 
 TEST(Surface, of_a_face_that_gains_sides_grows_with_it_and_shrinks_again) {
   const auto body = tearing(sheet(SheetPattern::Quads, 2, 2));
-  Surface surface(*body);
+  Surface surface(*body->map, body->border);
   for (int n = 0; n < 4; ++n) {
     apply(insert_vertex, *body->map, Dart{0u});
     surface.update();
-    EXPECT_TRUE(surface.same_as(Surface(*body)));
+    EXPECT_TRUE(surface.same_as(Surface(*body->map, body->border)));
     EXPECT_EQ(surface.triangles(), 8u + 1u + static_cast<unsigned>(n));
   }
   body->map->edit([](Edit& edit) { remove_element(edit, Dart{0u}); });
   surface.update();
-  EXPECT_TRUE(surface.same_as(Surface(*body)));
+  EXPECT_TRUE(surface.same_as(Surface(*body->map, body->border)));
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "sim/build/build_scene.h"
 #include "sim/check/step_limit.h"
 
 #include "render/picture/scene_preset.h"
@@ -38,7 +39,7 @@ TEST(StepLimitOfMode, IsInfiniteWhereEveryStepIsStable) {
 }
 
 struct Built {
-  std::unique_ptr<Node> preset;
+  std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
 };
 Built built(const std::string& matter, const std::string& integrator) {
@@ -48,7 +49,7 @@ Built built(const std::string& matter, const std::string& integrator) {
                                        matter, integrator);
   Built b;
   b.preset = load_scene_text(text, "b.xml");
-  b.scene = std::make_unique<Scene>(*b.preset, SceneOptions{});
+  b.scene = std::make_unique<Scene>(read_scene(*b.preset), SceneOptions{});
   return b;
 }
 

@@ -109,7 +109,7 @@ TEST(Skin, of_a_torn_sheet_is_open_where_the_map_is) {
     EXPECT_EQ(skin.vertex.size(), counts.vertices);
     EXPECT_EQ(skin.ends.size(), counts.faces);
     EXPECT_EQ(std::set<std::int32_t>(skin.fragment.begin(), skin.fragment.end()).size(), counts.fragments);
-    EXPECT_EQ(fans_of(skin), drawn(Surface(scene.body())));
+    EXPECT_EQ(fans_of(skin), drawn(Surface(*scene.body().map, scene.body().border)));
     EXPECT_TRUE(skin.bare.empty());
     EXPECT_TRUE(skin.equivalent.empty());
   }
@@ -129,7 +129,7 @@ TEST(Skin, of_a_solid_is_closed_and_has_its_volume) {
     EXPECT_EQ(open_sides(skin), 0u);
     EXPECT_NEAR(volume_of(skin), 0.016, 1e-13) << pattern;
     EXPECT_EQ(skin.vertex.size() + skin.ends.size(), sides_of(skin).size() / 2 + 2); // Euler: V + F = E + 2
-    EXPECT_EQ(fans_of(skin), drawn(SolidSurface(scene.body())));
+    EXPECT_EQ(fans_of(skin), drawn(SolidSurface(*scene.body().map, scene.body().border)));
   }
 }
 
@@ -144,7 +144,7 @@ TEST(Skin, of_a_solid_that_breaks_is_closed_around_every_part_and_knows_what_is_
     const Skin skin = maker.skin();
     expect_positions_of(skin, *scene.scene);
     std::size_t bare = 0, triangles = 0;
-    const SolidSurface surface(scene.body());
+    const SolidSurface surface(*scene.body().map, scene.body().border);
     surface.for_each_triangle([&](const SolidSurface::Triangle& t) {
       bare += t.bare;
       ++triangles;

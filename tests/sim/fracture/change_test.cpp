@@ -59,7 +59,7 @@ TEST(DeleteElement, leaves_a_hole_in_a_block) {
       make(*body, "delete-element", Cell::Elements, {1, cell_at(*body, Cell::Elements, {1.5, 1.5, 1.5}), {}}));
   EXPECT_EQ(counts(*body), "64 144 108 26 in 1");
   EXPECT_NEAR(total_mass(*body->map, *body->mass), mass * 26 / 27, 1e-9 * mass);
-  const SolidSurface surface(*body);
+  const SolidSurface surface(*body->map, body->border);
   EXPECT_EQ(surface.faces(), 60u);
 }
 

@@ -23,7 +23,7 @@ void add_law(Body& body, const Asked& asked, double threshold) {
   LawSettings settings = meshes::law(asked.criterion, threshold);
   settings.kind = asked.kind;
   settings.compression = asked.compression;
-  body.laws.emplace_back(body.request_for(settings), settings);
+  body.tear_laws.emplace_back(body.request_for(settings), settings);
 }
 
 struct Matter {
@@ -293,7 +293,7 @@ TEST(Criteria, find_after_a_storm_what_they_would_if_made_anew) {
         body->rebind();
         meshes::shake(*body, 0.2, 30 + static_cast<unsigned>(round));
         body->evaluate();
-        for (TearLaw& law : body->laws) {
+        for (TearLaw& law : body->tear_laws) {
           LawSettings settings = law.settings();
           settings.threshold = 1e-3;
           TearLaw anew(body->request_for(settings), settings);
@@ -333,14 +333,14 @@ TEST(Criteria, do_not_see_a_turn_of_the_body) {
       for (Record& v : body->map->velocity().values()) v = Record();
       body->evaluate();
       std::vector<std::vector<Candidate>> before;
-      for (TearLaw& law : body->laws) before.push_back(law.find(body->view()));
+      for (TearLaw& law : body->tear_laws) before.push_back(law.find(body->view()));
       for (Record& x : body->map->position().values()) x = Record(Vec3(R * x.vec() + Vec3(1, 2, 3)));
       body->evaluate();
-      for (std::size_t n = 0; n < body->laws.size(); ++n) {
+      for (std::size_t n = 0; n < body->tear_laws.size(); ++n) {
         SCOPED_TRACE(asked[n].criterion);
         Values expected;
         for (const Candidate& c : before[n]) expected[c.dart] = {c.value, R * c.normal};
-        const std::vector<Candidate> after = body->laws[n].find(body->view());
+        const std::vector<Candidate> after = body->tear_laws[n].find(body->view());
         EXPECT_EQ(after.size(), before[n].size());
         for (const Candidate& c : after) {
           ASSERT_TRUE(expected.contains(c.dart));

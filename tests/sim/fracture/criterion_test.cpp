@@ -23,7 +23,7 @@ std::unique_ptr<Body> strained(const PolygonMesh& mesh, double threshold, const 
 
 // Both criteria's values at all edges are those of the polygons.
 void expect_values_of(Body& body, const BruteForce& brute) {
-  for (TearLaw& law : body.laws) {
+  for (TearLaw& law : body.tear_laws) {
     const bool atomic = law.settings().criterion->elementary;
     const std::vector<Candidate> found = law.find(body.view());
     const std::map<Dart, double> expected = brute.border_values(*body.map, atomic);
@@ -57,7 +57,7 @@ TEST(Criterion, measures_by_each_interaction_alone_what_its_definition_says) {
       BruteForce brute(sheet.mesh);
       brute.look_at(*body);
       brute.add(spring);
-      for (TearLaw& law : body->laws) {
+      for (TearLaw& law : body->tear_laws) {
         const auto expected = brute.border_values(*body->map, law.settings().criterion->elementary);
         for (const Candidate& c : law.find(body->view())) EXPECT_NEAR(c.value, expected.at(c.dart), 1e-11);
       }
@@ -99,18 +99,18 @@ TEST(Criterion, does_not_depend_on_which_way_round_the_faces_are_walked) {
       }
   two->evaluate();
   for (std::size_t n = 0; n < 2; ++n) {
-    const auto a = one->laws[n].find(one->view()), b = two->laws[n].find(two->view());
+    const auto a = one->tear_laws[n].find(one->view()), b = two->tear_laws[n].find(two->view());
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t c = 0; c < a.size(); ++c) EXPECT_NEAR(a[c].value, b[c].value, 1e-11 * a[0].value);
   }
 }
 
-TEST(Law, finds_what_exceeds_the_threshold_by_falling_value) {
+TEST(ForceLaw, finds_what_exceeds_the_threshold_by_falling_value) {
   const auto body = strained(warped(sheet(SheetPattern::Quads, 5, 5), 0.2, 8), 20, all_springs());
   BruteForce brute(*body->map);
   brute.look_at(*body);
   for (const Spring& spring : all_springs()) brute.add(spring);
-  for (TearLaw& law : body->laws) {
+  for (TearLaw& law : body->tear_laws) {
     const std::vector<Candidate> found = law.find(body->view());
     const auto all = brute.border_values(*body->map, law.settings().criterion->elementary);
     const auto above = std::count_if(all.begin(), all.end(), [](const auto& v) { return v.second > 20; });
@@ -121,7 +121,7 @@ TEST(Law, finds_what_exceeds_the_threshold_by_falling_value) {
   }
 }
 
-TEST(Law, breaks_ties_by_the_smallest_dart) {
+TEST(ForceLaw, breaks_ties_by_the_smallest_dart) {
   Recipe recipe;
   recipe.springs = {{"stretch", "", 60, 0}};
   recipe.criteria = {"global-border"};
@@ -131,7 +131,7 @@ TEST(Law, breaks_ties_by_the_smallest_dart) {
     if (body->map->rest()[v].x == 2) body->map->position()[v].x = 2.5;
   body->evaluate();
   const ForceView view = body->view();
-  const std::vector<Candidate> found = body->laws[0].find(view);
+  const std::vector<Candidate> found = body->tear_laws[0].find(view);
   int ties = 0;
   for (std::size_t n = 1; n < found.size(); ++n) {
     EXPECT_GE(found[n - 1].value, found[n].value);
@@ -142,9 +142,9 @@ TEST(Law, breaks_ties_by_the_smallest_dart) {
   EXPECT_GT(ties, 0);
 }
 
-TEST(Law, makes_at_most_so_many_changes_a_step_and_the_worst_first) {
+TEST(ForceLaw, makes_at_most_so_many_changes_a_step_and_the_worst_first) {
   const auto body = strained(warped(sheet(SheetPattern::Quads, 5, 5), 0.2, 8), 5, all_springs());
-  LawSettings settings = body->laws[0].settings();
+  LawSettings settings = body->tear_laws[0].settings();
   settings.max_per_step = 3;
   TearLaw law(body->request_for(settings), settings);
   const ForceView view = body->view();

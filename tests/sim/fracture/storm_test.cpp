@@ -32,7 +32,7 @@ void blow(Body& body, int steps) {
     body.tear(n, n, [] {});
     bool deleted = false;
     for (std::size_t e = events; e < body.events.size(); ++e)
-      deleted |= deletes(body.laws[static_cast<std::size_t>(body.events[e].law)].settings().change->name);
+      deleted |= deletes(body.tear_laws[static_cast<std::size_t>(body.events[e].law)].settings().change->name);
     expect_nothing_moved(body, before, deleted);
     if (n % 3 == 0) continue; // sometimes two before anybody looks
     seen.update();

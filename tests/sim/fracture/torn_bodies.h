@@ -5,7 +5,7 @@
 #include "sim/boundary/solids.h"
 #include "sim/boundary/surface.h"
 #include "sim/elements.h"
-#include "sim/fracture/law.h"
+#include "sim/fracture/tear_law.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
 
@@ -91,7 +91,7 @@ inline void watch(Body& body) {
     law.cell = type.cell(request);
     law.threshold = 1e-3;
     law.from = 1e9;
-    body.laws.emplace_back(request, law);
+    body.tear_laws.emplace_back(request, law);
   }
 }
 
@@ -117,7 +117,7 @@ inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::v
     law.criterion = &chance_on(by.cell);
     law.change = &change(by.change);
     law.cell = by.cell;
-    made->laws.emplace_back(made->request_for(law), law);
+    made->tear_laws.emplace_back(made->request_for(law), law);
   }
   if (watched) watch(*made);
   made->prepare(*find_scheme(scheme), false, 1);

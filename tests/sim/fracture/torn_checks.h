@@ -59,9 +59,9 @@ struct Seen {
   std::unique_ptr<SolidSurface> solid;
   explicit Seen(Body& body) {
     if (body.map->dimension() == 2)
-      sheet = std::make_unique<Surface>(body);
+      sheet = std::make_unique<Surface>(*(body).map, (body).border);
     else
-      solid = std::make_unique<SolidSurface>(body);
+      solid = std::make_unique<SolidSurface>(*body.map, body.border);
   }
   void update() {
     if (sheet) sheet->update();
@@ -81,7 +81,7 @@ inline bool same(const std::vector<Candidate>& a, const std::vector<Candidate>& 
 inline void expect_criteria_as_built_anew(Body& body) {
   body.evaluate();
   const ForceView view = body.view();
-  for (TearLaw& law : body.laws) {
+  for (TearLaw& law : body.tear_laws) {
     if (law.settings().criterion->name == "chance") continue; // never twice the same
     TearLaw anew(body.request_for(law.settings()), law.settings());
     EXPECT_TRUE(same(law.find(view), anew.find(view))) << law.settings().criterion->name;

@@ -5,6 +5,7 @@
 // By default the first torn steps of each; with REND_WHOLE in the environment the whole clips (tests/run
 // --all).
 #include "render/picture/scene_preset.h"
+#include "sim/build/build_scene.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/rows/walk_forces.h"
 #include "sim/scene/scene.h"
@@ -36,10 +37,11 @@ std::vector<std::string> presets_with_laws() {
 }
 
 struct Played {
-  std::unique_ptr<Node> preset;
+  std::unique_ptr<PresetNode> preset;
   Scene scene;
   Played(const std::string& name, int threads)
-      : preset(load_scene(root / (name + ".xml"))), scene(*preset, SceneOptions{false, threads, false}) {}
+      : preset(load_scene(root / (name + ".xml"))),
+        scene(read_scene(*preset), SceneOptions{false, threads, false}) {}
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
 };
 
@@ -74,8 +76,9 @@ private:
     ++looks;
     bool deleted = false;
     for (std::size_t e = events_; e < body_.events.size(); ++e)
-      deleted |= body_.laws[static_cast<std::size_t>(body_.events[e].law)].settings().change->name.starts_with(
-          "delete");
+      deleted |=
+          body_.tear_laws[static_cast<std::size_t>(body_.events[e].law)].settings().change->name.starts_with(
+              "delete");
     expect_nothing_moved(body_, *then_, deleted);
     seen_.update();
     expect_as_built_anew(body_, seen_);

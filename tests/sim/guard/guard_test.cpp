@@ -1,4 +1,5 @@
 // The guard against runs without it: what small steps give, what was put in, and what a scene surely conserves.
+#include "sim/build/build_scene.h"
 #include "sim/guard/guard.h"
 
 #include "render/picture/scene_preset.h"
@@ -181,7 +182,7 @@ TEST(Guard, rejects_no_step_of_the_presets_of_the_house) {
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(REND_ROOT) / "presets")) {
     if (entry.path().extension() != ".xml") continue;
     const auto preset = load_scene(entry.path());
-    Scene scene(*preset, {});
+    Scene scene(read_scene(*preset), {});
     std::size_t vertices = 0;
     for (const auto& body : scene.bodies()) vertices += body->vertices();
     if (scene.scheme().solves || vertices > 1500) continue; // for the time that they take

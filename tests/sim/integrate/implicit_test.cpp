@@ -292,8 +292,8 @@ TEST(StaticSolve, takes_a_turn_without_loads) {
 
 TEST(Steps, of_implicit_are_to_be_given) {
   try {
-    presets::load(
-        fmt::format(R"(<scene>{}<time step="auto" integrator="implicit" duration="1"/></scene>)", hanging(10)));
+    presets::load(fmt::format(R"(<scene>{}<time step="auto" integrator="implicit" duration="1"/></scene>)",
+                              hanging(10)));
     ADD_FAILURE();
   } catch (const UserError& error) {
     EXPECT_EQ(error.code, Exit::BadInput);

@@ -18,16 +18,12 @@ struct SolidSpring {
 
 std::unique_ptr<Interaction> spring(EmbeddedMap& map, const SolidSpring& wanted, bool surface,
                                     std::vector<std::string>& notes) {
-  const ElementType& type = meshes::element(meshes::element(body_type(), "springs"), wanted.element);
-  Node node(type, Place{});
-  node.set(*type.find("k"), "7", Place{});
-  node.set(*type.find("damping"), "0.3", Place{});
-  if (!wanted.kind.empty()) node.set(*type.find("kind"), wanted.kind, Place{});
-  if (!wanted.where.empty()) node.set(*type.find("where"), wanted.where, Place{});
-  node.fill_defaults();
+  SpringSettings settings;
+  settings.k = 7;
+  settings.damping = 0.3;
   for (const InteractionType& each : all_interactions())
     if (each.element == wanted.element && each.kind == wanted.kind && each.where == wanted.where)
-      return each.make(map, {node, {}, notes, surface});
+      return each.make(map, {settings, wanted.element, {}, notes, surface});
   return nullptr;
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "sim/random_meshes.h"
+#include "sim/topology/walk.h"
 
 namespace rend {
 namespace {

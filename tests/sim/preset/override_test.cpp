@@ -21,7 +21,7 @@ TEST(Override, ReplacesAndAddsAttributes) {
                                   "body[left].springs.stretch.damping=0.1"});
   EXPECT_EQ(root->text("name"), "other");
   EXPECT_EQ(root->child("time")->number("step"), 1e-4);
-  const Node& left = *root->all("body")[0];
+  const PresetNode& left = *root->all("body")[0];
   EXPECT_EQ(left.all("tear")[1]->number("threshold"), 2);
   EXPECT_EQ(left.all("tear")[0]->number("threshold"), 3);
   EXPECT_EQ(left.child("springs")->child("stretch")->number("damping"), 0.1);
@@ -36,7 +36,7 @@ TEST(Override, TheLastOneWins) {
 TEST(Override, MakesAnElementThatMayStandOnce) {
   const auto root = read(preset, {"hud.show=title time", "body[right].springs.stretch.k=7"});
   EXPECT_EQ(root->child("hud")->words("show").size(), 2U);
-  const Node& springs = *root->all("body")[1]->child("springs");
+  const PresetNode& springs = *root->all("body")[1]->child("springs");
   EXPECT_EQ(springs.child("stretch")->number("k"), 7);
   EXPECT_FALSE(springs.flag("cumulated"));
   EXPECT_NE(refused_set("body[right].tear.threshold=1").find("there is no <tear> in this <body>"),

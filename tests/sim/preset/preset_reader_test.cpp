@@ -33,7 +33,7 @@ TEST(PresetReader, ReadsAPreset) {
   const auto root = read(preset);
   EXPECT_EQ(root->text("name"), "small");
   ASSERT_EQ(root->all("body").size(), 2U);
-  const Node& left = *root->all("body")[0];
+  const PresetNode& left = *root->all("body")[0];
   EXPECT_EQ(left.child("sheet")->numbers("size"), (std::vector<double>{1, 2}));
   EXPECT_EQ(left.child("springs")->child("stretch")->number("k"), 60);
   EXPECT_EQ(left.all("tear").size(), 2U);
@@ -43,7 +43,7 @@ TEST(PresetReader, ReadsAPreset) {
 
 TEST(PresetReader, FillsDefaults) {
   const auto root = read(preset);
-  const Node& stretch = *root->child("body")->child("springs")->child("stretch");
+  const PresetNode& stretch = *root->child("body")->child("springs")->child("stretch");
   EXPECT_EQ(stretch.number("damping"), 0);
   EXPECT_FALSE(stretch.given("damping"));
   EXPECT_EQ(root->child("map")->child("look")->text("by"), "plain");
@@ -51,7 +51,7 @@ TEST(PresetReader, FillsDefaults) {
 
 TEST(PresetReader, KnowsWhereElementsAndValuesStand) {
   const auto root = read(preset);
-  const Node& sheet = *root->child("body")->child("sheet");
+  const PresetNode& sheet = *root->child("body")->child("sheet");
   EXPECT_EQ(sheet.place().text(), "p.xml:5:5");
   EXPECT_EQ(sheet.place("cells").text(), "p.xml:5:19");
   EXPECT_EQ(sheet.place("size").text(), "p.xml:6:18");

@@ -11,7 +11,7 @@
 
 namespace rend::small_table {
 
-inline std::unique_ptr<Node> read(const std::string& text, std::vector<std::string> sets = {}) {
+inline std::unique_ptr<PresetNode> read(const std::string& text, std::vector<std::string> sets = {}) {
   std::vector<Override> overrides;
   for (const std::string& set : sets) overrides.push_back(parse_override(set));
   return read_preset_text(text, "p.xml", scene, overrides);

@@ -43,12 +43,12 @@ std::string stale(Body& body, const Surface* surface) {
     if (!fresh.elementary()[n].rows().same_as(body.program->elementary()[n].rows()))
       return "elementary rows of " + body.interactions[n]->name;
   if (!body.program->same_as(fresh)) return "masses, drag or corners";
-  if (surface && !surface->same_as(Surface(body))) return "surface";
+  if (surface && !surface->same_as(Surface(*body.map, body.border))) return "surface";
   if (!body.constraints.motions().empty() && body.constraints.vertices() != prescribed(body))
     return "constraints";
   body.evaluate();
   const ForceView view = body.view();
-  for (TearLaw& law : body.laws) {
+  for (TearLaw& law : body.tear_laws) {
     LawSettings settings = law.settings();
     TearLaw anew(body.request_for(settings), settings);
     if (!same_candidates(law.find(view), anew.find(view))) return "candidates of " + settings.criterion->name;
@@ -65,7 +65,7 @@ TEST(Rebinding, equals_binding_from_scratch_after_every_step_that_tears) {
       presets::Loaded scene = presets::load(
           presets::cloth(pattern, 8, laws, R"(<time step="5e-4" integrator="verlet" duration="1"/>)", bend));
       Body& body = scene.body();
-      Surface surface(body);
+      Surface surface(*body.map, body.border);
       std::size_t torn = 0;
       for (int n = 0; n < 800; ++n) {
         scene->step();
@@ -153,7 +153,7 @@ private:
 
 void expect_storm_survived(const PolygonMesh& mesh, const Recipe& recipe, int edits, unsigned seed) {
   Storm storm(mesh, recipe, seed);
-  Surface surface(*storm);
+  Surface surface(*(*storm).map, (*storm).border);
   ASSERT_GT((*storm).program->folded().size(), 2u);
   ASSERT_EQ((*storm).program->elementary().size(), (*storm).program->folded().size());
   for (int n = 0; n < edits; ++n) {
@@ -202,10 +202,10 @@ TEST(Rebinding, of_words_that_reach_over_several_faces_equals_binding_from_scrat
                         .units = {{"", "0121210"}, {"", "1210121"}},
                         .fold = {},
                         .present = [](const GMap&, Dart, std::size_t) { return true; }};
-  const std::vector<Field> fields{{{"", ""}, Vertex},
-                                  {{"0121210", "1210121"}, Vertex},
-                                  {{"01210", "12101"}, FaceOfVolume},
-                                  {{"0121", "121012"}, EdgeOfVolume}};
+  const std::vector<IndexColumn> fields{{{"", ""}, Vertex},
+                                        {{"0121210", "1210121"}, Vertex},
+                                        {{"01210", "12101"}, FaceOfVolume},
+                                        {{"0121", "121012"}, EdgeOfVolume}};
   Storm storm(sheet(SheetPattern::Mixed, 6, 5), everything(), 50);
   EmbeddedMap& map = *(*storm).map;
   map.use(FaceOfVolume);

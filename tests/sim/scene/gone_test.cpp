@@ -27,7 +27,7 @@ presets::Loaded loaded(const std::string& xml, const SceneOptions& options = {})
   law.criterion = &torn::chance<Cell::Elements>();
   law.change = &torn::change("delete-element");
   law.cell = Cell::Elements;
-  body.laws.emplace_back(body.request_for(law), law);
+  body.tear_laws.emplace_back(body.request_for(law), law);
   return scene;
 }
 
@@ -75,7 +75,7 @@ TEST(Gone, walking_the_map_of_an_emptied_body_finds_no_forces) {
   }
 }
 
-TEST(Law, on_a_body_that_is_wholly_fixed_is_noted) {
+TEST(ForceLaw, on_a_body_that_is_wholly_fixed_is_noted) {
   const auto notes = [](const std::string& motion) {
     presets::Loaded scene = presets::load(R"(<scene name="s"><body name="b"><sheet cells="2 2" size="1 1"/>)"
                                           R"(<mass total="0.1"/><springs><stretch k="60"/></springs>)" +

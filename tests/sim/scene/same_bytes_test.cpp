@@ -6,6 +6,7 @@
 // (tests/run --all). Vector units: tests/render/commands/presets_test.cpp; builds and other processors:
 // tests/same-states.
 #include "render/picture/scene_preset.h"
+#include "sim/build/build_scene.h"
 #include "sim/house_presets.h"
 #include "sim/scene/scene.h"
 
@@ -18,11 +19,11 @@ namespace rend {
 namespace {
 
 struct Played {
-  std::unique_ptr<Node> preset;
+  std::unique_ptr<PresetNode> preset;
   Scene scene;
   Played(const std::string& name, int threads)
       : preset(load_scene(house::path_of(name))),
-        scene(*preset, SceneOptions{.threads = threads, .small_in_parts = true}) {}
+        scene(read_scene(*preset), SceneOptions{.threads = threads, .small_in_parts = true}) {}
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
   void go_to(long step) {
     while (scene.steps_done() < step) scene.step();
@@ -58,7 +59,7 @@ void build_anew(Body& body) {
   body.program = std::make_unique<Program>(*body.map, body.interactions, *body.mass, body.drag,
                                            ProgramOptions(body.program->options()));
   if (body.assembly) body.assembly = std::make_unique<Assembly>(*body.map, *body.program);
-  for (TearLaw& law : body.laws) {
+  for (TearLaw& law : body.tear_laws) {
     const LawSettings settings = law.settings();
     law = TearLaw(body.request_for(settings), settings);
   }

@@ -266,7 +266,7 @@ TEST(LeftOut, is_all_that_tearing_needs_where_nothing_tears) {
   const auto still = presets::load(presets::cloth("quads", 3));
   EXPECT_EQ(still.body().border, nullptr);
   EXPECT_FALSE(has_column(still.body(), "born border"));
-  EXPECT_TRUE(still.body().laws.empty());
+  EXPECT_TRUE(still.body().tear_laws.empty());
   EXPECT_TRUE(still.body().corner_force.empty());
   EXPECT_TRUE(still.body().program->elementary().empty());
   EXPECT_FALSE(still.body().map->uses(EdgeOfVolume));

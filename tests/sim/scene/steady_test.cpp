@@ -4,6 +4,7 @@
 // Steady: no law tries a change, the guard throws no step away, and contact does not look for its pairs anew.
 #include "render/picture/scene_preset.h"
 #include "sim/allocations.h"
+#include "sim/build/build_scene.h"
 #include "sim/guard/guard.h"
 #include "sim/house_presets.h"
 #include "sim/presets.h"
@@ -63,7 +64,7 @@ class SteadyPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(SteadyPreset, asks_for_no_memory) {
   const auto preset = load_scene(house::path_of(GetParam()));
-  Scene scene(*preset, SceneOptions{.threads = 2});
+  Scene scene(read_scene(*preset), SceneOptions{.threads = 2});
   expect_none(scene);
 }
 

@@ -5,6 +5,7 @@
 // seven times on its way (tests/run --all).
 #include "render/picture/scene_preset.h"
 #include "sim/base/archive.h"
+#include "sim/build/build_scene.h"
 #include "sim/house_presets.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
@@ -38,11 +39,11 @@ std::vector<std::uint8_t> timeless(const std::vector<std::uint8_t>& bytes) {
 }
 
 struct Played {
-  std::unique_ptr<Node> preset;
+  std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
   explicit Played(const std::string& name)
       : preset(load_scene(house::path_of(name))),
-        scene(std::make_unique<Scene>(*preset, SceneOptions{.threads = 2, .births = true})) {}
+        scene(std::make_unique<Scene>(read_scene(*preset), SceneOptions{.threads = 2, .births = true})) {}
 };
 
 void expect_same(Scene& a, Scene& b) {

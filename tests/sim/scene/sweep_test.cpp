@@ -2,6 +2,7 @@
 //
 // Small bodies in parts (SceneOptions) are never swept: they are what a sweep is compared with.
 #include "render/picture/scene_preset.h"
+#include "sim/build/build_scene.h"
 #include "sim/house_presets.h"
 #include "sim/presets.h"
 #include "sim/scene/scene.h"
@@ -17,7 +18,7 @@ namespace {
 
 bool sweeps(const Scene& scene) {
   return std::any_of(scene.bodies().begin(), scene.bodies().end(),
-                     [](const auto& body) { return body->may_leave_forces(); });
+                     [](const auto& body) { return body->may_defer_forces(); });
 }
 
 void expect_same(const Scene& swept, const Scene& asked) {
@@ -36,11 +37,11 @@ TEST(SweptSteps, of_every_preset_gives_the_bytes_of_forces_first) {
   for (const std::string& name : house::all_presets()) {
     SCOPED_TRACE(name);
     const auto preset = load_scene(house::path_of(name));
-    Scene one(*preset, SceneOptions{.threads = 1});
+    Scene one(read_scene(*preset), SceneOptions{.threads = 1});
     if (!sweeps(one)) continue;
     ++swept;
     const auto again = load_scene(house::path_of(name));
-    Scene other(*again, SceneOptions{.threads = 1, .small_in_parts = true});
+    Scene other(read_scene(*again), SceneOptions{.threads = 1, .small_in_parts = true});
     EXPECT_FALSE(sweeps(other));
     for (int n = 0; n < 40; ++n) {
       one.step();

@@ -1,9 +1,9 @@
 // The files that a command line asks for: none of them twice, and nothing that is read is written over.
 //
-// A file that is written replaces what has its name (render/files/output.h). So of two outputs of one name one would
-// be lost without a word, and so would an input that has it. Names are the same where they lead to the same
-// place: s.csv, ./s.csv, and s.csv in a link to this folder. (Two hard links are two files: replacing one
-// leaves the other.)
+// A file that is written replaces what has its name (render/files/output.h). So of two outputs of one name
+// one would be lost without a word, and so would an input that has it. Names are the same where they lead to
+// the same place: s.csv, ./s.csv, and s.csv in a link to this folder. (Two hard links are two files:
+// replacing one leaves the other.)
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace rend {
 
-class Node;
+class PresetNode;
 
 class NamedFiles {
 public:
@@ -22,7 +22,7 @@ public:
   // `what` is it in messages: "the preset", "--events". All throw UserError (Usage) where a file that was named
   // before would be written over, or this one.
   void reads(const std::string& what, const std::filesystem::path& path);
-  void reads_meshes(const Node& scene); // of a preset
+  void reads_meshes(const PresetNode& scene); // of a preset
   void writes(const std::string& what, const std::filesystem::path& path);
   // In a folder all files called NUMBER and EXTENSION ("00012.png") whose number is one of these.
   void writes_frames(const std::string& what, const std::filesystem::path& folder, const std::string& extension,

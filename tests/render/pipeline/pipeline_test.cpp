@@ -1,4 +1,4 @@
-#include "render/clip/pipeline.h"
+#include "render/pipeline/pipeline.h"
 
 #include "render/files/png.h"
 #include "render/files/video.h"

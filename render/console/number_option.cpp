@@ -1,4 +1,4 @@
-#include "render/help/number_option.h"
+#include "render/console/number_option.h"
 
 #include "sim/base/wording.h"
 

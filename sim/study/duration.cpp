@@ -1,4 +1,4 @@
-#include "sim/study/stretch.h"
+#include "sim/study/duration.h"
 
 #include <fmt/format.h>
 
@@ -33,12 +33,13 @@ double last_answer(const Scene& scene, double until) {
 
 } // namespace
 
-Stretch stretch_of(const MakeScene& make, const std::vector<Setting>& settings, const StudyCalls& calls) {
+StudyDuration study_duration(const MakeScene& make, const std::vector<Setting>& settings,
+                             const StudyCalls& calls) {
   Variant own;
   own.settings = settings;
   const auto scene = make(own);
   const double clip = scene->duration(), limit = scene->stability_limit(*find_scheme("symplectic"));
-  Stretch stretch{usual, fmt::format("{:g} s, the usual stretch", usual)};
+  StudyDuration stretch{usual, fmt::format("{:g} s, the usual stretch", usual)};
   if (std::isfinite(limit) && usual_steps * limit > usual)
     stretch = {usual_steps * limit, fmt::format("{:g} of symplectic's largest steps", usual_steps)};
   if (tears(*scene)) {

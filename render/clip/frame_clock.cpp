@@ -1,4 +1,4 @@
-#include "render/clip/clock.h"
+#include "render/clip/frame_clock.h"
 
 #include "sim/base/check.h"
 #include "sim/base/error.h"

@@ -1,4 +1,4 @@
-#include "sim/study/comparison.h"
+#include "sim/study/paired_timing.h"
 
 #include "sim/base/check.h"
 #include "sim/study/runs.h"

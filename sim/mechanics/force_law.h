@@ -31,9 +31,9 @@ using UnitMatrix =
 // sideways under compression, and the turning of a frame, are left out), for solvers that need it so.
 enum class Tangent { Exact, Definite };
 
-class Law {
+class ForceLaw {
 public:
-  virtual ~Law() = default;
+  virtual ~ForceLaw() = default;
 
   const std::string& name() const { return name_; }
   int particles() const { return particles_; }   // of a unit, at most 8
@@ -62,7 +62,7 @@ public:
   virtual void fold(double* sum, const double* other, bool swapped) const;
 
 protected:
-  Law(std::string name, int particles, int values, int damping_value = -1)
+  ForceLaw(std::string name, int particles, int values, int damping_value = -1)
       : name_(std::move(name)), particles_(particles), values_(values), damping_(damping_value) {}
 
 private:

@@ -1,4 +1,4 @@
-#include "sim/fracture/law.h"
+#include "sim/fracture/tear_law.h"
 
 #include "sim/topology/walk.h"
 

@@ -1,17 +1,17 @@
-#include "render/clip/pipeline.h"
+#include "render/pipeline/pipeline.h"
 
-#include "render/clip/queue.h"
 #include "render/draw/device.h"
 #include "render/draw/hud.h"
 #include "render/draw/stage.h"
 #include "render/files/png.h"
 #include "render/files/video.h"
+#include "render/pipeline/queue.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
+#include "sim/base/wall_clock.h"
 #include "sim/base/worker_threads.h"
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <fmt/format.h>
@@ -27,10 +27,6 @@ struct Picture {
 using SharedPicture = std::shared_ptr<const Picture>; // both writers read the same one
 
 constexpr std::size_t waiting = 3; // things in a queue: enough to smooth over an uneven stage
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 } // namespace
 
@@ -166,7 +162,7 @@ void Pipeline::Stages::rethrow() const {
 
 void Pipeline::Stages::spent(double PipelineSeconds::*stage, double since) {
   const std::lock_guard lock(mutex_);
-  seconds_.*stage += now() - since;
+  seconds_.*stage += wall_clock() - since;
 }
 
 void Pipeline::Stages::draw() {
@@ -174,7 +170,7 @@ void Pipeline::Stages::draw() {
   const std::unique_ptr<Stage> stage = std::move(stage_); // frees its OpenGL objects where they are current
   std::unique_ptr<Hud> hud;                               // made for the first frame that has one
   while (auto frame = frames_.pop()) {
-    const double start = now();
+    const double start = wall_clock();
     auto picture = std::make_shared<Picture>();
     picture->number = frame->number;
     stage->draw(*frame);
@@ -183,7 +179,7 @@ void Pipeline::Stages::draw() {
     picture->image = stage->read();
     spent(&PipelineSeconds::draw, start);
     if (!options_.png) note_done();
-    const double drawn = now();
+    const double drawn = wall_clock();
     if (options_.png && !for_png_.push(picture)) break;
     if (options_.video && !for_video_.push(picture)) break;
     spent(&PipelineSeconds::draw_waits, drawn);
@@ -194,7 +190,7 @@ void Pipeline::Stages::draw() {
 
 void Pipeline::Stages::write_png_files() {
   while (auto picture = for_png_.pop()) {
-    const double start = now();
+    const double start = wall_clock();
     const int number = (*picture)->number;
     write_png(options_.folder / png_name(number), (*picture)->image, png_mark(options_.mark, number));
     spent(&PipelineSeconds::png, start);
@@ -204,7 +200,7 @@ void Pipeline::Stages::write_png_files() {
 
 void Pipeline::Stages::write_video() {
   while (auto picture = for_video_.pop()) {
-    const double start = now();
+    const double start = wall_clock();
     video_.add((*picture)->image);
     spent(&PipelineSeconds::video, start);
   }
@@ -226,7 +222,7 @@ void Pipeline::Stages::finish() {
   finished_ = true;
   rethrow();
   if (options_.video) {
-    const double start = now();
+    const double start = wall_clock();
     video_.close();
     spent(&PipelineSeconds::video, start);
   }

@@ -1,8 +1,8 @@
-#include "render/files/named_files.h"
+#include "render/clip/named_files.h"
 
 #include "sim/base/error.h"
 #include "sim/base/wording.h"
-#include "sim/build/shape.h"
+#include "sim/preset/paths.h"
 
 #include <fmt/format.h>
 
@@ -63,9 +63,9 @@ void NamedFiles::reads(const std::string& what, const fs::path& path) {
   inputs_.push_back(input);
 }
 
-void NamedFiles::reads_meshes(const Node& scene) {
-  for (const Node* body : scene.all("body"))
-    for (const Node* mesh : body->all("mesh")) reads("the mesh", mesh_path(*mesh));
+void NamedFiles::reads_meshes(const PresetNode& scene) {
+  for (const PresetNode* body : scene.all("body"))
+    for (const PresetNode* mesh : body->all("mesh")) reads("the mesh", mesh_path(*mesh));
 }
 
 void NamedFiles::add(Output output) {

@@ -23,7 +23,7 @@ void run(Scene& scene, int steps) {
   for (int n = 0; n < steps; ++n) scene.step();
 }
 
-TEST(Law, tears_a_sheet_pulled_apart_across_the_pull) {
+TEST(ForceLaw, tears_a_sheet_pulled_apart_across_the_pull) {
   // Quasi-static, forces at a vertex cancel: the global criterion sees a quick pull alone.
   const std::array<std::array<std::string, 3>, 2> pulls{
       {{"global-border", "1", "8"}, {"atomic-border", "1", "0.5"}}};
@@ -45,7 +45,7 @@ TEST(Law, tears_a_sheet_pulled_apart_across_the_pull) {
   }
 }
 
-TEST(Law, looks_from_its_beginning_to_its_end_alone) {
+TEST(ForceLaw, looks_from_its_beginning_to_its_end_alone) {
   const std::string law = R"(<tear criterion="global-border" threshold="1e-6" from="0.1" until="0.105"/>)";
   presets::Loaded scene = presets::load(pulled(strip, law));
   run(*scene.scene, 200);
@@ -59,7 +59,7 @@ TEST(Law, looks_from_its_beginning_to_its_end_alone) {
   }
 }
 
-TEST(Law, makes_no_more_changes_a_step_than_it_may) {
+TEST(ForceLaw, makes_no_more_changes_a_step_than_it_may) {
   const std::string law = R"(<tear criterion="global-border" threshold="0.01" max-per-step="2"/>)";
   presets::Loaded scene = presets::load(pulled(strip, law));
   std::size_t before = 0;
@@ -73,7 +73,7 @@ TEST(Law, makes_no_more_changes_a_step_than_it_may) {
   EXPECT_TRUE(two);
 }
 
-TEST(Law, says_which_of_several_made_a_change) {
+TEST(ForceLaw, says_which_of_several_made_a_change) {
   presets::Loaded scene = presets::load(pulled(strip, R"(<tear criterion="atomic-border" threshold="1e9"/>
                                                          <tear criterion="global-border" threshold="0.5"/>)"));
   run(*scene.scene, 600);
@@ -81,7 +81,7 @@ TEST(Law, says_which_of_several_made_a_change) {
   for (const TearEvent& e : scene.body().events) EXPECT_EQ(e.law, 1);
 }
 
-TEST(Law, tells_where_it_tore) {
+TEST(ForceLaw, tells_where_it_tore) {
   presets::Loaded scene = presets::load(pulled(strip, R"(<tear criterion="global-border" threshold="0.5"/>)"));
   Body& body = scene.body();
   std::size_t seen = 0;
@@ -100,7 +100,7 @@ TEST(Law, tells_where_it_tore) {
   EXPECT_GT(seen, 0u);
 }
 
-TEST(Law, tears_a_moebius_band) {
+TEST(ForceLaw, tears_a_moebius_band) {
   for (const std::string criterion : {"global-border", "atomic-border"}) {
     presets::Loaded scene =
         presets::load(pulled(R"(<sheet pattern="mixed" cells="12 3" size="2 0.4" close="twist"/>)",
@@ -113,7 +113,7 @@ TEST(Law, tears_a_moebius_band) {
 
 // Two edges tear in one step, and the first deletion takes one side of the second: mirror images tear alike,
 // wherever the darts' numbers start.
-TEST(Law, deletes_what_is_left_of_an_edge_in_mirror_images_alike) {
+TEST(ForceLaw, deletes_what_is_left_of_an_edge_in_mirror_images_alike) {
   const auto ends = [](double fixed, double moved) {
     const auto box = [](double x) {
       return fmt::format(R"(<drive box="{} -.1 -1 {} .1 1")", x - 0.1, x + 0.1);
@@ -130,7 +130,7 @@ TEST(Law, deletes_what_is_left_of_an_edge_in_mirror_images_alike) {
   EXPECT_EQ(ends(3, 2), std::pair(std::size_t{2}, std::size_t{1}));
 }
 
-TEST(Law, refuses_what_does_not_fit) {
+TEST(ForceLaw, refuses_what_does_not_fit) {
   const auto refused = [](const std::string& law, const std::string& springs = "") {
     std::string xml = pulled(strip, law);
     if (!springs.empty()) xml.replace(xml.find("<springs>"), 9, springs);

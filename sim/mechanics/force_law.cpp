@@ -1,10 +1,10 @@
-#include "sim/mechanics/law.h"
+#include "sim/mechanics/force_law.h"
 
 #include "sim/base/check.h"
 
 namespace rend {
 
-void Law::fold(double*, const double*, bool) const {
+void ForceLaw::fold(double*, const double*, bool) const {
   CHECK_NOTE(false, name() + " does not fold");
 }
 

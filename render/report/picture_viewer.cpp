@@ -1,6 +1,6 @@
-#include "render/report/comparison.h"
+#include "render/report/picture_viewer.h"
 
-#include "render/report/comparison_style.h"
+#include "render/report/picture_viewer_style.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "render/clip/queue.h"
+#include "render/pipeline/queue.h"
 
 #include <atomic>
 #include <gtest/gtest.h>

@@ -11,10 +11,11 @@
 
 namespace rend {
 
-struct Stretch {
+struct StudyDuration {
   double seconds = 0; // simulated
   std::string why;
 };
-Stretch stretch_of(const MakeScene& make, const std::vector<Setting>& settings, const StudyCalls& calls);
+StudyDuration study_duration(const MakeScene& make, const std::vector<Setting>& settings,
+                             const StudyCalls& calls);
 
 } // namespace rend

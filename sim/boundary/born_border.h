@@ -1,0 +1,25 @@
+// Which sides of elements fracture has laid bare: an embedding that remembers the borders of the start.
+#pragma once
+
+#include "sim/embedding/embedded_map.h"
+
+#include <cstdint>
+#include <string>
+
+namespace rend {
+
+// Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was a border when
+// its element was born: what is a border now and was none then is torn.
+struct BornBorder {
+  using Value = std::uint8_t;
+  explicit BornBorder(int dimension = 2) : orbit(dimension == 2 ? EdgeOfFace : FaceOfVolume) {}
+  std::string name = "born border";
+  Orbit orbit;
+  Orbit support = SingleDart;
+  Value birth(const EmbeddedMap& map, Dart d) const { return map.map().is_free(map.dimension(), d) ? 1 : 0; }
+  Value split(const Value& whole) const { return whole; }
+  Value merge(const Value& kept, const Value&) const { return kept; }
+};
+using BorderColumn = Column<BornBorder>;
+
+} // namespace rend

@@ -1,0 +1,23 @@
+// Settings from a checked element of a preset.
+#pragma once
+
+#include "sim/base/settings.h"
+
+namespace rend {
+
+// Where the element and its attributes stand. Reads from it for as long as it lives.
+inline SettingsSource source_of(const PresetNode& node) {
+  return {
+      [&node](std::string_view attribute) { return attribute.empty() ? node.place() : node.place(attribute); },
+      [&node](std::string_view attribute) { return node.given(attribute); }};
+}
+
+template <class S> S read_settings(const PresetNode& node) {
+  S settings;
+  for (const Field<S>& field : fields_of<S>())
+    if (const AttributeValue* value = node.find(field.type.name)) field.take(settings, *value);
+  settings.source = source_of(node);
+  return settings;
+}
+
+} // namespace rend
