@@ -20,8 +20,7 @@
 //
 // Prescribed coordinates are where they will be from the start, and their rows and columns are those of the
 // identity. Order 1. An undamped oscillator loses the factor 1/√(1 + ω²h²) a step.
-#include "sim/integrate/integrator.h"
-#include "sim/integrate/load_tangent.h"
+#include "sim/integrate/newton_scheme.h"
 
 #include <fmt/format.h>
 
@@ -47,23 +46,14 @@ struct Residual {
   bool finite() const { return std::isfinite(norm); }
 };
 
-class ImplicitEuler final : public Integrator {
+class ImplicitEuler final : public NewtonScheme {
 public:
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override;
-  SolverFigures solver() const override {
-    return {newton_, linear_.iterations(), linear_.factorisations(), matrix_.bytes() + linear_.bytes()};
-  }
   std::size_t bytes() const override {
-    std::size_t sum = bytes_of(held_) + load_tangent_.bytes();
-    for (const Records* one : {&position_, &velocity_, &trial_, &reached_position_, &reached_velocity_, &force_,
-                               &momentum_, &before_, &update_})
-      sum += bytes_of(*one);
-    return sum;
+    return bytes_of(held_) + bytes_with({&position_, &velocity_, &trial_, &reached_position_,
+                                         &reached_velocity_, &force_, &momentum_, &before_, &update_});
   }
-
-  std::vector<double> carried() const override { return carried_of(newton_, linear_); }
-  bool carry(std::span<const double> numbers) override { return carry_into(linear_, newton_, numbers); }
 
 private:
   struct Step {
@@ -84,11 +74,7 @@ private:
   Records force_;                               // [N], internal, at the last v' that was tried
   Records momentum_, before_;                   // [N·s], R there, and at velocity_
   Records update_;                              // [m/s], δ
-  std::vector<std::uint8_t> held_;              // axes
-  BlockMatrix matrix_;                          // [kg]
-  LinearSolver linear_;
-  LoadTangent load_tangent_;
-  long newton_ = 0;
+  std::vector<std::uint8_t> held_;              // axes; matrix_ [kg]
 };
 
 // R at v', into momentum_; prescribed coordinates of v' and x' are set.
@@ -227,8 +213,7 @@ void ImplicitEuler::advance(System& system, double time, double size, const Stat
   while (gone < 1) {
     const Step step{
         system, time + size * (gone + part), size * part, {reached_position_.data(), reached_velocity_.data()}};
-    held_.assign(count, 0);
-    system.hold(step.end, held_.data());
+    hold(system, step.end, held_);
     velocity_ = reached_velocity_;
     try {
       solve(step);
@@ -249,14 +234,13 @@ void ImplicitEuler::advance(System& system, double time, double size, const Stat
 } // namespace
 
 Scheme implicit_euler() {
-  return {
-      "implicit",
-      "implicit Euler, by Newton's method: stable at any step, damps what is fast",
-      1,
-      2,
-      [](const StabilityBounds&) { return std::numeric_limits<double>::infinity(); },
-      [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<ImplicitEuler>(); },
-      true};
+  return {.name = "implicit",
+          .what = "implicit Euler, by Newton's method: stable at any step, damps what is fast",
+          .order = 1,
+          .evaluations = 2,
+          .limit = &no_limit,
+          .make = &make_integrator<ImplicitEuler>,
+          .solves = true};
 }
 
 } // namespace rend

@@ -1,7 +1,5 @@
 #include "sim/integrate/integrator.h"
 
-#include "sim/solve/linear_solver.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,24 +12,8 @@ void Integrator::sweep(System& system, double time, double step, const StateView
   advance(system, time, step, now, force, next);
 }
 
-std::vector<double> carried_of(long newton, const LinearSolver& solver) {
-  const LinearSolver::Carried from = solver.carried();
-  return {static_cast<double>(newton), static_cast<double>(from.hard), static_cast<double>(from.iterations),
-          static_cast<double>(from.factorisations)};
-}
-
 bool is_whole_count(double number) {
   return number >= 0 && number <= 1e15 && number == std::floor(number);
-}
-
-bool carry_into(LinearSolver& solver, long& newton, std::span<const double> numbers) {
-  numbers = numbers.first(carried_numbers);
-  if (!std::all_of(numbers.begin(), numbers.end(), is_whole_count) || numbers[1] > LinearSolver::most_hard)
-    return false;
-  const auto whole = [&](std::size_t n) { return static_cast<long>(numbers[n]); };
-  newton = whole(0);
-  solver.carry({static_cast<int>(whole(1)), whole(2), whole(3)});
-  return true;
 }
 
 const std::vector<Scheme>& all_schemes() {
@@ -58,6 +40,10 @@ double limit_by_drag(const StabilityBounds& b) {
   if (b.omega_squared == 0) return 2 / b.damping_rate;
   const double by_drag = b.least_drag_rate / b.omega_squared;
   return std::min(by_drag, b.damping_rate > 0 ? 2 / b.damping_rate : by_drag);
+}
+
+double no_limit(const StabilityBounds&) {
+  return std::numeric_limits<double>::infinity();
 }
 
 } // namespace rend

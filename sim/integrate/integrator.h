@@ -94,16 +94,16 @@ Scheme runge_kutta_45();
 Scheme implicit_euler();
 Scheme static_solve();
 
-// What schemes that solve carry: how many iterations they made, and what their solver does.
-class LinearSolver;
-constexpr std::size_t carried_numbers = 4;
-std::vector<double> carried_of(long newton, const LinearSolver& solver);
-// Takes the iterations, too. False: these are no such numbers.
-bool carry_into(LinearSolver& solver, long& newton, std::span<const double> numbers);
-bool is_whole_count(double number); // that a long was once
+// Scheme::make of a scheme that needs no settings.
+template <class Made> std::unique_ptr<Integrator> make_integrator(const SchemeSettings&) {
+  return std::make_unique<Made>();
+}
+
+bool is_whole_count(double number); // that a long was once: of those that a step hands on
 
 // Limits that schemes share. With ω and d = ξω bounded separately, since they belong to different modes:
 double limit_symplectic(const StabilityBounds& bounds); // 2/(√(ω²+d²) + d)
 double limit_by_drag(const StabilityBounds& bounds);    // 2d/ω² with the least d, and 1/d with the largest
+double no_limit(const StabilityBounds& bounds);         // infinity
 
 } // namespace rend

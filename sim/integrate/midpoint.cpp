@@ -68,12 +68,12 @@ double limit(const StabilityBounds& b) {
 } // namespace
 
 Scheme midpoint() {
-  return {"midpoint",
-          "midpoint rule (RK2)",
-          2,
-          2,
-          &limit,
-          [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<Midpoint>(); }};
+  return {.name = "midpoint",
+          .what = "midpoint rule (RK2)",
+          .order = 2,
+          .evaluations = 2,
+          .limit = &limit,
+          .make = &make_integrator<Midpoint>};
 }
 
 } // namespace rend

@@ -98,12 +98,12 @@ double limit(const StabilityBounds& b) {
 } // namespace
 
 Scheme runge_kutta_4() {
-  return {"rk4",
-          "the classical Runge-Kutta scheme",
-          4,
-          4,
-          &limit,
-          [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<RungeKutta4>(); }};
+  return {.name = "rk4",
+          .what = "the classical Runge-Kutta scheme",
+          .order = 4,
+          .evaluations = 4,
+          .limit = &limit,
+          .make = &make_integrator<RungeKutta4>};
 }
 
 } // namespace rend

@@ -291,16 +291,15 @@ void RungeKutta45::advance(System& system, double time, double step, const State
 } // namespace
 
 Scheme runge_kutta_45() {
-  return {"rk45",
-          "the pair of Dormand and Prince: steps are cut into parts by their error (tolerance)",
-          5,
-          stages,
-          [](const StabilityBounds&) { return std::numeric_limits<double>::infinity(); },
-          [](const SchemeSettings& settings) -> std::unique_ptr<Integrator> {
+  return {.name = "rk45",
+          .what = "the pair of Dormand and Prince: steps are cut into parts by their error (tolerance)",
+          .order = 5,
+          .evaluations = stages,
+          .limit = &no_limit,
+          .make = [](const SchemeSettings& settings) -> std::unique_ptr<Integrator> {
             return std::make_unique<RungeKutta45>(settings);
           },
-          false,
-          true};
+          .adaptive = true};
 }
 
 } // namespace rend

@@ -26,8 +26,8 @@
 // ever meets a resistance. Once the body has stood, what comes off it is no reason to stop: such a piece takes
 // its own shape where it is, without loads.
 #include "sim/integrate/footing.h"
-#include "sim/integrate/integrator.h"
 #include "sim/integrate/least_resistance.h"
+#include "sim/integrate/newton_scheme.h"
 
 #include <fmt/format.h>
 
@@ -50,31 +50,25 @@ constexpr double near = 0.05;       // of the forces, left
 
 enum class Found { Equilibrium, Unstable, Nothing, Singular };
 
-class StaticSolve final : public Integrator {
+class StaticSolve final : public NewtonScheme {
 public:
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override;
-  SolverFigures solver() const override {
-    return {newton_, linear_.iterations(), linear_.factorisations(), matrix_.bytes() + linear_.bytes()};
-  }
   std::size_t bytes() const override {
-    std::size_t sum =
-        bytes_of(footing_.held) + bytes_of(footing_.loose) + bytes_of(stiff_) + load_tangent_.bytes();
+    std::size_t sum = bytes_of(footing_.held) + bytes_of(footing_.loose) + bytes_of(stiff_);
     for (const Records& one : footing_.room) sum += bytes_of(one);
-    for (const Records* one : {&position_, &trial_, &start_, &still_, &goal_, &force_, &sum_, &first_sum_,
-                               &lead_, &right_, &update_})
-      sum += bytes_of(*one);
-    return sum;
+    return sum + bytes_with({&position_, &trial_, &start_, &still_, &goal_, &force_, &sum_, &first_sum_, &lead_,
+                             &right_, &update_});
   }
   bool moves() const override { return false; }
   std::vector<double> carried() const override {
-    std::vector<double> numbers = carried_of(newton_, linear_);
+    std::vector<double> numbers = NewtonScheme::carried();
     numbers.push_back(footing_.stood);
     numbers.push_back(footing_.keeps_turned);
     return numbers;
   }
   bool carry(std::span<const double> numbers) override {
-    if (!carry_into(linear_, newton_, numbers)) return false;
+    if (!NewtonScheme::carry(numbers)) return false;
     footing_.stood = numbers[carried_numbers] != 0;
     footing_.keeps_turned = numbers[carried_numbers + 1] != 0;
     return true;
@@ -113,11 +107,8 @@ private:
   std::vector<double> stiff_;                // [N/m]: the largest of each diagonal block; 0: not known yet
   double noise_of_start_ = -1;               // [N]: at most, within reach_ of the origin; < 0: not known yet
   double reach_ = 0;                         // [m]: the largest coordinate that this step has to do with
-  double size_ = 0;                          // [m]: of the body
-  BlockMatrix matrix_;                       // [N/m]
-  LinearSolver linear_;
-  LoadTangent load_tangent_;
-  long newton_ = 0, last_ = 0; // iterations: so far, and what this step may come to
+  double size_ = 0;                          // [m]: of the body; matrix_ [N/m]
+  long last_ = 0;                            // what newton_ may come to in this step
 };
 
 double root_of_sum(Double4 v) {
@@ -134,8 +125,7 @@ void StaticSolve::prepare(System& system, const StateView& now) {
   size_ = extent(start_, system.inverse_mass);
   stiff_.assign(count, 0);
   noise_of_start_ = -1;
-  footing_.held.assign(count, 0);
-  system.hold(end_, footing_.held.data());
+  hold(system, end_, footing_.held);
   goal_ = start_;
   trial_ = still_;
   system.constrain(end_, goal_.data(), trial_.data());
@@ -387,13 +377,13 @@ void StaticSolve::advance(System& system, double time, double step, const StateV
 } // namespace
 
 Scheme static_solve() {
-  return {"static",
-          "each step an equilibrium, by Newton's method",
-          1,
-          2,
-          [](const StabilityBounds&) { return std::numeric_limits<double>::infinity(); },
-          [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<StaticSolve>(); },
-          true};
+  return {.name = "static",
+          .what = "each step an equilibrium, by Newton's method",
+          .order = 1,
+          .evaluations = 2,
+          .limit = &no_limit,
+          .make = &make_integrator<StaticSolve>,
+          .solves = true};
 }
 
 } // namespace rend

@@ -50,13 +50,12 @@ class VelocityVerlet final : public Integrator {
 } // namespace
 
 Scheme velocity_verlet() {
-  return {
-      "verlet",
-      "velocity Verlet, damping at the predicted velocity",
-      2,
-      2,
-      &limit_symplectic,
-      [](const SchemeSettings&) -> std::unique_ptr<Integrator> { return std::make_unique<VelocityVerlet>(); }};
+  return {.name = "verlet",
+          .what = "velocity Verlet, damping at the predicted velocity",
+          .order = 2,
+          .evaluations = 2,
+          .limit = &limit_symplectic,
+          .make = &make_integrator<VelocityVerlet>};
 }
 
 } // namespace rend
