@@ -84,9 +84,11 @@ Session::Session(const SessionOptions& options) : options_(options) {
   if (!options.allow_path) check_paths(*preset_);
   image_ = image_settings(*preset_);
   if (options.fps) image_.fps = *options.fps;
-  scene_ = std::make_unique<Scene>(
-      read_scene(*preset_),
-      SceneOptions{options.kernels == "walk", threads(), options.births, options.guard, {}, options.profile});
+  scene_ = std::make_unique<Scene>(read_scene(*preset_), SceneOptions{.walk = options.kernels == "walk",
+                                                                      .threads = threads(),
+                                                                      .births = options.births,
+                                                                      .guard = options.guard,
+                                                                      .profile = options.profile});
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();

@@ -27,7 +27,8 @@ public:
     for (const Setting& setting : side.settings) overrides.push_back({setting.path, setting.value});
     preset_ = load_scene_text(with(with(scene.text, "body", side.element), "world", side.surroundings),
                               scene.file.empty() ? scene.name : scene.file, overrides);
-    scene_ = std::make_unique<Scene>(read_scene(*preset_), SceneOptions{side.walk, 1, side.births});
+    scene_ =
+        std::make_unique<Scene>(read_scene(*preset_), SceneOptions{.walk = side.walk, .births = side.births});
     if (!bare_) return;
     if (const std::string more = more_than_bare(*scene_); !more.empty())
       throw UserError(Exit::BadInput, preset_->place(), "the scene has " + more);

@@ -25,25 +25,25 @@ Body::~Body() {
   if (map) map->unsubscribe(changes);
 }
 
-void Body::prepare(const Scheme& scheme, bool walk, int threads, double tolerance) {
+void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   const bool elementary = std::any_of(tear_laws.begin(), tear_laws.end(),
                                       [](const TearLaw& law) { return law.settings().elementary(); });
   ProgramOptions options;
   options.elementary = elementary;
   options.fold = cumulated != Cumulated::No;
-  options.walk = walk;
+  options.walk = settings.walk;
   sums_ = elementary && sums_fit(interactions, options) &&
           std::all_of(tear_laws.begin(), tear_laws.end(), [](const TearLaw& law) {
             return !law.settings().elementary() || law.settings().by_sums();
           });
   options.folded = !elementary || scheme.evaluations > 1 || sums_;
-  options.threads = threads;
+  options.threads = settings.threads;
   options.timed = profile && profile->every_step();
   options.small_in_parts = small_in_parts;
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
   const double size = extent(map->rest().values(), program->inverse_mass());
-  integrator = scheme.make({tolerance, size > 0 ? size : 1});
+  integrator = scheme.make({settings.tolerance, size > 0 ? size : 1});
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
   map->subscribe(changes);
   if (tears()) reserve_for_separations();
@@ -165,10 +165,10 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
   const ForceView now = view();
   if (tear_laws[number].find(now).empty()) return 0;
   sound();
-  if (witness) witness(false);
+  if (witness) witness(WitnessAt::BeforeChanges);
   const int made = make_changes(number, now, time, step);
   if (made > 0) follow_changes();
-  if (witness) witness(true);
+  if (witness) witness(WitnessAt::AfterChanges);
   return made;
 }
 

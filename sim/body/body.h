@@ -21,6 +21,15 @@ namespace rend {
 
 class Profile;
 
+// How a body is stepped.
+struct RunSettings {
+  bool walk = false; // ProgramOptions
+  int threads = 1;
+  double tolerance = SchemeSettings{}.tolerance;
+};
+
+enum class WitnessAt { BeforeChanges, AfterChanges };
+
 struct Body final : System {
   std::string name;
   const PresetNode* node = nullptr; // of the preset, for those who read more of it (look)
@@ -50,7 +59,7 @@ struct Body final : System {
   State next;      // where the integrator writes: the old state stays whole until the step is kept
   Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
-  std::function<void(bool made)> witness; // called before and after a law makes its changes; may be empty
+  std::function<void(WitnessAt)> witness; // called before and after a law makes its changes; may be empty
   std::unique_ptr<Births> births;         // null: nobody asks how many fragments each change left
   std::optional<double> gone; // [s], when the last element was deleted; the body goes on with nothing
 
@@ -58,7 +67,7 @@ struct Body final : System {
   bool tears() const { return !tear_laws.empty(); }
 
   // Builds the program and all that the time loop needs. To be called once, when everything is declared.
-  void prepare(const Scheme& scheme, bool walk, int threads, double tolerance = SchemeSettings{}.tolerance);
+  void prepare(const Scheme& scheme, const RunSettings& settings = {});
 
   // System
   std::size_t vertices() const override { return program->vertices(); }
@@ -107,7 +116,7 @@ private:
   void clear_sums();
   bool forces_deferred_ = false;
   bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
-  double time_ = 0, next_time_ = 0; // [s], of the current state and of `next`
+  double time_ = 0, next_time_ = 0;    // [s], of the current state and of `next`
 };
 
 } // namespace rend

@@ -37,7 +37,7 @@ std::vector<double> vertex_strain(const Body& body) {
       body, [](double, double rest, double length) { return rest > 0 ? std::abs(length / rest - 1) : 0; });
   const Continuum continuum(*body.map, body.interactions);
   continuum.each(positions(body), nullptr, [&](const Continuum::Part& part, const UnitNow& e) {
-    const double here = largest_principal(strain_of(part, e), true).value;
+    const double here = largest_principal(strain_of(part, e), Compression::Counts).value;
     for (std::size_t n = 0; n < static_cast<std::size_t>(e.particles); ++n)
       out[e.vertex[n]] = std::max(out[e.vertex[n]], here);
   });
@@ -64,7 +64,7 @@ std::vector<double> vertex_stress(const Body& body) {
   const CellIndex& vertices = body.map->cells(Vertex);
   for (Slot v = 0; v < out.size(); ++v)
     if (vertices.alive(v))
-      out[v] = std::max(0.0, largest_principal(stress.at(v, positions(body)), false).value);
+      out[v] = std::max(0.0, largest_principal(stress.at(v, positions(body)), Compression::Ignored).value);
   return out;
 }
 

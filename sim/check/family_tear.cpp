@@ -25,13 +25,13 @@ struct Strain {
 };
 
 const std::vector<Strain>& strains() {
-  static const std::vector<Strain> all{{"plain"},
-                                       {"stiff: 1e12 Pa", 1, 1e8},
-                                       {"1 micrometre", 1e-6},
-                                       {"1000 km", 1e6},
-                                       {"pulled 100 times as fast", 1, 1, 100},
-                                       {"scrambled", 1, 1, 1, true},
-                                       {"out of plane", 1, 1, 1, false, true}};
+  static const std::vector<Strain> all{{.name = "plain"},
+                                       {.name = "stiff: 1e12 Pa", .stiffness = 1e8},
+                                       {.name = "1 micrometre", .length = 1e-6},
+                                       {.name = "1000 km", .length = 1e6},
+                                       {.name = "pulled 100 times as fast", .speed = 100},
+                                       {.name = "scrambled", .scrambled = true},
+                                       {.name = "out of plane", .out_of_plane = true}};
   return all;
 }
 
@@ -61,15 +61,16 @@ const std::vector<ForceLaw>& element_laws() {
 }
 
 struct Pulled {
+  enum class Of { Springs, Elements };
   std::string name, pattern;
-  bool springs;
+  Of of;
   int dimension;
 };
 const std::vector<Pulled>& bodies() {
-  static const std::vector<Pulled> all{{"sheet of springs", "quads", true, 2},
-                                       {"sheet of elements", "triangles", false, 2},
-                                       {"solid of springs", "hexahedra", true, 3},
-                                       {"solid of elements", "tetrahedra", false, 3}};
+  static const std::vector<Pulled> all{{"sheet of springs", "quads", Pulled::Of::Springs, 2},
+                                       {"sheet of elements", "triangles", Pulled::Of::Elements, 2},
+                                       {"solid of springs", "hexahedra", Pulled::Of::Springs, 3},
+                                       {"solid of elements", "tetrahedra", Pulled::Of::Elements, 3}};
   return all;
 }
 
@@ -89,7 +90,7 @@ std::string preset_of(const Pulled& body, const ForceLaw& law, const Strain& str
   sketch.body +=
       fmt::format("    <mass total=\"{}\"/>\n", in_short((body.dimension == 2 ? 100 : 250) * L * L * L));
   const std::string k = in_short(E * L / 10);
-  if (body.springs)
+  if (body.of == Pulled::Of::Springs)
     sketch.body += fmt::format("    <springs><stretch k=\"{0}\"/><shear k=\"{0}\"/></springs>\n", k);
   else
     sketch.body +=
@@ -159,7 +160,7 @@ CheckCase tear_case(const Pulled& body, const ForceLaw& law, const Strain& strai
 std::vector<CheckCase> cases() {
   std::vector<CheckCase> all;
   for (const Pulled& body : bodies())
-    for (const ForceLaw& law : body.springs ? spring_laws() : element_laws())
+    for (const ForceLaw& law : body.of == Pulled::Of::Springs ? spring_laws() : element_laws())
       for (const Strain& strain : strains()) all.push_back(tear_case(body, law, strain));
   return all;
 }

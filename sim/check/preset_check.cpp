@@ -122,7 +122,7 @@ void margin(const Bench& bench, Finding& finding) {
 
 void with_fault(StepStage stage, const Bench& bench, Finding& finding) {
   SceneOptions options;
-  options.fault = Fault{stage, 20, false};
+  options.fault = Fault{.stage = stage, .step = 20};
   const Trial trial = bench.open({}, options);
   const Course course = run(*trial.scene, steps_of(*trial.scene, probe_steps), 100);
   ask_for_soundness(trial, course, finding);

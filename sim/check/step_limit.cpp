@@ -96,14 +96,14 @@ public:
   }
 
   void apply(const State& x, State& y) {
-    scale(x, from_, true);
+    from_scaled(x, from_);
     take_step(*integrator_, *body_, step_, from_, force_, to_);
-    scale(to_, y, false);
+    to_scaled(to_, y);
   }
 
   // |√m a|²/ω², of the accelerations by stiffness and by damping alone: they may cancel.
   double acceleration(const State& x) {
-    scale(x, from_, true);
+    from_scaled(x, from_);
     const Records nothing(root_.size());
     return acceleration(from_.position, nothing) + acceleration(nothing, from_.velocity);
   }
@@ -118,12 +118,17 @@ private:
     }
     return sum / (omega_ * omega_);
   }
-  void scale(const State& from, State& to, bool back) const {
-    for (std::size_t i = 0; i < root_.size(); ++i) {
-      const double r = back ? (root_[i] > 0 ? 1 / root_[i] : 0) : root_[i], w = back ? 1 / omega_ : omega_;
-      store(to.position[i], splat(r * w) * load(from.position[i]));
-      store(to.velocity[i], splat(r) * load(from.velocity[i]));
-    }
+  // From (x, v) to (ω √m x, √m v), and back.
+  void to_scaled(const State& from, State& to) const {
+    for (std::size_t i = 0; i < root_.size(); ++i) scale(i, root_[i], omega_, from, to);
+  }
+  void from_scaled(const State& from, State& to) const {
+    for (std::size_t i = 0; i < root_.size(); ++i)
+      scale(i, root_[i] > 0 ? 1 / root_[i] : 0, 1 / omega_, from, to);
+  }
+  static void scale(std::size_t i, double r, double w, const State& from, State& to) {
+    store(to.position[i], splat(r * w) * load(from.position[i]));
+    store(to.velocity[i], splat(r) * load(from.velocity[i]));
   }
 
   Linearised* body_;

@@ -117,14 +117,17 @@ void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacl
   put_out(point, plane, kept);
 }
 
+// Of an obstacle that falls, the momentum was traded with the bodies before.
+enum class Momentum { Taken, TradedBefore };
+
 template <class Shape>
 void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, double friction,
-                   double step, bool falls) {
+                   double step, Momentum momentum) {
   const Vec3 velocity = shape.velocity();
   const auto act = [&](const ContactPoint& point, const Plane& plane, double before) {
     const double kept = still_deep(before, step);
-    if (!falls) return keep_out(point, plane, velocity, friction, kept, step);
-    if (!point.held(plane.normal)) put_out(point, plane, kept); // momentum was traded before
+    if (momentum == Momentum::Taken) return keep_out(point, plane, velocity, friction, kept, step);
+    if (!point.held(plane.normal)) put_out(point, plane, kept);
   };
   for_each_vertex(shape, body, codes, act);
   for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, codes, act);
@@ -159,9 +162,10 @@ void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& b
     if (!body->settings().obstacles) continue;
     const double own = body->settings().friction;
     for (const Sphere& sphere : world_.spheres)
-      keep_body_out(MovingSphere{&sphere}, *body, codes_, sphere.friction.value_or(own), step, sphere.falls());
+      keep_body_out(MovingSphere{&sphere}, *body, codes_, sphere.friction.value_or(own), step,
+                    sphere.falls() ? Momentum::TradedBefore : Momentum::Taken);
     for (const Box& box : world_.boxes)
-      keep_body_out(StandingBox{&box}, *body, codes_, box.friction.value_or(own), step, false);
+      keep_body_out(StandingBox{&box}, *body, codes_, box.friction.value_or(own), step, Momentum::Taken);
   }
 }
 

@@ -33,6 +33,11 @@ struct ExportFormat {
   std::unique_ptr<Exporter> (*make)(const Scene& scene); // of the scene's first state; the scene outlives it
 };
 
+// ExportFormat::make of an exporter that takes the scene alone.
+template <class Made> std::unique_ptr<Exporter> make_exporter(const Scene& scene) {
+  return std::make_unique<Made>(scene);
+}
+
 const std::vector<ExportFormat>& all_export_formats();
 const ExportFormat* find_export_format(const std::string& name); // null: there is none
 std::vector<std::string> export_format_names();

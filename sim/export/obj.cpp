@@ -63,12 +63,12 @@ private:
 } // namespace
 
 ExportFormat obj_format() {
-  return {"obj",
-          "the surface as polygons, an object per body, a group per fragment, text; one file a frame",
-          ".obj",
-          "",
-          true,
-          [](const Scene& scene) -> std::unique_ptr<Exporter> { return std::make_unique<ObjExporter>(scene); }};
+  return {.name = "obj",
+          .what = "the surface as polygons, an object per body, a group per fragment, text; one file a frame",
+          .extension = ".obj",
+          .index_extension = "",
+          .every_frame = true,
+          .make = &make_exporter<ObjExporter>};
 }
 
 } // namespace rend

@@ -142,12 +142,12 @@ private:
 } // namespace
 
 ExportFormat ply_format() {
-  return {"ply",
-          "the surface as polygons, with velocities, fragments and stress, binary; one file a frame",
-          ".ply",
-          ".ply.series",
-          true,
-          [](const Scene& scene) -> std::unique_ptr<Exporter> { return std::make_unique<PlyExporter>(scene); }};
+  return {.name = "ply",
+          .what = "the surface as polygons, with velocities, fragments and stress, binary; one file a frame",
+          .extension = ".ply",
+          .index_extension = ".ply.series",
+          .every_frame = true,
+          .make = &make_exporter<PlyExporter>};
 }
 
 } // namespace rend

@@ -126,12 +126,13 @@ private:
 } // namespace
 
 ExportFormat vtu_format() {
-  return {"vtu",
-          "VTK's unstructured grids, cells whole, with all that is known of them; a .pvd lists the files",
-          ".vtu",
-          ".pvd",
-          false,
-          [](const Scene& scene) -> std::unique_ptr<Exporter> { return std::make_unique<VtuExporter>(scene); }};
+  return {.name = "vtu",
+          .what =
+              "VTK's unstructured grids, cells whole, with all that is known of them; a .pvd lists the files",
+          .extension = ".vtu",
+          .index_extension = ".pvd",
+          .every_frame = false,
+          .make = &make_exporter<VtuExporter>};
 }
 
 } // namespace rend

@@ -72,16 +72,16 @@ private:
 } // namespace
 
 CriterionType atomic_border() {
-  return {"atomic-border",
-          "|difference of the forces that the two elements apply, across the border|",
-          "N",
-          true,
-          [](const CriterionRequest&) { return Cell::Borders; },
-          [](const CriterionRequest& request) { return lacking_for_borders(request.map); },
-          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+  return {.name = "atomic-border",
+          .what = "|difference of the forces that the two elements apply, across the border|",
+          .unit = "N",
+          .elementary = true,
+          .cell = [](const CriterionRequest&) { return Cell::Borders; },
+          .lacking = [](const CriterionRequest& request) { return lacking_for_borders(request.map); },
+          .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return std::make_unique<AtomicBorder>(request.map);
           },
-          true};
+          .by_sums = true};
 }
 
 } // namespace rend

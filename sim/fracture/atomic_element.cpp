@@ -5,18 +5,15 @@
 namespace rend {
 
 CriterionType atomic_element() {
-  return {"atomic-element",
-          "the largest principal stress of each element",
-          "Pa",
-          false,
-          [](const CriterionRequest&) { return Cell::Elements; },
-          [](const CriterionRequest& request) { return lacking_for_stress(request); },
-          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+  return {.name = "atomic-element",
+          .what = "the largest principal stress of each element",
+          .unit = "Pa",
+          .cell = [](const CriterionRequest&) { return Cell::Elements; },
+          .lacking = [](const CriterionRequest& request) { return lacking_for_stress(request); },
+          .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return largest_of_elements(request, ElementScan::Of::Stress);
           },
-          false,
-          false,
-          true};
+          .takes_compression = true};
 }
 
 } // namespace rend

@@ -30,19 +30,17 @@ private:
 } // namespace
 
 CriterionType atomic_spring() {
-  return {"atomic-spring",
-          "the force of each single spring of the kind given, of an angular bend its moment [N.m]",
-          "N",
-          false,
-          [](const CriterionRequest& request) { return cell_of_kind(request.kind); },
-          [](const CriterionRequest& request) { return lacking_for_springs(request); },
-          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
-            return std::make_unique<AtomicSpring>(request);
-          },
-          false,
-          true,
-          false,
-          [](const CriterionRequest& request) { return std::string(turns(request) ? "N.m" : "N"); }};
+  return {
+      .name = "atomic-spring",
+      .what = "the force of each single spring of the kind given, of an angular bend its moment [N.m]",
+      .unit = "N",
+      .cell = [](const CriterionRequest& request) { return cell_of_kind(request.kind); },
+      .lacking = [](const CriterionRequest& request) { return lacking_for_springs(request); },
+      .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+        return std::make_unique<AtomicSpring>(request);
+      },
+      .takes_kind = true,
+      .unit_there = [](const CriterionRequest& request) { return std::string(turns(request) ? "N.m" : "N"); }};
 }
 
 } // namespace rend

@@ -20,7 +20,7 @@ public:
     const Orbit corner = corner_orbit(request.map.dimension());
     request.map.use(corner);
     for (const Continuum::Part& part : continuum_.parts()) {
-      rows_.push_back(Binder::of(request.map, *part.interaction, false, corner));
+      rows_.push_back(Binder::of(request.map, *part.interaction, Folding::Off, corner));
       rows_.back().bind();
     }
   }
@@ -121,13 +121,12 @@ private:
 } // namespace
 
 CriterionType atomic_vertex() {
-  return {"atomic-vertex",
-          "the largest single force on the vertex, of a spring or an element; the plane across it",
-          "N",
-          false,
-          [](const CriterionRequest&) { return Cell::Vertices; },
-          [](const CriterionRequest&) { return std::string(); },
-          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+  return {.name = "atomic-vertex",
+          .what = "the largest single force on the vertex, of a spring or an element; the plane across it",
+          .unit = "N",
+          .cell = [](const CriterionRequest&) { return Cell::Vertices; },
+          .lacking = [](const CriterionRequest&) { return std::string(); },
+          .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             CriterionRequest any = request;
             any.kind.clear();
             return std::make_unique<AtomicVertex>(any);

@@ -57,7 +57,7 @@ struct CriterionRequest {
 
 struct CriterionType {
   std::string name, what, unit;
-  bool elementary; // needs the forces of each element by itself
+  bool elementary = false; // needs the forces of each element by itself
   // The cell that it measures there.
   Cell (*cell)(const CriterionRequest&);
   // What the body, or what was said of it, lacks for this criterion, as a sentence; empty: nothing.

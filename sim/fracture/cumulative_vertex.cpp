@@ -26,13 +26,12 @@ private:
 } // namespace
 
 CriterionType cumulative_vertex() {
-  return {"cumulative-vertex",
-          "|sum of the internal forces on the vertex|; the plane across it",
-          "N",
-          false,
-          [](const CriterionRequest&) { return Cell::Vertices; },
-          [](const CriterionRequest&) { return std::string(); },
-          [](const CriterionRequest&) -> std::unique_ptr<Criterion> {
+  return {.name = "cumulative-vertex",
+          .what = "|sum of the internal forces on the vertex|; the plane across it",
+          .unit = "N",
+          .cell = [](const CriterionRequest&) { return Cell::Vertices; },
+          .lacking = [](const CriterionRequest&) { return std::string(); },
+          .make = [](const CriterionRequest&) -> std::unique_ptr<Criterion> {
             return std::make_unique<CumulativeVertex>();
           }};
 }

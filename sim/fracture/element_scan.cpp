@@ -141,7 +141,7 @@ ElementScan::ElementScan(const CriterionRequest& request, Of quantity)
   for (const Continuum::Part& part : continuum_.parts()) {
     std::optional<Binder>& binder = again_.emplace_back();
     if (part.index != Continuum::made_again) continue;
-    binder.emplace(Binder::of(request.map, *part.interaction, false, {}));
+    binder.emplace(Binder::of(request.map, *part.interaction, Folding::Off, {}));
     binder->bind();
   }
 }
@@ -179,8 +179,9 @@ namespace {
 class LargestOfElements final : public Criterion {
 public:
   LargestOfElements(const CriterionRequest& request, ElementScan::Of quantity)
-      : scan_(request, quantity), tensor_of_(quantity == ElementScan::Of::Stress ? &stress_of : &strain_of),
-        compression_(request.compression) {}
+      : scan_(request, quantity),
+        tensor_of_(quantity == ElementScan::Of::Stress ? &stress_of : &strain_of), compression_{
+                                                                                       request.compression} {}
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     scan_.each_above(view, threshold, [&](Dart d) {
@@ -199,7 +200,7 @@ public:
 private:
   ElementScan scan_;
   Eigen::Matrix3d (*tensor_of_)(const Continuum::Part&, const UnitNow&); // σ [Pa] or ε, in world space
-  bool compression_;
+  Compression compression_;
 };
 
 } // namespace

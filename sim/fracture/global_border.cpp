@@ -56,13 +56,12 @@ private:
 } // namespace
 
 CriterionType global_border() {
-  return {"global-border",
-          "|sum of the internal forces of the shared vertices, across the border|",
-          "N",
-          false,
-          [](const CriterionRequest&) { return Cell::Borders; },
-          [](const CriterionRequest& request) { return lacking_for_borders(request.map); },
-          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+  return {.name = "global-border",
+          .what = "|sum of the internal forces of the shared vertices, across the border|",
+          .unit = "N",
+          .cell = [](const CriterionRequest&) { return Cell::Borders; },
+          .lacking = [](const CriterionRequest& request) { return lacking_for_borders(request.map); },
+          .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return std::make_unique<GlobalBorder>(request.map);
           }};
 }

@@ -44,23 +44,21 @@ std::string lacking(const CriterionRequest& request) {
 } // namespace
 
 CriterionType strain() {
-  return {
-      "strain",
-      "the elongation ratio of each spring of the kind given; without a kind, the largest principal strain of "
-      "each element",
-      "",
-      false,
-      [](const CriterionRequest& request) {
-        return request.kind.empty() ? Cell::Elements : cell_of_kind(request.kind);
-      },
-      &lacking,
-      [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
-        if (request.kind.empty()) return largest_of_elements(request, ElementScan::Of::Strain);
-        return std::make_unique<SpringStrain>(request);
-      },
-      false,
-      true,
-      true};
+  return {.name = "strain",
+          .what = "the elongation ratio of each spring of the kind given; without a kind, the largest "
+                  "principal strain of each element",
+          .unit = "",
+          .cell =
+              [](const CriterionRequest& request) {
+                return request.kind.empty() ? Cell::Elements : cell_of_kind(request.kind);
+              },
+          .lacking = &lacking,
+          .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+            if (request.kind.empty()) return largest_of_elements(request, ElementScan::Of::Strain);
+            return std::make_unique<SpringStrain>(request);
+          },
+          .takes_kind = true,
+          .takes_compression = true};
 }
 
 } // namespace rend

@@ -11,7 +11,7 @@ namespace {
 class VertexStressCriterion final : public Criterion {
 public:
   explicit VertexStressCriterion(const CriterionRequest& request)
-      : scan_(request, ElementScan::Of::Stress), compression_(request.compression),
+      : scan_(request, ElementScan::Of::Stress), compression_{request.compression},
         stress_(request.map, scan_.continuum(), request.mass) {}
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
@@ -36,7 +36,7 @@ public:
 
 private:
   ElementScan scan_;
-  bool compression_;
+  Compression compression_;
   VertexStress stress_;
   IndexSet seen_; // vertex slots
 };
@@ -44,18 +44,17 @@ private:
 } // namespace
 
 CriterionType vertex_stress_criterion() {
-  return {"vertex-stress",
+  return {
+      .name = "vertex-stress",
+      .what =
           "the largest principal value of the mean stress of the elements at the vertex; the plane across it",
-          "Pa",
-          false,
-          [](const CriterionRequest&) { return Cell::Vertices; },
-          [](const CriterionRequest& request) { return lacking_for_stress(request); },
-          [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
-            return std::make_unique<VertexStressCriterion>(request);
-          },
-          false,
-          false,
-          true};
+      .unit = "Pa",
+      .cell = [](const CriterionRequest&) { return Cell::Vertices; },
+      .lacking = [](const CriterionRequest& request) { return lacking_for_stress(request); },
+      .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+        return std::make_unique<VertexStressCriterion>(request);
+      },
+      .takes_compression = true};
 }
 
 } // namespace rend

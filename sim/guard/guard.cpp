@@ -63,7 +63,7 @@ void Guard::before_laws(long step) {
 Trouble Guard::before_change(long step) {
   const Within within(profile_, Phase::Guard);
   if (!energy_) return Trouble::None;
-  const Trouble trouble = settle(step, false);
+  const Trouble trouble = settle(step, Look::AsNeeded);
   if (trouble == Trouble::None) begins_ = true;
   return trouble;
 }
@@ -79,15 +79,15 @@ void Guard::after_laws(long step) {
   growth_.reset();
 }
 
-Trouble Guard::settle(long step, bool exact) {
+Trouble Guard::settle(long step, Look look) {
   if (settled_ == step) return Trouble::None;
   const Rewind::Account account = rewind_->account();
   if (may_pass() && passing(parts(step))) return Trouble::Passing;
-  if (judge(account, exact) != Trouble::None) return Trouble::Energy;
+  if (judge(account, look) != Trouble::None) return Trouble::Energy;
   budget_ = std::max(budget_ + account.given, 0.0);
   heaviest_ = account.heaviest;
   settled_ = step;
-  if (exact) exactly_ = step;
+  if (look == Look::Exactly) exactly_ = step;
   return Trouble::None;
 }
 
@@ -102,14 +102,14 @@ Guard::Held Guard::held(const Rewind::Account& account) {
   return {account.kinetic + rewind_->elastic_energy(), factor * allowed(account), account.given};
 }
 
-Trouble Guard::judge(const Rewind::Account& account, bool exact) {
+Trouble Guard::judge(const Rewind::Account& account, Look look) {
   const bool high = account.kinetic > allowed(account);
   if (!high) calm_ = 0;
-  if (!exact && (!high || account.kinetic <= more * calm_)) return Trouble::None;
+  if (look == Look::AsNeeded && (!high || account.kinetic <= more * calm_)) return Trouble::None;
   const Held now = held(account);
   if (!(now.energy <= now.limit)) return Trouble::Energy;
   calm_ = account.kinetic;
-  if (exact) budget_ = std::min(budget_, 2 * now.energy - account.given);
+  if (look == Look::Exactly) budget_ = std::min(budget_, 2 * now.energy - account.given);
   return Trouble::None;
 }
 
@@ -131,7 +131,7 @@ bool Guard::passing(int parts) const {
 Trouble Guard::after_step(long done) {
   const Within within(profile_, Phase::Guard);
   if (!energy_) {
-    if (redoing_ && done == goal_) go_on(done, budget_, true);
+    if (redoing_ && done == goal_) go_on(done, budget_, Finer::Helps);
     return Trouble::None;
   }
   if (!redoing_ && done <= hold_until_) figures_.redone += hold_parts_;
@@ -142,13 +142,13 @@ Trouble Guard::after_step(long done) {
   if ((above || done % passing_period == 0) && may_pass() && passing(parts(done - 1))) return Trouble::Passing;
   if (redoing_) return done == goal_ ? end_redo(done) : Trouble::None;
   if (done - rewind_->first() >= period) {
-    const Trouble trouble = settle(done, done - exactly_ >= exact_period);
+    const Trouble trouble = settle(done, done - exactly_ >= exact_period ? Look::Exactly : Look::AsNeeded);
     if (trouble == Trouble::None) begins_ = true;
     return trouble;
   }
   if (!above) return Trouble::None;
   const Rewind::Account account = rewind_->account();
-  const Trouble trouble = judge(account, false);
+  const Trouble trouble = judge(account, Look::AsNeeded);
   if (trouble == Trouble::None) threshold_ = factor * motion;
   return trouble;
 }
@@ -166,11 +166,11 @@ Trouble Guard::end_redo(long done) {
     return Trouble::Energy;
   }
   figures_.accepted += !fits;
-  go_on(done, fits ? std::max(budget_ + account.given, 0.0) : now.energy, fits);
+  go_on(done, fits ? std::max(budget_ + account.given, 0.0) : now.energy, fits ? Finer::Helps : Finer::DoesNot);
   return Trouble::None;
 }
 
-void Guard::go_on(long done, double budget, bool finer_helps) {
+void Guard::go_on(long done, double budget, Finer finer) {
   redoing_ = false;
   figures_.redone += (done - from_) * parts_;
   figures_.most_parts = std::max(figures_.most_parts, parts_);
@@ -180,7 +180,7 @@ void Guard::go_on(long done, double budget, bool finer_helps) {
   settled_ = done;
   begins_ = true;
   const bool soon = from_ - hold_until_ < 2 * period && hold_until_ > 0;
-  hold_length_ = !finer_helps ? 0 : soon ? std::clamp(2 * hold_length_, period, longest_hold) : 0;
+  hold_length_ = finer == Finer::DoesNot ? 0 : soon ? std::clamp(2 * hold_length_, period, longest_hold) : 0;
   hold_until_ = done + hold_length_;
   hold_parts_ = parts_;
 }

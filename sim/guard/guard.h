@@ -74,14 +74,17 @@ private:
   };
   void check_read(long done) const; // throws ArchiveError
   int usual(long step) const { return step < hold_until_ ? hold_parts_ : 1; }
-  Trouble settle(long step, bool exact);
-  Trouble judge(const Rewind::Account& account, bool exact);
+  // Exactly: the elastic energy is found, however little the kinetic one is.
+  enum class Look { AsNeeded, Exactly };
+  Trouble settle(long step, Look look);
+  Trouble judge(const Rewind::Account& account, Look look);
   double allowed(const Rewind::Account& account) const; // [J]
   Held held(const Rewind::Account& account);
   bool passing(int parts) const;
   bool may_pass() const;
   Trouble end_redo(long done);
-  void go_on(long done, double budget, bool finer_helps);
+  enum class Finer { Helps, DoesNot };
+  void go_on(long done, double budget, Finer finer);
 
   const Rewind::Bodies& bodies_;
   Profile* profile_;             // null: nobody asks

@@ -29,7 +29,7 @@ Dart follow_back(const GMap& map, Dart d, const Word& word, std::size_t length) 
 
 } // namespace
 
-Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, bool fold,
+Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, Folding folding,
                   std::optional<Orbit> corners) {
   std::vector<IndexColumn> columns = particle_columns(interaction.pattern, Vertex);
   const int places = static_cast<int>(columns.size());
@@ -39,7 +39,7 @@ Binder Binder::of(const EmbeddedMap& map, const Interaction& interaction, bool f
   }
   Binder binder(map, interaction.pattern, std::move(columns), places);
   binder.interaction_ = &interaction;
-  binder.fold_ = fold && !interaction.pattern.fold.empty();
+  binder.fold_ = folding == Folding::On && !interaction.pattern.fold.empty();
   binder.rows_ = PackedRows(static_cast<int>(binder.columns_.size()), places, interaction.law->values(),
                             interaction.damped ? -1 : interaction.law->damping_value());
   return binder;

@@ -23,11 +23,13 @@ struct IndexColumn {
 
 constexpr std::size_t most_columns = 64;
 
+enum class Folding : bool { Off, On };
+
 class Binder {
 public:
   // Rows of an interaction: its particles' vertices, and with `corners` also the element corners that take the
-  // forces. With `fold`, units between the same particles share one row.
-  static Binder of(const EmbeddedMap& map, const Interaction& interaction, bool fold,
+  // forces. With Folding::On, units between the same particles share one row.
+  static Binder of(const EmbeddedMap& map, const Interaction& interaction, Folding folding,
                    std::optional<Orbit> corners);
 
   // Rows of a pattern without parameters (criteria).

@@ -63,11 +63,11 @@ Eigen::Matrix3d VertexStress::at(Slot vertex, const Record* x) {
   return sum;
 }
 
-Principal largest_principal(const Eigen::Matrix3d& tensor, bool compression) {
+Principal largest_principal(const Eigen::Matrix3d& tensor, Compression compression) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       tensor); // iterates; the direct one needs cos and atan2
   const Vec3 values = solver.eigenvalues();
-  const int which = compression && -values[0] > values[2] ? 0 : 2;
+  const int which = compression == Compression::Counts && -values[0] > values[2] ? 0 : 2;
   Vec3 direction = solver.eigenvectors().col(which);
   int most = 0;
   for (int axis = 1; axis < 3; ++axis)

@@ -95,12 +95,13 @@ private:
 };
 
 // The largest eigenvalue of a symmetric tensor and its unit eigenvector, whose largest component is positive;
-// with `compression` the largest by size, as a magnitude. No function but the root is used: the same bits
+// with Compression::Counts the largest by size, as a magnitude. No function but the root is used: the same bits
 // everywhere.
 struct Principal {
   double value;
   Vec3 direction;
 };
-Principal largest_principal(const Eigen::Matrix3d& tensor, bool compression);
+enum class Compression : bool { Ignored, Counts };
+Principal largest_principal(const Eigen::Matrix3d& tensor, Compression compression);
 
 } // namespace rend

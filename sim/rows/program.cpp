@@ -20,8 +20,8 @@ Program::Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction
   const Orbit corner = corner_orbit(map.dimension());
   for (const auto& interaction : interactions) {
     kernels_.push_back(&kernel_of(*interaction->law));
-    if (options.folded) folded_.push_back(Binder::of(map, *interaction, options.fold, {}));
-    if (options.elementary) elementary_.push_back(Binder::of(map, *interaction, false, corner));
+    if (options.folded) folded_.push_back(Binder::of(map, *interaction, Folding{options.fold}, {}));
+    if (options.elementary) elementary_.push_back(Binder::of(map, *interaction, Folding::Off, corner));
   }
   for (Binder& binder : folded_) binder.bind();
   for (Binder& binder : elementary_) binder.bind();
@@ -129,7 +129,7 @@ constexpr std::size_t corner_tile_vertices = 1024; // with some four corners eac
 void Program::forces(const Record* position, const Record* velocity, Record* force) const {
   if (options_.walk)
     return walk_forces(*map_, *interactions_, mass_->orbit(), position, velocity, nullptr, force);
-  run({false, position, velocity, force}, 1, nullptr);
+  run({.sums = false, .position = position, .velocity = velocity, .force = force}, 1, nullptr);
 }
 
 bool sums_fit(const std::vector<std::unique_ptr<Interaction>>& interactions, const ProgramOptions& options) {
@@ -139,13 +139,13 @@ bool sums_fit(const std::vector<std::unique_ptr<Interaction>>& interactions, con
 
 void Program::forces_with_sums(const Record* position, const Record* velocity, Record* force) const {
   CHECK(sums_fit(*interactions_, options_));
-  run({true, position, velocity, force}, 1, nullptr);
+  run({.sums = true, .position = position, .velocity = velocity, .force = force}, 1, nullptr);
 }
 
 void Program::forces_in_stretches(const Record* position, const Record* velocity, Record* force,
                                   std::size_t unit, PartWork whole) const {
   CHECK(!options_.walk);
-  run({false, position, velocity, force}, unit, &whole);
+  run({.sums = false, .position = position, .velocity = velocity, .force = force}, unit, &whole);
 }
 
 void Program::run(const Evaluation& what, std::size_t unit, const PartWork* whole) const {

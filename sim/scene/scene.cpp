@@ -28,7 +28,8 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   }
   check_contact();
   contacts_ = Contacts::of(world_, bodies_);
-  for (auto& body : bodies_) body->prepare(scheme(), options.walk, options.threads, checked_tolerance());
+  const RunSettings run{options.walk, options.threads, checked_tolerance()};
+  for (auto& body : bodies_) body->prepare(scheme(), run);
   set_step();
   guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
   set_answers();

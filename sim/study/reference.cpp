@@ -68,7 +68,8 @@ Reference make_reference(const MakeScene& make, const StudyGroup& group, double 
   const auto probe = make(variant);
   figures.elements = elements_of(*probe);
   for (const auto& body : probe->bodies()) figures.vertices += body->map->cells(Vertex).count();
-  const std::vector<Knob> sweep = sweep_of(*find_scheme("rk4"), *probe, {duration, steps, false});
+  const std::vector<Knob> sweep =
+      sweep_of(*find_scheme("rk4"), *probe, {.duration = duration, .steps = steps, .above_limit = false});
   const long coarse = tears(*probe) ? steps_within(duration, natural_step(*probe, duration)) : study_samples;
 
   if (calls.progress) calls.progress("reference, second scheme", 0);

@@ -162,7 +162,7 @@ inline std::unique_ptr<Body> body(const PolygonMesh& mesh, const Recipe& recipe 
     const LawSettings settings = law(name, recipe.threshold);
     made->tear_laws.emplace_back(made->request_for(settings), settings);
   }
-  made->prepare(*find_scheme(recipe.scheme), false, recipe.threads);
+  made->prepare(*find_scheme(recipe.scheme), {.threads = recipe.threads});
   return made;
 }
 

@@ -144,7 +144,7 @@ double pulled_by_a_millimetre(int dimension) {
 
 std::unique_ptr<Body> pulled_pair(Pair& pair, const std::string& model) {
   auto body = elements::elastic_body(std::move(pair.map), {model});
-  body->prepare(*find_scheme("symplectic"), false, 1);
+  body->prepare(*find_scheme("symplectic"));
   for (Record& x : body->map->position().values())
     if (x.vec() == pair.pulled) x = Record(pair.pulled + Vec3(1e-3, 0, 0));
   return body;

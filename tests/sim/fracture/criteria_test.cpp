@@ -67,7 +67,7 @@ PlainBody plain_of(const Body& body, const Matter& matter, double beta = 0.01) {
 }
 
 void prepare(Body& body, unsigned seed, double amount = 0.2) {
-  body.prepare(*find_scheme("symplectic"), false, 1);
+  body.prepare(*find_scheme("symplectic"));
   meshes::shake(body, amount, seed);
   body.evaluate();
 }
@@ -248,7 +248,7 @@ TEST(Criteria, of_a_bar_that_is_pulled_are_its_stress_and_the_normal_along_it) {
        {BarPattern::Hexahedra, BarPattern::Tetrahedra, BarPattern::Prisms, BarPattern::Mixed}) {
     for (const Matter& matter : {continua[1], continua[2]}) {
       const auto body = made_of(solid_from(elements::warped_bar(pattern, 5, 2, 2, 0, 1)), matter, 0);
-      body->prepare(*find_scheme("symplectic"), false, 1);
+      body->prepare(*find_scheme("symplectic"));
       for (Slot v = 0; v < body->vertices(); ++v) {
         const Vec3 x = body->map->rest()[v];
         body->map->position()[v] =
@@ -282,7 +282,7 @@ TEST(Criteria, find_after_a_storm_what_they_would_if_made_anew) {
       else
         asked.insert(asked.end(), {{"atomic-element", "", true}, {"vertex-stress", ""}, {"strain", ""}});
       for (const Asked& a : asked) add_law(*body, a, 1);
-      body->prepare(*find_scheme("rk4"), false, 1);
+      body->prepare(*find_scheme("rk4"));
       Noise noise(11);
       const int dimension = body->map->dimension();
       for (int round = 0; round < 6; ++round) {

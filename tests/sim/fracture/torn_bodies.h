@@ -120,7 +120,7 @@ inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::v
     made->tear_laws.emplace_back(made->request_for(law), law);
   }
   if (watched) watch(*made);
-  made->prepare(*find_scheme(scheme), false, 1);
+  made->prepare(*find_scheme(scheme));
   meshes::shake(*made, 0.05, 3);
   made->constrain(0, made->map->position().values().data(), made->map->velocity().values().data());
   made->evaluate();

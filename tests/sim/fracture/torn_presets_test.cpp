@@ -41,7 +41,7 @@ struct Played {
   Scene scene;
   Played(const std::string& name, int threads)
       : preset(load_scene(root / (name + ".xml"))),
-        scene(read_scene(*preset), SceneOptions{false, threads, false}) {}
+        scene(read_scene(*preset), SceneOptions{.threads = threads}) {}
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
 };
 
@@ -63,7 +63,7 @@ void expect_walk_agrees(const Body& body) {
 class Watch {
 public:
   explicit Watch(Body& body) : body_(body), seen_(body) {
-    body.witness = [this](bool made) { made ? after() : before(); };
+    body.witness = [this](WitnessAt when) { when == WitnessAt::AfterChanges ? after() : before(); };
   }
   int looks = 0;
 

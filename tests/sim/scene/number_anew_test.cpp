@@ -177,8 +177,8 @@ TEST(NumberAnew, at_every_change_leaves_the_course_of_a_scene_as_it_is) {
       Seen seen(renumbered);
       bool free = false;
       int times = 0;
-      renumbered.witness = [&](bool made) {
-        if (!made) return;
+      renumbered.witness = [&](WitnessAt when) {
+        if (when == WitnessAt::BeforeChanges) return;
         ++times;
         free = free || has_free_slots(*renumbered.map, renumbered.mass->orbit());
         renumbered.map->number_anew();

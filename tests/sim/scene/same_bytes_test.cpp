@@ -80,8 +80,8 @@ TEST_P(SameBytes, on_any_number_of_threads_and_with_everything_built_anew_at_eac
   if (one.scene.tears() == 0) return;
   Played anew(GetParam(), 1);
   for (const auto& body : anew.scene.bodies())
-    body->witness = [&body = *body](bool made) {
-      if (made) build_anew(body);
+    body->witness = [&body = *body](WitnessAt when) {
+      if (when == WitnessAt::AfterChanges) build_anew(body);
     };
   anew.go_to(one.scene.steps_done());
   SCOPED_TRACE("built anew");

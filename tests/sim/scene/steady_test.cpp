@@ -33,7 +33,7 @@ const std::string none_steady = "no step was steady";
 // Who asks for memory in the steady ones among the next steps, and how often; empty: nobody.
 std::string askers(Scene& scene) {
   long asked = 0, steady = 0, tried = 0;
-  for (const auto& body : scene.bodies()) body->witness = [&tried](bool) { ++tried; };
+  for (const auto& body : scene.bodies()) body->witness = [&tried](WitnessAt) { ++tried; };
   std::string who;
   for (long n = 0; n < steps; ++n) {
     const Events before = Events::of(scene, tried);
