@@ -33,11 +33,8 @@ Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const s
 } // namespace
 
 BodyPicture::BodyPicture(Body& body)
-    : body_(&body), orientable_(body.map->dimension() == 3 || is_orientable(body.map->map())) {
-  if (body.map->dimension() == 2)
-    sheet_.emplace(*body.map, body.border);
-  else
-    solid_.emplace(*body.map, body.border);
+    : body_(&body), solid_(body.map->dimension() == 3), orientable_(solid_ || is_orientable(body.map->map())) {
+  if (!solid_) body.boundary().sheet(); // that of a solid is there
   const ElementType& type = *std::find_if(body.node->type().children.begin(), body.node->type().children.end(),
                                           [](const ChildType& child) { return child.type->name == "look"; })
                                  ->type;
@@ -127,7 +124,7 @@ FrameBody BodyPicture::draw() {
   if (by_ != ShownBy::Plain && by_ != ShownBy::Fragment) colour_vertices();
   FrameBody out;
   out.edges = edges_;
-  out.two_sided = sheet_.has_value();
+  out.two_sided = !solid_;
   out.sides = orientable_;
   out.back = back_;
   out.finish = finish_;
@@ -138,7 +135,7 @@ FrameBody BodyPicture::draw() {
     draw_exploded(
         *body_, apart_, [this](const CellCorner& at) { return colour_at(at); }, out);
   else
-    sheet_ ? draw_sheet(out) : draw_solid(out);
+    solid_ ? draw_solid(out) : draw_sheet(out);
   return out;
 }
 
@@ -149,12 +146,12 @@ Colour BodyPicture::colour_at(const CellCorner& at) const {
 }
 
 void BodyPicture::draw_sheet(FrameBody& out) {
-  sheet_->update();
-  sheet_->normals(normals_);
-  out.corners.reserve(3 * sheet_->triangles());
+  const Surface& sheet = body_->boundary().sheet();
+  sheet.normals(normals_);
+  out.corners.reserve(3 * sheet.triangles());
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
-  sheet_->for_each_triangle([&](const Surface::Triangle& triangle) {
+  sheet.for_each_triangle([&](const Surface::Triangle& triangle) {
     const auto [a, b, c] = triangle.vertex;
     const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
     Colour colour = colour_;
@@ -173,12 +170,12 @@ void BodyPicture::draw_sheet(FrameBody& out) {
 }
 
 void BodyPicture::draw_solid(FrameBody& out) {
-  solid_->update();
-  solid_->normals(normals_);
-  out.corners.reserve(3 * solid_->triangles());
+  SolidSurface& surface = body_->boundary().solid();
+  surface.normals(normals_);
+  out.corners.reserve(3 * surface.triangles());
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
-  solid_->for_each_triangle([&](const SolidSurface::Triangle& triangle) {
+  surface.for_each_triangle([&](const SolidSurface::Triangle& triangle) {
     Colour colour = triangle.bare ? inside_ : colour_;
     if (by_ == ShownBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -187,6 +184,11 @@ void BodyPicture::draw_solid(FrameBody& out) {
       out.corners.push_back(corner(x[v], normals_[triangle.corner[k]], colour, triangle.side));
     }
   });
+}
+
+std::size_t BodyPicture::bytes() const {
+  Boundary& boundary = body_->boundary();
+  return solid_ ? boundary.solid().bytes() : boundary.sheet().bytes();
 }
 
 PictureMaker::PictureMaker(const PresetNode& preset, Scene& scene, double aspect, double duration, long frames)

@@ -12,8 +12,6 @@
 #include "render/picture/exploded_picture.h"
 #include "render/picture/hud_writer.h"
 #include "render/picture/viewpoint.h"
-#include "sim/boundary/solid_surface.h"
-#include "sim/boundary/surface.h"
 
 #include <map>
 #include <memory>
@@ -25,7 +23,7 @@ namespace rend {
 enum class ShownBy { Plain, Strain, Stress, Force, Fragment };
 enum class DrawnAs { Surface, Wires, Exploded, Darts };
 
-// How one body is shown, and its surface.
+// How one body is shown.
 class BodyPicture {
 public:
   explicit BodyPicture(Body& body);
@@ -33,7 +31,7 @@ public:
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that were given a colour
   FrameBody draw();                          // of the state that was observed
   std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
-  std::size_t bytes() const { return sheet_ ? sheet_->bytes() : solid_->bytes(); }
+  std::size_t bytes() const;               // of its surface
   std::size_t fragments_seen() const { return numbers_.size(); } // of this body
   void store(Archive& archive);                                  // what it has seen
 
@@ -45,15 +43,13 @@ private:
   Colour colour_at(const CellCorner& at) const;
 
   Body* body_;
-  std::optional<Surface> sheet_; // one of the two
-  std::optional<SolidSurface> solid_;
   ShownBy by_ = ShownBy::Plain;
   DrawnAs as_ = DrawnAs::Surface;
   Colour colour_{}, inside_{};
   std::optional<Colour> back_;
   Finish finish_;
   double apart_ = 0; // of exploded cells
-  bool edges_ = true, orientable_ = true;
+  bool solid_ = false, edges_ = true, orientable_ = true;
   double scale_ = 0;           // the quantity at the end of the colours
   bool given_ = false;         // by the preset: it stays
   std::vector<Vec3> normals_;  // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)

@@ -21,7 +21,8 @@ std::size_t open_darts(const GMap& map) {
 } // namespace
 
 Body::~Body() {
-  program.reset(); // lets go of the map
+  boundary_.reset(); // these let go of the map
+  program.reset();
   if (map) map->unsubscribe(changes);
 }
 
@@ -48,6 +49,12 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   map->subscribe(changes);
   if (tears()) reserve_for_separations();
   constrain(0, map->position().values().data(), map->velocity().values().data());
+}
+
+Boundary& Body::boundary() {
+  if (!boundary_) boundary_ = std::make_unique<Boundary>(*map, border);
+  boundary_->update();
+  return *boundary_;
 }
 
 void Body::reserve_for_separations() {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/body/answer.h"
-#include "sim/boundary/born_border.h"
+#include "sim/boundary/boundary.h"
 #include "sim/fracture/tear_law.h"
 #include "sim/integrate/integrator.h"
 #include "sim/outside/constraint.h"
@@ -69,6 +69,10 @@ struct Body final : System {
   // Builds the program and all that the time loop needs. To be called once, when everything is declared.
   void prepare(const Scheme& scheme, const RunSettings& settings = {});
 
+  // The faces that can be seen, touched and exported, as the map is now. Made when it is first asked for, once
+  // `border` is known: a body that nobody draws, touches or exports has none.
+  Boundary& boundary();
+
   // System
   std::size_t vertices() const override { return program->vertices(); }
   int parts() const override { return program->parts(); }
@@ -117,6 +121,7 @@ private:
   bool forces_deferred_ = false;
   bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
   double time_ = 0, next_time_ = 0;    // [s], of the current state and of `next`
+  std::unique_ptr<Boundary> boundary_; // null: nobody asked for it
 };
 
 } // namespace rend

@@ -38,12 +38,13 @@ void SolidSurface::rebuild() {
   empty_queue();
 }
 
-void SolidSurface::update() {
-  if (!changes_.any) return;
+bool SolidSurface::update() {
+  if (!changes_.any) return false;
   if (changes_.whole) {
     changes_.clear();
     drawn_ = {};
-    return rebuild();
+    rebuild();
+    return true;
   }
   const GMap& map = map_.map();
   drawn_.resize(map.capacity());
@@ -63,6 +64,7 @@ void SolidSurface::update() {
   changes_.clear();
   bind();
   empty_queue();
+  return true;
 }
 
 void SolidSurface::empty_queue() {

@@ -29,7 +29,7 @@ public:
   SolidSurface(const SolidSurface&) = delete;
   SolidSurface& operator=(const SolidSurface&) = delete;
 
-  void update(); // after edits; costs as much as they touched
+  bool update(); // after edits; costs as much as they touched; false: there were none
 
   struct Triangle {
     std::array<Slot, 3> vertex;          // counter-clockwise seen from outside, at rest
@@ -40,6 +40,9 @@ public:
   };
   std::size_t faces() const { return drawn_.count(); }
   std::size_t triangles() const { return drawn_.corner_count() - 2 * drawn_.count(); }
+
+  // Calls f(DrawnFaces::Face, std::span<const DrawnFaces::Corner>) by smallest darts.
+  template <class F> void for_each_face(F&& f) const { drawn_.for_each(std::forward<F>(f)); }
 
   // Calls f(Triangle), face after face by their smallest darts. A face becomes a fan around its first corner.
   template <class F> void for_each_triangle(F&& f) const {

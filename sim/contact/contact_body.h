@@ -14,7 +14,7 @@ namespace rend {
 
 class ContactBody {
 public:
-  explicit ContactBody(Body& body_) : body(&body_), faces(*body_.map) {}
+  explicit ContactBody(Body& body_) : body(&body_), faces(*body_.map, body_.boundary()) {}
 
   // Before each step's contacts. `time` [s]: at the end of the step.
   void prepare(double time);

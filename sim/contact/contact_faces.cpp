@@ -1,40 +1,29 @@
 #include "sim/contact/contact_faces.h"
 
-#include "sim/mechanics/winding.h"
-#include "sim/outside/patch.h"
-
 namespace rend {
 
-ContactFaces::ContactFaces(EmbeddedMap& map) : map_(map) {
+ContactFaces::ContactFaces(EmbeddedMap& map, Boundary& boundary) : map_(map), boundary_(boundary) {
   map.use(FaceOfVolume);
+  boundary_.update();
   list();
-  map.subscribe(changes_);
-}
-
-ContactFaces::~ContactFaces() {
-  map_.unsubscribe(changes_);
 }
 
 bool ContactFaces::update() {
-  if (!changes_.any) return false;
-  changes_.clear();
+  boundary_.update();
+  if (boundary_.revision() == revision_) return false;
   list();
   return true;
 }
 
 void ContactFaces::list() {
+  revision_ = boundary_.revision();
   triangles_.clear();
-  const CellIndex& faces = map_.cells(FaceOfVolume);
-  const bool solid = map_.dimension() == 3;
-  std::vector<Slot> ring;
-  for (Slot face = 0; face < faces.slots(); ++face) {
-    if (!faces.alive(face)) continue;
-    const Dart d = faces.first_dart(face);
-    if (!map_.map().is_free(3, d)) continue;
-    vertices_of_face(map_, d, solid && !winds_outward(map_, d), ring);
-    for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-      triangles_.push_back({{ring[0], ring[k], ring[k + 1]}, face});
-  }
+  boundary_.for_each_face([&](const DrawnFaces::Face& face, std::span<const Slot> ring) {
+    const Slot slot = map_.slot(FaceOfVolume, face.first);
+    const std::size_t n = ring.size(), start = face.turned ? 1 : 0;
+    for (std::size_t k = 1; k + 1 < n; ++k)
+      triangles_.push_back({{ring[start], ring[(start + k) % n], ring[(start + k + 1) % n]}, slot});
+  });
 }
 
 } // namespace rend

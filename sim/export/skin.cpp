@@ -12,22 +12,23 @@
 namespace rend {
 namespace {
 
-struct DrawnFace {
+struct SkinFace {
   Dart first;             // the smallest
   Dart start;             // where it is walked from, by to_next_side
   Dart element;           // the smallest dart of its cell
   std::uint32_t fragment; // in the body
+  bool bare;              // laid bare by fracture
 };
 
 // Puts one body behind what the skin has already.
 class BodySkin {
 public:
-  BodySkin(const Body& body, const Sides& sides, Skin& skin)
+  BodySkin(Body& body, const Sides& sides, Skin& skin)
       : body_(body), map_(*body.map), links_(map_.map()), sides_(sides), skin_(skin),
         number_(static_cast<std::int32_t>(skin.bodies.size())) {}
 
   // `fragments`: how many there are in the bodies before; grows by those of this one.
-  void add(bool stress, bool bare, std::int32_t& fragments);
+  void add(const SkinMaker::Arrays& wanted, std::int32_t& fragments);
 
 private:
   void collect_faces();
@@ -36,23 +37,23 @@ private:
   void add_stress();
   void add_bare();
 
-  const Body& body_;
+  Body& body_;
   const EmbeddedMap& map_;
   const GMap& links_;
   const Sides& sides_;
   Skin& skin_;
   std::int32_t number_;
-  std::vector<DrawnFace> faces_;
+  std::vector<SkinFace> faces_;
   std::uint32_t fragments_ = 0;
   std::vector<std::int32_t> point_; // of each vertex slot; -1: not on the surface
 };
 
-void BodySkin::add(bool stress, bool bare, std::int32_t& fragments) {
+void BodySkin::add(const SkinMaker::Arrays& wanted, std::int32_t& fragments) {
   collect_faces();
   add_points();
   add_faces(fragments);
-  if (stress) add_stress();
-  if (bare) add_bare();
+  if (wanted.stress) add_stress();
+  if (wanted.bare) add_bare();
   fragments += static_cast<std::int32_t>(fragments_);
   skin_.bodies.push_back({body_.name, body_.tears(), skin_.points.size() / 3, skin_.ends.size()});
 }
@@ -60,34 +61,31 @@ void BodySkin::add(bool stress, bool bare, std::int32_t& fragments) {
 void BodySkin::collect_faces() {
   const bool sheet = map_.dimension() == 2;
   const std::vector<std::uint32_t> labels = label_fragments(links_);
-  std::vector<bool> seen(links_.capacity(), false);               // darts of elements that were walked
-  std::vector<bool> walked(sheet ? 0 : links_.capacity(), false); // darts of faces that were walked
+  std::vector<Dart> element(links_.capacity()); // of each dart; none: not walked yet
   std::vector<Dart> darts;
-  const auto add = [&](Dart first, Dart element, bool along) {
-    faces_.push_back({first, along ? first : links_.alpha(1, first), element, labels[first.value]});
-    fragments_ = std::max(fragments_, labels[first.value] + 1);
-  };
-  links_.for_each_dart([&](Dart element) {
-    if (seen[element.value]) return;
+  const auto element_of = [&](Dart d) {
+    if (element[d.value]) return element[d.value];
     darts.clear();
-    collect(links_, element_orbit(map_.dimension()), element, darts);
-    for (const Dart d : darts) seen[d.value] = true;
-    if (sheet) return add(element, element, sides_.of_dart[element.value] == 1);
-    std::sort(darts.begin(), darts.end()); // so that a face is met at its smallest dart
-    for (const Dart d : darts) {
-      if (!links_.is_free(3, d) || walked[d.value]) continue;
-      walk_two(links_, 0, 1, d, [&](Dart e) { walked[e.value] = true; });
-      add(d, element, winds_outward(map_, d));
-    }
+    collect(links_, element_orbit(map_.dimension()), d, darts);
+    const Dart smallest = *std::min_element(darts.begin(), darts.end());
+    for (const Dart e : darts) element[e.value] = smallest;
+    return smallest;
+  };
+  body_.boundary().for_each_face([&](const DrawnFaces::Face& face, std::span<const Slot>) {
+    const Dart first = face.first;
+    const bool along = sheet ? sides_.of_dart[first.value] == 1 : !face.turned;
+    const std::uint32_t label = labels[first.value];
+    faces_.push_back({first, along ? first : links_.alpha(1, first), element_of(first), label, face.bare});
+    fragments_ = std::max(fragments_, label + 1);
   });
-  std::sort(faces_.begin(), faces_.end(), [](const DrawnFace& a, const DrawnFace& b) {
+  std::sort(faces_.begin(), faces_.end(), [](const SkinFace& a, const SkinFace& b) {
     return a.fragment != b.fragment ? a.fragment < b.fragment : a.first < b.first;
   });
 }
 
 void BodySkin::add_points() {
   point_.assign(map_.cells(Vertex).slots(), -1);
-  for (const DrawnFace& face : faces_) {
+  for (const SkinFace& face : faces_) {
     Dart at = face.start;
     do {
       point_[map_.vertex(at)] = 0;
@@ -106,7 +104,7 @@ void BodySkin::add_points() {
 }
 
 void BodySkin::add_faces(std::int32_t fragments) {
-  for (const DrawnFace& face : faces_) {
+  for (const SkinFace& face : faces_) {
     Dart at = face.start;
     do {
       skin_.corners.push_back(point_[map_.vertex(at)]);
@@ -121,7 +119,7 @@ void BodySkin::add_faces(std::int32_t fragments) {
 
 void BodySkin::add_stress() {
   std::vector<Dart> elements;
-  for (const DrawnFace& face : faces_) elements.push_back(face.element);
+  for (const SkinFace& face : faces_) elements.push_back(face.element);
   for (const Eigen::Matrix3d& stress : stress_of_elements(body_, elements))
     skin_.equivalent.push_back(von_mises(stress));
   const std::vector<double> largest = vertex_stress(body_);
@@ -130,9 +128,7 @@ void BodySkin::add_stress() {
 }
 
 void BodySkin::add_bare() {
-  const bool known = body_.border && map_.dimension() == 3;
-  for (const DrawnFace& face : faces_)
-    skin_.bare.push_back(known && (*body_.border)[map_.slot(FaceOfVolume, face.first)] == 0 ? 1 : 0);
+  for (const SkinFace& face : faces_) skin_.bare.push_back(face.bare ? 1 : 0);
 }
 
 } // namespace
@@ -141,8 +137,8 @@ SkinMaker::SkinMaker(const Scene& scene) : scene_(&scene) {
   for (const auto& body : scene.bodies()) {
     const bool sheet = body->map->dimension() == 2;
     sides_.push_back(sheet ? sides_of(body->map->map()) : Sides{});
-    stress_ = stress_ || has_stress(*body);
-    bare_ = bare_ || (!sheet && body->border);
+    arrays_.stress = arrays_.stress || has_stress(*body);
+    arrays_.bare = arrays_.bare || (!sheet && body->border);
   }
 }
 
@@ -151,7 +147,7 @@ Skin SkinMaker::skin() const {
   skin.time = scene_->time();
   std::int32_t fragments = 0;
   for (std::size_t n = 0; n < sides_.size(); ++n)
-    BodySkin(*scene_->bodies()[n], sides_[n], skin).add(stress_, bare_, fragments);
+    BodySkin(*scene_->bodies()[n], sides_[n], skin).add(arrays_, fragments);
   return skin;
 }
 

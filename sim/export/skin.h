@@ -54,10 +54,15 @@ public:
   explicit SkinMaker(const Scene& scene);
   Skin skin() const; // of the present state
 
+  // Which of those that a skin may lack it has.
+  struct Arrays {
+    bool stress = false, bare = false;
+  };
+
 private:
   const Scene* scene_;
   std::vector<Sides> sides_; // of each body; of solids empty
-  bool stress_ = false, bare_ = false;
+  Arrays arrays_;
 };
 
 } // namespace rend

@@ -142,7 +142,8 @@ TEST(FragmentContact, halves_of_a_solid_that_was_cut_do_not_pass_back_through_ea
 // How many edges of a sheet pass through faces that they share no vertex with: by brute force.
 int crossings(const Body& body) {
   const auto& x = body.map->position();
-  const ContactFaces faces(*body.map);
+  Boundary boundary(*body.map, body.border);
+  const ContactFaces faces(*body.map, boundary);
   int count = 0;
   for (const ContactFaces::Triangle& t : faces.triangles()) {
     const Vec3 a = x[t.vertex[0]], n = (x[t.vertex[1]].vec() - a).cross(x[t.vertex[2]].vec() - a);

@@ -1,0 +1,52 @@
+#include "sim/boundary/boundary.h"
+
+#include "sim/base/check.h"
+#include "sim/mechanics/winding.h"
+
+namespace rend {
+
+Boundary::Boundary(EmbeddedMap& map, const BorderColumn* border) : map_(map), border_(border) {
+  if (map.dimension() == 3) {
+    solid_.emplace(map, border);
+    return;
+  }
+  map.use(FaceOfVolume);
+  map.subscribe(changes_);
+}
+
+Boundary::~Boundary() {
+  map_.unsubscribe(changes_);
+}
+
+void Boundary::update() {
+  if (solid_) {
+    revision_ += solid_->update();
+    return;
+  }
+  revision_ += changes_.any;
+  if (changes_.any) changes_.clear();
+  if (sheet_) sheet_->update();
+}
+
+Surface& Boundary::sheet() {
+  CHECK(!solid_);
+  if (!sheet_) sheet_.emplace(map_, border_);
+  return *sheet_;
+}
+
+SolidSurface& Boundary::solid() {
+  CHECK(solid_.has_value());
+  return *solid_;
+}
+
+DrawnFaces::Face Boundary::face_of_sheet(Dart first, std::vector<Slot>& vertices) const {
+  vertices.clear();
+  Dart at = first;
+  do {
+    vertices.push_back(map_.vertex(at));
+    at = map_.map().follow(at, to_next_side);
+  } while (at != first);
+  return {.first = first, .turned = false, .bare = false, .sides = static_cast<std::uint32_t>(vertices.size())};
+}
+
+} // namespace rend

@@ -1,0 +1,64 @@
+// The boundary of a body: the faces that can be seen, touched and exported. Which faces these are, in which order
+// they come and how each is walked is found here and nowhere else; contact, exports and pictures take what they
+// need of it (Body::boundary()).
+//
+// Of a sheet these are all faces, of a solid the α3-free ones (solid_surface.h). What only pictures need of a
+// sheet, triangles with their sides and normals (surface.h), is there once somebody asks for it.
+//
+// Everything is brought up to date after changes of the map by update(), from the places that changed, and is
+// then what it would be if it were made anew: when and how often that is done leaves no trace.
+#pragma once
+
+#include "sim/boundary/solid_surface.h"
+#include "sim/boundary/surface.h"
+
+#include <optional>
+
+namespace rend {
+
+class Boundary {
+public:
+  Boundary(EmbeddedMap& map, const BorderColumn* border); // border: null where nothing tears
+  ~Boundary();
+  Boundary(const Boundary&) = delete;
+  Boundary& operator=(const Boundary&) = delete;
+
+  void update();                              // after edits; does nothing where there were none
+  long revision() const { return revision_; } // grows with each update that had something to do
+
+  // Calls f(DrawnFaces::Face, std::span<const Slot> vertices), face after face by their smallest darts (of a
+  // sheet by their slots, which is the same until an edit makes new faces). Vertices come in the order in which
+  // the face is walked, from that of its smallest dart on.
+  template <class F> void for_each_face(F&& f) const {
+    std::vector<Slot> vertices;
+    if (solid_) {
+      solid_->for_each_face([&](const DrawnFaces::Face& face, std::span<const DrawnFaces::Corner> corners) {
+        vertices.clear();
+        for (const DrawnFaces::Corner& corner : corners) vertices.push_back(corner.vertex);
+        f(face, std::span<const Slot>(vertices));
+      });
+      return;
+    }
+    const CellIndex& faces = map_.cells(FaceOfVolume);
+    for (Slot face = 0; face < faces.slots(); ++face) {
+      if (!faces.alive(face)) continue;
+      const DrawnFaces::Face found = face_of_sheet(faces.first_dart(face), vertices);
+      f(found, std::span<const Slot>(vertices));
+    }
+  }
+
+  Surface& sheet();      // CHECK: of a sheet; made when it is first asked for
+  SolidSurface& solid(); // CHECK: of a solid
+
+private:
+  DrawnFaces::Face face_of_sheet(Dart first, std::vector<Slot>& vertices) const;
+
+  EmbeddedMap& map_;
+  const BorderColumn* border_;
+  Changes changes_; // of a sheet
+  long revision_ = 0;
+  std::optional<Surface> sheet_; // none: nobody asked for it
+  std::optional<SolidSurface> solid_;
+};
+
+} // namespace rend
