@@ -8,10 +8,31 @@
 namespace rend {
 
 const char* name_of(Phase phase) {
-  static constexpr std::array<const char*, phase_count> names{
-      "forces",    "loads",   "criteria", "changes", "rebinding", "integration",
-      "stiffness", "contact", "guard",    "output",  "rest"};
-  return names[static_cast<std::size_t>(phase)];
+  switch (phase) {
+  case Phase::Forces:
+    return "forces";
+  case Phase::Loads:
+    return "loads";
+  case Phase::Criteria:
+    return "criteria";
+  case Phase::Changes:
+    return "changes";
+  case Phase::Rebinding:
+    return "rebinding";
+  case Phase::Integration:
+    return "integration";
+  case Phase::Stiffness:
+    return "stiffness";
+  case Phase::Contact:
+    return "contact";
+  case Phase::Guard:
+    return "guard";
+  case Phase::Output:
+    return "output";
+  case Phase::Rest:
+    return "rest";
+  }
+  return "";
 }
 
 double clock_reading() {

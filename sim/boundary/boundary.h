@@ -1,6 +1,6 @@
-// The boundary of a body: the faces that can be seen, touched and exported. Which faces these are, in which order
-// they come and how each is walked is found here and nowhere else; contact, exports and pictures take what they
-// need of it (Body::boundary()).
+// The boundary of a body: the faces that can be seen, touched and exported. Which faces these are, in which
+// order they come and how each is walked is found here; contact, exports and pictures take what they need of it
+// (Body::boundary()).
 //
 // Of a sheet these are all faces, of a solid the α3-free ones (solid_surface.h). What only pictures need of a
 // sheet, triangles with their sides and normals (surface.h), is there once somebody asks for it.

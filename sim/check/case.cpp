@@ -19,9 +19,9 @@ const char* name_of(Verdict verdict) {
   case Verdict::Limit:
     return "known limit";
   case Verdict::Failed:
-    break;
+    return "failed";
   }
-  return "failed";
+  return "";
 }
 
 void Finding::within(std::string measure, double got, double low, double high) {

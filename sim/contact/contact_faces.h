@@ -1,5 +1,5 @@
-// What others can touch of a body: the faces of its boundary as triangles, those of a solid counter-clockwise as
-// seen from outside at rest. Listed anew after edits.
+// What others can touch of a body: the faces of its boundary as triangles, those of a solid counter-clockwise
+// as seen from outside at rest. Listed anew after edits.
 //
 // A face becomes a fan around the vertex of its smallest dart, or, where it is walked the other way around,
 // around the vertex before that: the diagonals of a quad differ, and the course of a contact with them.

@@ -1,5 +1,5 @@
-// What explicit and symplectic Euler share: one evaluation of the forces a step, with which each vertex moves on
-// by itself,
+// What explicit and symplectic Euler share: one evaluation of the forces a step, with which each vertex moves
+// on by itself,
 //
 //   v' = v + dt a(x, v),   x' = x + dt v   or   x' = x + dt v'
 #pragma once

@@ -1,7 +1,7 @@
 #include "sim/outside/patch.h"
 
 #include "sim/mechanics/winding.h"
-#include "sim/topology/walk.h"
+#include "sim/topology/orientation.h"
 
 #include <algorithm>
 
@@ -65,35 +65,6 @@ void vertices_of_face(const EmbeddedMap& map, Dart d, bool turned, std::vector<S
 
 namespace {
 
-// Of each face of a sheet, by slot, whether its first dart goes around it against its neighbours: in each
-// component the smallest dart leads. On a band without sides, one row of faces disagrees with the next
-// somewhere.
-std::vector<bool> turned_faces(const EmbeddedMap& map) {
-  const GMap& m = map.map();
-  std::vector<signed char> turn(m.capacity(), 0);
-  std::vector<Dart> ahead;
-  m.for_each_dart([&](Dart d) {
-    if (turn[d.value] == 0) {
-      turn[d.value] = 1;
-      ahead.push_back(d);
-    }
-    while (!ahead.empty()) {
-      const Dart at = ahead.back();
-      ahead.pop_back();
-      for (int i = 0; i < 3; ++i) {
-        const Dart next = m.alpha(i, at);
-        if (turn[next.value] != 0) continue;
-        turn[next.value] = static_cast<signed char>(-turn[at.value]);
-        ahead.push_back(next);
-      }
-    }
-  });
-  const CellIndex& faces = map.cells(FaceOfVolume);
-  std::vector<bool> turned(faces.slots());
-  for (Slot f = 0; f < faces.slots(); ++f) turned[f] = faces.alive(f) && turn[faces.first_dart(f).value] < 0;
-  return turned;
-}
-
 std::vector<bool> chosen(const EmbeddedMap& map, const std::vector<Slot>& vertices) {
   std::vector<bool> is(map.cells(Vertex).slots());
   for (Slot v : vertices) is[v] = true;
@@ -112,7 +83,8 @@ Patch::Found Patch::find_faces(EmbeddedMap& map, const std::vector<Slot>& vertic
   const CellIndex& cells = map.use(FaceOfVolume);
   const std::vector<bool> is = chosen(map, vertices);
   const bool sheet = map.dimension() == 2;
-  const std::vector<bool> turned = sheet ? turned_faces(map) : std::vector<bool>{};
+  // A face of a sheet is gone around as the smallest dart of its component leads.
+  const Sides sides = sheet ? sides_of(map.map()) : Sides{};
   Found found;
   std::vector<Slot> face;
   for (Slot f = 0; f < cells.slots(); ++f) {
@@ -121,7 +93,7 @@ Patch::Found Patch::find_faces(EmbeddedMap& map, const std::vector<Slot>& vertic
     if (!sheet && !map.map().is_free(3, d)) continue;
     vertices_of_face(map, d, false, face);
     if (!std::all_of(face.begin(), face.end(), [&](Slot v) { return is[v]; })) continue;
-    found.emplace_back(f, (sheet ? turned[f] : !winds_outward(map, d)) ? -1 : 1);
+    found.emplace_back(f, (sheet ? sides.of_dart[d.value] == 2 : !winds_outward(map, d)) ? -1 : 1);
   }
   return found;
 }

@@ -171,9 +171,9 @@ std::string name_of(Outcome outcome) {
   case Outcome::Astray:
     return "astray";
   case Outcome::Refused:
-    break;
+    return "refused";
   }
-  return "refused";
+  return {};
 }
 
 double StudyRow::mean_step() const {
