@@ -42,14 +42,14 @@ public:
 };
 
 template <Cell C> const CriterionType& chance() {
-  static const CriterionType type{
-      "chance",
-      "anything",
-      "",
-      false,
-      [](const CriterionRequest&) { return C; },
-      [](const CriterionRequest&) { return std::string(); },
-      [](const CriterionRequest& r) -> std::unique_ptr<Criterion> { return std::make_unique<Chance<C>>(r); }};
+  static const CriterionType type{.name = "chance",
+                                  .what = "anything",
+                                  .unit = "",
+                                  .cell = [](const CriterionRequest&) { return C; },
+                                  .lacking = [](const CriterionRequest&) { return std::string(); },
+                                  .make = [](const CriterionRequest& r) -> std::unique_ptr<Criterion> {
+                                    return std::make_unique<Chance<C>>(r);
+                                  }};
   return type;
 }
 
