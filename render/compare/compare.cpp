@@ -3,6 +3,7 @@
 #include "render/compare/heat.h"
 #include "render/files/png.h"
 #include "sim/base/check.h"
+#include "sim/base/enum_words.h"
 #include "sim/base/error.h"
 #include "sim/base/threads.h"
 
@@ -22,21 +23,9 @@ const std::vector<CaseState>& all_states() {
 }
 
 const char* name_of(CaseState state) {
-  switch (state) {
-  case CaseState::Match:
-    return "match";
-  case CaseState::Differ:
-    return "differ";
-  case CaseState::Size:
-    return "size";
-  case CaseState::Missing:
-    return "missing";
-  case CaseState::New:
-    return "new";
-  case CaseState::Unreadable:
-    break;
-  }
-  return "unreadable";
+  static constexpr EnumWords<CaseState::Unreadable> words{"match",   "differ", "size",
+                                                          "missing", "new",    "unreadable"};
+  return words[state];
 }
 
 namespace {

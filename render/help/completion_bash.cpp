@@ -4,29 +4,20 @@
 // together again, and offers only what stands behind the last =, as bash then replaces no more.
 #include "render/help/completion.h"
 
+#include "sim/base/enum_words.h"
+
 #include <fmt/format.h>
 
 namespace rend {
 namespace {
 
 std::string coded(const Offer& offer) {
-  switch (offer.kind) {
-  case Offer::Kind::Nothing:
-    return "nothing";
-  case Offer::Kind::Words:
-    return "words " + in_a_row(offer.words);
-  case Offer::Kind::List:
-    return "list " + in_a_row(offer.words);
-  case Offer::Kind::Files:
-    return offer.extension.empty() ? "files" : "files " + offer.extension;
-  case Offer::Kind::Folders:
-    return "folders";
-  case Offer::Kind::Attributes:
-    return "attributes";
-  case Offer::Kind::Elements:
-    return "elements";
-  }
-  return "nothing";
+  using enum Offer::Kind;
+  static constexpr EnumWords<Elements> kinds{"nothing", "words",      "list",    "files",
+                                             "folders", "attributes", "elements"};
+  const std::string kind = kinds[offer.kind];
+  if (offer.kind == Words || offer.kind == List) return kind + " " + in_a_row(offer.words);
+  return offer.extension.empty() ? kind : kind + " " + offer.extension;
 }
 
 struct Tables {

@@ -2,6 +2,7 @@
 
 #include "render/help/table.h"
 #include "sim/base/check.h"
+#include "sim/base/markup.h"
 
 #include <algorithm>
 #include <climits>
@@ -13,26 +14,7 @@ namespace rend {
 namespace {
 
 std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '&':
-      out += "&amp;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    default:
-      out += c;
-    }
-  }
-  return out;
+  return in_markup(text, MarkupQuotes::Double);
 }
 
 // The schema grows line by line, indented by the depth of open elements.

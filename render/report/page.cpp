@@ -3,6 +3,8 @@
 #include "render/report/page_style.h"
 #include "sim/base/base64.h"
 #include "sim/base/check.h"
+#include "sim/base/enum_words.h"
+#include "sim/base/markup.h"
 #include "sim/base/printable.h"
 
 #include <fmt/format.h>
@@ -13,29 +15,7 @@ namespace rend::html {
 namespace {
 
 std::string without_markup(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-    case '&':
-      out += "&amp;";
-      break;
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    case '\'':
-      out += "&#39;";
-      break;
-    default:
-      out += c;
-    }
-  }
-  return out;
+  return in_markup(text, MarkupQuotes::Both);
 }
 
 std::string escaped_text(std::string_view text) {
@@ -43,19 +23,8 @@ std::string escaped_text(std::string_view text) {
 }
 
 const char* name_of(Tone tone) {
-  switch (tone) {
-  case Tone::Good:
-    return "good";
-  case Tone::Note:
-    return "note";
-  case Tone::Limit:
-    return "limit";
-  case Tone::Bad:
-    return "bad";
-  case Tone::Plain:
-    break;
-  }
-  return "plain";
+  static constexpr EnumWords<Tone::Plain> words{"good", "note", "limit", "bad", "plain"};
+  return words[tone];
 }
 
 } // namespace
@@ -160,8 +129,8 @@ Html figure(PictureFormat format, std::string_view bytes, std::string_view alter
 }
 
 std::string data_address(PictureFormat format, std::string_view bytes) {
-  return fmt::format("data:image/{};base64,{}", format == PictureFormat::Svg ? "svg+xml" : "png",
-                     base64(bytes));
+  static constexpr EnumWords<PictureFormat::Png> types{"svg+xml", "png"};
+  return fmt::format("data:image/{};base64,{}", types[format], base64(bytes));
 }
 
 std::string in_digits(double value, int digits) {

@@ -1,6 +1,7 @@
 #include "sim/base/profile.h"
 
 #include "sim/base/archive.h"
+#include "sim/base/enum_words.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,31 +9,10 @@
 namespace rend {
 
 const char* name_of(Phase phase) {
-  switch (phase) {
-  case Phase::Forces:
-    return "forces";
-  case Phase::Loads:
-    return "loads";
-  case Phase::Criteria:
-    return "criteria";
-  case Phase::Changes:
-    return "changes";
-  case Phase::Rebinding:
-    return "rebinding";
-  case Phase::Integration:
-    return "integration";
-  case Phase::Stiffness:
-    return "stiffness";
-  case Phase::Contact:
-    return "contact";
-  case Phase::Guard:
-    return "guard";
-  case Phase::Output:
-    return "output";
-  case Phase::Rest:
-    return "rest";
-  }
-  return "";
+  static constexpr EnumWords<Phase::Rest> words{"forces",    "loads",       "criteria",  "changes",
+                                                "rebinding", "integration", "stiffness", "contact",
+                                                "guard",     "output",      "rest"};
+  return words[phase];
 }
 
 double clock_reading() {

@@ -1,5 +1,6 @@
 #include "sim/base/simd_width.h"
 
+#include "sim/base/enum_words.h"
 #include "sim/base/error.h"
 #include "sim/base/wording.h"
 
@@ -43,7 +44,8 @@ SimdWidth simd_width() {
 }
 
 std::string name_of(SimdWidth width) {
-  return width == SimdWidth::Avx2 ? "avx2" : "sse2";
+  static constexpr EnumWords<SimdWidth::Avx2> words{"sse2", "avx2"};
+  return words[width];
 }
 
 bool has_width(SimdWidth width) {

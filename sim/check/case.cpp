@@ -1,4 +1,5 @@
 #include "sim/check/case.h"
+#include "sim/base/enum_words.h"
 #include "sim/build/build_scene.h"
 
 #include "sim/check/families.h"
@@ -11,17 +12,8 @@
 namespace rend {
 
 const char* name_of(Verdict verdict) {
-  switch (verdict) {
-  case Verdict::Ok:
-    return "ok";
-  case Verdict::Refused:
-    return "refused";
-  case Verdict::Limit:
-    return "known limit";
-  case Verdict::Failed:
-    return "failed";
-  }
-  return "";
+  static constexpr EnumWords<Verdict::Failed> words{"ok", "refused", "known limit", "failed"};
+  return words[verdict];
 }
 
 void Finding::within(std::string measure, double got, double low, double high) {

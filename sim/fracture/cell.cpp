@@ -1,5 +1,6 @@
 #include "sim/fracture/cell.h"
 
+#include "sim/base/enum_words.h"
 #include "sim/mechanics/mass.h"
 
 #include <algorithm>
@@ -21,17 +22,9 @@ Orbit orbit_of(Cell cell, int dimension) {
 }
 
 std::string name_of(Cell cell, int dimension) {
-  switch (cell) {
-  case Cell::Edges:
-    return "edge";
-  case Cell::Borders:
-    return dimension == 2 ? "edge" : "face";
-  case Cell::Vertices:
-    return "vertex";
-  case Cell::Elements:
-    return dimension == 2 ? "face" : "volume";
-  }
-  return {};
+  static constexpr EnumWords<Cell::Elements> of_sheet{"edge", "edge", "vertex", "face"};
+  static constexpr EnumWords<Cell::Elements> of_solid{"edge", "face", "vertex", "volume"};
+  return dimension == 2 ? of_sheet[cell] : of_solid[cell];
 }
 
 Vec3 middle_of(const EmbeddedMap& map, const Record* x, std::span<const Dart> darts) {

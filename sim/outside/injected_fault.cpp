@@ -1,21 +1,14 @@
 #include "sim/outside/injected_fault.h"
 
+#include "sim/base/enum_words.h"
+
 #include <limits>
 
 namespace rend {
 
 const char* name_of(StepStage stage) {
-  switch (stage) {
-  case StepStage::Forces:
-    return "forces";
-  case StepStage::Loads:
-    return "loads";
-  case StepStage::Integration:
-    return "integration";
-  case StepStage::Contact:
-    return "contact";
-  }
-  return "";
+  static constexpr EnumWords<StepStage::Contact> words{"forces", "loads", "integration", "contact"};
+  return words[stage];
 }
 
 void FaultySpot::spoil(const double* inverse_mass, std::size_t count, Record* values) {

@@ -1,6 +1,7 @@
 #include "sim/study/study.h"
 
 #include "sim/base/check.h"
+#include "sim/base/enum_words.h"
 #include "sim/study/duration.h"
 #include "sim/study/reference.h"
 #include "sim/study/runs.h"
@@ -160,20 +161,9 @@ private:
 
 } // namespace
 
-std::string name_of(Outcome outcome) {
-  switch (outcome) {
-  case Outcome::Done:
-    return "done";
-  case Outcome::Unstable:
-    return "unstable";
-  case Outcome::Unsolved:
-    return "unsolved";
-  case Outcome::Astray:
-    return "astray";
-  case Outcome::Refused:
-    return "refused";
-  }
-  return {};
+const char* name_of(Outcome outcome) {
+  static constexpr EnumWords<Outcome::Refused> words{"done", "unstable", "unsolved", "astray", "refused"};
+  return words[outcome];
 }
 
 double StudyRow::mean_step() const {

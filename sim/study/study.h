@@ -47,7 +47,7 @@ struct StudyPlan {
 
 // Astray: it came to its end, and a body that never moved would be as near to the reference.
 enum class Outcome { Done, Unstable, Unsolved, Astray, Refused };
-std::string name_of(Outcome outcome); // "done", "unstable" ...
+const char* name_of(Outcome outcome); // "done", "unstable" ...
 
 // Seconds of the time loop alone, by the clock of the thread that runs it, which stands still while others run.
 struct RunTime {
