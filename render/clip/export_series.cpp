@@ -58,13 +58,13 @@ void ExportSeries::abandon() {
   finish();
 }
 
-nlohmann::ordered_json ExportSeries::figures() const {
-  nlohmann::ordered_json out{{"format", format_.name}, {"folder", folder_.path().string()}};
-  if (!index_name().empty()) out["index"] = index_name();
-  out["files"] = files_.size();
-  out["bytes"] = bytes_;
-  out["seconds"] = seconds_;
-  return out;
+ExportFigures ExportSeries::figures() const {
+  return {.format = format_.name,
+          .folder = folder_.path().string(),
+          .index = index_name(),
+          .files = files_.size(),
+          .bytes = bytes_,
+          .seconds = seconds_};
 }
 
 const ExportFormat& export_format(const std::string& name) {

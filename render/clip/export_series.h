@@ -5,12 +5,11 @@
 // readers go by the numbers alone. The index comes last, and lists what there is.
 #pragma once
 
+#include "render/clip/figures.h"
 #include "render/clip/named_files.h"
 #include "render/clip/session.h"
 #include "render/files/output_folder.h"
 #include "sim/export/format.h"
-
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -31,7 +30,7 @@ public:
   void finish();         // the end was reached, or a signal came
   void abandon();        // the state went wrong: what is held is dropped
 
-  nlohmann::ordered_json figures() const; // format, folder, index (if any), files, bytes, seconds
+  ExportFigures figures() const;
 
 private:
   void release();

@@ -1,12 +1,16 @@
-// The figures of a run: one object for `--json`, whose names are a contract with tests and benchmarks, and a
-// summary to read.
+// The figures of a run: one struct, filled once, and its printers. The names of the JSON object of `--json` are
+// a contract with tests, benchmarks and `rend batch`.
 #pragma once
 
+#include "render/clip/printed_figures.h"
 #include "render/clip/session.h"
 #include "render/pipeline/pipeline.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace rend {
 
@@ -18,11 +22,95 @@ struct Costs {
   std::size_t surface_bytes = 0;
 };
 
-// Of the present state: the last good one where the run was stopped. Without `simulated` nothing was, and what
-// one would come to is not known: all figures of the state are null.
-nlohmann::ordered_json figures_of(const Session& session, Stopped stopped, const Costs& costs,
-                                  bool simulated = true);
+// What a law did, whether it did anything or not.
+struct LawFigures {
+  std::string body, criterion, change;
+  double threshold = 0;
+  std::string unit; // of that
+  std::size_t tears = 0;
+  std::optional<double> first; // [s], of the first tear
+};
 
-std::string summary_of(const nlohmann::ordered_json& figures);
+struct ProbeFigures {
+  std::string name;
+  std::optional<ProbeReading> reading; // none: its vertices were deleted
+};
+
+struct AnswerFigures {
+  std::string probe, quantity;
+  double at = 0;    // [s]
+  double value = 0; // [m], [N] or [Pa]
+  double tolerance = 0;
+  std::optional<double> measured, error; // none: not reached, or its vertices were deleted
+  std::optional<bool> holds;             // none: not reached
+  std::string source;
+};
+
+struct SphereFigures {
+  Vec3 centre, velocity; // [m], [m/s]
+};
+
+// What the integrators' solving took, over all bodies.
+struct SolvingFigures {
+  SolverFigures all; // bytes: with those of the assembled matrix
+  std::size_t blocks = 0;
+};
+
+// All that a state is known by.
+struct StateFigures {
+  long steps = 0, evaluations = 0; // evaluations: of internal forces
+  double time = 0;                 // [s]
+  std::size_t vertices = 0, elements = 0, darts = 0, fragments = 0, tears = 0;
+  std::vector<LawFigures> laws;
+  double kinetic = 0, elastic = 0, gravity = 0; // [J]
+  double mass = 0;                              // [kg]
+  Vec3 momentum, angular_momentum;              // [kg m/s], [kg m²/s]
+  std::vector<ProbeFigures> probes;
+  std::vector<AnswerFigures> answers;
+  std::vector<SphereFigures> spheres; // those that move, in the order of the preset
+  GuardFigures guard;
+  std::vector<std::pair<std::string, std::size_t>>
+      rows;                              // live ones that the integrator evaluates, by interaction
+  std::optional<SolvingFigures> solver;  // none: the scheme does not solve
+  std::optional<SolverFigures> adaptive; // none: the scheme does not cut its steps
+  std::uint64_t hash = 0;
+};
+
+// [byte]
+struct MemoryFigures {
+  std::size_t map = 0, embeddings = 0, program = 0, state = 0, surroundings = 0, surface = 0, guard = 0;
+  std::size_t peak = 0; // of the process
+  std::size_t of_scene() const { return map + embeddings + program + state + surroundings + surface + guard; }
+};
+
+// States that were exported (export_series.h).
+struct ExportFigures {
+  std::string format, folder, index; // index: empty where the format has none
+  std::size_t files = 0, bytes = 0;
+  double seconds = 0;
+};
+
+struct Figures {
+  std::string preset, name, integrator;
+  double step = 0; // [s]
+  Stopped stopped = Stopped::No;
+  // Not: all pictures were there. What the state would come to is not known, and its figures are printed as
+  // null.
+  bool simulated = true;
+  StateFigures state;
+  SceneSeconds seconds;
+  double step_seconds = 0;
+  Costs costs;
+  MemoryFigures bytes;
+  std::optional<ExportFigures> exported;
+  std::optional<PictureFigures> pictures;
+};
+
+// Of the present state: the last good one where the run was stopped. What is exported or drawn is left to the
+// caller.
+Figures figures_of(const Session& session, Stopped stopped, const Costs& costs);
+
+nlohmann::ordered_json json_of(const Figures& figures);
+std::string summary_of(const Figures& figures); // to be read
 
 } // namespace rend

@@ -1,6 +1,5 @@
 #include "render/clip/records.h"
 
-#include "render/clip/figures.h"
 #include "render/console/json_text.h"
 
 #include <fmt/format.h>

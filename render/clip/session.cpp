@@ -5,6 +5,7 @@
 #include "render/console/number_option.h"
 #include "render/console/signals.h"
 #include "render/report/machine.h"
+#include "sim/base/enum_words.h"
 #include "sim/base/hash.h"
 #include "sim/base/start_threads.h"
 #include "sim/base/threads.h"
@@ -185,6 +186,11 @@ void say_what_was_redone(const Scene& scene) {
 }
 
 } // namespace
+
+const char* name_of(Stopped stopped) {
+  static constexpr EnumWords<Stopped::Unstable> words{"no", "interrupted", "unstable"};
+  return words[stopped];
+}
 
 Exit end_of(const Session& session, Stopped stopped) {
   if (!session.quiet()) {

@@ -36,6 +36,7 @@ void add_preset_options(CLI::App& app, SessionOptions& options); // the preset a
 void add_run_options(CLI::App& app, SessionOptions& options);    // those, and how it is run
 
 enum class Stopped { No, Interrupted, Unstable };
+const char* name_of(Stopped stopped); // "unstable"
 
 class Session {
 public:

@@ -5,6 +5,7 @@
 #include "render/facts/inventory.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -19,8 +20,8 @@ struct InfoOptions {
 Exit info(InfoOptions options) {
   options.session.quiet = true; // notes are part of the answer
   Session session(options.session);
-  const nlohmann::ordered_json inventory = inventory_of(session);
-  print_result(options.json ? text_of(inventory, 2) + "\n" : inventory_in_words(inventory));
+  const Inventory inventory = inventory_of(session);
+  print_result(options.json ? text_of(json_of(inventory), 2) + "\n" : inventory_in_words(inventory));
   return Exit::Done;
 }
 

@@ -2,6 +2,7 @@
 #include "render/clip/named_files.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"
+#include "render/console/json_text.h"
 #include "render/console/signals.h"
 #include "render/facts/mesh_facts.h"
 #include "render/files/output.h"
@@ -11,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -23,9 +25,9 @@ struct MeshOptions {
 };
 
 Exit info(const MeshOptions& options) {
-  const nlohmann::ordered_json facts =
-      mesh_facts(sew(read_mesh(std::filesystem::path(options.in))), options.in);
-  print_result(options.json ? facts_in_json(facts) : facts_in_words(facts));
+  const MeshFacts facts = mesh_facts(sew(read_mesh(std::filesystem::path(options.in))), options.in);
+  // A file may call its groups by any bytes.
+  print_result(options.json ? text_of(json_of(facts), 2) + "\n" : facts_in_words(facts));
   return Exit::Done;
 }
 

@@ -19,6 +19,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -114,12 +115,11 @@ void print_figures(const RenderOptions& options, const Session& session, const S
                    const PipelineOptions& files, double total) {
   if (options.json) {
     const Film& film = shoot.film();
-    nlohmann::ordered_json figures =
-        figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()},
-                   shoot.simulates());
-    figures["frames"] = shoot.made();
-    figures["kept"] = shoot.kept();
-    print_result(text_of(figures, 2) + "\n");
+    Figures figures =
+        figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()});
+    figures.simulated = shoot.simulates();
+    figures.pictures = PictureFigures{.made = shoot.made(), .kept = shoot.kept()};
+    print_result(text_of(json_of(figures), 2) + "\n");
   } else if (!session.quiet()) {
     print_result(closing_words(shoot, files, total));
   }

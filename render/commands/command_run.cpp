@@ -16,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
@@ -91,6 +92,17 @@ bool answers_hold(const Scene& scene) {
   return true;
 }
 
+void print_figures(const RunOptions& options, const Figures& figures,
+                   const std::optional<ProfileFigures>& profile) {
+  if (!options.json) {
+    print_result(summary_of(figures) + (profile ? profile_in_words(*profile) : ""));
+    return;
+  }
+  nlohmann::ordered_json json = json_of(figures);
+  if (profile) json["profile"] = json_of(*profile);
+  print_result(text_of(json, 2) + "\n");
+}
+
 Exit run(const RunOptions& options) {
   const double start = wall_clock();
   check_export(options);
@@ -105,14 +117,11 @@ Exit run(const RunOptions& options) {
   const Stopped stopped = simulate(session, options, series.get());
   Costs costs;
   costs.total = wall_clock() - start;
-  nlohmann::ordered_json figures = figures_of(session, stopped, costs);
-  if (series) figures["export"] = series->figures();
-  const bool profile = wanted.profile && session.scene().steps_done() > 0;
-  if (profile) figures["profile"] = profile_json(session);
-  if (options.json)
-    print_result(text_of(figures, 2) + "\n");
-  else
-    print_result(summary_of(figures) + (profile ? profile_in_words(figures["profile"]) : ""));
+  Figures figures = figures_of(session, stopped, costs);
+  if (series) figures.exported = series->figures();
+  std::optional<ProfileFigures> profile;
+  if (wanted.profile && session.scene().steps_done() > 0) profile = profile_of(session);
+  print_figures(options, figures, profile);
   const Exit end = end_of(session, stopped);
   return end == Exit::Done && !answers_hold(session.scene()) ? Exit::No : end;
 }

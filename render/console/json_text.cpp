@@ -2,6 +2,8 @@
 
 #include "sim/base/printable.h"
 
+#include <nlohmann/json.hpp>
+
 namespace rend {
 
 std::string text_of(const nlohmann::ordered_json& json, int indent) {

@@ -1,3 +1,4 @@
+// What a scene is made of, to be read.
 #include "render/console/console.h"
 #include "render/facts/inventory.h"
 #include "sim/base/printable.h"
@@ -6,8 +7,6 @@
 
 namespace rend {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Lines of at most 100 columns, the first after `head`, the others below its end.
 std::string folded(const std::string& head, const std::string& words) {
@@ -30,141 +29,115 @@ std::string folded(const std::string& head, const std::string& words) {
   return out + line + '\n';
 }
 
-std::string text(const Json& json, const char* key) {
-  return printable(json[key].get<std::string>());
-}
-std::size_t whole(const Json& json, const char* key) {
-  return json[key].get<std::size_t>();
-}
-double real(const Json& json, const char* key) {
-  return json[key].get<double>();
+std::string folded_lines(const std::string& head, const std::vector<std::string>& all) {
+  std::string out;
+  for (const std::string& one : all) out += folded(head, one);
+  return out;
 }
 
-std::string time_in_words(const Json& time) {
-  std::string step = fmt::format("{:.6g} s a step by {} (order {}, {} evaluation{})", real(time, "step"),
-                                 text(time, "integrator"), whole(time, "order"), whole(time, "evaluations"),
-                                 whole(time, "evaluations") == 1 ? "" : "s");
-  if (text(time, "from") == "auto")
-    step += text(time, "integrator") == "static" ? "; auto: all of the clip, one equilibrium"
-                                                 : "; auto: 0.9 of the largest that is stable at rest";
-  else
+std::string time_in_words(const TimeFacts& time) {
+  std::string step =
+      fmt::format("{:.6g} s a step by {} (order {}, {} evaluation{})", time.step, time.integrator, time.order,
+                  time.evaluations, time.evaluations == 1 ? "" : "s");
+  if (!time.automatic)
     step += "; given by the preset";
-  if (time["limit"].is_null())
+  else if (time.integrator == "static")
+    step += "; auto: all of the clip, one equilibrium";
+  else
+    step += "; auto: 0.9 of the largest that is stable at rest";
+  if (!time.limit)
     step += "; nothing limits it";
-  else if (real(time, "limit") > 0)
-    step += fmt::format("; stable at rest: up to {:.3g} s", real(time, "limit"));
+  else if (*time.limit > 0)
+    step += fmt::format("; stable at rest: up to {:.3g} s", *time.limit);
   else
     step += "; no step is stable";
-  step += fmt::format(", from modes of at most {:.4g} rad/s, damped at most {:.4g}/s",
-                      real(time["bounds"], "omega"), real(time["bounds"], "damping_rate"));
+  step += fmt::format(", from modes of at most {:.4g} rad/s, damped at most {:.4g}/s", time.omega,
+                      time.damping_rate);
   return folded("time      ", step) +
-         fmt::format("          {:.6g} s in {} steps; {} frames at {:g} a second\n", real(time, "duration"),
-                     whole(time, "steps"), whole(time, "frames"), real(time, "fps"));
+         fmt::format("          {:.6g} s in {} steps; {} frames at {:g} a second\n", time.duration, time.steps,
+                     time.frames, time.fps);
 }
 
-std::string orbit_in_words(const Json& json) {
-  return text(json, "orbit") + " " + text(json, "links");
+std::string orbit_in_words(Orbit orbit) {
+  return std::string(name(orbit)) + " " + to_string(orbit);
 }
 
-std::string tables_in_words(const Json& body) {
+std::string tables_in_words(const BodyFacts& body) {
   std::string out = fmt::format("  {:<52}{:>22}{:>12}{:>12}\n", "orbits in use", "", "slots", "bytes");
-  for (const Json& one : body["slots"])
-    out +=
-        fmt::format("    {:<72}{:>12}{:>12}\n", orbit_in_words(one), whole(one, "slots"), whole(one, "bytes"));
+  for (const SlotFacts& one : body.slots)
+    out += fmt::format("    {:<72}{:>12}{:>12}\n", orbit_in_words(one.orbit), one.slots, one.bytes);
   out += fmt::format("  {:<40}{:<46}{:>12}\n", "embeddings", "on", "bytes");
-  for (const Json& one : body["embeddings"])
-    out += fmt::format("    {:<38}{:<46}{:>12}\n", text(one, "name"), orbit_in_words(one), whole(one, "bytes"));
+  for (const EmbeddingFacts& one : body.embeddings)
+    out += fmt::format("    {:<38}{:<46}{:>12}\n", printable(one.name), orbit_in_words(one.orbit), one.bytes);
   out += fmt::format("  {:<40}{:<34}{:>12}{:>12}\n", "interactions", "caused by", "rows", "bytes");
-  for (const Json& one : body["interactions"]) {
-    std::string label = text(one, "name");
-    if (text(one, "rows_are") != "folded") label += fmt::format(" ({})", text(one, "rows_are"));
-    out += fmt::format("    {:<38}{:<34}{:>12}{:>12}\n", label, orbit_in_words(one), whole(one, "rows"),
-                       whole(one, "bytes"));
+  for (const InteractionFacts& one : body.interactions) {
+    std::string label = printable(one.name);
+    if (one.rows_are != RowsAre::Folded) label += fmt::format(" ({})", name_of(one.rows_are));
+    out += fmt::format("    {:<38}{:<34}{:>12}{:>12}\n", label, orbit_in_words(one.owner), one.rows, one.bytes);
   }
   return out;
 }
 
+std::string laws_in_words(const std::vector<LawFacts>& laws) {
+  std::string out = laws.empty() ? "" : fmt::format("  {:<86}{:>12}\n", "laws", "bytes");
+  for (const LawFacts& law : laws)
+    out += fmt::format("    {:<84}{:>12}\n",
+                       fmt::format("{} above {:g} {}: {}", printable(law.criterion), law.threshold,
+                                   printable(law.unit), printable(law.change)),
+                       law.bytes);
+  return out;
+}
+
 // Those that no other table has.
-std::string arrays_in_words(const Json& arrays) {
+std::string arrays_in_words(const std::vector<Holding>& arrays) {
   std::string out;
-  for (const Json& one : arrays) {
-    const std::string part = text(one, "part");
-    if (part == "slots" || part == "embeddings" || part == "laws" || text(one, "name").starts_with("rows of "))
-      continue;
-    out +=
-        fmt::format("    {:<38}{:<34}{:>24}\n", text(one, "name"),
-                    part + (text(one, "per").empty() ? "" : ", per " + text(one, "per")), whole(one, "bytes"));
+  for (const Holding& one : arrays) {
+    const std::string &part = one.part, name = printable(one.name);
+    if (part == "slots" || part == "embeddings" || part == "laws" || name.starts_with("rows of ")) continue;
+    out += fmt::format("    {:<38}{:<34}{:>24}\n", name,
+                       printable(part + (one.per.empty() ? "" : ", per " + one.per)), one.bytes);
   }
   return out.empty() ? out : fmt::format("  {:<40}{:<34}{:>24}\n", "other arrays", "", "bytes") + out;
 }
 
-std::string bytes_by_part(const Json& bytes) {
+std::string parts_in_words(const BytesByPart& bytes) {
   std::string out;
-  for (const auto& [part, count] : bytes.items())
-    if (part != "total") out += fmt::format("{} {}, ", part, bytes_in_words(count.get<std::size_t>()));
-  return out + fmt::format("in all {}", bytes_in_words(whole(bytes, "total")));
+  for (const auto& [part, count] : bytes.parts) out += fmt::format("{} {}, ", part, bytes_in_words(count));
+  return out + fmt::format("in all {}", bytes_in_words(bytes.total));
 }
 
-std::string body_in_words(const Json& body) {
-  std::string out = fmt::format("body {}: a {}\n", text(body, "name"), text(body, "kind"));
+std::string body_in_words(const BodyFacts& body) {
+  std::string out =
+      fmt::format("body {}: a {}\n", printable(body.name), body.dimension == 2 ? "sheet" : "solid");
   out += fmt::format("  {} vertices, {} edges, {} elements, {} darts, {} fragment{}, Euler characteristic {}\n",
-                     whole(body, "vertices"), whole(body, "edges"), whole(body, "elements"),
-                     whole(body, "darts"), whole(body, "fragments"), whole(body, "fragments") == 1 ? "" : "s",
-                     body["euler"].get<long>());
-  if (whole(body, "prescribed") > 0)
-    out += fmt::format("  {} vertices are prescribed\n", whole(body, "prescribed"));
-  out += tables_in_words(body);
-  if (!body["laws"].empty()) out += fmt::format("  {:<86}{:>12}\n", "laws", "bytes");
-  for (const Json& law : body["laws"])
-    out += fmt::format("    {:<84}{:>12}\n",
-                       fmt::format("{} above {:g} {}: {}", text(law, "criterion"), real(law, "threshold"),
-                                   text(law, "unit"), text(law, "change")),
-                       whole(law, "bytes"));
-  out += arrays_in_words(body["arrays"]);
-  for (const Json& one : body["left_out"]) out += folded("  left out  ", one.get<std::string>());
-  for (const Json& one : body["notes"]) out += folded("  note      ", one.get<std::string>());
-  if (body.contains("solver")) {
-    const Json& solver = body["solver"];
+                     body.vertices, body.edges, body.elements, body.darts, body.fragments,
+                     body.fragments == 1 ? "" : "s", body.euler);
+  if (body.prescribed > 0) out += fmt::format("  {} vertices are prescribed\n", body.prescribed);
+  out += tables_in_words(body) + laws_in_words(body.laws) + arrays_in_words(body.arrays);
+  out += folded_lines("  left out  ", body.left_out) + folded_lines("  note      ", body.notes);
+  if (body.solver)
     out += fmt::format(
         "  solver    {} blocks; in the first step {} Newton iterations, {} of conjugate gradients, {} "
         "factorisations\n",
-        whole(solver, "blocks"), whole(solver, "newton"), whole(solver, "cg"), whole(solver, "factorisations"));
-  }
-  return out + folded("  bytes     ", bytes_by_part(body["bytes"]));
-}
-
-std::string steps_in_words(const Json& passes) {
-  std::string out = fmt::format("\n{:<72}{:>8}{:>20}\n", "a step, in this order", "times", "bytes each time");
-  double whole_step = 0;
-  std::string last;
-  for (const Json& pass : passes) {
-    const double times = real(pass, "times");
-    const std::string stage = text(pass, "stage");
-    whole_step += times * real(pass, "bytes");
-    out += fmt::format("  {:<16}{:<36}{:>9} {:<9}{:>7g}{:>20}\n", stage == last ? "" : stage,
-                       text(pass, "what"), whole(pass, "count"), text(pass, "of"), times, whole(pass, "bytes"));
-    last = stage;
-  }
-  return out + fmt::format("  {:<78}{:>20}\n", "and in sum, each array counted once a pass",
-                           bytes_in_words(static_cast<std::size_t>(whole_step)));
+        body.solver->blocks, body.solver->all.newton, body.solver->all.cg, body.solver->all.factorisations);
+  return out + folded("  bytes     ", parts_in_words(body.bytes));
 }
 
 } // namespace
 
-std::string inventory_in_words(const Json& inventory) {
-  std::string out = text(inventory, "name");
-  if (inventory.contains("thesis")) out += fmt::format(" (thesis, {})", text(inventory, "thesis"));
+std::string inventory_in_words(const Inventory& inventory) {
+  std::string out = printable(inventory.name);
+  if (inventory.thesis) out += fmt::format(" (thesis, {})", printable(*inventory.thesis));
   out += '\n';
-  out += time_in_words(inventory["time"]);
-  for (const Json& body : inventory["bodies"]) out += fmt::format("\n{}", body_in_words(body));
-  out += steps_in_words(inventory["step"]);
-  if (!inventory["first_step"].is_null())
-    out += folded("  note      ", "its arrays are as they were: " + text(inventory, "first_step"));
+  out += time_in_words(inventory.time);
+  for (const BodyFacts& body : inventory.bodies) out += fmt::format("\n{}", body_in_words(body));
+  out += passes_in_words(inventory.step);
+  if (inventory.first_step)
+    out += folded("  note      ", "its arrays are as they were: " + printable(*inventory.first_step));
   out += "\n";
-  out += arrays_in_words(inventory["arrays"]);
-  for (const Json& one : inventory["left_out"]) out += folded("left out  ", one.get<std::string>());
-  return out + fmt::format("total     {} bytes: {}\n", whole(inventory["bytes"], "total"),
-                           bytes_in_words(whole(inventory["bytes"], "total")));
+  out += arrays_in_words(inventory.arrays) + folded_lines("left out  ", inventory.left_out);
+  return out +
+         fmt::format("total     {} bytes: {}\n", inventory.bytes.total, bytes_in_words(inventory.bytes.total));
 }
 
 } // namespace rend

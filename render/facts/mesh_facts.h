@@ -2,15 +2,32 @@
 #pragma once
 
 #include "sim/mesh/reader.h"
+#include "sim/topology/count.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
 
 namespace rend {
 
-nlohmann::ordered_json mesh_facts(const MeshBody& body, const std::string& file);
-// A file may call its groups by any bytes: what is no UTF-8 is replaced, and control characters are not
-// printed.
-std::string facts_in_json(const nlohmann::ordered_json& facts);
-std::string facts_in_words(const nlohmann::ordered_json& facts);
+struct MeshFacts {
+  std::string file;
+  int dimension = 2; // of a sheet; 3: of a solid
+  CellCounts counts;
+  std::size_t darts = 0;
+  std::map<std::string, std::size_t> elements; // by kind: "quads"
+  Vec3 low, high;                              // [m], corners of the bounding box
+  double extent = 0;                           // [m²] of a sheet, [m³] of a solid
+  std::map<std::string, std::size_t> groups;   // vertices of each
+  std::vector<std::string> notes;
+
+  bool solid() const { return dimension == 3; }
+};
+MeshFacts mesh_facts(const MeshBody& body, const std::string& file);
+
+nlohmann::ordered_json json_of(const MeshFacts& facts);
+std::string facts_in_words(const MeshFacts& facts);
 
 } // namespace rend

@@ -1,16 +1,21 @@
 #include "render/facts/passes.h"
 
+#include "render/console/console.h"
+#include "render/console/json_or_null.h"
+#include "sim/base/enum_words.h"
+#include "sim/base/printable.h"
 #include "sim/scene/memory.h"
 #include "sim/topology/count.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace rend {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 class Passes {
 public:
-  Passes(const Scene& scene, Json& to) : scene_(scene), to_(to) {}
+  Passes(const Scene& scene, std::vector<Pass>& to) : scene_(scene), to_(to) {}
 
   void of(const Body& body) {
     body_ = &body;
@@ -19,12 +24,13 @@ public:
     const bool elementary = !program.elementary().empty() && !body.view().corner_room;
     const double evaluations = evaluations_of(body);
     const std::size_t corner = elementary ? bytes_of(body.corner_force) : 0;
-    add_forces("forces", elementary ? program.elementary() : program.rows(), 1, corner);
-    if (evaluations > 1) add_forces("further forces", program.rows(), evaluations - 1, 0);
+    add_forces(PassStage::Forces, elementary ? program.elementary() : program.rows(), 1, corner);
+    if (evaluations > 1) add_forces(PassStage::FurtherForces, program.rows(), evaluations - 1, 0);
     add_loads(evaluations);
     add_laws();
     add_integration();
-    if (body.floor_contact) add("contact", "the floor", body.vertices(), "vertices", 1, body.next.bytes());
+    if (body.floor_contact)
+      add(PassStage::Contact, "the floor", body.vertices(), "vertices", 1, body.next.bytes());
   }
 
   void of_all() {
@@ -32,22 +38,22 @@ public:
     const Contacts* contacts = scene_.contacts();
     if (!contacts) return;
     for (const auto& each : contacts->bodies())
-      add("contact", "obstacles, and " + each->body->name, each->faces.triangles().size(), "triangles", 1,
-          each->bytes());
+      add(PassStage::Contact, "obstacles, and " + each->body->name, each->faces.triangles().size(), "triangles",
+          1, each->bytes());
     if (const FragmentContact* fragments = contacts->fragments())
-      add("contact", "fragments and bodies", fragments->pairs(), "pairs", 1, fragments->bytes());
+      add(PassStage::Contact, "fragments and bodies", fragments->pairs(), "pairs", 1, fragments->bytes());
   }
 
 private:
-  void add(const char* stage, const std::string& what, std::size_t count, const char* of, double times,
+  void add(PassStage stage, const std::string& what, std::size_t count, const char* of, double times,
            std::size_t bytes) {
-    to_.push_back({{"body", body_ ? Json(body_->name) : Json(nullptr)},
-                   {"stage", stage},
-                   {"what", what},
-                   {"count", count},
-                   {"of", of},
-                   {"times", times},
-                   {"bytes", bytes}});
+    to_.push_back({.body = body_ ? std::optional(body_->name) : std::nullopt,
+                   .stage = stage,
+                   .what = what,
+                   .count = count,
+                   .of = of,
+                   .times = times,
+                   .bytes = bytes});
   }
 
   // Of the forces, a step.
@@ -56,7 +62,7 @@ private:
     return scheme.solves ? 1.0 + static_cast<double>(body.integrator->solver().newton) : scheme.evaluations;
   }
 
-  void add_forces(const char* stage, const std::vector<Binder>& binders, double times, std::size_t corners) {
+  void add_forces(PassStage stage, const std::vector<Binder>& binders, double times, std::size_t corners) {
     bool damped = false;
     for (const Binder& binder : binders) {
       damped = damped || binder.interaction()->damped;
@@ -75,7 +81,7 @@ private:
       constant = constant && load.constant() && load.settings().until <= load.settings().from;
       cells += load.cells();
     }
-    add("loads", constant ? "constant: summed up once" : "of the state, and their sum", cells, "cells",
+    add(PassStage::Loads, constant ? "constant: summed up once" : "of the state, and their sum", cells, "cells",
         constant ? 0 : evaluations, loads.bytes());
   }
 
@@ -83,8 +89,8 @@ private:
     const GMap& map = body_->map->map();
     for (const TearLaw& law : body_->tear_laws) {
       const LawSettings& settings = law.settings();
-      add("laws", settings.criterion->name, count_cells(map, orbit_of(settings.cell, map.dimension())), "cells",
-          1, law.bytes() + vertices_);
+      add(PassStage::Laws, settings.criterion->name, count_cells(map, orbit_of(settings.cell, map.dimension())),
+          "cells", 1, law.bytes() + vertices_);
     }
   }
 
@@ -93,29 +99,63 @@ private:
     const std::size_t weights = body_->vertices() * sizeof(double) * (body_->drag_rate ? 2 : 1);
     const std::size_t loads = body_->load ? vertices_ : 0;
     if (const std::size_t bytes = bytes_of_part(all, "solver"))
-      add("solve", "matrix and factors, preconditioner", body_->assembly->pattern()->blocks(), "blocks",
-          static_cast<double>(body_->integrator->solver().newton), bytes);
-    add("integration", scene_.scheme().name, body_->vertices(), "vertices", 1,
+      add(PassStage::Solve, "matrix and factors, preconditioner", body_->assembly->pattern()->blocks(),
+          "blocks", static_cast<double>(body_->integrator->solver().newton), bytes);
+    add(PassStage::Integration, scene_.scheme().name, body_->vertices(), "vertices", 1,
         3 * vertices_ + loads + weights + body_->next.bytes() + bytes_of_part(all, "integrator"));
     if (const auto held = body_->constraints.vertices().size())
-      add("integration", "prescribed motions", held, "vertices", scene_.scheme().evaluations,
+      add(PassStage::Integration, "prescribed motions", held, "vertices", scene_.scheme().evaluations,
           body_->constraints.bytes() + held * 3 * sizeof(Record));
   }
 
   const Scene& scene_;
-  Json& to_;
+  std::vector<Pass>& to_;
   const Body* body_ = nullptr;
   std::size_t vertices_ = 0; // bytes of a record for each vertex slot
 };
 
 } // namespace
 
-Json passes_of(const Scene& scene) {
-  Json all = Json::array();
+const char* name_of(PassStage stage) {
+  static constexpr EnumWords<PassStage::Contact> words{"forces", "further forces", "loads",  "laws",
+                                                       "solve",  "integration",    "contact"};
+  return words[stage];
+}
+
+std::vector<Pass> passes_of(const Scene& scene) {
+  std::vector<Pass> all;
   Passes passes(scene, all);
   for (const auto& body : scene.bodies()) passes.of(*body);
   passes.of_all();
   return all;
+}
+
+nlohmann::ordered_json json_of(const std::vector<Pass>& passes) {
+  using Json = nlohmann::ordered_json;
+  Json all = Json::array();
+  for (const Pass& pass : passes)
+    all.push_back({{"body", json_or_null(pass.body)},
+                   {"stage", name_of(pass.stage)},
+                   {"what", pass.what},
+                   {"count", pass.count},
+                   {"of", pass.of},
+                   {"times", pass.times},
+                   {"bytes", pass.bytes}});
+  return all;
+}
+
+std::string passes_in_words(const std::vector<Pass>& passes) {
+  std::string out = fmt::format("\n{:<72}{:>8}{:>20}\n", "a step, in this order", "times", "bytes each time");
+  double whole_step = 0;
+  std::optional<PassStage> last;
+  for (const Pass& pass : passes) {
+    whole_step += pass.times * static_cast<double>(pass.bytes);
+    out += fmt::format("  {:<16}{:<36}{:>9} {:<9}{:>7g}{:>20}\n", pass.stage == last ? "" : name_of(pass.stage),
+                       printable(pass.what), pass.count, pass.of, pass.times, pass.bytes);
+    last = pass.stage;
+  }
+  return out + fmt::format("  {:<78}{:>20}\n", "and in sum, each array counted once a pass",
+                           bytes_in_words(static_cast<std::size_t>(whole_step)));
 }
 
 } // namespace rend

@@ -6,12 +6,31 @@
 
 #include "sim/scene/scene.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace rend {
 
-// One object a pass: body (null: of all), stage, what, count, of (what `count` counts), times (a step), bytes
-// (each time). The scene has made a step. Times of schemes that solve are those of that step.
-nlohmann::ordered_json passes_of(const Scene& scene);
+enum class PassStage { Forces, FurtherForces, Loads, Laws, Solve, Integration, Contact };
+const char* name_of(PassStage stage); // "further forces"
+
+struct Pass {
+  std::optional<std::string> body; // none: of all
+  PassStage stage = PassStage::Forces;
+  std::string what;
+  std::size_t count = 0;
+  std::string of;        // what `count` counts
+  double times = 0;      // a step
+  std::size_t bytes = 0; // each time
+};
+
+// The scene has made a step. Times of schemes that solve are those of that step.
+std::vector<Pass> passes_of(const Scene& scene);
+
+nlohmann::ordered_json json_of(const std::vector<Pass>& passes);
+std::string passes_in_words(const std::vector<Pass>& passes); // at most 100 columns
 
 } // namespace rend

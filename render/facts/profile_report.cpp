@@ -1,174 +1,214 @@
 #include "render/facts/profile_report.h"
 
-#include "render/facts/machine_speed.h"
+#include "render/console/json_or_null.h"
 #include "render/facts/passes.h"
-#include "sim/base/profile.h"
-#include "sim/rows/row_cost.h"
 #include "sim/rows/row_times.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace rend {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The stage that a pass of a step belongs to.
-Phase stage_of(const std::string& pass) {
-  if (pass == "loads") return Phase::Loads;
-  if (pass == "laws") return Phase::Criteria;
-  if (pass == "contact") return Phase::Contact;
-  if (pass == "integration" || pass == "solve") return Phase::Integration;
+Phase phase_of(PassStage stage) {
+  switch (stage) {
+  case PassStage::Forces:
+  case PassStage::FurtherForces:
+    break;
+  case PassStage::Loads:
+    return Phase::Loads;
+  case PassStage::Laws:
+    return Phase::Criteria;
+  case PassStage::Solve:
+  case PassStage::Integration:
+    return Phase::Integration;
+  case PassStage::Contact:
+    return Phase::Contact;
+  }
   return Phase::Forces;
 }
 
 // [byte] a step, by stage.
 std::array<double, phase_count> bytes_by_stage(const Scene& scene) {
   std::array<double, phase_count> bytes{};
-  for (const Json& pass : passes_of(scene))
-    bytes[static_cast<std::size_t>(stage_of(pass["stage"].get<std::string>()))] +=
-        pass["times"].get<double>() * pass["bytes"].get<double>();
+  for (const Pass& pass : passes_of(scene))
+    bytes[static_cast<std::size_t>(phase_of(pass.stage))] += pass.times * static_cast<double>(pass.bytes);
   return bytes;
 }
 
-Json share_or_null(double part, double whole) {
-  return whole > 0 ? Json(part / whole) : Json(nullptr);
+std::optional<double> share_of(double part, double whole) {
+  return whole > 0 ? std::optional(part / whole) : std::nullopt;
 }
 
-Json stages_json(const Scene& scene, const MachineSpeed& machine) {
+std::vector<StageFigures> stages_of(const Scene& scene, const MachineSpeed& machine) {
   const Profile& profile = scene.profile();
   const std::array<double, phase_count> bytes = bytes_by_stage(scene);
   const auto steps = static_cast<double>(scene.steps_done());
-  Json all = Json::array();
+  std::vector<StageFigures> all;
   for (std::size_t n = 0; n < phase_count; ++n) {
-    const Profile::Spent spent = profile.spent(static_cast<Phase>(n));
-    if (spent.turns == 0) continue;
-    Json one{{"stage", name_of(static_cast<Phase>(n))},
-             {"seconds", spent.seconds},
-             {"share", share_or_null(spent.seconds, profile.total())},
-             {"turns", spent.turns},
-             {"seconds_per_step", share_or_null(spent.seconds, steps)}};
-    if (bytes[n] > 0) {
-      one["bytes_per_step"] = bytes[n];
-      one["bandwidth_share"] = share_or_null(bytes[n] * steps, spent.seconds * machine.bytes);
-    }
-    all.push_back(std::move(one));
+    StageFigures one;
+    one.stage = static_cast<Phase>(n);
+    one.spent = profile.spent(one.stage);
+    if (one.spent.turns == 0) continue;
+    one.share = share_of(one.spent.seconds, profile.total());
+    one.seconds_per_step = share_of(one.spent.seconds, steps);
+    one.bytes_per_step = bytes[n];
+    if (bytes[n] > 0) one.bandwidth_share = share_of(bytes[n] * steps, one.spent.seconds * machine.bytes);
+    all.push_back(one);
   }
   return all;
 }
 
 // Threads work at once: seconds of all of them are `parts` times those on the clock.
-Json interaction_json(const Body& body, const Binder& binder, const RowTimes& times, std::size_t number,
-                      bool corners, const MachineSpeed& machine) {
+InteractionFigures interaction_of(const Body& body, const Binder& binder, const RowTimes& times,
+                                  std::size_t number, RowsAre rows_are, const MachineSpeed& machine) {
+  const bool corners = rows_are == RowsAre::Cornered;
   const RowCost cost = cost_of(binder, corners);
   const auto rows = static_cast<double>(binder.rows().live_count());
   const double seconds = times.seconds(number), run = rows * static_cast<double>(times.evaluations());
   const double parts = corners ? 1 : body.program->parts();
   const double on_clock = seconds / parts * machine.threads; // were all threads at work
-  Json one{{"body", body.name},
-           {"name", binder.interaction()->name},
-           {"rows_are", corners ? "each by itself, into corners"
-                                : (body.program->options().fold ? "folded" : "each by itself")},
-           {"rows", binder.rows().live_count()},
-           {"evaluations", times.evaluations()},
-           {"seconds", seconds},
-           {"ns_per_row", run > 0 ? Json(1e9 * seconds / run) : Json(nullptr)},
-           {"read_per_row", cost.read},
-           {"written_per_row", cost.written},
-           {"operations_per_row", cost.operations ? Json(*cost.operations) : Json(nullptr)}};
-  one["bandwidth_share"] = share_or_null(run * (cost.read + cost.written), on_clock * machine.bytes);
-  one["peak_share"] =
-      cost.operations ? share_or_null(run * *cost.operations, on_clock * machine.operations) : Json(nullptr);
+  InteractionFigures one;
+  one.body = body.name;
+  one.name = binder.interaction()->name;
+  one.rows_are = rows_are;
+  one.rows = binder.rows().live_count();
+  one.evaluations = times.evaluations();
+  one.seconds = seconds;
+  if (run > 0) one.ns_per_row = 1e9 * seconds / run;
+  one.cost = cost;
+  one.bandwidth_share = share_of(run * (cost.read + cost.written), on_clock * machine.bytes);
+  if (cost.operations) one.peak_share = share_of(run * *cost.operations, on_clock * machine.operations);
   return one;
 }
 
-Json interactions_json(const Scene& scene, const MachineSpeed& machine) {
-  Json all = Json::array();
+std::vector<InteractionFigures> interactions_of(const Scene& scene, const MachineSpeed& machine) {
+  std::vector<InteractionFigures> all;
   const auto add = [&](const Body& body, const std::vector<Binder>& binders, const RowTimes* times,
-                       bool corners) {
+                       RowsAre rows_are) {
     if (!times || times->evaluations() == 0) return;
     for (std::size_t n = 0; n < binders.size(); ++n)
-      all.push_back(interaction_json(body, binders[n], *times, n, corners, machine));
+      all.push_back(interaction_of(body, binders[n], *times, n, rows_are, machine));
   };
   for (const auto& body : scene.bodies()) {
     const Program& program = *body->program;
-    add(*body, program.folded(), program.folded_times(), false);
-    add(*body, program.elementary(), program.elementary_times(), true);
+    add(*body, program.folded(), program.folded_times(), folded_rows_are(program));
+    add(*body, program.elementary(), program.elementary_times(), RowsAre::Cornered);
   }
   return all;
 }
 
-std::string number_or_dash(const Json& value, const char* format, double factor = 1) {
-  return value.is_null() ? "-" : fmt::format(fmt::runtime(format), factor * value.get<double>());
+Json json_of(const StageFigures& s) {
+  Json one{{"stage", name_of(s.stage)},
+           {"seconds", s.spent.seconds},
+           {"share", json_or_null(s.share)},
+           {"turns", s.spent.turns},
+           {"seconds_per_step", json_or_null(s.seconds_per_step)}};
+  if (s.bytes_per_step > 0) {
+    one["bytes_per_step"] = s.bytes_per_step;
+    one["bandwidth_share"] = json_or_null(s.bandwidth_share);
+  }
+  return one;
 }
 
-std::string stages_in_words(const Json& stages) {
+Json json_of(const InteractionFigures& i) {
+  return {{"body", i.body},
+          {"name", i.name},
+          {"rows_are", name_of(i.rows_are)},
+          {"rows", i.rows},
+          {"evaluations", i.evaluations},
+          {"seconds", i.seconds},
+          {"ns_per_row", json_or_null(i.ns_per_row)},
+          {"read_per_row", i.cost.read},
+          {"written_per_row", i.cost.written},
+          {"operations_per_row", json_or_null(i.cost.operations)},
+          {"bandwidth_share", json_or_null(i.bandwidth_share)},
+          {"peak_share", json_or_null(i.peak_share)}};
+}
+
+std::string number_or_dash(const std::optional<double>& value, const char* format, double factor = 1) {
+  return value ? fmt::format(fmt::runtime(format), factor * *value) : "-";
+}
+
+std::string stages_in_words(const std::vector<StageFigures>& stages) {
   std::string out =
       "  stage             seconds   share      µs a step      bytes a step    of the memory's bandwidth\n";
-  for (const Json& s : stages)
-    out += fmt::format("  {:<15} {:>9.4f} {:>6.1f}% {:>14} {:>17} {:>15}\n", s["stage"].get<std::string>(),
-                       s["seconds"].get<double>(), s["share"].is_null() ? 0 : 100 * s["share"].get<double>(),
-                       number_or_dash(s["seconds_per_step"], "{:.3f}", 1e6),
-                       number_or_dash(s.value("bytes_per_step", Json()), "{:.0f}"),
-                       number_or_dash(s.value("bandwidth_share", Json()), "{:.0f}%", 100));
+  for (const StageFigures& s : stages)
+    out += fmt::format("  {:<15} {:>9.4f} {:>6.1f}% {:>14} {:>17} {:>15}\n", name_of(s.stage), s.spent.seconds,
+                       100 * s.share.value_or(0), number_or_dash(s.seconds_per_step, "{:.3f}", 1e6),
+                       s.bytes_per_step > 0 ? fmt::format("{:.0f}", s.bytes_per_step) : "-",
+                       number_or_dash(s.bandwidth_share, "{:.0f}%", 100));
   return out;
 }
 
-std::string interactions_in_words(const Json& interactions) {
+std::string interactions_in_words(const std::vector<InteractionFigures>& interactions) {
   std::string out =
       "  interaction                rows  ns a row   bytes a row       operations        share of\n"
       "                                             read  written      a row    bandwidth   peak\n";
-  for (const Json& i : interactions)
-    out += fmt::format("  {:<20} {:>10} {:>9} {:>7.0f} {:>8.0f} {:>10} {:>12} {:>6}\n",
-                       i["name"].get<std::string>(), i["rows"].get<std::size_t>(),
-                       number_or_dash(i["ns_per_row"], "{:.2f}"), i["read_per_row"].get<double>(),
-                       i["written_per_row"].get<double>(), number_or_dash(i["operations_per_row"], "{:.0f}"),
-                       number_or_dash(i["bandwidth_share"], "{:.0f}%", 100),
-                       number_or_dash(i["peak_share"], "{:.0f}%", 100));
+  for (const InteractionFigures& i : interactions)
+    out += fmt::format("  {:<20} {:>10} {:>9} {:>7.0f} {:>8.0f} {:>10} {:>12} {:>6}\n", i.name, i.rows,
+                       number_or_dash(i.ns_per_row, "{:.2f}"), i.cost.read, i.cost.written,
+                       number_or_dash(i.cost.operations, "{:.0f}"),
+                       number_or_dash(i.bandwidth_share, "{:.0f}%", 100),
+                       number_or_dash(i.peak_share, "{:.0f}%", 100));
   return out;
 }
 
 } // namespace
 
-Json profile_json(const Session& session) {
+ProfileFigures profile_of(const Session& session) {
   const Scene& scene = session.scene();
   int threads = 1;
   for (const auto& body : scene.bodies()) threads = std::max(threads, body->program->parts());
-  const MachineSpeed machine = measure_machine(threads);
   const Profile& profile = scene.profile();
-  long turns = 0;
-  for (std::size_t n = 0; n < phase_count; ++n) turns += profile.spent(static_cast<Phase>(n)).turns;
   const SceneSeconds before = scene.seconds();
-  return {{"before", {{"build", before.build}, {"bind", before.bind}}}, // [s]
-          {"seconds", profile.total()},
-          {"stages", stages_json(scene, machine)},
-          {"interactions", interactions_json(scene, machine)},
-          {"machine",
-           {{"threads", machine.threads},
-            {"width", name_of(simd_width())},
-            {"bytes_per_second", machine.bytes},
-            {"operations_per_second", machine.operations}}},
-          {"clock", {{"readings", turns}, {"seconds_each", profile.reading()}}}};
+  ProfileFigures figures;
+  figures.machine = measure_machine(threads);
+  for (std::size_t n = 0; n < phase_count; ++n) figures.readings += profile.spent(static_cast<Phase>(n)).turns;
+  figures.seconds_each = profile.reading();
+  figures.build = before.build;
+  figures.bind = before.bind;
+  figures.seconds = profile.total();
+  figures.stages = stages_of(scene, figures.machine);
+  figures.interactions = interactions_of(scene, figures.machine);
+  figures.width = name_of(simd_width());
+  return figures;
 }
 
-std::string profile_in_words(const Json& profile) {
-  const Json &machine = profile["machine"], &clock = profile["clock"];
+Json json_of(const ProfileFigures& profile) {
+  Json stages = Json::array(), interactions = Json::array();
+  for (const StageFigures& one : profile.stages) stages.push_back(json_of(one));
+  for (const InteractionFigures& one : profile.interactions) interactions.push_back(json_of(one));
+  return {{"before", {{"build", profile.build}, {"bind", profile.bind}}},
+          {"seconds", profile.seconds},
+          {"stages", std::move(stages)},
+          {"interactions", std::move(interactions)},
+          {"machine",
+           {{"threads", profile.machine.threads},
+            {"width", profile.width},
+            {"bytes_per_second", profile.machine.bytes},
+            {"operations_per_second", profile.machine.operations}}},
+          {"clock", {{"readings", profile.readings}, {"seconds_each", profile.seconds_each}}}};
+}
+
+std::string profile_in_words(const ProfileFigures& profile) {
+  const MachineSpeed& machine = profile.machine;
   std::string out =
       fmt::format("  profile    {:.4f} s of the time loop, after {:.4f} s to build and {:.4f} s to bind\n",
-                  profile["seconds"].get<double>(), profile["before"]["build"].get<double>(),
-                  profile["before"]["bind"].get<double>());
-  out += stages_in_words(profile["stages"]);
-  if (!profile["interactions"].empty()) out += interactions_in_words(profile["interactions"]);
-  const int threads = machine["threads"].get<int>();
+                  profile.seconds, profile.build, profile.bind);
+  out += stages_in_words(profile.stages);
+  if (!profile.interactions.empty()) out += interactions_in_words(profile.interactions);
   out += fmt::format("  machine    {:.1f} GB/s to and from memory, {:.1f} G operations/s ({}, {} thread{}), "
                      "as just measured\n",
-                     1e-9 * machine["bytes_per_second"].get<double>(),
-                     1e-9 * machine["operations_per_second"].get<double>(), machine["width"].get<std::string>(),
-                     threads, threads == 1 ? "" : "s");
-  out += fmt::format("  clock      read {} times, of {:.0f} ns each, which are taken off\n",
-                     clock["readings"].get<long>(), 1e9 * clock["seconds_each"].get<double>());
+                     1e-9 * machine.bytes, 1e-9 * machine.operations, profile.width, machine.threads,
+                     machine.threads == 1 ? "" : "s");
+  out += fmt::format("  clock      read {} times, of {:.0f} ns each, which are taken off\n", profile.readings,
+                     1e9 * profile.seconds_each);
   return out;
 }
 

@@ -1,0 +1,159 @@
+// The figures of a run as JSON.
+#include "render/clip/figures.h"
+#include "render/console/json_or_null.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace rend {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
+
+Json json_of(const LawFigures& law) {
+  return {{"body", law.body},
+          {"criterion", law.criterion},
+          {"change", law.change},
+          {"threshold", law.threshold},
+          {"unit", law.unit},
+          {"tears", law.tears},
+          {"first", json_or_null(law.first)}};
+}
+
+Json json_of(const ProbeFigures& probe) {
+  if (!probe.reading) return nullptr;
+  const ProbeReading& reading = *probe.reading;
+  Json out{{"position", json_of(reading.position)}, {"displacement", json_of(reading.displacement)}};
+  if (reading.reaction) out["reaction"] = json_of(*reading.reaction);
+  if (!reading.stress) return out;
+  for (const char* part : {"xx", "yy", "zz", "xy", "yz", "xz"})
+    out["stress"][part] = quantity_of(reading, std::string("stress-") + part);
+  return out;
+}
+
+Json json_of(const AnswerFigures& answer) {
+  return {{"probe", answer.probe},
+          {"quantity", answer.quantity},
+          {"at", answer.at},
+          {"value", answer.value},
+          {"measured", json_or_null(answer.measured)},
+          {"error", json_or_null(answer.error)},
+          {"tolerance", answer.tolerance},
+          {"holds", json_or_null(answer.holds)},
+          {"source", answer.source}};
+}
+
+Json json_of(const SphereFigures& sphere) {
+  return {{"centre", json_of(sphere.centre)}, {"velocity", json_of(sphere.velocity)}};
+}
+
+// Steps that were thrown away, and what was done in their place.
+Json json_of(const GuardFigures& g) {
+  return {{"rejected", g.rejected}, {"redone", g.redone},     {"parts", g.most_parts},
+          {"smallest", g.smallest}, {"accepted", g.accepted}, {"looks", g.looks}};
+}
+
+Json json_of(const SolvingFigures& solver) {
+  return {{"newton", solver.all.newton},
+          {"cg", solver.all.cg},
+          {"factorisations", solver.all.factorisations},
+          {"blocks", solver.blocks},
+          {"bytes", solver.all.bytes}};
+}
+
+template <class T> Json list_of(const std::vector<T>& all) {
+  Json list = Json::array();
+  for (const T& one : all) list.push_back(json_of(one));
+  return list;
+}
+
+Json json_of(const StateFigures& s) {
+  Json probes = Json::object(), rows = Json::object();
+  for (const ProbeFigures& probe : s.probes) probes[probe.name] = json_of(probe);
+  for (const auto& [name, count] : s.rows) rows[name] = count;
+  Json state{{"steps", s.steps},
+             {"evaluations", s.evaluations},
+             {"time", s.time},
+             {"vertices", s.vertices},
+             {"elements", s.elements},
+             {"darts", s.darts},
+             {"fragments", s.fragments},
+             {"tears", s.tears},
+             {"laws", list_of(s.laws)},
+             {"energy", {{"kinetic", s.kinetic}, {"elastic", s.elastic}, {"gravity", s.gravity}}},
+             {"mass", s.mass},
+             {"momentum", json_of(s.momentum)},
+             {"angular_momentum", json_of(s.angular_momentum)},
+             {"probes", std::move(probes)},
+             {"answers", list_of(s.answers)}};
+  if (!s.spheres.empty()) state["spheres"] = list_of(s.spheres);
+  state["guard"] = json_of(s.guard);
+  state["rows"] = std::move(rows);
+  if (s.solver) state["solver"] = json_of(*s.solver);
+  if (s.adaptive) state["adaptive"] = {{"parts", s.adaptive->parts}, {"rejected", s.adaptive->rejected}};
+  state["hash"] = fmt::format("{:016x}", s.hash);
+  return state;
+}
+
+Json seconds_json(const Figures& figures) {
+  const SceneSeconds& s = figures.seconds;
+  const Costs& costs = figures.costs;
+  return {{"total", costs.total},
+          {"build", s.build},
+          {"bind", s.bind},
+          {"step", figures.step_seconds},
+          {"forces", s.forces},
+          {"criteria", s.criteria},
+          {"change", s.change},
+          {"rebind", s.rebind},
+          {"integrate", s.integrate},
+          {"surface", costs.surface},
+          {"draw", costs.pictures.draw},
+          {"png", costs.pictures.png},
+          {"video", costs.pictures.video}};
+}
+
+Json json_of(const MemoryFigures& bytes) {
+  return {{"map", bytes.map},
+          {"embeddings", bytes.embeddings},
+          {"program", bytes.program},
+          {"state", bytes.state},
+          {"surroundings", bytes.surroundings},
+          {"surface", bytes.surface},
+          {"guard", bytes.guard},
+          {"peak_rss", bytes.peak}};
+}
+
+Json json_of(const ExportFigures& exported) {
+  Json out{{"format", exported.format}, {"folder", exported.folder}};
+  if (!exported.index.empty()) out["index"] = exported.index;
+  out["files"] = exported.files;
+  out["bytes"] = exported.bytes;
+  out["seconds"] = exported.seconds;
+  return out;
+}
+
+} // namespace
+
+Json json_of(const Figures& figures) {
+  Json json{{"preset", figures.preset},
+            {"name", figures.name},
+            {"integrator", figures.integrator},
+            {"step", figures.step},
+            {"stopped", figures.stopped == Stopped::No ? Json(nullptr) : Json(name_of(figures.stopped))}};
+  const Json state = json_of(figures.state);
+  for (const auto& [name, figure] : state.items()) json[name] = figures.simulated ? figure : Json(nullptr);
+  json["seconds"] = seconds_json(figures);
+  json["bytes"] = json_of(figures.bytes);
+  if (figures.exported) json["export"] = json_of(*figures.exported);
+  if (!figures.pictures) return json;
+  json["frames"] = figures.pictures->made;
+  json["kept"] = figures.pictures->kept;
+  return json;
+}
+
+} // namespace rend

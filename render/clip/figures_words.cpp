@@ -1,0 +1,112 @@
+// The figures of a run as a summary to read.
+#include "render/clip/figures.h"
+#include "render/console/console.h"
+#include "sim/base/printable.h"
+
+#include <fmt/format.h>
+
+namespace rend {
+namespace {
+
+std::string guard_in_words(const GuardFigures& guard) {
+  if (guard.rejected == 0) return "";
+  return fmt::format("  guard      {} steps rejected, {} parts of steps in their place, of {:.3g} s and more\n",
+                     guard.rejected, guard.redone, guard.smallest);
+}
+
+std::string triple(const Vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z());
+}
+
+std::string probes_in_words(const std::vector<ProbeFigures>& probes) {
+  std::string out;
+  for (const auto& [name, reading] : probes) {
+    out += fmt::format("{}{} ", out.empty() ? "  probes     " : "             ", name);
+    if (!reading) {
+      out += "has lost its vertices\n";
+      continue;
+    }
+    out += "at " + triple(reading->position) + " m, displaced by " + triple(reading->displacement) + " m";
+    if (reading->reaction) out += ", held by " + triple(*reading->reaction) + " N";
+    out += "\n";
+  }
+  return out;
+}
+
+std::string laws_in_words(const std::vector<LawFigures>& laws) {
+  std::string out;
+  for (const LawFigures& law : laws) {
+    out += fmt::format("             {} of '{}' above {:.6g} {}, {}: {}", printable(law.criterion),
+                       printable(law.body), law.threshold, printable(law.unit), printable(law.change),
+                       law.tears == 0   ? "never"
+                       : law.tears == 1 ? "once"
+                                        : fmt::format("{} times", law.tears));
+    if (law.first) out += fmt::format(", first at {:.6g} s", *law.first);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string answers_in_words(const std::vector<AnswerFigures>& answers) {
+  std::string out;
+  for (const AnswerFigures& a : answers) {
+    out += fmt::format("{}{} {} at {:.6g} s is {:.9g}", out.empty() ? "  answers    " : "             ",
+                       a.probe, a.quantity, a.at, a.value);
+    if (!a.holds)
+      out += ": not reached";
+    else if (!a.measured)
+      out += ": its vertices are gone";
+    else
+      out += fmt::format(", measured {:.9g}: {} of {:.2g} {} {:.2g}", *a.measured,
+                         a.value != 0 ? "a relative error" : "an error", *a.error,
+                         *a.holds ? "holds, within" : "DOES NOT HOLD, above", a.tolerance);
+    if (!a.source.empty()) out += fmt::format(" ({})", printable(a.source));
+    out += "\n";
+  }
+  return out;
+}
+
+std::string rows_in_words(const std::vector<std::pair<std::string, std::size_t>>& rows) {
+  std::string out;
+  for (const auto& [name, count] : rows) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, name);
+  return "  rows       " + (out.empty() ? "none" : out) + "\n";
+}
+
+std::string schemes_in_words(const StateFigures& state) {
+  std::string out;
+  if (state.solver)
+    out += fmt::format("  solver     {} Newton iterations, {} of conjugate gradients, {} factorisations\n",
+                       state.solver->all.newton, state.solver->all.cg, state.solver->all.factorisations);
+  if (state.adaptive)
+    out += fmt::format("  adaptive   {} parts of steps, {} more rejected for their error\n",
+                       state.adaptive->parts, state.adaptive->rejected);
+  return out;
+}
+
+} // namespace
+
+std::string summary_of(const Figures& f) {
+  const StateFigures& s = f.state;
+  std::string out = fmt::format("{}: {} steps of {:.6g} s by {}, {:.6g} s simulated in {}\n", printable(f.name),
+                                s.steps, f.step, f.integrator, s.time, seconds_in_words(f.costs.total));
+  if (f.stopped != Stopped::No) out += fmt::format("  stopped    {}\n", name_of(f.stopped));
+  out += fmt::format("  cells      {} vertices, {} elements, {} darts\n", s.vertices, s.elements, s.darts);
+  out +=
+      fmt::format("  tearing    {} tears, {} fragment{}\n", s.tears, s.fragments, s.fragments == 1 ? "" : "s");
+  out += laws_in_words(s.laws);
+  out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n", s.kinetic,
+                     s.elastic, s.gravity);
+  out += guard_in_words(s.guard);
+  out += fmt::format("  forces     evaluated {} times\n", s.evaluations);
+  out += rows_in_words(s.rows);
+  out += schemes_in_words(s);
+  out += fmt::format("  memory     {} for the scene, {} at most in all\n", bytes_in_words(f.bytes.of_scene()),
+                     bytes_in_words(f.bytes.peak));
+  out += fmt::format("  state      {:016x}\n", s.hash);
+  if (f.exported)
+    out += fmt::format("  exported   {} files ({}) in {}\n", f.exported->files,
+                       bytes_in_words(f.exported->bytes), printable(f.exported->folder));
+  return out + probes_in_words(s.probes) + answers_in_words(s.answers);
+}
+
+} // namespace rend
