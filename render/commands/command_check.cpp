@@ -19,6 +19,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -212,7 +213,7 @@ Exit check(const CheckOptions& options) {
   const nlohmann::ordered_json json = check_json(chapters, seconds);
   if (!options.folder.empty()) {
     write_whole(fs::path(options.folder) / "check.json", text_of(json, 2) + "\n");
-    write_whole(fs::path(options.folder) / "index.html", check_page(chapters, seconds, true));
+    write_whole(fs::path(options.folder) / "index.html", check_page(chapters, seconds));
     sync_folder(options.folder);
   }
   print_result(options.json ? text_of(json, 2) + "\n" : summary_of(chapters, seconds, options.folder));

@@ -19,6 +19,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -55,7 +56,7 @@ public:
     const std::lock_guard lock(mutex_);
     results_[n] = std::move(one);
     for (; next_ < results_.size() && results_[next_]; ++next_)
-      if (say_) print_result(text_of(case_json(*results_[next_], false)) + "\n");
+      if (say_) print_result(text_of(case_json(*results_[next_], Expectation::Kept)) + "\n");
   }
 
 private:
@@ -119,7 +120,7 @@ std::vector<std::string> remarks_of(const Cases& cases, const Tolerances& tolera
 void print_report(const DiffOptions& options, const DiffReport& report) {
   if (options.json_lines) {
     for (std::size_t n = 0; n < report.cases.size() && !options.update.empty(); ++n)
-      print_result(text_of(case_json(report.cases[n], report.updated[n])) + "\n");
+      print_result(text_of(case_json(report.cases[n], report.expectation(n))) + "\n");
   } else if (options.json) {
     print_result(text_of(diff_json(report), 2) + "\n");
   } else if (!options.quiet) {

@@ -9,20 +9,22 @@ namespace rend {
 
 const std::vector<Limit>& all_limits() {
   using M = Metrics;
+  using enum LimitKind;
   static const std::vector<Limit> limits{
-      {"max", "levels", "largest difference of any channel", false, 0, 255,
+      {"max", "levels", "largest difference of any channel", AtMost, 0, 255,
        [](const M& m) { return m.difference.max; }},
-      {"mean", "levels", "mean difference", false, 0, 255, [](const M& m) { return m.difference.mean; }},
-      {"rmse", "levels", "root of the mean squared difference", false, 0, 255,
+      {"mean", "levels", "mean difference", AtMost, 0, 255, [](const M& m) { return m.difference.mean; }},
+      {"rmse", "levels", "root of the mean squared difference", AtMost, 0, 255,
        [](const M& m) { return m.difference.rmse; }},
-      {"psnr", "dB", "peak signal-to-noise ratio", true, 0, 1e3, [](const M& m) { return m.difference.psnr; }},
-      {"ssim", "", "structural similarity", true, -1, 1, [](const M& m) { return m.ssim; }},
-      {"flip", "", "mean of FLIP", false, 0, 1, [](const M& m) { return m.flip.mean; }},
-      {"flip-median", "", "weighted median of FLIP", false, 0, 1, [](const M& m) { return m.flip.median; }},
-      {"flip-max", "", "largest FLIP", false, 0, 1, [](const M& m) { return m.flip.max; }},
-      {"share", "", "share of the pixels over the threshold", false, 0, 1,
+      {"psnr", "dB", "peak signal-to-noise ratio", AtLeast, 0, 1e3,
+       [](const M& m) { return m.difference.psnr; }},
+      {"ssim", "", "structural similarity", AtLeast, -1, 1, [](const M& m) { return m.ssim; }},
+      {"flip", "", "mean of FLIP", AtMost, 0, 1, [](const M& m) { return m.flip.mean; }},
+      {"flip-median", "", "weighted median of FLIP", AtMost, 0, 1, [](const M& m) { return m.flip.median; }},
+      {"flip-max", "", "largest FLIP", AtMost, 0, 1, [](const M& m) { return m.flip.max; }},
+      {"share", "", "share of the pixels over the threshold", AtMost, 0, 1,
        [](const M& m) { return m.over.share; }},
-      {"window", "", "the same within the densest window", false, 0, 1,
+      {"window", "", "the same within the densest window", AtMost, 0, 1,
        [](const M& m) { return m.over.dense; }},
   };
   return limits;
@@ -37,8 +39,8 @@ const Limit* find_limit(const std::string& name) {
 
 std::string Excess::text() const {
   const std::string unit = limit->unit.empty() ? "" : " " + limit->unit;
-  return fmt::format("{} {:.4g}, at {} {:.4g}{}", limit->name, got, limit->least ? "least" : "most", asked,
-                     unit);
+  return fmt::format("{} {:.4g}, at {} {:.4g}{}", limit->name, got,
+                     limit->kind == LimitKind::AtLeast ? "least" : "most", asked, unit);
 }
 
 const std::map<std::string, double>& limits_of(const Tolerance& tolerance) {
@@ -54,7 +56,8 @@ std::vector<Excess> excesses(const Tolerance& tolerance, const Metrics& metrics)
     const auto found = asked.find(limit.name);
     if (found == asked.end()) continue;
     const double got = limit.figure(metrics);
-    if (limit.least ? got < found->second : got > found->second) out.push_back({&limit, found->second, got});
+    if (limit.kind == LimitKind::AtLeast ? got < found->second : got > found->second)
+      out.push_back({&limit, found->second, got});
   }
   return out;
 }

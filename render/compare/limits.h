@@ -12,11 +12,14 @@
 
 namespace rend {
 
+// What the figure must be against the limit: at least of PSNR and SSIM.
+enum class LimitKind { AtMost, AtLeast };
+
 struct Limit {
   std::string name; // "share"
   std::string unit; // "levels", "dB" or none
   std::string what; // "mean of FLIP"
-  bool least;       // the figure must be at least the limit (PSNR, SSIM); else at most
+  LimitKind kind;
   double low, high; // bounds of what can be asked for
   double (*figure)(const Metrics& metrics);
 };

@@ -18,10 +18,10 @@ std::vector<AttributeType> settings() {
           .at_most(255),
       integer("window-size", "sides of the window [pixels]; 16 without it").at_least(1).at_most(4096)};
   for (const Limit& limit : all_limits())
-    out.push_back(
-        number_or(limit.name, {"any"}, limit.unit, limit.what + (limit.least ? ", at least" : ", at most"))
-            .at_least(limit.low)
-            .at_most(limit.high));
+    out.push_back(number_or(limit.name, {"any"}, limit.unit,
+                            limit.what + (limit.kind == LimitKind::AtLeast ? ", at least" : ", at most"))
+                      .at_least(limit.low)
+                      .at_most(limit.high));
   out.push_back(text(
       "mask", "a PNG of the pictures' size, in this file's folder or below: white counts, black does not"));
   return out;

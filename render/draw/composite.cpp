@@ -119,10 +119,10 @@ void Composite::draw(const Frame& frame, const View& view, const BodiesPicture& 
     boxes_.draw(boxes, width_, height_);
   };
   const auto boxes = runs(blocks.columns(), blocks.rows(), 3, kind);
-  draw_blocks({true, occlusion != nullptr, shaded}, boxes[0]);
+  draw_blocks({.bodies = true, .occluded = occlusion != nullptr, .behind = shaded}, boxes[0]);
   if (frame.transparent) return;
-  draw_blocks({false, false, shaded}, boxes[1]);
-  draw_blocks({false, false, bare}, boxes[2]);
+  draw_blocks({.bodies = false, .occluded = false, .behind = shaded}, boxes[1]);
+  draw_blocks({.bodies = false, .occluded = false, .behind = bare}, boxes[2]);
 }
 
 const GlProgram& Composite::program(const Kind& kind, const BodiesPicture& bodies) {

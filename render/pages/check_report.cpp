@@ -6,6 +6,7 @@
 #include "render/studies/check_run.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +107,7 @@ std::string short_name(const CheckChapter& chapter, const CheckCase& which) {
 
 class Report {
 public:
-  Report(const std::vector<CheckChapter>& chapters, bool presets) : chapters_(chapters), presets_(presets) {}
+  explicit Report(const std::vector<CheckChapter>& chapters) : chapters_(chapters) {}
 
   Html contents() const;
   Html picked(Verdict verdict, const std::string& title, const std::string& about) const;
@@ -119,16 +120,15 @@ private:
   std::vector<html::Cell> row(const CheckChapter& chapter, std::size_t n, const std::string& name) const;
 
   const std::vector<CheckChapter>& chapters_;
-  bool presets_;
 };
 
 const std::vector<html::Column> columns{
-    {"case", false}, {"verdict", false}, {"expected", false}, {"what happened", false}, {"s", true}};
+    {"case"}, {"verdict"}, {"expected"}, {"what happened"}, number_column("s")};
 
 std::vector<html::Cell> Report::row(const CheckChapter& chapter, std::size_t n, const std::string& name) const {
   const CheckCase& which = chapter.cases[n];
   const CheckResult& result = chapter.results[n];
-  const Html title = presets_ ? link(fmt::format("cases/{}.xml", file_name(which.name)), name) : escaped(name);
+  const Html title = link(fmt::format("cases/{}.xml", file_name(which.name)), name);
   return {{{fmt::format("<span id=\"{}\"></span>{}", mark(which), title.text)}, name},
           {badge(tone_of(result.finding.verdict), name_of(result.finding.verdict)), {}},
           {escaped(which.expectation), {}},
@@ -137,16 +137,14 @@ std::vector<html::Cell> Report::row(const CheckChapter& chapter, std::size_t n, 
 }
 
 Html Report::contents() const {
-  Table t{{{"family", false},
-           {"cases", true},
-           {"ok", true},
-           {"refused", true},
-           {"known limits", true},
-           {"failed", true},
-           {"s", true}},
-          {},
-          false,
-          ""};
+  Table t{.columns = {{"family"},
+                      number_column("cases"),
+                      number_column("ok"),
+                      number_column("refused"),
+                      number_column("known limits"),
+                      number_column("failed"),
+                      number_column("s")},
+          .rows = {}};
   const auto number = [](std::size_t n) {
     return html::Cell{n == 0 ? muted("-") : escaped(std::to_string(n)), {}};
   };
@@ -166,7 +164,7 @@ Html Report::contents() const {
 }
 
 Html Report::picked(Verdict verdict, const std::string& title, const std::string& about) const {
-  Table t{columns, {}, false, ""};
+  Table t{.columns = columns, .rows = {}};
   for (const CheckChapter& chapter : chapters_)
     for (std::size_t n = 0; n < chapter.results.size(); ++n)
       if (chapter.results[n].finding.verdict == verdict) {
@@ -216,8 +214,8 @@ Html Report::matrix(const CheckChapter& chapter) const {
     at[{one.row, one.column}].push_back(n);
   }
   if (across.size() < 2) return {};
-  Table t{{{"", false}}, {}, false, ""};
-  for (const std::string& name : across) t.columns.push_back({name, false});
+  Table t{.columns = {{""}}, .rows = {}};
+  for (const std::string& name : across) t.columns.push_back({name});
   for (const std::string& name : down) {
     std::vector<html::Cell> row{{escaped(name), {}}};
     for (const std::string& other : across) {
@@ -236,7 +234,7 @@ Html Report::matrix(const CheckChapter& chapter) const {
 }
 
 Html Report::cases(const CheckChapter& chapter) const {
-  Table t{columns, {}, true, ""};
+  Table t{.columns = columns, .rows = {}, .sortable = true};
   for (std::size_t n = 0; n < chapter.cases.size(); ++n)
     t.rows.push_back(row(chapter, n, short_name(chapter, chapter.cases[n])));
   return table(t);
@@ -270,9 +268,9 @@ Json check_json(const std::vector<CheckChapter>& chapters, double seconds) {
       {"families", families}};
 }
 
-std::string check_page(const std::vector<CheckChapter>& chapters, double seconds, bool presets) {
+std::string check_page(const std::vector<CheckChapter>& chapters, double seconds) {
   const CheckCounts counts = count(chapters);
-  const Report report(chapters, presets);
+  const Report report(chapters);
   Html body = paragraph(escaped("Each case is a scene that strains the program, with what is expected of it "
                                 "said before it ran. Ok: every figure "
                                 "lies within its bounds. Refused: the scene is not accepted, and the message "
@@ -290,10 +288,8 @@ std::string check_page(const std::vector<CheckChapter>& chapters, double seconds
   std::vector<std::pair<std::string, Html>> machine;
   for (const auto& [name, value] : described(this_machine())) machine.push_back({name, escaped(value)});
   body += heading(2, "Made on") + facts(machine);
-  if (presets)
-    body +=
-        paragraph(escaped("The presets of all cases stand in cases/ beside this page; any of them runs by ") +
-                  code("rend run cases/NAME.xml") + escaped("."));
+  body += paragraph(escaped("The presets of all cases stand in cases/ beside this page; any of them runs by ") +
+                    code("rend run cases/NAME.xml") + escaped("."));
   return page("rend check", body);
 }
 

@@ -3,7 +3,7 @@
 
 #include "sim/check/case.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>
@@ -23,8 +23,8 @@ struct CheckCounts {
 };
 CheckCounts count(const std::vector<CheckChapter>& chapters);
 
-// `seconds`: of the whole. `presets`: they are linked as cases/NAME.xml.
+// `seconds`: of the whole. The page links the cases' presets as cases/NAME.xml.
 nlohmann::ordered_json check_json(const std::vector<CheckChapter>& chapters, double seconds);
-std::string check_page(const std::vector<CheckChapter>& chapters, double seconds, bool presets);
+std::string check_page(const std::vector<CheckChapter>& chapters, double seconds);
 
 } // namespace rend

@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <set>
 
@@ -55,9 +56,16 @@ html::Cell figure_cell(double value, int digits = 3) {
   return {escaped(in_digits(value, digits)), fmt::format("{}", value)};
 }
 
-const std::vector<html::Column> columns{{"picture"},     {"state"},       {"max", true},  {"mean", true},
-                                        {"RMSE", true},  {"PSNR", true},  {"SSIM", true}, {"FLIP", true},
-                                        {"share", true}, {"window", true}};
+const std::vector<html::Column> columns{{"picture"},
+                                        {"state"},
+                                        number_column("max"),
+                                        number_column("mean"),
+                                        number_column("RMSE"),
+                                        number_column("PSNR"),
+                                        number_column("SSIM"),
+                                        number_column("FLIP"),
+                                        number_column("share"),
+                                        number_column("window")};
 
 std::vector<html::Cell> row_of(const Compared& one, const Html& name, const Html& state) {
   std::vector<html::Cell> row{{name, one.paths.name}, {state, {}}};
@@ -143,7 +151,7 @@ Html Chapters::chapter(std::size_t n) {
   out += paragraph(line);
   for (const std::string& note : one.notes) out += paragraph(muted(note));
   if (one.state != CaseState::Unreadable) out += pictures(one);
-  if (one.metrics) out += details(escaped("Figures"), figures_of(one), true);
+  if (one.metrics) out += details(escaped("Figures"), figures_of(one), Details::Open);
   return out;
 }
 
@@ -166,7 +174,7 @@ std::string diff_page(const DiffReport& report) {
   body += facts({{"expected", code(report.a)}, {"now", code(report.b)}});
   for (const std::string& remark : report.remarks)
     body += paragraph(badge(Tone::Limit, "note") + escaped(fmt::format(" {}", remark)));
-  Table failures{columns, {}, true, {}}, rest{columns, {}, true, {}};
+  Table failures{.columns = columns, .rows = {}, .sortable = true}, rest = failures;
   Html pictures;
   Chapters chapters(report);
   for (const std::size_t n : failures_first(report)) {
@@ -184,7 +192,7 @@ std::string diff_page(const DiffReport& report) {
   if (!rest.rows.empty())
     body += heading(2, "As expected", "matches") +
             details(escaped(fmt::format("{} picture{}", rest.rows.size(), rest.rows.size() == 1 ? "" : "s")),
-                    table(rest), failures.rows.empty());
+                    table(rest), failures.rows.empty() ? Details::Open : Details::Closed);
   return page("rend diff", body, compare_style, compare_script);
 }
 

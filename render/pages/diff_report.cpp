@@ -4,6 +4,7 @@
 #include "sim/base/printable.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -115,8 +116,10 @@ std::string line_of(const DiffReport& report, std::size_t n) {
 
 } // namespace
 
-Json case_json(const Compared& one, bool updated) {
-  Json out{{"name", one.paths.name}, {"state", name_of(one.state)}, {"updated", updated}};
+Json case_json(const Compared& one, Expectation expectation) {
+  Json out{{"name", one.paths.name},
+           {"state", name_of(one.state)},
+           {"updated", expectation == Expectation::Updated}};
   if (!one.paths.a.empty()) out["expected"] = one.paths.a.string();
   if (!one.paths.b.empty()) out["now"] = one.paths.b.string();
   out["width"] = one.width;
@@ -134,7 +137,7 @@ Json diff_json(const DiffReport& report) {
   for (const CaseState state : all_states()) counts[name_of(state)] = count(report, state);
   counts["updated"] = updated(report);
   for (std::size_t n = 0; n < report.cases.size(); ++n)
-    cases.push_back(case_json(report.cases[n], report.updated[n]));
+    cases.push_back(case_json(report.cases[n], report.expectation(n)));
   return {{"expected", report.a}, {"now", report.b},           {"exit", static_cast<int>(exit_of(report))},
           {"counts", counts},     {"remarks", report.remarks}, {"cases", cases}};
 }

@@ -5,18 +5,23 @@
 #include "render/console/json_text.h"
 #include "sim/base/error.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>
 
 namespace rend {
 
+// What is expected: as it was, or replaced by what there is now.
+enum class Expectation { Kept, Updated };
+
 struct DiffReport {
   std::string a, b;                 // as they were named
   std::vector<Compared> cases;      // by name
   std::vector<bool> updated;        // one per case: what is expected has been replaced
   std::vector<std::string> remarks; // on the whole, such as patterns that fit nothing
+
+  Expectation expectation(std::size_t n) const { return updated[n] ? Expectation::Updated : Expectation::Kept; }
 };
 
 // How many cases are in that state, without those that were updated.
@@ -31,7 +36,7 @@ bool failed(const DiffReport& report, std::size_t n);
 Exit exit_of(const DiffReport& report);
 
 // Name, state, figures, reasons. psnr is null where the pictures are equal (it would be infinite).
-nlohmann::ordered_json case_json(const Compared& one, bool updated);
+nlohmann::ordered_json case_json(const Compared& one, Expectation expectation);
 nlohmann::ordered_json diff_json(const DiffReport& report);
 
 // One line a failure, then a summary; of a single pair its figures.

@@ -53,7 +53,7 @@ Html reach_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
   table.columns.push_back({"scheme"});
-  for (double target : report.targets) table.columns.push_back({fmt::format("to {:.0e}", target), true});
+  for (double target : report.targets) table.columns.push_back(number_column(fmt::format("to {:.0e}", target)));
   for (const StudyCurve& curve : report.curves) {
     auto row = begin_row(report, curve.group);
     row.push_back({code(curve.integrator)});
@@ -83,10 +83,10 @@ Html order_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
   for (Column column : std::vector<Column>{{"scheme"},
-                                           {"theory", true},
-                                           {"observed", true},
-                                           {"95 % interval", true},
-                                           {"points", true},
+                                           number_column("theory"),
+                                           number_column("observed"),
+                                           number_column("95 % interval"),
+                                           number_column("points"),
                                            {"steps"},
                                            {""}})
     table.columns.push_back(column);
@@ -121,14 +121,14 @@ Html reference_table(const StudyReport& report) {
   table.columns = begin_columns(report);
   for (Column column : std::vector<Column>{{"reference"},
                                            {"second scheme"},
-                                           {"error bar", true},
-                                           {"smallest error", true},
+                                           number_column("error bar"),
+                                           number_column("smallest error"),
                                            {""},
-                                           {"motion [m]", true},
-                                           {"speed [m/s]", true},
-                                           {"energy [J]", true},
-                                           {"vertices", true},
-                                           {"elements", true}})
+                                           number_column("motion [m]"),
+                                           number_column("speed [m/s]"),
+                                           number_column("energy [J]"),
+                                           number_column("vertices"),
+                                           number_column("elements")})
     table.columns.push_back(column);
   for (std::size_t g = 0; g < report.groups.size(); ++g) {
     const StudyReference& r = report.references[g];
@@ -157,25 +157,26 @@ Html row_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
   for (Column column : std::vector<Column>{{"scheme"},
-                                           {"step [s]", true},
-                                           {"steps", true},
-                                           {"error", true},
-                                           {"final", true},
-                                           {"largest [m]", true},
-                                           {"velocity", true},
-                                           {"energy", true},
-                                           {"run time", true},
-                                           {"fastest", true},
-                                           {"slowest", true},
-                                           {"runs", true},
-                                           {"forces", true},
-                                           {"Newton", true},
-                                           {"CG", true},
-                                           {"factors", true}})
+                                           number_column("step [s]"),
+                                           number_column("steps"),
+                                           number_column("error"),
+                                           number_column("final"),
+                                           number_column("largest [m]"),
+                                           number_column("velocity"),
+                                           number_column("energy"),
+                                           number_column("run time"),
+                                           number_column("fastest"),
+                                           number_column("slowest"),
+                                           number_column("runs"),
+                                           number_column("forces"),
+                                           number_column("Newton"),
+                                           number_column("CG"),
+                                           number_column("factors")})
     table.columns.push_back(column);
-  if (report.isolated) table.columns.push_back({"momentum [kg m/s]", true});
+  if (report.isolated) table.columns.push_back(number_column("momentum [kg m/s]"));
   if (report.tears)
-    for (const char* name : {"first tear [s]", "tears", "overlap"}) table.columns.push_back({name, true});
+    for (const char* name : {"first tear [s]", "tears", "overlap"})
+      table.columns.push_back(number_column(name));
   table.columns.push_back({""});
   table.sortable = true;
   for (const StudyRow& r : report.rows) {
@@ -216,7 +217,8 @@ Html row_table(const StudyReport& report) {
 Html answer_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
-  for (Column column : std::vector<Column>{{"scheme"}, {"step [s]", true}, {"answer"}, {"error", true}})
+  for (Column column :
+       std::vector<Column>{{"scheme"}, number_column("step [s]"), {"answer"}, number_column("error")})
     table.columns.push_back(column);
   table.sortable = true;
   for (const StudyRow& r : report.rows) {

@@ -61,7 +61,7 @@ PlotSeries series_of(const StudyReport& report, const StudyCurve& curve, const A
     if (row.failed()) continue;
     const auto y = axes.y(report, row);
     if (!y || !std::isfinite(*y) || (axes.log_y && *y <= 0)) continue;
-    PlotPoint point{x, *y, {}, {}, {}, {}, axes.doubts && row.doubtful};
+    PlotPoint point{.x = x, .y = *y, .hollow = axes.doubts && row.doubtful};
     if (axes.spread) {
       point.left = std::max(row.time.low, 1e-12);
       point.right = row.time.high;
@@ -85,10 +85,10 @@ Plot plot_of(const StudyReport& report, std::size_t group, const Axes& axes) {
 }
 
 PlotSeries front_of(const StudyReport& report, std::size_t group) {
-  PlotSeries front{"Pareto front", {}, PlotSeries::Style::Back, 0, {}};
+  PlotSeries front{.name = "Pareto front", .style = PlotSeries::Style::Back};
   for (const StudyRow& row : report.rows)
     if (row.group == group && row.on_front && row.error > 0)
-      front.points.push_back({row.time.median, row.error, {}, {}, {}, {}, false});
+      front.points.push_back({.x = row.time.median, .y = row.error});
   std::sort(front.points.begin(), front.points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   return front;
 }
@@ -112,7 +112,7 @@ void add_error_bar(const StudyReport& report, std::size_t group, Plot& plot) {
 }
 
 NamedPlot work_precision(const StudyReport& report, std::size_t group) {
-  Plot plot = plot_of(report, group, {seconds, error, true, true, true});
+  Plot plot = plot_of(report, group, {.x = seconds, .y = error, .spread = true, .doubts = true});
   plot.x_label = "run time [s]";
   plot.y_label = error_label;
   plot.series.insert(plot.series.begin(), front_of(report, group));
@@ -125,7 +125,7 @@ NamedPlot work_precision(const StudyReport& report, std::size_t group) {
 }
 
 NamedPlot error_of_step(const StudyReport& report, std::size_t group) {
-  Plot plot = plot_of(report, group, {mean_step, error, true, false, true});
+  Plot plot = plot_of(report, group, {.x = mean_step, .y = error, .doubts = true});
   plot.x_label = "step [s]";
   plot.y_label = error_label;
   name_orders(report, group, plot);
@@ -138,7 +138,7 @@ NamedPlot error_of_step(const StudyReport& report, std::size_t group) {
 }
 
 NamedPlot energy_of_step(const StudyReport& report, std::size_t group) {
-  Plot plot = plot_of(report, group, {mean_step, energy, true, false, false});
+  Plot plot = plot_of(report, group, {.x = mean_step, .y = energy});
   plot.x_label = "step [s]";
   plot.y_label = "drift of energy / largest kinetic energy";
   return {"energy",
@@ -149,10 +149,10 @@ NamedPlot energy_of_step(const StudyReport& report, std::size_t group) {
 }
 
 std::vector<NamedPlot> tearing(const StudyReport& report, std::size_t group) {
-  Plot time = plot_of(report, group, {mean_step, tear_time, true, false, false});
+  Plot time = plot_of(report, group, {.x = mean_step, .y = tear_time});
   time.x_label = "step [s]";
   time.y_label = "|time of first tear - reference's| / reference's";
-  Plot torn = plot_of(report, group, {mean_step, torn_overlap, false, false, false});
+  Plot torn = plot_of(report, group, {.x = mean_step, .y = torn_overlap, .log_y = false});
   torn.x_label = "step [s]";
   torn.y_label = "overlap of what is torn (Jaccard)";
   return {{"tear-time",
@@ -173,7 +173,7 @@ NamedPlot all_groups(const StudyReport& report) {
   plot.x_label = "run time [s]";
   plot.y_label = fmt::format("distance from {} / motion", report.groups.front().name);
   for (const StudyCurve& curve : report.curves) {
-    PlotSeries series = series_of(report, curve, {seconds, total_error, true, false, false});
+    PlotSeries series = series_of(report, curve, {.x = seconds, .y = total_error});
     series.name = curve.integrator + ", " + report.groups[curve.group].name;
     series.look = static_cast<int>(plot.series.size());
     series.out.clear();

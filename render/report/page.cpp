@@ -77,9 +77,9 @@ Html list(const std::vector<Html>& items) {
 Html preformatted(std::string_view text) {
   return {"<pre>" + escaped_lines(text).text + "</pre>\n"};
 }
-Html details(const Html& summary, const Html& body, bool open) {
+Html details(const Html& summary, const Html& body, Details at_first) {
   return {fmt::format("<details{}><summary>{}</summary>\n<div class=\"inner\">\n{}</div></details>\n",
-                      open ? " open=\"open\"" : "", summary.text, body.text)};
+                      at_first == Details::Open ? " open=\"open\"" : "", summary.text, body.text)};
 }
 
 Html table(const Table& table) {

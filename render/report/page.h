@@ -46,12 +46,16 @@ Html heading(int level, std::string_view text,
 Html paragraph(const Html& line);
 Html list(const std::vector<Html>& items);
 Html preformatted(std::string_view text); // a preset, a command
-Html details(const Html& summary, const Html& body, bool open = false);
+enum class Details { Closed, Open };      // at first
+Html details(const Html& summary, const Html& body, Details at_first = Details::Closed);
 
 struct Column {
   std::string name;
   bool number = false; // right-aligned
 };
+inline Column number_column(std::string name) {
+  return {.name = std::move(name), .number = true};
+}
 struct Cell {
   Html what;
   std::string order = {}; // what it is sorted by, a number or a word; empty: by what it shows

@@ -98,7 +98,7 @@ public:
       if (p.low && p.high) bars.push_back(p);
       if (p.left && p.right) flat.push_back(p);
     }
-    for (double x : series.out) out.push_back({x, edge, {}, {}, {}, {}, false});
+    for (double x : series.out) out.push_back({.x = x, .y = edge});
     const std::string paint = fmt::format("lc rgb '{}'", look.colour);
     const bool curve = series.style == PlotSeries::Style::Curve;
     if (series.style == PlotSeries::Style::Back)

@@ -13,10 +13,10 @@
 namespace rend {
 
 struct PlotPoint {
-  double x = 0, y = 0;               // finite, and above 0 on a logarithmic axis (CHECK)
-  std::optional<double> low, high;   // error bar in y; both or none
-  std::optional<double> left, right; // error bar in x; both or none
-  bool hollow = false;               // drawn as an outline: there, but not to be relied upon
+  double x = 0, y = 0;                         // finite, and above 0 on a logarithmic axis (CHECK)
+  std::optional<double> low = {}, high = {};   // error bar in y; both or none
+  std::optional<double> left = {}, right = {}; // error bar in x; both or none
+  bool hollow = false;                         // drawn as an outline: there, but not to be relied upon
 };
 
 struct PlotSeries {
@@ -27,10 +27,10 @@ struct PlotSeries {
     Back,   // a broad grey line behind all others
   };
   std::string name; // in the legend; empty: not there
-  std::vector<PlotPoint> points;
+  std::vector<PlotPoint> points = {};
   Style style = Style::Curve;
-  int look = 0;            // which colour, mark and dash; the same number looks the same in every plot
-  std::vector<double> out; // x of what has no y: crosses at the upper edge
+  int look = 0;                 // which colour, mark and dash; the same number looks the same in every plot
+  std::vector<double> out = {}; // x of what has no y: crosses at the upper edge
 };
 
 // A horizontal line with a name beside it.

@@ -42,7 +42,11 @@ LeanFeature law(const std::string& criterion, const std::string& more = {}) {
 LeanFeature contact(const std::string& with, const std::string& name, const std::string& what,
                     const std::string& world) {
   const std::string element = "<contact with=\"" + with + "\" thickness=\"0.0001\"/>";
-  return {"contact with " + name, what, {"", {}, world}, {element, {}, world}, LeanSame::State, true};
+  return {.name = "contact with " + name,
+          .what = what,
+          .off = {.element = "", .surroundings = world},
+          .on = {.element = element, .surroundings = world},
+          .acts_elsewhere = true};
 }
 
 // At a step that is stable for each.
@@ -57,11 +61,7 @@ LeanFeature scheme(const std::string& name) {
 
 std::vector<LeanFeature> all_features() {
   const std::string never = "<tear criterion=\"global-border\" threshold=\"1e30\"/>";
-  LeanSide births{never, {}};
-  births.births = true;
-  LeanSide walks, bare;
-  walks.walk = true;
-  bare.bare = true;
+  const LeanSide births{.element = never, .births = true}, walks{.walk = true}, bare{.bare = true};
   return {
       {"all that is not asked for",
        "the loop of every scene, with its checks, against one that knows nothing but forces",
@@ -94,13 +94,12 @@ std::vector<LeanFeature> all_features() {
        {"", {{"world.wind.velocity", "1 0 0"}, {"world.wind.drag", "0"}}}},
       element("load of no force", "constant: summed up once", R"(<load all="yes" force="0 0 0"/>)"),
       element("probe", "read when it is asked for", R"(<probe name="lean" all="yes"/>)"),
-      {"a row for each spring",
-       "against parallel ones folded into one (cumulated)",
-       {},
-       {"", {{"body.springs.cumulated", "no"}}},
-       LeanSame::Pixels,
-       false,
-       "springs"},
+      {.name = "a row for each spring",
+       .what = "against parallel ones folded into one (cumulated)",
+       .off = {},
+       .on = {.settings = {{"body.springs.cumulated", "no"}}},
+       .same = LeanSame::Pixels,
+       .needs = "springs"},
       {"walking the map", "--kernels walk against flat arrays", {}, walks, LeanSame::Pixels},
       scheme("explicit"),
       scheme("verlet"),

@@ -13,9 +13,9 @@
 namespace rend {
 
 struct LeanSide {
-  std::string element;           // of the first body, as XML; empty: none
-  std::vector<Setting> settings; // as --set
-  std::string surroundings = ""; // of the world, as XML
+  std::string element = "";           // of the first body, as XML; empty: none
+  std::vector<Setting> settings = {}; // as --set
+  std::string surroundings = "";      // of the world, as XML
   bool walk = false, births = false;
   bool bare = false; // bare_loop.h, in place of the scene's own loop
 };

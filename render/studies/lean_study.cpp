@@ -27,8 +27,8 @@ public:
     for (const Setting& setting : side.settings) overrides.push_back({setting.path, setting.value});
     preset_ = load_scene_text(with(with(scene.text, "body", side.element), "world", side.surroundings),
                               scene.file.empty() ? scene.name : scene.file, overrides);
-    scene_ =
-        std::make_unique<Scene>(read_scene(*preset_), SceneOptions{.walk = side.walk, .births = side.births});
+    scene_ = std::make_unique<Scene>(read_scene(*preset_),
+                                     SceneOptions{.walk = side.walk, .threads = 1, .births = side.births});
     if (!bare_) return;
     if (const std::string more = more_than_bare(*scene_); !more.empty())
       throw UserError(Exit::BadInput, preset_->place(), "the scene has " + more);
@@ -38,9 +38,10 @@ public:
   void step() { loop_ ? loop_->step() : scene_->step(); }
   const Scene& scene() const { return *scene_; }
 
-  // Where the loop is bare: what the scene has of that which it was not asked for.
-  std::size_t bytes(bool unused) const {
-    if (!unused) return bytes_of_all(*scene_);
+  std::size_t bytes() const { return bytes_of_all(*scene_); }
+
+  // What the scene has of that which it was not asked for: against a loop that is bare.
+  std::size_t bytes_not_asked_for() const {
     std::size_t sum = 0;
     std::vector<Holding> all = footprint_of(*scene_);
     for (const auto& body : scene_->bodies())
@@ -90,8 +91,8 @@ LeanRow measure(const LeanFeature& feature, const LeanScene& scene, const LeanPl
       const BothSides sides(feature, scene, plan, n % 2 == 0);
       Built &off = *sides.off, &on = *sides.on;
       builds.push_back(time_pairs([&] { off.step(); }, [&] { on.step(); }, plan.pairs, plan.seconds));
-      row.bytes_off = feature.off.bare ? 0 : off.bytes(false);
-      row.bytes_on = on.bytes(feature.off.bare);
+      row.bytes_off = feature.off.bare ? 0 : off.bytes();
+      row.bytes_on = feature.off.bare ? on.bytes_not_asked_for() : on.bytes();
       row.same_state = row.same_state && off.scene().hash() == on.scene().hash();
       if (n + 1 == plan.builds) row.same_pixels = off.picture(pictures).pixels == on.picture(pictures).pixels;
     }
