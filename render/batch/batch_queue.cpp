@@ -77,10 +77,8 @@ void BatchQueue::finish(Running& one) {
     waiting_.push_back(one.job);
     return;
   }
-  result.ran = !(stopped && stop_signal() != 0);
-  result.code = one.child.code();
-  result.out = one.child.out();
-  result.err = one.child.err();
+  const bool ran = !(stopped && stop_signal() != 0);
+  take_end(result, one.child, ran);
   done_(one.job, result);
 }
 

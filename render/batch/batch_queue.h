@@ -8,7 +8,7 @@
 #pragma once
 
 #include "render/batch/batch_jobs.h"
-#include "render/batch/child.h"
+#include "render/batch/batch_result.h"
 
 #include <deque>
 #include <functional>
@@ -22,15 +22,6 @@ namespace rend {
 struct BatchLimits {
   int jobs = 1;           // at once
   std::size_t memory = 0; // [bytes], of all together
-};
-
-struct BatchResult {
-  bool ran = false;     // to its end, whatever that was; not: it was stopped with the batch, or not begun
-  int tries = 0;        // how often it was begun: more than once where it had to make room
-  int code = 0;         // exit code
-  double seconds = 0;   // on the clock, of all its tries
-  std::size_t peak = 0; // [bytes]
-  std::string out, err;
 };
 
 class BatchQueue {

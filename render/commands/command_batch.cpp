@@ -24,6 +24,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <memory>
@@ -113,23 +114,23 @@ void check(const BatchOptions& options) {
 
 std::string closing_words(const BatchReport& report, const fs::path& page) {
   std::size_t done = 0;
-  for (const BatchResult& result : report.results) done += state_of(result) == "done";
+  for (const BatchResult& result : report.results) done += result.done();
   std::string out = fmt::format("{} of {} job{} done, in {}; see {}\n", done, report.jobs.size(),
                                 report.jobs.size() == 1 ? "" : "s", seconds_in_words(report.seconds),
                                 printable(page.string()));
-  for (std::size_t n = 0; n < report.jobs.size(); ++n)
-    if (failed(report.results[n]))
-      out += printable(fmt::format(
-                 "{}: {}: {}", state_of(report.results[n]), report.jobs[n].name,
-                 line_of(report.jobs[n], report.results[n]).value("message", "no reason was given"))) +
-             "\n";
+  for (std::size_t n = 0; n < report.jobs.size(); ++n) {
+    const BatchResult& result = report.results[n];
+    if (!result.failed()) continue;
+    const std::string why = result.message.empty() ? "no reason was given" : result.message;
+    out += printable(fmt::format("{}: {}: {}", name_of(result.state()), report.jobs[n].name, why)) + "\n";
+  }
   return out;
 }
 
 Exit end_of(const BatchReport& report) {
   if (stop_signal() != 0) return exit_of_a_signal();
   const bool all = std::all_of(report.results.begin(), report.results.end(),
-                               [](const BatchResult& result) { return state_of(result) == "done"; });
+                               [](const BatchResult& result) { return result.done(); });
   return all ? Exit::Done : Exit::No;
 }
 
@@ -165,7 +166,7 @@ Exit batch(const BatchOptions& options) {
         if (options.json) print_result(text_of(line_of(report.jobs[n], result)) + "\n");
         if (!options.quiet)
           print_progress(fmt::format("{:>3} of {}  {:8}  {:>8}  {}\n", finished, report.jobs.size(),
-                                     state_of(result), seconds_in_words(result.seconds),
+                                     name_of(result.state()), seconds_in_words(result.seconds),
                                      printable(report.jobs[n].name)));
       });
   report.results = queue.run();

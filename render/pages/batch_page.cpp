@@ -1,15 +1,15 @@
 #include "render/pages/batch_page.h"
 
 #include "render/console/console.h"
+#include "render/console/json_or_null.h"
 #include "render/files/png.h"
 #include "render/pages/provenance.h"
 #include "render/report/page.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <csignal>
-#include <cstring>
 
 namespace rend {
 namespace {
@@ -65,70 +65,51 @@ Html thumbnail(const fs::path& folder, const std::string& name) {
   }
 }
 
-Tone tone_of(const std::string& state) {
-  return state == "done"       ? Tone::Good
-         : state == "stopped"  ? Tone::Note
-         : state == "unstable" ? Tone::Limit
-                               : Tone::Bad;
+Tone tone_of(BatchState state) {
+  return state == BatchState::Done       ? Tone::Good
+         : state == BatchState::Stopped  ? Tone::Note
+         : state == BatchState::Unstable ? Tone::Limit
+                                         : Tone::Bad;
 }
 
-// The first line of what it said went wrong; of one that was ended from outside, by what.
-std::string message_of(const BatchResult& result) {
-  const std::string mark = "rend: error: ",
-                    before = "\n" + mark; // a name may hold those words, but no line end
-  const std::size_t last = result.err.rfind(before);
-  const std::size_t at = last != std::string::npos ? last + 1 : result.err.starts_with(mark) ? 0 : last;
-  if (at == std::string::npos) {
-    const int signal = result.code - 128;
-    if (!result.ran || signal <= 0 || signal >= NSIG) return {};
-    return fmt::format("it was ended by signal {} ({}), not by this batch", signal, ::strsignal(signal));
-  }
-  const std::size_t begin = at + mark.size();
-  return result.err.substr(begin, result.err.find('\n', begin) - begin);
+// As JSON has it; nothing where no figures were printed, a dash where they do not know this one.
+Cell number_cell(const BatchResult& result, const std::optional<std::size_t>& number) {
+  if (!result.figures) return {escaped("")};
+  return {escaped(number ? std::to_string(*number) : "–")};
 }
 
 std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
   const BatchJob& job = report.jobs[n];
   const BatchResult& result = report.results[n];
-  const Json line = line_of(job, result);
-  const std::string state = state_of(result), message = message_of(result);
+  const PrintedFigures figures = result.figures.value_or(PrintedFigures{});
   Html words = link(address_of(job.name) + "/", job.name) + Html{"<br>"} + muted(job.preset);
-  if (!message.empty()) words += paragraph(escaped(message));
-  const auto number = [&](const char* name) {
-    const bool known = line.contains(name) && !line[name].is_null();
-    return Cell{escaped(known ? line[name].dump() : line.contains(name) ? "–" : "")};
-  };
+  if (!result.message.empty()) words += paragraph(escaped(result.message));
   return {{thumbnail(report.folder / job.name, job.name), job.name},
           {words, job.name},
-          {badge(tone_of(state), state)},
-          number("frames"),
-          number("kept"),
-          number("tears"),
+          {badge(tone_of(result.state()), name_of(result.state()))},
+          number_cell(result, figures.pictures.made),
+          number_cell(result, figures.pictures.kept),
+          number_cell(result, figures.tears),
           {escaped(seconds_in_words(result.seconds)), fmt::format("{}", result.seconds)},
           {escaped(bytes_in_words(result.peak)), fmt::format("{}", result.peak)}};
 }
 
 } // namespace
 
-std::string state_of(const BatchResult& result) {
-  if (!result.ran) return "stopped";
-  if (result.code == static_cast<int>(Exit::Done)) return "done";
-  return result.code == static_cast<int>(Exit::Unstable) ? "unstable" : "failed";
-}
-
-bool failed(const BatchResult& result) {
-  return result.ran && result.code != static_cast<int>(Exit::Done);
-}
-
 Json line_of(const BatchJob& job, const BatchResult& result) {
-  Json line{{"job", job.name},           {"preset", job.preset},     {"set", job.sets},
-            {"state", state_of(result)}, {"code", result.code},      {"tries", result.tries},
+  Json line{{"job", job.name},           {"preset", job.preset},
+            {"set", job.sets},           {"state", name_of(result.state())},
+            {"code", result.code},       {"tries", result.tries},
             {"seconds", result.seconds}, {"peak_bytes", result.peak}};
-  const Json figures = Json::parse(result.out, nullptr, false);
-  if (figures.is_object())
-    for (const char* name : {"frames", "kept", "steps", "time", "tears", "hash"})
-      if (figures.contains(name)) line[name] = figures[name];
-  if (const std::string message = message_of(result); !message.empty()) line["message"] = message;
+  if (const auto& figures = result.figures) {
+    line["frames"] = figures->pictures.made;
+    line["kept"] = figures->pictures.kept;
+    line["steps"] = json_or_null(figures->steps);
+    line["time"] = json_or_null(figures->time);
+    line["tears"] = json_or_null(figures->tears);
+    line["hash"] = json_or_null(figures->hash);
+  }
+  if (!result.message.empty()) line["message"] = result.message;
   return line;
 }
 
@@ -136,8 +117,8 @@ std::string batch_page(const BatchReport& report) {
   std::size_t done = 0, bad = 0;
   double sum = 0;
   for (const BatchResult& result : report.results) {
-    done += state_of(result) == "done";
-    bad += failed(result);
+    done += result.done();
+    bad += result.failed();
     sum += result.seconds;
   }
   const std::size_t stopped = report.results.size() - done - bad;
@@ -148,19 +129,20 @@ std::string batch_page(const BatchReport& report) {
                      {seconds_in_words(sum), "of all jobs together", Tone::Plain}});
   std::vector<std::size_t> order(report.jobs.size());
   for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
-  std::stable_partition(order.begin(), order.end(), [&](std::size_t n) { return failed(report.results[n]); });
-  Table t{
-      {{""},
-       {"job"},
-       {"state"},
-       {"frames", true},
-       {"kept", true},
-       {"tears", true},
-       {"time", true},
-       {"memory", true}},
-      {},
-      true,
-      "Failures first; a click on a column's name sorts by it. Frames were made now, kept ones were there."};
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t n) { return report.results[n].failed(); });
+  Table t{.columns = {{""},
+                      {"job"},
+                      {"state"},
+                      number_column("frames"),
+                      number_column("kept"),
+                      number_column("tears"),
+                      number_column("time"),
+                      number_column("memory")},
+          .rows = {},
+          .sortable = true,
+          .caption =
+              "Failures first; a click on a column's name sorts by it. Frames were made now, kept ones were "
+              "there."};
   for (std::size_t n : order) t.rows.push_back(row_of(report, n));
   body += table(t) + heading(2, "Made on") + facts_of(provenance_of_build());
   return page("rend batch", body);

@@ -5,7 +5,7 @@
 #include "render/batch/batch_queue.h"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -18,9 +18,6 @@ struct BatchReport {
   BatchLimits limits;
   double seconds = 0; // on the clock, of all
 };
-
-std::string state_of(const BatchResult& result); // done, unstable, failed, stopped
-bool failed(const BatchResult& result);          // it ran, and not to a good end
 
 nlohmann::ordered_json line_of(const BatchJob& job, const BatchResult& result);
 std::string batch_page(const BatchReport& report);
