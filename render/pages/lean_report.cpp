@@ -1,9 +1,12 @@
 #include "render/pages/lean_report.h"
 
+#include "render/pages/named_values.h"
 #include "render/report/page.h"
+#include "sim/base/enum_words.h"
 #include "sim/base/printable.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace rend {
 namespace {
@@ -41,58 +44,44 @@ std::string verdict_on_unused(const std::vector<LeanRow>& rows) {
   return out;
 }
 
+// What was not measured is not there.
+NamedValues values_of(const LeanRow& row) {
+  static constexpr EnumWords<LeanSame::Free> same{"state", "pixels", "nothing"};
+  const auto measured = [&](auto value) { return row.measured() ? std::optional(value) : std::nullopt; };
+  return {{"scene", row.scene},
+          {"feature", row.feature},
+          {"what", row.what},
+          {"refused", row.measured() ? std::nullopt : std::optional(row.refused)},
+          {"bytes_off", measured(row.bytes_off)},
+          {"bytes_on", measured(row.bytes_on)},
+          {"seconds_off", measured(row.time.off.median)},
+          {"seconds_off_iqr", measured(row.time.off.quartiles)},
+          {"seconds_on", measured(row.time.on.median)},
+          {"seconds_on_iqr", measured(row.time.on.quartiles)},
+          {"ratio", measured(row.time.ratio)},
+          {"ratio_low", measured(row.time.low)},
+          {"ratio_high", measured(row.time.high)},
+          {"noise", measured(row.time.noise)},
+          {"builds", row.time.builds},
+          {"runs", row.time.off.runs},
+          {"must_be_same", same[row.same]},
+          {"same_state", measured(row.same_state)},
+          {"same_pixels", measured(row.same_pixels)},
+          {"as_promised", row.as_promised()}};
+}
+
 } // namespace
 
 Json json_of(const std::vector<LeanRow>& rows) {
   Json all = Json::array();
-  for (const LeanRow& row : rows) {
-    const bool there = row.measured();
-    const auto number = [&](auto value) { return there ? Json(value) : Json(nullptr); };
-    all.push_back({{"scene", row.scene},
-                   {"feature", row.feature},
-                   {"what", row.what},
-                   {"refused", there ? Json(nullptr) : Json(row.refused)},
-                   {"bytes_off", number(row.bytes_off)},
-                   {"bytes_on", number(row.bytes_on)},
-                   {"seconds_off", number(row.time.off.median)},
-                   {"seconds_off_iqr", number(row.time.off.quartiles)},
-                   {"seconds_on", number(row.time.on.median)},
-                   {"seconds_on_iqr", number(row.time.on.quartiles)},
-                   {"ratio", number(row.time.ratio)},
-                   {"ratio_low", number(row.time.low)},
-                   {"ratio_high", number(row.time.high)},
-                   {"noise", number(row.time.noise)},
-                   {"builds", row.time.builds},
-                   {"runs", row.time.off.runs},
-                   {"must_be_same", row.same == LeanSame::State    ? "state"
-                                    : row.same == LeanSame::Pixels ? "pixels"
-                                                                   : "nothing"},
-                   {"same_state", number(row.same_state)},
-                   {"same_pixels", number(row.same_pixels)},
-                   {"as_promised", row.as_promised()}});
-  }
+  for (const LeanRow& row : rows) all.push_back(json_of(values_of(row)));
   return all;
 }
 
 std::string csv_of(const std::vector<LeanRow>& rows) {
-  std::string out;
-  for (const Json& row : json_of(rows)) {
-    std::string names, values;
-    for (const auto& [name, value] : row.items()) {
-      names += (names.empty() ? "" : ",") + name;
-      std::string field = value.is_null() ? "" : value.dump();
-      if (value.is_string()) { // RFC 4180: quotes are doubled
-        field = "\"";
-        for (const char c : printable(value.get<std::string>()))
-          field += c == '"' ? std::string("\"\"") : std::string(1, c);
-        field += '"';
-      }
-      values += (&value == &row.front() ? "" : ",") + field;
-    }
-    if (out.empty()) out = names + "\r\n";
-    out += values + "\r\n";
-  }
-  return out;
+  std::vector<NamedValues> all;
+  for (const LeanRow& row : rows) all.push_back(values_of(row));
+  return csv_of(all, CsvStyle::Quoted);
 }
 
 std::string table_of(const std::vector<LeanRow>& rows) {
@@ -114,17 +103,17 @@ std::string table_of(const std::vector<LeanRow>& rows) {
 }
 
 std::string page_of(const std::vector<LeanRow>& rows, const Provenance& p) {
-  Table table{{{"scene"},
-               {"feature"},
-               {"what is compared"},
-               {"bytes", true},
-               {"off [µs a step]", true},
-               {"on [µs a step]", true},
-               {"time", true},
-               {"noise", true},
-               {"state and pixels"}},
-              {},
-              true};
+  Table table{.columns = {{"scene"},
+                          {"feature"},
+                          {"what is compared"},
+                          number_column("bytes"),
+                          number_column("off [µs a step]"),
+                          number_column("on [µs a step]"),
+                          number_column("time"),
+                          number_column("noise"),
+                          {"state and pixels"}},
+              .rows = {},
+              .sortable = true};
   std::vector<Html> refused;
   for (const LeanRow& row : rows) {
     if (!row.measured()) {

@@ -4,7 +4,7 @@
 #include "render/pages/provenance.h"
 #include "render/studies/lean_study.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

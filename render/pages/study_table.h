@@ -4,7 +4,7 @@
 
 #include "sim/study/study.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace rend {
