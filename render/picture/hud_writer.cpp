@@ -1,6 +1,6 @@
 #include "render/picture/hud_writer.h"
 
-#include "render/console/units.h"
+#include "sim/base/units.h"
 #include "render/picture/colour.h"
 #include "sim/base/archive.h"
 

@@ -1,6 +1,6 @@
 #include "render/picture/scene_picture.h"
 
-#include "render/console/units.h"
+#include "sim/base/units.h"
 #include "render/draw/hud.h"
 #include "render/picture/dart_picture.h"
 #include "render/picture/obstacle_picture.h"

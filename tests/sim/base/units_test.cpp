@@ -1,4 +1,4 @@
-#include "render/console/units.h"
+#include "sim/base/units.h"
 
 #include <gtest/gtest.h>
 
