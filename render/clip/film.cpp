@@ -11,12 +11,12 @@ namespace rend {
 
 Film::Film(Session& session, const PipelineOptions& options, const FramePlan& plan)
     : session_(session), options_(options), folder_(options.folder), plan_(plan),
-      maker_(session.preset(), session.scene(), static_cast<double>(options.width) / options.height,
+      maker_(session.picture(), session.scene(), static_cast<double>(options.width) / options.height,
              session.clock().duration(), session.clock().frames()) {
   check_pipeline(options);
   if (session.quiet()) return;
   const double aspect = static_cast<double>(options.width) / options.height;
-  for (const std::string& note : picture_notes(session.preset(), session.scene(), aspect, session.clock()))
+  for (const std::string& note : picture_notes(session.picture(), session.scene(), aspect, session.clock()))
     print_note(note);
 }
 

@@ -71,8 +71,8 @@ unsigned beyond(const Eigen::Matrix4d& world_to_clip, const Vec3& x) {
 
 class Check {
 public:
-  Check(const PresetNode& preset, const Scene& scene, double aspect, const FrameClock& clock)
-      : scene_(scene), camera_(preset.child("camera")), viewpoint_(preset, scene, aspect, clock.duration()),
+  Check(const PictureSettings& picture, const Scene& scene, double aspect, const FrameClock& clock)
+      : scene_(scene), picture_(picture), viewpoint_(picture.camera, scene, aspect, clock.duration()),
         clock_(clock), aspect_(aspect), skin_(scene) {
     if (has_eye())
       for (const auto& body : scene.bodies()) bounds_.push_back(bounds_of(*body));
@@ -92,7 +92,7 @@ public:
   }
 
 private:
-  bool has_eye() const { return camera_ && (camera_->given("eye") || !camera_->all("key").empty()); }
+  bool has_eye() const { return picture_.camera.eye || !picture_.camera.keys.empty(); }
 
   // The first solid around an eye.
   std::optional<std::size_t> around(const Vec3& eye) {
@@ -106,13 +106,13 @@ private:
     const Vec3 eye = viewpoint_.at(0).eye;
     const std::optional<std::size_t> body = around(eye);
     if (!body) return;
-    const bool keyed = !camera_->all("key").empty();
-    const PresetNode& node = keyed ? *camera_->all("key").front() : *camera_;
-    node.fail("eye",
-              fmt::format("the camera stands inside of the body '{}', and sees nothing of it",
-                          scene_.bodies()[*body]->name),
-              fmt::format("the body is between {} and {} m", in_words(bounds_[*body].min()),
-                          in_words(bounds_[*body].max())));
+    const std::vector<CameraKey>& keys = picture_.camera.keys;
+    const SettingsSource& source = keys.empty() ? picture_.camera.source : keys.front().source;
+    source.fail("eye",
+                fmt::format("the camera stands inside of the body '{}', and sees nothing of it",
+                            scene_.bodies()[*body]->name),
+                fmt::format("the body is between {} and {} m", in_words(bounds_[*body].min()),
+                            in_words(bounds_[*body].max())));
   }
 
   // By vertices, which nearly always tells; then by faces, which may fill the picture with no vertex in it.
@@ -161,9 +161,9 @@ private:
   }
 
   void look_at_colours() {
-    for (const auto& body : scene_.bodies()) {
-      const PresetNode* look = body->node->child("look");
-      if (!look || look->text("by") != "fragment" || body->tears()) continue;
+    for (std::size_t n = 0; n < picture_.looks.size(); ++n) {
+      const auto& body = scene_.bodies()[n];
+      if (picture_.looks[n].by != ShownBy::Fragment || body->tears()) continue;
       if (count_cells(body->map->map()).fragments > 1) continue;
       notes_.push_back(fmt::format(
           "body '{}' is coloured by fragment, and nothing tears it: it stays one, of one colour", body->name));
@@ -171,7 +171,7 @@ private:
   }
 
   const Scene& scene_;
-  const PresetNode* camera_; // null: none is given
+  const PictureSettings& picture_;
   Viewpoint viewpoint_;
   const FrameClock& clock_;
   double aspect_; // width / height
@@ -182,13 +182,13 @@ private:
 
 } // namespace
 
-void check_camera(const PresetNode& preset, const Scene& scene, double aspect, const FrameClock& clock) {
-  if (preset.child("camera")) Check(preset, scene, aspect, clock).check_camera();
+void check_camera(const PictureSettings& picture, const Scene& scene, double aspect, const FrameClock& clock) {
+  Check(picture, scene, aspect, clock).check_camera();
 }
 
-std::vector<std::string> picture_notes(const PresetNode& preset, const Scene& scene, double aspect,
+std::vector<std::string> picture_notes(const PictureSettings& picture, const Scene& scene, double aspect,
                                        const FrameClock& clock) {
-  return Check(preset, scene, aspect, clock).notes();
+  return Check(picture, scene, aspect, clock).notes();
 }
 
 } // namespace rend

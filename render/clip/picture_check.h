@@ -7,6 +7,7 @@
 #pragma once
 
 #include "render/clip/frame_clock.h"
+#include "render/picture/picture_settings.h"
 #include "render/picture/viewpoint.h"
 
 #include <string>
@@ -16,10 +17,10 @@ namespace rend {
 
 // UserError with the camera's place where there is no way to look, or the first picture's eye, if it is given,
 // is inside of a solid. Cheap, and of no picture's size: asked of every preset.
-void check_camera(const PresetNode& preset, const Scene& scene, double aspect, const FrameClock& clock);
+void check_camera(const PictureSettings& picture, const Scene& scene, double aspect, const FrameClock& clock);
 
 // What is to be told to who makes pictures. aspect: width / height.
-std::vector<std::string> picture_notes(const PresetNode& preset, const Scene& scene, double aspect,
+std::vector<std::string> picture_notes(const PictureSettings& picture, const Scene& scene, double aspect,
                                        const FrameClock& clock);
 
 } // namespace rend

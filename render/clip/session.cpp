@@ -83,8 +83,8 @@ Session::Session(const SessionOptions& options) : options_(options) {
   text_hash_ = hash_bytes(text.data(), text.size());
   preset_ = load_scene_text(text, options.preset, overrides);
   if (!options.allow_path) check_paths(*preset_);
-  image_ = image_settings(*preset_);
-  if (options.fps) image_.fps = *options.fps;
+  picture_ = picture_settings(*preset_);
+  if (options.fps) picture_.image.fps = *options.fps;
   scene_ = std::make_unique<Scene>(read_scene(*preset_), SceneOptions{.walk = options.kernels == "walk",
                                                                       .threads = threads(),
                                                                       .births = options.births,
@@ -93,8 +93,8 @@ Session::Session(const SessionOptions& options) : options_(options) {
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
-  clock_ = std::make_unique<FrameClock>(duration, step, image_.fps);
-  check_camera(*preset_, *scene_, static_cast<double>(image_.width) / image_.height, *clock_);
+  clock_ = std::make_unique<FrameClock>(duration, step, image().fps);
+  check_camera(picture_, *scene_, image().aspect(), *clock_);
   if (options.quiet) return;
   note_refused_threads(*scene_);
   for (const std::string& note : scene_->notes()) print_note(note);
@@ -122,10 +122,10 @@ void Session::check_counts() const {
   constexpr double most = std::numeric_limits<int>::max() / 2;
   const double step = scene_->step_size();
   const double duration = options_.steps ? static_cast<double>(*options_.steps) * step : scene_->duration();
-  if (duration * image_.fps < most) return;
+  if (duration * image().fps < most) return;
   preset_->child("time")->fail(
       "duration",
-      fmt::format("{:g} s at {:g} pictures a second are more than {:.0f} frames", duration, image_.fps, most));
+      fmt::format("{:g} s at {:g} pictures a second are more than {:.0f} frames", duration, image().fps, most));
 }
 
 Stopped Session::run(long last_frame, const Calls& calls, long first_frame) {

@@ -52,7 +52,8 @@ public:
   Scene& scene() { return *scene_; }
   const Scene& scene() const { return *scene_; }
   const FrameClock& clock() const { return *clock_; }
-  const ImageSettings& image() const { return image_; }
+  const PictureSettings& picture() const { return picture_; }
+  const ImageSettings& image() const { return picture_.image; }
   int threads() const; // that were asked for, or all that the machine has
   bool quiet() const { return options_.quiet; }
 
@@ -80,7 +81,7 @@ private:
   std::unique_ptr<PresetNode> preset_;
   std::unique_ptr<Scene> scene_; // reads from the preset for as long as it lives
   std::unique_ptr<FrameClock> clock_;
-  ImageSettings image_;
+  PictureSettings picture_; // reads from the preset too
   std::optional<Unstable> failure_;
   double step_seconds_ = 0;
 };

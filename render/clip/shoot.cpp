@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 PngShape shape_of(const Session& session, const PipelineOptions& files) {
-  return {files.width, files.height, session.image().transparent ? 4 : 3};
+  return {files.width, files.height, session.image().transparent() ? 4 : 3};
 }
 
 } // namespace

@@ -40,16 +40,16 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   const std::string& name = session.scene().name();
   out.folder = folder_for(options.folder, name);
   out.name = name;
-  out.width = session.image().width;
-  out.height = session.image().height;
+  out.width = session.image().width();
+  out.height = session.image().height();
   if (!options.size.empty()) {
     const PictureSize size = parse_size(options.size);
     out.width = size.width;
     out.height = size.height;
   }
   out.samples = session.image().samples;
-  if (session.image().transparent && !options.video.empty())
-    throw UserError(Exit::Usage, session.preset().child("image")->place("background"),
+  if (session.image().transparent() && !options.video.empty())
+    throw UserError(Exit::Usage, session.image().source.place("background"),
                     "a transparent background is for PNG files: rend writes videos without alpha",
                     "leave --video out, or add --set image.background=#ffffff");
   out.fps = session.image().fps;

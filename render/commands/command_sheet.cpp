@@ -57,7 +57,7 @@ private:
 };
 
 Exit run(Session& session, double aspect, Row& row) {
-  PictureMaker maker(session.preset(), session.scene(), aspect, session.clock().duration(),
+  PictureMaker maker(session.picture(), session.scene(), aspect, session.clock().duration(),
                      session.clock().frames());
   const long last = session.clock().frames() - 1;
   const Keeping keeping; // no more than a word on how far it came

@@ -2,6 +2,8 @@
 
 #include "sim/base/math.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,21 +36,30 @@ std::uint8_t encoded(double linear) {
 
 } // namespace
 
-Colour colour_of(const PresetNode& node, std::string_view attribute) {
-  const std::string& text = node.text(attribute);
+std::string text_of(const Colour& colour) {
+  return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+}
+
+std::optional<Colour> colour_called(std::string_view text) {
+  if (text.size() != 7 || text[0] != '#') return {};
   Colour colour{};
-  bool fits = text.size() == 7 && text[0] == '#';
-  for (std::size_t c = 0; fits && c < 3; ++c) {
+  for (std::size_t c = 0; c < 3; ++c) {
     const int high = hex_digit(text[1 + 2 * c]), low = hex_digit(text[2 + 2 * c]);
-    fits = high >= 0 && low >= 0;
+    if (high < 0 || low < 0) return {};
     colour[c] = static_cast<std::uint8_t>(16 * high + low);
   }
-  if (!fits)
+  return colour;
+}
+
+Colour colour_of(const PresetNode& node, std::string_view attribute) {
+  const std::string& text = node.text(attribute);
+  const std::optional<Colour> colour = colour_called(text);
+  if (!colour)
     node.fail(attribute,
               std::string(attribute) + " of <" + node.name() + "> is " + in_quotes(text) +
                   ", which is no colour",
               "a colour is #rrggbb, such as #2a7f8e");
-  return colour;
+  return *colour;
 }
 
 Colour colour_of_share(double share) {

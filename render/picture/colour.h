@@ -1,16 +1,37 @@
 // Colours: of a preset, of a quantity, of a fragment. All sRGB, 8 bits a channel.
 #pragma once
 
-#include "sim/base/parameters.h"
+#include "sim/base/settings.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace rend {
 
 using Colour = std::array<std::uint8_t, 3>;
+
+// "#rrggbb", and what it stands for; none: it is no colour.
+std::string text_of(const Colour& colour);
+std::optional<Colour> colour_called(std::string_view text);
+
+// The field of a member that is a colour, or an optional one: the attribute's word `none` stands for no colour.
+// Whether the text is a colour is asked before (colour_of): it takes no other.
+template <class S> Field<S> colour_field(Colour S::*member, AttributeType type) {
+  type.otherwise(text_of(S{}.*member));
+  return {type, [member](S& s, const AttributeValue& value) { s.*member = colour_called(value.text).value(); }};
+}
+template <class S>
+Field<S> colour_field(std::optional<Colour> S::*member, AttributeType type, const std::string& none = {}) {
+  const std::optional<Colour> by_default = S{}.*member;
+  if (by_default) type.otherwise(text_of(*by_default));
+  return {type, [member, none](S& s, const AttributeValue& value) {
+            s.*member = value.text == none ? std::nullopt : std::optional(colour_called(value.text).value());
+          }};
+}
 
 // The colour "#rrggbb" that an attribute holds. UserError with its place where it holds none.
 Colour colour_of(const PresetNode& node, std::string_view attribute);

@@ -1,8 +1,8 @@
 #include "render/picture/hud_writer.h"
 
-#include "sim/base/units.h"
 #include "render/picture/colour.h"
 #include "sim/base/archive.h"
+#include "sim/base/units.h"
 
 #include <fmt/format.h>
 
@@ -19,26 +19,27 @@ constexpr std::array<Colour, 4> colours{{{0, 114, 178}, {213, 94, 0}, {0, 158, 1
 
 } // namespace
 
-const ElementType& hud_type() {
-  static const ElementType type{
-      "hud",
-      "what is written over the pictures",
-      {words_of(
-           "show", {"title", "time", "energy", "tears", "legend", "cost"},
-           "any of: the title; the simulated time; curves of the energies; how many tears and fragments there "
-           "are; the scale of the bodies' colours; what a step costs (it differs from run to run)")
-           .otherwise("title time tears legend"),
-       text("title", "default: the scene's name"), text("subtitle", "a line below it")},
-      {}};
-  return type;
+template <> const Fields<HudSettings>& fields_of() {
+  using S = HudSettings;
+  static const Fields<S> fields{
+      field(&S::show,
+            words_of(
+                "show", {"title", "time", "energy", "tears", "legend", "cost"},
+                "any of: the title; the simulated time; curves of the energies; how many tears and fragments "
+                "there are; the scale of the bodies' colours; what a step costs (it differs from run to "
+                "run)")),
+      field(&S::title, text("title", "default: the scene's name")),
+      field(&S::subtitle, text("subtitle", "a line below it"))};
+  return fields;
 }
 
-HudWriter::HudWriter(const PresetNode& hud, const Scene& scene, long frames) : scene_(scene), frames_(frames) {
-  const auto& show = hud.words("show");
-  const auto has = [&](const char* word) { return std::find(show.begin(), show.end(), word) != show.end(); };
+HudWriter::HudWriter(const HudSettings& hud, const Scene& scene, long frames) : scene_(scene), frames_(frames) {
+  const auto has = [&](const char* word) {
+    return std::find(hud.show.begin(), hud.show.end(), word) != hud.show.end();
+  };
   if (has("title")) {
-    title_ = hud.given("title") ? hud.text("title") : scene.name();
-    if (hud.given("subtitle")) subtitle_ = hud.text("subtitle");
+    title_ = hud.title.value_or(scene.name());
+    subtitle_ = hud.subtitle.value_or("");
   }
   time_ = has("time");
   energy_ = has("energy");

@@ -1,10 +1,11 @@
 // What <hud> asks for, written from the state of a scene: HudContent.
 //
 // Curves and scales follow the whole clip, whether a frame is drawn or not: observe() is called for every one,
-// as for pictures (picture.h). What is not asked for is neither measured nor kept.
+// as for pictures (scene_picture.h). What is not asked for is neither measured nor kept.
 #pragma once
 
 #include "render/draw/hud_content.h"
+#include "sim/base/settings.h"
 #include "sim/scene/scene.h"
 
 #include <array>
@@ -13,12 +14,21 @@
 
 namespace rend {
 
-const ElementType& hud_type();
+// <hud>
+struct HudSettings {
+  // Any of: title, time, energy (curves of the energies), tears (how many, and fragments), legend (the scale of
+  // the bodies' colours), cost (of a step; it differs from run to run).
+  std::vector<std::string> show{"title", "time", "tears", "legend"};
+  std::optional<std::string> title; // none: the scene's name
+  std::optional<std::string> subtitle;
+  SettingsSource source = {};
+};
+template <> const Fields<HudSettings>& fields_of();
 
 class HudWriter {
 public:
-  // `hud` is the preset's element; frames: of the clip.
-  HudWriter(const PresetNode& hud, const Scene& scene, long frames);
+  // frames: of the clip.
+  HudWriter(const HudSettings& hud, const Scene& scene, long frames);
 
   void observe(); // the state is that of a frame
   HudContent content(std::vector<HudLegend> legends) const;

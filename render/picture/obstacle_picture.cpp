@@ -45,6 +45,16 @@ struct Lattice {
 
 } // namespace
 
+template <> const Fields<SphereLook>& fields_of() {
+  static const Fields<SphereLook> fields{colour_field(&SphereLook::colour, text("colour", "#rrggbb"))};
+  return fields;
+}
+
+template <> const Fields<BoxLook>& fields_of() {
+  static const Fields<BoxLook> fields{colour_field(&BoxLook::colour, text("colour", "#rrggbb"))};
+  return fields;
+}
+
 FrameBody rounded_box(const Vec3& centre, const Vec3& core, double radius, int segments, const Colour& colour) {
   FrameBody out;
   out.edges = false;
@@ -65,16 +75,15 @@ FrameBody rounded_box(const Vec3& centre, const Vec3& core, double radius, int s
   return out;
 }
 
-FrameBody picture_of(const Sphere& sphere) {
-  return rounded_box(sphere.centre, Vec3::Zero(), sphere.radius, sphere_segments,
-                     colour_of(*sphere.node, "colour"));
+FrameBody picture_of(const Sphere& sphere, const SphereLook& look) {
+  return rounded_box(sphere.centre, Vec3::Zero(), sphere.radius, sphere_segments, look.colour);
 }
 
-FrameBody picture_of(const Box& box) {
+FrameBody picture_of(const Box& box, const BoxLook& look) {
   const Vec3 size = box.high - box.low;
   const double radius = rounding * size.minCoeff();
   return rounded_box(0.5 * (box.low + box.high), 0.5 * size - Vec3::Constant(radius), radius, box_segments,
-                     colour_of(*box.node, "colour"));
+                     look.colour);
 }
 
 } // namespace rend

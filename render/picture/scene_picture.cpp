@@ -1,11 +1,9 @@
 #include "render/picture/scene_picture.h"
 
-#include "sim/base/units.h"
 #include "render/draw/hud.h"
 #include "render/picture/dart_picture.h"
-#include "render/picture/obstacle_picture.h"
-#include "render/picture/scene_preset.h"
 #include "sim/base/archive.h"
+#include "sim/base/units.h"
 #include "sim/base/wall_clock.h"
 #include "sim/body/measure.h"
 #include "sim/topology/count.h"
@@ -32,68 +30,43 @@ Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const s
 
 } // namespace
 
-BodyPicture::BodyPicture(Body& body)
-    : body_(&body), solid_(body.map->dimension() == 3), orientable_(solid_ || is_orientable(body.map->map())) {
+BodyPicture::BodyPicture(Body& body, LookSettings look)
+    : body_(&body), look_(std::move(look)), solid_(body.map->dimension() == 3),
+      orientable_(solid_ || is_orientable(body.map->map())), scale_(look_.most.value_or(0)) {
   if (!solid_) body.boundary().sheet(); // that of a solid is there
-  const ElementType& type = *std::find_if(body.node->type().children.begin(), body.node->type().children.end(),
-                                          [](const ChildType& child) { return child.type->name == "look"; })
-                                 ->type;
-  PresetNode silent(type, body.node->place());
-  silent.fill_defaults();
-  const PresetNode* given = body.node->child("look");
-  const PresetNode& look = given ? *given : silent;
-  colour_ = colour_of(look, "colour");
-  inside_ = colour_of(look, "inside");
-  edges_ = look.flag("edges");
-  if (look.given("back")) back_ = colour_of(look, "back");
-  finish_ = finish_called(look.text("finish"));
-  const std::string& as = look.text("as");
-  as_ = as == "wires"      ? DrawnAs::Wires
-        : as == "exploded" ? DrawnAs::Exploded
-        : as == "darts"    ? DrawnAs::Darts
-                           : DrawnAs::Surface;
-  apart_ = look.number("apart");
-  if (as_ == DrawnAs::Darts && body.map->map().dart_count() > most_drawn_darts)
-    look.fail("as",
-              fmt::format("the body has {} darts, and a picture of more than {} tells nothing",
-                          body.map->map().dart_count(), most_drawn_darts),
-              "draw fewer cells, or as=\"exploded\"");
-  given_ = look.given("most");
-  if (given_) scale_ = look.number("most");
-  const std::string& by = look.text("by");
-  by_ = by == "strain"     ? ShownBy::Strain
-        : by == "stress"   ? ShownBy::Stress
-        : by == "force"    ? ShownBy::Force
-        : by == "fragment" ? ShownBy::Fragment
-                           : ShownBy::Plain;
+  if (look_.as == DrawnAs::Darts && body.map->map().dart_count() > most_drawn_darts)
+    look_.source.fail("as",
+                      fmt::format("the body has {} darts, and a picture of more than {} tells nothing",
+                                  body.map->map().dart_count(), most_drawn_darts),
+                      "draw fewer cells, or as=\"exploded\"");
 }
 
 constexpr double at_rest = 1e-9; // strain
 
 void BodyPicture::observe(std::size_t& fragments_seen) {
-  if (by_ == ShownBy::Fragment) label_fragments(fragments_seen);
-  if (by_ == ShownBy::Plain || by_ == ShownBy::Fragment) return;
-  values_ = by_ == ShownBy::Strain   ? vertex_strain(*body_)
-            : by_ == ShownBy::Stress ? vertex_stress(*body_)
-                                     : vertex_force(*body_);
-  if (given_) return;
+  if (look_.by == ShownBy::Fragment) label_fragments(fragments_seen);
+  if (look_.by == ShownBy::Plain || look_.by == ShownBy::Fragment) return;
+  values_ = look_.by == ShownBy::Strain   ? vertex_strain(*body_)
+            : look_.by == ShownBy::Stress ? vertex_stress(*body_)
+                                          : vertex_force(*body_);
+  if (look_.most) return;
   double most = 0;
   for (double value : values_) most = std::max(most, value);
-  if (by_ != ShownBy::Strain && most > 0 && scale_ == 0) { // at rest all is round-off, and no colour
+  if (look_.by != ShownBy::Strain && most > 0 && scale_ == 0) { // at rest all is round-off, and no colour
     const std::vector<double> strain = vertex_strain(*body_);
     if (*std::max_element(strain.begin(), strain.end()) < at_rest) most = 0;
   }
-  if (by_ == ShownBy::Strain && most < at_rest) most = 0;
+  if (look_.by == ShownBy::Strain && most < at_rest) most = 0;
   scale_ = std::max(scale_, rounded_up(most));
 }
 
 std::optional<HudLegend> BodyPicture::legend() const {
-  if (by_ == ShownBy::Plain || by_ == ShownBy::Fragment || scale_ == 0) return {};
+  if (look_.by == ShownBy::Plain || look_.by == ShownBy::Fragment || scale_ == 0) return {};
   HudLegend legend;
-  legend.title = std::string(by_ == ShownBy::Strain   ? "largest strain"
-                             : by_ == ShownBy::Stress ? "largest principal stress"
-                                                      : "largest force");
-  const char* unit = by_ == ShownBy::Strain ? "" : by_ == ShownBy::Stress ? "Pa" : "N";
+  legend.title = std::string(look_.by == ShownBy::Strain   ? "largest strain"
+                             : look_.by == ShownBy::Stress ? "largest principal stress"
+                                                           : "largest force");
+  const char* unit = look_.by == ShownBy::Strain ? "" : look_.by == ShownBy::Stress ? "Pa" : "N";
   legend.low = in_units(0, "");
   legend.high = in_units(scale_, unit);
   for (int n = 0; n < 64; ++n) legend.colours.push_back(colour_of_share(n / 63.0));
@@ -121,28 +94,28 @@ void BodyPicture::colour_vertices() {
 }
 
 FrameBody BodyPicture::draw() {
-  if (by_ != ShownBy::Plain && by_ != ShownBy::Fragment) colour_vertices();
+  if (look_.by != ShownBy::Plain && look_.by != ShownBy::Fragment) colour_vertices();
   FrameBody out;
-  out.edges = edges_;
+  out.edges = look_.edges;
   out.two_sided = !solid_;
   out.sides = orientable_;
-  out.back = back_;
-  out.finish = finish_;
-  out.filled = as_ != DrawnAs::Wires;
-  if (as_ == DrawnAs::Darts)
+  out.back = look_.back;
+  out.finish = look_.finish;
+  out.filled = look_.as != DrawnAs::Wires;
+  if (look_.as == DrawnAs::Darts)
     draw_darts(*body_, out);
-  else if (as_ == DrawnAs::Exploded)
+  else if (look_.as == DrawnAs::Exploded)
     draw_exploded(
-        *body_, apart_, [this](const CellCorner& at) { return colour_at(at); }, out);
+        *body_, look_.apart, [this](const CellCorner& at) { return colour_at(at); }, out);
   else
     solid_ ? draw_solid(out) : draw_sheet(out);
   return out;
 }
 
 Colour BodyPicture::colour_at(const CellCorner& at) const {
-  if (by_ == ShownBy::Fragment) return fragment_colours_[labels_[at.dart.value]];
+  if (look_.by == ShownBy::Fragment) return fragment_colours_[labels_[at.dart.value]];
   if (!vertex_colours_.empty()) return vertex_colours_[at.vertex];
-  return at.inner ? inside_ : colour_;
+  return at.inner ? look_.inside : look_.colour;
 }
 
 void BodyPicture::draw_sheet(FrameBody& out) {
@@ -154,8 +127,8 @@ void BodyPicture::draw_sheet(FrameBody& out) {
   sheet.for_each_triangle([&](const Surface::Triangle& triangle) {
     const auto [a, b, c] = triangle.vertex;
     const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
-    Colour colour = colour_;
-    if (by_ == ShownBy::Fragment)
+    Colour colour = look_.colour;
+    if (look_.by == ShownBy::Fragment)
       colour = fragment_colours_[labels_[body_->map->cells(FaceOfVolume).first_dart(triangle.face).value]];
     for (Slot v : triangle.vertex) {
       // A vertex normal's sign is its own: within a triangle all are turned to the triangle's side.
@@ -176,8 +149,8 @@ void BodyPicture::draw_solid(FrameBody& out) {
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
   surface.for_each_triangle([&](const SolidSurface::Triangle& triangle) {
-    Colour colour = triangle.bare ? inside_ : colour_;
-    if (by_ == ShownBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
+    Colour colour = triangle.bare ? look_.inside : look_.colour;
+    if (look_.by == ShownBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
     for (std::size_t k = 0; k < 3; ++k) {
       const Slot v = triangle.vertex[k];
       if (by_vertex) colour = vertex_colours_[v];
@@ -191,15 +164,18 @@ std::size_t BodyPicture::bytes() const {
   return solid_ ? boundary.solid().bytes() : boundary.sheet().bytes();
 }
 
-PictureMaker::PictureMaker(const PresetNode& preset, Scene& scene, double aspect, double duration, long frames)
-    : scene_(scene), viewpoint_(preset, scene, aspect, duration) {
-  if (const PresetNode* hud = preset.child("hud"); hud && hud_available()) hud_.emplace(*hud, scene, frames);
-  const Colour background = image_settings(preset).background;
-  transparent_ = image_settings(preset).transparent;
-  occlusion_ = image_settings(preset).occlusion;
-  for (std::size_t c = 0; c < 3; ++c) background_[c] = static_cast<float>(background[c]) / 255;
+PictureMaker::PictureMaker(const PictureSettings& settings, Scene& scene, double aspect, double duration,
+                           long frames)
+    : scene_(scene), viewpoint_(settings.camera, scene, aspect, duration), image_(settings.image),
+      spheres_(settings.spheres), boxes_(settings.boxes) {
+  if (settings.hud && hud_available()) hud_.emplace(*settings.hud, scene, frames);
+  spheres_.resize(scene.world().spheres.size());
+  boxes_.resize(scene.world().boxes.size());
+  std::vector<LookSettings> looks = settings.looks;
+  looks.resize(scene.bodies().size());
   const double start = wall_clock();
-  for (const auto& body : scene.bodies()) bodies_.push_back(std::make_unique<BodyPicture>(*body));
+  for (std::size_t n = 0; n < looks.size(); ++n)
+    bodies_.push_back(std::make_unique<BodyPicture>(*scene.bodies()[n], looks[n]));
   seconds_ = wall_clock() - start;
 }
 
@@ -217,13 +193,17 @@ Frame PictureMaker::draw(long number, double time) {
   frame.time = scene_.time();
   frame.number = static_cast<int>(number);
   for (auto& body : bodies_) frame.bodies.push_back(body->draw());
-  for (const Sphere& sphere : scene_.world().spheres) frame.obstacles.push_back(picture_of(sphere));
-  for (const Box& box : scene_.world().boxes) frame.obstacles.push_back(picture_of(box));
-  if (scene_.world().floor) frame.floor = FrameFloor{*scene_.world().floor};
+  const World& world = scene_.world();
+  for (std::size_t n = 0; n < spheres_.size(); ++n)
+    frame.obstacles.push_back(picture_of(world.spheres[n], spheres_[n]));
+  for (std::size_t n = 0; n < boxes_.size(); ++n)
+    frame.obstacles.push_back(picture_of(world.boxes[n], boxes_[n]));
+  if (world.floor) frame.floor = FrameFloor{*world.floor};
   frame.camera = viewpoint_.at(time);
-  frame.background = background_;
-  frame.transparent = transparent_;
-  frame.occlusion = occlusion_;
+  const Colour background = image_.background.value_or(Colour{});
+  for (std::size_t c = 0; c < 3; ++c) frame.background[c] = static_cast<float>(background[c]) / 255;
+  frame.transparent = image_.transparent();
+  frame.occlusion = image_.occlusion;
   if (hud_) frame.hud = hud_->content(legends());
   seconds_ += wall_clock() - start;
   return frame;
@@ -247,7 +227,7 @@ void BodyPicture::store(Archive& archive) {
   archive(scale_);
   archive.table(numbers_, darts, "more fragments have a colour than there are darts");
   if (!archive.reading()) return;
-  refuse_unless(given_ ? scale_ == given : scale_ >= 0, "the scale of colours is another, or below 0");
+  refuse_unless(look_.most ? scale_ == given : scale_ >= 0, "the scale of colours is another, or below 0");
   refuse_unless(numbers_.empty() || numbers_.rbegin()->first < darts,
                 "a fragment is of a dart that is not there");
 }

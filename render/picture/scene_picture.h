@@ -8,9 +8,8 @@
 #pragma once
 
 #include "render/draw/frame.h"
-#include "render/picture/colour.h"
 #include "render/picture/exploded_picture.h"
-#include "render/picture/hud_writer.h"
+#include "render/picture/picture_settings.h"
 #include "render/picture/viewpoint.h"
 
 #include <map>
@@ -20,13 +19,10 @@
 
 namespace rend {
 
-enum class ShownBy { Plain, Strain, Stress, Force, Fragment };
-enum class DrawnAs { Surface, Wires, Exploded, Darts };
-
 // How one body is shown.
 class BodyPicture {
 public:
-  explicit BodyPicture(Body& body);
+  BodyPicture(Body& body, LookSettings look); // UserError: darts of a body that has too many to be drawn
 
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that were given a colour
   FrameBody draw();                          // of the state that was observed
@@ -43,15 +39,9 @@ private:
   Colour colour_at(const CellCorner& at) const;
 
   Body* body_;
-  ShownBy by_ = ShownBy::Plain;
-  DrawnAs as_ = DrawnAs::Surface;
-  Colour colour_{}, inside_{};
-  std::optional<Colour> back_;
-  Finish finish_;
-  double apart_ = 0; // of exploded cells
-  bool solid_ = false, edges_ = true, orientable_ = true;
-  double scale_ = 0;           // the quantity at the end of the colours
-  bool given_ = false;         // by the preset: it stays
+  LookSettings look_;
+  bool solid_ = false, orientable_ = true;
+  double scale_ = 0;           // the quantity at the end of the colours; what look_.most says, or seen so far
   std::vector<Vec3> normals_;  // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)
   std::vector<double> values_; // of strain or force, one per vertex slot
   std::vector<Colour> vertex_colours_;           // one per vertex slot; empty unless by strain or force
@@ -62,8 +52,8 @@ private:
 
 class PictureMaker {
 public:
-  // aspect: width / height; duration [s] and frames of the clip.
-  PictureMaker(const PresetNode& preset, Scene& scene, double aspect, double duration, long frames);
+  // aspect: width / height; duration [s] and frames of the clip. UserError where the camera looks at nothing.
+  PictureMaker(const PictureSettings& settings, Scene& scene, double aspect, double duration, long frames);
 
   void observe(); // the state is that of a frame
   Frame draw(long number,
@@ -77,8 +67,9 @@ private:
   std::vector<HudLegend> legends() const;
   Scene& scene_;
   Viewpoint viewpoint_;
-  std::array<float, 3> background_{};
-  bool transparent_ = false, occlusion_ = true;
+  ImageSettings image_;
+  std::vector<SphereLook> spheres_; // one each
+  std::vector<BoxLook> boxes_;
   std::vector<std::unique_ptr<BodyPicture>> bodies_;
   std::optional<HudWriter> hud_; // none: nothing is written over the pictures
   std::size_t fragments_seen_ = 0;

@@ -1,10 +1,8 @@
 #include "render/picture/scene_preset.h"
 
-#include "render/draw/finish.h"
-#include "render/picture/colour.h"
-#include "render/picture/hud_writer.h"
 #include "sim/base/printable.h"
 #include "sim/base/wording.h"
+#include "sim/build/read_settings.h"
 #include "sim/build/scene_types.h"
 
 #include <algorithm>
@@ -12,51 +10,55 @@
 namespace rend {
 namespace {
 
-const ElementType& key_type() {
-  static const ElementType type{"key",
-                                "where the camera is at a time; between keys it moves smoothly",
-                                {number("at", "s", "when").at_least(0).is_required(),
-                                 numbers("eye", 3, "m", "where the camera stands").is_required(),
-                                 numbers("target", 3, "m", "what it looks at; default: the camera's"),
-                                 number("fov", "degrees", "default: the camera's").at_least(1).at_most(170)},
-                                {}};
-  return type;
-}
-
 const ElementType& camera_type() {
+  static const ElementType key{
+      "key", "where the camera is at a time; between keys it moves smoothly", attributes_of<CameraKey>(), {}};
   static const ElementType type{
-      "camera",
-      "where the picture is taken from",
-      {numbers("eye", 3, "m", "where the camera stands"),
-       numbers("target", 3, "m", "what it looks at; default: the middle of the bodies at the start"),
-       numbers("up", 3, "", "what is up in the picture").otherwise("0 0 1"),
-       number("fov", "degrees", "the angle from bottom to top of the picture")
-           .at_least(1)
-           .at_most(170)
-           .otherwise("35"),
-       number("turn", "degrees", "how far it goes around the target over the clip").otherwise("0"),
-       word("frame", {"auto", "given", "follow"},
-            "auto: as near as the bodies allow, seen from the direction of the eye; default where there is no "
-            "eye; follow: after the bodies, never losing one out of sight")},
-      {{&key_type(), 0, -1}}};
+      "camera", "where the picture is taken from", attributes_of<CameraSettings>(), {{&key, 0, -1}}};
   return type;
 }
 
 const ElementType& image_type() {
-  static const ElementType type{
-      "image",
-      "the pictures",
-      {integers("size", 2, "width and height in pixels").at_least(16).at_most(8192).otherwise("1280 720"),
-       number("fps", "1/s", "pictures a second of simulated time").above(0).at_most(1e6).otherwise("30"),
-       word("samples", {"1", "4", "16"},
-            "samples a pixel: 4 smooths edges; 16 fine lines and gloss too, and takes "
-            "four times as long")
-           .otherwise("4"),
-       text("background", "#rrggbb, or none: transparent, without floor").otherwise("#edeff3"),
-       flag("occlusion", "what stands near a place keeps light from it: darker folds, cracks and gaps; a fifth "
-                         "of the time of a picture")
-           .otherwise("no")},
-      {}};
+  static const ElementType type{"image", "the pictures", attributes_of<ImageSettings>(), {}};
+  return type;
+}
+
+const ElementType& hud_type() {
+  static const ElementType type{"hud", "what is written over the pictures", attributes_of<HudSettings>(), {}};
+  return type;
+}
+
+const ElementType& look_type() {
+  static const ElementType type{"look", "how the body is drawn", attributes_of<LookSettings>(), {}};
+  return type;
+}
+
+// What the simulation reads, with what is only drawn.
+const ElementType& drawn_body_type() {
+  static const ElementType type = [] {
+    ElementType body = body_type();
+    body.children.push_back({&look_type(), 0, 1});
+    return body;
+  }();
+  return type;
+}
+
+template <class Look> ElementType drawn(const ElementType& obstacle) {
+  ElementType type = obstacle;
+  for (AttributeType& attribute : attributes_of<Look>()) type.attributes.push_back(std::move(attribute));
+  return type;
+}
+
+const ElementType& drawn_world_type() {
+  static ElementType sphere, box; // for the world's children to point to
+  static const ElementType type = [] {
+    ElementType world = world_type();
+    for (ChildType& child : world.children) {
+      if (child.type->name == "sphere") child.type = &(sphere = drawn<SphereLook>(*child.type));
+      if (child.type->name == "box") child.type = &(box = drawn<BoxLook>(*child.type));
+    }
+    return world;
+  }();
   return type;
 }
 
@@ -76,16 +78,10 @@ void check_name(const PresetNode& scene) {
   if (name.size() > 200) scene.fail("name", "the name of the scene is too long: " + in_quotes(name), hint);
 }
 
-void check_camera(const PresetNode& camera) {
-  if (camera.vector("up").norm() == 0)
-    camera.fail("up", "the camera's up has no direction", "up=\"0 0 1\" is usual");
-  const bool eye = camera.given("eye"), target = camera.given("target");
-  if (!camera.all("key").empty() && camera.has("frame") && camera.text("frame") != "given")
-    camera.fail("frame", "a camera with keys goes where they say", "leave frame out, or the keys");
-  if (!eye && camera.has("frame") && camera.text("frame") == "given")
-    camera.fail("frame", "a given frame needs an eye", "eye=\"0 -3 1\", or frame=\"auto\"");
-  if (eye && target && camera.vector("eye") == camera.vector("target"))
-    camera.fail("eye", "the camera's eye stands at its target", "move it away from there");
+CameraSettings camera_settings(const PresetNode& node) {
+  auto camera = read_settings<CameraSettings>(node);
+  for (const PresetNode* key : node.all("key")) camera.keys.push_back(read_settings<CameraKey>(*key));
+  return camera;
 }
 
 void check_look(const PresetNode& look) {
@@ -119,7 +115,8 @@ void check_colours(const PresetNode& body, const PresetNode& look) {
 std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
   check_name(*scene);
   duration_of(*scene->child("time")); // said by all commands alike
-  image_settings(*scene);             // its colour
+  if (const PresetNode* image = scene->child("image"); image && image->text("background") != "none")
+    colour_of(*image, "background");
   for (const PresetNode* body : scene->all("body"))
     if (const PresetNode* look = body->child("look")) {
       check_look(*look);
@@ -128,7 +125,7 @@ std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
   if (const PresetNode* world = scene->child("world"))
     for (const char* name : {"sphere", "box"})
       for (const PresetNode* obstacle : world->all(name)) colour_of(*obstacle, "colour");
-  if (const PresetNode* camera = scene->child("camera")) check_camera(*camera);
+  if (const PresetNode* camera = scene->child("camera")) check_framing(camera_settings(*camera));
   return scene;
 }
 
@@ -140,8 +137,8 @@ const ElementType& scene_type() {
                                 {text("name", "of its pictures").is_required(),
                                  text("thesis", "the figure or table of the thesis that it reproduces"),
                                  word("version", {"1"}, "of this format").otherwise("1")},
-                                {{&body_type(), 1, -1},
-                                 {&world_type(), 0, 1},
+                                {{&drawn_body_type(), 1, -1},
+                                 {&drawn_world_type(), 0, 1},
                                  {&time_type(), 1, 1},
                                  {&camera_type(), 0, 1},
                                  {&image_type(), 0, 1},
@@ -158,19 +155,20 @@ std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::st
   return checked(read_preset_text(text, file, scene_type(), overrides));
 }
 
-ImageSettings image_settings(const PresetNode& scene) {
-  PresetNode silent(image_type(), scene.place());
-  silent.fill_defaults();
-  const PresetNode* given = scene.child("image");
-  const PresetNode& image = given ? *given : silent;
-  ImageSettings settings;
-  settings.width = static_cast<int>(image.integers("size")[0]);
-  settings.height = static_cast<int>(image.integers("size")[1]);
-  settings.fps = image.number("fps");
-  settings.samples = std::stoi(image.text("samples"));
-  settings.transparent = image.text("background") == "none";
-  settings.occlusion = image.flag("occlusion");
-  if (!settings.transparent) settings.background = colour_of(image, "background");
+PictureSettings picture_settings(const PresetNode& scene) {
+  PictureSettings settings;
+  if (const PresetNode* camera = scene.child("camera")) settings.camera = camera_settings(*camera);
+  if (const PresetNode* image = scene.child("image")) settings.image = read_settings<ImageSettings>(*image);
+  if (const PresetNode* hud = scene.child("hud")) settings.hud = read_settings<HudSettings>(*hud);
+  for (const PresetNode* body : scene.all("body")) {
+    const PresetNode* look = body->child("look");
+    settings.looks.push_back(look ? read_settings<LookSettings>(*look) : LookSettings{});
+  }
+  if (const PresetNode* world = scene.child("world")) {
+    for (const PresetNode* node : world->all("sphere"))
+      settings.spheres.push_back(read_settings<SphereLook>(*node));
+    for (const PresetNode* node : world->all("box")) settings.boxes.push_back(read_settings<BoxLook>(*node));
+  }
   return settings;
 }
 

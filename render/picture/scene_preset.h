@@ -2,9 +2,9 @@
 // what pictures are made by.
 #pragma once
 
+#include "render/picture/picture_settings.h"
 #include "sim/preset/preset_reader.h"
 
-#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,15 +22,8 @@ std::unique_ptr<PresetNode> load_scene(const std::filesystem::path& path,
 std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::string& file,
                                             std::span<const Override> overrides = {});
 
-// What <image> says, or the table where it is silent or absent.
-struct ImageSettings {
-  int width = 0, height = 0;                // [pixels]
-  double fps = 0;                           // [1/s]
-  int samples = 0;                          // a pixel
-  std::array<std::uint8_t, 3> background{}; // sRGB
-  bool transparent = false;                 // there is no background
-  bool occlusion = true;                    // ambient occlusion
-};
-ImageSettings image_settings(const PresetNode& scene);
+// What a scene that was loaded here says of its pictures. Messages about it read from the scene for as long as
+// they may come.
+PictureSettings picture_settings(const PresetNode& scene);
 
 } // namespace rend

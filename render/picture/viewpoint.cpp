@@ -92,47 +92,42 @@ Bounds room_of(const Scene& scene, double duration) {
   return room;
 }
 
-Viewpoint::Viewpoint(const PresetNode& preset, const Scene& scene, double aspect, double duration)
-    : aspect_(aspect), duration_(duration) {
-  const PresetNode* camera = preset.child("camera");
+Viewpoint::Viewpoint(const CameraSettings& camera, const Scene& scene, double aspect, double duration)
+    : aspect_(aspect), turn_(camera.turn), duration_(duration) {
+  check_framing(camera);
   Bounds start;
   for (const auto& body : scene.bodies()) start.extend(bounds_of(*body));
-  const bool has_eye = camera && camera->given("eye");
-  if (camera) {
-    start_.up = camera->vector("up");
-    start_.fov = camera->number("fov");
-    turn_ = camera->number("turn");
-  }
-  start_.target = camera && camera->given("target") ? camera->vector("target") : Vec3(start.center());
+  start_.up = camera.up;
+  start_.fov = camera.fov;
+  start_.target = camera.target.value_or(start.center());
   Vec3 direction = best_direction(start);
-  if (has_eye) {
-    start_.eye = camera->vector("eye");
+  if (camera.eye) {
+    start_.eye = *camera.eye;
     direction = start_.eye - start_.target;
     if (direction.norm() < 1e-9 * (1 + start_.target.norm()))
-      camera->fail("eye", "the camera's eye stands at its target", "move it away from there");
+      camera.source.fail("eye", "the camera's eye stands at its target", "move it away from there");
   }
-  if (camera) read_keys(*camera);
-  const std::string frame = camera && camera->has("frame") ? camera->text("frame") : has_eye ? "given" : "auto";
-  follows_ = frame == "follow";
+  read_keys(camera);
+  const Framing frame = camera.frame.value_or(camera.eye ? Framing::Given : Framing::Auto);
+  follows_ = frame == Framing::Follow;
   direction_ = direction;
   start_middle_ = start.center();
   reach_ = 3 * start.sizes().norm();
-  if (frame == "given") return;
+  if (frame == Framing::Given) return;
   const FrameCamera fitted = frame_auto(room_of(scene, duration), start_.fov, aspect, direction);
   start_.eye = fitted.eye;
   start_.target = fitted.target;
 }
 
-void Viewpoint::read_keys(const PresetNode& camera) {
-  for (const PresetNode* node : camera.all("key")) {
+void Viewpoint::read_keys(const CameraSettings& camera) {
+  for (const CameraKey& given : camera.keys) {
     Key key;
-    key.time = node->number("at");
-    key.camera << node->vector("eye"), node->given("target") ? node->vector("target") : start_.target,
-        node->given("fov") ? node->number("fov") : start_.fov;
+    key.time = given.at;
+    key.camera << given.eye, given.target.value_or(start_.target), given.fov.value_or(start_.fov);
     if (key.camera.head<3>() == key.camera.segment<3>(3))
-      node->fail("eye", "the camera's eye stands at its target", "move it away from there");
+      given.source.fail("eye", "the camera's eye stands at its target", "move it away from there");
     if (!keys_.empty() && key.time <= keys_.back().time)
-      node->fail(
+      given.source.fail(
           "at",
           fmt::format("this key comes at {:g} s, and the one before it at {:g} s", key.time, keys_.back().time),
           "put them in the order of time");

@@ -1,4 +1,4 @@
-// Where a scene is seen from: what <camera> says, or what fits the bodies.
+// Where a scene is seen from: what CameraSettings say, or what fits the bodies.
 //
 // A given, fitted, turning or keyed camera has one path for the whole clip, worked out before the first step.
 // One that follows the bodies looks at every frame's state (observe): it goes after their middle as if on a
@@ -6,6 +6,7 @@
 #pragma once
 
 #include "render/draw/frame.h"
+#include "render/picture/camera_settings.h"
 #include "sim/scene/scene.h"
 
 #include <Eigen/Geometry>
@@ -24,8 +25,9 @@ Eigen::AlignedBox3d room_of(const Scene& scene, double duration);
 
 class Viewpoint {
 public:
-  // aspect: width / height. UserError where the camera looks at nothing.
-  Viewpoint(const PresetNode& preset, const Scene& scene, double aspect, double duration);
+  // aspect: width / height; duration of the clip [s]. UserError where the camera looks at nothing, or its
+  // settings do not fit together.
+  Viewpoint(const CameraSettings& camera, const Scene& scene, double aspect, double duration);
 
   void observe(const Scene& scene);  // the state is that of a frame; only needed by a camera that follows
   FrameCamera at(double time) const; // [s]
@@ -36,7 +38,7 @@ private:
     double time;                        // [s]
     Eigen::Matrix<double, 7, 1> camera; // eye, target [m], fov [degrees]
   };
-  void read_keys(const PresetNode& camera);
+  void read_keys(const CameraSettings& camera);
   FrameCamera between_keys(double time) const;
 
   FrameCamera start_;

@@ -3,6 +3,7 @@
 #include "render/draw/device.h"
 #include "render/draw/stage.h"
 #include "render/picture/scene_picture.h"
+#include "render/picture/scene_preset.h"
 
 namespace rend {
 
@@ -16,7 +17,8 @@ SmallPictures::~SmallPictures() = default;
 
 Image SmallPictures::of(const PresetNode& preset, Scene& scene) {
   Stage& stage = studio_->stage;
-  PictureMaker maker(preset, scene, static_cast<double>(stage.width()) / stage.height(), 1, 1);
+  PictureMaker maker(picture_settings(preset), scene, static_cast<double>(stage.width()) / stage.height(), 1,
+                     1);
   maker.observe();
   stage.draw(maker.draw(0, 0));
   return stage.read();

@@ -34,8 +34,7 @@ const ElementType& sphere_type() {
       {numbers("centre", 3, "m", "at the start").is_required(),
        number("radius", "m", "its size").above(0).at_most(1e30).is_required(),
        numbers("velocity", 3, "m/s", "constant; with a mass: at the start").otherwise("0 0 0"),
-       number("mass", "kg", "if given, it falls, and is pushed back by what it meets").above(0), friction(),
-       text("colour", "#rrggbb").otherwise("#c9a227")},
+       number("mass", "kg", "if given, it falls, and is pushed back by what it meets").above(0), friction()},
       {}};
   return type;
 }
@@ -44,8 +43,8 @@ const ElementType& box_type() {
   static const ElementType type{"box",
                                 "a rigid box that stands still, for bodies with <contact>",
                                 {numbers("low", 3, "m", "the corner of least x, y, z").is_required(),
-                                 numbers("high", 3, "m", "the corner opposite to it").is_required(), friction(),
-                                 text("colour", "#rrggbb").otherwise("#8a8f98")},
+                                 numbers("high", 3, "m", "the corner opposite to it").is_required(),
+                                 friction()},
                                 {}};
   return type;
 }
@@ -61,12 +60,11 @@ Sphere sphere_of(const PresetNode& node) {
   sphere.radius = node.number("radius");
   if (node.given("mass")) sphere.mass = node.number("mass");
   sphere.friction = friction_of(node);
-  sphere.node = &node;
   return sphere;
 }
 
 Box box_of(const PresetNode& node) {
-  const Box box{node.vector("low"), node.vector("high"), friction_of(node), &node};
+  const Box box{node.vector("low"), node.vector("high"), friction_of(node)};
   if (!(box.low.array() < box.high.array()).all())
     node.fail("high", "the box has no inside: each number of high must be above that of low",
               "low=\"0 0 0\" high=\"1 1 0.5\"");

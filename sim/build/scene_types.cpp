@@ -12,39 +12,6 @@
 #include <fmt/format.h>
 
 namespace rend {
-namespace {
-
-const ElementType& look_type() {
-  static const ElementType type{
-      "look",
-      "how the body is drawn",
-      {text("colour", "#rrggbb").otherwise("#2a7f8e"),
-       text("back", "#rrggbb, of a sheet's far side; default: the colour, a shade darker"),
-       text("inside", "#rrggbb, of the faces of a solid that fracture lays bare").otherwise("#e8b27a"),
-       word("by", {"plain", "strain", "stress", "force", "fragment"},
-            "what the colour shows, on a scale from 0 to the most of the clip so far: the largest "
-            "principal strain or stress [Pa] of the elements there (of springs: elongation), or force [N]")
-           .otherwise("plain"),
-       number("most", "",
-              "the quantity at the end of the scale; default: the most of the clip so far, rounded up")
-           .above(0),
-       flag("edges", "draw the edges of cells").otherwise("yes"),
-       word("as", {"surface", "wires", "exploded", "darts"},
-            "what is drawn: the surface; its edges alone; every cell by itself, moved away from the middle; "
-            "the darts "
-            "of the map and the links between them")
-           .otherwise("surface"),
-       number("apart", "",
-              "of exploded cells: how far they are moved, in shares of their distance from the middle")
-           .above(0)
-           .at_most(10)
-           .otherwise("0.4"),
-       text("finish", "cloth, matte, rubber, organ or brittle: how it takes the light").otherwise("cloth")},
-      {}};
-  return type;
-}
-
-} // namespace
 
 const ElementType& body_type() {
   static const ElementType type = [] {
@@ -55,7 +22,6 @@ const ElementType& body_type() {
     for (const auto& part : {shape_types(), matter_types(), motion_types(), law_types(), probe_types()})
       t.children.insert(t.children.end(), part.begin(), part.end());
     t.children.push_back({&contact_type(), 0, 1});
-    t.children.push_back({&look_type(), 0, 1});
     return t;
   }();
   return type;

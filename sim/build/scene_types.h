@@ -1,4 +1,5 @@
 // The elements of a preset that the simulation reads: the parameter table of bodies, world and time.
+// What is only drawn of them (look, colours) is added by who draws (render/picture/scene_preset.cpp).
 #pragma once
 
 #include "sim/base/parameters.h"

@@ -28,7 +28,7 @@ std::vector<Frame> frames_of(const std::string& preset, long last, const std::ve
   options.sets = sets;
   options.quiet = true;
   Session session(options);
-  PictureMaker maker(session.preset(), session.scene(), static_cast<double>(width) / height,
+  PictureMaker maker(session.picture(), session.scene(), static_cast<double>(width) / height,
                      session.clock().duration(), session.clock().frames());
   std::vector<Frame> frames;
   Session::Calls calls;

@@ -33,7 +33,7 @@ struct Shown {
                             R"(<time step="1e-3" integrator="rk4" duration="1"/>)" + more + "</scene>",
                         "shown.xml");
     scene = std::make_unique<Scene>(read_scene(*preset), SceneOptions{});
-    maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0, 31);
+    maker = std::make_unique<PictureMaker>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
   }
   void steps(int count) {
     for (int n = 0; n < count; ++n) scene->step();
@@ -158,7 +158,7 @@ struct ShownBar {
                              "bar.xml");
     scene = std::make_unique<Scene>(read_scene(*preset), SceneOptions{});
     body().border = &body().map->add(BornBorder(3));
-    maker = std::make_unique<PictureMaker>(*preset, *scene, 1.5, 1.0, 31);
+    maker = std::make_unique<PictureMaker>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
   }
   Body& body() { return *scene->bodies()[0]; }
   void part() {
@@ -326,7 +326,7 @@ TEST(PictureMaker, exploded_cells_are_all_there_whole_and_apart) {
                     pattern),
         "bar.xml");
     Scene scene(read_scene(*preset), {});
-    PictureMaker maker(*preset, scene, 1.5, 1, 31);
+    PictureMaker maker(picture_settings(*preset), scene, 1.5, 1, 31);
     maker.observe();
     const Frame frame = maker.draw(0, 0);
     EXPECT_NEAR(volume_of(frame.bodies[0]), 12, 1e-4) << pattern; // nothing is lost or twice

@@ -22,7 +22,7 @@ TEST(Viewpoint, keys_are_met_and_held_at_the_ends) {
       scene_with(R"(<camera fov="30"><key at="0.5" eye="3 0 1"/><key at="1" eye="0 -4 2" target="0 0 1"/>)"
                  R"(<key at="2" eye="-3 0 1" fov="50"/></camera>)");
   const Scene scene(read_scene(*preset), {});
-  const Viewpoint view(*preset, scene, 1.5, 2);
+  const Viewpoint view(picture_settings(*preset).camera, scene, 1.5, 2);
   EXPECT_EQ(view.at(0).eye, Vec3(3, 0, 1));
   EXPECT_EQ(view.at(0.5).eye, Vec3(3, 0, 1));
   EXPECT_NEAR((view.at(1).eye - Vec3(0, -4, 2)).norm(), 0, 1e-12);
@@ -36,7 +36,7 @@ TEST(Viewpoint, between_keys_it_neither_jumps_nor_jerks) {
   const auto preset = scene_with(R"(<camera><key at="0" eye="3 0 1"/><key at="0.4" eye="0 -4 2"/>)"
                                  R"(<key at="2" eye="-3 0 1"/></camera>)");
   const Scene scene(read_scene(*preset), {});
-  const Viewpoint view(*preset, scene, 1.5, 2);
+  const Viewpoint view(picture_settings(*preset).camera, scene, 1.5, 2);
   constexpr double h = 1e-3;
   Vec3 last = Vec3::Zero();
   for (double t = 0; t < 2; t += h) {
@@ -49,14 +49,14 @@ TEST(Viewpoint, between_keys_it_neither_jumps_nor_jerks) {
 TEST(Viewpoint, keys_out_of_order_are_refused) {
   const auto preset = scene_with(R"(<camera><key at="1" eye="3 0 1"/><key at="1" eye="0 -4 2"/></camera>)");
   const Scene scene(read_scene(*preset), {});
-  EXPECT_THROW(Viewpoint(*preset, scene, 1.5, 2), UserError);
+  EXPECT_THROW(Viewpoint(picture_settings(*preset).camera, scene, 1.5, 2), UserError);
 }
 
 // Two bodies' worth of fall: every vertex stays inside of the picture.
 TEST(Viewpoint, one_that_follows_loses_nothing_out_of_sight) {
   const auto preset = scene_with(R"(<camera frame="follow"/>)", R"(<fix near="0 0 0"/>)");
   Scene scene(read_scene(*preset), {});
-  Viewpoint view(*preset, scene, 1.5, 2);
+  Viewpoint view(picture_settings(*preset).camera, scene, 1.5, 2);
   const Vec3 start = view.at(0).target;
   for (int frame = 0; frame < 60; ++frame) {
     view.observe(scene);

@@ -1,0 +1,42 @@
+// <camera>: where the pictures are taken from. Viewpoint makes a path of it (viewpoint.h).
+#pragma once
+
+#include "sim/base/settings.h"
+
+#include <optional>
+#include <vector>
+
+namespace rend {
+
+// Where the camera is at a time; between keys it moves smoothly.
+struct CameraKey {
+  double at = 0;              // [s]
+  Vec3 eye = Vec3::Zero();    // [m]
+  std::optional<Vec3> target; // [m]; none: the camera's
+  std::optional<double> fov;  // [degrees]; none: the camera's
+  SettingsSource source = {};
+};
+template <> const Fields<CameraKey>& fields_of();
+
+enum class Framing {
+  Auto,  // as near as the bodies allow, seen from the direction of the eye
+  Given, // from the eye
+  Follow // after the bodies
+};
+
+struct CameraSettings {
+  std::optional<Vec3> eye, target; // [m]; none: as the framing has it, the middle of the bodies at the start
+  Vec3 up{0, 0, 1};
+  double fov = 35;              // from bottom to top of the picture [degrees]
+  double turn = 0;              // around the target over the clip [degrees]
+  std::optional<Framing> frame; // none: Given where there is an eye, else Auto
+  std::vector<CameraKey> keys;  // in order of time; where there are some, the camera goes where they say
+  SettingsSource source = {};
+};
+template <> const Fields<CameraSettings>& fields_of();
+
+// UserError for what cannot be together: an up of no direction, keys with a framing of another kind, a given
+// frame without an eye, an eye at its target.
+void check_framing(const CameraSettings& camera);
+
+} // namespace rend

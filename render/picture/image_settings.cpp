@@ -1,0 +1,31 @@
+#include "render/picture/image_settings.h"
+
+namespace rend {
+namespace {
+
+// A word of the table, a number for a program.
+Field<ImageSettings> samples() {
+  AttributeType type = word("samples", {"1", "4", "16"},
+                            "samples a pixel: 4 smooths edges; 16 fine lines and gloss too, and takes "
+                            "four times as long");
+  type.otherwise(std::to_string(ImageSettings{}.samples));
+  return {type,
+          [](ImageSettings& image, const AttributeValue& value) { image.samples = std::stoi(value.text); }};
+}
+
+} // namespace
+
+template <> const Fields<ImageSettings>& fields_of() {
+  using S = ImageSettings;
+  static const Fields<S> fields{
+      field(&S::size, integers("size", 2, "width and height in pixels").at_least(16).at_most(8192)),
+      field(&S::fps, number("fps", "1/s", "pictures a second of simulated time").above(0).at_most(1e6)),
+      samples(),
+      colour_field(&S::background, text("background", "#rrggbb, or none: transparent, without floor"), "none"),
+      field(&S::occlusion,
+            flag("occlusion", "what stands near a place keeps light from it: darker folds, cracks and gaps; a "
+                              "fifth of the time of a picture"))};
+  return fields;
+}
+
+} // namespace rend
