@@ -9,7 +9,7 @@
 
 namespace rend {
 
-// Lines of man(7) macros, UTF-8. `version` "0.1.0", `date` "2026-11-22" or empty.
+// Lines of man(7) macros, UTF-8. `version` "0.2.0", `date` "2026-11-22" or empty.
 std::string manual(const CommandUsage& program, const std::string& version, const std::string& date);
 std::string manual_of_presets(const ElementType& root, const std::string& version, const std::string& date);
 

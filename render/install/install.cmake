@@ -31,12 +31,12 @@ foreach(folder presets sim render tests) # where its links lead
   install(FILES ${PROJECT_SOURCE_DIR}/${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
 endforeach()
 
-# The libraries: rend::sim, rend::render, and rend::rend, which is all with the reader of presets. Those of one folder are
-# called after it: rend::topology.
+# The libraries: rend::sim, rend::render, which draws what it simulates, and rend::rend, which is all with what commands are
+# made of. Those of one folder are called after it: rend::topology.
 add_library(rend_sim INTERFACE)
 target_link_libraries(rend_sim INTERFACE rend_rules rend_build rend_export rend_check rend_study)
 add_library(rend_render INTERFACE)
-target_link_libraries(rend_render INTERFACE rend_pipeline)
+target_link_libraries(rend_render INTERFACE rend_picture rend_pipeline rend_sim)
 add_library(rend_rend INTERFACE)
 target_link_libraries(rend_rend INTERFACE rend_commands rend_sim)
 target_compile_features(rend_flags INTERFACE cxx_std_20)

@@ -1,4 +1,4 @@
-# Read by cpack: the version of packages, 0.1.0+git20261122.1a2b3c4d5e6f, or 0.1.0 where the commit is tagged v0.1.0; and
+# Read by cpack: the version of packages, 0.2.0+git20261122.1a2b3c4d5e6f, or 0.2.0 where the commit is tagged v0.2.0; and
 # who made the commit.
 function(git result)
   execute_process(COMMAND git -C ${CPACK_REND_SOURCE} ${ARGN} OUTPUT_VARIABLE out OUTPUT_STRIP_TRAILING_WHITESPACE

@@ -1,5 +1,7 @@
 #include "render/picture/image_settings.h"
 
+#include <fmt/format.h>
+
 namespace rend {
 namespace {
 
@@ -26,6 +28,15 @@ template <> const Fields<ImageSettings>& fields_of() {
             flag("occlusion", "what stands near a place keeps light from it: darker folds, cracks and gaps; a "
                               "fifth of the time of a picture"))};
   return fields;
+}
+
+void check_image(const ImageSettings& image) {
+  for (int side : image.size)
+    if (side < 16 || side > 8192)
+      image.source.fail("size", fmt::format("a picture of {} x {} pixels", image.width(), image.height()),
+                        "each is from 16 to 8192");
+  if (image.samples != 1 && image.samples != 4 && image.samples != 16)
+    image.source.fail("samples", fmt::format("{} samples a pixel", image.samples), "there are 1, 4 or 16");
 }
 
 } // namespace rend
