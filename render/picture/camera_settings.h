@@ -10,10 +10,10 @@ namespace rend {
 
 // Where the camera is at a time; between keys it moves smoothly.
 struct CameraKey {
-  double at = 0;              // [s]
-  Vec3 eye = Vec3::Zero();    // [m]
-  std::optional<Vec3> target; // [m]; none: the camera's
-  std::optional<double> fov;  // [degrees]; none: the camera's
+  double at = 0;                   // [s]
+  Vec3 eye = Vec3::Zero();         // [m]
+  std::optional<Vec3> target = {}; // [m]; none: the camera's
+  std::optional<double> fov = {};  // [degrees]; none: the camera's
   SettingsSource source = {};
 };
 template <> const Fields<CameraKey>& fields_of();
@@ -25,12 +25,13 @@ enum class Framing {
 };
 
 struct CameraSettings {
-  std::optional<Vec3> eye, target; // [m]; none: as the framing has it, the middle of the bodies at the start
+  std::optional<Vec3> eye = {};    // [m]; none: as the framing has it
+  std::optional<Vec3> target = {}; // [m]; none: the middle of the bodies at the start
   Vec3 up{0, 0, 1};
-  double fov = 35;              // from bottom to top of the picture [degrees]
-  double turn = 0;              // around the target over the clip [degrees]
-  std::optional<Framing> frame; // none: Given where there is an eye, else Auto
-  std::vector<CameraKey> keys;  // in order of time; where there are some, the camera goes where they say
+  double fov = 35;                   // from bottom to top of the picture [degrees]
+  double turn = 0;                   // around the target over the clip [degrees]
+  std::optional<Framing> frame = {}; // none: Given where there is an eye, else Auto
+  std::vector<CameraKey> keys = {};  // in order of time; where there are some, the camera goes where they say
   SettingsSource source = {};
 };
 template <> const Fields<CameraSettings>& fields_of();

@@ -19,8 +19,8 @@ struct HudSettings {
   // Any of: title, time, energy (curves of the energies), tears (how many, and fragments), legend (the scale of
   // the bodies' colours), cost (of a step; it differs from run to run).
   std::vector<std::string> show{"title", "time", "tears", "legend"};
-  std::optional<std::string> title; // none: the scene's name
-  std::optional<std::string> subtitle;
+  std::optional<std::string> title = {}; // none: the scene's name
+  std::optional<std::string> subtitle = {};
   SettingsSource source = {};
 };
 template <> const Fields<HudSettings>& fields_of();

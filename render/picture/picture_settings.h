@@ -15,14 +15,14 @@
 namespace rend {
 
 struct PictureSettings {
-  CameraSettings camera;
-  ImageSettings image;
-  std::optional<HudSettings> hud; // none: nothing is written over the pictures
+  CameraSettings camera = {};
+  ImageSettings image = {};
+  std::optional<HudSettings> hud = {}; // none: nothing is written over the pictures
   // Of the scene's bodies, spheres and boxes, in their order. Those that a list does not reach look as by
   // default.
-  std::vector<LookSettings> looks;
-  std::vector<SphereLook> spheres;
-  std::vector<BoxLook> boxes;
+  std::vector<LookSettings> looks = {};
+  std::vector<SphereLook> spheres = {};
+  std::vector<BoxLook> boxes = {};
 };
 
 } // namespace rend

@@ -1,5 +1,4 @@
-// A cloth without a preset: pulled apart until it is torn in two. Prints how often it tore and in how many
-// fragments; writes cloth.png.
+// A cloth without a preset, pulled until it is torn in two. Prints tears and fragments; writes cloth.png.
 #include "render/files/png.h"
 #include "render/picture/still_pictures.h"
 #include "sim/mesh/sheet.h"
@@ -21,20 +20,21 @@ int main() {
         cloth->interactions.push_back(std::move(springs));
   std::vector<rend::Slot> held, pulled;
   for (rend::Slot v = 0; v < map.cells(rend::Vertex).slots(); ++v)
-    if (double x = map.position()[v].x; x == 0 || x == 1) (x == 0 ? held : pulled).push_back(v);
+    if (const double x = map.position()[v].x; x == 0 || x == 1) (x == 0 ? held : pulled).push_back(v);
+  cloth->uniform_drag = 5; // per second: viscosity of the air
   cloth->constraints.add(map, {}, held);
   cloth->constraints.add(map, {.velocity = {1, 0, 0}}, pulled);
   cloth->border = &map.add(rend::BornBorder());
-  const rend::CriterionType criterion = rend::global_border();
+  const rend::CriterionType criterion = rend::atomic_border();
   const rend::ChangeType change = rend::separate();
-  const rend::LawSettings law{.criterion = &criterion, .change = &change, .threshold = 2};
+  const rend::LawSettings law{.criterion = &criterion, .change = &change, .threshold = 6};
   cloth->tear_laws.emplace_back(cloth->request_for(law), law);
   rend::SceneDefinition definition;
   definition.bodies.push_back(std::move(cloth));
   definition.time.duration = 0.8;
   rend::Scene scene(std::move(definition), {});
-  rend::PictureSettings picture{.looks = {{.colour = {200, 55, 74}}}};
   while (scene.time() < scene.duration()) scene.step();
-  rend::write_png("cloth.png", rend::StillPictures(picture, scene).take());
+  rend::StillPictures pictures({.looks = {{.colour = {200, 55, 74}}}}, scene);
+  rend::write_png("cloth.png", pictures.take());
   std::printf("%zu tears, %zu fragments\n", scene.tears(), scene.fragments());
 }
