@@ -50,7 +50,7 @@ TEST(CheckCase, FailsWhereTheStepIsTooLarge) {
   EXPECT_FALSE(result.finding.holds());
   CheckChapter chapter{{"test", "Test", "", nullptr}, {oscillator("0.3")}, {result}};
   EXPECT_EQ(count({chapter}).failed, 1u);
-  EXPECT_NE(check_page({chapter}, 1, true).find(">failed<"), std::string::npos);
+  EXPECT_NE(check_page({chapter}, 1).find(">failed<"), std::string::npos);
 }
 
 TEST(CheckCase, FailsInWordsWhereSomethingIsThrown) {

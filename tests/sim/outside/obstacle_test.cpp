@@ -135,7 +135,8 @@ TEST(ObstacleContact, a_sphere_that_hits_a_free_cloth_shares_its_momentum_with_i
 double deepest(const presets::Loaded& scene) {
   double most = 0;
   const auto& x = scene.body().map->position();
-  const ContactFaces faces(*scene.body().map);
+  Boundary boundary(*scene.body().map, scene.body().border);
+  const ContactFaces faces(*scene.body().map, boundary);
   for (const ContactFaces::Triangle& t : faces.triangles())
     for (int i = 0; i <= 6; ++i)
       for (int j = 0; j <= 6 - i; ++j) {
