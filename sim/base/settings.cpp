@@ -1,7 +1,13 @@
 #include "sim/base/settings.h"
 
+#include "sim/base/wording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace rend {
 
@@ -19,6 +25,30 @@ std::string fields::text_of(double value) {
   if (exponent != std::string::npos && exponent + 2 < text.size() && text[exponent + 2] == '0')
     text.erase(exponent + 2, 1);
   return text;
+}
+
+std::string fields::text_of_list(std::span<const double> values) {
+  std::string out;
+  for (const double value : values) out += (out.empty() ? "" : " ") + text_of(value);
+  return out;
+}
+
+void fields::check_numbers(const AttributeType& type, std::span<const double> values,
+                           const SettingsSource& source) {
+  for (const double value : values)
+    if (!std::isfinite(value) || value < type.low || value > type.high || (type.open_low && value == type.low))
+      source.fail(type.name, fmt::format("{} is {}; expected {}", type.name, value, expected(type)));
+}
+
+void fields::check_text(const AttributeType& type, const std::string& value, const SettingsSource& source) {
+  if (value.empty() && type.required && !source.given(type.name)) refuse_missing(type, source);
+  if (value.empty() || type.kind != AttributeKind::Word) return;
+  if (std::find(type.words.begin(), type.words.end(), value) == type.words.end())
+    source.fail(type.name, fmt::format("{} is {}; expected {}", type.name, in_quotes(value), expected(type)));
+}
+
+void fields::refuse_missing(const AttributeType& type, const SettingsSource& source) {
+  source.fail(type.name, fmt::format("{} is missing; expected {}", type.name, expected(type)));
 }
 
 } // namespace rend
