@@ -66,7 +66,7 @@ std::vector<AnswerFigures> answers_of(const Scene& scene) {
   std::vector<AnswerFigures> answers;
   for (const auto& body : scene.bodies()) {
     for (const Answer& answer : body->answers) {
-      AnswerFigures one{.probe = body->probes[answer.probe].name(),
+      AnswerFigures one{.probe = answer.probe,
                         .quantity = answer.quantity,
                         .at = answer.at,
                         .value = answer.value,
@@ -74,7 +74,7 @@ std::vector<AnswerFigures> answers_of(const Scene& scene) {
                         .measured = answer.measured,
                         .error = {},
                         .holds = {},
-                        .source = answer.source};
+                        .source = answer.known_from};
       if (answer.measured) one.error = answer.error();
       if (answer.asked) one.holds = answer.holds();
       answers.push_back(std::move(one));

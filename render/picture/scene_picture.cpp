@@ -198,7 +198,7 @@ Frame PictureMaker::draw(long number, double time) {
     frame.obstacles.push_back(picture_of(world.spheres[n], spheres_[n]));
   for (std::size_t n = 0; n < boxes_.size(); ++n)
     frame.obstacles.push_back(picture_of(world.boxes[n], boxes_[n]));
-  if (world.floor) frame.floor = FrameFloor{*world.floor};
+  if (world.floor) frame.floor = FrameFloor{world.floor->z};
   frame.camera = viewpoint_.at(time);
   const Colour background = image_.background.value_or(Colour{});
   for (std::size_t c = 0; c < 3; ++c) frame.background[c] = static_cast<float>(background[c]) / 255;

@@ -87,8 +87,7 @@ Bounds room_of(const Scene& scene, double duration) {
   for (const Box& box : world.boxes) room.extend(box.low).extend(box.high);
   const Bounds bodies = room;
   for (const Sphere& sphere : world.spheres) room.extend(room_of(sphere, bodies, world.gravity, duration));
-  if (const auto floor = world.floor)
-    room.min().z() = std::max(room.min().z(), std::min(*floor, start.min().z()));
+  if (world.floor) room.min().z() = std::max(room.min().z(), std::min(world.floor->z, start.min().z()));
   return room;
 }
 

@@ -11,7 +11,6 @@
 #include "sim/outside/load.h"
 #include "sim/rows/assembly.h"
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,10 +31,8 @@ enum class WitnessAt { BeforeChanges, AfterChanges };
 
 struct Body final : System {
   std::string name;
-  const PresetNode* node = nullptr; // of the preset, for those who read more of it (look)
   std::unique_ptr<EmbeddedMap> map;
-  std::map<std::string, std::vector<Slot>>
-      groups; // of the mesh file: increasing slots of vertices, at the start
+  VertexGroups groups; // at the start
   MassColumn* mass = nullptr;
   DragColumn* drag = nullptr;     // null: no viscosity per particle
   BorderColumn* border = nullptr; // null: nothing tears

@@ -1,6 +1,7 @@
 #include "sim/body/probe.h"
 
 #include "sim/base/check.h"
+#include "sim/base/wording.h"
 #include "sim/body/body.h"
 #include "sim/rows/continuum.h"
 
@@ -9,6 +10,26 @@
 #include <limits>
 
 namespace rend {
+
+template <> const Fields<ProbeSettings>& fields_of() {
+  using S = ProbeSettings;
+  static const Fields<S> fields =
+      Fields<S>{field(&S::name, text("name", "of letters, digits, - and _; must differ").is_required())} +
+      fields_of_part(&S::where);
+  return fields;
+}
+
+void check_name(const ProbeSettings& probe) {
+  const auto fits = [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  };
+  for (const char c : probe.name)
+    if (!fits(static_cast<unsigned char>(c)))
+      probe.source.fail("name", "the name of a probe holds " + in_quotes(std::string(1, c)),
+                        "letters, digits, - and _ do");
+  if (probe.name.empty())
+    probe.source.fail("name", "the name of the probe is empty", "letters, digits, - and _ do");
+}
 
 Probe::Probe(EmbeddedMap& map, std::string name, const std::vector<Slot>& vertices)
     : name_(std::move(name)), shares_(&share_equally(map, "probe " + name_, vertices)) {}

@@ -15,6 +15,7 @@
 // A floor is no support in this sense: it acts by impulses (contact.h).
 #pragma once
 
+#include "sim/outside/selector.h"
 #include "sim/outside/share.h"
 
 #include <optional>
@@ -24,6 +25,14 @@
 namespace rend {
 
 struct Body;
+
+struct ProbeSettings {
+  std::string name = {}; // of letters, digits, - and _
+  Selector where = {};
+  SettingsSource source = {};
+};
+template <> const Fields<ProbeSettings>& fields_of();
+void check_name(const ProbeSettings& probe); // UserError
 
 struct ProbeReading {
   Vec3 position = Vec3::Zero(), displacement = Vec3::Zero(); // [m]

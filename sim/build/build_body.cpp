@@ -9,19 +9,25 @@
 
 namespace rend {
 
-std::unique_ptr<Body> build_body(const PresetNode& node, const World& world) {
+template <> const Fields<BodySettings>& fields_of() {
+  using S = BodySettings;
+  static const Fields<S> fields{field(&S::name, text("name", "to tell bodies apart; must differ"))};
+  return fields;
+}
+
+std::unique_ptr<Body> build_body(const BodySettings& settings, const World& world) {
   auto body = std::make_unique<Body>();
-  body->name = node.text("name");
-  body->node = &node;
+  body->name = settings.name;
   body->gravity = Record(world.gravity);
-  build_shape(*body, node);
-  build_matter(*body, node);
-  build_motion(*body, node);
-  build_laws(*body, node);
+  build_shape(*body, settings);
+  build_matter(*body, settings);
+  build_motion(*body, settings);
+  build_laws(*body, settings);
   if (body->interactions.empty())
     body->notes.emplace_back("nothing holds this body together: it has neither <springs> nor <elasticity>");
-  build_contact(*body, node, world);
-  build_probes(*body, node);
+  build_contact(*body, settings, world);
+  build_probes(*body, settings);
+  if (world.wind) body->loads.set(WindLoad(*body->map, *world.wind));
   return body;
 }
 

@@ -7,33 +7,18 @@
 
 namespace rend {
 
-const ElementType& contact_type() {
-  static const ElementType type{
-      "contact",
-      "what the body does not pass through",
-      {words_of("with", {"floor", "obstacles", "fragments", "self"},
-                "any of: the floor; obstacles: floor, spheres and boxes; fragments: other fragments, and other "
-                "bodies that say so too; self: all of its own faces as well")
-           .otherwise("obstacles"),
-       number("thickness", "m", "kept from it").at_least(0).otherwise("0.002"),
-       number("friction", "", "Coulomb's coefficient, where the obstacle has none of its own")
-           .at_least(0)
-           .otherwise("0.5")},
-      {}};
-  return type;
-}
-
 namespace {
 
-void say_what_it_passes(Body& body, const World& world, bool floor, bool obstacles) {
+// `contact`: none where the body has none.
+void say_what_it_passes(Body& body, const World& world, const std::optional<ContactSettings>& contact) {
+  const bool floor = contact && contact->floor, obstacles = contact && contact->obstacles;
   const bool through_floor = world.floor && !floor, through_obstacles = world.has_obstacles() && !obstacles;
   if (!through_floor && !through_obstacles) return;
-  body.left_out.push_back(
-      fmt::format("contact: {} drawn, and this body passes through ({})",
-                  through_floor && through_obstacles ? "floor, spheres and boxes are"
-                  : through_floor                    ? "the floor is"
-                                                     : "spheres and boxes are",
-                  body.node->child("contact") ? "with of its <contact> names other things" : "no <contact>"));
+  body.left_out.push_back(fmt::format("contact: {} drawn, and this body passes through ({})",
+                                      through_floor && through_obstacles ? "floor, spheres and boxes are"
+                                      : through_floor                    ? "the floor is"
+                                                                         : "spheres and boxes are",
+                                      contact ? "with of its <contact> names other things" : "no <contact>"));
   body.notes.push_back(body.left_out.back());
 }
 
@@ -49,47 +34,35 @@ void say_what_starts_below(Body& body, double height) {
                                    depth));
 }
 
-ContactSettings settings_of(const PresetNode& contact) {
-  const auto& with = contact.words("with");
-  const auto has = [&](const char* word) { return std::find(with.begin(), with.end(), word) != with.end(); };
-  ContactSettings settings;
-  settings.obstacles = has("obstacles");
-  settings.floor = has("floor") || settings.obstacles;
-  settings.self = has("self");
-  settings.fragments = has("fragments") || settings.self;
-  settings.thickness = contact.number("thickness");
-  settings.friction = contact.number("friction");
-  return settings;
-}
-
-void check_world(const PresetNode& contact, const ContactSettings& settings, const World& world) {
-  const auto& with = contact.words("with");
+void check_world(const ContactSettings& contact, const World& world) {
   const auto fail = [&](const char* what, const char* hint) {
-    if (contact.given("with")) contact.fail("with", what, hint);
-    throw UserError(Exit::BadInput, contact.place(), what, hint);
+    contact.source.fail(contact.source.given("with") ? "with" : "", what, hint);
   };
-  if (with.empty()) fail("the body is in contact with nothing", "with=\"obstacles\", or leave <contact> out");
-  if (settings.obstacles && !world.floor && !world.has_obstacles())
+  if (!contact.floor && !contact.faces())
+    fail("the body is in contact with nothing", "with=\"obstacles\", or leave <contact> out");
+  if (contact.obstacles && !world.floor && !world.has_obstacles())
     fail("there is neither a floor nor an obstacle to be in contact with",
          "add <floor z=\"0\"/>, <sphere> or <box> to <world>");
-  if (settings.floor && !settings.obstacles && !world.floor)
+  if (contact.floor && !contact.obstacles && !world.floor)
     fail("there is no floor to be in contact with", "add <world><floor z=\"0\"/></world>");
 }
 
 } // namespace
 
-void build_contact(Body& body, const PresetNode& node, const World& world) {
-  const PresetNode* contact = node.child("contact");
-  if (!contact) return say_what_it_passes(body, world, false, false);
-  ContactSettings settings = settings_of(*contact);
-  check_world(*contact, settings, world);
-  say_what_it_passes(body, world, settings.floor, settings.obstacles);
-  settings.obstacles = settings.obstacles && world.has_obstacles();
-  if (settings.floor && world.floor)
+void build_contact(Body& body, const BodySettings& settings, const World& world) {
+  if (!settings.contact) return say_what_it_passes(body, world, {});
+  ContactSettings contact = *settings.contact;
+  check_settings(contact);
+  contact.floor = contact.floor || contact.obstacles;
+  contact.fragments = contact.fragments || contact.self;
+  check_world(contact, world);
+  say_what_it_passes(body, world, contact);
+  contact.obstacles = contact.obstacles && world.has_obstacles();
+  if (contact.floor && world.floor)
     body.floor_contact =
-        FloorContact{*world.floor + settings.thickness, world.floor_friction.value_or(settings.friction)};
+        FloorContact{world.floor->z + contact.thickness, world.floor->friction.value_or(contact.friction)};
   if (body.floor_contact) say_what_starts_below(body, body.floor_contact->height);
-  body.contact = settings;
+  body.contact = contact;
 }
 
 } // namespace rend

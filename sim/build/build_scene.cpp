@@ -2,60 +2,54 @@
 
 #include "sim/base/wall_clock.h"
 #include "sim/build/build_body.h"
-#include "sim/build/build_world.h"
-#include "sim/build/scene_types.h"
+#include "sim/build/read_body.h"
+#include "sim/build/read_settings.h"
+#include "sim/build/read_world.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace rend {
 namespace {
 
-void build_bodies(SceneDefinition& scene, const PresetNode& preset) {
-  std::set<std::string> names;
-  for (const PresetNode* node : preset.all("body")) {
-    if (!names.insert(node->text("name")).second)
-      throw UserError(Exit::BadInput, node->place(),
-                      fmt::format("two bodies are called '{}'", node->text("name")),
-                      "give each a name of its own");
-    scene.bodies.push_back(build_body(*node, scene.world));
-    Body& body = *scene.bodies.back();
-    if (scene.world.wind) body.loads.set(WindLoad(*body.map, *scene.world.wind));
-  }
+bool has_body(const SceneDefinition& scene, const std::string& name) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [&](const auto& body) { return body->name == name; });
 }
 
-void check_probes(const PresetNode& preset) {
+std::set<std::string> probes_of(const SceneDefinition& scene) {
   std::set<std::string> names;
-  for (const PresetNode* body : preset.all("body"))
-    for (const PresetNode* probe : body->all("probe"))
-      if (!names.insert(probe->text("name")).second)
-        probe->fail("name", fmt::format("two probes are called '{}'", probe->text("name")),
-                    "give each a name of its own, also in different bodies");
-}
-
-TimeSettings time_settings(const PresetNode& time) {
-  TimeSettings out;
-  out.scheme = find_scheme(time.text("integrator"));
-  if (!time.is_word("step")) out.step = time.number("step");
-  if (time.given("tolerance")) out.tolerance = time.number("tolerance");
-  out.duration = duration_of(time);
-  out.step_place = time.place("step");
-  out.integrator_place = time.place("integrator");
-  out.tolerance_place = time.place("tolerance");
-  return out;
+  for (const auto& body : scene.bodies)
+    for (const Probe& probe : body->probes) names.insert(probe.name());
+  return names;
 }
 
 } // namespace
+
+Body& add_body(SceneDefinition& scene, const BodySettings& settings) {
+  if (has_body(scene, settings.name))
+    settings.source.fail("", fmt::format("two bodies are called '{}'", settings.name),
+                         "give each a name of its own");
+  auto body = build_body(settings, scene.world);
+  std::set<std::string> probes = probes_of(scene);
+  for (const ProbeSettings& probe : settings.probes)
+    if (!probes.insert(probe.name).second)
+      probe.source.fail("name", fmt::format("two probes are called '{}'", probe.name),
+                        "give each a name of its own, also in different bodies");
+  scene.bodies.push_back(std::move(body));
+  return *scene.bodies.back();
+}
 
 SceneDefinition read_scene(const PresetNode& preset) {
   const double start = wall_clock();
   SceneDefinition scene;
   scene.name = preset.text("name");
-  scene.world = build_world(preset.child("world"));
-  build_bodies(scene, preset);
-  check_probes(preset);
-  scene.time = time_settings(*preset.child("time"));
+  scene.world = read_world(preset.child("world"));
+  for (const PresetNode* body : preset.all("body")) add_body(scene, read_body(*body));
+  scene.time = read_settings<TimeSettings>(*preset.child("time"));
+  duration_of(scene.time); // which is missed before the scene is made
   scene.build_seconds = wall_clock() - start;
   return scene;
 }

@@ -23,16 +23,18 @@ Eigen::Matrix3d rotation_about(int axis, double degrees) {
 
 } // namespace
 
-Placement::Placement(const PresetNode* place) {
-  if (!place) return;
-  const Vec3 angles = place->vector("rotate");
-  turn = place->number("scale") * rotation_about(2, angles.z()) * rotation_about(1, angles.y()) *
-         rotation_about(0, angles.x());
-  shift = place->vector("translate");
+template <> const Fields<Placement>& fields_of() {
+  using S = Placement;
+  static const Fields<S> fields{field(&S::scale, number("scale", "", "factor").above(0)),
+                                field(&S::rotate, numbers("rotate", 3, "degrees", "about x, then y, then z")),
+                                field(&S::translate, numbers("translate", 3, "m", "moved by, last"))};
+  return fields;
 }
 
 void Placement::apply(std::vector<Vec3>& points) const {
-  for (Vec3& x : points) x = (turn * x).eval() + shift;
+  const Eigen::Matrix3d turn =
+      scale * rotation_about(2, rotate.z()) * rotation_about(1, rotate.y()) * rotation_about(0, rotate.x());
+  for (Vec3& x : points) x = (turn * x).eval() + translate;
 }
 
 } // namespace rend

@@ -1,29 +1,48 @@
 // Shapes: what a body is made of, cell by cell. Of <sheet>, <bar>, <tube> ... a <body> holds exactly one.
 //
-// Adding one: a file with a function `ShapeType my_shape()`, and its name in all_shapes().
+// Adding one: a struct of settings among ShapeSettings, its make_map(), a function `ShapeType my_shape()`, and
+// its name in all_shapes().
 #pragma once
 
-#include "sim/base/parameters.h"
+#include "sim/base/settings.h"
 #include "sim/body/body.h"
-#include "sim/mesh/fault.h"
+#include "sim/mesh/bar.h"
+#include "sim/mesh/sheet.h"
+#include "sim/mesh/tube.h"
 
-#include <filesystem>
+#include <variant>
+#include <vector>
 
 namespace rend {
 
-// <place>: x to turn x + shift.
+// Where a body is at rest: scaled, then rotated about x, y, z, then moved.
 struct Placement {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(); // with the scale
-  Vec3 shift = Vec3::Zero();                          // [m]
-  explicit Placement(const PresetNode* place);        // null: none
-  void apply(std::vector<Vec3>& points) const;
+  double scale = 1;
+  Vec3 rotate = Vec3::Zero();    // [degrees]
+  Vec3 translate = Vec3::Zero(); // [m]
+  SettingsSource source = {};
+
+  void apply(std::vector<Vec3>& points) const; // [m]
 };
+template <> const Fields<Placement>& fields_of();
+
+struct MeshSettings {
+  std::string file = {}; // relative to the preset; of settings that a program made, to where it runs
+  SettingsSource source = {};
+};
+template <> const Fields<MeshSettings>& fields_of();
+
+using ShapeSettings = std::variant<SheetShape, BarShape, TubeShape, MeshSettings>;
+
+// Make body.map, with its points where `place` puts them. UserError, with its place, for what cannot be built.
+void make_map(Body& body, const SheetShape& shape, const Placement& place);
+void make_map(Body& body, const BarShape& shape, const Placement& place);
+void make_map(Body& body, const TubeShape& shape, const Placement& place);
+void make_map(Body& body, const MeshSettings& shape, const Placement& place);
 
 struct ShapeType {
   const ElementType& (*type)();
-  // Makes body.map, with its points where `place` puts them. UserError, with its place, for what cannot be
-  // built.
-  void (*build)(Body& body, const PresetNode& node, const Placement& place);
+  ShapeSettings (*read)(const PresetNode& node);
 };
 
 const std::vector<ShapeType>& all_shapes();

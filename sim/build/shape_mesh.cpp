@@ -1,3 +1,4 @@
+#include "sim/build/read_settings.h"
 #include "sim/build/shape.h"
 #include "sim/mesh/reader.h"
 #include "sim/preset/paths.h"
@@ -6,27 +7,34 @@ namespace rend {
 namespace {
 
 const ElementType& mesh_type() {
-  static const ElementType type = [] {
+  static const ElementType type{"mesh", "a sheet or a solid from a file", attributes_of<MeshSettings>(), {}};
+  return type;
+}
+
+} // namespace
+
+template <> const Fields<MeshSettings>& fields_of() {
+  using S = MeshSettings;
+  static const Fields<S> fields = [] {
     std::string formats;
     for (const MeshReader& reader : all_readers())
       for (const std::string& extension : reader.extensions)
         formats += (formats.empty() ? "" : ", ") + extension;
-    return ElementType{
-        "mesh",
-        "a sheet or a solid from a file",
-        {text("file", formats + "; relative to the preset, and in its folder or below").is_required()},
-        {}};
+    return Fields<S>{
+        field(&S::file,
+              text("file", formats + "; relative to the preset, and in its folder or below").is_required())};
   }();
-  return type;
+  return fields;
 }
 
-void build(Body& body, const PresetNode& node, const Placement& place) {
+void make_map(Body& body, const MeshSettings& shape, const Placement& place) {
+  check_settings(shape);
   MeshFile file = [&] {
     try {
-      return read_mesh(mesh_path(node));
+      return read_mesh(mesh_path(shape.source.place(), shape.file));
     } catch (const UserError& error) {
       if (error.code == Exit::BadInput) throw; // says where in the mesh
-      throw UserError(error.code, node.place("file"), error.what(), error.hint);
+      throw UserError(error.code, shape.source.place("file"), error.what(), error.hint);
     }
   }();
   place.apply(file.points());
@@ -37,10 +45,8 @@ void build(Body& body, const PresetNode& node, const Placement& place) {
   body.notes.insert(body.notes.end(), mesh.notes.begin(), mesh.notes.end());
 }
 
-} // namespace
-
 ShapeType mesh_shape() {
-  return {mesh_type, build};
+  return {mesh_type, [](const PresetNode& node) -> ShapeSettings { return read_settings<MeshSettings>(node); }};
 }
 
 } // namespace rend

@@ -214,8 +214,8 @@ void ObstacleContact::meet(Touch& touch, double step) {
 // The floor and boxes under a sphere that falls.
 void ObstacleContact::support(Sphere& sphere) {
   const double own = sphere.friction.value_or(own_friction);
-  if (world_.floor && sphere.next_centre.z() < *world_.floor + sphere.radius)
-    stop(sphere, Vec3::UnitZ(), world_.floor_friction.value_or(own));
+  if (world_.floor && sphere.next_centre.z() < world_.floor->z + sphere.radius)
+    stop(sphere, Vec3::UnitZ(), world_.floor->friction.value_or(own));
   for (const Box& box : world_.boxes)
     if (const auto plane = plane_against(box, sphere)) stop(sphere, plane->normal, box.friction.value_or(own));
 }
@@ -238,7 +238,7 @@ void ObstacleContact::settle(Sphere& sphere, double step) {
     if (const auto plane = plane_against(box, sphere))
       sphere.next_centre +=
           std::max(0.0, plane->offset - plane->normal.dot(sphere.next_centre)) * plane->normal;
-  if (world_.floor) sphere.next_centre.z() = std::max(sphere.next_centre.z(), *world_.floor + sphere.radius);
+  if (world_.floor) sphere.next_centre.z() = std::max(sphere.next_centre.z(), world_.floor->z + sphere.radius);
 }
 
 } // namespace rend

@@ -7,4 +7,10 @@ const std::vector<ChangeType>& all_changes() {
   return list;
 }
 
+const ChangeType* find_change(std::string_view name) {
+  for (const ChangeType& type : all_changes())
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
 } // namespace rend

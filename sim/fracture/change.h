@@ -9,6 +9,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rend {
@@ -25,6 +26,7 @@ struct ChangeType {
 };
 
 const std::vector<ChangeType>& all_changes();
+const ChangeType* find_change(std::string_view name); // null: there is none
 
 ChangeType separate();
 ChangeType delete_element();

@@ -9,4 +9,10 @@ const std::vector<CriterionType>& all_criteria() {
   return list;
 }
 
+const CriterionType* find_criterion(std::string_view name) {
+  for (const CriterionType& type : all_criteria())
+    if (type.name == name) return &type;
+  return nullptr;
+}
+
 } // namespace rend

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rend {
@@ -69,6 +70,7 @@ struct CriterionType {
 };
 
 const std::vector<CriterionType>& all_criteria();
+const CriterionType* find_criterion(std::string_view name); // null: there is none
 
 CriterionType atomic_spring();
 CriterionType atomic_element();

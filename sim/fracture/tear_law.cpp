@@ -6,6 +6,39 @@
 
 namespace rend {
 
+namespace {
+
+// "name: what; name: what"
+template <class T> std::string told(const std::vector<T>& all) {
+  std::string out;
+  for (const T& each : all) out += (out.empty() ? "" : "; ") + each.name + ": " + each.what;
+  return out;
+}
+
+} // namespace
+
+template <> const Fields<LawSettings>& fields_of() {
+  using S = LawSettings;
+  constexpr bool required = true;
+  static const Fields<S> fields{
+      field(&S::criterion, all_criteria(), "criterion", told(all_criteria()), required),
+      field(&S::threshold,
+            number("threshold", "",
+                   "the value above which it tears, in newtons, of stresses in pascals, of strains a ratio; a "
+                   "low one and rend run --events tell what is reached")
+                .above(0)
+                .is_required()),
+      field(&S::kind, word("kind", {"stretch", "shear", "bend"}, "of springs: which of them are measured")),
+      field(&S::compression,
+            flag("compression", "principal stresses and strains count in compression as well")),
+      field(&S::change, all_changes(), "change",
+            "what is done; default: that of the cell which the criterion measures; " + told(all_changes())),
+      field(&S::from, number("from", "s", "not before").at_least(0)),
+      field(&S::until, number("until", "s", "not after").at_least(0)),
+      field(&S::max_per_step, integer("max-per-step", "the worst so many a step; 0: all").at_least(0))};
+  return fields;
+}
+
 TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
     : settings_(settings), criterion_(settings.criterion->make(request)) {}
 

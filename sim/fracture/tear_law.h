@@ -5,6 +5,7 @@
 // once.
 #pragma once
 
+#include "sim/base/settings.h"
 #include "sim/fracture/births.h"
 #include "sim/fracture/change.h"
 #include "sim/fracture/criterion.h"
@@ -14,19 +15,24 @@
 namespace rend {
 
 struct LawSettings {
-  const CriterionType* criterion = nullptr;
-  const ChangeType* change = nullptr;
-  Cell cell = Cell::Borders; // of the criterion, on its body
-  std::string kind;          // of springs: CriterionRequest
+  const CriterionType* criterion = nullptr; // one of all_criteria()
+  double threshold = 0;                     // in the criterion's unit
+  std::string kind = {};                    // of springs: CriterionRequest
   bool compression = false;
-  double threshold = 0;
-  std::string unit;                                                 // of that
+  const ChangeType* change = nullptr; // one of all_changes(); null: that of the criterion's cell
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   int max_per_step = 0;                                             // 0: any number
+  SettingsSource source = {};
+
+  // Found when it is put on a body.
+  Cell cell = Cell::Borders; // of the criterion
+  std::string unit = {};     // of the threshold
 
   bool elementary() const { return criterion->elementary || change->elementary(cell); }
   bool by_sums() const { return criterion->by_sums && !change->elementary(cell); }
 };
+
+template <> const Fields<LawSettings>& fields_of();
 
 class TearLaw {
 public:

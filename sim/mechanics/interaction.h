@@ -55,10 +55,13 @@ struct SpringMaterial {
   double thickness = 0; // h [m]
 };
 
+struct InteractionType;
+
 // Of one kind of spring or hinge.
 struct SpringSettings {
-  std::optional<double> k; // [N/m], of hinges [N·m/rad], of each elementary one; none: from the material
-  double damping = 0;      // [N·s/m], [N·m·s/rad]
+  const InteractionType* type = nullptr; // one of all_interactions()
+  std::optional<double> k = {}; // [N/m], of hinges [N·m/rad], of each elementary one; none: from the material
+  double damping = 0;           // [N·s/m], [N·m·s/rad]
   SettingsSource source = {};
 };
 

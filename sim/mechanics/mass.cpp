@@ -8,6 +8,24 @@
 
 namespace rend {
 
+template <> const Fields<MassSettings>& fields_of() {
+  using S = MassSettings;
+  static const Fields<S> fields{
+      field(&S::total, number("total", "kg", "of the whole body, spread by area or volume").above(0)),
+      field(&S::density, number("density", "kg/m3", "instead; needs the thickness of a sheet").above(0)),
+      field(&S::thickness, number("thickness", "m", "of a sheet").above(0))};
+  return fields;
+}
+
+template <> const Fields<ViscositySettings>& fields_of() {
+  using S = ViscositySettings;
+  static const Fields<S> fields{
+      field(&S::value, number("value", "N.s/m", "the coefficient").at_least(0).is_required()),
+      field(&S::per,
+            word("per", {"particle", "body"}, "each particle's, or shared by the body as its mass is"))};
+  return fields;
+}
+
 double CornerMass::birth(const EmbeddedMap& map, Dart d) const {
   if (map.dimension() == 3) return density * rest_volume(map, d) / corners_of_volume(map.map(), d);
   const int sides = sides_of_face(map.map(), d);

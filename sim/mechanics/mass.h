@@ -5,9 +5,26 @@
 // last bit.
 #pragma once
 
+#include "sim/base/settings.h"
 #include "sim/embedding/cell_size.h"
 
 namespace rend {
+
+// Either total or density.
+struct MassSettings {
+  std::optional<double> total = {};     // [kg], spread by area or volume
+  std::optional<double> density = {};   // [kg/m³]
+  std::optional<double> thickness = {}; // [m], of a sheet that has a density
+  SettingsSource source = {};
+};
+template <> const Fields<MassSettings>& fields_of();
+
+struct ViscositySettings {
+  double value = 0; // [N·s/m]
+  enum class Per { Particle, Body } per = Per::Particle;
+  SettingsSource source = {};
+};
+template <> const Fields<ViscositySettings>& fields_of();
 
 // Where an element's corner is: <1> on a sheet, <1,2> in a solid; and the element itself.
 constexpr Orbit corner_orbit(int dimension) {

@@ -69,6 +69,19 @@ template <class F> void for_each_box(const std::array<int, 3>& boxes, bool many,
 
 } // namespace
 
+template <> const Fields<BarShape>& fields_of() {
+  using S = BarShape;
+  static const Fields<S> fields{
+      field(&S::pattern, word("pattern", {"hexahedra", "tetrahedra", "prisms", "mixed"},
+                              "cells: boxes; each box cut in six along its diagonal; each cut in two, parallel "
+                              "to z; slices of boxes, of prisms, and of pyramids and tetrahedra by turns along "
+                              "x")),
+      field(std::array{&S::nx, &S::ny, &S::nz},
+            integers("cells", 3, "how many boxes along x, y and z").at_least(1).at_most(20000).is_required()),
+      field(&S::size, numbers("size", 3, "m", "lengths along x, y and z").above(0).is_required())};
+  return fields;
+}
+
 CellMesh bar_cells(const BarShape& shape) {
   CellMesh mesh;
   for (int z = 0; z <= shape.nz; ++z)

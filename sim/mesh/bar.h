@@ -9,6 +9,7 @@
 //               pyramids on the sides y and z are cut into two tetrahedra, and those on the sides x stay whole.
 #pragma once
 
+#include "sim/base/settings.h"
 #include "sim/mesh/cells.h"
 
 namespace rend {
@@ -19,7 +20,9 @@ struct BarShape {
   BarPattern pattern = BarPattern::Hexahedra;
   int nx = 1, ny = 1, nz = 1; // boxes along each axis
   Vec3 size = Vec3(1, 1, 1);  // lx, ly, lz [m]
+  SettingsSource source = {};
 };
+template <> const Fields<BarShape>& fields_of();
 
 constexpr int bar_darts_per_box = 6 * 24; // at most
 

@@ -1,28 +1,52 @@
 #include "sim/mesh/sheet.h"
 
+#include "sim/base/check.h"
 #include "sim/base/math.h"
 
 namespace rend {
 
-std::array<Vec3, 4> rectangle(double lx, double ly) {
-  return {Vec3(0, 0, 0), Vec3(lx, 0, 0), Vec3(lx, ly, 0), Vec3(0, ly, 0)};
+template <> const Fields<SheetShape>& fields_of() {
+  using S = SheetShape;
+  static const Fields<S> fields{
+      field(
+          &S::pattern,
+          word("pattern", {"quads", "triangles", "crossed", "mixed"},
+               "cells: quads; each quad cut along a diagonal; cut in four around its centre; every second one "
+               "so")),
+      field(std::array{&S::nx, &S::ny},
+            integers("cells", 2, "how many along x and y").at_least(1).at_most(20000).is_required()),
+      field(&S::size, numbers("size", 2, "m", "lengths along x and y (of a band: around and across)").above(0)),
+      field(&S::corners,
+            numbers("corners", 12, "m", "the four corners instead, around the sheet; points are bilinear")),
+      field(&S::closure, word("close", {"none", "loop", "twist"},
+                              "join the ends x = 0 and x = lx: a band, a Moebius band"))};
+  return fields;
 }
 
 namespace {
 
 // The point at (s, t) in [0,1]²: s along x, t along y.
-Vec3 point_at(const SheetShape& shape, double s, double t) {
-  if (shape.closure == SheetClosure::None) {
-    const auto& c = shape.corners;
-    return (1 - s) * (1 - t) * c[0] + s * (1 - t) * c[1] + s * t * c[2] + (1 - s) * t * c[3];
-  }
-  const double radius = shape.lx / (2 * pi), degrees = 360 * s;
+Vec3 point_of_band(const SheetShape& shape, double s, double t) {
+  const auto [lx, ly] = *shape.size;
+  const double radius = lx / (2 * pi), degrees = 360 * s;
   const Vec3 outwards(sine_of_degrees(degrees), 0, -cosine_of_degrees(degrees));
-  const double across = (t - 0.5) * shape.ly; // from the middle of the band
+  const double across = (t - 0.5) * ly; // from the middle of the band
   if (shape.closure == SheetClosure::Loop) return radius * outwards + Vec3(0, across, 0);
   const double half = 180 * s; // the strip makes half a turn about its middle line on the way around
   return radius * outwards +
          across * (cosine_of_degrees(half) * Vec3(0, 1, 0) + sine_of_degrees(half) * outwards);
+}
+
+std::array<Vec3, 4> corners_of(const SheetShape& shape) {
+  if (shape.corners) return *shape.corners;
+  const auto [lx, ly] = *shape.size;
+  return {Vec3(0, 0, 0), Vec3(lx, 0, 0), Vec3(lx, ly, 0), Vec3(0, ly, 0)};
+}
+
+Vec3 point_at(const SheetShape& shape, double s, double t) {
+  if (shape.closure != SheetClosure::None) return point_of_band(shape, s, t);
+  const std::array<Vec3, 4> c = corners_of(shape);
+  return (1 - s) * (1 - t) * c[0] + s * (1 - t) * c[1] + s * t * c[2] + (1 - s) * t * c[3];
 }
 
 class Grid {
@@ -51,6 +75,7 @@ private:
 } // namespace
 
 PolygonMesh sheet_polygons(const SheetShape& shape) {
+  CHECK(shape.size || shape.corners);
   PolygonMesh mesh;
   const Grid grid(shape, mesh);
   for (int y = 0; y < shape.ny; ++y) {

@@ -9,24 +9,29 @@
 // points of a band are those of a cylinder (a half-turned strip) around the y axis, of circumference lx.
 #pragma once
 
+#include "sim/base/settings.h"
 #include "sim/mesh/polygons.h"
+
+#include <array>
+#include <optional>
 
 namespace rend {
 
 enum class SheetPattern { Quads, Triangles, Crossed, Mixed };
 enum class SheetClosure { None, Loop, Twist };
 
+// Either size or corners; a band has a size.
 struct SheetShape {
   SheetPattern pattern = SheetPattern::Quads;
-  int nx = 1, ny = 1;            // cells
-  std::array<Vec3, 4> corners{}; // of the sheet: (0,0), (lx,0), (lx,ly), (0,ly); points are bilinear
+  int nx = 1, ny = 1;                              // cells
+  std::optional<std::array<double, 2>> size = {};  // lx, ly [m]; of a band: around and across
+  std::optional<std::array<Vec3, 4>> corners = {}; // [m]: (0,0), (lx,0), (lx,ly), (0,ly); points are bilinear
   SheetClosure closure = SheetClosure::None;
-  double lx = 1, ly = 1; // [m], of a band
+  SettingsSource source = {};
 };
+template <> const Fields<SheetShape>& fields_of();
 
-// corners of a rectangle in the xy plane
-std::array<Vec3, 4> rectangle(double lx, double ly);
-
+// CHECK: it has a size or corners; a band a size.
 PolygonMesh sheet_polygons(const SheetShape& shape);
 
 } // namespace rend

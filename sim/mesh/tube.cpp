@@ -21,6 +21,21 @@ std::vector<Vec3> contour(const TubeShape& shape, double w, int quarter) {
 
 } // namespace
 
+template <> const Fields<TubeShape>& fields_of() {
+  using S = TubeShape;
+  static const Fields<S> fields{
+      field(std::array{&S::around, &S::along},
+            integers("cells", 2, "how many around, a multiple of 4, and along")
+                .at_least(1)
+                .at_most(20000)
+                .is_required()),
+      field(&S::size, numbers("size", 3, "m", "outer lengths along x, y and z").above(0).is_required()),
+      field(&S::wall, number("wall", "m", "how thick it is: less than half of the outer lengths along x and y")
+                          .above(0)
+                          .is_required())};
+  return fields;
+}
+
 CellMesh tube_cells(const TubeShape& shape) {
   CHECK(shape.around >= 4 && shape.around % 4 == 0 && shape.along >= 1);
   CHECK(shape.wall > 0 && 2 * shape.wall < std::min(shape.size.x(), shape.size.y()));

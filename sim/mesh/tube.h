@@ -5,6 +5,7 @@
 // that the borders at the corners are mitred and cells conform.
 #pragma once
 
+#include "sim/base/settings.h"
 #include "sim/mesh/cells.h"
 
 namespace rend {
@@ -13,7 +14,9 @@ struct TubeShape {
   int around = 8, along = 4; // cells; around is a multiple of 4
   Vec3 size = Vec3(1, 1, 1); // lx, ly, lz [m]
   double wall = 0.1;         // [m], less than half of lx and ly
+  SettingsSource source = {};
 };
+template <> const Fields<TubeShape>& fields_of();
 
 // CHECK: the shape is as it says above.
 CellMesh tube_cells(const TubeShape& shape);

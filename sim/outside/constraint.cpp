@@ -8,6 +8,100 @@
 
 namespace rend {
 
+bool holds(Axes axes, int axis) {
+  using enum Axes;
+  switch (axis) {
+  case 0:
+    return axes == X || axes == XY || axes == XZ || axes == XYZ;
+  case 1:
+    return axes == Y || axes == XY || axes == YZ || axes == XYZ;
+  default:
+    return axes == Z || axes == XZ || axes == YZ || axes == XYZ;
+  }
+}
+
+namespace {
+
+AttributeType axes_attribute() {
+  return word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates");
+}
+
+std::array<bool, 3> held_by(Axes axes) {
+  return {holds(axes, 0), holds(axes, 1), holds(axes, 2)};
+}
+
+} // namespace
+
+template <> const Fields<FixSettings>& fields_of() {
+  using S = FixSettings;
+  static const Fields<S> fields = fields_of_part(&S::where) + Fields<S>{field(&S::axes, axes_attribute())};
+  return fields;
+}
+
+template <> const Fields<DriveSettings>& fields_of() {
+  using S = DriveSettings;
+  static const Fields<S> fields =
+      fields_of_part(&S::where) +
+      Fields<S>{
+          field(&S::velocity, numbers("velocity", 3, "m/s", "constant velocity")),
+          field(&S::displacement,
+                numbers("displacement", 3, "m",
+                        "moved by so much between from and until (at once, if until is absent)")),
+          field(&S::gradient,
+                numbers("gradient", 9, "", "u = G X, row after row, reached between from and until")),
+          field(&S::rotate, numbers("rotate", 4, "degrees/s",
+                                    "turned about the axis x y z at the rate that follows, from `from` on")),
+          field(&S::centre, numbers("centre", 3, "m", "a point of the axis of rotate")),
+          field(&S::from, number("from", "s", "held before").at_least(0)),
+          field(&S::until, number("until", "s", "for ever, if absent").at_least(0)),
+          field(&S::then, word("then", {"hold", "free"}, "after until")),
+          field(&S::axes, axes_attribute())};
+  return fields;
+}
+
+namespace {
+
+void set_rotation(Motion& motion, const DriveSettings& settings) {
+  const auto& [x, y, z, rate] = *settings.rotate;
+  if (!(Vec3(x, y, z).norm() > 0))
+    settings.source.fail("rotate", "the axis of the rotation has no direction", "rotate=\"0 0 1 90\"");
+  motion.axis = Vec3(x, y, z).normalized();
+  motion.rate = rate;
+  motion.centre = settings.centre;
+}
+
+} // namespace
+
+Motion motion_of(const FixSettings& settings) {
+  Motion motion;
+  motion.axes = held_by(settings.axes);
+  return motion;
+}
+
+Motion motion_of(const DriveSettings& settings) {
+  const SettingsSource& source = settings.source;
+  const int given = settings.velocity.has_value() + settings.displacement.has_value() +
+                    settings.gradient.has_value() + settings.rotate.has_value();
+  if (given != 1)
+    source.fail("", given == 0
+                        ? "<drive> needs one of velocity, displacement, gradient, rotate"
+                        : "<drive> has several of velocity, displacement, gradient, rotate: one of them");
+  Motion motion;
+  motion.axes = held_by(settings.axes);
+  motion.velocity = settings.velocity.value_or(Vec3::Zero());
+  motion.displacement = settings.displacement.value_or(Vec3::Zero());
+  if (settings.gradient)
+    motion.gradient = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(settings.gradient->data());
+  if (settings.rotate) set_rotation(motion, settings);
+  if (source.given("centre") && !settings.rotate)
+    source.fail("centre", "has no use without rotate", "rotate=\"0 0 1 90\" turns by 90 degrees a second");
+  motion.from = settings.from;
+  motion.until = settings.until;
+  if (motion.until < motion.from) source.fail("until", "the drive ends before it starts");
+  motion.then_free = settings.then == DriveSettings::Then::Free;
+  return motion;
+}
+
 namespace {
 
 constexpr double radians = pi / 180; // in a degree

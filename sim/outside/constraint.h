@@ -12,12 +12,42 @@
 #pragma once
 
 #include "sim/base/bytes.h"
-#include "sim/embedding/embedded_map.h"
+#include "sim/outside/selector.h"
 
 #include <limits>
+#include <variant>
 #include <vector>
 
 namespace rend {
+
+enum class Axes { X, Y, Z, XY, XZ, YZ, XYZ }; // coordinates
+bool holds(Axes axes, int axis);              // 0, 1, 2: x, y, z
+
+// Vertices that stay where they are at rest.
+struct FixSettings {
+  Selector where = {};
+  Axes axes = Axes::XYZ;
+  SettingsSource source = {};
+};
+template <> const Fields<FixSettings>& fields_of();
+
+// Vertices that move as prescribed: by exactly one of velocity, displacement, gradient, rotate.
+struct DriveSettings {
+  Selector where = {};
+  std::optional<Vec3> velocity = {};                  // [m/s]
+  std::optional<Vec3> displacement = {};              // [m]
+  std::optional<std::array<double, 9>> gradient = {}; // G, row after row
+  std::optional<std::array<double, 4>> rotate = {};   // the axis x y z, and the rate [degrees/s]
+  Vec3 centre = Vec3::Zero();                         // [m], a point of the axis
+  double from = 0;                                    // [s]
+  double until = std::numeric_limits<double>::infinity();
+  enum class Then { Hold, Free } then = Then::Hold; // after `until`
+  Axes axes = Axes::XYZ;
+  SettingsSource source = {};
+};
+template <> const Fields<DriveSettings>& fields_of();
+
+using MotionSettings = std::variant<FixSettings, DriveSettings>;
 
 struct Motion {
   std::array<bool, 3> axes{true, true, true};
@@ -40,6 +70,10 @@ private:
   Vec3 turned(const Vec3& rest, double time) const; // R (X − c)
   double elapsed(double time) const;                // s
 };
+
+Motion motion_of(const FixSettings& settings);
+// UserError: settings that do not fit together.
+Motion motion_of(const DriveSettings& settings);
 
 // The motions a vertex obeys: bit k is motion k.
 struct Obedience {

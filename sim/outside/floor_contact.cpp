@@ -4,6 +4,23 @@
 
 namespace rend {
 
+template <> const Fields<ContactSettings>& fields_of() {
+  using S = ContactSettings;
+  static const Fields<S> fields{
+      field<S>({{"floor", &S::floor},
+                {"obstacles", &S::obstacles},
+                {"fragments", &S::fragments},
+                {"self", &S::self}},
+               "with",
+               "any of: the floor; obstacles: floor, spheres and boxes; fragments: other fragments, and other "
+               "bodies that say so too; self: all of its own faces as well"),
+      field(&S::thickness, number("thickness", "m", "kept from it").at_least(0)),
+      field(
+          &S::friction,
+          number("friction", "", "Coulomb's coefficient, where the obstacle has none of its own").at_least(0))};
+  return fields;
+}
+
 void FloorContact::apply(State& next, double step) const {
   for (std::size_t i = 0; i < next.position.size(); ++i) {
     Record &x = next.position[i], &v = next.velocity[i];

@@ -8,19 +8,23 @@
 // floor loses g × step each step, so that friction is μ times the weight, exact to a step's worth of motion.
 #pragma once
 
+#include "sim/base/settings.h"
 #include "sim/integrate/system.h"
 
 namespace rend {
 
 struct ContactSettings {
-  bool floor = false;     // or what else there is of the world, below
-  bool obstacles = false; // spheres and boxes
-  bool fragments = false; // other fragments, and other bodies that ask for it
-  bool self = false;      // faces of the same fragment as well
-  double thickness = 0;   // [m], kept from all of them
-  double friction = 0;    // coefficient
+  bool floor = false;
+  bool obstacles = true;    // spheres and boxes; and the floor
+  bool fragments = false;   // other fragments, and other bodies that ask for it
+  bool self = false;        // faces of the same fragment as well; and `fragments`
+  double thickness = 0.002; // [m], kept from all of them
+  double friction = 0.5;    // coefficient, where the obstacle has none of its own
+  SettingsSource source = {};
+
   bool faces() const { return obstacles || fragments || self; } // more than the floor
 };
+template <> const Fields<ContactSettings>& fields_of();
 
 struct FloorContact {
   double height = 0;   // [m], the floor's plus the body's thickness

@@ -19,6 +19,39 @@ void add_to(Record& sum, const Vec3& force) {
 
 } // namespace
 
+template <> const Fields<LoadSettings>& fields_of() {
+  using S = LoadSettings;
+  static const Fields<S> fields =
+      fields_of_part(&S::where) +
+      Fields<S>{
+          field(&S::force, numbers("force", 3, "N", "in total")),
+          field(&S::moment,
+                numbers("moment", 3, "N m", "about the middle of the boundary, without a force in total")),
+          field(&S::pressure,
+                number("pressure", "Pa",
+                       "on the selected faces, inwards (of a sheet: from where its cells are seen "
+                       "counterclockwise; +z, before it is placed)")),
+          field(&S::follows, word("follows", {"world", "body"},
+                                  "whether force and moment keep their direction, or turn with the boundary")),
+          field(&S::from, number("from", "s", "nothing before").at_least(0)),
+          field(&S::until,
+                number("until", "s", "grows from `from` to here; all at once, if absent").at_least(0))};
+  return fields;
+}
+
+void check_load(const LoadSettings& load) {
+  const int given = load.force.has_value() + load.moment.has_value() + load.pressure.has_value();
+  if (given != 1)
+    load.source.fail("",
+                     given == 0 ? "<load> needs one of force, moment, pressure"
+                                : "<load> has several of force, moment, pressure: one of them",
+                     given == 0 ? "force=\"0 0 -1\"" : "write a <load> for each");
+  if (load.pressure && load.source.given("follows"))
+    load.source.fail("follows", "a pressure always acts along the normals of the body's faces", "leave it out");
+  if (load.until < load.from && !std::isinf(load.until))
+    load.source.fail("until", "the load is whole before it starts");
+}
+
 double LoadSettings::share(double time) const {
   if (time < from) return 0;
   return until > from ? std::min(1.0, (time - from) / (until - from)) : 1;
@@ -42,10 +75,11 @@ struct Load::Section {
 Load::Load(const EmbeddedMap& map, const LoadSettings& settings, Patch patch)
     : settings_(settings), patch_(std::move(patch)) {
   CHECK(patch_.cells().size() > 0);
-  if (settings_.kind != LoadSettings::Kind::Pressure)
+  CHECK(settings.force || settings.moment || settings.pressure);
+  if (settings_.kind() != LoadSettings::Kind::Pressure)
     for (double measure : patch_.measures(map)) whole_ += measure;
   share_out(map);
-  if (settings_.kind == LoadSettings::Kind::Moment)
+  if (settings_.kind() == LoadSettings::Kind::Moment)
     line_ = section(map.rest().values().data()).solver().rank() < 3;
 }
 
@@ -55,11 +89,11 @@ void Load::rebind(const EmbeddedMap& map) {
 }
 
 void Load::share_out(const EmbeddedMap& map) {
-  if (settings_.kind == LoadSettings::Kind::Pressure) return;
+  if (settings_.kind() == LoadSettings::Kind::Pressure) return;
   part_ = patch_.measures(map);
   for (double& part : part_) part /= whole_;
   frame_.clear();
-  if (!settings_.with_body) return;
+  if (!settings_.with_body()) return;
   if (patch_.of() == Patch::Of::Faces) {
     frame_ = vertices();
     return;
@@ -86,8 +120,9 @@ Load::Section Load::section(const Record* position) const {
 
 bool Load::possible(const EmbeddedMap& map) const {
   const Section s = section(map.rest().values().data());
-  const Vec3 had = s.inertia * s.solver().solve(settings_.amount);
-  return (had - settings_.amount).norm() <= 1e-6 * settings_.amount.norm();
+  const Vec3& wanted = *settings_.moment;
+  const Vec3 had = s.inertia * s.solver().solve(wanted);
+  return (had - wanted).norm() <= 1e-6 * wanted.norm();
 }
 
 void Load::add_moment(const Vec3& moment, const Record* position, Record* force) const {
@@ -125,11 +160,11 @@ Eigen::Matrix3d Load::rotation(const EmbeddedMap& map, const Record* position) c
 void Load::add(const EmbeddedMap& map, double time, const Record* position, Record* force) const {
   const double share = settings_.share(time);
   if (share == 0) return;
-  if (settings_.kind == LoadSettings::Kind::Pressure)
-    return add_pressure(share * settings_.pressure, position, force);
-  Vec3 amount = share * settings_.amount;
-  if (settings_.with_body) amount = rotation(map, position) * amount;
-  if (settings_.kind == LoadSettings::Kind::Moment) return add_moment(amount, position, force);
+  if (settings_.kind() == LoadSettings::Kind::Pressure)
+    return add_pressure(share * *settings_.pressure, position, force);
+  Vec3 amount = share * (settings_.moment ? *settings_.moment : *settings_.force);
+  if (settings_.with_body()) amount = rotation(map, position) * amount;
+  if (settings_.kind() == LoadSettings::Kind::Moment) return add_moment(amount, position, force);
   for (std::size_t i = 0; i < part_.size(); ++i) add_to(force[vertices()[i]], part_[i] * amount);
 }
 

@@ -12,6 +12,7 @@
 // along, and what is deleted takes it away.
 #pragma once
 
+#include "sim/outside/selector.h"
 #include "sim/outside/wind.h"
 
 #include <limits>
@@ -19,17 +20,25 @@
 
 namespace rend {
 
+// Exactly one of force, moment, pressure.
 struct LoadSettings {
   enum class Kind { Force, Moment, Pressure };
-  Kind kind = Kind::Force;
-  Vec3 amount = Vec3::Zero(); // [N] or [N·m]
-  double pressure = 0;        // [Pa]
-  bool with_body = false;
-  double from = 0,
-         until = -std::numeric_limits<double>::infinity(); // [s]; grows from `from` to `until`, if later
+  Selector where = {};
+  std::optional<Vec3> force = {};      // [N]
+  std::optional<Vec3> moment = {};     // [N·m]
+  std::optional<double> pressure = {}; // [Pa]
+  enum class Follows { World, Body } follows = Follows::World;
+  double from = 0;                                         // [s]
+  double until = -std::numeric_limits<double>::infinity(); // [s]; grows from `from` to `until`, if later
+  SettingsSource source = {};
 
+  Kind kind() const { return pressure ? Kind::Pressure : moment ? Kind::Moment : Kind::Force; }
+  bool with_body() const { return follows == Follows::Body; }
   double share(double time) const; // 0 to 1
 };
+template <> const Fields<LoadSettings>& fields_of();
+// UserError: settings that do not fit together.
+void check_load(const LoadSettings& settings);
 
 class Load {
 public:
@@ -38,7 +47,7 @@ public:
   void rebind(const EmbeddedMap& map);
 
   const LoadSettings& settings() const { return settings_; }
-  bool constant() const { return settings_.kind == LoadSettings::Kind::Force && !settings_.with_body; }
+  bool constant() const { return settings_.kind() == LoadSettings::Kind::Force && !settings_.with_body(); }
   const std::vector<Slot>& vertices() const { return patch_.cells().vertices(); } // with repetitions
 
   std::size_t cells() const { return patch_.cells().size(); }

@@ -8,6 +8,44 @@
 
 namespace rend {
 
+AttributeType friction_attribute() {
+  return number("friction", "",
+                "Coulomb's coefficient of all that slides on it; absent: that of each body's <contact>")
+      .at_least(0);
+}
+
+template <> const Fields<SphereSettings>& fields_of() {
+  using S = SphereSettings;
+  static const Fields<S> fields{
+      field(&S::centre, numbers("centre", 3, "m", "at the start").is_required()),
+      field(&S::radius, number("radius", "m", "its size").above(0).at_most(1e30).is_required()),
+      field(&S::velocity, numbers("velocity", 3, "m/s", "constant; with a mass: at the start")),
+      field(&S::mass, number("mass", "kg", "if given, it falls, and is pushed back by what it meets").above(0)),
+      field(&S::friction, friction_attribute())};
+  return fields;
+}
+
+template <> const Fields<Box>& fields_of() {
+  using S = Box;
+  static const Fields<S> fields{
+      field(&S::low, numbers("low", 3, "m", "the corner of least x, y, z").is_required()),
+      field(&S::high, numbers("high", 3, "m", "the corner opposite to it").is_required()),
+      field(&S::friction, friction_attribute())};
+  return fields;
+}
+
+void check_box(const Box& box) {
+  if (!(box.low.array() < box.high.array()).all())
+    box.source.fail("high", "the box has no inside: each number of high must be above that of low",
+                    "low=\"0 0 0\" high=\"1 1 0.5\"");
+}
+
+Sphere::Sphere(const SphereSettings& settings)
+    : start(settings.centre), radius(settings.radius), mass(settings.mass.value_or(0)),
+      friction(settings.friction), velocity(settings.velocity), next_velocity(settings.velocity) {
+  check_settings(settings);
+}
+
 void Sphere::predict(double time, double step, const Vec3& gravity) {
   next_velocity = falls() ? Vec3(velocity + step * gravity) : velocity;
   next_centre = falls() ? Vec3(centre + step * next_velocity) : Vec3(start + time * velocity);

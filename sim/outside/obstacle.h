@@ -12,8 +12,7 @@
 // it does not turn, so that friction acts on it as on a slider.
 #pragma once
 
-#include "sim/base/parameters.h"
-#include "sim/base/record.h"
+#include "sim/base/settings.h"
 
 #include <array>
 #include <optional>
@@ -28,14 +27,29 @@ struct Plane {
   double offset = 0;           // [m]
 };
 
+// Coulomb's coefficient, of all that slides on it.
+AttributeType friction_attribute();
+
+struct SphereSettings {
+  Vec3 centre = Vec3::Zero();          // [m], at time 0
+  double radius = 0;                   // [m]
+  Vec3 velocity = Vec3::Zero();        // [m/s]; of one that falls: at time 0
+  std::optional<double> mass = {};     // [kg]; none: it moves as prescribed
+  std::optional<double> friction = {}; // none: that of the body
+  SettingsSource source = {};
+};
+template <> const Fields<SphereSettings>& fields_of();
+
 struct Sphere {
-  Vec3 start = Vec3::Zero();        // [m], its centre at time 0
-  double radius = 0, mass = 0;      // [m], [kg]; mass 0: moves as prescribed
-  std::optional<double> friction;   // Coulomb's coefficient; none: that of the body
-  const PresetNode* node = nullptr; // of the preset, for those who read more of it (colour)
+  Vec3 start = Vec3::Zero();      // [m], its centre at time 0
+  double radius = 0, mass = 0;    // [m], [kg]; mass 0: moves as prescribed
+  std::optional<double> friction; // Coulomb's coefficient; none: that of the body
 
   Vec3 centre = start, velocity = Vec3::Zero();           // [m], [m/s], of the current state
   Vec3 next_centre = start, next_velocity = Vec3::Zero(); // at the end of the step that is being made
+
+  Sphere() = default;
+  explicit Sphere(const SphereSettings& settings); // UserError
 
   bool falls() const { return mass > 0; }
   bool moves() const { return falls() || !velocity.isZero(0); }
@@ -53,12 +67,15 @@ struct Sphere {
 
 struct Box {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero(); // [m]
-  std::optional<double> friction;
-  const PresetNode* node = nullptr;
+  std::optional<double> friction = {};
+  SettingsSource source = {};
 
   // As for a sphere, but in world space; `margin` [m] is kept from it.
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const;
 };
+
+template <> const Fields<Box>& fields_of();
+void check_box(const Box& box); // UserError: it has no inside
 
 // Weights of the point of a triangle that lies deepest; they sum up to 1.
 using Weights = std::array<double, 3>;

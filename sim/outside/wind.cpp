@@ -7,6 +7,14 @@
 
 namespace rend {
 
+template <> const Fields<Wind>& fields_of() {
+  using S = Wind;
+  static const Fields<S> fields{
+      field(&S::velocity, numbers("velocity", 3, "m/s", "of the air").is_required()),
+      field(&S::drag, number("drag", "kg/m3", "half its density times the drag coefficient").at_least(0))};
+  return fields;
+}
+
 WindLoad::WindLoad(EmbeddedMap& map, const Wind& wind) : wind_(wind), sheet_(map.dimension() == 2) {
   map.use(FaceOfVolume);
   rebind(map);

@@ -8,6 +8,7 @@
 // The air does not notice the body. Nodal shares are those of patch.h.
 #pragma once
 
+#include "sim/base/settings.h"
 #include "sim/outside/patch.h"
 
 namespace rend {
@@ -15,7 +16,9 @@ namespace rend {
 struct Wind {
   Vec3 velocity = Vec3::Zero(); // [m/s]
   double drag = 0.6;            // ½ ρ C [kg/m³]
+  SettingsSource source = {};
 };
+template <> const Fields<Wind>& fields_of();
 
 class WindLoad {
 public:

@@ -9,15 +9,26 @@
 
 namespace rend {
 
+struct Floor {
+  double z = 0;                        // [m]
+  std::optional<double> friction = {}; // Coulomb's coefficient; none: that of the body
+  SettingsSource source = {};
+};
+template <> const Fields<Floor>& fields_of();
+
 struct World {
-  Vec3 gravity{0, 0, -9.81};            // [m/s²]
-  std::optional<double> floor;          // z [m]
-  std::optional<double> floor_friction; // Coulomb's coefficient; none: that of the body
-  std::optional<Wind> wind;
-  std::vector<Sphere> spheres;
-  std::vector<Box> boxes;
+  Vec3 gravity{0, 0, -9.81}; // [m/s²]
+  std::optional<Floor> floor = {};
+  std::optional<Wind> wind = {};
+  std::vector<Sphere> spheres = {};
+  std::vector<Box> boxes = {};
+  SettingsSource source = {};
 
   bool has_obstacles() const { return !spheres.empty() || !boxes.empty(); } // besides the floor
 };
+template <> const Fields<World>& fields_of(); // those of its own
+
+// UserError: what no reader has looked at, and what does not fit together.
+void check_world(const World& world);
 
 } // namespace rend

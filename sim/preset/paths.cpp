@@ -38,8 +38,12 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
+std::filesystem::path mesh_path(const Place& preset, const std::string& file) {
+  return (fs::path(preset.file).parent_path() / file).lexically_normal();
+}
+
 std::filesystem::path mesh_path(const PresetNode& mesh) {
-  return (fs::path(mesh.place().file).parent_path() / mesh.text("file")).lexically_normal();
+  return mesh_path(mesh.place(), mesh.text("file"));
 }
 
 void check_paths(const PresetNode& scene) {

@@ -5,8 +5,7 @@
 #include "sim/base/parameters.h"
 
 #include <filesystem>
-
-#include <filesystem>
+#include <string>
 
 namespace rend {
 
@@ -21,7 +20,8 @@ void check_paths(const PresetNode& scene);
 // says.
 bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
 
-// The file of a <mesh>: relative to the preset's folder.
+// A file that a preset names, at a place of it: relative to its folder. And that of a <mesh>.
+std::filesystem::path mesh_path(const Place& preset, const std::string& file);
 std::filesystem::path mesh_path(const PresetNode& mesh);
 
 } // namespace rend

@@ -2,7 +2,7 @@
 // preset; a program may fill one by itself.
 #pragma once
 
-#include "sim/base/error.h"
+#include "sim/base/settings.h"
 #include "sim/body/body.h"
 #include "sim/outside/world.h"
 
@@ -14,14 +14,16 @@
 namespace rend {
 
 struct TimeSettings {
+  std::optional<double> step = {}; // [s]; none: 0.9 of what is stable
   const Scheme* scheme = find_scheme("symplectic");
-  std::optional<double> step;      // [s]; none: 0.9 of what is stable
-  std::optional<double> tolerance; // of rk45, which chooses its steps by it; none: SchemeSettings' own
-  double duration = 0;             // [s]
-
-  // Where the settings stand in the user's file, for messages; empty: nowhere.
-  Place step_place, integrator_place, tolerance_place;
+  double tolerance = SchemeSettings{}.tolerance; // of rk45, which chooses its steps by it
+  std::optional<double> duration = {};           // [s]
+  SettingsSource source = {};
 };
+template <> const Fields<TimeSettings>& fields_of();
+
+// [s]. UserError where there is none and the scheme takes one: all but static do.
+double duration_of(const TimeSettings& time);
 
 struct SceneDefinition {
   std::string name = "scene";

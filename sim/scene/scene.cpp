@@ -18,8 +18,10 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
     : name_(std::move(definition.name)), world_(std::move(definition.world)),
       profile_(std::make_unique<Profile>(options.profile ? Profile::Extent::EveryStep
                                                          : Profile::Extent::SampledSteps)),
-      bodies_(std::move(definition.bodies)), time_(definition.time), fault_(options.fault) {
+      bodies_(std::move(definition.bodies)), time_(definition.time), duration_(duration_of(time_)),
+      step_place_(time_.source.place("step")), fault_(options.fault) {
   const double start = wall_clock();
+  check_world(world_);
   build_seconds_ = definition.build_seconds;
   for (auto& body : bodies_) {
     body->profile = profile_.get();
@@ -49,8 +51,8 @@ void Scene::check_contact() {
           "under implicit it falls");
     if (!body->contact) continue;
     if (scheme().name == "static")
-      throw UserError(Exit::BadInput, time_.integrator_place, "the static solve knows no contact",
-                      "leave <contact> out, or let it come to rest with symplectic and viscosity");
+      time_.source.fail("integrator", "the static solve knows no contact",
+                        "leave <contact> out, or let it come to rest with symplectic and viscosity");
     body->notes.emplace_back(
         "contact: what rests on the floor under 'implicit' is pressed too much, the more the "
         "stiffer it is and the larger the step; symplectic does not have this");
@@ -58,19 +60,20 @@ void Scene::check_contact() {
 }
 
 double Scene::checked_tolerance() const {
-  if (time_.tolerance && !scheme().adaptive)
-    throw UserError(
-        Exit::BadInput, time_.tolerance_place,
+  const bool given = time_.source.given("tolerance") || time_.tolerance != TimeSettings{}.tolerance;
+  if (given && !scheme().adaptive)
+    time_.source.fail(
+        "tolerance",
         fmt::format("the tolerance belongs to rk45, which chooses its steps by it, not to '{}'", scheme().name),
         "leave it out, or write integrator=\"rk45\"");
-  return time_.tolerance.value_or(SchemeSettings{}.tolerance);
+  return time_.tolerance;
 }
 
 // The step of an adaptive scheme is what it divides: by itself it takes that of symplectic, so that laws look
 // as often.
 void Scene::set_step() {
   step_ = automatic_step() ? stable_step() : *time_.step;
-  const double duration = time_.duration;
+  const double duration = duration_;
   if (automatic_step() && duration > 0)
     step_ = duration / std::ceil(duration / step_); // ends where the clip does
   if (const double limit = stability_limit(); !automatic_step() && step_ > limit)
@@ -78,8 +81,8 @@ void Scene::set_step() {
         fmt::format("the step of {:.3g} s is above {:.3g} s, up to which '{}' is surely stable here", step_,
                     limit, scheme().name));
   if (duration / step_ > 1e12)
-    throw UserError(Exit::BadInput, time_.step_place,
-                    fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration, step_));
+    time_.source.fail("step",
+                      fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration, step_));
 }
 
 double Scene::stability_limit() const {
@@ -98,17 +101,17 @@ double Scene::stability_limit(const Scheme& scheme) const {
 }
 
 double Scene::stable_step() const {
-  if (scheme().name == "static") return time_.duration > 0 ? time_.duration : 1; // one step, one equilibrium
+  if (scheme().name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
   const double limit = stability_limit(scheme().adaptive ? *find_scheme("symplectic") : scheme());
   if (limit <= 0)
-    throw UserError(Exit::BadInput, time_.step_place,
-                    fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the "
-                                "surroundings damps every motion",
-                                scheme().name),
-                    "use symplectic, verlet or rk4, or add viscosity");
+    time_.source.fail("step",
+                      fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the "
+                                  "surroundings damps every motion",
+                                  scheme().name),
+                      "use symplectic, verlet or rk4, or add viscosity");
   if (std::isinf(limit))
-    throw UserError(
-        Exit::BadInput, time_.step_place,
+    time_.source.fail(
+        "step",
         scheme().solves
             ? fmt::format("with '{}' the step is a matter of accuracy, and there is no automatic one",
                           scheme().name)
@@ -126,10 +129,10 @@ void Scene::set_answers() {
   const double slack = 1e-6 * step_;
   for (auto& body : bodies_) {
     for (Answer& answer : body->answers) {
-      if (std::isinf(answer.at)) answer.at = time_.duration;
-      if (answer.at > time_.duration + slack)
+      if (std::isinf(answer.at)) answer.at = duration_;
+      if (answer.at > duration_ + slack)
         notes_.push_back(fmt::format("{}: the clip ends at {:g} s, before this answer at {:g} s is asked for",
-                                     answer.place.text(), time_.duration, answer.at));
+                                     answer.source.place("at").text(), duration_, answer.at));
       next_answer_ = std::min(next_answer_, answer.at - slack);
     }
   }
@@ -145,7 +148,7 @@ void Scene::measure_answers() {
         next_answer_ = std::min(next_answer_, due);
       } else if (!answer.asked) {
         answer.asked = true;
-        if (const auto reading = body->probes[answer.probe].read(*body))
+        if (const auto reading = body->probes[answer.number].read(*body))
           answer.measured = quantity_of(*reading, answer.quantity);
       }
     }

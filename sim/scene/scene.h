@@ -46,7 +46,7 @@ public:
   double time() const; // [s]
   long steps_done() const { return steps_done_; }
   double step_size() const { return step_; } // [s]
-  double duration() const { return time_.duration; }
+  double duration() const { return duration_; }
   const Scheme& scheme() const { return *time_.scheme; }
   const std::vector<std::string>& notes() const { return notes_; } // besides those of bodies
   bool automatic_step() const { return !time_.step; }
@@ -120,7 +120,9 @@ private:
   std::vector<std::unique_ptr<Body>> bodies_;
   std::unique_ptr<Contacts> contacts_; // null: no body meets more than the floor
   TimeSettings time_;
-  double step_ = 0; // [s]
+  double duration_ = 0; // [s]
+  Place step_place_;    // in the preset, for messages
+  double step_ = 0;     // [s]
   long steps_done_ = 0;
   double next_answer_ = std::numeric_limits<double>::infinity(); // [s], to be measured
   std::vector<std::string> notes_;

@@ -266,7 +266,7 @@ void Scene::stop(const Body& body, const std::string& what) const {
 
 void Scene::stop(const Body& body, const std::string& what, const std::string& hint) const {
   throw Unstable(
-      Exit::Unstable, time_.step_place,
+      Exit::Unstable, step_place_,
       fmt::format("the simulation was stopped as unstable at {:.6g} s (step {} of {:.3g} s) in body '{}': {}",
                   time(), steps_done_, step_, body.name, what),
       hint);

@@ -40,7 +40,7 @@ std::vector<AnswerError> answer_errors(const Scene& scene) {
       const double steps = answer.at / scene.step_size();
       if (!answer.asked || std::abs(steps - std::round(steps)) > 1e-6) continue;
       all.push_back(
-          {fmt::format("{} {} at {:.6g} s", body->probes[answer.probe].name(), answer.quantity, answer.at),
+          {fmt::format("{} {} at {:.6g} s", body->probes[answer.number].name(), answer.quantity, answer.at),
            std::abs(answer.error())});
     }
   }

@@ -36,9 +36,7 @@ inline PolygonMesh sheet(SheetPattern pattern, int nx, int ny, SheetClosure clos
   shape.closure = closure;
   shape.nx = nx;
   shape.ny = ny;
-  shape.lx = nx;
-  shape.ly = ny;
-  shape.corners = rectangle(nx, ny);
+  shape.size = {static_cast<double>(nx), static_cast<double>(ny)};
   return sheet_polygons(shape);
 }
 

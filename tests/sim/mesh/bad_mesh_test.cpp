@@ -80,7 +80,7 @@ const std::map<std::string, std::string>& good() {
     shape.pattern = SheetPattern::Mixed;
     shape.nx = 3;
     shape.ny = 2;
-    shape.corners = rectangle(3, 2);
+    shape.size = {3, 2};
     made["sheet.obj"] = files::obj_text(sheet_polygons(shape));
     made["sheet.off"] = files::off_text(sheet_polygons(shape));
     made["bar.moka"] = moka_text(*files::mixed_bar());

@@ -22,7 +22,7 @@ Owned by_generator(SheetPattern pattern, int cells) {
   SheetShape shape;
   shape.pattern = pattern;
   shape.nx = shape.ny = cells;
-  shape.corners = rectangle(1, 1);
+  shape.size = {1, 1};
   return sheet_from(sheet_polygons(shape));
 }
 

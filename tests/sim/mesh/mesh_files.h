@@ -71,7 +71,7 @@ inline std::unique_ptr<EmbeddedMap> mixed_sheet() {
   shape.pattern = SheetPattern::Mixed;
   shape.nx = 3;
   shape.ny = 2;
-  shape.corners = rectangle(3, 2);
+  shape.size = {3, 2};
   return sheet_from(sheet_polygons(shape));
 }
 

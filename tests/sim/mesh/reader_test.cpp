@@ -103,7 +103,7 @@ TEST(MeshFiles, of_obj_and_off_are_the_sheet_that_they_list) {
   shape.pattern = SheetPattern::Mixed;
   shape.nx = 3;
   shape.ny = 2;
-  shape.corners = rectangle(3, 2);
+  shape.size = {3, 2};
   const PolygonMesh mesh = sheet_polygons(shape);
   EXPECT_TRUE(same(*sheet_from(mesh), *files::read("a.obj", files::obj_text(mesh)).map));
   EXPECT_TRUE(same(*sheet_from(mesh), *files::read("a.off", files::off_text(mesh)).map));

@@ -34,9 +34,7 @@ SheetShape shape_of(const Case& c) {
   shape.closure = c.closure;
   shape.nx = c.nx;
   shape.ny = c.ny;
-  shape.lx = 3;
-  shape.ly = 0.5;
-  shape.corners = rectangle(3, 0.5);
+  shape.size = {3, 0.5};
   return shape;
 }
 
@@ -140,8 +138,8 @@ TEST(SheetGenerator, puts_points_bilinearly_between_given_corners) {
   for (int y = 0; y <= 3; ++y)
     for (int x = 0; x <= 4; ++x) {
       const double s = x / 4.0, t = y / 3.0;
-      const Vec3 low = shape.corners[0] + s * (shape.corners[1] - shape.corners[0]);
-      const Vec3 high = shape.corners[3] + s * (shape.corners[2] - shape.corners[3]);
+      const Vec3 low = (*shape.corners)[0] + s * ((*shape.corners)[1] - (*shape.corners)[0]);
+      const Vec3 high = (*shape.corners)[3] + s * ((*shape.corners)[2] - (*shape.corners)[3]);
       EXPECT_NEAR((mesh.points[static_cast<std::size_t>(5 * y + x)] - (low + t * (high - low))).norm(), 0,
                   1e-15);
     }

@@ -75,25 +75,24 @@ Total total(const EmbeddedMap& map, Loads& loads, double time = 0) {
 Loads one(EmbeddedMap& map, const LoadSettings& settings, const std::vector<Slot>& vertices) {
   Loads loads;
   loads.add({map, settings,
-             settings.kind == Kind::Pressure ? Patch::faces(map, "load", vertices)
-                                             : Patch::boundary(map, "load", vertices)});
+             settings.kind() == Kind::Pressure ? Patch::faces(map, "load", vertices)
+                                               : Patch::boundary(map, "load", vertices)});
   return loads;
 }
 
 LoadSettings force(const Vec3& amount, bool with_body = false) {
   LoadSettings settings;
-  settings.amount = amount;
-  settings.with_body = with_body;
+  settings.force = amount;
+  if (with_body) settings.follows = LoadSettings::Follows::Body;
   return settings;
 }
 LoadSettings moment(const Vec3& amount, bool with_body = false) {
   LoadSettings settings = force(amount, with_body);
-  settings.kind = Kind::Moment;
+  settings.moment.swap(settings.force);
   return settings;
 }
 LoadSettings pressure(double p) {
   LoadSettings settings;
-  settings.kind = Kind::Pressure;
   settings.pressure = p;
   return settings;
 }

@@ -36,7 +36,7 @@ double box_distance(const Box& box, const Vec3& x) {
 
 TEST(Obstacle, a_triangle_s_deepest_point_in_a_box_is_as_deep_as_any_of_many) {
   Noise noise(2);
-  const Box box{{-0.6, -0.4, -0.5}, {0.5, 0.4, 0.3}, {}, nullptr};
+  const Box box{{-0.6, -0.4, -0.5}, {0.5, 0.4, 0.3}};
   for (int n = 0; n < 200; ++n) {
     const TriangleCorners x{1.5 * noise.vector(), 1.5 * noise.vector(), 1.5 * noise.vector()};
     const auto at = [&](const Weights& w) { return Vec3(w[0] * x[0] + w[1] * x[1] + w[2] * x[2]); };
@@ -71,7 +71,7 @@ TEST(Obstacle, a_sphere_stops_what_comes_in_on_the_side_where_it_does) {
 }
 
 TEST(Obstacle, a_box_stops_what_comes_in_through_the_side_where_it_does) {
-  const Box box{{0, 0, 0}, {1, 1, 0.01}, {}, nullptr};
+  const Box box{{0, 0, 0}, {1, 1, 0.01}};
   EXPECT_FALSE(box.stop({0.5, 0.5, 1}, {0.5, 0.5, 0.1}, 0.05));
   EXPECT_EQ(box.stop({0.5, 0.5, 1}, {0.5, 0.5, -1}, 0.05)->normal, Vec3(0, 0, 1)) << "right through";
   EXPECT_NEAR(box.stop({0.5, 0.5, 1}, {0.5, 0.5, -1}, 0.05)->offset, 0.06, 1e-15);

@@ -1,13 +1,14 @@
 // From the <world> of a checked preset to what surrounds the bodies.
 #pragma once
 
+#include "sim/base/parameters.h"
 #include "sim/outside/world.h"
 
 namespace rend {
 
 const ElementType& world_type(); // <world>, as the parameter table has it
 
-// UserError, with its place, for what cannot be built.
-World build_world(const PresetNode* node); // null: the preset says nothing of it
+// It reads from the node for as long as it lives. UserError, with its place, for what cannot be built.
+World read_world(const PresetNode* node); // null: the preset says nothing of it
 
 } // namespace rend

@@ -1,0 +1,112 @@
+#include "sim/build/body_types.h"
+
+#include "sim/build/body_settings.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+template <class S> ElementType element(const std::string& name, const std::string& what) {
+  return {name, what, attributes_of<S>(), {}};
+}
+
+void add_once(std::vector<std::string>& list, const std::string& word) {
+  if (!word.empty() && std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+}
+
+// <stretch>, <shear>, <bend>: one element for all interactions of that name, which differ by `kind` and
+// `where`.
+ElementType spring_element(const std::string& name) {
+  ElementType type{name, "", {}, {}};
+  std::vector<std::string> kinds, places;
+  std::string unit;
+  for (const InteractionType& interaction : all_interactions()) {
+    if (interaction.element != name) continue;
+    const std::string which =
+        interaction.kind + (interaction.where.empty() ? "" : " in a " + interaction.where);
+    type.what += (type.what.empty() ? "" : "; ") + (which.empty() ? "" : which + ": ") + interaction.what;
+    add_once(kinds, interaction.kind);
+    add_once(places, interaction.where);
+    if (unit.find(interaction.k_unit) == std::string::npos)
+      unit += (unit.empty() ? "" : " or ") + interaction.k_unit;
+  }
+  if (!kinds.empty()) {
+    const std::string first = kinds.front();
+    type.attributes.push_back(word("kind", kinds, "which one").otherwise(first));
+  }
+  if (!places.empty()) {
+    const std::string first = places.front();
+    type.attributes.push_back(word("where", places, "in faces, or in hexahedra").otherwise(first));
+  }
+  for (AttributeType attribute : attributes_of<SpringSettings>()) {
+    if (attribute.name == "k") attribute.unit = unit;
+    type.attributes.push_back(std::move(attribute));
+  }
+  return type;
+}
+
+const ElementType& springs_type() {
+  static const ElementType stretch = spring_element("stretch");
+  static const ElementType shear = spring_element("shear");
+  static const ElementType bend = spring_element("bend");
+  static const ElementType type{"springs",
+                                "masses and springs",
+                                attributes_of<SpringsSettings>(),
+                                {{&stretch, 0, 1}, {&shear, 0, -1}, {&bend, 0, -1}}};
+  return type;
+}
+
+} // namespace
+
+std::vector<ChildType> shape_types() {
+  static const ElementType place =
+      element<Placement>("place", "where the body is at rest: scaled, then rotated, then moved");
+  static const ElementType mass = element<MassSettings>("mass", "the mass of the body");
+  std::vector<ChildType> types;
+  for (const ShapeType& shape : all_shapes()) types.push_back({&shape.type(), 0, 1});
+  types.push_back({&place, 0, 1});
+  types.push_back({&mass, 1, 1});
+  return types;
+}
+
+std::vector<ChildType> matter_types() {
+  static const ElementType elasticity = element<ElasticitySettings>(
+      "elasticity",
+      "a continuum: finite elements on triangles, quads, tetrahedra, hexahedra, prisms and pyramids");
+  static const ElementType viscosity =
+      element<ViscositySettings>("viscosity", "ambient viscosity: a force -value v");
+  return {{&springs_type(), 0, 1}, {&elasticity, 0, 1}, {&viscosity, 0, 1}};
+}
+
+std::vector<ChildType> motion_types() {
+  static const ElementType fix = element<FixSettings>("fix", "vertices that stay where they are at rest");
+  static const ElementType drive = element<DriveSettings>("drive", "vertices that move as prescribed");
+  static const ElementType load = element<LoadSettings>(
+      "load",
+      "a force from outside on the selected boundary: by area on the outer faces of a solid, by length "
+      "on the border of a sheet; in equal parts on the vertices where no whole face or edge is selected");
+  return {{&fix, 0, -1}, {&drive, 0, -1}, {&load, 0, -1}};
+}
+
+std::vector<ChildType> law_types() {
+  static const ElementType tear =
+      element<LawSettings>("tear", "a law: where the criterion exceeds the threshold, the change is made");
+  return {{&tear, 0, -1}};
+}
+
+std::vector<ChildType> probe_types() {
+  static const ElementType probe = element<ProbeSettings>(
+      "probe", "measures the selected vertices: their mean position and displacement, and the force that "
+               "supports those that are fixed or driven, and the mean stress of the elements there");
+  static const ElementType answer = element<AnswerSettings>(
+      "answer", "what a probe should measure; `rend run` compares, and ends with 1 where it does not hold");
+  return {{&probe, 0, -1}, {&answer, 0, -1}};
+}
+
+const ElementType& contact_type() {
+  static const ElementType type = element<ContactSettings>("contact", "what the body does not pass through");
+  return type;
+}
+
+} // namespace rend

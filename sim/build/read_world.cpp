@@ -1,0 +1,57 @@
+#include "sim/build/read_world.h"
+
+#include "sim/build/read_settings.h"
+
+namespace rend {
+namespace {
+
+const ElementType& floor_type() {
+  static const ElementType type{"floor", "a floor, drawn below the bodies", attributes_of<Floor>(), {}};
+  return type;
+}
+
+const ElementType& wind_type() {
+  static const ElementType type{
+      "wind",
+      "air that pushes faces along their normals: drag x area x the square of its speed against them",
+      attributes_of<Wind>(),
+      {}};
+  return type;
+}
+
+const ElementType& sphere_type() {
+  static const ElementType type{
+      "sphere", "a rigid sphere, for bodies with <contact>", attributes_of<SphereSettings>(), {}};
+  return type;
+}
+
+const ElementType& box_type() {
+  static const ElementType type{
+      "box", "a rigid box that stands still, for bodies with <contact>", attributes_of<Box>(), {}};
+  return type;
+}
+
+} // namespace
+
+const ElementType& world_type() {
+  static const ElementType type{
+      "world",
+      "what surrounds the bodies",
+      attributes_of<World>(),
+      {{&floor_type(), 0, 1}, {&sphere_type(), 0, -1}, {&box_type(), 0, -1}, {&wind_type(), 0, 1}}};
+  return type;
+}
+
+World read_world(const PresetNode* node) {
+  if (!node) return {};
+  World world = read_settings<World>(*node);
+  if (const PresetNode* floor = node->child("floor")) world.floor = read_settings<Floor>(*floor);
+  if (const PresetNode* wind = node->child("wind")) world.wind = read_settings<Wind>(*wind);
+  for (const PresetNode* sphere : node->all("sphere"))
+    world.spheres.emplace_back(read_settings<SphereSettings>(*sphere));
+  for (const PresetNode* box : node->all("box")) world.boxes.push_back(read_settings<Box>(*box));
+  check_world(world);
+  return world;
+}
+
+} // namespace rend
