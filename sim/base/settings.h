@@ -9,9 +9,9 @@
 //     return fields;
 //   }
 //
-// The default of an attribute is that of the member: where it is an empty optional, an empty text or an infinite
-// number, or the attribute is required, there is none (of one that may be a word: its first). Enumerators stand
-// for the attribute's words, in their order.
+// The default of an attribute is that of the member: where it is an empty optional, an empty text or an
+// infinite number, or the attribute is required, there is none (of one that may be a word: its first).
+// Enumerators stand for the attribute's words, in their order.
 #pragma once
 
 #include "sim/base/check.h"
@@ -63,8 +63,8 @@ std::string text_of(double value);
 
 std::string text_of_list(std::span<const double> values);
 
-// UserError: a number that is not finite or out of the attribute's bounds; a text that is none of its words; one
-// that is required and not there.
+// UserError: a number that is not finite or out of the attribute's bounds; a text that is none of its words;
+// one that is required and not there.
 void check_numbers(const AttributeType& type, std::span<const double> values, const SettingsSource& source);
 void check_text(const AttributeType& type, const std::string& value, const SettingsSource& source);
 [[noreturn]] void refuse_missing(const AttributeType& type, const SettingsSource& source);
@@ -242,8 +242,8 @@ template <class S> Fields<S> operator+(Fields<S> a, const Fields<S>& b) {
   return a;
 }
 
-// For settings that a program made, which no reader has looked at. UserError: a number that is not finite or out
-// of its bounds, or what is required and not there.
+// For settings that a program made, which no reader has looked at. UserError: a number that is not finite or
+// out of its bounds, or what is required and not there.
 template <class S> void check_settings(const S& settings) {
   for (const Field<S>& field : fields_of<S>())
     if (field.check) field.check(settings, settings.source);
