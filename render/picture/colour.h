@@ -22,15 +22,18 @@ std::optional<Colour> colour_called(std::string_view text);
 // Whether the text is a colour is asked before (colour_of): it takes no other.
 template <class S> Field<S> colour_field(Colour S::*member, AttributeType type) {
   type.otherwise(text_of(S{}.*member));
-  return {type, [member](S& s, const AttributeValue& value) { s.*member = colour_called(value.text).value(); }};
+  return {type, [member](S& s, const AttributeValue& value) { s.*member = colour_called(value.text).value(); },
+          [](const S&, const SettingsSource&) {}};
 }
 template <class S>
 Field<S> colour_field(std::optional<Colour> S::*member, AttributeType type, const std::string& none = {}) {
   const std::optional<Colour> by_default = S{}.*member;
   if (by_default) type.otherwise(text_of(*by_default));
-  return {type, [member, none](S& s, const AttributeValue& value) {
+  return {type,
+          [member, none](S& s, const AttributeValue& value) {
             s.*member = value.text == none ? std::nullopt : std::optional(colour_called(value.text).value());
-          }};
+          },
+          [](const S&, const SettingsSource&) {}};
 }
 
 // The colour "#rrggbb" that an attribute holds. UserError with its place where it holds none.

@@ -5,6 +5,11 @@
 namespace rend {
 namespace {
 
+void check_samples(const ImageSettings& image, const SettingsSource& source) {
+  if (image.samples != 1 && image.samples != 4 && image.samples != 16)
+    source.fail("samples", fmt::format("{} samples a pixel", image.samples), "there are 1, 4 or 16");
+}
+
 // A word of the table, a number for a program.
 Field<ImageSettings> samples() {
   AttributeType type = word("samples", {"1", "4", "16"},
@@ -12,7 +17,8 @@ Field<ImageSettings> samples() {
                             "four times as long");
   type.otherwise(std::to_string(ImageSettings{}.samples));
   return {type,
-          [](ImageSettings& image, const AttributeValue& value) { image.samples = std::stoi(value.text); }};
+          [](ImageSettings& image, const AttributeValue& value) { image.samples = std::stoi(value.text); },
+          check_samples};
 }
 
 } // namespace
@@ -28,15 +34,6 @@ template <> const Fields<ImageSettings>& fields_of() {
             flag("occlusion", "what stands near a place keeps light from it: darker folds, cracks and gaps; a "
                               "fifth of the time of a picture"))};
   return fields;
-}
-
-void check_image(const ImageSettings& image) {
-  for (int side : image.size)
-    if (side < 16 || side > 8192)
-      image.source.fail("size", fmt::format("a picture of {} x {} pixels", image.width(), image.height()),
-                        "each is from 16 to 8192");
-  if (image.samples != 1 && image.samples != 4 && image.samples != 16)
-    image.source.fail("samples", fmt::format("{} samples a pixel", image.samples), "there are 1, 4 or 16");
 }
 
 } // namespace rend

@@ -23,7 +23,4 @@ struct ImageSettings {
 };
 template <> const Fields<ImageSettings>& fields_of();
 
-// UserError for a size or a number of samples that no picture has: a program may have given them.
-void check_image(const ImageSettings& image);
-
 } // namespace rend

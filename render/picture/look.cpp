@@ -8,7 +8,8 @@ Field<LookSettings> finish() {
   AttributeType type = text("finish", "cloth, matte, rubber, organ or brittle: how it takes the light");
   type.otherwise(LookSettings{}.finish.name);
   return {type,
-          [](LookSettings& look, const AttributeValue& value) { look.finish = finish_called(value.text); }};
+          [](LookSettings& look, const AttributeValue& value) { look.finish = finish_called(value.text); },
+          [](const LookSettings&, const SettingsSource&) {}};
 }
 
 } // namespace

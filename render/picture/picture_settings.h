@@ -25,4 +25,8 @@ struct PictureSettings {
   std::vector<BoxLook> boxes = {};
 };
 
+// For settings that a program made, which no reader has looked at. UserError: a number that is not finite or
+// out of its bounds.
+void check_settings(const PictureSettings& settings);
+
 } // namespace rend

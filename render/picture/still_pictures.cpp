@@ -31,7 +31,7 @@ struct StillPictures::Studio {
 };
 
 StillPictures::StillPictures(const PictureSettings& settings, Scene& scene) {
-  check_image(settings.image);
+  check_settings(settings);
   studio_ = std::make_unique<Studio>(settings, scene);
 }
 

@@ -90,6 +90,9 @@ TEST(StillPictures, settings_that_cannot_be_are_refused) {
   PictureSettings blind = small();
   blind.camera.frame = Framing::Given; // and no eye
   EXPECT_THROW(StillPictures(blind, *seen.scene), UserError);
+  PictureSettings wide = small();
+  wide.camera.fov = 200;
+  EXPECT_THROW(StillPictures(wide, *seen.scene), UserError);
   PictureSettings three = small();
   three.image.samples = 3;
   EXPECT_THROW(StillPictures(three, *seen.scene), UserError);

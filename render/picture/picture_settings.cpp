@@ -1,0 +1,13 @@
+#include "render/picture/picture_settings.h"
+
+namespace rend {
+
+void check_settings(const PictureSettings& settings) {
+  check_settings(settings.camera);
+  for (const CameraKey& key : settings.camera.keys) check_settings(key);
+  check_settings(settings.image);
+  if (settings.hud) check_settings(*settings.hud);
+  for (const LookSettings& look : settings.looks) check_settings(look);
+}
+
+} // namespace rend
