@@ -9,7 +9,7 @@
 namespace rend {
 
 void refuse_unless_finite(std::span<const double> numbers) {
-  double seen = 0; // 0 times what is not finite is not 0
+  double seen = 0; // 0 · x is 0 exactly for finite x
   for (double each : numbers) seen += 0 * each;
   refuse_unless(seen == 0, "a number is not finite");
 }
@@ -94,7 +94,7 @@ void Archive::one_unbounded(std::optional<double>& value) {
   if (value) one_unbounded(*value);
 }
 
-// What stands there in its place is not told: it may be anything.
+// The mark found instead is not quoted: it may be any bytes.
 void Archive::mark(std::string_view name) {
   std::string there(name);
   if (count(name.size(), 1) == name.size())

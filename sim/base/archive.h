@@ -1,17 +1,16 @@
-// Numbers to bytes and back, both ways by one function, so that what is written is what is read:
+// Serialisation: one store() function both writes and reads, so the two cannot disagree:
 //
-//   void Sphere::store(Archive& a) { a(centre, velocity); }      // writes, or takes what was written
+//   void Sphere::store(Archive& a) { a(centre, velocity); }      // writes, or reads what was written
 //
-// Arrays of numbers are copied as they lie in memory: a few gigabytes a second, and for machines that store
-// numbers alike (all that rend runs on). Marks between parts are met again when reading; what is out of step
-// with them was written by another program or of another scene, and is refused before it does harm.
+// Arrays of numbers are copied byte for byte: a few gigabytes a second, and portable between machines with the
+// same number formats (all that rend runs on). Named marks between sections are checked when reading; an
+// archive written by another program or for another scene fails there and is refused.
 //
-// Who reads trusts nothing: bytes may have been made by somebody who means harm. What can be said of a number
-// by itself is refused here: a NaN, an infinity where none is expected, a flag that is neither 0 nor 1, a list
-// that is longer than the bytes that are left. What hangs on the scene is said by the store() that read it,
-// with refuse_unless(): that an index is in range, that a list is as long as what it lies along. A list whose
-// length the archive tells is read by list(), with the most that it may be, so that no number alone takes
-// memory.
+// A reader trusts nothing: the bytes may be malicious. What can be checked of a value by itself is checked
+// here: no NaN, no infinity where none is expected, a flag is 0 or 1, a list is no longer than the bytes that
+// are left. What depends on the scene is checked by the store() that read it, with refuse_unless(): an index is
+// in range, a list has the length of the array that it belongs to. A list whose length is stored in the archive
+// is read by list() with an upper bound, so that no stored number alone can cause a large allocation.
 #pragma once
 
 #include "sim/base/id.h"
@@ -32,18 +31,18 @@
 
 namespace rend {
 
-// What was read is not what was asked for.
+// The archive does not hold what was to be read.
 struct ArchiveError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// For those who look at what they have read: throws ArchiveError where it does not hold. `what` is wrong then,
-// such as "a link leads to no dart".
+// For checks of values that were read: throws ArchiveError unless `holds`. `what` says what is wrong, such as
+// "a link leads to no dart".
 inline void refuse_unless(bool holds, const char* what) {
   if (!holds) throw ArchiveError(what);
 }
 
-// A number of things, as far as a double counts them: no sum of two of them is too large for its type.
+// A count that a double represents exactly; the sum of two such counts does not overflow.
 inline bool is_count(long value) {
   return value >= 0 && value <= (1L << 53);
 }
@@ -57,13 +56,13 @@ template <class T, std::size_t N> struct IsPlain<std::array<T, N>> : IsPlain<T> 
 template <class T>
 concept Plain = IsPlain<T>::value && !std::is_same_v<T, bool>;
 
-// Of them, those that are made of doubles or floats.
+// Those of them that consist of doubles or floats.
 template <class T> struct IsReal : std::is_floating_point<T> {};
 template <> struct IsReal<Record> : std::true_type {};
 template <> struct IsReal<Vec3> : std::true_type {};
 template <class T, std::size_t N> struct IsReal<std::array<T, N>> : IsReal<T> {};
 
-// Throw ArchiveError where one is NaN or infinite, or a record's fourth number is not 0.
+// Throw ArchiveError if a number is NaN or infinite, or the fourth component of a record is not 0.
 void refuse_unless_finite(std::span<const double> numbers);
 void refuse_unless_finite(std::span<const float> numbers);
 void refuse_unless_finite(std::span<const Record> records);
@@ -72,35 +71,37 @@ class Archive {
 public:
   using Sink = std::function<void(std::span<const std::uint8_t>)>;
   using Source =
-      std::function<std::span<const std::uint8_t>()>; // the next piece, which stays until the call after
+      std::function<std::span<const std::uint8_t>()>; // returns the next piece, valid until the next call
   static constexpr std::size_t piece = std::size_t{1} << 20U; // [bytes]
 
-  Archive() = default;                                    // writes into bytes()
-  explicit Archive(Sink sink) : sink_(std::move(sink)) {} // writes pieces of this size, the last by end()
-  explicit Archive(std::span<const std::uint8_t> from) : from_(from) {} // reads; `from` must stay
-  // Reads so many bytes, piece after piece.
+  Archive() = default; // writes into bytes()
+  // writes in pieces of `piece` bytes, the last in end()
+  explicit Archive(Sink sink) : sink_(std::move(sink)) {}
+  // reads; `from` must outlive the archive
+  explicit Archive(std::span<const std::uint8_t> from) : from_(from) {}
+  // Reads `size` bytes, piece by piece.
   Archive(Source source, std::size_t size)
       : from_(std::span<const std::uint8_t>()), source_(std::move(source)), beyond_(size) {}
 
   bool reading() const { return from_.has_value(); }
-  std::vector<std::uint8_t>& bytes() { return bytes_; } // that were written
+  std::vector<std::uint8_t>& bytes() { return bytes_; } // what was written
 
-  // Writes them, or reads into them. Throws ArchiveError where there is too little to read, or a number that
-  // never was written: doubles are finite.
+  // Writes the values, or reads into them. Throws ArchiveError if the bytes do not suffice or a double is not
+  // finite.
   template <class... T> void operator()(T&... each) { (one(each), ...); }
 
-  // The same of doubles that may be infinite.
+  // The same for doubles that may be infinite.
   template <class... T> void unbounded(T&... each) { (one_unbounded(each), ...); }
 
-  // The same of a list of at most so many elements. Throws ArchiveError where more are said to be there, before
-  // there is room for them.
+  // The same for a list of at most `most` elements. Throws ArchiveError if the stored length is larger, before
+  // memory is allocated.
   template <class T> void list(std::vector<T>& elements, std::size_t most, const char* what) {
     const std::size_t number = count(elements.size(), Plain<T> ? sizeof(T) : 1);
     if (reading()) refuse_unless(number <= most, what);
     take(elements, number);
   }
 
-  // The same of a table, by increasing key.
+  // The same for a map, in order of increasing keys.
   template <class K, class V> void table(std::map<K, V>& all, std::size_t most, const char* what) {
     std::vector<K> keys;
     std::vector<V> values;
@@ -116,7 +117,7 @@ public:
     for (std::size_t n = 0; n < keys.size(); ++n) refuse_unless(all.emplace(keys[n], values[n]).second, what);
   }
 
-  // The same of a list that is as long here as there: throws ArchiveError where it is not.
+  // The same for a list whose length is already known: throws ArchiveError if the stored length differs.
   template <class T> void fixed(std::vector<T>& elements, const char* what) {
     same(elements.size(), what);
     if constexpr (Plain<T>) {
@@ -126,10 +127,10 @@ public:
     }
   }
 
-  void mark(std::string_view name);                 // throws ArchiveError where another stands there
-  void same(std::uint64_t value, const char* what); // a number that is the same in both: throws where it is not
+  void mark(std::string_view name);                 // throws ArchiveError if another mark was stored
+  void same(std::uint64_t value, const char* what); // throws unless the stored number is `value`
   void raw(void* data, std::size_t bytes);
-  void end(); // nothing more comes; reading: throws ArchiveError where something is left
+  void end(); // the end of the archive; reading: throws ArchiveError if bytes are left
 
 private:
   template <class T> void one(T& value) {
@@ -140,7 +141,7 @@ private:
       value.store(*this);
     }
   }
-  // At what was read.
+  // Checks numbers that were read.
   template <class T> void look(std::span<T> list) const {
     if constexpr (IsReal<T>::value) {
       if (!reading()) return;
@@ -152,7 +153,7 @@ private:
   }
   void one_unbounded(double& value);
   void one_unbounded(std::optional<double>& value);
-  std::size_t left() const { return from_->size() + beyond_; } // [bytes], to be read
+  std::size_t left() const { return from_->size() + beyond_; } // [bytes] still to be read
   void write(const std::uint8_t* from, std::size_t bytes);
   void one(bool& value);
   void one(std::string& value);
@@ -160,7 +161,8 @@ private:
   template <class T> void one(std::vector<T>& list) {
     take(list, count(list.size(), Plain<T> ? sizeof(T) : 1));
   }
-  // What is no plain number may take more room in memory than bytes here: it is made as it is read.
+  // Elements that are no plain numbers may need more memory than bytes in the archive: they are created one by
+  // one as they are read.
   template <class T> void take(std::vector<T>& list, std::size_t number) {
     if constexpr (Plain<T>) {
       list.resize(number);
@@ -177,13 +179,14 @@ private:
     if (reading()) there ? void(value.emplace()) : value.reset();
     if (there) one(*value);
   }
-  // Of a list with so many elements of at least so many bytes each.
+  // Writes or reads the length of a list whose elements have at least `bytes_each` bytes each.
   std::size_t count(std::size_t present, std::size_t bytes_each);
 
-  std::optional<std::span<const std::uint8_t>> from_; // what is left of the piece that is read; none: it writes
+  // the unread rest of the current piece; nullopt: the archive writes
+  std::optional<std::span<const std::uint8_t>> from_;
   Source source_;
-  std::size_t beyond_ = 0;          // [bytes], of the pieces to come
-  std::vector<std::uint8_t> bytes_; // with a sink: what it has not taken yet
+  std::size_t beyond_ = 0;          // [bytes] of the pieces to come
+  std::vector<std::uint8_t> bytes_; // what was written; with a sink: what was not yet passed to it
   Sink sink_;
 };
 

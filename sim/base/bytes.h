@@ -1,5 +1,5 @@
-// What an array holds, in bytes: what was written to. Room that is reserved for later costs addresses, and no
-// memory.
+// The bytes of memory that an array uses: its elements, without reserved capacity, whose pages the system does
+// not provide before they are written.
 #pragma once
 
 #include <cstddef>

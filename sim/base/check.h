@@ -1,5 +1,5 @@
-// CHECK: a programmer's slip, not a user's. It names the condition and its place and is caught in main (exit
-// 70).
+// CHECK: an assertion against programming errors, not user errors. The message names the condition and its
+// place; main catches it (exit code 70).
 #pragma once
 
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 namespace rend {
 
-// Thrown by CHECK: rend itself is wrong.
+// Thrown by CHECK: a bug in rend.
 struct InternalError : std::logic_error {
   using std::logic_error::logic_error;
 };

@@ -1,4 +1,4 @@
-// What a user can do wrong, or a machine can refuse, and the exit code that goes with it.
+// Errors of the user or of the machine, and their exit codes.
 //
 // A message reads "file:line:column: what is wrong", and below it "hint: what would work". The codes are those
 // of sysexits(3) where one fits.
@@ -16,7 +16,7 @@ enum class Exit : int {
   Usage = 64,        // the command line
   BadInput = 65,     // a preset or mesh
   NoInput = 66,      // no such file
-  Bug = 70,          // ours
+  Bug = 70,          // a bug in rend
   CannotCreate = 73, // the output
   ReadWrite = 74,    // failed, such as a full disk
   OutOfBudget = 75,  // --max-time, --max-memory: resume can finish it
@@ -25,7 +25,7 @@ enum class Exit : int {
   Terminated = 143,
 };
 
-// Where in a user's file something stands. A line of 0 means the file as a whole (or the command line).
+// A place in a user's file. Line 0 stands for the file as a whole (or the command line).
 struct Place {
   std::string file;
   int line = 0;             // from 1
@@ -33,7 +33,7 @@ struct Place {
   std::string text() const; // "file:3:14", "file" or ""
 };
 
-// An error to be shown to the user as it is.
+// An error whose message is shown to the user as it is.
 struct UserError : std::runtime_error {
   UserError(Exit code, const Place& place, const std::string& what, const std::string& hint = {});
   Exit code;

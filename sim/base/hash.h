@@ -1,4 +1,4 @@
-// A 64-bit hash of bytes (XXH3), for the state hash that two runs must share.
+// A 64-bit hash of bytes (XXH3), for state hashes: equal in two runs that are identical.
 #pragma once
 
 #include <cstddef>

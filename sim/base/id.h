@@ -1,4 +1,4 @@
-// Index types that cannot be mixed up: a dart is not a vertex, a vertex is not an edge.
+// Index types that the compiler tells apart: a dart is not a vertex, a vertex is not an edge.
 #pragma once
 
 #include <compare>

@@ -21,8 +21,8 @@ double small_cosine(double degrees) {
   return 1 + sum;
 }
 
-// The sine of an angle that is `quarters` right angles further. They are counted rather than added to the
-// angle, which would round it.
+// The sine of angle + 90 · quarters degrees. The quarters are counted, as adding them to the angle would round
+// it.
 double sine_of_turned(double angle, int quarters) {
   const double turn = std::remainder(angle, 360.0); // exact
   const double quadrant = std::nearbyint(turn / 90);

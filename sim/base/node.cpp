@@ -1,4 +1,4 @@
-// The PresetNode of sim/base/parameters.h: values read from their text, and asked for.
+// PresetNode of sim/base/parameters.h: values parsed from their text, and the accessors.
 #include "sim/base/check.h"
 #include "sim/base/parameters.h"
 
@@ -31,7 +31,8 @@ std::vector<std::string_view> tokens_of(std::string_view text) {
   return out;
 }
 
-// from_chars, as it knows no locale; it takes no '+', so that is stepped over ("+-1" stays refused).
+// from_chars, since it is independent of the locale. It does not accept '+', so the sign is skipped ("+-1"
+// stays refused).
 template <class T> std::errc parse(std::string_view token, T& out) {
   if (token.size() > 1 && token[0] == '+' && token[1] != '-') token.remove_prefix(1);
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), out);
@@ -259,7 +260,7 @@ void PresetNode::fill_defaults() {
     if (!attribute.fallback || has(attribute.name)) continue;
     try {
       set(attribute, *attribute.fallback, place_, false);
-    } catch (const UserError& error) { // the table is ours, so a default that does not fit is a slip of ours
+    } catch (const UserError& error) { // the table is part of rend: a default that does not fit is a bug
       CHECK_NOTE(!"a default fits its type", error.what());
     }
   }

@@ -1,9 +1,9 @@
-// The parameter table: every element and attribute that a preset may hold, said once.
+// The table of parameters: the single description of every element and attribute that a preset may hold.
 //
-// An ElementType stands beside the code that uses it (a force declares its stiffness beside its formula). The
-// one table drives the reader, the defaults, `rend help preset` and the schema presets/scene.xsd. A
-// PresetNode is one element of a preset after it was checked against its type: every attribute is there, with
-// its default where the preset is silent, finite and in range.
+// An ElementType is declared beside the code that uses it (a force declares its stiffness beside its formula).
+// The table drives the reader, the defaults, `rend help preset` and the schema presets/scene.xsd. A PresetNode
+// is one element of a preset, checked against its type: every attribute has a value, finite and in range, the
+// default where the preset gives none.
 #pragma once
 
 #include "sim/base/error.h"
@@ -36,16 +36,17 @@ enum class AttributeKind {
 struct AttributeType {
   std::string name;
   AttributeKind kind = AttributeKind::Number;
-  std::string unit;                    // "N/m"; empty: a pure number or a word
-  std::string what;                    // one line for a reader of `rend help preset`
-  std::optional<std::string> fallback; // the default, as it would stand in the preset; none: may be absent
+  std::string unit; // "N/m"; empty: a pure number or a word
+  std::string what; // one line for a reader of `rend help preset`
+  // the default, as it would be written in a preset; nullopt: may be absent
+  std::optional<std::string> fallback;
   bool required = false;
   int count = 0;                     // Numbers, Integers
   std::vector<std::string> words;    // Word, Words, NumberOrWord
   double low = -1e300, high = 1e300; // inclusive bounds of each number
   bool open_low = false;             // low itself is refused (k > 0)
 
-  // A table reads as sentences: number("k", "N/m", "stiffness").at_least(0).is_required()
+  // Written as a chain: number("k", "N/m", "stiffness").at_least(0).is_required()
   AttributeType& is_required();
   AttributeType& otherwise(std::string value); // sets fallback
   AttributeType& at_least(double bound);
@@ -65,7 +66,7 @@ AttributeType number_or(std::string name, std::vector<std::string> words, std::s
 
 struct ElementType;
 
-// A child element and how often it may stand in its parent.
+// A child element and how often it may occur in its parent.
 struct ChildType {
   const ElementType* type;
   int at_least = 0;
@@ -80,12 +81,12 @@ struct ElementType {
   const AttributeType* find(std::string_view attribute) const; // null if there is none
 };
 
-// What stands in a preset for an attribute, read as its kind says.
+// The value of an attribute, parsed according to its kind.
 struct AttributeValue {
-  std::string text; // without blanks around it (Text: with them)
+  std::string text; // trimmed (Text: as written)
   std::vector<double> numbers;
   std::vector<std::string> words;
-  bool word = false; // NumberOrWord: a word stands there
+  bool word = false; // NumberOrWord: the value is a word
 };
 
 // What a value must be, for messages and help: "2 whole numbers, each of at least 1", "auto, or a number above
@@ -100,14 +101,14 @@ public:
   const ElementType& type() const { return *type_; }
   const std::string& name() const { return type_->name; }
   const Place& place() const { return place_; }
-  const Place& place(std::string_view attribute) const; // of its value; the element's where it is a default
+  const Place& place(std::string_view attribute) const; // of its value; of the element if it is a default
 
   bool has(std::string_view attribute) const;   // given, or by default
-  bool given(std::string_view attribute) const; // stands in the preset (or was set on the command line)
+  bool given(std::string_view attribute) const; // written in the preset (or set on the command line)
 
-  const AttributeValue* find(std::string_view attribute) const; // null: neither given, nor by default
+  const AttributeValue* find(std::string_view attribute) const; // null: neither given, nor has it a default
 
-  // Values. CHECK that the attribute is of that kind and is there.
+  // Values. CHECK: the attribute has that kind and a value.
   double number(std::string_view attribute) const;
   Eigen::Vector3d vector(std::string_view attribute) const; // of 3 numbers
   const std::vector<double>& numbers(std::string_view attribute) const;
@@ -116,28 +117,29 @@ public:
   bool flag(std::string_view attribute) const;
   const std::string& text(std::string_view attribute) const; // Text, Word, or the word of a NumberOrWord
   const std::vector<std::string>& words(std::string_view attribute) const; // Words, in their order
-  bool is_word(std::string_view attribute) const;                          // NumberOrWord: a word stands there
+  bool is_word(std::string_view attribute) const;                          // NumberOrWord: the value is a word
 
   std::span<const std::unique_ptr<PresetNode>> children() const { return children_; }
   const PresetNode* child(std::string_view name) const; // the first of that name, or null
   std::vector<const PresetNode*> all(std::string_view name) const;
 
-  // A bad value: file:line:column of the attribute, exit 65.
+  // Throws UserError for a bad value: file:line:column of the attribute, exit code 65.
   [[noreturn]] void fail(std::string_view attribute, const std::string& what,
                          const std::string& hint = {}) const;
 
-  // For readers: sets an attribute from its text. Throws UserError with `place` where it does not fit its type.
+  // For readers: sets an attribute from its text. Throws UserError with `place` if the text does not fit its
+  // type.
   void set(const AttributeType& attribute, const std::string& value, const Place& place, bool given = true);
   PresetNode& add(std::unique_ptr<PresetNode> child);
-  void fill_defaults();        // of this element and those below
-  void check_complete() const; // required attributes, too few or too many children, here and below
+  void fill_defaults();        // of this element and its descendants
+  void check_complete() const; // required attributes, numbers of children; of this element and its descendants
 
 private:
   struct Value : AttributeValue {
     bool given = false;
     Place place;
   };
-  struct Reading; // turns a text into a Value
+  struct Reading; // parses a text into a Value
   const Value& value(std::string_view attribute, std::initializer_list<AttributeKind> kinds) const;
 
   const ElementType* type_;

@@ -10,11 +10,11 @@ namespace rend {
 namespace {
 
 struct Character {
-  std::size_t bytes = 0;  // 0: there is none
-  std::uint32_t code = 0; // of Unicode
+  std::size_t bytes = 0;  // 0: no valid character
+  std::uint32_t code = 0; // Unicode code point
 };
 
-// The character of UTF-8 (RFC 3629) at the start of `text`, which is not empty.
+// The UTF-8 character (RFC 3629) at the start of `text`, which is not empty.
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U; };
   const unsigned first = byte(0);
@@ -37,14 +37,15 @@ bool is_between(std::uint32_t code, std::uint32_t low, std::uint32_t high) {
   return code >= low && code <= high;
 }
 
-// What acts where it is shown: control characters (C0, DEL, C1: U+009B alone begins a terminal's sequence),
-// line and paragraph separators, marks that turn the direction of reading, and what XML does not know.
+// Characters that act when shown: control characters (C0, DEL, C1: U+009B alone begins a terminal sequence),
+// line and paragraph separators, marks that change the direction of reading, and characters that XML does not
+// allow.
 bool acts(std::uint32_t code) {
   return code < 0x20 || is_between(code, 0x7F, 0x9F) || is_between(code, 0x2028, 0x202E) ||
          is_between(code, 0x2066, 0x2069) || (code & 0xFFFEU) == 0xFFFE;
 }
 
-// As a terminal may have it, and as JSON does: in units of UTF-16.
+// The escape for a terminal, and the one for JSON (UTF-16 units).
 std::string escape(const Character& character, std::string_view raw) {
   if (character.bytes > 1) return fmt::format("\\u{{{:x}}}", character.code);
   return raw == "\n"   ? "\\n"
@@ -57,7 +58,8 @@ std::string escape_in_json(const Character& character, std::string_view) {
   return fmt::format("\\u{:04x}\\u{:04x}", 0xD800 + (beyond >> 10U), 0xDC00 + (beyond & 0x3FFU));
 }
 
-// The next character of `text`, which loses it, as it may be shown. Of bytes that are no character, one.
+// Removes the next character from `text` and returns it as it may be shown. An invalid byte counts as one
+// character.
 template <class Escape> std::string take(std::string_view& text, Escape escape) {
   const Character next = first_character(text);
   const std::string_view raw = text.substr(0, std::max<std::size_t>(next.bytes, 1));
@@ -71,7 +73,7 @@ template <class Escape> std::string shown(std::string_view text, std::string_vie
   };
   std::string out;
   out.reserve(text.size());
-  while (true) { // most of it at once
+  while (true) { // most texts are copied in one piece
     const auto end = std::find_if_not(text.begin(), text.end(), is_plain);
     out.append(text.begin(), end);
     text.remove_prefix(static_cast<std::size_t>(end - text.begin()));

@@ -1,9 +1,9 @@
-// Names that can do no harm where they are shown.
+// Text from outside made safe to show: names of files, bodies, groups, attributes.
 //
-// Names come from outside: of files, bodies, groups, attributes. What of them could act on a terminal or in a
-// list stands as an escape: control characters as \n, \t, \x1b, \u{9b} (which begins a terminal's sequence as
-// ESC [ does); marks that turn the direction of reading as \u{202e}; bytes that are no UTF-8 as \xff. It is
-// not told apart from a name that holds those letters. What is printable stays as it is: twice does no harm.
+// What could act on a terminal or in a list is escaped: control characters as \n, \t, \x1b, \u{9b} (which
+// begins a terminal sequence as ESC [ does); marks that change the direction of reading as \u{202e}; bytes that
+// are not UTF-8 as \xff. The escape of such a character is not distinguished from a name that holds those
+// letters. Printable text stays as it is, so that applying the function twice changes nothing.
 #pragma once
 
 #include <string>
@@ -12,14 +12,17 @@
 namespace rend {
 
 // `text` may be any bytes.
-std::string printable(std::string_view text);                           // on one line
-std::string printable_lines(std::string_view text);                     // line ends and tabs stay
-std::string printable(std::string_view text, std::string_view instead); // of each that could act
+std::string printable(std::string_view text);       // on one line
+std::string printable_lines(std::string_view text); // line ends and tabs stay
+// `instead` replaces each such character
+std::string printable(std::string_view text, std::string_view instead);
 
-// A whole text of JSON, which is UTF-8: its strings get escapes of JSON, and are read as what they were.
+// A whole JSON text in UTF-8: characters inside its strings become JSON escapes, so that they are parsed as the
+// same strings.
 std::string printable_json(std::string_view json);
 
-// The first character of `text`, which is not empty and loses it. Of bytes that are no character, one.
+// Removes the first character from `text`, which is not empty, and returns it in printable form. An invalid
+// byte counts as one character.
 std::string take_printable(std::string_view& text);
 
 } // namespace rend

@@ -37,7 +37,7 @@ void Profile::restart() {
   steps_ = timed_steps_ = 0;
 }
 
-// Not the first step, whose caches are cold.
+// The first step is not timed, as its caches are cold.
 void Profile::begin_step(long number) {
   ++steps_;
   if (every_step()) {

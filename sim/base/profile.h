@@ -1,11 +1,11 @@
 // Where the time of a run goes, phase by phase.
 //
-// One phase is current at any moment. Within turns to another, and back where it ends: each second belongs to
-// the innermost phase alone. Reading the clock takes as long as a small body's forces: so only one step in
-// `sampled` is timed, and its seconds count that often; what changes the topology is rare, and timed in every
-// step. Who asks for a profile (rend run --profile) has every step timed, and then all phases together are the
-// whole; what a reading of the clock takes is taken off at each turn. In a step that is not timed a Within
-// tests a flag. For the thread that makes the steps.
+// One phase is current at any moment. A Within enters another and returns to the former one when its scope
+// ends: each second belongs to the innermost phase alone. Reading the clock takes as long as the forces of a
+// small body, so only one step in `sampled` is timed and its seconds are scaled up; changes of topology are
+// rare and timed in every step. With a full profile (rend run --profile) every step is timed, and the phases
+// add up to the whole; the time that the clock itself takes is subtracted at each change of phase. In a step
+// that is not timed a Within only tests a flag. For the thread that makes the steps.
 #pragma once
 
 #include <array>
@@ -19,15 +19,15 @@ class Archive;
 enum class Phase {
   Forces,      // of interactions, in all evaluations
   Loads,       // of loads and wind
-  Criteria,    // what the laws look at
-  Changes,     // of topology, with embeddings
-  Rebinding,   // rows, constraints and laws after a change
-  Integration, // of the scheme alone; of one that solves: its solver
-  Stiffness,   // of schemes that solve: the matrix
+  Criteria,    // evaluating the criteria
+  Changes,     // of topology, and the updates of embedded values
+  Rebinding,   // rows, constraints and criteria after a change
+  Integration, // the time scheme alone; of an implicit scheme: its solver
+  Stiffness,   // of implicit schemes: assembly of the matrix
   Contact,
-  Guard,  // what it looks at and keeps
-  Output, // what is written at frames
-  Rest    // of the time loop
+  Guard,  // checks, and states kept for a rollback
+  Output, // files written at frames
+  Rest    // the rest of the time loop
 };
 constexpr std::size_t phase_count = static_cast<std::size_t>(Phase::Rest) + 1;
 const char* name_of(Phase phase);
@@ -36,33 +36,34 @@ class Profile {
 public:
   struct Spent {
     double seconds = 0;
-    long turns = 0; // to it
+    long turns = 0; // how often it was entered
   };
   enum class Extent { SampledSteps, EveryStep };
-  static constexpr long sampled = 16; // one step in so many
+  static constexpr long sampled = 16; // one step in `sampled` is timed
 
   explicit Profile(Extent extent);
   bool every_step() const { return extent_ == Extent::EveryStep; }
-  void restart(); // forgets all; Rest is current
+  void restart(); // forgets all; Rest becomes current
 
-  void begin_step(long number); // steps done before it
+  void begin_step(long number); // number: steps done before this one
   void end_step();
-  bool timed() const { return state_ == State::Timed; } // the present step is
+  bool timed() const { return state_ == State::Timed; } // whether the present step is
 
-  Spent spent(Phase phase) const { return spent_[static_cast<std::size_t>(phase)]; } // up to the last turn
-  double seconds(Phase phase) const;          // [s], over all steps: of sampled ones, scaled up
-  double reading() const { return reading_; } // [s] that the clock takes
-  double total() const;                       // [s], of what was timed
+  // up to the last change of phase
+  Spent spent(Phase phase) const { return spent_[static_cast<std::size_t>(phase)]; }
+  double seconds(Phase phase) const;          // [s], over all steps: estimated from the sampled ones
+  double reading() const { return reading_; } // [s] that reading the clock takes
+  double total() const;                       // [s] that were timed
 
   void store(Archive& archive);
 
 private:
   friend class Within;
   using Clock = std::chrono::steady_clock;
-  // Off: the present step is not timed. AChange: nor is it, but for the change of topology it is making.
+  // Off: the present step is not timed. AChange: only the change of topology that it is making is timed.
   enum class State { Off, Timed, AChange };
   static bool always(Phase phase) { return phase == Phase::Changes || phase == Phase::Rebinding; }
-  bool enter(Phase phase, Phase& before); // false: it is not timed, and nothing was turned
+  bool enter(Phase phase, Phase& before); // false: not timed, the phase did not change
   void leave(Phase before);
   void turn_to(Phase next);
 
@@ -75,7 +76,7 @@ private:
   long steps_ = 0, timed_steps_ = 0;
 };
 
-// The phase of a scope.
+// The current phase while the object lives.
 class Within {
 public:
   Within(Profile* profile, Phase phase)
@@ -91,6 +92,6 @@ private:
   Profile* profile_; // null: the scope is not timed
 };
 
-double clock_reading(); // [s] between two readings of the clock that follow each other
+double clock_reading(); // [s] between two consecutive readings of the clock
 
 } // namespace rend

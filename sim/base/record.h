@@ -1,6 +1,5 @@
-// A point or vector as a record of four doubles, the fourth 0: one aligned load for AVX, two for SSE, and the
-// same layout for both (measured against separate arrays of x, y, z: half the time a spring;
-// sim/README.md, "Kernels").
+// A point or vector stored as four doubles, the fourth 0: one aligned load for AVX, two for SSE, the same
+// layout for both. Against separate arrays of x, y, z it halves the time per spring (sim/README.md, "Kernels").
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// Settings: structs whose members are described once - name, unit, bounds, what for - so that the table of
-// parameters (reader, help, schema, manual) and a C++ program have the same names and the same defaults.
+// Settings: structs whose members are described once (name, unit, bounds, meaning), so that the table of
+// parameters (reader, help, schema, manual) and a C++ program use the same names and defaults.
 //
 //   struct ViscositySettings { double value = 0; bool per_body = false; SettingsSource source; };
 //
@@ -33,14 +33,14 @@
 
 namespace rend {
 
-// Where settings stand in a user's file, for messages. Of settings that a program made: nowhere.
+// Where settings come from in a user's file, for messages. Settings made by a program have no place.
 struct SettingsSource {
-  std::function<Place(std::string_view attribute)> place_of; // of its value; of the element for ""
-  std::function<bool(std::string_view attribute)> is_given;  // it stands there, and is no default
+  std::function<Place(std::string_view attribute)> place_of; // of the attribute's value; of the element for ""
+  std::function<bool(std::string_view attribute)> is_given;  // written in the preset, not a default
 
   Place place(std::string_view attribute = {}) const { return place_of ? place_of(attribute) : Place{}; }
   bool given(std::string_view attribute) const { return is_given && is_given(attribute); }
-  // UserError (BadInput) at that place.
+  // Throws UserError (BadInput) at that place.
   [[noreturn]] void fail(std::string_view attribute, const std::string& what,
                          const std::string& hint = {}) const;
 };
@@ -53,12 +53,12 @@ template <class S> struct Field {
 };
 template <class S> using Fields = std::vector<Field<S>>;
 
-// Specialised beside each struct of settings.
+// Specialised beside each settings struct.
 template <class S> const Fields<S>& fields_of();
 
 namespace fields {
 
-// As it would stand in a preset: the shortest digits that are read back as the same number.
+// As it would be written in a preset: the shortest digits that parse to the same number.
 std::string text_of(double value);
 
 std::string text_of_list(std::span<const double> values);
@@ -98,7 +98,7 @@ template <class M> bool is_absent(const M& member) {
   return false;
 }
 
-// The default that a member stands for; none: there is none.
+// The default given by a member's initial value; nullopt: none.
 template <class M> std::optional<std::string> default_of(const AttributeType& type, const M& member) {
   if constexpr (IsOptional<M>::value) {
     if (member) return default_of(type, *member);
@@ -249,7 +249,7 @@ template <class S> void check_settings(const S& settings) {
     if (field.check) field.check(settings, settings.source);
 }
 
-// Their attributes, for the table.
+// The attributes of S, for the table.
 template <class S> std::vector<AttributeType> attributes_of() {
   std::vector<AttributeType> attributes;
   for (const Field<S>& field : fields_of<S>()) attributes.push_back(field.type);

@@ -1,8 +1,8 @@
-// Four doubles at once, with the same bits on every processor.
+// Four doubles at once, with identical bits on every processor.
 //
-// GCC's vector types are lowered to whatever the target has (two SSE registers, one AVX register); every
-// operation is the IEEE one on each lane, so that the width never shows in a result. simd_width.h says which
-// target runs.
+// GCC lowers its vector types to the registers of the target (two SSE registers, one AVX register). Every
+// operation is the IEEE operation on each lane, so the width never shows in a result. simd_width.h chooses the
+// target at run time.
 #pragma once
 
 #include "sim/base/record.h"
@@ -23,7 +23,8 @@ REND_INLINE Double4 load(const Record& r) {
 REND_INLINE void store(Record& r, Double4 v) {
   *reinterpret_cast<Double4*>(&r) = v;
 }
-// Past the caches, for large arrays that are not read again soon: spares reading what is overwritten.
+// A non-temporal store, for large arrays that are not read again soon: bypassing the caches saves reading the
+// lines that are overwritten.
 REND_INLINE void stream(Record& r, Double4 v) {
 #ifdef __SSE2__
   _mm_stream_pd(&r.x, __m128d{v[0], v[1]});
@@ -33,8 +34,8 @@ REND_INLINE void stream(Record& r, Double4 v) {
 #endif
 }
 
-// What a loop reads in a row and will want so many bytes on, maybe behind its end: processors look ahead by
-// themselves, but not beyond a page, and not far enough for many arrays at once.
+// Prefetches what a sequential loop reads `bytes_on` bytes further, maybe beyond the end of the array: hardware
+// prefetchers stop at page boundaries and do not look far enough ahead for many arrays at once.
 template <std::size_t bytes_on> REND_INLINE void expect(const void* here) {
   __builtin_prefetch(static_cast<const char*>(here) + bytes_on);
 }
@@ -54,7 +55,7 @@ REND_INLINE Double4 sums_of(Double4 a, Double4 b, Double4 c, Double4 d) {
   return __builtin_shuffle(ab, cd, Long4{0, 1, 4, 5}) + __builtin_shuffle(ab, cd, Long4{2, 3, 6, 7});
 }
 
-// Until all streamed records are to be seen by other threads.
+// A fence: all non-temporal stores become visible to other threads.
 inline void finish_streams() {
 #ifdef __SSE2__
   _mm_sfence();

@@ -1,19 +1,18 @@
-// Which of a processor's vector units the inner loops use: chosen when the program runs, and nothing else
-// changes.
+// Chooses at run time which vector unit of the processor the inner loops use. Results do not depend on it.
 //
 // A loop is an always_inline function; at_width<loop>(arguments) runs the copy of it that was compiled for the
-// chosen unit. That is the widest one that the processor has, or what REND_SIMD in the environment asks for:
+// chosen unit: the widest that the processor has, or the one named by REND_SIMD in the environment:
 //
-//   sse2     two doubles at a time, what every x86-64 has (on other processors: what they all have)
+//   sse2     two doubles at a time, what every x86-64 has (other processors: their baseline)
 //   avx2     four
 //
-// AVX-512 is not there: it gained a sixth on hexahedra and nothing on tetrahedra and springs, eight lanes lost
-// a quarter on springs, and hinges came out wrong for it from g++ 12.2 (HingeKernel.adds_what_the_law_says
-// tells).
+// There is no AVX-512: it gained a sixth on hexahedra and nothing on tetrahedra and springs, eight lanes lost a
+// quarter on springs, and g++ 12.2 compiled hinges wrongly for it (the test HingeKernel.adds_what_the_law_says
+// shows it).
 //
-// Vectors have four lanes whatever the unit (simd.h), every operation is IEEE's on each of them, and none is
-// contracted (CMakeLists.txt): all copies give the same bits, which is why the choice is for tests and
-// measurements alone. GCC's target_clones would choose as well, but cannot be told what.
+// Vectors have four lanes for every unit (simd.h), every operation is IEEE's on each of them, and none is
+// contracted to a fused multiply-add (CMakeLists.txt): all copies give identical bits, so the choice only
+// serves tests and measurements. GCC's target_clones would choose as well, but the choice cannot be overridden.
 #pragma once
 
 #include <string>
@@ -22,9 +21,9 @@ namespace rend {
 
 enum class SimdWidth { Sse2, Avx2 };
 
-SimdWidth simd_width(); // read once. UserError 64: REND_SIMD is no such word, or the processor does not have it
+SimdWidth simd_width(); // read once. UserError 64: REND_SIMD names no unit, or one that the processor lacks
 std::string name_of(SimdWidth width);
-bool has_width(SimdWidth width); // this processor
+bool has_width(SimdWidth width); // of this processor
 
 #define REND_INLINE __attribute__((always_inline)) inline
 

@@ -20,22 +20,23 @@ namespace rend {
 
 namespace {
 
-// To make one takes longer than a product of a small matrix.
+// Kept, since creating an arena takes longer than a product with a small matrix.
 tbb::task_arena& arena_of(int threads) {
   thread_local std::map<int, tbb::task_arena> arenas;
   return arenas.try_emplace(threads, threads).first->second;
 }
 
-std::atomic<int> started = 1, most = std::numeric_limits<int>::max(); // most: that the system starts
-std::mutex one_at_a_time;                                             // that starts some
+// most: upper bound once the system has refused
+std::atomic<int> started = 1, most = std::numeric_limits<int>::max();
+std::mutex one_at_a_time; // held while threads are started
 
-// What holds the workers until all are there. It outlives a refusal, as the task of one that was refused does.
+// Keeps the workers busy until all have started. Static, as the task of a refused worker may outlive the call.
 std::atomic<int> round_over = 0;
 
-// oneTBB starts threads when there is work, some of them from within others of its own: where the system
-// refuses one it throws into the middle of that work, whose tasks go on without what they refer to, or ends the
-// program. So that it never comes to that, plain threads are tried before, and its own are started here, one
-// after another, each busy until all are there. What is refused here has cost nothing.
+// oneTBB starts threads lazily, some of them from within tasks. If the system refuses one there, it throws amid
+// the running work, whose other tasks continue with dangling references, or it ends the program. So plain
+// threads are tried first, then oneTBB's own are started here one after another, each kept busy until all have
+// started. A refusal here is harmless.
 int start_workers(int wanted) {
   struct Round {
     const int number = round_over + 1;
@@ -64,7 +65,7 @@ void start_more(int wanted) {
   const int threads = start_workers(1 + startable_threads(wanted - 1));
   if (threads < wanted) {
     most = threads;
-    // Of all arenas together, whose own threads may wish for more.
+    // A limit for all arenas together, since their own threads may ask for more.
     static const tbb::global_control bound(tbb::global_control::max_allowed_parallelism,
                                            static_cast<std::size_t>(threads));
   }
@@ -74,7 +75,7 @@ void start_more(int wanted) {
 } // namespace
 
 int start_threads(int wanted) {
-  // More than the machine has, and oneTBB warns on stderr.
+  // With more than the machine has, oneTBB would warn on stderr.
   wanted = std::min({wanted, tbb::info::default_concurrency(), most.load()});
   if (started < wanted) start_more(wanted);
   return std::max(1, std::min<int>(started, wanted));

@@ -1,12 +1,12 @@
-// Work over ranges of vertices, on one thread or several. What is computed never depends on how many.
+// Work over index ranges, on one thread or several. Results never depend on the number of threads.
 #pragma once
 
 #include <cstddef>
 
 namespace rend {
 
-// Refers to what is to be done for a range; it has to outlive the reference. A std::function would ask for
-// memory in every step.
+// A non-owning reference to the function that is run for each range. A std::function would allocate memory in
+// every step.
 class PartWork {
 public:
   template <class F>
@@ -21,8 +21,8 @@ private:
   void (*call_)(const void* work, std::size_t begin, std::size_t end);
 };
 
-// Calls work(begin, end) for `parts` ranges that together are [0, count), on as many threads (oneTBB) or as
-// many as the machine has; with one part directly. Returns when all are done.
+// Splits [0, count) into `parts` ranges and calls work(begin, end) for each, on that many threads (oneTBB) or
+// as many as the machine has; one part runs on the calling thread. Returns when all are done.
 void in_parts(int parts, std::size_t count, PartWork work);
 
 int hardware_threads();

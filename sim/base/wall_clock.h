@@ -1,11 +1,11 @@
-// The wall clock, for figures of how long things took.
+// The wall clock, for measuring run times.
 #pragma once
 
 #include <chrono>
 
 namespace rend {
 
-// [s], since any moment; never goes back.
+// [s] since an arbitrary moment; monotonic.
 inline double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

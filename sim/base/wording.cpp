@@ -18,14 +18,14 @@ std::string small_letters(std::string_view name) {
   return out;
 }
 
-// "stress" of "vertex-stress", "mp4" of "clip.mp4": at least three letters behind a mark.
+// "stress" of "vertex-stress", "mp4" of "clip.mp4": at least three letters after a separator.
 bool is_last_part(const std::string& part, const std::string& whole) {
   if (part.size() < 3 || whole.size() < part.size() + 2 || !whole.ends_with(part)) return false;
   const char mark = whole[whole.size() - part.size() - 1];
   return mark == '-' || mark == '.';
 }
 
-// Row by row; three rows suffice, as a swap looks back two.
+// Row by row; three rows suffice, as a transposition refers to the row before the last.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) above[j] = j;
@@ -56,7 +56,7 @@ std::string nearest(std::string_view name, std::span<const std::string> names) {
     const bool begins = shorter >= 3 && wanted.compare(0, shorter, other, 0, shorter) == 0;
     const bool part = is_last_part(wanted, other) || is_last_part(other, wanted);
     const std::size_t allowed = wanted == other || shorter < 2 ? 0 : std::max<std::size_t>(1, shorter / 3);
-    // A name that is far too long is not measured: the distance costs the product of the lengths.
+    // Names of very different length are skipped: the cost is the product of the lengths.
     if (!begins && !part && longer - shorter > allowed) continue;
     const std::size_t distance = begins ? std::min<std::size_t>(longer - shorter, 1)
                                  : part ? 2

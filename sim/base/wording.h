@@ -1,8 +1,8 @@
-// Words for error messages: the nearest valid name, lists, and quotes that cannot spoil a terminal.
+// Words for error messages: the nearest valid name, lists, and quotes that are safe to print.
 //
 // Nearness is Damerau's edit distance in its restricted form (insert, delete, replace, swap two neighbours),
-// with capitals counting as small letters. A third of the shorter name may differ, or one letter of two; a name
-// that the other begins or ends with is near as well ("thick" and "thickness", "stress" and "vertex-stress").
+// with capitals counting as small letters. A third of the shorter name may differ, or one letter of two; a
+// prefix or suffix of the other name is near as well ("thick" and "thickness", "stress" and "vertex-stress").
 #pragma once
 
 #include <span>

@@ -27,8 +27,8 @@ void WorkerThreads::wait() {
   threads_.clear();
 }
 
-// Not as std::thread: a thread that asks for memory has address space set apart for it, more than is left where
-// that is limited.
+// A std::thread is not used here: one that allocates memory reserves an arena of addresses, maybe more than are
+// left where address space is limited.
 int startable_threads(int wanted) {
   std::atomic<bool> done = false;
   const auto wait = [](void* it) -> void* {

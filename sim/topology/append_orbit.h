@@ -1,6 +1,5 @@
-// The walks of walk.h over any record of where they have been: an object with has(dart's number), set() and
-// insert(), as Marks are. Numbering all orbits of a map takes the slots that it hands out for it, and needs no
-// marks besides.
+// The walks of walk.h over any set of visited darts: an object with has(dart's number), set() and insert(), as
+// Marks has. Numbering all orbits of a map uses the slots that it assigns as that set, and needs no marks.
 #pragma once
 
 #include "sim/topology/walk.h"
@@ -22,7 +21,7 @@ template <class Seen> void flood(const GMap& map, Orbit orbit, Dart d, std::vect
   }
 }
 
-// <i,j,k>(d), where αk commutes with αi and αj: the orbit <i,j> and its image.
+// <i,j,k>(d), where αk commutes with αi and αj: the orbit <i,j> and its image under αk.
 inline void mirrored(const GMap& map, int i, int j, int k, Dart d, std::vector<Dart>& out) {
   const std::size_t begin = out.size();
   walk_two(map, i, j, d, [&](Dart e) { out.push_back(e); });
@@ -32,9 +31,8 @@ inline void mirrored(const GMap& map, int i, int j, int k, Dart d, std::vector<D
   for (std::size_t n = begin; n < end; ++n) out.push_back(map.alpha(k, out[n]));
 }
 
-// <i,i+1,i+2>(d): a volume face after face, or the vertex of a solid one volume's corner after another. Those
-// pieces, <i,i+1>, are walked without looking at marks; αi+2 takes a pair {e, αi(e)} to a pair, so that one of
-// them will do.
+// <i,i+1,i+2>(d): a volume face by face, or the vertex of a solid corner by corner. Each piece <i,i+1> is
+// walked without marks; αi+2 maps a pair {e, αi(e)} to a pair, so one dart of each pair is enough.
 template <class Seen> void piece_by_piece(const GMap& map, int i, Dart d, std::vector<Dart>& out, Seen& seen) {
   std::size_t at = out.size();
   const auto piece = [&](Dart first) {
@@ -50,7 +48,7 @@ template <class Seen> void piece_by_piece(const GMap& map, int i, Dart d, std::v
   }
 }
 
-// Appends the darts of orbit(d); whether they were marked on the way.
+// Appends the darts of orbit(d). Returns whether it marked them on the way.
 template <class Seen>
 bool append_orbit(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out, Seen& seen) {
   if (map.dimension() == 2) orbit.mask = static_cast<std::uint8_t>(orbit.mask & 7); // every dart is α3-free

@@ -5,14 +5,15 @@
 namespace rend {
 namespace {
 
-// The smallest dart known to be in the orbit of d; `parent` points from each dart to one that is not larger.
+// The smallest dart known to be in the orbit of d; `parent` leads from each dart to one that is not larger.
 std::uint32_t smallest(std::vector<std::uint32_t>& parent, std::uint32_t d) {
   while (parent[d] != d) d = parent[d] = parent[parent[d]];
   return d;
 }
 
-// Labels the orbits of every dart by increasing smallest dart; returns how many there are. By union and find in
-// the order of darts, since those of a cell lie together: a search from dart to dart takes four times as long.
+// Labels the orbits of all darts in order of their smallest darts; returns their number. A union-find in the
+// order of darts, since the darts of a cell lie close in memory: a search from dart to dart takes four times as
+// long.
 std::uint32_t label(const GMap& map, Orbit orbit, std::vector<std::uint32_t>& labels) {
   labels.assign(map.capacity(), Dart::none_value);
   map.for_each_dart([&](Dart d) {

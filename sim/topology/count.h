@@ -1,4 +1,4 @@
-// Counts of cells, and what follows from them.
+// Counts of cells, and the Euler characteristic.
 #pragma once
 
 #include "sim/topology/gmap.h"

@@ -5,7 +5,8 @@
 
 namespace rend {
 
-// Few keys by comparing, many digit by digit from the lowest (Knuth 5.2.5); only digits that some dart has.
+// Few keys by comparison, many by radix sort from the lowest digit (Knuth 5.2.5), skipping digits that are 0 in
+// all darts.
 void sort_by_dart(std::vector<std::uint64_t>& keys) {
   if (std::is_sorted(keys.begin(), keys.end())) return;
   if (keys.size() < 256) return std::sort(keys.begin(), keys.end());

@@ -1,5 +1,5 @@
-// Sorts by darts in linear time: where an edit touched very many orbits, a comparing sort would cost more than
-// all else.
+// Sorts by dart in linear time: after an edit that touched very many orbits, a comparison sort would dominate
+// the cost.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace rend {
 
-// Each key is a dart in its upper 32 bits, all different, and anything in its lower.
+// Each key has a dart in its upper 32 bits, all different, and any payload in its lower bits.
 void sort_by_dart(std::vector<std::uint64_t>& keys);
 
 } // namespace rend

@@ -9,7 +9,7 @@ GMap::GMap(int dimension) : dimension_(dimension) {
   CHECK(dimension == 2 || dimension == 3);
 }
 
-// What an archive has of a map.
+// The map as stored in an archive.
 struct GMap::Stored {
   std::vector<Links> links;
   std::vector<std::uint32_t> free;
@@ -17,9 +17,9 @@ struct GMap::Stored {
   bool removed(std::uint32_t dart) const { return links[dart][0] == Dart::none_value; }
   bool is_free(std::size_t i, std::uint32_t dart) const { return links[dart][i] == dart; }
 
-  // Of a dart that is there, against what it was linked to in a valid map: within its element to the same,
-  // all of which are there; across its border (αn) to the same, or to nothing; and so the whole border, which
-  // is what keeps αiαn an involution. Links that are those of a valid map need no look at their own.
+  // A dart that is alive, compared to its links `was` in a valid map: within its element it must have the same
+  // links, to darts that are alive; across the border of the element (αn) the same or a free one, consistently
+  // over the whole face, which keeps αiαn an involution. Unchanged links of a valid map need no further check.
   void check_dart(std::uint32_t d, const Links& was, std::size_t n) const {
     const Links& now = links[d];
     for (std::size_t i = 0; i < n; ++i) {
@@ -35,7 +35,7 @@ struct GMap::Stored {
       refuse_unless(is_free(n, now[i]) == is_free(n, d), "a border is open in part");
   }
 
-  // That the free list names each removed dart once.
+  // The free list must name each removed dart once.
   void check_free(std::size_t removed_darts) const {
     std::vector<bool> named(links.size());
     refuse_unless(free.size() == removed_darts, "the free darts are not as many as were removed");

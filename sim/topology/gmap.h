@@ -3,9 +3,9 @@
 //   αi(αi(d)) = d                        every αi is an involution; αi(d) = d is a free link
 //   αi(αj(αi(αj(d)))) = d  for j ≥ i+2   so is αiαj
 //
-// The four links of a dart stand together: a walk around a cell follows two or three different links of the
-// same darts, and then meets one cache line per dart instead of three. Darts of a body are reused once removed,
-// the last removed first. A GMap has no public writer; MapEdit writes, and remembers what it touched.
+// The four links of a dart are stored together: a walk around a cell follows two or three different links of
+// the same darts and so loads one cache line per dart instead of three. Removed darts are reused, the last
+// removed first. A GMap has no public writer; MapEdit writes it, and keeps a journal of what it touched.
 #pragma once
 
 #include "sim/base/id.h"
@@ -32,7 +32,7 @@ public:
   bool is_free(int i, Dart d) const { return alpha(i, d) == d; }
   bool alive(Dart d) const { return d.value < links_.size() && links_[d.value][0] != Dart::none_value; }
 
-  // Where one gets from d by following `word`, whose letters are '0'..'3', from left to right.
+  // The dart reached from d by following `word`, whose letters are '0'..'3', from left to right.
   template <class Word> Dart follow(Dart d, const Word& word) const {
     for (auto letter : word) d = alpha(letter - '0', d);
     return d;
@@ -48,9 +48,9 @@ public:
       if (links_[i][0] != Dart::none_value) f(Dart{i});
   }
 
-  // All of it (base/archive.h). What is read must have come from this map by changes that separate elements and
-  // remove some, which are all that laws make: then it is a map, and every cell in it is of a shape that is
-  // known. ArchiveError: it did not, and this map is as it was.
+  // Writes or reads the whole map (base/archive.h). A map that is read must result from this one by separating
+  // and removing elements, the only changes that fracture makes: so it satisfies the axioms, and its cells have
+  // known shapes. ArchiveError otherwise, and this map is unchanged.
   void store(Archive& archive);
 
 private:

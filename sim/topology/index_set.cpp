@@ -6,7 +6,7 @@ namespace rend {
 
 void IndexMap::clear() {
   size_ = 0;
-  if (++stamp_ == 0) { // counted once around: old stamps would look new
+  if (++stamp_ == 0) { // the counter wrapped around: old stamps would look new
     std::fill(table_.begin(), table_.end(), Entry{});
     stamp_ = 1;
   }

@@ -1,7 +1,9 @@
-// Sets and maps of indices (darts, slots) that are emptied in constant time, so that a scratch one can be kept.
+// Sets and maps of indices (darts, slots) that are cleared in constant time, so that a scratch set can be kept
+// between uses.
 //
-// Open addressing with linear probing, at most half full. The home of an index is taken from the high bits of a
-// product with 2^32/φ: every low-bit pattern (each eighth dart, say) spreads over the whole table.
+// Open addressing with linear probing, load at most one half. Fibonacci hashing: the bucket is taken from the
+// high bits of the product with 2^32/φ, so that regular index patterns (each eighth dart, say) spread over the
+// whole table.
 #pragma once
 
 #include <cstddef>
@@ -17,16 +19,16 @@ public:
   void clear();
   std::size_t size() const { return size_; }
 
-  // The value of `index`, which is `value` if it was not there before.
+  // Inserts `value` unless `index` is present; returns the value that is stored.
   std::uint32_t insert(std::uint32_t index, std::uint32_t value);
   void assign(std::uint32_t index, std::uint32_t value);
   std::uint32_t find(std::uint32_t index) const; // none: not there
 
 private:
   struct Entry {
-    std::uint32_t index = 0, value = 0, stamp = 0; // of an older stamp: empty
+    std::uint32_t index = 0, value = 0, stamp = 0; // an entry of an older stamp is empty
   };
-  Entry& place(std::uint32_t index); // where it is, or would be; makes room for one more
+  Entry& place(std::uint32_t index); // the entry of `index`, or the one to insert it; grows first if needed
   std::size_t home(std::uint32_t index) const { return (index * golden) >> shift_; }
   void grow();
 

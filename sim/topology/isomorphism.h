@@ -1,4 +1,4 @@
-// Are two maps the same but for the numbers of their darts?
+// Whether two maps are isomorphic: the same up to the numbering of their darts.
 #pragma once
 
 #include "sim/topology/gmap.h"
@@ -13,8 +13,8 @@ namespace rend {
 // carry).
 using DartMatch = std::function<bool(Dart a, Dart b)>;
 
-// A bijection of darts that keeps all four links and that `match` agrees with: image[d] for every dart d of `a`
-// (one per dart of its capacity). Empty: there is none. Each fragment costs at most darts × candidates.
+// A bijection of darts that preserves all four links and satisfies `match`: image[d] for every dart d of `a`
+// (one entry per dart of its capacity). nullopt: there is none. Each fragment costs at most darts × candidates.
 std::optional<std::vector<Dart>> isomorphism(const GMap& a, const GMap& b, const DartMatch& match = {});
 
 } // namespace rend

@@ -90,7 +90,7 @@ bool sew(MapEdit& edit, int i, Dart d, Dart e) {
   if (!pair_orbits(map, parallel_to(i), d, e, pairs)) return false;
   for (const auto& [a, b] : pairs.list) {
     if (!map.is_free(i, a) || !map.is_free(i, b) || a == b) return false;
-    // Where the two orbits are one (an edge sewn to itself), a pair and its mirror must agree.
+    // If the two orbits coincide (an edge sewn to itself), a pair and its mirror image must agree.
     const std::uint32_t mirror = pairs.left.find(b.value);
     if (mirror != IndexMap::none && pairs.list[mirror].second != a) return false;
   }
@@ -102,10 +102,10 @@ bool sew(MapEdit& edit, int i, Dart d, Dart e) {
 bool unsew(MapEdit& edit, int i, Dart d) {
   const GMap& map = edit.map();
   if (map.is_free(i, d)) return false;
-  std::array<Dart, 16> pairs; // to be noted a face at a time
+  std::array<Dart, 16> pairs; // collected for one journal entry per face
   std::size_t count = 0;
   const auto open = [&](Dart a) {
-    if (map.is_free(i, a)) return; // where the orbit is sewn to itself, its other dart was unlinked
+    if (map.is_free(i, a)) return; // if the orbit is sewn to itself, this pair was unlinked already
     pairs[count++] = a;
     pairs[count++] = edit.cut(i, a);
     if (count < pairs.size()) return;

@@ -1,8 +1,7 @@
-// The only writer of a GMap. It keeps the journal that everything built upon the map is brought up to date
-// from.
+// The only writer of a GMap. Its journal tells which derived data must be updated.
 //
-// The journal: for every i, the darts whose αi changed; the darts created; the darts removed. A dart may stand
-// in it more than once. Touched darts come in pairs, those that were linked to each other or let go of each
+// The journal: for every i, the darts whose αi changed; the darts created; the darts removed. A dart may be
+// listed more than once. Touched darts come in pairs, which were linked to each other or unlinked from each
 // other.
 #pragma once
 
@@ -24,11 +23,11 @@ struct Journal {
 
 class MapEdit {
 public:
-  // Without a journal: for building a map that nothing is built upon yet.
+  // Without a journal: for building a map from which nothing is derived yet.
   explicit MapEdit(GMap& map, Journal* journal = nullptr) : map_(map), journal_(journal) {}
 
   const GMap& map() const { return map_; }
-  const Journal* journal() const { return journal_; } // null: without one
+  const Journal* journal() const { return journal_; } // null: no journal
 
   Dart add_dart();                  // free in all its links
   void remove_dart(Dart d);         // CHECK: free in all its links
@@ -36,14 +35,13 @@ public:
   void unlink(int i, Dart a);       // a and αi(a) become αi-free. CHECK: a is not free
   void reserve(std::size_t darts);
 
-  // Appends as many darts as there are links, dart n with αi = the first of them + links[n][i]; returns the
-  // first. CHECK: without a journal, and no dart was removed. That the links are involutions is the caller's
-  // word.
+  // Appends links.size() darts, dart n with αi = first + links[n][i], where `first` is the dart that is
+  // returned. CHECK: no journal, and no dart was removed. The caller guarantees that the links are involutions.
   Dart add_linked(std::span<const GMap::Links> links);
 
 private:
   friend bool unsew(MapEdit& edit, int i, Dart d);
-  Dart cut(int i, Dart a); // unlinks, without a note of it; returns what a was linked to
+  Dart cut(int i, Dart a); // unlinks without a journal entry; returns what a was linked to
   void note(int i, std::span<const Dart> pairs) {
     if (!journal_) return;
     std::vector<Dart>& touched = journal_->touched[static_cast<std::size_t>(i)];
@@ -77,14 +75,15 @@ inline void MapEdit::unlink(int i, Dart a) {
   note(i, std::array{a, cut(i, a)});
 }
 
-// Sews αi between d and e, and between all darts of <0..i-2, i+2..3>(d) and (e) that correspond. False, and
-// nothing changed: one of them is not αi-free, or the orbits are not isomorphic, or d and e overlap wrongly.
+// Sews d and e by αi, and all corresponding darts of <0..i-2, i+2..3>(d) and (e). False, and nothing changed:
+// one of them is not αi-free, the orbits are not isomorphic, or d and e belong to one orbit whose sewing
+// contradicts itself.
 bool sew(MapEdit& edit, int i, Dart d, Dart e);
 
-// The opposite. False, and nothing changed: d is αi-free.
+// The inverse of sew. False, and nothing changed: d is αi-free.
 bool unsew(MapEdit& edit, int i, Dart d);
 
-// The links that an αi runs parallel to: <0..i-2, i+2..3>.
+// The orbit along which αi is sewn: <0..i-2, i+2..3>.
 constexpr Orbit parallel_to(int i) {
   Orbit orbit;
   for (int j = 0; j < 4; ++j)
@@ -92,7 +91,7 @@ constexpr Orbit parallel_to(int i) {
   return orbit;
 }
 
-// Unlinks all that still holds the darts of orbit(d) to others by αi, then removes them.
+// Unlinks the darts of orbit(d) from all others, then removes them.
 void remove_orbit(MapEdit& edit, Orbit orbit, Dart d);
 
 } // namespace rend

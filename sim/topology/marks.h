@@ -1,6 +1,6 @@
-// Marks on darts or slots: one bit each, none of them set between uses. Whoever sets marks takes them away
-// again, so that a scratch one can be kept and a use costs by what it marked, not by the size of the map. (A
-// walk around a vertex takes three quarters of the time that it takes with a hash set of where it has been.)
+// Marks on darts or slots, one bit each, all clear between uses. Whoever sets marks clears them again, so that
+// a scratch object can be kept and a use costs in proportion to what it marked, not to the size of the map. (A
+// walk around a vertex takes three quarters of the time that it takes with a hash set.)
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ public:
     word |= bit;
     return true;
   }
-  // Where all marks are taken away one after another, all of a word may go at once.
+  // Where all marks are cleared one after another, the whole word may be cleared at once.
   void take_around(std::uint32_t index) { words_[index / 64] = 0; }
 
 private:

@@ -1,8 +1,9 @@
-// Orbits: which of the involutions α0..α3 one may follow (thesis 3.3.2, fig. 3.15; sim/README.md, "The map").
+// Orbits: sets of darts reached by some of the involutions α0..α3 (thesis 3.3.2, fig. 3.15; sim/README.md, "The
+// map").
 //
 // An orbit <i,j,..>(d) is the set of darts reached from d by αi, αj, ... Cells are orbits: a vertex is all that
-// one reaches without α0. In a sheet (every dart α3-free) <0,1> is an element and <0,1,2> a connected
-// component; in a solid <0,1,2> is an element.
+// is reached without α0. In a sheet (every dart α3-free) <0,1> is an element and <0,1,2> a connected component;
+// in a solid <0,1,2> is an element.
 #pragma once
 
 #include <cstdint>

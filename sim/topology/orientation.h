@@ -1,7 +1,8 @@
-// The two sides of a map: darts told into two classes that every link leads between (Lienhardt 1994).
+// Orientation of a map: a 2-colouring of its darts such that every link leads from one colour to the other
+// (Lienhardt 1994).
 //
-// A walk around a face that starts at a dart of one class runs the one way, from one of the other class the
-// other way; faces that are walked from darts of one class run alike. A Möbius band has no such classes.
+// Walks around faces that start at darts of one colour have the same orientation, those from the other colour
+// the opposite one. A Möbius band has no such colouring.
 #pragma once
 
 #include "sim/topology/gmap.h"
@@ -13,7 +14,7 @@ namespace rend {
 
 struct Sides {
   std::vector<std::uint8_t> of_dart; // 1 or 2, one per dart; the smallest of each component has 1; 0: removed
-  bool orientable = true;            // false: some link leads within a class
+  bool orientable = true;            // false: some link joins two darts of one colour
 };
 Sides sides_of(const GMap& map);
 

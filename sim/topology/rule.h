@@ -1,19 +1,19 @@
-// Rules: a change of the map as two graphs, in the way of Jerboa (thesis 3.4.1; Poudret 2009; Belhaouari et al.
-// 2014).
+// Graph transformation rules: a change of the map described by two graphs, as in Jerboa (thesis 3.4.1; Poudret
+// 2009; Belhaouari et al. 2014).
 //
 //   Rule{"unsew edge",  left{hook('a', {0}), node('b', {0}), arc('a', 2, 'b')},          a ─2─ b
 //                       right{node('a', {0}), node('b', {0}), loop('a', 2), loop('b', 2)}}   →   a ↺2   b ↺2
 //
 // A node stands for every dart of an orbit at once. The label of a hook is that orbit: hook('a', {0, 1})
 // matches a whole face, however many sides it has. Each dart of the hook's orbit is an *instance* of the rule:
-// there, every other node has one dart. Position k of any label speaks of the k-th link of the hook's: it is
-// kept, renamed, or dropped (`_`); {_, 2} on a <0,1> hook says "no link where the hook has α0; α2 where the
-// hook has α1". Arcs join two nodes at each instance; a loop says that a link is free. Nodes of both sides keep
-// their darts, nodes of the left alone lose them, nodes of the right alone are created.
+// there, every other node has one dart. Position k of any label refers to the k-th link of the hook's label: it
+// is kept, renamed, or dropped (`_`); {_, 2} on a <0,1> hook means "no link where the hook has α0; α2 where the
+// hook has α1". Arcs link two nodes at each instance; a loop is a free link. Darts of nodes on both sides are
+// kept, those of nodes on the left alone are removed, those of nodes on the right alone are created.
 //
-// Every connected component of the left graph has one hook, so that the match is unique. New vertices say where
-// they are: point('d', mean('a', FaceOfVolume)). Whether a rule keeps the axioms is decided at compile time:
-// rule_check.h.
+// Every connected component of the left graph has one hook, so that the match is unique. New vertices have a
+// point expression: point('d', mean('a', FaceOfVolume)). Whether a rule preserves the axioms is decided at
+// compile time: rule_check.h.
 #pragma once
 
 #include "sim/topology/gmap.h"
@@ -31,7 +31,7 @@ struct Label {
   static constexpr std::size_t capacity = 4;
 
   std::array<int, capacity> links{};
-  int size = 0; // more than `capacity`: refused by the check
+  int size = 0; // more than `capacity`: refused by rule_check.h
 
   constexpr Label() = default;
   constexpr Label(std::initializer_list<int> list) {
@@ -65,12 +65,12 @@ struct RuleLoop {
   unsigned links = 0; // bit i: αi is free
 };
 
-// Where a new vertex is. Position, rest position and velocity are found alike.
+// The position of a new vertex; rest position and velocity are derived in the same way.
 struct PointSource {
   enum class Kind { Copy, Mean, Given, Translated };
   Kind kind = Kind::Given;
   char node = 0;    // of the left graph; Given has none
-  Orbit orbit;      // Mean: of each vertex of this orbit of the node's dart, once
+  Orbit orbit;      // Mean: over the distinct vertices of this orbit of the node's dart
   int argument = 0; // Given: which point, Translated: which vector of the arguments
 };
 
@@ -79,22 +79,22 @@ struct RulePoint {
   PointSource source;
 };
 
-// How a node is linked by one αi.
+// What αi of a node is.
 struct RuleLink {
   enum class Kind { Absent, Implicit, Arc, Loop };
   Kind kind = Kind::Absent;
-  int to = -1; // Implicit: the position in the label. Arc: the node at the other end. Loop: the node itself
+  int to = -1; // Implicit: position in the label. Arc: node at the other end. Loop: the node itself
   friend constexpr bool operator==(const RuleLink&, const RuleLink&) = default;
 };
 
-// A list of bounded length that a constant may hold.
+// A list of bounded length that can be part of a constant expression.
 template <class T, std::size_t N> struct FixedList {
   std::array<T, N> items{};
   std::size_t count = 0;
 
   constexpr void push_back(const T& item) {
     items.at(count++) = item;
-  } // of a constant that is too long: no constant
+  } // std::array::at: a list that is too long is no constant expression
   constexpr std::size_t size() const { return count; }
   constexpr const T& operator[](std::size_t n) const { return items[n]; }
   constexpr const T* begin() const { return items.data(); }
@@ -141,11 +141,11 @@ constexpr RuleLink RuleGraph::link(int node, int i) const {
   return {};
 }
 
-// What else must hold for the rule to apply: null, or a sentence that says what does not. The match has been
-// found.
+// A further condition for the rule to apply, evaluated after the match: null, or a sentence that says what does
+// not hold.
 using Precondition = const char* (*)(const GMap& map, std::span<const Dart> hooks);
 
-// The words that rules are written in; for the files of sim/rules.
+// The notation of rules, for the files of sim/rules.
 namespace grammar {
 
 inline constexpr int _ = Label::dropped;
@@ -196,7 +196,7 @@ struct Rule {
       : name(name_), left(static_cast<const RuleGraph&>(before)), right(static_cast<const RuleGraph&>(after)),
         precondition(precondition_) {}
 
-  // The link is the same before and after (or the rule does not speak of it), and both ends are kept.
+  // The link is the same before and after (or the rule does not mention it), and both ends are kept.
   constexpr bool unchanged(int left_node, int right_node, int i) const {
     const RuleLink before = left.link(left_node, i), after = right.link(right_node, i);
     if (before.kind != after.kind) return false;
@@ -205,7 +205,7 @@ struct Rule {
     return before.to >= 0 && after.to >= 0 && left[before.to].name == right[after.to].name;
   }
 
-  // The links of the first hook, that positions are counted by; empty for a rule that only creates.
+  // The label of the first hook, which positions refer to; empty for a rule that only creates.
   constexpr const Label& positions() const {
     for (const RuleNode& node : left.nodes)
       if (node.hook) return node.label;

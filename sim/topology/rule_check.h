@@ -1,4 +1,4 @@
-// Whether a rule keeps the axioms of the map, decided at compile time (thesis 3.4.1.1; Poudret 2009).
+// Whether a rule preserves the axioms of the map, decided at compile time (thesis 3.4.1.1; Poudret 2009).
 //
 //   static_assert(well_formed(unsew_edge));
 //
@@ -10,9 +10,9 @@
 // 3. Hooks: one in every connected component of the left graph, its label without `_`; labels are equally long.
 // 4. Points: a vertex made of created darts alone has one expression, any other vertex none.
 //
-// A fault calls a function that is not constexpr and named after the fault: the compiler's message then holds
-// the reason. g++ does not print the arguments there; at run time rule_check::all(rule) throws InternalError
-// with node and links in words.
+// A violation calls a function that is not constexpr and is named after it, so that the compiler's message
+// shows the reason. g++ does not print the arguments; at run time rule_check::all(rule) throws InternalError,
+// which names the node and its links.
 #pragma once
 
 #include "sim/topology/rule.h"
@@ -26,7 +26,7 @@ namespace rule_fault {
 [[noreturn]] void link_is_said_twice(char node, int i);
 [[noreturn]] void arc_should_be_a_loop(char node, int i);
 [[noreturn]] void labels_differ_in_length(char node);
-[[noreturn]] void hook_is_missing(char node); // of the component of that node
+[[noreturn]] void hook_is_missing(char node); // in the component of that node
 [[noreturn]] void component_has_two_hooks(char node);
 [[noreturn]] void hook_is_on_the_right(char node);
 [[noreturn]] void hook_drops_a_link(char node);
@@ -44,7 +44,7 @@ namespace rule_fault {
 
 namespace rule_check {
 
-// How often a graph says what αi of a node is.
+// How often a graph specifies αi of a node.
 constexpr int times_said(const RuleGraph& graph, int node, int i) {
   const RuleNode& at = graph[node];
   int times = 0;
@@ -81,7 +81,7 @@ constexpr void arcs(const RuleGraph& graph) {
   }
 }
 
-// Marks the nodes that arcs with a link of `allowed` lead to from `first`.
+// Marks the nodes reached from `first` by arcs whose link is in `allowed`.
 constexpr std::array<bool, 16> reach(const RuleGraph& graph, int first, unsigned allowed) {
   std::array<bool, 16> marked{};
   marked[static_cast<std::size_t>(first)] = true;
@@ -135,7 +135,7 @@ constexpr bool cycle_closes(const Rule& rule, int node, int i, int j) {
   const RuleGraph& graph = rule.right;
   const RuleLink by_i = graph.link(node, i), by_j = graph.link(node, j);
   if (by_i.kind == Kind::Absent || by_j.kind == Kind::Absent)
-    return false; // the square's other side is not known
+    return false; // the opposite side of the square is unknown
   if (by_i.kind == Kind::Implicit && by_j.kind == Kind::Implicit) {
     const int p = rule.positions()[by_i.to], q = rule.positions()[by_j.to];
     return p - q >= 2 || q - p >= 2;
@@ -160,7 +160,7 @@ constexpr void cycles(const Rule& rule) {
       for (int j = i + 2; j < 4; ++j) cycle(rule, node.name, i, j);
 }
 
-// How the vertex of a node of the right graph is placed.
+// Whether the vertex of a node of the right graph has the point expressions it needs.
 constexpr void vertex_point(const Rule& rule, char node) {
   const auto vertex = reach(rule.right, rule.right.find(node), 0b1110); // α1, α2, α3
   int said = 0;
@@ -186,7 +186,7 @@ constexpr void points(const Rule& rule) {
 
 constexpr void all(const Rule& rule) {
   const int length = rule.positions().size;
-  // First what the rest relies upon: that names and links exist.
+  // First that names and links exist, which the other checks rely on.
   arcs(rule.left);
   arcs(rule.right);
   hooks(rule);
@@ -199,7 +199,7 @@ constexpr void all(const Rule& rule) {
 
 } // namespace rule_check
 
-// True, or no constant: the message names the fault, its node and its links.
+// True, or not a constant expression: the compiler's message names the violation.
 consteval bool well_formed(const Rule& rule) {
   rule_check::all(rule);
   return true;

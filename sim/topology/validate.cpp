@@ -45,7 +45,7 @@ std::optional<BrokenAxiom> validate(const GMap& map) {
   map.for_each_dart([&](Dart d) {
     if (!fault) fault = fault_of_links(map, d);
   });
-  if (fault) return fault; // cycles could walk into removed darts
+  if (fault) return fault; // the cycle checks could walk into removed darts
   map.for_each_dart([&](Dart d) {
     if (!fault) fault = fault_of_cycles(map, d);
   });

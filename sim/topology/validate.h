@@ -1,4 +1,4 @@
-// The axioms of a generalized map, stated one by one, and the name of what breaks them.
+// The axioms of a generalized map, checked one by one.
 #pragma once
 
 #include "sim/topology/gmap.h"
