@@ -27,7 +27,7 @@ CellIndex::CellIndex(const GMap& map, Orbit orbit) : orbit_(orbit), slot_of_dart
 
 namespace {
 
-// Who has a slot was there.
+// A set of visited darts (append_orbit.h): those that have a slot.
 struct Numbered {
   SlotTable& slots;
   Slot next;
@@ -42,7 +42,7 @@ struct Numbered {
 
 } // namespace
 
-// Darts come in increasing order: the first of an orbit that is met is the smallest.
+// Darts come in increasing order: the first visited of an orbit is its smallest.
 void CellIndex::number(const GMap& map) {
   std::vector<Dart> darts;
   Numbered seen{slot_of_dart_, 0};
@@ -80,8 +80,8 @@ void CellIndex::number_anew(const GMap& map, std::vector<Slot>& from) {
   if (!orbit_.has(map.dimension())) slot_of_dart_.pack();
 }
 
-// An edit gives new slots before it takes dead ones back: there may be more than darts, and no more than two to
-// one.
+// An edit assigns new slots before it frees dead ones: there may be more slots than darts, but at most twice as
+// many.
 void CellIndex::store(Archive& archive, const GMap& map) {
   slot_of_dart_.store(archive, map.capacity());
   archive.list(first_dart_, 2 * map.capacity(), "there are more slots than darts ever had");
@@ -103,8 +103,8 @@ std::optional<std::string> CellIndex::fault_of_free() const {
   return {};
 }
 
-// A slot's orbit is walked from its smallest dart: where all walks together are as long as there are darts, no
-// orbit was left out.
+// Each slot's orbit is walked from its smallest dart: if all walks together are as long as the number of darts,
+// no orbit was left out.
 std::optional<std::string> CellIndex::fault(const GMap& map) const {
   if (slot_of_dart_.size() != map.capacity()) return fmt::format("{}: not every dart has a slot", name(orbit_));
   std::size_t walked = 0;
@@ -143,24 +143,24 @@ Slot CellIndex::new_slot() {
   return static_cast<Slot>(first_dart_.size() - 1);
 }
 
-// An orbit, after the edit, that holds a dart the edit touched.
+// An orbit, after the edit, that contains a touched dart.
 struct CellIndex::Fragment {
   Dart smallest;
   std::uint32_t begin, end; // its darts, in Scratch::darts
-  Slot old;                 // that all its darts had before; no_slot: they had several, or one of them had none
+  Slot old; // of all its darts before the edit; no_slot: they had several, or one of them had none
 };
 
 namespace {
 
-// Kept between edits so that a steady run allocates nothing.
+// Scratch memory, kept between edits to avoid allocation.
 struct Scratch {
   std::vector<Dart> darts;          // of all fragments, one after another
   std::vector<std::uint64_t> order; // smallest dart, and number of its fragment
   std::vector<Slot> affected;       // slots that may have lost all their darts
-  std::vector<Slot> old_slots;      // of one fragment, each once, in the order of its darts
+  std::vector<Slot> old_slots;      // of one fragment, without repetition, in the order of its darts
   Marks reached;                    // darts that were collected
-  Marks met;                        // old slots of one fragment
-  Marks claimed;                    // slots that live on
+  Marks met;                        // old slots of one fragment already seen
+  Marks claimed;                    // slots that are kept
 };
 thread_local Scratch scratch;
 
@@ -218,8 +218,8 @@ CellIndex::Fragment CellIndex::fragment_at(const GMap& map, Dart d) const {
   return fragment;
 }
 
-// Gives a fragment its slot. Fragments come by increasing smallest dart, so that the first to ask keeps the
-// slot.
+// Assigns a slot to a fragment. Fragments come by increasing smallest dart, so that the first to claim a slot
+// keeps it.
 void CellIndex::settle(const Fragment& fragment, SlotEvents& events) {
   Scratch& my = scratch;
   const std::span<const Dart> darts(my.darts.data() + fragment.begin, fragment.end - fragment.begin);
@@ -231,7 +231,7 @@ void CellIndex::settle(const Fragment& fragment, SlotEvents& events) {
       slot_of_dart_.set(d, slot);
       events.moved.push_back(d);
     }
-  } else if (!my.claimed.insert(slot)) { // a piece of what was one orbit, as nearly all are
+  } else if (!my.claimed.insert(slot)) { // a fragment of what was one orbit: the common case
     slot = new_slot();
     my.claimed.set(slot);
     events.splits.push_back({fragment.old, slot});
@@ -278,7 +278,7 @@ Slot CellIndex::slot_for(const Fragment& fragment, SlotEvents& events) {
   return slot;
 }
 
-// What nobody claimed was absorbed (named in merges already) or is gone.
+// Frees the slots that nobody claimed: those absorbed in a merge, and those whose orbit was removed.
 void CellIndex::bury(SlotEvents& events) {
   auto& affected = scratch.affected;
   std::sort(affected.begin(), affected.end());

@@ -1,9 +1,9 @@
-// The slots of one kind of orbit: which slot each dart's orbit has, and what an edit does to them.
+// The slots of one kind of orbit: which slot the orbit of each dart has, and how an edit changes the slots.
 //
-// Slots are truth: a slot never moves because of a change elsewhere. When an orbit falls apart, the fragment
-// with the smallest dart keeps the slot and the others take new ones; when orbits become one, it keeps the slot
-// of its smallest dart. Freed slots are reused, the last freed first. At a full build slots are numbered by
-// smallest dart.
+// Slots are part of the state of the map, not derived from it: a slot never moves because of a change
+// elsewhere. When an orbit is split, the fragment with the smallest dart keeps the slot and the others take new
+// ones; when orbits are merged, the result keeps the slot of its smallest dart. Freed slots are reused, the
+// last freed first. When the map is built, slots are numbered in the order of smallest darts.
 #pragma once
 
 #include "sim/embedding/slot_table.h"
@@ -17,14 +17,14 @@
 
 namespace rend {
 
-// What one edit did to the slots of one kind of orbit, in the order in which it is to be applied.
+// How one edit changed the slots of one kind of orbit, in the order in which the changes are applied.
 struct SlotEvents {
   std::vector<std::pair<Slot, Slot>> splits; // (whole, new slot of a fragment)
   std::vector<std::pair<Slot, Slot>> merges; // (kept, absorbed)
-  std::vector<Slot> births;                  // orbits without any old dart
-  std::vector<Slot> deaths;                  // slots without darts, absorbed ones included
-  std::vector<Slot> settled;                 // slots of all orbits that hold a touched dart
-  std::vector<Dart> moved;                   // darts whose slot is another than before
+  std::vector<Slot> births;                  // orbits of new darts alone
+  std::vector<Slot> deaths;                  // slots that lost all darts, absorbed ones included
+  std::vector<Slot> settled;                 // slots of all orbits that contain a touched dart
+  std::vector<Dart> moved;                   // darts whose slot changed
   void clear();
 };
 
@@ -37,7 +37,7 @@ public:
   Slot slot(Dart d) const { return slot_of_dart_[d]; }
   Slot find(Dart d) const {
     return d.value < slot_of_dart_.size() ? slot(d) : no_slot;
-  }                                                        // for darts too new to have one
+  }                                                        // no_slot for darts that are too new to have one
   Dart first_dart(Slot s) const { return first_dart_[s]; } // the smallest of the orbit; none: the slot is free
   bool alive(Slot s) const { return static_cast<bool>(first_dart_[s]); }
   std::size_t slots() const { return first_dart_.size(); } // free ones included
@@ -45,20 +45,22 @@ public:
   std::size_t bytes() const;
   void reserve(std::size_t slots) { first_dart_.reserve(slots); }
 
-  // Brings the slots up to date after the changes of `journal`, from the darts that it names alone.
+  // Updates the slots after the changes of `journal`; visits only the orbits of the darts listed there.
   void update(const GMap& map, const Journal& journal, SlotEvents& events);
 
-  // Whether slots are those of a full build: none is free, and they are in the order of smallest darts.
+  // Whether the slots are those of a newly built map: none is free, and they are in the order of smallest
+  // darts.
   bool in_order() const;
 
-  // Makes them so. `from`: the slot that each had before. Orbits know their smallest darts: no orbit is walked.
+  // Renumbers them so. `from`: the slot that each had before. Uses the stored smallest darts: no orbit is
+  // walked.
   void number_anew(const GMap& map, std::vector<Slot>& from);
 
-  // All of it (base/archive.h). ArchiveError: these are no slots of the map.
+  // Writes or reads everything (base/archive.h). ArchiveError: not the slots of this map.
   void store(Archive& archive, const GMap& map);
 
-  // What is wrong, if anything: every orbit of the map has a slot that no other has, and the slot knows its
-  // smallest dart; free slots are listed, each once; removed darts have none.
+  // The first inconsistency, if any: every orbit of the map has a slot of its own, which stores its smallest
+  // dart; every free slot is listed once; removed darts have none.
   std::optional<std::string> fault(const GMap& map) const;
 
 private:

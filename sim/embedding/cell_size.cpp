@@ -26,8 +26,8 @@ double rest_area(const EmbeddedMap& map, Dart d) {
 
 namespace {
 
-// Calls f(d) once for each face of the volume of d, with a dart of it that turns as d does: all faces are then
-// seen turning the same way from inside.
+// Calls f(d) once for each face of the volume of d, with a dart of the same orientation class as d, so that all
+// faces have the same orientation as seen from inside.
 template <class F> void each_face_of_volume(const GMap& map, Dart d, F&& f) {
   thread_local IndexSet faces; // the smallest dart of each
   thread_local std::vector<Dart> found;
@@ -54,7 +54,7 @@ template <class F> void each_face_of_volume(const GMap& map, Dart d, F&& f) {
 } // namespace
 
 double rest_volume(const EmbeddedMap& map, Dart d) {
-  const Vec3 origin = map.rest_of(d); // any point would do: the faces enclose the volume
+  const Vec3 origin = map.rest_of(d); // any point would do, since the surface is closed
   double sixfold = 0;
   thread_local std::vector<Vec3> x;
   each_face_of_volume(map.map(), d, [&](Dart face) {
@@ -76,7 +76,7 @@ int corners_of_volume(const GMap& map, Dart d) {
   int corners = 0;
   each_face_of_volume(map, d, [&](Dart face) {
     Dart at = face;
-    do { // a corner is counted in that of its faces whose dart is the smallest
+    do { // count each corner once, in the face whose dart is the smallest
       Dart smallest = at, here = map.alpha(2, map.alpha(1, at));
       for (; here != at; here = map.alpha(2, map.alpha(1, here))) smallest = std::min(smallest, here);
       corners += smallest == at;

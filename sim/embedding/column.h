@@ -1,22 +1,21 @@
-// Embeddings: a value on every orbit of one kind, and what becomes of it when the orbit changes.
+// Embeddings: a value on every orbit of one kind, and how it follows changes of the orbit.
 //
-// An embedding is a small type that says where it lives and what its policies are; no operator ever updates
-// one.
+// An embedding is a small type that declares its orbit and its policies; no operator ever updates one by hand.
 //
 //   struct CornerMass {
 //     using Value = double;                                 // [kg]
 //     std::string name = "corner mass";
-//     Orbit orbit = VertexOfFace;                  // who carries it
-//     Orbit support = FaceOfVolume;                // whose shape it depends on
+//     Orbit orbit = VertexOfFace;                  // the orbit that carries the value
+//     Orbit support = FaceOfVolume;                // the orbit whose shape it depends on
 //     Value birth(const EmbeddedMap&, Dart) const; // a new orbit, or one whose support changed its links
-//     Value split(const Value& whole) const;       // a new fragment's share; the kept one keeps its value
-//     Value merge(const Value& kept, const Value& absorbed) const; // without it, what was merged is born again
+//     Value split(const Value& whole) const;       // of a new fragment; the kept slot keeps its value
+//     Value merge(const Value& kept, const Value& absorbed) const; // if absent, birth() is called instead
 //   };
 //
-// `support` must contain `orbit`'s element: when any link of the support orbit changes, all values whose orbit
-// holds a dart of it are born again. A separation (α2 of a sheet, α3 of a solid) changes no element, so that a
-// value with support <0,1> (<0,1,2>) never notices one. support = SingleDart, which has no links: only the
-// orbit's own events count, whatever its shape becomes.
+// `support` must contain the orbit: when any link of the support orbit changes, all values on its darts are
+// initialised again by birth(). A separation (α2 of a sheet, α3 of a solid) changes no element, so that a value
+// with support <0,1> (<0,1,2>) is not affected by it. support = SingleDart, which has no links: only splits and
+// merges of the orbit itself count, whatever its shape becomes.
 #pragma once
 
 #include "sim/base/record.h"
@@ -39,13 +38,14 @@ public:
   virtual Orbit support() const = 0;
   virtual std::size_t bytes() const = 0;
 
-  // For EmbeddedMap alone.
-  virtual std::span<std::byte> raw() = 0; // the values as they lie in memory, one per slot
+  // For EmbeddedMap only.
+  virtual std::span<std::byte> raw() = 0; // the bytes of the values, one value per slot
   virtual void resize(std::size_t slots) = 0;
   virtual void reserve(std::size_t slots) = 0;
   virtual void apply(const EmbeddedMap& map, const CellIndex& cells, const SlotEvents& events) = 0;
   virtual void bear(const EmbeddedMap& map, const CellIndex& cells, Slot slot) = 0;
-  virtual void gather(std::span<const Slot> from) = 0; // slot s takes the value of from[s]; there are so many
+  // slot s takes the value of from[s]; resizes to from.size()
+  virtual void gather(std::span<const Slot> from) = 0;
 };
 
 template <class E> class Column final : public ColumnBase {
@@ -60,13 +60,13 @@ public:
   Orbit support() const override { return embedding_.support; }
   std::size_t bytes() const override { return values_.size() * sizeof(Value); }
 
-  // One per slot of the orbit; what free slots hold is not defined.
+  // One value per slot of the orbit; those of free slots are unspecified.
   Value& operator[](Slot slot) { return values_[slot]; }
   const Value& operator[](Slot slot) const { return values_[slot]; }
   std::vector<Value>& values() { return values_; }
   const std::vector<Value>& values() const { return values_; }
 
-  // So every column is stored without a word of its own.
+  // So every column can be stored without code of its own.
   static_assert(std::is_trivially_copyable_v<Value>, "a value is stored as it lies in memory");
   std::span<std::byte> raw() override { return std::as_writable_bytes(std::span(values_)); }
   void resize(std::size_t slots) override { values_.resize(slots); }

@@ -75,7 +75,8 @@ void EmbeddedMap::close(const Edit& edit) {
   for (auto& column : columns_) {
     const std::size_t mask = column->orbit().mask;
     column->apply(*this, *cells_[mask], events_[mask]);
-    if (column.get() == velocity_) give_points(edit); // what follows is born from rest positions
+    // position and rest come before: the columns that follow depend on rest positions
+    if (column.get() == velocity_) give_points(edit);
     bear_reshaped(*column);
   }
   publish();
@@ -108,7 +109,7 @@ void EmbeddedMap::bear_reshaped(ColumnBase& column) {
   const CellIndex& index = *cells_[column.orbit().mask];
   seen.clear();
   done.clear();
-  for (Slot slot : events_[column.orbit().mask].births) done.insert(slot); // just born
+  for (Slot slot : events_[column.orbit().mask].births) done.insert(slot); // just initialised
   for (int i = 0; i < 4; ++i) {
     if (!support.has(i)) continue;
     for (Dart touched : journal_.touched[static_cast<std::size_t>(i)]) {
@@ -164,9 +165,9 @@ void EmbeddedMap::number_anew() {
 
 std::size_t EmbeddedMap::slots_when_separated(Orbit orbit) const {
   if (!orbit.has(map_.dimension())) return cells(orbit).slots();
-  Orbit inside = orbit; // of one element
+  Orbit inside = orbit; // restricted to one element
   inside.mask = static_cast<std::uint8_t>(inside.mask & ((1 << map_.dimension()) - 1));
-  std::size_t darts = 2; // the least that a corner or an edge of an element has
+  std::size_t darts = 2; // the least number of darts of a corner or edge of an element
   if (inside == SingleDart) darts = 1;
   return std::max(cells(orbit).slots(), map_.dart_count() / darts);
 }
@@ -188,7 +189,8 @@ std::size_t EmbeddedMap::bytes() const {
 void EmbeddedMap::store(Archive& archive) {
   archive.mark("map");
   map_.store(archive);
-  std::array<std::optional<CellIndex>, orbit_kinds> was; // the slots, where others are read
+  // the slots before reading, of the orbits that are read
+  std::array<std::optional<CellIndex>, orbit_kinds> was;
   for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
     archive.same(cells_[mask] ? 1 : 0, "whether orbits have slots");
     if (!cells_[mask]) continue;
@@ -205,7 +207,7 @@ void EmbeddedMap::store(Archive& archive) {
 
 namespace {
 
-// Whether all slots that are alive have the value that their smallest dart's slot had.
+// Whether every slot in use has the value that the slot of its smallest dart had before.
 bool same_values(std::span<const std::byte> now, const CellIndex& cells, std::span<const std::byte> then,
                  const CellIndex& was) {
   const std::size_t size = cells.slots() > 0 ? now.size() / cells.slots() : 0;
@@ -218,8 +220,8 @@ bool same_values(std::span<const std::byte> now, const CellIndex& cells, std::sp
 
 } // namespace
 
-// `was`: of its orbit, where it is read. No change of a law gives an embedding another value: fragments keep
-// that of the whole.
+// `was`: the slots before reading. Fracture gives no embedding another value: fragments keep the value of the
+// whole.
 void EmbeddedMap::store(Archive& archive, ColumnBase& column, const CellIndex* was) {
   archive.mark(column.name());
   const CellIndex& index = *cells_[column.orbit().mask];

@@ -1,10 +1,10 @@
-// A map and all that it carries. One writer: edit().
+// A map with its embedded values. Its only writer is edit():
 //
 //   body.edit([&](Edit& edit) { unsew(edit, 2, dart); });
 //
-// While the scope is open the map changes and the journal grows; when it closes, the slots of every orbit in
-// use are brought up to date once, from the touched darts alone, and every column applies its policies. Only
-// orbits that somebody asked for have slots. What is built upon the map (rows, surfaces) subscribes to Changes.
+// While the scope is open the map changes and a journal records it; when it closes, the slots of every orbit in
+// use are updated once, visiting touched darts alone, and every column applies its policies. Only orbits that
+// were asked for (use()) have slots. Derived data (rows, surfaces) subscribes to Changes.
 #pragma once
 
 #include "sim/embedding/column.h"
@@ -21,14 +21,14 @@
 
 namespace rend {
 
-// What a vertex is born with.
+// The initial state of a vertex.
 struct Point {
   Vec3 position = Vec3::Zero(); // [m]
   Vec3 rest = Vec3::Zero();     // [m]
   Vec3 velocity = Vec3::Zero(); // [m/s]
 };
 
-// Position, rest position and velocity live on vertices and are copied to every fragment of a split one.
+// Position, rest position and velocity belong to vertices and are copied to every fragment of a split vertex.
 struct VertexRecord {
   using Value = Record;
   std::string name;
@@ -40,14 +40,14 @@ struct VertexRecord {
 };
 using VertexColumn = Column<VertexRecord>;
 
-// What was changed since a reader last looked: enough to find again every row that may differ.
+// What has changed since a subscriber last read it: enough to find every row that may differ.
 struct Changes {
   std::array<std::vector<Dart>, 4> touched;         // [i]: darts whose αi changed
   std::array<std::vector<Dart>, orbit_kinds> moved; // [orbit]: darts with another slot
   std::array<std::vector<Slot>, orbit_kinds>
-      slots; // [orbit]: slots of touched orbits, dead ones, and values born again
+      slots; // [orbit]: slots of touched orbits, freed slots, and slots whose value was initialised again
   bool any = false;
-  bool whole = false; // the map was replaced: all of it may differ, and the lists say nothing
+  bool whole = false; // the map was replaced: everything may differ, and the lists are empty
   void clear();
 };
 
@@ -58,8 +58,8 @@ class EmbeddedMap {
 public:
   explicit EmbeddedMap(int dimension);
 
-  // A map that was built in bulk, with the place of each vertex: `point_of` is asked once per vertex, with its
-  // smallest dart.
+  // A map built in bulk, with the point of each vertex: `point_of` is called once per vertex, with its smallest
+  // dart.
   EmbeddedMap(GMap map, const std::function<Point(Dart)>& point_of);
 
   EmbeddedMap(const EmbeddedMap&) = delete;
@@ -68,14 +68,14 @@ public:
   const GMap& map() const { return map_; }
   int dimension() const { return map_.dimension(); }
 
-  // Slots. use() makes them exist; cells() CHECKs that they do.
+  // Slots. use() creates them; cells() CHECKs that they exist.
   const CellIndex& use(Orbit orbit);
   const CellIndex& cells(Orbit orbit) const;
   bool uses(Orbit orbit) const { return cells_[orbit.mask] != nullptr; }
   Slot slot(Orbit orbit, Dart d) const { return cells(orbit).slot(d); }
   Slot vertex(Dart d) const { return cells_[Vertex.mask]->slot(d); }
 
-  // Columns. A column that is added is born on every orbit there is.
+  // Columns. A new column is initialised by birth() on every existing orbit.
   template <class E> Column<E>& add(E embedding) {
     auto column = std::make_unique<Column<E>>(std::move(embedding));
     Column<E>& added = *column;
@@ -93,29 +93,28 @@ public:
   Vec3 rest_of(Dart d) const { return (*rest_)[vertex(d)]; }
   Vec3 position_of(Dart d) const { return (*position_)[vertex(d)]; }
 
-  // Runs `change` and brings the columns up to date. An exception out of `change` or of a birth leaves a map
-  // that takes no further edit (CHECK). CHECK (with REND_VALIDATE): the map and slots are valid.
+  // Runs `change` and updates the columns. An exception thrown by `change` or a birth() leaves a map that
+  // accepts no further edit (CHECK). CHECK (with REND_VALIDATE): the map and slots are valid.
   void edit(const std::function<void(Edit&)>& change);
 
   void subscribe(Changes& changes) { readers_.push_back(&changes); }
   void unsubscribe(Changes& changes) { std::erase(readers_, &changes); }
 
-  // Room for as many slots as separations of elements can ever make, so that none of them moves an array.
-  // Memory that is not written to costs nothing but addresses.
+  // Reserves as many slots as separating all elements can ever make, so that no edit reallocates a column.
+  // Reserved memory that is not written costs addresses only.
   void reserve_for_separations();
-  std::size_t slots_when_separated(Orbit orbit) const; // with every element by itself
+  std::size_t slots_when_separated(Orbit orbit) const; // if every element were separated
 
-  // Gives all orbits the slots that they would get if the map were built now; free ones are gone. Values
-  // follow, and readers find all of the map changed. Only what is out of order is touched. CHECK: no edit is
-  // open.
+  // Renumbers the slots of all orbits as if the map had just been built, without free ones. Values move along,
+  // and subscribers see the whole map changed. Only orbits out of order are touched. CHECK: no edit is open.
   void number_anew();
 
-  std::size_t bytes() const; // of slots and columns; the map has its own
+  std::size_t bytes() const; // of slots and columns; without the map itself
 
-  // All of it (base/archive.h): links, slots with their order and free ones, and every column. Readers then
-  // find all of it changed. What is read must have come from this map by changes of laws and by steps
-  // (GMap::store), so that all but positions and velocities is what it was at the same darts. ArchiveError: it
-  // did not, and this map is spoilt.
+  // Writes or reads everything (base/archive.h): links, slots with their order and free list, and every column.
+  // Afterwards subscribers see the whole map changed. What is read must result from this map by fracture and
+  // time steps (GMap::store), so that all values but positions and velocities are the same at the same darts.
+  // ArchiveError otherwise; this map is then unusable.
   void store(Archive& archive);
 
 private:
@@ -130,30 +129,31 @@ private:
 
   GMap map_;
   std::array<std::unique_ptr<CellIndex>, orbit_kinds> cells_;
-  std::array<SlotEvents, orbit_kinds> events_;      // of the edit that closes
-  std::array<std::vector<Slot>, orbit_kinds> born_; // again, of the edit that closes
+  std::array<SlotEvents, orbit_kinds> events_; // of the edit that is being closed
+  // slots whose values were initialised again, of the edit that is being closed
+  std::array<std::vector<Slot>, orbit_kinds> born_;
   std::vector<std::unique_ptr<ColumnBase>> columns_;
   VertexColumn *position_ = nullptr, *rest_ = nullptr, *velocity_ = nullptr;
   std::vector<Changes*> readers_;
   Journal journal_;
-  bool whole_ = true; // no edit is open, and none was left by an exception
+  bool whole_ = true; // no edit is open, and none was ended by an exception
 };
 
-// The open scope.
+// An open edit.
 class Edit : public MapEdit {
 public:
   Edit(GMap& map, Journal& journal, EmbeddedMap& embedded) : MapEdit(map, &journal), embedded_(embedded) {}
 
-  // The point of the vertex of d, if it turns out to be a new vertex: one without a dart from before the edit.
-  // Where several darts of a new vertex are given points, that of the smallest dart counts; of two gifts to a
-  // dart, the last.
+  // The point of the vertex of d, if it turns out to be a new vertex: one without darts from before the edit.
+  // If several darts of a new vertex are given points, that of the smallest dart counts; of two points given to
+  // one dart, the last.
   void give(Dart d, const Point& point) { give(d, add_point(point)); }
 
-  // The same in two steps, for many darts of one point.
+  // The same in two steps, for many darts with one point.
   std::uint32_t add_point(const Point& point);
   void give(Dart d, std::uint32_t point) { given_.assign(d.value, point); }
 
-  // For expressions: what d was given, else the state before the edit. CHECK: one of them exists.
+  // For point expressions: what d was given, else its point before the edit. CHECK: one of them exists.
   Point point(Dart d) const;
 
 private:
@@ -163,8 +163,8 @@ private:
   IndexMap given_; // dart → index in points_
 };
 
-// Every axiom of the map, and that every dart of an orbit has its slot and no other orbit has it. Names the
-// first fault.
+// Checks every axiom of the map, and that the darts of an orbit share a slot which no other orbit has.
+// Describes the first fault.
 std::optional<std::string> validate(const EmbeddedMap& embedded);
 
 } // namespace rend

@@ -18,7 +18,7 @@ void SlotTable::pack() {
   }
   least_ = std::move(least);
   step_ = std::move(step);
-  wide_ = std::vector<Slot>(); // {} would keep its room
+  wide_ = std::vector<Slot>(); // assigning {} would keep the capacity
 }
 
 void SlotTable::unpack() {
@@ -30,7 +30,8 @@ void SlotTable::unpack() {
 }
 
 bool SlotTable::set_step(Dart d, Slot slot) {
-  const Slot above = slot == no_slot ? no_step : slot - least_[d.value / group]; // below it: a large number
+  // wraps to a large number if the slot is smaller
+  const Slot above = slot == no_slot ? no_step : slot - least_[d.value / group];
   if (slot == no_slot || above < no_step) {
     step_[d.value] = static_cast<std::uint8_t>(above);
     return true;
@@ -64,7 +65,7 @@ void SlotTable::store(Archive& archive, std::size_t darts) {
   const bool wide = wide_.size() == darts && least_.empty() && step_.empty();
   const bool packed = wide_.empty() && step_.size() == darts && least_.size() == (darts + group - 1) / group;
   refuse_unless(wide || packed, "a table of slots is shorter than its map");
-  wide_.shrink_to_fit(); // the other form's arrays keep their room else
+  wide_.shrink_to_fit(); // the arrays of the other form would keep their capacity
   least_.shrink_to_fit();
   step_.shrink_to_fit();
 }

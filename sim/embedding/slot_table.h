@@ -1,9 +1,10 @@
-// Which slot each dart has, in four bytes a dart or in one.
+// Which slot each dart has, in four bytes per dart or in one.
 //
-// The darts of an element stand together, and slots are numbered by smallest dart. So, of orbits that lie
-// within an element, the slots of any 64 neighbouring darts lie close together: packed, a byte a dart says how
-// far its slot is above the least of those 64. (Of the 55 bytes a dart of torn tetrahedra that saves 9.)
-// Separations leave such orbits alone; the first edit that needs more unpacks the table for good.
+// The darts of an element have consecutive numbers, and slots are numbered by smallest dart. So for orbits
+// within an element, the slots of any 64 consecutive darts lie close together: in packed form, one byte per
+// dart stores the difference to the smallest slot of its group of 64. (This saves 9 of the 55 bytes per dart of
+// torn tetrahedra.) Separations leave such orbits alone; the first edit that needs a larger difference unpacks
+// the table for good.
 #pragma once
 
 #include "sim/base/id.h"
@@ -37,15 +38,15 @@ public:
   void resize(std::size_t darts); // new ones have no slot
 
   void rename(std::span<const Slot> now); // every slot s becomes now[s]
-  void pack();                            // does nothing where slots lie too far from each other
-  std::size_t bytes() const;              // with room that is kept: it was written to
+  void pack();                            // does nothing if the slots of some group lie too far apart
+  std::size_t bytes() const;              // with reserved capacity, which was written to
   void store(Archive& archive,
-             std::size_t darts); // all of it (base/archive.h), read for a map of so many darts
+             std::size_t darts); // everything (base/archive.h), read for a map of `darts` darts
 
 private:
-  static constexpr std::size_t group = 64;      // darts with a least slot in common
-  static constexpr std::uint8_t no_step = 0xff; // of a dart without a slot
-  bool set_step(Dart d, Slot slot);             // false: it did not fit, and the table is unpacked now
+  static constexpr std::size_t group = 64;      // darts per smallest slot
+  static constexpr std::uint8_t no_step = 0xff; // a dart without a slot
+  bool set_step(Dart d, Slot slot);             // false: it did not fit, and the table is now unpacked
   void unpack();
 
   std::vector<Slot> wide_;         // one per dart; empty: packed

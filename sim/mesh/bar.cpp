@@ -14,7 +14,8 @@ void add_tetrahedra(CellMesh& mesh, const Box& b) {
   constexpr std::array<std::array<std::size_t, 2>, 6> paths{{{1, 2}, {3, 2}, {1, 5}, {4, 5}, {3, 7}, {4, 7}}};
   for (std::size_t n = 0; n < paths.size(); ++n) {
     const std::uint32_t p = b[paths[n][0]], q = b[paths[n][1]];
-    const bool even = n == 0 || n == 3 || n == 4; // the order of its steps; an odd one would be inside out
+    // the permutation's sign; an odd one gives an inverted tetrahedron
+    const bool even = n == 0 || n == 3 || n == 4;
     if (even)
       mesh.add(CellKind::Tetrahedron, {b[0], p, q, b[6]});
     else
@@ -34,7 +35,7 @@ void add_around_centre(CellMesh& mesh, const Box& b) {
   mesh.points.push_back(sum / 8);
   mesh.add(CellKind::Pyramid, {b[0], b[3], b[7], b[4], centre}); // x low
   mesh.add(CellKind::Pyramid, {b[1], b[5], b[6], b[2], centre}); // x high
-  // y low and high, z low and high: each from its lowest corner around, as seen from the centre
+  // y low and high, z low and high: each from its lowest corner, counter-clockwise as seen from the centre
   constexpr std::array<std::array<std::size_t, 4>, 4> sides{
       {{0, 4, 5, 1}, {3, 2, 6, 7}, {0, 1, 2, 3}, {4, 7, 6, 5}}};
   for (const auto& s : sides) {
@@ -53,8 +54,8 @@ void add_box(CellMesh& mesh, BarPattern pattern, int slice, const Box& b) {
   mesh.add(CellKind::Hexahedron, b);
 }
 
-// Along x, then y, then z; of many boxes along the shortest side first and the longest last, so that the boxes
-// around a corner follow each other as soon as can be: slots and rows have the order of the boxes (locality.h).
+// Along x, then y, then z; for many boxes along the shortest side first and the longest last, so that boxes
+// around a corner have close numbers: slots and rows follow the order of the boxes (locality.h).
 template <class F> void for_each_box(const std::array<int, 3>& boxes, bool many, F&& f) {
   std::array<std::size_t, 3> side{0, 1, 2};
   if (many)

@@ -1,11 +1,11 @@
 // A rectangular bar, from the origin to (lx, ly, lz), of nx × ny × nz boxes that are
 //
-//   hexahedra   left whole
+//   hexahedra   not cut
 //   tetrahedra  cut in six along the diagonal from the lowest corner to the highest, one for each order in
 //               which a path may take its steps along x, y and z (Kuhn 1960): neighbours' cuts agree
 //   prisms      cut in two along the diagonal of their base, parallel to z
 //   mixed       in slices along x: hexahedra, prisms, boxes cut into pyramids and tetrahedra around their
-//               centre, and again. All faces between slices are quads. In a slice of the third sort the
+//               centre, repeated. All faces between slices are quads. In a slice of the third sort the
 //               pyramids on the sides y and z are cut into two tetrahedra, and those on the sides x stay whole.
 #pragma once
 

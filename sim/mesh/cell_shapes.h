@@ -1,14 +1,14 @@
 // The four cells that solids are made of: their corners, faces and darts.
 //
 // Corners are numbered as in Gmsh: a tetrahedron 0 1 2 | 3, a hexahedron 0 1 2 3 | 4 5 6 7 and a prism 0 1 2 |
-// 3 4 5 with the second ring above the first, a pyramid 0 1 2 3 | 4. A cell whose corners stand so has positive
-// volume if the first ring turns counter-clockwise as seen from the rest (Gmsh reference manual, "Node
+// 3 4 5 with the second ring above the first, a pyramid 0 1 2 3 | 4. A cell with this numbering has positive
+// volume if the first ring is counter-clockwise as seen from the other corners (Gmsh reference manual, "Node
 // ordering").
 //
-// Faces are listed so that they turn counter-clockwise as seen from inside, the first ring first. Side s of a
-// cell, from a corner to the next of its face, has the darts 2s and 2s+1, at its two ends. Hence the first dart
-// of a cell stands at corner 0, looks to corner 1 and lies in the first ring: the words "", "0", "10", "210"
-// (thesis 5.2.4, fig. 5.22) lead to the corners 0 1 2 3 of a tetrahedron.
+// Faces are listed counter-clockwise as seen from inside, the first ring first. Side s of a cell, from a corner
+// to the next of its face, has the darts 2s and 2s+1, at its two ends. Hence the first dart of a cell is at
+// corner 0, on the edge to corner 1, in the first ring: the words "", "0", "10", "210" (thesis 5.2.4, fig.
+// 5.22) lead to the corners 0 1 2 3 of a tetrahedron.
 #pragma once
 
 #include <array>
@@ -25,9 +25,9 @@ struct CellShape {
   std::array<int, 6> sides{};                      // of each face
   std::array<std::array<int, 4>, 6> ring{};        // its corners
   std::array<int, 6> first{};                      // its first dart
-  std::array<std::uint8_t, 48> corner{};           // at which each dart stands
+  std::array<std::uint8_t, 48> corner{};           // corner of each dart
   std::array<std::uint8_t, 48> alpha1{}, alpha2{}; // of each dart; α0 is the other one of its side
-  std::array<std::array<int, 2>, 2> mirror{};      // pairs of corners whose exchange turns the cell inside out
+  std::array<std::array<int, 2>, 2> mirror{};      // pairs of corners whose exchange inverts the cell
 };
 
 namespace cell_shapes {
@@ -37,7 +37,7 @@ struct Ring {
   std::array<int, 4> corners;
 };
 
-// Darts and links, from the rings of the faces.
+// Darts and links, derived from the rings of the faces.
 template <std::size_t N>
 constexpr CellShape made(const char* name, int corners, const std::array<Ring, N>& rings,
                          std::array<std::array<int, 2>, 2> mirror) {

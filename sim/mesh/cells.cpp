@@ -30,7 +30,7 @@ double signed_volume(const CellMesh& mesh, std::size_t cell) {
   const auto at = [&](int corner) -> Vec3 {
     return mesh.points[corners[static_cast<std::size_t>(corner)]] - origin;
   };
-  double sixfold = 0; // the rings turn as seen from inside, hence the sign
+  double sixfold = 0; // negative sign: the rings are counter-clockwise as seen from inside
   for (std::size_t f = 0; f < static_cast<std::size_t>(shape.faces); ++f) {
     const auto n = static_cast<std::size_t>(shape.sides[f]);
     const auto& ring = shape.ring[f];
@@ -38,7 +38,7 @@ double signed_volume(const CellMesh& mesh, std::size_t cell) {
       sixfold -= at(ring[0]).dot(at(ring[1]).cross(at(ring[2])));
       continue;
     }
-    // Σ a × b over the sides of a quad is the product of its diagonals.
+    // Σ a × b over the sides of a quad is the cross product of its diagonals.
     const Vec3 a = at(ring[0]), b = at(ring[1]), c = at(ring[2]), d = at(ring[3]);
     sixfold -= 0.25 * (a + b + c + d).dot((c - a).cross(d - b));
   }
@@ -63,7 +63,8 @@ void check_corners(const CellMesh& mesh, std::size_t cell) {
   }
 }
 
-// Whether the cell is inside out. Beside the cube of its length 1e-12 is round-off: such a cell has no volume.
+// Whether the cell is inverted. A volume below 1e-12 of its length cubed is round-off: such a cell has no
+// volume.
 bool inside_out(const CellMesh& mesh, std::size_t cell) {
   const double volume = signed_volume(mesh, cell);
   double square = 0;
@@ -74,7 +75,7 @@ bool inside_out(const CellMesh& mesh, std::size_t cell) {
   return volume < 0;
 }
 
-// The mesh with its cells turned right, and where their darts start.
+// The mesh with its inverted cells corrected, and the first dart of each cell.
 struct Cells {
   const CellMesh& mesh;
   std::vector<std::uint32_t> corners; // like mesh.corners
@@ -120,12 +121,13 @@ void link_cells(MapEdit& edit, const Cells& cells) {
   for (const CellKind kind : cells.mesh.kinds) edit.add_linked(links[static_cast<std::size_t>(kind)]);
 }
 
-// A face as its ring of points, told from the smallest on towards its smaller neighbour: two faces have the
-// same ring if and only if these are equal, and then their darts correspond.
+// A face as its ring of points, from the smallest point towards its smaller neighbour: two faces have the same
+// ring if and only if these are equal, and then their darts correspond.
 struct Side {
   std::uint32_t next, before; // the smallest point's neighbours, the smaller one first
-  std::uint32_t across;       // of a quad; none of a triangle
-  std::uint32_t dart; // stands at the smallest point and looks to `next`; even if the ring goes on to it
+  std::uint32_t across;       // of a quad, the opposite point; none of a triangle
+  // at the smallest point on the side to `next`; even if the ring is listed in that direction
+  std::uint32_t dart;
   bool triangle() const { return across == Dart::none_value; }
   auto key() const { return std::tie(next, before, across); }
 };
@@ -150,10 +152,10 @@ Face face_of(const Cells& cells, std::size_t cell, std::size_t f) {
            cells.dart[cell] + static_cast<std::uint32_t>(shape.first[f]) + static_cast<std::uint32_t>(dart)}};
 }
 
-// All faces of all cells, in buckets by their smallest point, sorted within a bucket: few share one, so that
-// this is linear, and where very many do it is still n log n.
+// All faces of all cells, bucketed by their smallest point and sorted within a bucket: linear, since few share
+// one, and n log n at worst.
 struct Buckets {
-  std::vector<std::uint32_t> start; // one per point, and one more
+  std::vector<std::uint32_t> start; // one per point, and one for the end
   std::vector<Side> sides;
 
   explicit Buckets(const Cells& cells) : start(cells.mesh.points.size() + 1, 0) {
@@ -180,8 +182,8 @@ std::string ring_text(const CellMesh& mesh, std::uint32_t smallest, const Side& 
                          : fmt::format("{} {} {} {}", a, b, mesh.name(side.across), c);
 }
 
-// α3 between all darts of two faces with the same ring. Both rings turn as seen from inside, so that those of
-// cells on opposite sides run against each other.
+// Links all darts of two faces with the same ring by α3. Both rings are oriented as seen from inside, so those
+// of cells on opposite sides run in opposite directions.
 void sew_faces(MapEdit& edit, const Cells& cells, std::uint32_t smallest, const Side& one, const Side& other) {
   if ((one.dart - other.dart) % 2 == 0) {
     const std::size_t mine = cells.cell_of(Dart{one.dart}), theirs = cells.cell_of(Dart{other.dart});
@@ -198,7 +200,7 @@ void sew_faces(MapEdit& edit, const Cells& cells, std::uint32_t smallest, const 
   }
 }
 
-// Refuses open faces that lie on each other with other rings: a triangle on a quad, a quad on a crossed one.
+// Refuses unmatched faces that overlap: a triangle on a quad, a quad on a quad with another cyclic order.
 void check_open(const Cells& cells, std::uint32_t smallest, std::span<const Side> open) {
   for (const Side& quad : open) {
     if (quad.triangle()) continue;
@@ -255,7 +257,7 @@ SewnSolid sew_cells(const CellMesh& mesh) {
   SewnSolid solid;
   solid.turned = cells.turned;
   std::size_t cell = 0;
-  solid.map = std::make_unique<EmbeddedMap>(std::move(map), [&](Dart d) { // by increasing darts
+  solid.map = std::make_unique<EmbeddedMap>(std::move(map), [&](Dart d) { // in the order of increasing darts
     while (cells.dart[cell + 1] <= d.value) ++cell;
     solid.point.push_back(cells.corner(cell, shape_of(mesh.kinds[cell]).corner[d.value - cells.dart[cell]]));
     const Vec3& x = mesh.points[solid.point.back()];

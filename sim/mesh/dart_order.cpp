@@ -24,7 +24,7 @@ std::vector<Dart> laid_out(const GMap& map, const CellShape& shape, Dart d) {
       }
     }
   }
-  std::vector<Dart> sorted = image; // a cell glued to itself may have a part of them, each several times
+  std::vector<Dart> sorted = image; // a cell sewn to itself may give only some of its darts, repeated
   std::sort(sorted.begin(), sorted.end());
   return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end() ? image : std::vector<Dart>();
 }
@@ -38,7 +38,7 @@ bool right_handed(const MapMesh& mesh, Dart d) {
   return (at("0") - at("")).cross(at("10") - at("")).dot(at("210") - at("")) > 0;
 }
 
-// Orders the darts of one volume, which come in increasing order.
+// Orders the darts of one volume, which are given in increasing order.
 void order_cell(const MapMesh& mesh, std::vector<Dart>& darts) {
   for (const CellShape& shape : cell_shapes::all) {
     if (static_cast<std::size_t>(shape.darts) != darts.size()) continue;

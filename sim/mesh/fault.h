@@ -1,6 +1,6 @@
-// What makes a mesh impossible to sew, and which of its elements is to blame.
+// Why a mesh cannot be sewn, and which of its elements is at fault.
 //
-// Generators never throw it. A reader catches it and adds where in the file that element stands.
+// Generators never throw it. Readers catch it and add the element's place in the file.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@ struct MeshFault : std::invalid_argument {
   std::string flaw;    // "meets point 3 twice"
 };
 
-// What is wrong with a cell of this volume [m³] or area [m²], which is lost in round-off beside the cube or
-// square of its length [m]: "has no volume", or "has proportions too extreme to reckon with: 6.4e+09 m3 at a
-// length of 1e+10 m".
+// The fault of a cell whose volume [m³] or area [m²] is lost in round-off relative to the cube or square of its
+// length [m]: "has no volume", or "has proportions too extreme to reckon with: 6.4e+09 m3 at a length of 1e+10
+// m".
 std::string flaw_of_volume(double volume, double length);
 std::string flaw_of_area(double area, double length);
 

@@ -11,7 +11,7 @@ namespace {
 using Cell = std::array<std::uint32_t, 3>; // of a grid of 2^20 cells along each side
 constexpr int bits = 20;
 
-// The place on the Hilbert curve, by Skilling's transpose: Gray codes undone from the highest bit, then bits
+// The index along the Hilbert curve, by Skilling's transpose: Gray codes undone from the highest bit, then bits
 // interleaved.
 std::uint64_t place_on_curve(Cell x) {
   for (std::uint32_t q = 1U << (bits - 1); q > 1; q >>= 1U) {
@@ -75,8 +75,8 @@ std::vector<std::uint32_t> along_curve(const Elements& elements) {
   return order;
 }
 
-// Over all elements in this order, how far their corners lie from each other where points are numbered as they
-// are met.
+// The sum over all elements, in this order, of the distance between the numbers of their corners, with points
+// numbered as elements first use them.
 std::uint64_t spread(const Elements& elements, const std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> number(elements.points.size(), Dart::none_value);
   std::uint32_t met = 0;

@@ -1,4 +1,4 @@
-// Whether a file is a mesh, by its name: for those who take it for a preset.
+// Whether a file is a mesh, judged by its name: for a hint where a preset is expected.
 #pragma once
 
 #include "sim/mesh/reader.h"

@@ -1,4 +1,4 @@
-// See sim/mesh/moka.h for the format.
+// The format is described in sim/mesh/moka.h.
 #include "sim/base/wording.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/mesh/moka.h"
@@ -13,7 +13,7 @@ namespace {
 
 struct Lines {
   std::vector<std::array<std::uint32_t, 4>> links; // one per dart
-  std::vector<std::uint32_t> point;                // one per dart; none: it carries none
+  std::vector<std::uint32_t> point;                // one per dart; none_value: it carries no point
   std::vector<Vec3> points;
 };
 
@@ -86,7 +86,8 @@ GMap map_of(const MeshFile& file, const Lines& lines) {
   return map;
 }
 
-// Faces of fewer than three sides, and open ones, have no area; a volume of a solid is closed.
+// Refuses faces of fewer than three sides and open ones, which have no area; a volume of a solid must be
+// closed.
 void check_elements(const MeshFile& file, const GMap& map) {
   map.for_each_dart([&](Dart d) {
     const auto refuse = [&](const char* what) {
@@ -99,7 +100,7 @@ void check_elements(const MeshFile& file, const GMap& map) {
   });
 }
 
-// The point of each dart, from those that the darts of its vertex carry.
+// The point of each dart, taken from the dart of its vertex that carries one.
 std::vector<std::uint32_t> spread(const MeshFile& file, const GMap& map, const Lines& lines) {
   std::vector<std::uint32_t> point(map.capacity(), Dart::none_value);
   std::vector<Dart> darts;

@@ -61,7 +61,7 @@ void MshContent::add_element(const MshType& type, const Origin& origin, std::spa
       file_.source.fail(origin.offset,
                         fmt::format("{} {} has the node {} twice", type.name, origin.tag, nodes[n]));
   }
-  // A file of a few bytes could put each element into very many groups.
+  // A small file could otherwise put each element into very many groups.
   members_ += groups.size() * nodes.size();
   if (members_ > 8 * file_.source.bytes().size() + 1000000)
     file_.source.fail(origin.offset,
@@ -80,8 +80,7 @@ void MshContent::add_element(const MshType& type, const Origin& origin, std::spa
     file_.source.fail(origin.offset, "the elements are more than a map holds");
 }
 
-// A file of version 2.2 holds an element once for each of its groups: which ones are there again for another
-// group.
+// Version 2.2 lists an element once for each of its groups: which elements are repetitions.
 std::vector<bool> MshContent::repeats(int dimension) const {
   std::vector<bool> repeat(elements_.size(), false);
   bool several = false;
@@ -114,7 +113,8 @@ std::vector<bool> MshContent::repeats(int dimension) const {
 
 namespace {
 
-// A ring of points whichever way it is told: the smallest, its neighbours in order, the one across.
+// A ring of points independent of its direction and start: the smallest point, its neighbours in order, the
+// opposite point.
 using RingKey = std::array<std::uint32_t, 4>;
 
 template <class At> RingKey ring_key(std::size_t sides, At&& at) {
@@ -128,7 +128,7 @@ template <class At> RingKey ring_key(std::size_t sides, At&& at) {
 } // namespace
 
 void MshContent::check_faces(const CellMesh& cells) const {
-  std::vector<std::pair<RingKey, std::uint32_t>> faces; // and its element
+  std::vector<std::pair<RingKey, std::uint32_t>> faces; // with its element
   for (std::uint32_t n = 0; n < elements_.size(); ++n) {
     const Element& e = elements_[n];
     if (e.type->dimension == 2)

@@ -1,8 +1,7 @@
 // Gmsh's .msh, versions 2.2 and 4.1, ASCII and binary (Gmsh reference manual, "MSH file format").
 //
-// A file is a list of sections, $Name ... $EndName. Both forms of 4.1 hold the same numbers in the same order;
-// of 2.2 the binary form groups elements under headers. Sections that say nothing about shape or groups are
-// stepped over.
+// A file is a list of sections, $Name ... $EndName. In 4.1, text and binary files hold the same numbers in the
+// same order; binary 2.2 groups elements under headers. Sections without geometry or groups are skipped.
 #include "sim/base/wording.h"
 #include "sim/mesh/msh_content.h"
 #include "sim/mesh/scanner.h"
@@ -24,7 +23,7 @@ struct Msh {
 
   explicit Msh(MeshFile& f) : file(f), in(f.source), content(f) {}
 
-  // The bytes that a number takes at least.
+  // The minimal size of a number.
   std::size_t bytes(std::size_t binary) const { return in.binary ? binary : 2; }
 };
 
@@ -56,14 +55,14 @@ void read_format(Msh& msh) {
   end_section(msh, "MeshFormat");
 }
 
-// The sign of a physical group tells an element's orientation (Gmsh reference manual), which is not asked for.
+// The sign of a physical group is the element's orientation (Gmsh reference manual), which is not used.
 int group_number(const Scanner& in, std::int64_t number) {
   constexpr std::int64_t most = std::numeric_limits<int>::max();
   if (number < -most || number > most) in.fail("is too large for the number of a physical group");
   return static_cast<int>(number < 0 ? -number : number);
 }
 
-void read_names(Msh& msh) { // ASCII in both forms
+void read_names(Msh& msh) { // text also in binary files
   Scanner& in = msh.in;
   const std::uint64_t count = in.size("the number of physical groups");
   in.check_count(count, 7, "names");
@@ -112,7 +111,7 @@ Vec3 read_point(Scanner& in) {
 
 void read_nodes_2(Msh& msh) {
   Scanner& in = msh.in;
-  const std::uint64_t count = in.size("the number of nodes"); // ASCII in both forms
+  const std::uint64_t count = in.size("the number of nodes"); // text also in binary files
   in.check_count(count, in.binary ? 28 : 8, "nodes");
   if (in.binary) in.rest_of_line();
   for (std::uint64_t n = 0; n < count; ++n) {
@@ -131,7 +130,7 @@ void read_nodes_4(Msh& msh) {
   in.number<std::uint64_t>("the smallest tag");
   in.number<std::uint64_t>("the largest tag");
   std::uint64_t seen = 0;
-  std::vector<std::pair<std::uint64_t, std::size_t>> tags; // of one block, and where
+  std::vector<std::pair<std::uint64_t, std::size_t>> tags; // of one block, with their offsets
   for (std::uint64_t b = 0; b < blocks; ++b) {
     const auto dimension = in.number<std::int32_t>("the dimension of a block");
     if (dimension < 0 || dimension > 3) in.fail(fmt::format("{} is no dimension of an entity", dimension));
@@ -163,7 +162,7 @@ const MshType& known_type(const Msh& msh, std::int64_t number, const std::string
   return *type;
 }
 
-// The numbers of an element, one by one, in either form of 2.2.
+// Reads the numbers of an element one by one, from text or binary 2.2.
 struct Fields {
   Scanner& in;
   std::int64_t next(const char* what) const {

@@ -1,5 +1,5 @@
-// The elements of a Gmsh file (Gmsh reference manual, "MSH file format"): a number for each, which ones are
-// read, and what the others are called.
+// The element types of a Gmsh file (Gmsh reference manual, "MSH file format"): their numbers, which ones rend
+// reads, and the names of the others.
 #pragma once
 
 #include "sim/mesh/cell_shapes.h"
@@ -24,14 +24,14 @@ inline constexpr std::array<MshType, 8> msh_types{{{15, "point", 0, 1, {}},
                                                    {6, "prism", 3, 6, CellKind::Prism},
                                                    {7, "pyramid", 3, 5, CellKind::Pyramid}}};
 
-// Null if it is none of those.
+// Null if rend does not read it.
 constexpr const MshType* find_msh_type(int number) {
   for (const MshType& type : msh_types)
     if (type.number == number) return &type;
   return nullptr;
 }
 
-// What is wrong with a type that is not read: "a line of 3 nodes, of second order".
+// Describes a type that is not read: "a line of 3 nodes, of second order".
 std::string unread_msh_type(int number);
 
 } // namespace rend

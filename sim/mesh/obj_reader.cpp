@@ -1,8 +1,8 @@
-// Wavefront's .obj: points and polygons, and the groups and objects that polygons belong to; the rest is left
-// alone.
+// Wavefront's .obj: points and polygons, and the groups and objects that polygons belong to; the rest is
+// ignored.
 //
-// tinyobjloader reads it. It takes a number that is none for 0 and any index for what it says, and tells no
-// lines; so the statements that matter here are looked through first: v, f, g, o.
+// The parser is tinyobjloader. It accepts malformed numbers as 0 and any index, and reports no line numbers; so
+// the statements that matter here are checked first: v, f, g, o.
 #include "sim/base/wording.h"
 #include "sim/mesh/reader.h"
 #include "sim/mesh/scanner.h"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_corners = 255; // of a polygon, in tinyobjloader
 
-// A corner such as 3, -1, 3/1, 3//2, 3/1/2, of which the first number counts.
+// A corner such as 3, -1, 3/1, 3//2, 3/1/2, of which only the first number is used.
 void check_corner(const Scanner& in, std::string_view corner, std::size_t points) {
   std::int64_t value = 0;
   const auto [stop, error] = std::from_chars(corner.data(), corner.data() + corner.size(), value);
@@ -44,8 +44,8 @@ void check_polygon(Scanner& in, std::size_t points, MeshFile& file) {
   file.origins.push_back(origin);
 }
 
-// The statements that matter, all of them well formed. tinyobjloader gets no others: of tags (t) it makes room
-// for what they announce, a hundred kilobytes a line.
+// The relevant statements, all of them well formed. tinyobjloader gets no others: for tags (t) it allocates
+// what they announce, up to a hundred kilobytes per line.
 std::string checked(MeshFile& file) {
   Scanner in(file.source);
   std::string kept;
@@ -72,8 +72,8 @@ std::string checked(MeshFile& file) {
   return kept;
 }
 
-// A shape's name is what g or o said: "g left arm" puts polygons into two groups. `members`: of all groups so
-// far; a file of a few bytes could put each polygon into very many.
+// A shape's name is what g or o gave: "g left arm" puts polygons into two groups. `members`: of all groups so
+// far, limited because a small file could put each polygon into very many.
 void add_to_groups(MeshFile& file, const std::string& names, std::span<const std::uint32_t> corners,
                    std::size_t& members) {
   std::istringstream words(names);

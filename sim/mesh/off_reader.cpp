@@ -1,6 +1,6 @@
 // Geomview's .off, ASCII: the word OFF (or COFF, NOFF, CNOFF, STOFF: more numbers on a point's line, which are
-// stepped over), then how many points, faces and edges there are, the points, and the faces: a number of
-// corners, their points, and perhaps a colour. # starts a comment.
+// skipped), then the numbers of points, faces and edges, the points, and the faces: a number of corners, their
+// points, and perhaps a colour. # starts a comment.
 #include "sim/base/wording.h"
 #include "sim/mesh/reader.h"
 #include "sim/mesh/scanner.h"

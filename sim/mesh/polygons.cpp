@@ -20,7 +20,7 @@ namespace {
   throw MeshFault("polygon", polygon, flaw);
 }
 
-// A corner that the polygon meets twice. Sorted, as a file may well hold a polygon of a million corners.
+// Refuses a polygon with a repeated corner. By sorting, as a file may hold a polygon of a million corners.
 void check_repeats(const PolygonMesh& mesh, std::size_t p) {
   thread_local std::vector<std::uint32_t> sorted;
   sorted.assign(mesh.corners.begin() + mesh.first[p], mesh.corners.begin() + mesh.first[p + 1]);
@@ -66,7 +66,7 @@ Sides link_polygons(MapEdit& edit, const PolygonMesh& mesh) {
 }
 
 // Sews the sides that join the same two points: sides are bucketed by their smaller point and sorted by the
-// other one. Few share a bucket, so that this is linear; where very many do it is still n log n.
+// other one. Linear, since few share a bucket, and n log n at worst.
 void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const Sides& sides) {
   const std::size_t count = mesh.corners.size();
   std::vector<std::uint32_t> start(mesh.points.size() + 1, 0), bucket(count);

@@ -53,7 +53,7 @@ namespace {
   file.source.fail(origin.offset, fmt::format("{} {} {}", kind, origin.tag, flaw));
 }
 
-// Beside the square of its length 1e-12 is round-off.
+// Refuses areas below 1e-12 of the polygon's length squared, which are round-off.
 void check_areas(const MeshFile& file, const PolygonMesh& mesh) {
   for (std::size_t p = 0; p < mesh.polygons(); ++p) {
     const std::span<const std::uint32_t> corners(mesh.corners.data() + mesh.first[p],
@@ -129,7 +129,7 @@ template <class Mesh> void put_in_order(MeshFile& file, Mesh& mesh) {
   file.origins = std::move(origins);
 }
 
-void put_in_order(MeshFile&, MapMesh&) {} // it is the order of its darts that such a file is about
+void put_in_order(MeshFile&, MapMesh&) {} // not for a map: the file defines the order of its darts
 
 } // namespace
 

@@ -1,9 +1,9 @@
-// Mesh files: .msh, .obj, .off and .moka, read into points and elements, and those sewn into a map.
+// Mesh files: .msh, .obj, .off and .moka, read into points and elements, which are then sewn into a map.
 //
-// What a reader gives is checked number by number; what a sheet or solid cannot hold is found when it is sewn,
-// and then named by its place in the file too.
+// Readers check each number; errors of the mesh as a sheet or solid are found when it is sewn, and then
+// reported with their place in the file as well.
 //
-// Adding a format: a file with a function `MeshReader my_reader()`, and its name in all_readers().
+// To add a format: a file with a function `MeshReader my_reader()`, and its name in all_readers().
 #pragma once
 
 #include "sim/mesh/cells.h"
@@ -24,7 +24,7 @@ struct MapMesh {
   std::vector<std::uint32_t> point; // index of each dart's point
 };
 
-// Where an element stands in the file, and what the file calls it.
+// The place of an element in the file, and its name there.
 struct Origin {
   std::size_t offset = 0; // [bytes]
   std::uint64_t tag = 0;
@@ -33,9 +33,9 @@ struct Origin {
 struct MeshFile {
   MeshSource source;
   std::variant<PolygonMesh, CellMesh, MapMesh> mesh;
-  std::vector<Origin> origins;                              // one per element, or (of a map) per dart
+  std::vector<Origin> origins;                              // one per element; for a MapMesh one per dart
   std::map<std::string, std::vector<std::uint32_t>> groups; // increasing indices of points
-  std::vector<std::string> notes;                           // what the user should know
+  std::vector<std::string> notes;                           // messages for the user
   std::vector<Vec3>& points() {
     return std::visit([](auto& m) -> std::vector<Vec3>& { return m.points; }, mesh);
   }
@@ -54,12 +54,12 @@ MeshReader obj_reader();
 MeshReader off_reader();
 MeshReader moka_reader();
 
-// By the file's extension. UserError, with file and line or byte: exit 66 if there is no such file, else 65.
+// Chooses the reader by the file's extension. UserError, with file and line or byte: exit 66 if there is no
+// such file, else 65.
 MeshFile read_mesh(const std::filesystem::path& path);
 MeshFile read_mesh(MeshSource source); // its name has the extension
 
-// Where the elements lie in memory as they should not, another order of them (sim/mesh/locality.h), with their
-// origins.
+// Reorders the elements and their origins if that improves locality in memory (sim/mesh/locality.h).
 void order_for_locality(MeshFile& file);
 
 struct MeshBody {
@@ -68,8 +68,8 @@ struct MeshBody {
   std::vector<std::string> notes;
 };
 
-// The points may have been moved since they were read. UserError (65), naming the element and its place, for
-// what a sheet or solid cannot hold, and for elements without area or volume.
+// The points may have been moved since they were read. UserError (65), naming the element and its place, if it
+// is no sheet or solid, and for elements without area or volume.
 MeshBody sew(MeshFile file);
 
 } // namespace rend

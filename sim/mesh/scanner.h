@@ -1,7 +1,7 @@
 // Reads a mesh file front to back, as text or as binary numbers, and never past its end.
 //
-// Counts are checked against the bytes that are left before anything is allocated for them, so that a file
-// cannot make its reader take more memory than its own size accounts for.
+// Counts are checked against the bytes that are left before memory is allocated for them, so that memory stays
+// proportional to the size of the file.
 #pragma once
 
 #include "sim/mesh/source.h"
@@ -26,16 +26,16 @@ public:
   }
 
   // Text. Blanks are spaces, tabs, carriage returns and line ends.
-  bool at_end();                            // nothing but blanks is left
-  bool line_ends();                         // nothing but blanks, or a comment, is left on this line
+  bool at_end();                            // skips blanks
+  bool line_ends();                         // skips blanks; a comment also ends a line
   std::string_view token(const char* what); // fails at the end of the file
-  std::string_view rest_of_line();          // without the line end, which is stepped over
-  void skip_comments(char begin);           // blanks, and lines that start with it
+  std::string_view rest_of_line();          // without the line end, which is skipped
+  void skip_comments(char begin);           // and blanks; a comment is a line that starts with `begin`
   std::int64_t integer(const char* what);
   double real(const char* what);        // finite
   std::uint64_t size(const char* what); // an integer of at least 0
 
-  // Binary, of this machine's byte order or, with `swapped`, the other.
+  // Binary, in the byte order of this machine or, with `swapped`, the other.
   template <class T> T raw(const char* what) {
     last_ = at_;
     if (left() < sizeof(T)) end_in(what);
@@ -50,7 +50,7 @@ public:
   bool swapped = false;
   bool binary = false; // number() reads binary numbers
 
-  // T in either form: std::int32_t, std::uint64_t or a finite double.
+  // T from text or binary: std::int32_t, std::uint64_t or a finite double.
   template <class T> T number(const char* what) {
     if constexpr (std::is_same_v<T, double>) {
       if (!binary) return real(what);
@@ -64,7 +64,7 @@ public:
     }
   }
 
-  // Fails at the last number unless `count` things of at least `bytes` each fit into what is left.
+  // Fails at the last number unless `count` items of at least `bytes` each fit into the rest of the file.
   void check_count(std::uint64_t count, std::size_t bytes, const char* what) const;
 
 private:

@@ -32,7 +32,7 @@ Vec3 point_of_band(const SheetShape& shape, double s, double t) {
   const Vec3 outwards(sine_of_degrees(degrees), 0, -cosine_of_degrees(degrees));
   const double across = (t - 0.5) * ly; // from the middle of the band
   if (shape.closure == SheetClosure::Loop) return radius * outwards + Vec3(0, across, 0);
-  const double half = 180 * s; // the strip makes half a turn about its middle line on the way around
+  const double half = 180 * s; // a half turn about the middle line over the length of the strip
   return radius * outwards +
          across * (cosine_of_degrees(half) * Vec3(0, 1, 0) + sine_of_degrees(half) * outwards);
 }
@@ -58,7 +58,7 @@ public:
         mesh.points.push_back(point_at(shape, double(x) / shape.nx, double(y) / shape.ny));
   }
 
-  // The index of the grid point (x, y); beyond the seam of a band it is that of the other end.
+  // The index of the grid point (x, y); at the seam of a band, x = nx is identified with x = 0.
   std::uint32_t operator()(int x, int y) const {
     if (x == columns_) { // nx on a band
       x = 0;

@@ -3,9 +3,9 @@
 //   quads      nx × ny quads, row after row from y = 0
 //   triangles  each quad cut along the diagonal from its first corner
 //   crossed    each quad cut into four triangles around its centre (the thesis's triangulation, fig. 3.22)
-//   mixed      every second quad, as on a chessboard, crossed
+//   mixed      every second quad, as on a chessboard, is crossed
 //
-// close = loop joins the sides x = 0 and x = lx; twist joins them upside down, which makes a Möbius band. The
+// close = loop joins the sides x = 0 and x = lx; twist joins them reversed, which makes a Möbius band. The
 // points of a band are those of a cylinder (a half-turned strip) around the y axis, of circumference lx.
 #pragma once
 

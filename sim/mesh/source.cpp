@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t block = 4096, piece = 256 * block; // [bytes]
 
-// No mesh holds a block of zeros: of texts none holds a zero, and between the coordinates of a binary file
-// stand tags. A file of which parts were never written does, and can claim to be of any size without taking
-// room on the disk; so it is refused before it takes any here.
+// A block of zero bytes occurs in no mesh: text has no zero bytes, and in a binary file the coordinates
+// alternate with tags. A sparse file, of which parts were never written, has such blocks and can claim any size
+// without using disk space; it is refused before it uses memory.
 void check_written(const std::string& name, std::size_t offset, std::string_view bytes) {
   static const std::string zeros(block, '\0');
   for (std::size_t at = 0; at + block <= bytes.size(); at += block)
@@ -25,7 +25,7 @@ void check_written(const std::string& name, std::size_t offset, std::string_view
           "it was not written to its end, or has a hole: write it again");
 }
 
-// What of a file's size is there. It may be less than its size by far.
+// The part of a file's size that is stored. It may be far less than its size.
 std::size_t bytes_on_disk(const std::filesystem::path& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 ? static_cast<std::size_t>(status.st_blocks) * 512 : 0;

@@ -1,5 +1,5 @@
-// A mesh file in memory, and errors that say where in it something stands: line and column of a text, the byte
-// of a binary file.
+// A mesh file in memory, and errors with their place in it: line and column of a text, the byte of a binary
+// file.
 #pragma once
 
 #include "sim/base/error.h"
@@ -13,7 +13,7 @@ namespace rend {
 
 class MeshSource {
 public:
-  // UserError: NoInput where there is no such file, BadInput if it is no file or was not wholly written,
+  // UserError: NoInput if there is no such file, BadInput if it is not a regular file or has unwritten parts,
   // ReadWrite if reading fails.
   static MeshSource open(const std::filesystem::path& path);
   MeshSource(std::string name, std::string bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}

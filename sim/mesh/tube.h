@@ -1,8 +1,8 @@
-// A rectangular tube along z, one layer of hexahedra thick, its outside from the origin to (lx, ly, lz) (thesis
-// fig. 7.14: 32 hexahedra).
+// A rectangular tube along z, one layer of hexahedra thick, its outer hull from the origin to (lx, ly, lz)
+// (thesis fig. 7.14: 32 hexahedra).
 //
 // Each of the four sides is divided equally into a quarter of the cells around, outside and inside alike, so
-// that the borders at the corners are mitred and cells conform.
+// that the corners are mitred and the mesh is conforming.
 #pragma once
 
 #include "sim/base/settings.h"
@@ -18,7 +18,7 @@ struct TubeShape {
 };
 template <> const Fields<TubeShape>& fields_of();
 
-// CHECK: the shape is as it says above.
+// CHECK: the shape satisfies the conditions above.
 CellMesh tube_cells(const TubeShape& shape);
 
 } // namespace rend

@@ -55,7 +55,7 @@ public:
         nodes_(static_cast<std::size_t>(rule.right.size())) {}
 
   std::vector<Dart> run() {
-    place_vertices(); // first: expressions read the map as it was matched
+    place_vertices(); // first, since point expressions read the map as it was matched
     unlink_left();
     create();
     remove();
@@ -103,8 +103,8 @@ Point Rewriter::evaluate(const PointSource& source, std::size_t instance) const 
   return point;
 }
 
-// Says where every created dart is, those of kept vertices too: a later change in the same edit may cut them
-// off.
+// Sets the point of every created dart, also of those in kept vertices: a later change in the same edit may
+// separate them.
 void Rewriter::place_vertices() {
   point_.assign(match_.instances * nodes_, no_point);
   for (int n = 0; n < rule_.right.size(); ++n) {
@@ -157,7 +157,7 @@ void Rewriter::unlink_left() {
   }
 }
 
-// Darts of one instance follow each other: they will be neighbours.
+// The darts of one instance get consecutive numbers: they will be neighbours.
 void Rewriter::create() {
   darts_.resize(match_.instances * nodes_);
   for (std::size_t k = 0; k < match_.instances; ++k) {

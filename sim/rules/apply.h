@@ -1,10 +1,10 @@
-// Applying a rule: find its left graph, then put the right one in its place.
+// Applying a rule: find a match of its left graph and replace it by the right graph.
 //
 //   if (const Applied done = apply(unsew_edge, body, dart); !done.ok) report(done.reason);
 //
-// A match that fails leaves the map as it was, to the last byte, and says why. A rule that is well formed
-// (rule_check.h) keeps the axioms wherever it matches. Rules speak of topology and points alone: all other
-// embeddings follow by their own policies (column.h).
+// If there is no match the map is unchanged to the last byte, and the reason is returned. A well-formed rule
+// (rule_check.h) preserves the axioms wherever it matches. Rules specify topology and points only: all other
+// embeddings are updated by their own policies (column.h).
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -15,7 +15,7 @@
 
 namespace rend {
 
-// What the point expressions of a rule ask the caller for.
+// The arguments of a rule's point expressions.
 struct Arguments {
   std::vector<Point> points; // given(n)
   std::vector<Vec3> vectors; // translated(node, n) [m]: added to position and rest position
@@ -23,7 +23,7 @@ struct Arguments {
 
 struct Applied {
   bool ok = false;
-  std::string reason; // a sentence: why not
+  std::string reason; // a sentence; empty if ok
 
   // The darts of a node of the right graph, one per instance; the first belongs to the hook itself.
   // CHECK: the rule has such a node.
@@ -34,9 +34,9 @@ struct Applied {
   std::vector<Dart> all; // [instance][node of the right graph]
 };
 
-// In an edit that is open: so that many applications share one update of the columns. Expressions see the
-// points from before the edit, and those that it gave to new darts. CHECK: as many hooks and arguments as the
-// rule asks for.
+// Within an open edit, so that many applications share one update of the columns. Point expressions read the
+// points from before the edit, and those given to its new darts. CHECK: as many hooks and arguments as the rule
+// requires.
 Applied apply(const Rule& rule, Edit& edit, const Hooks& hooks = {}, const Arguments& arguments = {});
 
 // In an edit of its own.

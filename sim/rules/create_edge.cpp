@@ -4,8 +4,8 @@
 namespace rend {
 using namespace grammar;
 
-// A second vertex, and the edge to it. Thesis fig. 3.37. α1 of the first vertex may lead to an edge that is
-// there already: the rule does not speak of it.
+// A second vertex, and the edge to it. Thesis fig. 3.37. α1 of the first vertex may lead to an existing edge:
+// the rule does not constrain it.
 //
 //   a ↺0,2,3   →   a ─0─ b ↺1        both ↺2,3
 constexpr Rule create_edge{

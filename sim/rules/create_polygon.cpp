@@ -3,8 +3,8 @@
 
 namespace rend {
 
-//   p0 ─0─ ─1─ p1 ─0─ ─1─ p2 … ─1─ p0        no constant knows how many nodes; the links are those
-//                                            of create_triangle
+//   p0 ─0─ ─1─ p1 ─0─ ─1─ p2 … ─1─ p0        no Rule, as the number of nodes varies; the links are those
+//                                              of create_triangle
 std::vector<Dart> create_polygon(Edit& edit, std::span<const Point> points) {
   CHECK(points.size() >= 3);
   std::vector<Dart> darts;

@@ -4,8 +4,8 @@
 namespace rend {
 using namespace grammar;
 
-// A face, swept by an edge that has none. Folded along <0>: b and c are the sides that leave the edge's two
-// ends, d the edge across. Thesis figs. 3.38, 3.39.
+// A face swept by an edge without face. The nodes stand for orbits <0>: b and c are the sides at the edge's two
+// ends, d the opposite edge. Thesis figs. 3.38, 3.39.
 //
 //   a <0> ↺1   →   a <0> ─1─ b <_> ─0─ c <_> ─1─ d <0>
 constexpr Rule extrude_edge{

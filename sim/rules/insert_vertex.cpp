@@ -4,8 +4,8 @@
 namespace rend {
 using namespace grammar;
 
-// A vertex in the middle of an edge, for all faces and volumes around it at once: folded along <0,2,3>. In a
-// sheet that is <0,2>.
+// A vertex in the middle of an edge, for all faces and volumes around it at once: the hook is the orbit
+// <0,2,3>, in a sheet <0,2>.
 //
 //   a <0,2,3>   →   a <_,2,3> ─0─ c <1,2,3>
 constexpr Rule insert_vertex{

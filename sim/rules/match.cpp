@@ -16,7 +16,7 @@ namespace {
 
 using Kind = RuleLink::Kind;
 
-// A node that is reached from another by an arc, in an order in which the other comes first.
+// A node reached by an arc from an earlier node.
 struct Step {
   int node, from, link;
 };
@@ -47,7 +47,7 @@ Plan plan_of(const RuleGraph& graph) {
   return plan;
 }
 
-// Why a rule cannot apply to a sheet at all: it would link darts by α3.
+// Whether a rule would link darts by α3, so that it cannot apply to a sheet.
 bool links_by_alpha3(const Rule& rule) {
   for (const RuleArc& arc : rule.right.arcs)
     if (arc.link == 3) return true;
@@ -89,7 +89,7 @@ private:
     return match_.darts[instance * match_.nodes + static_cast<std::size_t>(node)];
   }
 
-  // The instances: a walk over the first hook's orbit, with all other hooks in step.
+  // The instances: a walk over the orbit of the first hook, and the same walk from all other hooks.
   void walk_hooks(const Hooks& hooks) {
     thread_local IndexMap instance_of;
     instance_of.clear();
@@ -116,7 +116,7 @@ private:
       for (const Step& step : plan_.steps) dart(k, step.node) = map_.alpha(step.link, dart(k, step.from));
   }
 
-  // What αi of a node should be, and is not.
+  // How αi of a node differs from the graph; empty if it does not.
   std::string misfit(int node, int i) {
     const RuleLink link = graph_.link(node, i);
     if (link.kind == Kind::Absent || (link.kind == Kind::Implicit && node == plan_.hooks[0])) return {};
@@ -136,7 +136,7 @@ private:
   }
 
   std::string overlap() {
-    if (match_.nodes == 1) return {}; // the walk met each dart once
+    if (match_.nodes == 1) return {}; // the walk visits each dart once
     thread_local IndexSet met;
     met.clear();
     for (Dart d : match_.darts)

@@ -1,8 +1,8 @@
-// Where the left graph of a rule lies in a map.
+// Matching the left graph of a rule in a map.
 //
-// From the hooks the match is unique: the darts of the first hook's orbit are the instances, in the order of a
-// walk, and every node has one dart at each of them. It is a match if all that the graph says holds at every
-// instance, and no two nodes or instances meet the same dart (thesis 3.4.1, footnote 3: a match is injective).
+// The hooks determine the match: the darts of the first hook's orbit are the instances, in the order of a walk,
+// and every node has one dart at each of them. It is a match if all links and loops of the graph hold at every
+// instance, and no dart is used twice (thesis 3.4.1, footnote 3: a match is injective).
 #pragma once
 
 #include "sim/topology/rule.h"
@@ -34,7 +34,7 @@ struct Match {
   std::size_t positions = 0;             // of its labels
   std::size_t instances = 0;             // 1 for an empty left graph
   std::vector<Dart> darts;               // [instance][node]
-  std::vector<std::uint32_t> neighbours; // instance, [instance][position]: across the hook's link
+  std::vector<std::uint32_t> neighbours; // [instance][position]: the instance that the hook's link leads to
 
   Dart dart(std::size_t instance, int node) const {
     return darts[instance * nodes + static_cast<std::size_t>(node)];
@@ -44,8 +44,8 @@ struct Match {
   }
 };
 
-// Fills `match`; returns why there is none, or an empty text. Linear in the darts that are matched.
-// CHECK: as many hooks as the rule has.
+// Fills `match`; returns why there is none, or an empty text. Linear in the number of matched darts. CHECK: as
+// many hooks as the rule has.
 std::string find_match(const Rule& rule, const GMap& map, const Hooks& hooks, Match& match);
 
 } // namespace rend

@@ -4,7 +4,7 @@
 
 namespace rend {
 
-// Separation by `unsew` and not by the rules: an element may be sewn to itself, where no match is injective.
+// Uses `unsew` instead of the separation rules: an element may be sewn to itself, where no match is injective.
 void remove_element(Edit& edit, Dart d) {
   const bool sheet = edit.map().dimension() == 2;
   for (Dart e : darts_of(edit.map(), sheet ? FaceOfVolume : Volume, d))

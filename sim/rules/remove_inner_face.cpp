@@ -4,8 +4,8 @@
 namespace rend {
 using namespace grammar;
 
-// Removes a face of a sheet and frees the edges of its neighbours, in one step. Every side must be sewn to
-// another face: b is one dart per side, its α1 (the label's `_`) is not looked at. Thesis fig. 3.50.
+// Removes a face of a sheet and frees the edges of its neighbours. Every side must be sewn to another face: b
+// is one dart per side, its α1 (the label's `_`) is not matched. Thesis fig. 3.50.
 //
 //   a <0,1> ─2─ b <0,_>   →   b <0,_> ↺2        a ↺3
 constexpr Rule remove_inner_face{

@@ -1,7 +1,6 @@
-// All rules, each in a file of its own that draws it. One word in all_rules() (rules.cpp) adds another.
+// All rules, each in a file of its own with a drawing. To add one, list it in all_rules() (rules.cpp).
 //
-// Whether a hook has several darts to choose from does not matter: any dart of the orbit named here gives the
-// same map.
+// Any dart of the orbit named here may be the hook: the resulting map is the same.
 #pragma once
 
 #include "sim/rules/apply.h"
@@ -37,11 +36,11 @@ extern const Rule remove_isolated_volume;      // a volume without neighbours
 
 const std::vector<const Rule*>& all_rules();
 
-// A face with as many sides as there are points (three at least), free on all sides; returns two darts per
-// side, d and α0(d), side after side: the first of a side stands at its point. As fig. 3.46, for any number.
+// A face with as many sides as there are points (at least three), free on all sides; returns two darts per
+// side, d and α0(d), side by side: d is at the point of its side. As fig. 3.46, for any number of sides.
 std::vector<Dart> create_polygon(Edit& edit, std::span<const Point> points);
 
-// Takes a face out of a sheet, or a volume out of a solid, whatever it is sewn to: separations, then a removal.
+// Removes a face from a sheet, or a volume from a solid, whatever it is sewn to: separations, then a removal.
 void remove_element(Edit& edit, Dart d);
 
 } // namespace rend

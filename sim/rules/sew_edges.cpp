@@ -5,7 +5,7 @@ namespace rend {
 using namespace grammar;
 
 // Sews two faces along an edge: the first hook to the second, and their far ends to each other. Thesis fig.
-// 3.20. Vertices that become one keep the point of their smallest dart.
+// 3.20. Merged vertices keep the point of their smallest dart.
 //
 //   a <0> ↺2    b <0> ↺2   →   a <0> ─2─ b <0>
 constexpr Rule sew_edges{

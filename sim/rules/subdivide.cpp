@@ -4,9 +4,9 @@
 namespace rend {
 using namespace grammar;
 
-// Cuts every face of a component into one quad per corner: b is the middle of an edge, d that of a face; c
-// doubles b on the way to d. All faces at once, so that no edge is cut on one side alone. Thesis figs. 3.42,
-// 3.44.
+// Cuts every face of a component into one quad per corner: b is at the midpoint of an edge, d at the centre of
+// a face; c is at the same point as b, on the edge to d. All faces at once, so that no edge is cut on one side
+// only. Thesis figs. 3.42, 3.44.
 //
 //   a <0,1,2>   →   a <_,1,2> ─0─ b <_,_,2> ─1─ c <2,_,_> ─0─ d <2,1,_>        all ↺3
 constexpr Rule subdivide{

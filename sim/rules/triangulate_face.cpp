@@ -4,8 +4,8 @@
 namespace rend {
 using namespace grammar;
 
-// A triangle on each side of a face, around a new vertex in its middle. Thesis figs. 3.22 to 3.29. The face has
-// one side only: it belongs to a sheet, or to the hull of a solid.
+// A triangle on each side of a face, around a new vertex in its middle. Thesis figs. 3.22 to 3.29. The face is
+// α3-free: of a sheet, or on the boundary of a solid.
 //
 //   a <0,1>   →   a <0,_> ─1─ b <_,2> ─0─ c <1,2>        all ↺3
 constexpr Rule triangulate_face{

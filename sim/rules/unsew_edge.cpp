@@ -4,7 +4,8 @@
 namespace rend {
 using namespace grammar;
 
-// Opens an edge between two faces. Folded along <0>: each node stands for both ends. Thesis figs. 3.48, 7.5.
+// Separates two faces at their common edge. Each node stands for an orbit <0>: both ends of the edge. Thesis
+// figs. 3.48, 7.5.
 //
 //   a <0> ─2─ b <0>   →   a <0> ↺2    b <0> ↺2
 constexpr Rule unsew_edge{

@@ -4,7 +4,7 @@
 namespace rend {
 using namespace grammar;
 
-// Opens a face between two volumes, however many sides it has. Thesis fig. 7.5, one dimension up.
+// Separates two volumes at their common face, of any number of sides. Thesis fig. 7.5, in one dimension more.
 //
 //   a <0,1> ─3─ b <0,1>   →   a <0,1> ↺3    b <0,1> ↺3
 constexpr Rule unsew_face{
