@@ -1,4 +1,4 @@
-// Which sides of elements fracture has laid bare: an embedding that remembers the borders of the start.
+// Which sides of elements were exposed by fracture: an embedding that stores the initial boundary.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -8,8 +8,8 @@
 
 namespace rend {
 
-// Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was a border when
-// its element was born: what is a border now and was none then is torn.
+// Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was on the
+// boundary when its element was created: a side that is on the boundary now and was not then has been torn.
 struct BornBorder {
   using Value = std::uint8_t;
   explicit BornBorder(int dimension = 2) : orbit(dimension == 2 ? EdgeOfFace : FaceOfVolume) {}

@@ -1,10 +1,10 @@
-// The faces that are drawn of a solid: few among many, so kept sparsely, and in an order that is the map's
+// The boundary faces of a solid: few among many, so stored sparsely, and in an order determined by the map
 // alone.
 //
-// A face's key is its smallest dart. Keys come in blocks of 128 darts; a block holds its drawn faces sorted by
-// key, and their corners one face after another. An insertion moves what follows in one block; an empty block
-// costs 48 bytes (0.4 bytes a dart of the map); and the whole is a pure function of what is drawn, however it
-// came about.
+// The key of a face is its smallest dart. Keys come in blocks of 128 darts; a block holds its boundary faces
+// sorted by key, and their corners face by face. An insertion moves only what follows in its block; an empty
+// block costs 48 bytes (0.4 bytes per dart of the map); the whole is a pure function of the set of faces,
+// however it was reached.
 #pragma once
 
 #include "sim/boundary/side.h"
@@ -19,27 +19,28 @@ class DrawnFaces {
 public:
   struct Corner {
     Slot vertex;
-    Dart group; // corners of one group share a normal; named by its smallest dart (a bare face: by the face's)
-    Side side;  // along the edge to the next corner
+    // corners of one group share a normal; the group's smallest dart (on an exposed face: the face's)
+    Dart group;
+    Side side; // along the edge to the next corner
     bool operator==(const Corner&) const = default;
   };
   struct Face {
-    Dart first;  // the smallest dart; its corner is corner 0
-    bool turned; // corners are met from α1(first) on, not from first: counter-clockwise seen from outside
-    bool bare;   // laid bare by fracture
+    Dart first;  // its smallest dart; its corner is corner 0
+    bool turned; // corners are listed from α1(first) on, not from first: counter-clockwise as seen from outside
+    bool bare;   // exposed by fracture
     std::uint32_t sides;
     bool operator==(const Face&) const = default;
   };
 
-  void resize(std::size_t darts);                              // room for keys below; never shrinks
-  void set(const Face& face, std::span<const Corner> corners); // in place of what was there
+  void resize(std::size_t darts); // makes room for keys below `darts`; never shrinks
+  void set(const Face& face, std::span<const Corner> corners); // replaces the face if it is present
   bool erase(Dart first);                                      // false: there was none
 
   struct Found {
-    const Face* face = nullptr; // null: not drawn
+    const Face* face = nullptr; // null: not present
     std::span<Corner> corners;
   };
-  Found find(Dart first); // holds until the next set() or erase()
+  Found find(Dart first); // valid until the next set() or erase()
   std::size_t count() const { return faces_; }
   std::size_t corner_count() const { return corners_; }
 
@@ -61,11 +62,11 @@ private:
   static constexpr std::size_t block_size = 128; // [darts]
   struct Block {
     std::vector<Face> faces;     // by increasing first
-    std::vector<Corner> corners; // face after face
+    std::vector<Corner> corners; // face by face
     bool operator==(const Block&) const = default;
   };
   struct Place {
-    std::size_t face, corner; // in the block: of the first face whose key is not below
+    std::size_t face, corner; // in the block: of the first face whose key is not smaller
   };
   Place place_of(const Block& block, Dart first) const;
 

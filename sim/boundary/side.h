@@ -1,4 +1,4 @@
-// What lies along a side of a drawn face or triangle.
+// What kind of line a side of a boundary face or triangle is.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 namespace rend {
 
 enum class Side : std::uint8_t {
-  Inner = 0,  // a diagonal: nothing
+  Inner = 0,  // a diagonal of a face: no line
   Cell = 1,   // an edge between two cells
-  Border = 2, // of a sheet: a border from the start
-  Torn = 3,   // of a sheet: laid bare by tearing
-  Crease = 4, // of a solid: the surface bends sharply there, or changes from hull to what fracture laid bare
+  Border = 2, // of a sheet: on the initial boundary
+  Torn = 3,   // of a sheet: exposed by tearing
+  Crease = 4, // of a solid: a sharp edge, or one between the initial boundary and faces exposed by fracture
 };
 
 } // namespace rend

@@ -51,14 +51,14 @@ bool SolidSurface::update() {
   queued_.fit(map.capacity());
   in_volumes_.fit(map.capacity());
   for (const auto& touched : changes_.touched)
-    for (Dart d : touched) drawn_.erase(d); // if it is a key: it may be one no more
+    for (Dart d : touched) drawn_.erase(d); // in case it was a key: it may no longer be one
   for (std::size_t i = 0; i < 4; ++i)
     for (Dart d : changes_.touched[i]) {
       if (!map.alive(d)) continue;
       if (i < 3 || d <= map.alpha(0, d)) queue_around_edge(d); // α3 changes at both ends of an edge
-      if (i < 3) queue_volume(d);                              // an element of another shape
+      if (i < 3) queue_volume(d);                              // the shape of an element changed
     }
-  // Other slots of vertices; and where two vertices became one, an element of another shape at rest.
+  // Vertices with other slots; if vertices were merged, the rest shape of elements changed.
   for (Dart d : changes_.moved[Vertex.mask])
     if (map.alive(d)) queue_volume(d);
   changes_.clear();
@@ -97,9 +97,9 @@ void SolidSurface::queue_volume(Dart d) {
   collect_marked(map, Volume, d, volumes_, in_volumes_);
   for (std::size_t n = begin; n < volumes_.size(); ++n) {
     const Dart e = volumes_[n];
-    if (map.alpha(0, e) < e || !map.is_free(3, e)) continue; // one end of an edge will do
+    if (map.alpha(0, e) < e || !map.is_free(3, e)) continue; // one end of an edge is enough
     if (e <= map.alpha(1, e)) queue(e);                      // as the smallest dart of its face is
-    queue(across_hull_edge(map, e)); // the edge between may have become a crease, or be one no more
+    queue(across_hull_edge(map, e)); // their common edge may have become a crease, or ceased to be one
   }
 }
 
@@ -135,7 +135,7 @@ void SolidSurface::write_face(Dart first) {
   const GMap& map = map_.map();
   bool closed = true;
   walk_two(map, 0, 1, first, [&](Dart d) {
-    if (d != first) drawn_.erase(d); // the key of a face that became part of this one
+    if (d != first) drawn_.erase(d); // the key of a face that was merged into this one
     closed = closed && !map.is_free(0, d) && !map.is_free(1, d);
   });
   const bool turned = closed && !winds_outward(map_, first), is_bare = bare(first);
@@ -146,7 +146,7 @@ void SolidSurface::write_face(Dart first) {
     corners.push_back({map_.vertex(at), is_bare ? first : Dart{}, side_of(at, area)});
     at = map.follow(at, to_next_side);
   } while (at != start);
-  if (!closed || corners.size() < 3) { // nothing that has an area
+  if (!closed || corners.size() < 3) { // a face without area
     drawn_.erase(first);
     return;
   }
@@ -157,7 +157,8 @@ SolidSurface::FanCorner SolidSurface::fan_corner(Dart even, Dart odd) const {
   return {even, odd, rest_area_vector(map_, even), bare(even)};
 }
 
-// The corners around the vertex of d that hang together on the hull, in turn; areas agree in their side.
+// The corners around the vertex of d that are connected on the hull, in order; their areas have a consistent
+// orientation.
 void SolidSurface::collect_fan(Dart d) {
   const GMap& map = map_.map();
   fan_.clear();
@@ -170,7 +171,7 @@ void SolidSurface::collect_fan(Dart d) {
     if (odd == even || next == odd) break;
     even = next;
   }
-  for (Dart even = d;;) { // an open volume: the rest lies the other way
+  for (Dart even = d;;) { // an open volume: continue in the other direction
     const Dart odd = across_hull_edge(map, even);
     if (odd == even) return;
     even = map.alpha(1, odd);
@@ -200,7 +201,7 @@ void SolidSurface::write_fan(Dart d) {
 void SolidSurface::write_group(std::size_t begin, std::size_t end) {
   const GMap& map = map_.map();
   const auto at = [&](std::size_t k) -> const FanCorner& { return fan_[k % fan_.size()]; };
-  if (at(begin).bare) return; // by itself, and named by its face
+  if (at(begin).bare) return; // a group of its own, named by its face
   Dart group = at(begin).even;
   for (std::size_t k = begin; k < end; ++k) group = std::min({group, at(k).even, at(k).odd});
   for (std::size_t k = begin; k < end; ++k) {
@@ -214,7 +215,7 @@ void SolidSurface::write_group(std::size_t begin, std::size_t end) {
   }
 }
 
-// Numbers of groups by their first corner: a pure function of what is drawn.
+// Numbers the groups in the order of their first corners: a pure function of the boundary.
 void SolidSurface::number_groups() {
   thread_local IndexMap numbers;
   numbers.clear();

@@ -1,18 +1,20 @@
-// What is seen of a solid: its α3-free faces, as triangles with the true edges of cells, and their normals.
+// The boundary surface of a solid: its α3-free faces as triangles, with the edges of cells marked, and their
+// normals.
 //
-// Faces are bound one by one, rebuilt only where the map changed, and equal to a full rebuild (drawn_faces.h).
-// They run counter-clockwise seen from outside, which is known from the rest state and not from how the map was
-// built; so the far side of a triangle is never seen and need not be drawn.
+// Faces are bound one by one, rebuilt only where the map changed, with a result equal to a full rebuild
+// (drawn_faces.h). They are oriented counter-clockwise as seen from outside, which follows from the rest state
+// and not from how the map was built; so back faces need not be drawn.
 //
-// Corners around a vertex that bend little share a normal, so that a coarse mesh of a smooth shape looks
-// smooth: a fan of corners (hull.h) falls into groups at creases, which are edges where two faces make more
-// than 40° at rest. (By the rest state, or creases would come and go as the body bends.) A face that fracture
-// laid bare is flat and keeps to itself. The normal of a group is, over its corners with the sides a and b,
+// Corners around a vertex share a normal unless a crease separates them, so that a coarse mesh of a smooth
+// shape looks smooth: the fan of corners around a vertex (hull.h) is divided into groups by creases, edges
+// where the normals of two faces differ by more than 40° at rest. (At rest, or creases would come and go as the
+// body bends.) A face exposed by fracture is shaded flat, in a group of its own. The normal of a group is, over
+// its corners with the edge vectors a and b,
 //
 //   n ~ Σ a × b / (|a|² |b|²),
 //
-// exact for points on a sphere (Max, Weights for computing vertex normals, 1999), and costs no angle. Nothing
-// here is kept for faces inside.
+// exact for points on a sphere (Max, Weights for computing vertex normals, 1999), and needs no angles. Nothing
+// is stored for inner faces.
 #pragma once
 
 #include "sim/boundary/born_border.h"
@@ -24,7 +26,7 @@ namespace rend {
 class SolidSurface {
 public:
   SolidSurface(EmbeddedMap& map,
-               const BorderColumn* border); // CHECK: a solid. border: null where nothing tears
+               const BorderColumn* border); // CHECK: a solid. border: null if the body cannot tear
   ~SolidSurface();
   SolidSurface(const SolidSurface&) = delete;
   SolidSurface& operator=(const SolidSurface&) = delete;
@@ -32,11 +34,11 @@ public:
   bool update(); // after edits; costs as much as they touched; false: there were none
 
   struct Triangle {
-    std::array<Slot, 3> vertex;          // counter-clockwise seen from outside, at rest
+    std::array<Slot, 3> vertex;          // counter-clockwise as seen from outside, at rest
     std::array<std::uint32_t, 3> corner; // index into normals
     std::array<Side, 3> side;            // opposite to vertex k
-    Dart first;                          // the smallest of its face
-    bool bare;                           // laid bare by fracture
+    Dart first;                          // the smallest dart of its face
+    bool bare;                           // exposed by fracture
   };
   std::size_t faces() const { return drawn_.count(); }
   std::size_t triangles() const { return drawn_.corner_count() - 2 * drawn_.count(); }
@@ -61,7 +63,7 @@ public:
     });
   }
 
-  // Normals of the current state, unit and outward, or 0 where there is none; one per corner of a drawn face.
+  // Normals of the current state, unit and outward, or 0 if undefined; one per corner of a boundary face.
   void normals(std::vector<Vec3>& out);
 
   std::size_t bytes() const { return drawn_.bytes() + numbers_.size() * sizeof(std::uint32_t); }
@@ -75,15 +77,15 @@ private:
   };
 
   void rebuild();
-  void queue(Dart d);             // the face of d, if it is drawn
-  void queue_around_edge(Dart d); // the two faces of the hull there
-  void queue_volume(Dart d);      // the drawn faces of d's volume, and their neighbours
-  void empty_queue();             // and its marks
-  void bind();                    // the faces that were queued
+  void queue(Dart d);             // queues the face of d, if it is on the boundary
+  void queue_around_edge(Dart d); // the two hull faces at the edge
+  void queue_volume(Dart d);      // the boundary faces of d's volume, and their neighbours
+  void empty_queue();             // and clears its marks
+  void bind();                    // rebuilds the queued faces
   void write_face(Dart first);
   void write_fan(Dart d);
   void collect_fan(Dart d);
-  void write_group(std::size_t begin, std::size_t end); // of the fan, modulo its size
+  void write_group(std::size_t begin, std::size_t end); // of the fan, indices modulo its size
   bool bare(Dart d) const;
   Side side_of(Dart d, const Vec3& area) const;
   FanCorner fan_corner(Dart even, Dart odd) const;
@@ -93,16 +95,16 @@ private:
   const BorderColumn* border_;
   DrawnFaces drawn_;
   Changes changes_;
-  std::vector<std::uint32_t> numbers_; // of its group, one per corner of a drawn face
+  std::vector<std::uint32_t> numbers_; // of its group, one per corner of a boundary face
   std::size_t groups_ = 0;
-  bool numbered_ = false;  // numbers_ are those of drawn_
+  bool numbered_ = false;  // whether numbers_ belong to the current drawn_
   std::vector<Vec3> sums_; // one per group
 
   // Scratch of update().
-  std::vector<Dart> queue_;   // smallest darts of the faces to be bound
+  std::vector<Dart> queue_;   // smallest darts of the faces to rebuild
   Marks queued_;              // on their darts
   std::vector<Dart> volumes_; // darts of volumes that were queued
-  Marks in_volumes_;          // on those
+  Marks in_volumes_;          // marks on those
   std::vector<FanCorner> fan_;
   bool fan_closed_ = false;
 };

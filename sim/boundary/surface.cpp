@@ -56,7 +56,8 @@ void Surface::write_face(Slot face) {
   const Dart first = faces.first_dart(face);
   const bool seen = faces.alive(face);
   const int sides = seen ? sides_of_face(map.map(), first) : 0;
-  Dart at = seen ? map.map().alpha(1, map.map().alpha(0, first)) : first; // starts the side after the first
+  // the dart that starts the second side
+  Dart at = seen ? map.map().alpha(1, map.map().alpha(0, first)) : first;
   if (triangles_.live(face * fan_ + fan_ - 1)) --full_;
   if (sides == static_cast<int>(fan_) + 2) ++full_;
   for (std::size_t n = 0; n < fan_; ++n) {
@@ -79,7 +80,7 @@ void Surface::write_face(Slot face) {
   }
 }
 
-// All corners around a vertex: α1 and α2 in turn, from the smallest dart both ways.
+// All corners around a vertex: α1 and α2 alternately, in both directions from the smallest dart.
 void Surface::write_corners(Slot vertex) {
   const EmbeddedMap& map = map_;
   const CellIndex& vertices = map.cells(Vertex);
@@ -91,14 +92,15 @@ void Surface::write_corners(Slot vertex) {
                                            map.vertex(map.map().alpha(0, odd))};
     corners_.set(map.slot(VertexOfFace, even), row.data(), nullptr);
   };
-  for (Dart even = first;;) { // even dart, its corner, the odd one, over the edge to the next even one
+  for (Dart even = first;;) { // even dart, its corner, the odd dart, across the edge to the next even dart
     write(even);
     const Dart odd = map.map().alpha(1, even), next = map.map().alpha(2, odd);
-    if (next == first) return; // once around
+    if (next == first) return; // a full turn
     if (odd == even || next == odd) break;
     even = next;
   }
-  for (Dart odd = map.map().alpha(2, first); odd != first;) { // the other way, where the vertex is on a border
+  // the other direction, if the vertex is on the boundary
+  for (Dart odd = map.map().alpha(2, first); odd != first;) {
     const Dart even = map.map().alpha(1, odd);
     if (even == first || even == odd) break;
     write(even);
@@ -147,7 +149,7 @@ void Surface::update() {
     vertex(map.vertex(map.map().alpha(0, d)));
   }
   changes_.clear();
-  if (full_ == 0 && fan_ > 1) return rebuild(); // the last face with so many sides is gone
+  if (full_ == 0 && fan_ > 1) return rebuild(); // the last face with so many sides was removed
   triangles_.seal();
   corners_.seal();
 }

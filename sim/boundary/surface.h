@@ -1,14 +1,14 @@
-// What is seen of a sheet: triangles of its faces, with the true edges of cells and normals. (Of a solid:
+// The surface of a sheet: triangles of its faces, with the edges of cells marked, and normals. (For solids:
 // solid_surface.h.)
 //
 // Rows are bound like those of the program (packed_rows.h), with the face slot as key, rebuilt only where the
 // map changed, and equal byte for byte to a full rebuild. Positions and normals are read from the state when a
 // picture is made.
 //
-// A face becomes a fan around its first dart's vertex; only its own sides are lines, so that a quad shows as a
-// quad. A vertex normal is the sum over its element corners of (even end − v) × (odd end − v), where darts
-// around the vertex are even and odd in turn from its smallest dart on: the corners then agree without any
-// orientation of the whole, on a Möbius band as well.
+// A face becomes a fan around its first dart's vertex; only its own sides are drawn as lines, so that a quad
+// shows as a quad. A vertex normal is the sum over its element corners of (even end − v) × (odd end − v), where
+// the darts around the vertex are alternately even and odd from its smallest dart on: the corners are then
+// oriented consistently without an orientation of the whole, on a Möbius band as well.
 #pragma once
 
 #include "sim/boundary/born_border.h"
@@ -19,12 +19,12 @@ namespace rend {
 
 class Surface {
 public:
-  Surface(EmbeddedMap& map, const BorderColumn* border); // CHECK: a sheet. border: null where nothing tears
+  Surface(EmbeddedMap& map, const BorderColumn* border); // CHECK: a sheet. border: null if the body cannot tear
   ~Surface();
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
 
-  void update(); // after edits; does nothing where there were none
+  void update(); // after edits; does nothing if there were none
 
   struct Triangle {
     std::array<Slot, 3> vertex;
@@ -44,8 +44,8 @@ public:
     });
   }
 
-  // Normals of the current state, unit or 0, one per vertex slot. Their sign is a vertex's own: within a
-  // triangle they are to be turned to its side.
+  // Normals of the current state, unit or 0, one per vertex slot. Their sign is arbitrary at each vertex:
+  // within a triangle they must be flipped to its side.
   void normals(std::vector<Vec3>& out) const;
 
   std::size_t bytes() const { return triangles_.bytes() + corners_.bytes(); }
@@ -62,8 +62,8 @@ private:
 
   EmbeddedMap& map_;
   const BorderColumn* border_;
-  std::size_t fan_ = 0;  // triangles reserved per face: what the face with the most sides takes
-  std::size_t full_ = 0; // faces that take all of them
+  std::size_t fan_ = 0;  // triangles reserved per face: those of the face with the most sides
+  std::size_t full_ = 0; // number of faces that need all of them
   PackedRows triangles_; // key: face slot × fan_ + n; vertices, sides, face
   PackedRows corners_;   // key: corner slot; vertex, even end, odd end
   Changes changes_;

@@ -19,7 +19,7 @@ bool present(const GMap& map, Dart d, std::size_t = 0) {
   return one >= 3 && one <= 4 && two >= 3 && two <= 4;
 }
 
-// Born from rest positions and stiffness; a fragment keeps it.
+// Initialised from rest positions and stiffness; fragments keep the values.
 struct HingeEmbedding {
   using Value = HingeParameters;
   std::string name = "bend angular";
@@ -41,7 +41,8 @@ struct Hinges final : Interaction {
   const double* unit(Slot owner, std::size_t) const override { return &(*column)[owner].k; }
 };
 
-// Whether a hinge is on any edge. If not on all edges between faces, a note says on how many it is not.
+// Whether any edge has a hinge. If only some edges between faces have one, a note gives the number of those
+// without.
 bool has_hinge(const EmbeddedMap& map, std::vector<std::string>& notes) {
   if (!has_inner_edge(map)) {
     notes.emplace_back("bend was left out: no edge lies between two faces");

@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-// The numbers of an element law's unit, on the elements of one kind; 0 on others.
+// The values of an element law's unit, on the elements of one kind; 0 on others.
 template <int Values> struct ElementEmbedding {
   using Value = std::array<double, Values>;
   std::string name;

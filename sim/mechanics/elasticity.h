@@ -1,10 +1,10 @@
 // <elasticity>: a continuum on the elements of a body (thesis 2.2.2, 5.2.4, eq. 2.27 to 2.33).
 //
 // One interaction for each kind of element that the body has; owner the element itself (FaceOfVolume of a
-// sheet, Volume of a solid), support the same, so that a separation leaves its numbers alone. A mass-tensor
-// body has interactions on its vertices, edges and diagonals instead (mass_tensor.h).
+// sheet, Volume of a solid), which is also the support, so that a separation does not change its values. With
+// mass-tensors the interactions are on the vertices, edges and diagonals instead (mass_tensor.h).
 //
-// Adding a model: a word in the list of `model`, and its interactions in make_elasticity().
+// To add a model: a word in the list of `model`, and its interactions in make_elasticity().
 #pragma once
 
 #include "sim/mechanics/element_law.h"
@@ -29,12 +29,13 @@ struct ElasticitySettings {
 template <> const Fields<ElasticitySettings>& fields_of();
 
 // Adds the embeddings to the map. UserError: an element without volume, by its name and place; a sheet without
-// thickness, or a solid with one; no element that fits. `notes`: what the body's author should know.
+// thickness, or a solid with one; no element of a supported shape. `notes`: messages for the author of the
+// preset.
 std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, const ElasticitySettings& settings,
                                                           std::vector<std::string>& notes);
 
-// The linear elements that mass-tensors are made of, to be asked for stress and forces. They are no embedding:
-// the numbers of a unit are made when they are asked for, and last until the next are.
+// The linear elements that mass-tensors are assembled from, for evaluating stress and forces. They are not
+// embedded: the values of a unit are computed on request and valid until the next request.
 std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map,
                                                           const MassTensorRequest& request);
 

@@ -14,7 +14,7 @@ using Gradient = std::array<double, 3>;
 // Gauss points of [0,1], each of weight 1/2.
 const std::array<double, 2> gauss{0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
 
-// A function of one coordinate: t or 1 − t, and its derivative.
+// A linear function of one coordinate, t or 1 − t, and its derivative.
 double ramp(int up, double t) {
   return up ? t : 1 - t;
 }
@@ -22,10 +22,10 @@ double slope(int up) {
   return up ? 1 : -1;
 }
 
-// Where corner n of a square stands, in the order around it.
+// The position of corner n of a square, in cyclic order.
 constexpr std::array<std::array<int, 2>, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
-// Of [0,1]², or [0,1]³ with the square below and then above.
+// For [0,1]², or [0,1]³ with the lower square first.
 std::vector<ReferencePoint> box_points(int dimension) {
   std::vector<ReferencePoint> points;
   const int count = 1 << dimension;
@@ -82,12 +82,12 @@ std::vector<ReferencePoint> pyramid_points() {
       for (std::size_t axis = 0; axis < 3; ++axis) top[axis] += point.gradient[n][axis];
       point.gradient[n] = {};
     }
-    point.gradient[4] = {0, 0, top[2]}; // along the base the four cancel
+    point.gradient[4] = {0, 0, top[2]}; // along the base the four terms cancel
   }
   return points;
 }
 
-// The same words from a dart that lies elsewhere: `way` leads to one that they start from.
+// The same corners from a dart elsewhere in the element: `ways` lead from it to a dart where `words` start.
 std::vector<std::vector<Word>> starting_with(const std::vector<Word>& ways, const std::vector<Word>& words) {
   std::vector<std::vector<Word>> units;
   for (const Word& way : ways) {
@@ -112,9 +112,9 @@ std::array<ElementShape, element_kinds> make_shapes() {
                    pyramid_points()}};
 }
 
-// The darts of a volume of a few triangles and quads, face by face, without a hash set.
+// The darts of a small volume of triangles and quads, face by face, without a hash set.
 struct SmallVolume {
-  std::array<std::uint32_t, 48> darts; // as many as a hexahedron has
+  std::array<std::uint32_t, 48> darts; // at most those of a hexahedron
   std::size_t count = 0;
   int triangles = 0, quads = 0;
 
@@ -155,7 +155,7 @@ int sides_here(const GMap& map, Dart d) { // of a closed face
   return darts / 2;
 }
 
-// Whether the corners that the words lead to are different ones (an injective match).
+// Whether the words lead to different corners (the match is injective).
 bool corners_differ(const GMap& map, Dart d, const std::vector<Word>& words) {
   std::array<Dart, most_particles> corner{};
   for (std::size_t n = 0; n < words.size(); ++n) {
@@ -168,10 +168,10 @@ bool corners_differ(const GMap& map, Dart d, const std::vector<Word>& words) {
   return true;
 }
 
-// Which unit's words start from d: by the sides of its face and of the faces next to it.
+// The unit whose words start from d, determined by the number of sides of its face and of the adjacent faces.
 std::size_t unit_from(const GMap& map, ElementKind kind, Dart d) {
   if (kind != ElementKind::Prism && kind != ElementKind::Pyramid) return 0;
-  const int base = kind == ElementKind::Prism ? 3 : 4; // the sides of the face where words start
+  const int base = kind == ElementKind::Prism ? 3 : 4; // the number of sides of the face where the words start
   if (sides_here(map, d) == base) return 0;
   if (sides_here(map, map.alpha(2, d)) == base) return 1;
   if (sides_here(map, map.follow(d, Word("12"))) == base) return 2;

@@ -1,9 +1,9 @@
 // The largest eigenvalue of an element's stiffness.
 //
-// Of a simplex B is constant: u = M⁻¹ w σ G gives ε = w sym(H σ) with H = Σ G_n G_nᵀ/m_n. In the principal axes
-// of H the shears stand alone, w μ (h_i + h_j), never above the largest of the three stretches, those of w (2μ
-// D + λ √h √hᵀ) with D = diag(h): two problems of 3 × 3 instead of one of 12 × 12, 1 µs where the latter takes
-// 10.
+// For a simplex B is constant: u = M⁻¹ w σ G gives ε = w sym(H σ) with H = Σ G_n G_nᵀ/m_n. In the principal
+// axes of H the shear modes decouple, w μ (h_i + h_j), never above the largest of the three stretch modes,
+// those of w (2μ D + λ √h √hᵀ) with D = diag(h): two problems of 3 × 3 instead of one of 12 × 12, 1 µs where
+// the latter takes 10.
 #include "sim/mechanics/element_law.h"
 
 #include <Eigen/Eigenvalues>
@@ -19,7 +19,7 @@ double largest_of(const Matrix3d& m) {
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
-// Gradients of the corners at a point, each divided by the root of its mass.
+// Gradients at an integration point, each divided by the square root of the mass of its corner.
 Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_particles>
 weighed_gradients(const ElementShape& shape, std::size_t g, const double* inverse, const double* mass) {
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most_particles> gradient(3, shape.corners);

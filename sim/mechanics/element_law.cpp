@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-// An element's gradients at one integration point; of a sheet the third row is 0.
+// An element's gradients at one integration point; for a sheet the third row is 0.
 template <int N> struct PointOf {
   Eigen::Matrix<double, 3, N> gradient; // [1/m]
   double weight;                        // [m³]
@@ -35,7 +35,7 @@ template <int N, int Dim, int Points> struct Decoded {
   }
 };
 
-// The law with the sizes known to the compiler: N corners, Dim rest axes, Points integration points.
+// The law with sizes known at compile time: N corners, Dim rest axes, Points integration points.
 template <int N, int Dim, int Points> class ElementOf final : public ElementLaw {
 public:
   ElementOf(ElementKind kind, ElasticModel model, Rotation rotation, const ElasticMaterial& material)
@@ -105,9 +105,9 @@ private:
 
   struct State {
     Decoded<N, Dim, Points> element;
-    Corners x, moving; // [m], from the first corner: positions, and positions + β velocities
-    Corners gradient;  // means over the volume
-    Matrix3d mean, R;  // F of the mean gradients
+    Corners x, moving; // [m], relative to the first corner: positions, and positions + β velocities
+    Corners gradient;  // volume averages
+    Matrix3d mean, R;  // F of the average gradients
     std::array<Matrix3d, by_point ? Points : 0> R_at;
 
     const Matrix3d& frame(std::size_t g) const {
@@ -154,7 +154,7 @@ private:
     return turned;
   }
 
-  // ε from RᵀF, or its change from that of RᵀF.
+  // ε from RᵀF, or the change of ε from a change of RᵀF.
   static Matrix3d symmetric(const Matrix3d& turned) {
     Matrix3d e = Matrix3d::Zero();
     e.topLeftCorner<Dim, Dim>() =
@@ -195,7 +195,8 @@ private:
         K.template block<3, 3>(3 * j, 3 * i) = K.template block<3, 3>(3 * i, 3 * j).transpose();
   }
 
-  // −∂f/∂R : ∂R/∂x. When R turns by ω, −f_n turns by Z_n ω, and a move of corner m turns R by L(Ḡ_m) Rᵀ.
+  // −∂f/∂R : ∂R/∂x. If R rotates by ω, −f_n changes by Z_n ω; a displacement of corner m rotates R by L(Ḡ_m)
+  // Rᵀ.
   Whole by_turning(const State& at) const {
     Turns Z = Turns::Zero();
     if constexpr (by_point) {
@@ -210,10 +211,10 @@ private:
     }
     for (std::size_t g = 0; g < at.element.points.size(); ++g) add_turning(at, g, Z);
     return Z.lazyProduct(
-        turns_of(at.R, at.mean, at.gradient)); // Eigen's own, blocked product is for larger ones
+        turns_of(at.R, at.mean, at.gradient)); // a plain loop: Eigen's blocked product is for larger matrices
   }
 
-  // Z of one point.
+  // The contribution of one point to Z.
   void add_turning(const State& at, std::size_t g, Turns& Z) const {
     const auto& point = at.element.points[g];
     const Matrix3d& R = at.frame(g);
@@ -226,7 +227,7 @@ private:
     }
   }
 
-  // L(G_m) Rᵀ of every corner.
+  // L(G_m) Rᵀ for every corner.
   Eigen::Matrix<double, 3, 3 * N> turns_of(const Matrix3d& R, const Matrix3d& F,
                                            const Corners& gradient) const {
     Eigen::Matrix<double, 3, 3 * N> W;
@@ -256,8 +257,8 @@ ElementLaw::ElementLaw(const ElementShape& shape, ElasticModel model, Rotation r
 
 namespace {
 
-// As write_element, each point in the rest element's own tangent plane there: a quad that is warped at rest
-// then has no strain at rest. False also where it is folded.
+// As write_element, with the axes at each point in the tangent plane of the rest element there: a quad that is
+// warped at rest then has no strain at rest. False also if it is folded.
 bool write_in_tangent_planes(const ElementShape& shape, const Vec3* rest, const Matrix3d& frame,
                              double thickness, double* values) {
   ElementShape one = shape;

@@ -1,11 +1,11 @@
-// A law of force: what the particles of one unit of an interaction do to each other.
+// A force law: the forces between the particles of one unit of an interaction.
 //
-// A unit is a spring, a hinge, an element: some particles, and some numbers of its own (stiffness, rest length,
+// A unit is a spring, a hinge, an element: some particles, and some values of its own (stiffness, rest length,
 // gradients of shape functions ...), which are embedded on the orbit that carries it and copied into its row.
-// This is the reference, one unit at a time; a kernel (program/kernels.h) may compute many at once and must
-// agree with it.
+// This is the reference implementation, one unit at a time; a kernel (rows/kernels.h) may process many at once
+// and must agree with it.
 //
-// Adding one: a class like these, and interactions that use it. It needs no kernel to run.
+// To add one: a class like these, and interactions that use it. It runs without a kernel.
 #pragma once
 
 #include "sim/base/record.h"
@@ -15,7 +15,7 @@
 
 namespace rend {
 
-// Of one unit's particles, in the order of its words.
+// The state of one unit's particles, in the order of its words.
 struct UnitState {
   const Vec3* position; // [m]
   const Vec3* velocity; // [m/s]
@@ -23,12 +23,13 @@ struct UnitState {
 };
 
 constexpr int most_particles = 8;
-// 3n × 3n of a unit with n particles: rows and columns 3i..3i+2 belong to particle i. Never allocates.
+// 3n × 3n for a unit of n particles: rows and columns 3i..3i+2 belong to particle i. Never allocates.
 using UnitMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * most_particles, 3 * most_particles>;
 
-// Which derivative of the force is wanted: the true one, or one that has no negative eigenvalue (what pushes
-// sideways under compression, and the turning of a frame, are left out), for solvers that need it so.
+// Which tangent of the force is wanted: the exact one, or a positive semi-definite approximation (without the
+// negative part of the geometric stiffness under compression, and without the derivative of a co-rotational
+// frame), for solvers that need it.
 enum class Tangent { Exact, Definite };
 
 class ForceLaw {
@@ -36,11 +37,12 @@ public:
   virtual ~ForceLaw() = default;
 
   const std::string& name() const { return name_; }
-  int particles() const { return particles_; }   // of a unit, at most 8
-  int values() const { return values_; }         // numbers that a unit carries
-  int damping_value() const { return damping_; } // which of them is 0 where nothing damps; -1: none
+  int particles() const { return particles_; } // per unit, at most 8
+  int values() const { return values_; }       // number of values per unit
+  // index of the value that is 0 for units without damping; -1: none
+  int damping_value() const { return damping_; }
 
-  // The force [N] on each particle. Finite wherever the state is.
+  // The force [N] on each particle. Finite for every finite state.
   virtual void forces(const double* unit, const UnitState& s, Vec3* force) const = 0;
 
   virtual double energy(const double* unit, const UnitState& s) const = 0; // [J], without damping
@@ -49,16 +51,17 @@ public:
   virtual void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
                          UnitMatrix& by_velocity) const = 0;
 
-  // Numbers s_n [N/m] and d_n [N·s/m] for each particle, such that at rest −∂f/∂x ≼ diag(s_n) and −∂f/∂v ≼
-  // diag(d_n). `mass` [kg] are those of the element corners where the forces act: how the bound is best shared
-  // out.
+  // Diagonal bounds s_n [N/m] and d_n [N·s/m] for each particle such that at rest −∂f/∂x ≼ diag(s_n) and −∂f/∂v
+  // ≼ diag(d_n). `mass` [kg]: of the element corners at which the forces act, for choosing the tightest
+  // diagonal.
   virtual void bound(const double* unit, const Vec3* rest, const double* mass, double* stiffness,
                      double* damping) const = 0;
 
-  // Whether the unit can ever do anything between these vertices; if not, it gets no row.
+  // Whether the unit can ever exert a force between these vertices; if not, it gets no row.
   virtual bool acts(const double* unit, const std::uint32_t* vertex) const = 0;
 
-  // Adds a unit between the same particles to another (cumulated rows); `swapped`: named in the opposite order.
+  // Adds the values of a unit to those of another between the same particles (cumulated rows); `swapped`: with
+  // the particles in the opposite order.
   virtual void fold(double* sum, const double* other, bool swapped) const;
 
 protected:
@@ -70,7 +73,7 @@ private:
   int particles_, values_, damping_;
 };
 
-// What springs and hinges carry.
+// The values of springs and hinges.
 struct UnitParameters {
   double k = 0;       // [N/m] (spring), [N·m/rad] (hinge)
   double damping = 0; // [N·s/m], [N·m·s/rad]

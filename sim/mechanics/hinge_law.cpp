@@ -20,7 +20,7 @@ double hinge_angle(const HingePoints& x) {
   const Vec3 hinge = x[1] - x[0];
   const double length = hinge.norm();
   if (length == 0) return 0;
-  // From the hinge to the middle of each side's outer vertices: in the plane of the triangle (hinge, face
+  // From the hinge to the midpoint of each side's outer vertices: in the plane of the triangle (hinge, face
   // centre).
   const Vec3 one = 0.5 * ((x[2] - x[0]) + (x[3] - x[0]));
   const Vec3 two = 0.5 * ((x[6] - x[0]) + (x[7] - x[0]));
@@ -38,11 +38,12 @@ HingePoints hinge_gradient(const HingePoints& x) {
   const Vec3 u = hinge / length;
   for (std::size_t side : {0u, 4u}) {
     const Vec3 arm = 0.5 * ((x[side + 2] - x[0]) + (x[side + 3] - x[0]));
-    const Vec3 across = u.cross(arm); // its length is the distance from the hinge line
+    const Vec3 across = u.cross(arm); // its length is the distance of P from the hinge line
     const double d2 = across.squaredNorm();
     if (!(d2 > 0)) return none;
     const Vec3 turn =
-        (side == 0 ? -1.0 : 1.0) * across / d2; // θ falls as side one turns about u, side two makes it grow
+        // θ decreases as side one rotates about u, and increases as side two does
+        (side == 0 ? -1.0 : 1.0) * across / d2;
     const double t = arm.dot(u) / length;
     gradient[side + 2] = gradient[side + 3] = 0.5 * turn;
     gradient[side] = -(1 - t) * turn;
@@ -118,8 +119,8 @@ public:
     return hinge_energy(HingeParameters::of(unit), points_of(s.position));
   }
 
-  // φ k g gᵀ and φ² λ g gᵀ with g = ∂θ/∂x, which are definite; exact, for the position also −moment ∂²θ/∂x², by
-  // central differences of the force.
+  // φ k g gᵀ and φ² λ g gᵀ with g = ∂θ/∂x, which are semi-definite; the exact tangent by position has also
+  // −moment ∂²θ/∂x², by central differences of the force.
   void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
                  UnitMatrix& by_velocity) const override {
     const HingeParameters p = HingeParameters::of(unit);
@@ -145,7 +146,7 @@ public:
   }
 
   void bound(const double* unit, const Vec3* rest, const double*, double* stiffness,
-             double* damping) const override { // discs of k g gᵀ: |g_n| Σ|g_m|
+             double* damping) const override { // Gershgorin discs of k g gᵀ: |g_n| Σ|g_m|
     const HingePoints g = hinge_gradient(points_of(rest));
     double sum = 0;
     for (const Vec3& v : g) sum += v.norm();

@@ -1,12 +1,11 @@
-// What an interaction is: an orbit that causes it, a pattern that names its particles, a law that gives the
-// force.
+// An interaction: an orbit that carries it, a pattern that finds its particles, and a force law.
 //
-// (thesis 5.2, 6.2; sim/README.md, "Interactions".) The parameters are embedded on the orbit that causes the
-// interaction (the owner), so that a separation leaves them alone. The pattern is data, words of α-links, so
-// that it can be walked forwards (to bind rows) and backwards (to find which rows an edit concerns). One owner
-// may carry several units: a rectangle carries two diagonals.
+// (thesis 5.2, 6.2; sim/README.md, "Interactions".) The parameters are embedded on the orbit that carries the
+// interaction (the owner), so that a separation does not change them. The pattern is data, words of α-links, so
+// that it can be followed forwards (to bind rows) and backwards (to find the rows affected by an edit). One
+// owner may carry several units: a rectangle carries two diagonals.
 //
-// Adding one: a file with a function `InteractionType my_interaction()`, and its name in all_interactions().
+// To add one: a file with a function `InteractionType my_interaction()`, and its name in all_interactions().
 #pragma once
 
 #include "sim/base/settings.h"
@@ -26,13 +25,13 @@ using Word = std::string;
 
 struct Pattern {
   Orbit owner;                          // carries the parameters
-  Orbit support;                        // whose links the rest state depends on
-  std::vector<std::vector<Word>> units; // of each unit, where its particles are from the owner's first dart
-  // Owners whose units may act between the same particles: their rows fold into one, that of the smallest slot.
-  // Each word is a palindrome or a single link, so that the relation goes both ways.
+  Orbit support;                        // the orbit whose links determine the rest state
+  std::vector<std::vector<Word>> units; // of each unit: the words from the owner's first dart to its particles
+  // Words to other owners whose units may act between the same particles: their rows are summed into one, that
+  // of the smallest slot. Each word is a palindrome or a single link, so that the relation is symmetric.
   std::vector<Word> fold;
-  // Is this unit there? (an injective match; else it is silent.) Units may exclude each other: a prism's words
-  // differ with the side on which its first dart lies.
+  // Whether the unit is present (its match is injective); otherwise it exerts no force. Units may exclude each
+  // other: the words of a prism depend on the face that contains its first dart.
   bool (*present)(const GMap&, Dart, std::size_t unit);
 };
 
@@ -42,9 +41,9 @@ public:
   std::string name; // "stretch", "shear isotropic", ...
   std::shared_ptr<const ForceLaw> law;
   Pattern pattern;
-  bool damped = false; // some unit has damping
+  bool damped = false; // whether any unit has damping
 
-  // The numbers of a unit, law->values() of them.
+  // The values of a unit, law->values() of them.
   virtual const double* unit(Slot owner, std::size_t unit) const = 0;
 };
 
@@ -65,32 +64,32 @@ struct SpringSettings {
   SettingsSource source = {};
 };
 
-// Whether rows between the same particles are folded into one.
+// Whether rows between the same particles are summed into one.
 enum class Cumulated {
-  Auto, // unless a law looks at each by itself
+  Auto, // yes, unless a fracture criterion needs each of them
   Yes,
   No
 };
 
-// A body's request for an interaction.
+// A request for an interaction of a body.
 struct InteractionRequest {
   const SpringSettings& settings;
-  const std::string& element; // what it is called, for messages: "stretch"
+  const std::string& element; // its element name, for messages: "stretch"
   std::optional<SpringMaterial> material;
-  std::vector<std::string>& notes; // what the preset's author should know
-  bool surface = false;            // only on faces that are on the surface when they are born
+  std::vector<std::string>& notes; // messages for the author of the preset
+  bool surface = false;            // only on faces that are on the boundary of the initial body
 };
 
 template <> const Fields<SpringSettings>& fields_of();
 
 struct InteractionType {
   std::string element; // "stretch", "shear", "bend"
-  std::string kind;    // its `kind`, where an element has several
+  std::string kind;    // its `kind`, if the element has several
   std::string what;    // one line
   std::string k_unit;
-  // Adds the embeddings to the map. Null: it would add nothing here, and a note says why. Throws UserError.
+  // Adds the embeddings to the map. Null: there is nothing to add here, and a note says why. Throws UserError.
   std::function<std::unique_ptr<Interaction>(EmbeddedMap&, const InteractionRequest&)> make;
-  std::string where = ""; // its `where`, where an element has several: "face", "volume"
+  std::string where = ""; // its `where`, if the element has several: "face", "volume"
 };
 
 const std::vector<InteractionType>& all_interactions();
@@ -98,7 +97,7 @@ const std::vector<InteractionType>& all_interactions();
 // Calls f(first dart) for every face (<0,1>), in the order of their smallest darts.
 void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f);
 
-// Calls f(interaction, first dart of the owner, unit) for every unit that is there, in the order of slots.
+// Calls f(interaction, first dart of the owner, unit) for every unit that is present, in the order of slots.
 template <class F>
 void for_each_unit(const EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction>>& interactions,
                    F&& f) {
@@ -117,7 +116,8 @@ void for_each_unit(const EmbeddedMap& map, const std::vector<std::unique_ptr<Int
 // Rest positions of the particles of a unit.
 std::vector<Vec3> rest_positions(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit);
 
-// The embedding of an interaction's parameters: born from rest positions and stiffness; a fragment keeps them.
+// The embedding of an interaction's parameters: initialised from rest positions and stiffness; fragments keep
+// them.
 template <int Units> struct UnitEmbedding {
   using Value = std::array<UnitParameters, Units>;
   std::string name;
@@ -131,7 +131,7 @@ template <int Units> struct UnitEmbedding {
   Value split(const Value& whole) const { return whole; }
 };
 
-// Puts an interaction of springs or hinges together from its parts.
+// Makes an interaction of springs or hinges from its parts.
 template <int Units>
 std::unique_ptr<Interaction>
 make_interaction(EmbeddedMap& map, std::string name, std::shared_ptr<const ForceLaw> law, Pattern pattern,

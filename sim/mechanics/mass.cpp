@@ -114,7 +114,7 @@ double sum_at_vertex(const EmbeddedMap& map, Orbit corner, const std::vector<dou
   corners.clear();
   collect(map.map(), Vertex, d, darts);
   Slot last = no_slot;
-  for (Dart e : darts) { // the darts of a corner mostly follow each other
+  for (Dart e : darts) { // the darts of a corner mostly come consecutively
     const Slot slot = cells.slot(e);
     if (slot != last) corners.push_back({cells.first_dart(slot), slot});
     last = slot;

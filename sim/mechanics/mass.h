@@ -1,8 +1,8 @@
-// Mass and ambient viscosity of element corners.
+// Lumped mass and ambient viscosity on the corners of elements.
 //
-// Each corner of an element carries its share; a vertex's mass is the sum over its corners. A separation
-// regroups corners and changes none, so that mass and momentum, summed over corners in dart order, keep their
-// last bit.
+// Each corner of an element carries a share of its mass; the mass of a vertex is the sum over its corners. A
+// separation regroups the corners without changing them, so that mass and momentum, summed over corners in the
+// order of darts, are conserved to the last bit.
 #pragma once
 
 #include "sim/base/settings.h"
@@ -31,8 +31,8 @@ constexpr Orbit corner_orbit(int dimension) {
   return dimension == 2 ? VertexOfFace : VertexOfVolume;
 }
 
-// Element mass / number of corners [kg]. As for drag, orbit and support are a sheet's; on() says those of a
-// map.
+// Element mass / number of corners [kg]. The default orbit and support are those of a sheet; on() sets those of
+// a map.
 struct CornerMass {
   using Value = double;
   std::string name = "corner mass";
@@ -51,7 +51,7 @@ struct CornerDrag {
   std::string name = "corner viscosity";
   Orbit orbit = VertexOfFace;
   Orbit support = FaceOfVolume;
-  double per_vertex = 0; // [N·s/m] of a vertex of the whole body
+  double per_vertex = 0; // [N·s/m] of a vertex of the undamaged body
   Value birth(const EmbeddedMap& map, Dart d) const;
   Value split(const Value& whole) const { return whole; }
   CornerDrag on(const EmbeddedMap& map) const;

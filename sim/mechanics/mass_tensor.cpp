@@ -22,7 +22,7 @@ ElementTensors element_tensors(const ElementShape& shape, const std::vector<Vec3
   const Eigen::Matrix3d across = frame.leftCols(dim) * frame.leftCols(dim).transpose();
   const double* at = values.data();
   for (const ReferencePoint& point : shape.points) {
-    std::array<Vec3, most_particles> g; // in the axes of the world
+    std::array<Vec3, most_particles> g; // in world axes
     for (std::size_t n = 0; n < static_cast<std::size_t>(shape.corners); ++n) {
       g[n].setZero();
       for (int r = 0; r < dim; ++r)
@@ -41,7 +41,7 @@ ElementTensors element_tensors(const ElementShape& shape, const std::vector<Vec3
 
 namespace {
 
-// The corner of its element that d lies at, by its smallest dart.
+// The corner of d in its element, named by its smallest dart.
 Dart corner_of(const GMap& map, Dart d) {
   if (map.dimension() == 2) return std::min(d, map.alpha(1, d));
   Dart least = d;
@@ -49,22 +49,22 @@ Dart corner_of(const GMap& map, Dart d) {
   return least;
 }
 
-// The element around a dart, and the tensors between its corners.
+// The element of a dart, and the tensors between its corners.
 class ElementAround {
 public:
   ElementAround(const EmbeddedMap& body, const MassTensorRequest& request, Dart d) : map_(body.map()) {
     std::optional<ElementPlace> at = element_at(map_, d);
     if (!at) return;
-    first_ = at->first; // the same order of corners from all darts of the element
+    first_ = at->first; // the same order of corners for all darts of the element
     if (first_ != d) at = element_at(map_, first_);
     const ElementShape& shape = shape_of(at->kind);
     words_ = &shape.units[at->unit];
     tensors_ = &remembered(shape, rest_positions(body, first_, *words_), request);
   }
 
-  const ElementTensors* tensors() const { return tensors_; } // null: no element. Valid until the next element.
+  const ElementTensors* tensors() const { return tensors_; } // null: no element. Valid until the next element
 
-  std::size_t corner(Dart d) const { // which corner d lies at
+  std::size_t corner(Dart d) const { // index of the corner of d
     const Dart at = corner_of(map_, d);
     std::size_t n = 0;
     while (n < words_->size() && corner_of(map_, map_.follow(first_, (*words_)[n])) != at) ++n;
@@ -73,7 +73,7 @@ public:
   }
 
 private:
-  // The last element's tensors are kept: owners in the same element follow each other.
+  // The last element's tensors are cached: owners in the same element come consecutively.
   static const ElementTensors& remembered(const ElementShape& shape, std::vector<Vec3> rest,
                                           const MassTensorRequest& request) {
     struct Memory {
@@ -85,7 +85,7 @@ private:
     const ElasticMaterial& m = request.material;
     if (memory.rest.empty() || memory.tensors.kind != shape.kind || memory.rest != rest ||
         memory.lambda != m.lambda || memory.mu != m.mu || memory.thickness != request.thickness) {
-      memory.rest.clear(); // in case it throws
+      memory.rest.clear(); // stays empty if the next line throws
       memory.tensors = element_tensors(shape, rest, request);
       memory.rest = std::move(rest);
       memory.lambda = m.lambda;
@@ -105,7 +105,7 @@ void write(const Eigen::Matrix3d& K, double* to) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{to} = K;
 }
 
-// Tensors on an orbit: `Values` numbers of each of `Units` units; 0 where there is none.
+// Tensors on an orbit: `Values` numbers for each of `Units` units; 0 if there is none.
 template <int Units, int Values> struct TensorEmbedding {
   using Value = std::array<double, Units * Values>;
   std::string name;

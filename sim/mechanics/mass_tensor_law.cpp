@@ -37,8 +37,9 @@ public:
     by_position = tensor(unit);
     by_velocity = damping() * tensor(unit);
   }
-  // The whole element's: its pairs add nothing to it, and with equal masses at its corners this is the
-  // element's own highest frequency, where tensor by tensor one would get up to twice that.
+  // The largest eigenvalue of the whole element: its pairs then add nothing, and with equal masses at its
+  // corners this is the element's highest frequency, where bounds of single tensors would give up to twice
+  // that.
   void bound(const double* unit, const Vec3*, const double*, double* stiffness,
              double* damping_bound) const override {
     stiffness[0] = unit[9];
@@ -62,7 +63,7 @@ public:
   double energy(const double* unit, const UnitState& s) const override {
     return moved(s, 0, 0).dot(tensor(unit) * moved(s, 1, 0));
   }
-  // Definite only together with the tensors of the vertices, which are always there too.
+  // Semi-definite only together with the tensors of the vertices, which are always present too.
   void stiffness(const double* unit, const UnitState&, Tangent, UnitMatrix& by_position,
                  UnitMatrix& by_velocity) const override {
     by_position = UnitMatrix::Zero(6, 6);
@@ -71,7 +72,7 @@ public:
     by_velocity = damping() * by_position;
   }
   void bound(const double*, const Vec3*, const double*, double* stiffness,
-             double* damping_bound) const override { // in that of the vertices
+             double* damping_bound) const override { // contained in the bound of the vertices
     stiffness[0] = stiffness[1] = damping_bound[0] = damping_bound[1] = 0;
   }
   bool acts(const double* unit, const std::uint32_t*) const override { return any(unit, 9); }

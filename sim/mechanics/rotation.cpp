@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double lost = 1e-12; // a length that is nothing beside another
+constexpr double lost = 1e-12; // relative length below which a vector counts as 0
 
 Matrix3d cofactors(const Matrix3d& F) {
   Matrix3d C;
@@ -25,7 +25,7 @@ Matrix3d rotation_by_singular_values(const Matrix3d& F) {
   return U * svd.matrixV().transpose();
 }
 
-Vec3 any_normal(const Vec3& v) { // a unit vector at right angles to v
+Vec3 any_normal(const Vec3& v) { // a unit vector orthogonal to v
   const Vec3 a = v.cwiseAbs();
   const Vec3 axis = a.x() <= a.y() && a.x() <= a.z() ? Vec3::UnitX()
                     : a.y() <= a.z()                 ? Vec3::UnitY()
@@ -44,12 +44,13 @@ Matrix3d closest_rotation(const Matrix3d& F) {
     if (!(determinant > 0)) break; // inverted, or flat
     const Matrix3d change = 0.5 / determinant * C - 0.5 * R;
     R += change;
-    if (change.squaredNorm() < 1e-15) return R; // what is left is half of that
+    if (change.squaredNorm() < 1e-15) return R; // quadratic convergence: the remaining error is half of it
   }
   return rotation_by_singular_values(F);
 }
 
-// In the plane of Gram–Schmidt's frame F is the triangle (p q; 0 r), whose rotation is known.
+// In the plane of Gram–Schmidt's frame F is the triangular matrix (p q; 0 r), whose polar rotation is known in
+// closed form.
 Matrix3d closest_sheet_rotation(const Matrix3d& F) {
   const double p = F.col(0).norm();
   if (!(p > lost * F.col(1).norm())) return rotation_by_singular_values(F);
@@ -82,7 +83,7 @@ Matrix3d gram_schmidt(const Matrix3d& F, int dimension) {
     R.col(1) = third.normalized().cross(R.col(0));
   else
     R.col(1) = any_normal(R.col(0));
-  // What was small beside what was taken from it is not quite at right angles: once more.
+  // Orthogonalised a second time: if the difference is small, round-off leaves it not quite orthogonal.
   R.col(1) = (R.col(1) - R.col(0).dot(R.col(1)) * R.col(0)).normalized();
   R.col(2) = R.col(0).cross(R.col(1));
   return R;

@@ -47,9 +47,9 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
                              });
 }
 
-// Whether the corner of d carries a spring: every corner of a pentagon and more, of a quad the corner of its
-// smallest dart and the next one along that dart's edge. In a solid both sides of a face count for the
-// smallest, so that they carry theirs at the same corners, where they fold.
+// Whether the corner of d carries a spring: in a pentagon and larger polygons every corner, in a quad the
+// corner of its smallest dart and the next one along that dart's edge. In a solid the smallest dart of both
+// sides of the face counts, so that both sides carry springs at the same corners, where they are summed.
 bool carries(const GMap& map, Dart d) {
   const int sides = sides_of_face(map, d);
   if (sides != 4) return sides > 4;

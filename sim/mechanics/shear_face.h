@@ -2,8 +2,8 @@
 //
 // Isotropic: both diagonals of a quad. Owner FaceOfVolume <0,1>; particles d and α0α1α0(d), α0(d) and α1α0(d).
 // Anisotropic: at a corner, a spring between the far ends of its two edges. Owner VertexOfFace <1>; particles
-// α0(d) and α0(α1(d)). Of a quad two neighbouring corners carry one each (each diagonal once), of a polygon
-// with more sides every corner. A triangle has no diagonal: there it adds nothing.
+// α0(d) and α0(α1(d)). In a quad two adjacent corners carry one each (each diagonal once), in a polygon of more
+// sides every corner. A triangle has no diagonals.
 #pragma once
 
 #include "sim/mechanics/interaction.h"

@@ -14,7 +14,7 @@ bool in_hexahedron(const GMap& map, Dart d, std::size_t) {
   return element_present<ElementKind::Hexahedron>(map, d, 0);
 }
 
-// Why there is nothing to do, or nothing.
+// Why the interaction has no unit here; nullopt if it has some.
 std::optional<std::string> reason_to_leave_out(const EmbeddedMap& map) {
   bool found = false;
   if (map.dimension() == 3)

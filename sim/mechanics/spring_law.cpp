@@ -20,7 +20,7 @@ double spring_energy(const UnitParameters& p, const Vec3& xi, const Vec3& xj) {
 
 namespace {
 
-// The same block for both particles, its opposite between them.
+// Writes a block for both particles and its negative between them.
 void spread(const Eigen::Matrix3d& block, UnitMatrix& matrix) {
   matrix.resize(6, 6);
   matrix.topLeftCorner<3, 3>() = matrix.bottomRightCorner<3, 3>() = block;
@@ -52,7 +52,7 @@ public:
       double sideways = 1 - p.rest / length;
       if (tangent == Tangent::Definite) sideways = std::max(0.0, sideways);
       whole = p.k * (sideways * (Eigen::Matrix3d::Identity() - along) + along);
-      const Vec3 w = s.velocity[1] - s.velocity[0]; // damping turns with the spring
+      const Vec3 w = s.velocity[1] - s.velocity[0]; // the derivative of the damping force by position
       if (tangent == Tangent::Exact && p.damping > 0)
         whole += p.damping / length *
                  (along * w.dot(d) / length * -2 + d * w.transpose() / length +
@@ -73,7 +73,7 @@ public:
     return vertex[0] != vertex[1] && (unit[0] != 0 || unit[1] != 0);
   }
 
-  void fold(double* sum, const double* other, bool) const override { // the rest length is common
+  void fold(double* sum, const double* other, bool) const override { // both have the same rest length
     sum[0] += other[0];
     sum[1] += other[1];
   }

@@ -2,9 +2,9 @@
 //
 //   u = (xj − xi)/|xj − xi|,   f_i = (k(|xj − xi| − l0) + λ (vj − vi)·u) u,   f_j = −f_i
 //
-// The sign of the damping is corrected against the thesis's print, so that it dissipates. At |xj − xi| = 0
-// there is no direction, and no force. Its derivative, with s = 1 − l0/|xj − xi| (0 instead of what is
-// negative, where it must be definite):
+// The sign of the damping is corrected from the thesis, so that it dissipates. At |xj − xi| = 0 there is no
+// direction, and the force is 0. The tangent, with s = 1 − l0/|xj − xi| (the geometric stiffness; in the
+// semi-definite tangent max(s, 0)):
 //
 //   −∂f_i/∂x_i = k (s (I − u uᵀ) + u uᵀ),   −∂f_i/∂v_i = λ u uᵀ,   and the opposite for j
 #pragma once

@@ -26,7 +26,7 @@ bool winds_outward(const EmbeddedMap& map, Dart d) {
   const Vec3 origin = map.rest_of(d);
   double volume = 0;
   for (std::size_t n = 0; n < starts.size(); ++n) {
-    if (seen.contains(starts[n].value)) continue; // a face that was walked
+    if (seen.contains(starts[n].value)) continue; // a face visited before
     const Vec3 corner = map.rest_of(starts[n]) - origin;
     Dart at = starts[n];
     do {

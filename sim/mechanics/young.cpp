@@ -21,7 +21,7 @@ std::vector<double> side_lengths(const EmbeddedMap& map, Dart d) {
   return lengths;
 }
 
-// Of a quad: the means of its opposite sides, so that it does not matter from which corner one looks.
+// For a quad: the means of its opposite sides, the same for all corners.
 std::pair<double, double> sides_of(const std::vector<double>& side) {
   return {0.5 * (side[0] + side[2]), 0.5 * (side[1] + side[3])};
 }

@@ -4,27 +4,27 @@
 //   k = h ( E/(1+ν) · A/c² + Eν/(1−ν²) · (a² + b² − c²)/(8A) )
 // A side of length l of a rectangle l × w, and its diagonals (Baudet 2009; thesis 2.21, 2.22):
 //   k = hE (w²(3ν+2) − l²) / (4lw(1+ν)),    k = hE (l² + w²) / (4lw(1+ν))
-// Of another quad l and w are the means of opposite sides. Each face adds its own. Rectangles give E and ν back
-// at ν = 1/3 alone; elsewhere G is exact, the sheet behaves as with ν_eff = 1/(3ν+2) and E_eff =
-// 3E(1+3ν)/(2(2+3ν)).
+// For other quads l and w are the means of opposite sides. Each face contributes its own springs. Rectangles
+// reproduce E and ν only at ν = 1/3; otherwise G is exact, and the sheet behaves as with ν_eff = 1/(3ν+2) and
+// E_eff = 3E(1+3ν)/(2(2+3ν)).
 #pragma once
 
 #include "sim/mechanics/interaction.h"
 
 namespace rend {
 
-// Of the unit of the face of d that d stands for (the side d–α0(d); a diagonal).
+// The stiffness of one unit of the face of d: the side d–α0(d), or a diagonal.
 using StiffnessOf = std::function<double(const EmbeddedMap&, Dart)>; // [N/m]
 using StiffnessFormula = double (*)(const SpringMaterial&, const EmbeddedMap&, Dart);
 
-// k of the request's element, or the formula where the springs have a material. UserError: neither, both, or a
-// material for an interaction that has no formula (null). The formula refuses what it cannot serve, by name.
+// k as given, or from the formula if the springs have a material. UserError: neither, both, or a material for
+// an interaction without formula (null). The formula itself refuses faces that it does not support, by name.
 StiffnessOf stiffness_of(const InteractionRequest& request, StiffnessFormula formula);
 
 double edge_stiffness(const SpringMaterial& material, const EmbeddedMap& map, Dart d);
 double diagonal_stiffness(const SpringMaterial& material, const EmbeddedMap& map, Dart d);
 
-// UserError: a solid has no bend, and its surface none either.
+// UserError: bending is for sheets, not for a solid or its surface.
 void refuse_bend_of_solid(const EmbeddedMap& map, const InteractionRequest& request);
 
 bool has_inner_edge(const EmbeddedMap& map); // an edge between two faces of a sheet

@@ -13,7 +13,7 @@ namespace rend {
 namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
-constexpr double least_pivot = 1e-13; // of the matrix's own diagonal: below, it is round-off
+constexpr double least_pivot = 1e-13; // relative to the matrix's own diagonal: below, it is round-off
 
 } // namespace
 
@@ -82,7 +82,8 @@ REND_INLINE Block3 product(const Block3& b, const Block3& c) {
   return a;
 }
 
-// Takes what is known of row k: of column j at `y`, whose blocks above row k are `count`; leaves L_kj.
+// One step of the elimination of row k: column j of L has `count` blocks above row k; `y` is the current value
+// of (k, j); leaves L_kj.
 REND_INLINE void eliminate(const Block3* column, const std::uint32_t* row, std::size_t count,
                            const Block3& pivot, Block3* work, const Block3& y, Block3& lower,
                            Block3& diagonal) {
@@ -93,8 +94,8 @@ REND_INLINE void eliminate(const Block3* column, const std::uint32_t* row, std::
 
 } // namespace
 
-// Scatters row k of the matrix into work_ and lists the columns that row k of L has, in the order of
-// elimination, at the end of stack_; returns where they begin.
+// Scatters row k of the matrix into work_ and lists the columns of row k of L in the order of elimination at
+// the end of stack_; returns where they begin.
 std::size_t BlockFactor::reach(std::uint32_t k, const BlockMatrix& matrix) {
   const BlockPattern& p = *pattern_;
   std::size_t top = p.rows();
@@ -189,7 +190,7 @@ REND_INLINE void substitute(const std::vector<std::size_t>& start, const std::ve
     Double4 sum = times(inverse_pivot[j], x[j]);
     for (std::size_t at = start[j]; at < start[j + 1]; ++at) {
       const Double4 y = load(x[row[at]]);
-      const Block3& l = lower[at]; // its transpose times y
+      const Block3& l = lower[at]; // its transpose is multiplied by y
       sum -= sums_of(load(l.column[0]) * y, load(l.column[1]) * y, load(l.column[2]) * y, Double4{});
     }
     store(x[j], sum);

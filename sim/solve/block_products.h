@@ -1,4 +1,4 @@
-// What factors do to blocks.
+// Products of 3 × 3 blocks for the factorisation.
 #pragma once
 
 #include "sim/rows/block_matrix.h"

@@ -1,6 +1,6 @@
 // Conjugate gradients with a preconditioner (Hestenes & Stiefel 1952; Shewchuk 1994, B3), in the unknowns (D +
-// Lᵀ) x of preconditioner.h. What is left is measured by |r|² = rᵀ M⁻¹ r, which counts what is smooth for more
-// than rᵀ r does.
+// Lᵀ) x of preconditioner.h. The residual is measured in the norm |r|² = rᵀ M⁻¹ r, which weighs smooth
+// components more than rᵀ r does.
 #pragma once
 
 #include "sim/solve/preconditioner.h"
@@ -15,8 +15,8 @@ public:
     bool converged = false; // rᵀ M⁻¹ r ≤ tolerance² · bᵀ M⁻¹ b by the recurrence, r = b − A x
   };
 
-  // A x = b with the matrix that the preconditioner took, from x = 0, at most `most` iterations on `parts`
-  // threads. It stops before, not converged, where the matrix proves not to be positive.
+  // Solves A x = b for the matrix last given to the preconditioner, from x = 0, with at most `most` iterations
+  // on `parts` threads. Stops early, not converged, if the matrix proves not to be positive definite.
   Result solve(Preconditioner& preconditioner, int parts, const Records& b, Records& x, double tolerance,
                int most);
 

@@ -1,12 +1,13 @@
-// A x = b for a symmetric matrix, by the way that takes less work.
+// Solves A x = b for a symmetric matrix, directly or iteratively, whichever takes less work.
 //
-// The direct way (block_factor.h) takes a number of block products that the pattern alone tells; an iteration
-// of conjugate gradients takes about one per block of the matrix. The rule, which knows no clock:
-//   direct      where its products are at most 40 per block of the matrix: chains, strips, small sheets
-//   iterative   else; and direct where that has spent as much as a factor would have and not converged, and
-//               for the next ten matrices
-// A factor of more than ten million blocks (1 GB) is never made. Up to two digits are iterated in single
-// precision.
+// The number of block products of the direct solver (block_factor.h) follows from the pattern alone; an
+// iteration of conjugate gradients takes about one per block of the matrix. The rule, which does not depend on
+// measured times:
+//   direct      if its products are at most 40 per block of the matrix: chains, strips, small sheets
+//   iterative   otherwise; but if it has cost as much as a factorisation without converging, the direct solver
+//               takes over, and solves the next ten matrices too
+// A factor of more than ten million blocks (1 GB) is never made. With a tolerance of 1e-2 or more the
+// preconditioner is in single precision.
 #pragma once
 
 #include "sim/solve/block_factor.h"
@@ -16,25 +17,25 @@ namespace rend {
 
 class LinearSolver {
 public:
-  // Takes a matrix, or new values of it; it must stay as it is while it is solved with.
+  // Sets the matrix, or new values of it; it must not change while it is in use.
   void take(const BlockMatrix& matrix);
 
-  // To |b − A x| ≤ tolerance · |b|, in the norm of conjugate_gradient.h where it iterates. False: not solved, x
-  // is useless.
+  // Solves to |b − A x| ≤ tolerance · |b|, if iterative in the norm of conjugate_gradient.h. False: not solved,
+  // x is unusable.
   bool solve(const Records& b, Records& x, double tolerance);
 
-  // Whether a factor can be made, and how the matrix is then. Where it cannot, Positive is assumed.
+  // Factorises if the factor is not too large, and returns the definiteness; Positive is assumed otherwise.
   Definiteness factorise();
 
-  // Whether it is going to solve directly; and how the matrix is, as far as solving it has shown.
+  // Whether the next solution will be direct; and the definiteness of the matrix, as far as it is known.
   bool direct() const;
   Definiteness definiteness() const { return factored_ ? definiteness_ : Definiteness::Positive; }
 
-  // What one solution hands on to the next: the way that is taken, and what is counted (see
+  // The state that one solution passes on to the next: which solver is used, and counters (see
   // Integrator::carried).
-  static constexpr int most_hard = 10; // matrices in a row that are not worth iterating
+  static constexpr int most_hard = 10; // matrices in a row solved directly after an iteration failed
   struct Carried {
-    int hard = 0; // at most that
+    int hard = 0; // at most most_hard
     long iterations = 0, factorisations = 0;
   };
   Carried carried() const { return {hard_, iterations_, factorisations_}; }
@@ -50,17 +51,18 @@ public:
 
 private:
   bool factor_fits() const;
-  double worth() const; // iterations that a factor takes as long as
+  double worth() const; // the cost of a factorisation in iterations
   bool iterate(const Records& b, Records& x, double tolerance);
 
   const BlockMatrix* matrix_ = nullptr;
   BlockFactor factor_;
   Preconditioner preconditioner_;
   ConjugateGradient gradient_;
-  bool factored_ = false, preconditioned_ = false; // the matrix as it is
-  Precision precision_ = Precision::Double;        // of what is preconditioned
+  // is the factor, or the preconditioner, that of the current matrix?
+  bool factored_ = false, preconditioned_ = false;
+  Precision precision_ = Precision::Double; // of the preconditioner
   Definiteness definiteness_ = Definiteness::Positive;
-  int hard_ = 0; // matrices to come that are not worth iterating
+  int hard_ = 0; // number of matrices that will still be solved directly
   long iterations_ = 0, factorisations_ = 0;
 };
 

@@ -11,8 +11,8 @@ namespace rend {
 namespace {
 
 constexpr std::size_t range = 4096; // rows
-constexpr double most_taken = 1;    // ω
-constexpr double least_left = 0.6;  // of A_ii in D_i
+constexpr double most_taken = 1;    // the initial ω
+constexpr double least_left = 0.6;  // the share of A_ii that D_i must keep
 
 // Calls f(begin, end) for every range of rows.
 template <class F> void each_range(int parts, std::size_t rows, F&& f) {
@@ -21,7 +21,7 @@ template <class F> void each_range(int parts, std::size_t rows, F&& f) {
   });
 }
 
-// The inverse of a symmetric block; false if it is not positive.
+// The inverse of a symmetric block; false if it is not positive definite.
 bool invert(const Block3& block, Block3& inverse) {
   const Eigen::Matrix3d m = block.matrix();
   Eigen::Matrix3d cofactor;
@@ -89,7 +89,7 @@ bool Preconditioner::take(const BlockMatrix& matrix, Precision precision) {
   return positive;
 }
 
-// D = A − ω sum, with ω halved until D is positive by so much; none where A itself is not.
+// D = A − ω sum, with ω halved until D keeps its share; false if A itself is not positive definite.
 bool Preconditioner::choose_pivot(std::size_t i, const Block3& own, const Block3& sum) {
   Block3 inverse;
   double share = most_taken;

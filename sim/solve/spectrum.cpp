@@ -7,7 +7,7 @@
 namespace rend {
 namespace {
 
-// Steele, Lea & Flood 2014.
+// The splitmix64 generator: Steele, Lea & Flood 2014.
 double splitmix(std::uint64_t& state) {
   std::uint64_t z = state += 0x9e3779b97f4a7c15ULL;
   z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ULL;
@@ -54,7 +54,7 @@ double Lanczos::largest(Eigen::VectorXd& weights) const {
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal_.data(), n),
                                 Eigen::Map<const Eigen::VectorXd>(off_.data(), n - 1));
-  weights = solver.eigenvectors().col(n - 1); // they come in increasing order
+  weights = solver.eigenvectors().col(n - 1); // eigenvalues are in increasing order
   return solver.eigenvalues()[n - 1];
 }
 

@@ -1,11 +1,11 @@
-// The fastest motion of a body: the largest eigenvalue of K φ = ω² M φ, M the lumped masses.
+// The highest mode of a body: the largest eigenvalue of K φ = ω² M φ, with M the lumped mass matrix.
 //
-// Lanczos (1950) on M^(−1/2) K M^(−1/2) over the free coordinates, with every vector made orthogonal to all
-// before it (twice: Parlett, "The Symmetric Eigenvalue Problem", 13): without that the largest value is found
-// again and again. It stops where the residual |A y − θ y| is at most `tolerance` θ; some eigenvalue is that
-// near to θ, and the error of θ is of the order of its square. The start is fixed, and no coordinate of it is
-// 0: the same figures in each run. `rend check` holds this against the bound of program/frequency.h, which
-// needs no matrix.
+// Lanczos (1950) on M^(−1/2) K M^(−1/2) over the free coordinates, with full reorthogonalisation (twice:
+// Parlett, "The Symmetric Eigenvalue Problem", 13): without it the largest eigenvalue is found repeatedly. It
+// stops when the residual |A y − θ y| is at most `tolerance` θ; some eigenvalue is that close to θ, and the
+// error of θ is of the order of its square. The start vector is fixed, and none of its coordinates is 0:
+// results are reproducible. `rend check` compares this with the bound of rows/frequency.h, which needs no
+// matrix.
 #pragma once
 
 #include "sim/rows/block_matrix.h"
@@ -20,13 +20,13 @@ struct HighestMode {
   int iterations = 0;
 };
 
-// `stiffness` [N/m] is symmetric; inverse_mass [1/kg], 0: free slot; `held`: axes as System::hold, one per
-// vertex slot (rows and columns of held coordinates count as absent, whatever they hold). At most `most`
-// iterations.
+// `stiffness` [N/m] is symmetric; inverse_mass [1/kg], 0: free slot; `held`: constrained axes as in
+// System::hold, one entry per vertex slot (rows and columns of constrained coordinates count as absent,
+// whatever they contain). At most `most` iterations.
 HighestMode highest_mode(const BlockMatrix& stiffness, const double* inverse_mass,
                          const std::vector<std::uint8_t>& held, double tolerance = 1e-6, int most = 300);
 
-// Numbers in [−1, 1) that are the same on every machine, of the coordinates with mass that are not held; 0
+// Pseudo-random numbers in [−1, 1), the same on every machine, for the unconstrained coordinates with mass; 0
 // elsewhere.
 Records scattered(std::size_t count, const double* inverse_mass, const std::vector<std::uint8_t>& held,
                   std::uint64_t seed);

@@ -1,7 +1,7 @@
-// Sums over vertex slots, and what conjugate gradients do to vectors of records.
+// Sums over vertex slots, and the vector operations of conjugate gradients.
 //
-// A sum is taken over stretches of a fixed length, and then over these in their order: its bytes depend on the
-// size alone, never on the threads.
+// A sum is taken over blocks of a fixed length, and then over the blocks in order: its bytes depend on the size
+// alone, never on the number of threads.
 #pragma once
 
 #include "sim/base/simd.h"
@@ -17,12 +17,12 @@ inline double sum3(Double4 v) {
   return v[0] + v[1] + v[2];
 }
 
-// 1 for the coordinates that are free, 0 for held ones: bits 0, 1, 2.
+// 1 for free coordinates, 0 for constrained ones: bits 0, 1, 2.
 inline Double4 free_axes(std::uint8_t held) {
   return Double4{held & 1 ? 0.0 : 1.0, held & 2 ? 0.0 : 1.0, held & 4 ? 0.0 : 1.0, 0.0};
 }
 
-double largest_coordinate(const Records& x); // of all coordinates, without signs
+double largest_coordinate(const Records& x); // the maximum norm
 
 double dot(int parts, const Records& a, const Records& b);
 

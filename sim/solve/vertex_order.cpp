@@ -9,7 +9,7 @@ class Walk {
 public:
   explicit Walk(const BlockPattern& pattern) : pattern_(pattern), seen_(pattern.rows(), 0) {}
 
-  // Appends the piece of `root`, level by level, rows of few neighbours first. Returns the number of levels.
+  // Appends the component of `root`, level by level, rows of low degree first. Returns the number of levels.
   std::size_t from(std::uint32_t root, std::vector<std::uint32_t>& rows) {
     ++pass_;
     std::size_t levels = 0, at = rows.size();
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> vertex_order(const BlockPattern& pattern) {
     if (placed[first]) continue;
     const std::size_t begin = order.size();
     std::size_t levels = walk.from(first, order);
-    while (true) { // the last row reached is nearer to an end
+    while (true) { // the last row reached is closer to the periphery
       const std::uint32_t end = order.back();
       order.resize(begin);
       const std::size_t more = walk.from(end, order);
