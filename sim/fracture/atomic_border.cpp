@@ -31,14 +31,15 @@ public:
   std::size_t bytes() const override { return borders_.bytes() + mark_.capacity(); }
 
 private:
-  // Whether the sizes of all single forces on its vertices exceed the threshold; they bound |f_1 − f_2|.
+  // Whether the sum of the magnitudes of all single forces on its vertices, an upper bound of |f_1 − f_2|,
+  // exceeds the threshold.
   bool suspect(const ForceView& view, std::size_t key, std::size_t row, double threshold) const {
     double sum = 0;
     for (std::size_t k = 0; k < borders_.vertices(key); ++k) sum += view.force[borders_.vertex(k)[row]].w;
     return !(sum * (1 + 1e-9) <= threshold);
   }
 
-  // Vertices of borders that are suspect; false: there are none.
+  // Marks the vertices of borders that may exceed the threshold; false: there are none.
   bool mark_suspects(const ForceView& view, double threshold) {
     const std::size_t vertices = view.map.cells(Vertex).slots();
     mark_.assign(vertices, 0);

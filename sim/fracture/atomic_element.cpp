@@ -1,5 +1,5 @@
 // The atomic criterion on elements of a continuum (thesis 7.1): the largest eigenvalue of σ = C B u, in world
-// space.
+// axes.
 #include "sim/fracture/element_scan.h"
 
 namespace rend {

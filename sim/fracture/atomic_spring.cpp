@@ -1,8 +1,8 @@
-// The atomic criterion on springs of one kind (thesis 7.4.1): the force of each single one, of an angular bend
-// its moment.
+// The atomic criterion on springs of one kind (thesis 7.4.1): the force of each spring, for angular bending the
+// moment.
 //
-// A stretch spring lies on its edge, a shear spring in its element, a bend on the border that it keeps: that
-// cell is measured by the largest of its springs.
+// A stretch spring belongs to its edge, a shear spring to its element, a bending spring to the border between
+// its elements: the cell is measured by the largest of its springs.
 #include "sim/fracture/single_springs.h"
 
 namespace rend {

@@ -1,9 +1,9 @@
-// The atomic criterion on vertices (thesis 7.4.1): the largest single force on it, of any spring or hinge, or
-// of an element of the continuum on its corner there, with the plane across that force.
+// The atomic criterion on vertices (thesis 7.4.1): the largest single force on the vertex, of a spring or
+// hinge, or of a continuum element on its corner there, with the plane normal to that force.
 //
-// Tensors of a mass-tensor body are no forces of their own (a body that is moved as a whole feels them, though
-// their sum is 0): its linear elements count. The kernel tells which elements exceed the threshold, and they
-// alone are looked at one by one.
+// The tensors of a mass-tensor body are no physical forces (a translated body has them, though their sum is 0),
+// so its linear elements are used. The kernel determines which elements exceed the threshold, and only those
+// are evaluated one by one.
 #include "sim/fracture/single_springs.h"
 #include "sim/rows/continuum.h"
 #include "sim/rows/kernels.h"
@@ -57,7 +57,7 @@ public:
   }
 
 private:
-  // A hinge takes hold of a triangle's outer vertex twice.
+  // On a triangle, a hinge acts twice on the same outer vertex.
   static void gather_at_corners(const ForceView& view, const UnitNow& unit,
                                 std::array<Vec3, most_particles>& force) {
     const CellIndex& corners = view.map.cells(view.mass.orbit());
@@ -72,7 +72,7 @@ private:
     }
   }
 
-  // Calls f(smallest dart) for elements of a part with a force above the threshold, give or take rounding.
+  // Calls f(smallest dart) for the elements of a part with a force above the threshold, up to rounding.
   template <class F> void each_above(const ForceView& view, std::size_t part, double threshold, F&& f) {
     const Binder& binder = rows_[part];
     const ForceLaw& law = *continuum_.parts()[part].law;
@@ -113,9 +113,9 @@ private:
 
   SingleSprings springs_;
   Continuum continuum_;
-  std::vector<Binder> rows_;   // of each part, with corners
+  std::vector<Binder> rows_;   // one per part, with corners
   std::vector<Record> corner_; // [N], one per corner slot: of one part
-  IndexMap largest_;           // vertex slot → place among the candidates
+  IndexMap largest_;           // vertex slot → index of the candidate
 };
 
 } // namespace

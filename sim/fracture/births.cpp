@@ -41,7 +41,7 @@ std::uint32_t Births::piece_of(std::uint32_t piece) {
   return piece;
 }
 
-// Returns how many pieces there were more before the change.
+// Returns the number of components before the change minus that after it.
 long Births::undo(std::size_t change) {
   const Undoing begin = change > 0 ? changes_[change - 1] : Undoing{0, 0}, end = changes_[change];
   long more = 0;

@@ -34,7 +34,7 @@ int most_sides_of(const EmbeddedMap& map) {
   return most;
 }
 
-// To the n-th vertex around the face, on its other side or this one.
+// The word to the n-th vertex around the face, on this or the other side of it.
 Word around(bool other, int n) {
   Word word(other ? 1 : 0, '3');
   if (n > 0) word += '0';
@@ -70,7 +70,8 @@ Binder faces_of_solid(EmbeddedMap& map, Borders::Carry carry) {
                   }};
   map.use(Face);
   std::vector<IndexColumn> columns;
-  const auto add = [&](bool other, int vertex, Orbit orbit) { // those beyond a face's own repeat its first
+  // columns beyond the number of sides repeat the first vertex
+  const auto add = [&](bool other, int vertex, Orbit orbit) {
     map.use(orbit);
     IndexColumn& column = columns.emplace_back(IndexColumn{{}, orbit});
     for (int sides = 3; sides <= most; ++sides) column.word.push_back(around(other, vertex % sides));
@@ -99,7 +100,7 @@ Borders::Borders(EmbeddedMap& map, Carry carry)
 Vec3 across_border(const EmbeddedMap& map, const Record* x, Dart d) {
   if (map.dimension() == 3) return face_normal(map, x, d);
   const Vec3 along = x[map.vertex(map.map().alpha(0, d))].vec() - x[map.vertex(d)].vec();
-  // Faces that agree walk their common edge in opposite directions: the other one from B.
+  // Consistently oriented faces walk their common edge in opposite directions: the other one starts from B.
   const Dart other = map.map().alpha(0, map.map().alpha(2, d));
   const Vec3 n1 = face_normal(map, x, d), n2 = face_normal(map, x, other);
   Vec3 normal = n1 + n2;

@@ -1,8 +1,8 @@
 // The border between two elements: an edge of a sheet with both its faces, a face of a solid with both its
-// volumes; and the direction a tear would open it in.
+// volumes; and the direction in which a tear would open it.
 //
 // Faces have three, four or more sides. Unit u of the pattern is a face of u + 3 sides, so that each owner has
-// one row, and its key says how many of the fields count.
+// one row, whose key determines how many of the index columns are used.
 #pragma once
 
 #include "sim/rows/binder.h"
@@ -12,8 +12,8 @@ namespace rend {
 class Borders {
 public:
   enum class Carry {
-    Vertices, // fields 0 .. n − 1: the n vertices of the border
-    Corners,  // fields 2k and 2k + 1: corners of its k-th vertex in the two elements; then the vertices
+    Vertices, // columns 0 .. n − 1: the n vertices of the border
+    Corners,  // columns 2k and 2k + 1: corners of its k-th vertex in the two elements; then the vertices
   };
   // CHECK: no face has too many sides (lacking_for_borders).
   Borders(EmbeddedMap& map, Carry carry);
@@ -29,7 +29,7 @@ public:
   std::size_t vertices(std::size_t key) const {
     return of_sheet() ? 2 : key % binder_.pattern().units.size() + 3;
   }
-  Dart dart(std::size_t key) const { // the smallest
+  Dart dart(std::size_t key) const { // its smallest dart
     return map_->cells(binder_.pattern().owner).first_dart(binder_.owner_of(key));
   }
 
@@ -39,16 +39,16 @@ public:
 
 private:
   const EmbeddedMap* map_;
-  std::size_t first_vertex_ = 0; // field
+  std::size_t first_vertex_ = 0; // column
   Binder binder_;
 };
 
-// What a body lacks for criteria on borders: faces with so many sides that no row holds them. Empty: nothing.
+// Why the body cannot have criteria on borders: faces with more sides than a row can hold. Empty: it can.
 std::string lacking_for_borders(const EmbeddedMap& map);
 
-// The unit vector n. Of a sheet, along AB × (n1 + n2), in the sheet and across the edge of d; n1, n2 are the
-// unit normals of its faces, made to agree across it (so that it works on a Möbius band); where they cancel, n1
-// alone counts. Of a solid, the mean normal of the face of d. Zero where there is no direction.
+// The unit vector n. For a sheet, along AB × (n1 + n2), in the sheet and normal to the edge of d; n1, n2 are
+// the unit normals of its faces, oriented consistently across the edge (also on a Möbius band); if their sum
+// vanishes, n1 alone is used. For a solid, the mean normal of the face of d. Zero if there is no direction.
 Vec3 across_border(const EmbeddedMap& map, const Record* position, Dart d);
 
 } // namespace rend

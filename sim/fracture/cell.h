@@ -1,4 +1,4 @@
-// The cells that criteria measure and changes act on.
+// The cells on which criteria are evaluated and changes are made.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -11,7 +11,7 @@ namespace rend {
 enum class Cell {
   Edges,
   Borders,  // between two elements: an edge of a sheet, a face of a solid
-  Vertices, // with the plane that would part it
+  Vertices, // with the plane along which the vertex would be split
   Elements, // a face of a sheet, a volume of a solid
 };
 

@@ -1,7 +1,8 @@
-// Topological changes: what a law does where its criterion says so (thesis 7.3; sim/README.md, "Tearing").
+// Topological changes: what a law does when its criterion exceeds the threshold (thesis 7.3; sim/README.md,
+// "Tearing").
 //
-// Every change is made of one operation, the separation of two elements. Embeddings follow by their own
-// policies. Adding one: a file with a function `ChangeType my_change()`, and its name in all_changes().
+// Every change is composed of one operation, the separation of two elements. Embeddings are updated by their
+// own policies. To add one: a file with a function `ChangeType my_change()`, and its name in all_changes().
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -16,12 +17,12 @@ namespace rend {
 
 struct ChangeType {
   std::string name, what;
-  Cell own; // of which it is the default
+  Cell own; // the cell for which it is the default change
   bool (*fits)(Cell cell, int dimension);
-  bool (*elementary)(Cell cell); // needs the forces of each element by itself
-  // Applies the change at a candidate if it is still possible; false: it was not, and nothing was changed.
-  // Slots and positions are those of before the edit, links those of now. `darts`: of the candidate's cell
-  // before the edit, those that are left of them; the cell may have fallen apart since.
+  bool (*elementary)(Cell cell); // needs the forces of each element separately
+  // Applies the change at a candidate if it is still possible; false: it was not, and nothing changed. Slots
+  // and positions are those before the edit, links the current ones. `darts`: those of the candidate's cell
+  // before the edit, without removed ones; the cell may have been split since.
   bool (*apply)(Edit&, const ForceView&, Cell cell, const Candidate&, std::span<const Dart> darts);
 };
 
@@ -33,7 +34,7 @@ ChangeType delete_element();
 ChangeType split_vertex();
 ChangeType delete_edge();
 
-// The element of d lets go of all its neighbours and is removed.
+// Separates the element of d from all its neighbours and removes it.
 void remove_element_of(Edit& edit, Dart d);
 
 } // namespace rend

@@ -1,8 +1,8 @@
-// Criteria: what is measured where, to be compared with a law's threshold (thesis 7.4;
-// sim/README.md, "Tearing").
+// Criteria: the quantity that a law compares with its threshold, and the cells on which it is evaluated (thesis
+// 7.4; sim/README.md, "Tearing").
 //
-// A criterion binds its own rows to the body and looks at the true forces of a state. It must not change the
-// map. Adding one: a file with a function `CriterionType my_criterion()`, and its name in all_criteria().
+// A criterion binds its own rows to the body and evaluates the forces of a state. It must not change the map.
+// To add one: a file with a function `CriterionType my_criterion()`, and its name in all_criteria().
 #pragma once
 
 #include "sim/fracture/cell.h"
@@ -16,14 +16,14 @@
 
 namespace rend {
 
-// Where a change may happen, and how badly.
+// A cell that exceeds the threshold, where a change may be made.
 struct Candidate {
   double value = 0;           // in the criterion's unit, above the threshold
   Dart dart;                  // the smallest of the cell
-  Vec3 normal = Vec3::Zero(); // of a vertex: unit, of the plane that would part it
+  Vec3 normal = Vec3::Zero(); // of a vertex: unit normal of the plane along which it would be split
 };
 
-// The state a law looks at.
+// The state that criteria evaluate.
 struct ForceView {
   const EmbeddedMap& map;
   const Program& program;
@@ -31,29 +31,30 @@ struct ForceView {
   const Record* position; // [m], one per vertex slot
   const Record* velocity; // [m/s], one per vertex slot
   const Record* force;    // internal [N], one per vertex slot
-  const Record* corner;   // internal [N], one per corner slot: the share of each element; null unless asked for
-  // Not null: in its place the fourth lane of `force` holds Program::forces_with_sums(), and this has room for
-  // Program::corner_forces_at() where that says too little.
+  // internal [N], one per corner slot: the contribution of each element; null unless required
+  const Record* corner;
+  // Not null: instead of `corner`, the fourth lane of `force` holds Program::forces_with_sums(), and this is a
+  // buffer for Program::corner_forces_at(), for the vertices where the sums do not rule out a candidate.
   Record* corner_room = nullptr;
 };
 
 class Criterion {
 public:
   virtual ~Criterion() = default;
-  // Appends what exceeds the threshold, in any order that is a function of the state and the map alone.
+  // Appends the candidates above the threshold, in an order that is a function of the state and the map alone.
   virtual void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) = 0;
-  virtual void rebind(const Changes&) {}    // of those that carry rows
+  virtual void rebind(const Changes&) {}    // for criteria with rows of their own
   virtual void reserve_for_separations() {} // see EmbeddedMap
   virtual std::size_t bytes() const { return 0; }
 };
 
-// The body and the law that a criterion is made for.
+// The body and the settings for which a criterion is made.
 struct CriterionRequest {
   EmbeddedMap& map;
   const std::vector<std::unique_ptr<Interaction>>& interactions;
   const MassColumn& mass;
-  std::string kind;         // of springs: "stretch", "shear", "bend"; empty: not said
-  bool compression = false; // negative eigenvalues count as well
+  std::string kind;         // of springs: "stretch", "shear", "bend"; empty: not given
+  bool compression = false; // negative eigenvalues count too
 };
 
 struct CriterionType {
@@ -61,12 +62,12 @@ struct CriterionType {
   bool elementary = false; // needs the forces of each element by itself
   // The cell that it measures there.
   Cell (*cell)(const CriterionRequest&);
-  // What the body, or what was said of it, lacks for this criterion, as a sentence; empty: nothing.
+  // Why the criterion cannot be made for this body and these settings, as a sentence; empty: it can.
   std::string (*lacking)(const CriterionRequest&);
   std::unique_ptr<Criterion> (*make)(const CriterionRequest&);
-  bool by_sums = false;                               // elementary, and takes ForceView::corner_room instead
-  bool takes_kind = false, takes_compression = false; // what of the request it heeds
-  std::string (*unit_there)(const CriterionRequest&) = nullptr; // where it is not `unit` on every body
+  bool by_sums = false;                               // elementary, but works with ForceView::corner_room
+  bool takes_kind = false, takes_compression = false; // which settings of the request it uses
+  std::string (*unit_there)(const CriterionRequest&) = nullptr; // null: `unit` for every body
 };
 
 const std::vector<CriterionType>& all_criteria();

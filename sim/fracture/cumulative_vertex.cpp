@@ -1,5 +1,5 @@
 // The cumulative criterion on vertices (thesis 7.4.2): the norm of the sum of the internal forces, with the
-// plane across it.
+// plane normal to it.
 #include "sim/fracture/criterion.h"
 #include "sim/fracture/norms.h"
 

@@ -1,5 +1,5 @@
-// Delete-edge: every element that holds the edge is deleted (thesis 7.3.4, after Norton et al. 1991). The other
-// way of removing an edge, by splitting one of its ends, is split-vertex on a criterion of edges.
+// Delete-edge: every element that contains the edge is deleted (thesis 7.3.4, after Norton et al. 1991). The
+// alternative for edges, splitting one of the ends, is split-vertex with a criterion on edges.
 #include "sim/fracture/change.h"
 
 namespace rend {

@@ -1,4 +1,5 @@
-// Delete-element: every border of an element lets go, and its darts are removed (thesis 7.3.2, fig. 7.7).
+// Delete-element: the element is separated from all neighbours, and its darts are removed (thesis 7.3.2, fig.
+// 7.7).
 #include "sim/fracture/change.h"
 
 #include "sim/mechanics/mass.h"

@@ -9,9 +9,9 @@ namespace {
 
 using namespace lanes;
 
-// first · tr + second · λmax is compared with the limit.
+// The bound first · tr + second · λmax, compared with the limit.
 struct Bound {
-  double first, second; // λ and 2μ [Pa]; of strain 0 and 1
+  double first, second; // λ and 2μ [Pa]; for strain 0 and 1
   double limit;
   bool compression;
 };
@@ -41,7 +41,7 @@ template <class Shape> REND_INLINE Matrix<Shape::dim> mean_gradient(const double
   return F;
 }
 
-// Invariants of a symmetric tensor of which all principal values are bounded.
+// Invariants of a symmetric tensor that bound all its principal values.
 struct Invariants {
   Double4 trace, spread; // spread: √(1 − 1/d) |dev|
   Double4 square;        // |E|²
@@ -60,7 +60,7 @@ template <int Dim> REND_INLINE Invariants invariants(const Double4 (&E)[Dim][Dim
   return {trace, square_root((1.0 - 1.0 / Dim) * square), square + trace * trace * (1.0 / Dim)};
 }
 
-// Which of four elements may exceed the limit, as −1.
+// Which of four elements may exceed the limit, as a mask of −1.
 template <int Dim> REND_INLINE Long4 exceed(const Matrix<Dim>& F, const Bound& bound) {
   Double4 E[Dim][Dim];
   for (int r = 0; r < Dim; ++r)
@@ -68,7 +68,7 @@ template <int Dim> REND_INLINE Long4 exceed(const Matrix<Dim>& F, const Bound& b
   const Invariants e = invariants<Dim>(E);
   const Double4 mean = e.trace * (1.0 / Dim);
   const Double4 most = bound.first * e.trace + bound.second * (mean + e.spread);
-  Long4 is = ~(most <= bound.limit); // what is no number is looked at
+  Long4 is = ~(most <= bound.limit); // true for NaN too
   if (!bound.compression) return is;
   const Double4 zero{}, least = mean - e.spread;
   const Double4 c = 2.0 / (1.0 + square_root(larger(1.0 + 2.0 * least, zero)));
@@ -166,7 +166,7 @@ void ElementScan::scan(const Continuum::Part& part, const PackedRows& rows, cons
   const ElasticMaterial& m = part.law->material();
   Bound bound{0, 1, threshold, compression_};
   if (quantity_ == Of::Stress) bound = {m.lambda, 2 * m.mu, threshold, compression_};
-  // Rounding: relative, and that of E.
+  // Margins for rounding: relative, and absolute of E.
   bound.limit -= 1e-9 * threshold + 1e-12 * (3 * bound.first + bound.second);
   const bool closest =
       part.law->model() == ElasticModel::Corotational && part.law->rotation() == Rotation::Polar;

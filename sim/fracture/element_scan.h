@@ -1,17 +1,17 @@
-// The elements of a body's continuum that exceed a bound: most are ruled out, four at a time, without any
-// rotation.
+// Finds the continuum elements of a body that exceed a threshold: most are ruled out by a bound, four at a
+// time, without computing a rotation.
 //
-// With F the mean over the element, for every R with orthonormal columns (F − R)ᵀ(F − R) ≽ 0, that is
+// With F the volume average over the element, for every R with orthonormal columns (F − R)ᵀ(F − R) ≽ 0, that is
 //
 //   ε = sym(RᵀF) − I  ≼  E = (FᵀF − I)/2
 //
-// so that, whatever the model and its rotation,
+// so that for every model and rotation,
 //
 //   λmax(σ) = λ tr ε + 2μ λmax(ε)  ≤  λ tr E + 2μ (tr E/d + √(1 − 1/d) |dev E|)
 //
-// which is tight: at a strain of 1 % it is 0.5 % above under tension along one axis. Under compression, with
-// the closest rotation and det F > 0, RᵀF = √(2E + I) and c = 2/(1 + √(1 + 2m)), m ≤ λmin(E), give ε ≽ c E
-// where E is negative and tr ε ≥ tr E − c²|E|²/2. What no bound is known of is looked at.
+// which is tight: at a strain of 1 % it is 0.5 % too large under uniaxial tension. Under compression, with the
+// closest rotation and det F > 0, RᵀF = √(2E + I) and c = 2/(1 + √(1 + 2m)), m ≤ λmin(E), give ε ≽ c E where E
+// is negative and tr ε ≥ tr E − c²|E|²/2. Elements without a bound are evaluated.
 #pragma once
 
 #include "sim/fracture/criterion.h"
@@ -29,7 +29,7 @@ public:
   const Continuum& continuum() const { return continuum_; }
 
   // Calls f(smallest dart of the element) for every element whose largest principal value (with compression: by
-  // size) may exceed the threshold, and for some others, in an order that is a function of the map alone.
+  // magnitude) may exceed the threshold, and for some others, in an order that is a function of the map alone.
   template <class F> void each_above(const ForceView& view, double threshold, F&& f) {
     for (std::size_t n = 0; n < continuum_.parts().size(); ++n) {
       const Binder& binder = rows_of(view, n);
@@ -53,14 +53,14 @@ private:
   Continuum continuum_;
   Of quantity_;
   bool compression_;
-  std::vector<std::optional<Binder>> again_; // rows of parts that the program has none of
-  std::vector<std::size_t> keys_;            // scratch: of rows that may exceed the threshold
+  std::vector<std::optional<Binder>> again_; // rows of parts that the program has no rows for
+  std::vector<std::size_t> keys_;            // scratch: keys of rows that may exceed the threshold
 };
 
-// The criterion on each element by itself: its largest principal value, on Elements.
+// The criterion on elements: their largest principal value.
 std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request, ElementScan::Of quantity);
 
-// What a body lacks for its elements to have a stress, as a sentence; empty: nothing.
+// Why the elements of a body have no stress, as a sentence; empty: they have.
 std::string lacking_for_stress(const CriterionRequest& request);
 
 } // namespace rend

@@ -1,7 +1,7 @@
 // The global criterion on edges and faces (thesis 7.5): |(Σ f_k)·n|, with f_k the sum of all internal forces on
 // the k-th shared vertex.
 //
-// Σ |f_k| bounds it, and rules most borders out before any normal is formed.
+// Σ |f_k| is an upper bound, which rules out most borders before a normal is computed.
 #include "sim/fracture/border.h"
 #include "sim/fracture/criterion.h"
 #include "sim/fracture/norms.h"
@@ -20,7 +20,7 @@ public:
     norm_.resize(vertices);
     const double largest = norms(view.force, vertices, norm_.data());
     if (borders_.of_sheet()) {
-      if (2 * largest <= threshold) return; // an edge needs one end above half of it
+      if (2 * largest <= threshold) return; // one end of an edge must exceed half the threshold
       const std::uint32_t *a = borders_.vertex(0), *b = borders_.vertex(1);
       borders_.rows().for_each([&](std::size_t key, std::size_t row) {
         if (norm_[a[row]] + norm_[b[row]] > threshold) measure(view, key, row, threshold, candidates);

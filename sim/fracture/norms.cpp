@@ -9,7 +9,7 @@ namespace rend {
 namespace {
 
 REND_INLINE double norms_of(const Record* force, std::size_t count, double* norm) {
-  const Double4 axes{1, 1, 1, 0}; // the fourth lane may carry something else
+  const Double4 axes{1, 1, 1, 0}; // the fourth lane may hold other data
   Double4 largest{};
   std::size_t v = 0;
   for (; v + 4 <= count; v += 4) {

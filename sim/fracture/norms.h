@@ -1,4 +1,4 @@
-// |f| of all vertices at once.
+// The norms |f| of the forces on all vertices.
 #pragma once
 
 #include "sim/base/record.h"

@@ -1,5 +1,5 @@
-// Separate: two elements let go of their common border. On a sheet α2 is unsewn along an edge (thesis fig.
-// 7.5), in a solid α3 along a face.
+// Separate: two elements are separated at their common border. In a sheet α2 is unsewn along an edge (thesis
+// fig. 7.5), in a solid α3 along a face.
 #include "sim/fracture/change.h"
 
 namespace rend {

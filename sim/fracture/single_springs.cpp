@@ -41,7 +41,7 @@ double SingleSprings::bound(const ForceView& view, const PackedRows& rows, std::
   const double length = apart.norm(), along = length > 0 ? speed.dot(apart) / length : 0;
   const double force =
       rows.value(0, row) * std::abs(length - rows.value(2, row)) + rows.value(1, row) * std::abs(along);
-  return force * (1 + 1e-12); // sums of k and rounding
+  return force * (1 + 1e-12); // margin for rounding, also of the sum of k
 }
 
 double SingleSprings::elongation(const ForceView& view, const PackedRows& rows, std::size_t row) {

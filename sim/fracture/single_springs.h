@@ -1,12 +1,12 @@
-// The single springs and hinges of a body, of one kind or all, whether or not the program folds parallel ones
-// into a row.
+// The single springs and hinges of a body, of one kind or all, whether or not the program sums parallel ones
+// into one row.
 //
-// A row's own force says too little: k and λ of parallel springs may cancel. But
+// The force of a row is not enough: those of parallel springs may cancel. But
 //
 //   |k_e (l − l0) + λ_e u·w|  ≤  Σk |l − l0| + Σλ |u·w|
 //
-// for each spring e that the row stands for, since the rest length is common; only where the right side exceeds
-// the threshold are single springs looked at. A hinge has a row of its own.
+// for each spring e of the row, since they have the same rest length; single springs are evaluated only if the
+// right side exceeds the threshold. Each hinge has a row of its own.
 #pragma once
 
 #include "sim/fracture/criterion.h"
@@ -16,13 +16,13 @@ namespace rend {
 
 class SingleSprings {
 public:
-  // Of interactions whose name begins with `kind`; empty: of all springs and hinges.
+  // Those of interactions whose name begins with `kind`; empty: all springs and hinges.
   explicit SingleSprings(const CriterionRequest& request);
 
   bool empty() const { return of_.empty(); }
 
-  // Calls f(unit now) for every unit whose force [N] (moment [N.m] of a hinge) may exceed the threshold, and
-  // for some others, in an order that is a function of the map alone.
+  // Calls f(unit) for every unit whose force [N] (moment [N.m] of a hinge) may exceed the threshold, and for
+  // some others, in an order that is a function of the map alone.
   template <class F> void each_above(const ForceView& view, double threshold, F&& f) const {
     each_row(view, [&](const Binder& binder, std::size_t key, std::size_t row) {
       if (binder.interaction()->law->particles() == 2 && bound(view, binder.rows(), row) <= threshold) return;
@@ -30,7 +30,7 @@ public:
     });
   }
 
-  // The same for every row whose elongation l/l0 − 1, by size, exceeds the threshold.
+  // The same for every row whose elongation l/l0 − 1 exceeds the threshold in magnitude.
   template <class F> void each_longer(const ForceView& view, double threshold, F&& f) const {
     each_row(view, [&](const Binder& binder, std::size_t key, std::size_t row) {
       if (std::abs(elongation(view, binder.rows(), row)) > threshold) each_unit(view, binder, key, f);
@@ -55,26 +55,26 @@ private:
   static double bound(const ForceView& view, const PackedRows& rows, std::size_t row); // [N]
   static double elongation(const ForceView& view, const PackedRows& rows, std::size_t row);
 
-  std::vector<std::size_t> of_; // places among the body's interactions
+  std::vector<std::size_t> of_; // indices among the body's interactions
 };
 
-// [N], of a hinge its moment [N.m]; by size.
+// Magnitude of the force [N], of a hinge that of its moment [N.m].
 double force_of(const UnitNow& spring);
 
 // l/l0 − 1 of a spring.
 double elongation_of(const UnitNow& spring);
 
-// The cell that springs of this kind are measured on, and that of one of them, by its smallest dart.
+// The kind of cell for springs of this kind, and the cell of a single one, by its smallest dart.
 Cell cell_of_kind(const std::string& kind);
 Dart cell_of(const EmbeddedMap& map, Cell cell, const UnitNow& spring);
 
-// What is wrong with the `kind` that was asked for, as a sentence; empty: nothing.
+// Why the requested `kind` is not possible, as a sentence; empty: it is.
 std::string lacking_for_springs(const CriterionRequest& request);
 
-// Whether springs of this kind are hinges there, which have a moment and no elongation.
+// Whether springs of this kind are hinges, which have a moment and no elongation.
 bool turns(const CriterionRequest& request);
 
-// Of candidates from `first` on that share a dart, leaves the largest, by dart.
+// Among candidates from `first` on that have the same dart, keeps the largest; sorted by dart.
 void keep_largest(std::vector<Candidate>& candidates, std::size_t first);
 
 } // namespace rend

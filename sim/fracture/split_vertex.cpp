@@ -1,10 +1,10 @@
-// Split-vertex: the elements around a vertex are parted by a plane through it (thesis 7.3.3, after O'Brien &
+// Split-vertex: the elements around a vertex are divided by a plane through it (thesis 7.3.3, after O'Brien &
 // Hodgins 1999), without cutting any of them:
 //
 //   side of element e = [(c_e − x)·n ≥ 0],   c_e the mean of its corners
 //
-// and every border at the vertex between elements of different sides is separated. Of an edge, one end is
-// split, the plane across the edge: that end A where the elements that hold the edge pull more along it, by Σ_e
+// and every border at the vertex between elements of different sides is separated. For an edge, one end is
+// split by the plane normal to the edge: the end A with the larger forces of the edge's elements along it, Σ_e
 // |f_e,A · u|.
 #include "sim/fracture/change.h"
 
@@ -18,8 +18,8 @@
 namespace rend {
 namespace {
 
-// The slots of the corners that the darts belong to, each once, increasing: of before the edit, which changes
-// none.
+// The slots of the corners of the darts, without repetition, in increasing order: those before the edit, which
+// does not change them.
 std::vector<Slot> corners_of(const EmbeddedMap& map, std::span<const Dart> darts) {
   const Orbit corner = corner_orbit(map.dimension());
   std::vector<Slot> slots;
@@ -37,7 +37,7 @@ Vec3 centre_of_element(const EmbeddedMap& map, const Record* position, Dart d) {
   return sum / static_cast<double>(slots.size());
 }
 
-// Of every corner at a vertex: whether its element lies on the positive side.
+// For every corner at a vertex: whether its element lies on the positive side.
 class Sides {
 public:
   Sides(const EmbeddedMap& map, std::span<const Dart> darts, const Record* position, const Vec3& normal)
@@ -80,7 +80,7 @@ double pull_at(const ForceView& view, std::span<const Dart> end, const Vec3& alo
   return sum;
 }
 
-// All darts of the vertices, as they are now, of these darts.
+// All darts of the vertices of these darts, in the current map.
 std::vector<Dart> vertices_of(const GMap& map, std::span<const Dart> end) {
   std::vector<Dart> all;
   for (Dart d : end) collect(map, Vertex, d, all);
@@ -91,7 +91,7 @@ std::vector<Dart> vertices_of(const GMap& map, std::span<const Dart> end) {
 
 bool split_an_end(Edit& edit, const ForceView& view, std::span<const Dart> edge) {
   CHECK(view.corner);
-  std::vector<Dart> first, second; // darts of the edge at its ends
+  std::vector<Dart> first, second; // darts of the edge at each end
   const Slot here = view.map.vertex(edge.front());
   for (Dart d : edge) (view.map.vertex(d) == here ? first : second).push_back(d);
   if (second.empty()) return false; // a loop

@@ -1,5 +1,5 @@
-// The criterion of strain: the elongation ratio l/l0 − 1 of each spring of one kind, on the cells of its atomic
-// twin; or, where no kind is given, the largest principal strain of each element of the continuum.
+// The criterion of strain: the elongation l/l0 − 1 of each spring of one kind, on the same cells as the atomic
+// criterion on springs; or, if no kind is given, the largest principal strain of each continuum element.
 #include "sim/fracture/element_scan.h"
 #include "sim/fracture/single_springs.h"
 

@@ -62,7 +62,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
       left_.clear();
       for (Dart d : cell)
         if (map.map().alive(d)) left_.push_back(d);
-      if (left_.empty()) continue; // it went with another
+      if (left_.empty()) continue; // the cell was removed by an earlier change
       if (!settings_.change->apply(edit, view, settings_.cell, candidates_[n], left_)) continue;
       events.push_back({.value = candidates_[n].value,
                         .dart = candidates_[n].dart,
@@ -74,7 +74,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
   return made;
 }
 
-// What the first change leaves of another cell must not depend on where its smallest dart was.
+// The change of a candidate must not depend on whether an earlier change removed the cell's smallest dart.
 void TearLaw::note_cells(const GMap& map) {
   const Orbit orbit = orbit_of(settings_.cell, map.dimension());
   darts_.clear();

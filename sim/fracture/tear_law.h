@@ -1,8 +1,7 @@
-// A law of tearing: a criterion, a threshold and a change, freely combined where their places fit (thesis 7.1).
+// A fracture law: a criterion, a threshold and a change, combined freely if their cells fit (thesis 7.1).
 //
 // All candidates of a law are found on the unchanged map; then the changes are made in order, the largest value
-// first, ties by smallest dart, each checked again for being still possible; and the map is brought up to date
-// once.
+// first, ties by smallest dart, each checked again for being possible; and the embeddings are updated once.
 #pragma once
 
 #include "sim/base/settings.h"
@@ -41,11 +40,11 @@ public:
   const LawSettings& settings() const { return settings_; }
   bool active(double time) const { return time >= settings_.from && time <= settings_.until; }
 
-  // What exceeds the threshold, sorted. Looks, and changes nothing.
+  // The candidates above the threshold, sorted. Changes nothing.
   const std::vector<Candidate>& find(const ForceView& view);
 
-  // Makes the changes that find() asked for. Returns how many were made; appends an event for each, and what it
-  // undid to `births`, if there is one.
+  // Makes the changes at the candidates of find(). Returns how many were made; appends an event for each, and
+  // notes it in `births` if given.
   int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events, Births* births = nullptr);
 
   void rebind(const Changes& changes) { criterion_->rebind(changes); }
@@ -57,9 +56,9 @@ private:
   LawSettings settings_;
   std::unique_ptr<Criterion> criterion_;
   std::vector<Candidate> candidates_;
-  std::vector<Dart> darts_;        // of the candidates' cells before the edit, one cell after another
-  std::vector<std::size_t> begin_; // of each in darts_
-  std::vector<Dart> left_;         // scratch: of one cell, those that are left
+  std::vector<Dart> darts_;        // of the candidates' cells before the edit, cell by cell
+  std::vector<std::size_t> begin_; // first entry of each candidate in darts_
+  std::vector<Dart> left_;         // scratch: the darts of one cell that still exist
 };
 
 } // namespace rend

@@ -1,8 +1,8 @@
-// The criterion of stress at vertices (thesis 7.2; Koschier et al. 2014): the largest eigenvalue of the mean of
-// its elements' σ, weighed by their masses, with the plane across its eigenvector.
+// The criterion of stress at vertices (thesis 7.2; Koschier et al. 2014): the largest eigenvalue of the
+// mass-weighted average of its elements' σ, with the plane normal to its eigenvector.
 //
-// λmax of a mean is at most that of the largest of the means' terms: only vertices of elements that exceed the
-// threshold themselves are looked at.
+// λmax of an average is at most the largest λmax of its terms: only vertices of elements that exceed the
+// threshold themselves are evaluated.
 #include "sim/fracture/element_scan.h"
 
 namespace rend {

@@ -38,9 +38,8 @@ BlockPattern pattern_of(const std::vector<Binder>& binders, std::size_t vertices
 
 } // namespace
 
-// A product takes a nanosecond and a half a block, and to call the other threads up to ten microseconds each
-// time, or as long as something else runs on their processors: with fewer rows it was ten times as slow where
-// others work.
+// A product takes 1.5 ns per block; waking other threads takes up to ten microseconds each time, or until other
+// programs release their processors: with fewer rows, a product was ten times slower on a busy machine.
 constexpr std::size_t least_shared = 32768; // rows
 
 void Assembly::rebind() {
@@ -67,7 +66,7 @@ namespace {
 
 REND_INLINE void add_block(const UnitMatrix& unit, int p, int q, Block3& to) {
   for (int c = 0; c < 3; ++c) {
-    const double* from = &unit.coeffRef(3 * p, 3 * q + c); // columns stand together
+    const double* from = &unit.coeffRef(3 * p, 3 * q + c); // columns are contiguous
     Record& column = to.column[c];
     column.x += from[0];
     column.y += from[1];

@@ -1,11 +1,11 @@
-// From the rows of a program to a sparse matrix: −∂f/∂x and −∂f/∂v of the internal forces.
+// Assembly of the sparse tangent matrices −∂f/∂x and −∂f/∂v of the internal forces from the rows of a program.
 //
-// Two vertices share a block where some row acts on both. Where each block of a row's own matrix goes is looked
-// up once, when the rows change; to assemble is then one pass over the rows without a search. Pattern and
-// places are a pure function of the rows, made anew when the program was rebound and kept in between.
+// Two vertices share a block if some row acts on both. The destination of each block of a row's own matrix is
+// looked up once, when the rows change; assembly is then one pass over the rows without searching. The pattern
+// and these destinations are a pure function of the rows, recomputed when the program was rebound.
 //
-// Threads own ranges of matrix rows; a unit that reaches across a border is computed on both sides, and each
-// writes what it owns, so that every block is the sum of its units in their order.
+// Threads own ranges of matrix rows; a unit across the border of two ranges is computed in both, and each
+// writes the rows that it owns, so that every block is the sum over its units in their order.
 #pragma once
 
 #include "sim/rows/block_matrix.h"
@@ -17,16 +17,16 @@ class Assembly {
 public:
   Assembly(const EmbeddedMap& map, const Program& program);
 
-  void rebind(); // after the program's
+  void rebind(); // after the program's rebind()
 
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
 
   // Adds by_position · (−∂f/∂x) + by_velocity · (−∂f/∂v), symmetrised, at the given positions [m] and
-  // velocities [m/s]. The matrix has this pattern.
+  // velocities [m/s]. The matrix must have this pattern.
   void add(const Record* position, const Record* velocity, Tangent tangent, double by_position,
            double by_velocity, BlockMatrix& out) const;
 
-  std::size_t bytes() const; // with the pattern
+  std::size_t bytes() const; // including the pattern
 
 private:
   struct Scales {
@@ -38,8 +38,8 @@ private:
   const EmbeddedMap* map_;
   const Program* program_;
   std::shared_ptr<const BlockPattern> pattern_;
-  // Places in the matrix of the blocks of each unit, [binder][row][particle][particle]. Gaps between blocks of
-  // rows are 0.
+  // Destination of each block of each unit, [binder][row][particle][particle]. Entries of unused rows between
+  // blocks are 0.
   std::vector<std::vector<std::uint32_t>> place_;
 };
 

@@ -17,7 +17,7 @@ std::vector<IndexColumn> particle_columns(const Pattern& pattern, Orbit orbit) {
   return columns;
 }
 
-// A word that stays in the owner's own orbit ends in it wherever it starts.
+// A word within the owner's orbit ends in it, wherever it starts.
 bool stays_in(Orbit orbit, const Word& word) {
   return std::all_of(word.begin(), word.end(), [&](auto letter) { return orbit.has(letter - '0'); });
 }
@@ -72,7 +72,7 @@ bool Binder::same_particles(const Row& a, const Row& b) const {
   return particles == 1 ? same(0, 0) : (same(0, 0) && same(1, 1)) || (same(0, 1) && same(1, 0));
 }
 
-// Keys of all units that act between the same particles as this one, reached by fold words, itself included.
+// Keys of all units between the same particles as this one, found by fold words, including itself.
 void Binder::find_class(Slot owner, std::size_t unit, const Row& row, std::vector<std::size_t>& keys) const {
   const std::size_t count = pattern_.units.size();
   keys.assign(1, owner * count + unit);
@@ -103,7 +103,7 @@ void Binder::units_of_row(std::size_t key, std::vector<std::size_t>& keys) const
     keys.assign(1, key);
 }
 
-// The numbers of a class, seen from its first unit. Valid until the next call.
+// The sum of the values of such units, with the particles in the order of the first. Valid until the next call.
 const double* Binder::sum_of(const std::vector<std::size_t>& keys, const Row& first) const {
   const std::size_t count = pattern_.units.size();
   thread_local std::vector<double> sum;
@@ -116,7 +116,7 @@ const double* Binder::sum_of(const std::vector<std::size_t>& keys, const Row& fi
   return sum.data();
 }
 
-// Brings a row up to date.
+// Updates one row.
 void Binder::write(std::size_t key) {
   const std::size_t count = pattern_.units.size(), unit = key % count;
   const Slot owner = owner_of(key);
@@ -134,7 +134,7 @@ void Binder::write(std::size_t key) {
     rows_.erase(key);
 }
 
-// From nothing: there may be fewer owners than before, and blocks are to stand in order again.
+// Starts from empty rows: there may be fewer owners than before, and blocks are laid out in order again.
 void Binder::bind_all() {
   rows_.clear();
   rows_.resize(map_->cells(pattern_.owner).slots() * pattern_.units.size());
@@ -163,7 +163,7 @@ void Binder::add_owner(Dart d, std::vector<Slot>& owners) {
   if (owners_seen.insert(owner)) owners.push_back(owner);
 }
 
-// Neighbours in the list mostly have the same owner.
+// Adjacent darts of the list mostly have the same owner.
 void Binder::add_owners(const std::vector<Dart>& darts, std::vector<Slot>& owners) {
   Slot last = no_slot;
   for (Dart d : darts) {
@@ -184,7 +184,8 @@ void Binder::reach(const Changes& changes, std::vector<Slot>& owners) {
   };
   for (Slot owner : changes.slots[pattern_.owner.mask])
     if (owners_seen.insert(owner)) owners.push_back(owner);
-  std::array<bool, orbit_kinds> inside{}; // some column of that index space has a word that stays inside
+  // whether a column of that index space has a word within the owner's orbit
+  std::array<bool, orbit_kinds> inside{};
   for (const IndexColumn& column : columns_) {
     for (const Word& word : column.word) {
       by_links(word);
@@ -201,14 +202,14 @@ void Binder::reach(const Changes& changes, std::vector<Slot>& owners) {
     for (const Word& word : pattern_.fold) by_links(word);
 }
 
-// Owners may enter or leave a class although nothing of their own changed.
+// A row may gain or lose summed units although nothing of its owner changed.
 void Binder::add_folding(std::vector<Slot>& owners) {
   const CellIndex& cells = map_->cells(pattern_.owner);
   const std::size_t count = pattern_.units.size();
   thread_local std::vector<Dart> darts;
   thread_local std::vector<std::size_t> keys;
   const std::size_t reached = owners.size();
-  for (std::size_t at = 0; at < reached; ++at) { // whatever is one fold away
+  for (std::size_t at = 0; at < reached; ++at) { // owners one fold word away
     if (!cells.alive(owners[at])) continue;
     darts.clear();
     collect(map_->map(), pattern_.owner, cells.first_dart(owners[at]), darts);
@@ -216,7 +217,7 @@ void Binder::add_folding(std::vector<Slot>& owners) {
       for (const Word& word : pattern_.fold) add_owner(map_->map().follow(darts[n], word), owners);
   }
   const std::size_t near = owners.size();
-  for (std::size_t at = 0; at < near; ++at) { // and the whole of their classes
+  for (std::size_t at = 0; at < near; ++at) { // and all units summed with those
     for (std::size_t unit = 0; unit < count; ++unit) {
       Row row;
       if (!fill(owners[at], unit, row)) continue;

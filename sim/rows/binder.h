@@ -1,13 +1,13 @@
-// Binding: from a pattern on the map to rows of indices, and which rows an edit concerns.
+// Binding: from a pattern on the map to rows of indices, and which rows an edit affects.
 //
 // Binding every owner is the definition; rebinding must give identical bytes. A row depends on the links that
-// its words follow and on the slots where they end. So, after an edit, its owner is among
+// its words follow and on the slots where they end. So after an edit the rows to rebind are those of
 //   - the owners whose own orbit was touched;
 //   - for every dart x whose αi changed: the owners that reach x by the part of a word before an i;
 //   - for every dart x whose slot changed: the owners that reach x by a whole word;
-//   - the owners that fold with one of these.
-// The last but one is what touched darts alone would miss: after a vertex split most darts of the new vertex
-// were not touched, yet their slot is another.
+//   - the owners whose rows are summed with one of these.
+// The third case is not covered by touched darts: after a vertex split most darts of the new vertex were not
+// touched, but their slot changed.
 #pragma once
 
 #include "sim/mechanics/interaction.h"
@@ -15,7 +15,7 @@
 
 namespace rend {
 
-// An index column: the slot, in the index space of `orbit`, of the dart where `word[unit]` leads to.
+// An index column: the slot, in the index space of `orbit`, of the dart that `word[unit]` leads to.
 struct IndexColumn {
   std::vector<Word> word; // one per unit
   Orbit orbit;
@@ -41,20 +41,20 @@ public:
   int units() const { return static_cast<int>(pattern_.units.size()); }
   Slot owner_of(std::size_t key) const { return static_cast<Slot>(key / pattern_.units.size()); }
 
-  // Keys of the units that the row of a live key stands for: itself and what it folds, in increasing order.
+  // Keys of the units in the row of a live key: itself and those summed into it, in increasing order.
   void units_of_row(std::size_t key, std::vector<std::size_t>& keys) const;
 
-  void bind();                         // all owners, in no more room than they take
-  void rebind(const Changes& changes); // those that the changes concern; what was reserved stays so
+  void bind();                         // all owners, in arrays without reserve
+  void rebind(const Changes& changes); // the rows affected by the changes; keeps what was reserved
   void reserve_for_separations();      // see EmbeddedMap
 
 private:
   struct Row {
-    std::array<std::uint32_t, most_columns> index; // as many as there are columns
-    const double* value = nullptr;                 // the unit's numbers; null: the pattern has none
+    std::array<std::uint32_t, most_columns> index; // one per column
+    const double* value = nullptr;                 // the unit's values; null: the pattern has none
   };
   bool present(Slot owner, std::size_t unit) const;
-  bool fill(Slot owner, std::size_t unit, Row& row) const; // false: silent
+  bool fill(Slot owner, std::size_t unit, Row& row) const; // false: the unit is not present
   bool same_particles(const Row& a, const Row& b) const;
   bool swapped(const Row& a, const Row& b) const { return a.index[0] != b.index[0]; }
   void find_class(Slot owner, std::size_t unit, const Row& row, std::vector<std::size_t>& keys) const;

@@ -13,7 +13,7 @@ BlockPattern BlockPattern::of(const std::vector<std::uint32_t>& starts,
   const std::size_t rows = starts.size() - 1;
   p.start.reserve(rows + 1);
   p.diagonal.reserve(rows);
-  std::vector<std::uint32_t> seen(rows, 0); // last row + 1 that named it
+  std::vector<std::uint32_t> seen(rows, 0); // last row + 1 that contained each column
   std::vector<std::uint32_t> row;
   for (std::size_t i = 0; i < rows; ++i) {
     const auto self = static_cast<std::uint32_t>(i);

@@ -1,13 +1,12 @@
-// A square sparse matrix of 3 × 3 blocks over vertex slots: what the implicit schemes solve with.
+// A square sparse matrix of 3 × 3 blocks over vertex slots, for the implicit schemes.
 //
-// Block-CSR: the blocks of a row stand together, their columns increasing. Row and column i belong to vertex
-// slot i; the pattern is symmetric and has every diagonal block, so that a free slot is a row by itself. The
-// pattern is shared: it is made when the rows of a program change, and matrices, factors and places of units
-// refer to it until it changes.
+// Block-CSR: the blocks of a row are contiguous, with increasing columns. Row and column i belong to vertex
+// slot i; the pattern is symmetric and contains every diagonal block, so that a free slot is an isolated row.
+// The pattern is shared by matrices, factors and assembly, and made anew when the rows of a program change.
 //
 // A block is three columns, each a record of four doubles: y += B x is three multiplications of a record by a
-// number. Its fourth components stay 0. Sums run in the order of the columns, and a row has one owner: the
-// bytes do not depend on the number of threads.
+// number. The fourth components are 0. Sums run in the order of the columns, and each row is computed by one
+// thread: the bytes do not depend on the number of threads.
 #pragma once
 
 #include "sim/base/simd.h"
@@ -21,18 +20,18 @@
 namespace rend {
 
 struct BlockPattern {
-  std::vector<std::uint32_t> start;    // of each row's blocks; rows + 1
+  std::vector<std::uint32_t> start;    // first block of each row; rows + 1 entries
   std::vector<std::uint32_t> column;   // one per block, increasing in a row
-  std::vector<std::uint32_t> diagonal; // place of the block (i, i), one per row
-  int parts = 1;                       // threads that a product with it is worth
+  std::vector<std::uint32_t> diagonal; // index of the block (i, i), one per row
+  int parts = 1;                       // number of threads for a product
 
-  // Row i holds i and `neighbours[starts[i] .. starts[i + 1])`, in any order and any number of times.
+  // Row i contains i and `neighbours[starts[i] .. starts[i + 1])`, in any order, with repetitions allowed.
   static BlockPattern of(const std::vector<std::uint32_t>& starts,
                          const std::vector<std::uint32_t>& neighbours);
 
   std::size_t rows() const { return diagonal.size(); }
   std::size_t blocks() const { return column.size(); }
-  std::uint32_t place(std::uint32_t row, std::uint32_t col) const; // CHECK: it is there
+  std::uint32_t place(std::uint32_t row, std::uint32_t col) const; // index of a block. CHECK: it exists
   std::size_t bytes() const;
   bool same_as(const BlockPattern& other) const;
 };
@@ -52,7 +51,7 @@ REND_INLINE Double4 times(const Block3& b, const Record& x) {
 
 class BlockMatrix {
 public:
-  void reset(std::shared_ptr<const BlockPattern> pattern); // all blocks are 0
+  void reset(std::shared_ptr<const BlockPattern> pattern); // all blocks become 0
 
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
   std::size_t rows() const { return pattern_ ? pattern_->rows() : 0; }
@@ -68,8 +67,9 @@ public:
   // y = A x, one record per row.
   void multiply(const Record* x, Record* y) const;
 
-  // Makes rows and columns of held coordinates those of the identity. `axes`: bits 0, 1, 2 for x, y, z, one per
-  // row. With a right side of 0 there, the solution is that of the free coordinates, and 0 at the held ones.
+  // Replaces rows and columns of constrained coordinates by those of the identity. `axes`: bits 0, 1, 2 for x,
+  // y, z, one per row. With a right-hand side of 0 there, the solution is that of the free coordinates, and 0
+  // at the constrained ones.
   void hold(const std::uint8_t* axes);
 
   std::size_t bytes() const { return value_.size() * sizeof(Block3); }

@@ -18,7 +18,7 @@ Continuum::Continuum(const EmbeddedMap& map, const std::vector<std::unique_ptr<I
     if (const auto* element = dynamic_cast<const ElementLaw*>(law))
       parts_.push_back({interactions[n].get(), element, n});
     const auto* tensors = dynamic_cast<const MassTensorLaw*>(law);
-    if (!tensors || tensors->particles() != 1) continue; // those of pairs are of the same elements
+    if (!tensors || tensors->particles() != 1) continue; // the tensors of pairs belong to the same elements
     for (auto& made : linear_elements(map, tensors->request())) {
       parts_.push_back({made.get(), static_cast<const ElementLaw*>(made->law.get()), made_again});
       again_.push_back(std::move(made));
@@ -50,7 +50,9 @@ Eigen::Matrix3d VertexStress::at(Slot vertex, const Record* x) {
   std::sort(corners_.begin(), corners_.end());
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double whole = 0;
-  int first = 0; // corners of the first element. By ratios to it, equal kinds are weighed by no factor but 1
+  // number of corners of the first element. Weights relative to it are exactly 1 if all elements are of one
+  // kind
+  int first = 0;
   for (Dart d : corners_) {
     const Sum& element = of_element(elements.slot(d), x);
     if (element.count == 0) continue;
@@ -65,7 +67,7 @@ Eigen::Matrix3d VertexStress::at(Slot vertex, const Record* x) {
 
 Principal largest_principal(const Eigen::Matrix3d& tensor, Compression compression) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-      tensor); // iterates; the direct one needs cos and atan2
+      tensor); // the iterative solver; the direct one needs cos and atan2
   const Vec3 values = solver.eigenvalues();
   const int which = compression == Compression::Counts && -values[0] > values[2] ? 0 : 2;
   Vec3 direction = solver.eigenvectors().col(which);

@@ -1,12 +1,12 @@
-// The elements of a body's continuum, and the stress in them and at vertices (thesis 7.1, 7.2).
+// The continuum elements of a body, and the stress in them and at vertices (thesis 7.1, 7.2).
 //
-//   σ of an element:  ElementLaw::stress, in world space
+//   σ of an element:  ElementLaw::stress, in world axes
 //   σ at a vertex:    Σ m σ / Σ m over the elements around it, m the masses of whole elements
 //
-// An element's mass is that of one of its corners times their number: corners of an element have equal shares
-// (sim/mechanics/mass.h), and no separation changes them.
+// An element's mass is that of one of its corners times their number: the corners of an element have equal
+// shares (sim/mechanics/mass.h), and no separation changes them.
 //
-// Mass-tensors keep no elements: those that they were made of, linear ones, are made again.
+// Mass-tensors store no elements: the linear elements that they were assembled from are recreated.
 #pragma once
 
 #include "sim/mechanics/element_law.h"
@@ -20,7 +20,7 @@ public:
   struct Part {
     const Interaction* interaction;
     const ElementLaw* law;
-    std::size_t index; // among the body's interactions; those made again for mass-tensors have `made_again`
+    std::size_t index; // among the body's interactions; `made_again`: recreated for mass-tensors
   };
   static constexpr std::size_t made_again = ~std::size_t{0};
 
@@ -29,7 +29,7 @@ public:
   bool empty() const { return parts_.empty(); }
   const std::vector<Part>& parts() const { return parts_; }
 
-  // Calls f(part, unit now) for every element, part after part in the order of slots.
+  // Calls f(part, unit) for every element, part by part in the order of slots.
   template <class F> void each(const Record* x, const Record* v, F&& f) const {
     for (const Part& part : parts_) {
       const CellIndex& owners = map_->cells(part.interaction->pattern.owner);
@@ -54,8 +54,8 @@ private:
   }
 
   const EmbeddedMap* map_;
-  std::vector<Part> parts_;                         // of each kind of element, in the order of the interactions
-  std::vector<std::unique_ptr<Interaction>> again_; // those that were made again
+  std::vector<Part> parts_;                         // one per kind of element, in the order of the interactions
+  std::vector<std::unique_ptr<Interaction>> again_; // recreated for mass-tensors
 };
 
 inline Eigen::Matrix3d stress_of(const Continuum::Part& part, const UnitNow& element) { // σ [Pa]
@@ -65,13 +65,13 @@ inline Eigen::Matrix3d strain_of(const Continuum::Part& part, const UnitNow& ele
   return part.law->strain(element.values, element.state());
 }
 
-// The mean stress at vertices, from elements that are evaluated when they are first asked for.
+// The average stress at vertices; elements are evaluated when first needed.
 class VertexStress {
 public:
-  // Elements have slots on this map.
+  // CHECK: the map has slots for elements.
   VertexStress(const EmbeddedMap& map, const Continuum& continuum, const MassColumn& mass)
       : map_(&map), continuum_(&continuum), mass_(&mass) {}
-  void clear() { // for another state
+  void clear() { // before another state
     place_.clear();
     sums_.clear();
   }
@@ -79,18 +79,18 @@ public:
   std::size_t bytes() const { return sums_.capacity() * sizeof(Sum); }
 
 private:
-  struct Sum { // of one element: usually one stress
+  struct Sum { // of one element: usually a single stress
     Eigen::Matrix3d stress;
     int count;
-    int corners; // of the element
+    int corners; // number of the element's corners
   };
   const Sum& of_element(Slot element, const Record* x);
 
   const EmbeddedMap* map_;
   const Continuum* continuum_;
   const MassColumn* mass_;
-  IndexMap place_;            // element slot → place in sums_
-  std::vector<Sum> sums_;     // one per element that was asked for since clear()
+  IndexMap place_;            // element slot → index in sums_
+  std::vector<Sum> sums_;     // one per element evaluated since clear()
   std::vector<Dart> corners_; // scratch: the smallest dart of each corner at a vertex
 };
 

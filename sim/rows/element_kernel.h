@@ -1,10 +1,10 @@
-// The kernel of mechanics/element_law.h, four elements at a time, one pass over what they carry.
+// The kernel of mechanics/element_law.h: four elements at a time, in one pass over their data.
 //
-// For each kind of element, with or without rotation and damping: positions are gathered and turned into lanes,
-// F is formed at each integration point, R from their mean (at each point of a sheet's quad), and P = w R σ
-// goes back through J⁻ᵀ to the corners. Nothing but J⁻¹ and w is read: 80 bytes of a tetrahedron, 640 of a
-// hexahedron (its 24 × 24 stiffness would be 4608). Points of a hexahedron are read twice, the second time from
-// the nearest cache.
+// For each kind of element, with or without rotation and damping: positions are gathered and transposed into
+// lanes, F is computed at each integration point, R from the average F (for a quad of a sheet, at each point),
+// and P = w R σ is mapped by J⁻ᵀ to forces on the corners. Only J⁻¹ and w are read: 80 bytes for a tetrahedron,
+// 640 for a hexahedron (its 24 × 24 stiffness matrix would be 4608). The points of a hexahedron are read twice,
+// the second time from the L1 cache.
 #pragma once
 
 #include "sim/mechanics/element_law.h"
@@ -37,7 +37,7 @@ REND_INLINE Matrix<Dim> gradient_at(int g, const Vector* D, const Inverse<Dim>& 
   return F;
 }
 
-// w R σ(sym(RᵀF) − I).
+// w R σ with σ of the strain sym(RᵀF) − I.
 template <int Dim>
 REND_INLINE Matrix<Dim> turned_stress(const Matrix<Dim>& R, const Matrix<Dim>& F, const Double4& weight,
                                       double lambda, double mu) {
@@ -68,7 +68,7 @@ REND_INLINE Matrix<3> stress(const Matrix<3>& F, const Double4& weight, double l
            {xz, yz, twice * (f2.z - 1.0) + trace}}};
 }
 
-// Where R is the polar factor of F itself, RᵀF is symmetric, and w R σ = w (2μ (F − R) + λ tr(RᵀF − I) R).
+// If R is the polar factor of F itself, RᵀF is symmetric, and w R σ = w (2μ (F − R) + λ tr(RᵀF − I) R).
 template <int Dim>
 REND_INLINE Matrix<Dim> stretched_stress(const Matrix<Dim>& R, const Matrix<Dim>& F, const Double4& weight,
                                          double lambda, double mu) {
@@ -81,14 +81,14 @@ REND_INLINE Matrix<Dim> stretched_stress(const Matrix<Dim>& R, const Matrix<Dim>
   return P;
 }
 
-// Whether a block reaches beyond its part, and of an element with several points whether it is damped, are
-// asked while it runs: that takes no time which can be measured, and the compiler would have to write a kernel
-// for each.
+// Two properties are tested at run time: whether a block writes outside its part's vertices, and, for elements
+// with several points, whether the material is damped. The cost is not measurable, and the compiler would
+// otherwise generate a kernel for each case.
 enum class Damping { No, Yes, Asked };
 
 template <class Shape, Turning turning, Damping damping> struct ElementLanes {
   static constexpr int N = Shape::N, Dim = Shape::dim;
-  static constexpr bool flat = turning == Turning::None && Dim == 2; // carries its axes
+  static constexpr bool flat = turning == Turning::None && Dim == 2; // a linear sheet stores its rest axes
   static constexpr bool turned = turning != Turning::None;
   static constexpr Rotation rotation = turning == Turning::Qr ? Rotation::Qr : Rotation::Polar;
   static constexpr int frames = turned && turns_by_point(Dim, Shape::points) ? Shape::points : 1;
@@ -97,7 +97,7 @@ template <class Shape, Turning turning, Damping damping> struct ElementLanes {
   static REND_INLINE void forces(const KernelArguments& a, const ElasticMaterial& m, std::size_t at,
                                  Vector* f) {
     const double* values = a.rows.lanes_at(at);
-    if constexpr (Shape::points == 1) // several are long enough a run for the processor to follow
+    if constexpr (Shape::points == 1) // longer data are prefetched well by the processor
       for (std::size_t n = 0; n < Inverse<Dim>::stride; n += 8) expect<3072>(values + n);
     Matrix<Dim> R[frames];
     if constexpr (flat) {
@@ -148,7 +148,7 @@ private:
     for (int n = 1; n < N; ++n) x[n] = gather(records, a.rows.index(n) + at) - first;
   }
 
-  // F at each point, and Σ w F / Σ w. Of padding, 0/0 is 0.
+  // F at each point, and Σ w F / Σ w. For padding, 0/0 becomes 0.
   static REND_INLINE void mean_gradient(const double* values, const Vector* D, Matrix<Dim>* F,
                                         Matrix<Dim>& mean, Double4& volume) {
     for (int g = 0; g < Shape::points; ++g) {
@@ -169,7 +169,7 @@ private:
   }
 };
 
-// The rows of a block; `whole`: all that they write to is this part's.
+// The rows of a block; `whole`: all vertices that they write to belong to this part.
 template <class Lanes, bool corners>
 REND_INLINE void run_rows(const KernelArguments& a, const ElasticMaterial& m, std::size_t block, bool whole) {
   constexpr int first = corners ? Lanes::N : 0; // index column
@@ -204,7 +204,7 @@ REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMateri
     run_blocks<ElementLanes<Shape, turning, Damping::No>, corners>(a, m);
 }
 
-// What a law asks for, with the loop inside: to be run by at_width.
+// Chooses the loop for a law; run by at_width.
 template <class Shape, bool corners> REND_INLINE void run_elements(const KernelArguments& a) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
   if (law.model() == ElasticModel::Linear)
@@ -215,7 +215,7 @@ template <class Shape, bool corners> REND_INLINE void run_elements(const KernelA
     run_damped_or_not<Shape, Turning::Polar, corners>(a, law.material());
 }
 
-// One file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`:
+// In one file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`:
 // KernelArguments::corner_forces.
 void triangles(const KernelArguments& a);
 void quads(const KernelArguments& a);

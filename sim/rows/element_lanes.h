@@ -1,14 +1,13 @@
-// Elements of mechanics/element.h, four at a time: from corners to Σ x_n ∇̂N_nᵀ at each integration point, and
-// back.
+// Shape functions of the elements of mechanics/element.h, four elements at a time: from corners to Σ x_n ∇̂N_nᵀ
+// at each integration point, and the transpose.
 //
-// The derivative along one reference axis is the same at several points (that along ξ of a hexahedron does not
-// depend on ξ): such columns are computed once, and what they are to be multiplied with is summed before it
-// goes back to the corners. A hexahedron's 24 columns are 12, each a mean of four edges: half the work of 8 × 8
-// gradients.
+// The derivative along one reference axis is the same at several points (along ξ of a hexahedron it does not
+// depend on ξ): such columns are computed once, and in the transpose their factors are summed first. The 24
+// columns of a hexahedron become 12, each an average of four edges: half the work of 8 × 8 gradients.
 //
-//   columns(x, D)   D[k] = Σ c_kn x_n,   x counted from corner 0
+//   columns(x, D)   D[k] = Σ c_kn x_n,   x relative to corner 0
 //   corners(H, f)   f_n = −Σ c_kn H[k]
-//   column(g, axis) which k it is at point g
+//   column(g, axis) index k of the column at point g
 #pragma once
 
 #include "sim/mechanics/element.h"
@@ -31,7 +30,7 @@ template <int Dim> struct SimplexLanes {
 
 constexpr double near_end = 0.78867513459481288225, far_end = 0.21132486540518711775; // (1 ± 1/√3)/2
 
-// Along each axis two edges; the column at a point is a mean of them.
+// Along each axis two edges; the column at a point is a weighted average of them.
 struct QuadLanes {
   static constexpr int N = 4, dim = 2, points = 4, columns_count = 4;
   static constexpr int column(int g, int axis) { return axis == 0 ? g >> 1 : 2 + (g & 1); }
@@ -56,7 +55,7 @@ struct QuadLanes {
   }
 };
 
-// Along each axis four edges, in the order of bits of the two other axes.
+// Along each axis four edges, in the order of the bits of the two other axes.
 struct HexahedronLanes {
   static constexpr int N = 8, dim = 3, points = 8, columns_count = 12;
   static constexpr int column(int g, int axis) {
@@ -64,7 +63,7 @@ struct HexahedronLanes {
   }
   static constexpr int edge[12][2] = {{0, 1}, {3, 2}, {4, 5}, {7, 6}, {0, 3}, {1, 2},
                                       {4, 7}, {5, 6}, {0, 4}, {1, 5}, {3, 7}, {2, 6}};
-  // Four values to their means at the four Gauss points: its own transpose.
+  // From four values to their averages at the four Gauss points; equal to its transpose.
   static REND_INLINE void means(const Vector* from, Vector* to) {
     const Vector a = splat(near_end) * from[0] + splat(far_end) * from[1];
     const Vector b = splat(far_end) * from[0] + splat(near_end) * from[1];
@@ -95,7 +94,7 @@ struct HexahedronLanes {
   }
 };
 
-// Any kind, column by column from the table of its shape functions.
+// Any kind of element, column by column from the table of its shape functions.
 template <ElementKind kind, int Corners, int Points> struct TableLanes {
   static constexpr int N = Corners, dim = 3, points = Points, columns_count = 3 * Points;
   static constexpr int column(int g, int axis) { return 3 * g + axis; }

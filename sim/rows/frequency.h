@@ -1,9 +1,9 @@
-// How fast a body can swing at most: what limits the step of an explicit scheme.
+// A bound of the highest eigenfrequency of a body, which limits the step of explicit schemes.
 //
-// Each unit bounds what it adds to the stiffness of its particles by a diagonal (ForceLaw::bound: Gershgorin's
-// discs, an element's largest eigenvalue). Summed over each element corner by itself and divided by the
-// corner's mass, the largest is a bound for the whole (Irons: no assembly swings faster than its fastest
-// element), and no separation changes it, since a separation changes no corner.
+// Each unit bounds its contribution to the stiffness of its particles by a diagonal (ForceLaw::bound:
+// Gershgorin discs, or an element's largest eigenvalue). The diagonals are summed at each element corner and
+// divided by the corner's mass; the maximum bounds the whole body (Irons: no eigenvalue of an assembly exceeds
+// the largest of its elements), and no separation changes it, since a separation changes no corner.
 #pragma once
 
 #include "sim/mechanics/interaction.h"
@@ -12,9 +12,9 @@
 namespace rend {
 
 struct FrequencyBounds {
-  double omega_squared = 0;   // [1/s²], of the highest frequency at rest
-  double damping_rate = 0;    // [1/s], the largest of all modes
-  double least_drag_rate = 0; // [1/s], the smallest, of ambient viscosity alone
+  double omega_squared = 0;   // [1/s²], bound of the highest frequency, at rest
+  double damping_rate = 0;    // [1/s], bound over all modes
+  double least_drag_rate = 0; // [1/s], the smallest rate of ambient viscosity alone
 };
 
 FrequencyBounds frequency_bounds(const EmbeddedMap& map,

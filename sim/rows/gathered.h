@@ -1,7 +1,8 @@
-// A row as its law wants to see it: the particles' positions, velocities and rest positions, and the row's
-// numbers.
+// The input of a force law for one row: positions, velocities and rest positions of its particles, and the
+// row's values.
 //
-// For what goes row by row; the kernels of common laws take four rows at a time and gather in lanes (lanes.h).
+// For code that processes rows one by one; the kernels of common laws take four rows at a time and gather them
+// in lanes (lanes.h).
 #pragma once
 
 #include "sim/mechanics/force_law.h"
@@ -33,7 +34,7 @@ public:
 
 private:
   std::array<Vec3, most_particles> x_, v_, rest_;
-  std::vector<double> unit_; // as ForceLaw::values()
+  std::vector<double> unit_; // ForceLaw::values() of them
 };
 
 } // namespace rend

@@ -1,13 +1,14 @@
-// The hinge law, four hinges at a time.
+// The hinge law (mechanics/hinge_law.h), four hinges at a time.
 //
-// With h = AB, L = |h|, a_i the arm from A to the middle of side i's outer vertices, n1 = h × a1 and n2 = a2 ×
-// h, the angle is that of the law, operation by operation, so that a body at rest has no force, to the bit. The
-// rest comes from the same normals, without the unit vector and two more cross products:
+// With h = AB, L = |h|, a_i the vector from A to the midpoint of side i's outer vertices, n1 = h × a1 and n2 =
+// a2 × h, the angle is computed as in the law, operation by operation, so that a body at rest has zero force,
+// to the bit. The gradient uses the same normals, without the unit vector and two more cross products:
 //
 //   ∂θ/∂P_i = −L n_i/|n_i|²,   t_i = a_i·h/L²
 //
-// A and B are the same vertices on both sides: they are read once, and as vertices also written once. Without
-// length or area nothing turns, as in the law; of padding the values are 0, and so is the moment.
+// A and B are the same vertices on both sides: they are read once, and with forces on vertices also written
+// once. Without length or area the gradient is 0, as in the law; the values of padding are 0, and so is its
+// moment.
 #include "sim/base/arc_tangent.h"
 #include "sim/mechanics/hinge_law.h"
 #include "sim/rows/lanes.h"
@@ -17,12 +18,12 @@ namespace {
 
 using namespace lanes;
 
-constexpr double nothing = 1e-290; // [m⁴]: its inverse is still a number
+constexpr double nothing = 1e-290; // [m⁴]: its inverse is still finite
 
 struct Side {
   Vector arm, normal;
   Vector turn; // ∂θ/∂P
-  Double4 t;   // where P's projection divides AB
+  Double4 t;   // position of P's projection on AB, 0 at A
 };
 
 struct Hinge {
@@ -35,7 +36,7 @@ REND_INLINE bool any(const Long4& lanes) {
   return (lanes[0] | lanes[1] | lanes[2] | lanes[3]) != 0;
 }
 
-// From A to the middle of the outer vertices of side 0 or 1.
+// From A to the midpoint of the outer vertices of side 0 or 1.
 REND_INLINE Vector arm_of(const KernelArguments& a, const Record* records, const Vector& from, int side,
                           std::size_t at) {
   return splat(0.5) * ((gather(records, a.rows.index(4 * side + 2) + at) - from) +
@@ -56,7 +57,7 @@ REND_INLINE void measure(const KernelArguments& a, std::size_t at, const Double4
   const Long4 turns = (square1 > nothing) & (square2 > nothing),
               crushed = (square1 < least) | (square2 < least);
   hinge.fade = splat(1);
-  if (any(crushed)) { // hardly ever
+  if (any(crushed)) { // rarely
     hinge.fade *= square1 < least ? square1 / least : splat(1);
     hinge.fade *= square2 < least ? square2 / least : splat(1);
   }
@@ -83,14 +84,14 @@ REND_INLINE Double4 wrapped(const Double4& angle) { // into (−π, π]
   return angle <= -pi ? angle + 2 * pi : lowered;
 }
 
-// The opposites of the forces on the two sides' P, and where P's projections divide AB.
+// The negatives of the forces on P of both sides, and the positions of P's projections on AB.
 struct Pulls {
   Vector pull[2];
   Double4 t[2];
 };
 
 template <bool damped> REND_INLINE void pull_at(const KernelArguments& a, std::size_t at, Pulls& pulls) {
-  const double* values = a.rows.lanes_at(at); // k, damping where it is, rest, least
+  const double* values = a.rows.lanes_at(at); // k, damping if any, rest, least
   Hinge hinge;
   measure(a, at, load_four(values + (damped ? 12 : 8)), hinge);
   Double4 moment = load_four(values) * wrapped(hinge.angle - load_four(values + (damped ? 8 : 4)));
@@ -124,8 +125,8 @@ REND_INLINE void add(const KernelArguments& a, std::size_t at, const Pulls& pull
   }
 }
 
-// A block's angles first, then its forces: in short loops the processor works on several hinges' divisions at
-// once.
+// All angles of a block first, then all forces: in short loops the divisions of several hinges overlap in the
+// processor's pipeline.
 template <bool damped, bool corners, bool whole>
 REND_INLINE void run_rows(const KernelArguments& a, std::size_t block) {
   const std::size_t begin = a.rows.begin(block), count = a.rows.padded_in(block);

@@ -1,4 +1,4 @@
-// Four rows at a time: records turned into lanes of x, y, z and back, and small matrices of lanes.
+// Four rows at a time: records transposed into lanes of x, y, z and back, and small matrices of lanes.
 #pragma once
 
 #include "sim/base/simd.h"
@@ -48,7 +48,7 @@ REND_INLINE Vector gather(const Record* records, const std::uint32_t* index) {
                     load(records[index[3]]));
 }
 
-// Adds to four records in the order of rows; those outside [low, high) are another part's.
+// Adds to four records in the order of rows; records outside [low, high) belong to another part.
 template <bool whole>
 REND_INLINE void scatter(const KernelArguments& a, const std::uint32_t* index, const Vector& force) {
   const Double4 zero{};

@@ -55,11 +55,11 @@ void PackedRows::lengthen(std::size_t rows) {
   value_.resize(end_ * columns_, 0);
 }
 
-// For one row more.
+// Makes room for one more row.
 void PackedRows::make_room(std::size_t block) {
   const std::size_t count = rows_in(block), room = room_[block], from = begin_[block];
   if (count < room) return;
-  if (room == 0 || from + room == end_) { // the last one grows where it stands
+  if (room == 0 || from + room == end_) { // the last block grows in place
     if (room == 0) begin_[block] = end_;
     lengthen(lanes);
     room_[block] = static_cast<std::uint8_t>(room + lanes);
@@ -68,7 +68,8 @@ void PackedRows::make_room(std::size_t block) {
   const std::size_t to = end_;
   lengthen(block_size);
   for (auto& column : index_) std::copy_n(column.begin() + from, count, column.begin() + to);
-  std::copy_n(value_.begin() + place(from, 0), count * columns_, value_.begin() + place(to, 0)); // whole lanes
+  // whole groups of four rows
+  std::copy_n(value_.begin() + place(from, 0), count * columns_, value_.begin() + place(to, 0));
   begin_[block] = to;
   room_[block] = block_size;
 }
@@ -85,7 +86,7 @@ void PackedRows::copy_values(std::size_t from, std::size_t to) {
   for (std::size_t c = 0; c < columns_; ++c) target[c * lanes] = source[c * lanes];
 }
 
-// Moves rows [from, end) by one place.
+// Moves rows [from, end) by `by` rows.
 void PackedRows::shift(std::size_t from, std::size_t end, int by) {
   if (from >= end) return;
   for (auto& column : index_)

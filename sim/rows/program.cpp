@@ -120,11 +120,11 @@ KernelArguments Program::arguments(const Binder& binder, const Record* position,
           .damped = interaction.damped};
 }
 
-// Rows of all interactions are run tile by tile, so that the vertices of a tile are read from memory once and
-// not once per interaction: 8192 vertices with their forces take half a megabyte. Tiles depend on the number of
-// slots alone.
+// Cache blocking: rows of all interactions are run tile by tile, so that the vertices of a tile are read from
+// memory once and not once per interaction: 8192 vertices with their forces take half a megabyte. Tiles depend
+// on the number of slots alone.
 constexpr std::size_t tile_vertices = 8192;
-constexpr std::size_t corner_tile_vertices = 1024; // with some four corners each
+constexpr std::size_t corner_tile_vertices = 1024; // with about four corners each
 
 void Program::forces(const Record* position, const Record* velocity, Record* force) const {
   if (options_.walk)
@@ -162,7 +162,7 @@ void Program::find_tiles() const {
   tiles_.assign(count / tile_vertices + 1, {0, count});
   for (const Binder& binder : rows()) {
     const std::size_t blocks = binder.rows().blocks();
-    std::uint32_t low = count; // of what later tiles add to
+    std::uint32_t low = count; // the lowest vertex that later tiles add to
     for (std::size_t tile = tiles_.size(); tile-- > 0;) {
       tiles_[tile].whole = std::min(tiles_[tile].whole, low);
       for (std::size_t n = blocks * tile / tiles_.size(); n < blocks * (tile + 1) / tiles_.size(); ++n) {
@@ -175,7 +175,7 @@ void Program::find_tiles() const {
   tiles_.back().reached = count;
 }
 
-// Of vertex slots [begin, end). Forces are set to 0 just before the first tile that adds to them.
+// For vertex slots [begin, end). Forces are set to 0 just before the first tile that adds to them.
 void Program::run_part(const Evaluation& what, std::size_t begin, std::size_t end,
                        const PartWork* whole) const {
   const std::vector<Binder>& binders = rows();
@@ -234,7 +234,8 @@ void Program::corner_forces(const Record* position, const Record* velocity, Reco
 // A unit that acts on a corner has a row in a block whose range holds the corner's vertex.
 void Program::corner_forces_at(const std::vector<std::uint8_t>& mark, const Record* position,
                                const Record* velocity, Record* corner) const {
-  thread_local std::vector<std::uint32_t> marks; // of the vertex slots before each, and at last of all
+  // number of marked slots before each slot, and of all at the end
+  thread_local std::vector<std::uint32_t> marks;
   marks.assign(mark.size() + 1, 0);
   for (std::size_t v = 0; v < mark.size(); ++v) marks[v + 1] = marks[v] + mark[v];
   const auto concerned = [&](const PackedRows& rows, std::size_t block) {
@@ -256,7 +257,7 @@ void Program::corner_forces_at(const std::vector<std::uint8_t>& mark, const Reco
 
 double Program::elastic_energy(const Record* x) const {
   double sum = 0;
-  thread_local Gathered g; // keeps its room: the guard asks in the midst of a run
+  thread_local Gathered g; // keeps its capacity, since the guard calls this during a run
   for (const Binder& binder : rows()) {
     const ForceLaw& law = *binder.interaction()->law;
     binder.rows().for_each([&](std::size_t, std::size_t row) {

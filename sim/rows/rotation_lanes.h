@@ -1,8 +1,8 @@
-// The rotations of mechanics/rotation.h, of four elements at once.
+// The rotations of mechanics/rotation.h, for four elements at once.
 //
-// Lanes where the short way does not lead there (flat, inverted) are left to the reference, one by one; rows of
-// padding, whose weight is 0, get none. What a lane becomes never depends on the others: those that have
-// arrived stand still.
+// Lanes in which the fast method fails (flat or inverted elements) are computed by the reference, one by one;
+// padding rows, whose weight is 0, are skipped. The result of a lane never depends on the others: lanes that
+// have converged are not changed any more.
 #pragma once
 
 #include "sim/mechanics/rotation.h"
@@ -25,7 +25,7 @@ template <int Columns> Eigen::Matrix3d read_lane(const Matrix<Columns>& F, int l
   return value;
 }
 
-// One lane by the reference, or none (0) for padding.
+// Computes one lane by the reference; 0 for padding.
 template <Rotation rotation, int Columns>
 [[gnu::noinline]] void turn_lane(Matrix<Columns>& R, const Matrix<Columns>& F, const Double4& weight,
                                  int lane) {
@@ -45,7 +45,7 @@ REND_INLINE bool any(const Long4& mask) {
   return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 }
 
-// Returns the lanes that are done.
+// Returns the lanes that succeeded.
 REND_INLINE Long4 gram_schmidt_lanes(const Matrix<3>& F, Matrix<3>& R) {
   const Vector &f0 = F.column[0], &f1 = F.column[1];
   const Double4 s0 = dot(f0, f0), s1 = dot(f1, f1), s2 = dot(F.column[2], F.column[2]);
@@ -56,7 +56,7 @@ REND_INLINE Long4 gram_schmidt_lanes(const Matrix<3>& F, Matrix<3>& R) {
   R.column[1] = i1 * rest;
   R.column[2] = cross(R.column[0], R.column[1]);
   const Double4 least = 1e-24 * (s0 + s1 + s2);
-  return (s0 > least) & (s > 1e-6 * s1); // nearer to a line it needs a second pass
+  return (s0 > least) & (s > 1e-6 * s1); // closer to collinear, a second pass is needed
 }
 
 REND_INLINE Long4 gram_schmidt_lanes(const Matrix<2>& F, Matrix<2>& R) {
@@ -67,15 +67,15 @@ REND_INLINE Long4 gram_schmidt_lanes(const Matrix<2>& F, Matrix<2>& R) {
   const Double4 s = dot(rest, rest), i1 = 1.0 / square_root(s);
   R.column[1] = i1 * rest;
   const Double4 least = 1e-24 * (s0 + s1);
-  return (s0 > least) & (s > 1e-6 * s1); // nearer to a line it needs a second pass
+  return (s0 > least) & (s > 1e-6 * s1); // closer to collinear, a second pass is needed
 }
 
-// The largest root of (s² − I)² = 4 II + 8 J s, from √(3 I) ≥ s: all roots being real, Halley's iteration comes
-// down to it without passing, with three times the digits each time. `open`: the lanes that are asked for;
-// those that arrived go.
+// The largest root of (s² − I)² = 4 II + 8 J s, starting from √(3 I) ≥ s: as all roots are real, Halley's
+// iteration decreases monotonically to it, tripling the number of digits each time. `open`: the lanes to
+// compute; converged ones are removed.
 REND_INLINE Double4 sum_of_singular_values(const Double4& first, const Double4& second, const Double4& J,
                                            Long4& open) {
-  constexpr double near = 3e-6; // of s: what is left is its third power
+  constexpr double near = 3e-6; // relative step: the remaining error is of the order of its cube
   Double4 s = square_root(3.0 * first);
   for (int n = 0; n < 8; ++n) {
     const Double4 t = s * s - first, value = t * t - 4.0 * second - 8.0 * J * s;
@@ -88,21 +88,21 @@ REND_INLINE Double4 sum_of_singular_values(const Double4& first, const Double4& 
   return s;
 }
 
-// The closest rotation from the invariants of C = FᵀF. With singular values λ of F (the smallest negative where
-// F is inverted) and I = tr C, II = |cof F|², J = det F, the sum s = Σ λ is a root of (s² − I)² = 4 II + 8 J s,
-// and R is its derivative by F (Hoger and Carlson 1984 for the invariants; Lin, Chitalu and Komura 2022):
+// The closest rotation from the invariants of C = FᵀF. With singular values λ of F (the smallest one negative
+// if F is inverted) and I = tr C, II = |cof F|², J = det F, the sum s = Σ λ is a root of (s² − I)² = 4 II + 8 J
+// s, and R is its derivative by F (Hoger and Carlson 1984 for the invariants; Lin, Chitalu and Komura 2022):
 //
 //   R = ( (s² + I) F − 2 F C + 2 s cof F ) / ( s (s² − I) − 2 J )
 //
-// The denominator is 2 (λ1 + λ2)(λ2 + λ3)(λ3 + λ1): where it is little beside s³ a direction is lost, and
-// digits are.
+// The denominator is 2 (λ1 + λ2)(λ2 + λ3)(λ3 + λ1): where it is small relative to s³, F is nearly singular and
+// digits are lost.
 REND_INLINE Long4 closest_lanes(const Matrix<3>& F, Matrix<3>& R) {
-  constexpr double least = 0.02; // of s³: more leaves 12 digits
+  constexpr double least = 0.02; // relative to s³: above it, 12 digits are correct
   const Vector &f0 = F.column[0], &f1 = F.column[1], &f2 = F.column[2];
   const Vector g0 = cross(f1, f2), g1 = cross(f2, f0), g2 = cross(f0, f1);
   const Double4 c00 = dot(f0, f0), c11 = dot(f1, f1), c22 = dot(f2, f2);
   const Double4 first = c00 + c11 + c22, second = dot(g0, g0) + dot(g1, g1) + dot(g2, g2), J = dot(f0, g0);
-  const Long4 sized = first > 0.0; // neither padding nor what is not a number
+  const Long4 sized = first > 0.0; // neither padding nor NaN
   Long4 open = sized;
   const Double4 s = sum_of_singular_values(first, second, J, open), square = s * s;
   const Double4 below = s * (square - first) - 2.0 * J;
@@ -115,7 +115,8 @@ REND_INLINE Long4 closest_lanes(const Matrix<3>& F, Matrix<3>& R) {
   return sized & ~open & (below > least * square * s);
 }
 
-// In the plane of Gram–Schmidt's frame F is the triangle (p q; 0 r), whose rotation is known.
+// In the plane of Gram–Schmidt's frame F is the triangular matrix (p q; 0 r), whose polar rotation is known in
+// closed form.
 REND_INLINE Long4 closest_lanes(const Matrix<2>& F, Matrix<2>& R) {
   Matrix<2> frame;
   const Long4 done = gram_schmidt_lanes(F, frame);

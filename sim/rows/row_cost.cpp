@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-constexpr double add = 3, scale = 3, dot = 5, cross = 9; // of vectors
+constexpr double add = 3, scale = 3, dot = 5, cross = 9; // operations on vectors
 
 double spring_operations(bool damped) {
   const double factor = add + dot + 6; // l, 1/l², times l, l − rest, times k, times 1/l
@@ -18,7 +18,7 @@ double spring_operations(bool damped) {
   return factor + (damped ? velocities : 0) + scale + 2 * add;
 }
 
-// As hinge_kernel.cpp goes: the angle's measures, its moment, and what the eight corners get.
+// As in hinge_kernel.cpp: the angle, its moment, and the forces on the eight particles.
 double hinge_operations(bool damped) {
   constexpr double arm = 3 * add + scale, arc_tangent = 30;
   const double measure = add + dot + 2 + 2 * arm + 2 * cross + (cross + dot + 1) + 2 * dot + 2 * (1 + scale) +
@@ -33,13 +33,13 @@ double tensor_operations(int particles, bool damped) {
   return particles * (moved + product);
 }
 
-// From corners to the derivatives along reference axes (element_lanes.h), and as much back.
+// From corners to the derivatives along reference axes (element_lanes.h), and the transpose.
 struct Derivatives {
   double there, back;
 };
 
 Derivatives derivatives_of(const ElementShape& shape) {
-  constexpr double mean = 2 * scale + add, means = 8 * mean; // of two, of four
+  constexpr double mean = 2 * scale + add, means = 8 * mean; // averages of two, of four
   const double n = shape.corners, columns = 3 * static_cast<double>(shape.points.size());
   switch (shape.kind) {
   case ElementKind::Triangle:
@@ -59,17 +59,17 @@ Derivatives derivatives_of(const ElementShape& shape) {
 
 double rotation_operations(Rotation rotation, int dimension) { // rotation_lanes.h
   constexpr int iterations = 3;
-  const double columns = dimension; // each has its square, for the least that counts
+  const double columns = dimension; // each is also squared, for the threshold
   const double gram_schmidt = columns * dot + (2 + scale) + (dot + scale + add) + dot + (2 + scale) + columns +
                               (dimension == 3 ? cross : 0);
   if (rotation == Rotation::Qr) return gram_schmidt;
   if (dimension == 2) return gram_schmidt + 3 * dot + 1 + 3 + 2 + 2 + 2 * (2 * scale + add);
-  constexpr double invariants = 3 * cross + 7 * dot + 4, halley = 23; // of F; an iteration for the sum
+  constexpr double invariants = 3 * cross + 7 * dot + 4, halley = 23; // of F; per iteration for s
   constexpr double weights = 12 + 3 * (dot + 1), column = 2 + 4 * scale + 3 * add;
   return invariants + iterations * halley + weights + 3 * column;
 }
 
-// As element_kernel.h goes.
+// As in element_kernel.h.
 double element_operations(const ElementLaw& law, bool damped) {
   const ElementShape& shape = law.shape();
   const double d = shape.dimension, points = static_cast<double>(shape.points.size()), n = shape.corners;
@@ -90,7 +90,7 @@ double element_operations(const ElementLaw& law, bool damped) {
   return sum + points * stress + back + derivatives.back + n * add;
 }
 
-// Records of these index columns, each counted once.
+// The number of distinct records in these index columns.
 std::size_t records(const PackedRows& rows, int first, int last) {
   std::vector<std::uint32_t> all;
   rows.for_each([&](std::size_t, std::size_t row) {

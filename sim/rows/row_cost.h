@@ -1,13 +1,12 @@
-// What one evaluation of a row costs at least: bytes to and from memory, and operations.
+// The minimal cost of one evaluation of a row: bytes of memory traffic, and operations.
 //
-// Bytes: what the row carries (numbers and indices), and its share of what its particles need, each record once
-// an evaluation: positions, with damping velocities, and forces, which are read and written. What is read again
-// from the caches does not count.
+// Bytes: the row's values and indices, and its share of its particles' data, each record once per evaluation:
+// positions, with damping velocities, and forces, which are read and written. Reads that hit the caches are not
+// counted.
 //
-// Operations: additions, subtractions, multiplications, divisions and roots of forces(), as the kernel of the
-// law does them, counted in its source; fourth components, signs, comparisons and choices do not count. The
-// polar rotation is taken to need three iterations, which is what strains of some percent take
-// (rotation_lanes.h).
+// Operations: additions, subtractions, multiplications, divisions and square roots of forces(), as counted in
+// the source of the law's kernel; fourth components, signs, comparisons and selections are not counted. The
+// polar rotation is assumed to need three iterations, as for strains of some percent (rotation_lanes.h).
 #pragma once
 
 #include "sim/rows/binder.h"
@@ -17,11 +16,11 @@
 namespace rend {
 
 struct RowCost {
-  double read = 0, written = 0;     // [byte] a row
-  std::optional<double> operations; // a row; none: the law's kernel states none
+  double read = 0, written = 0;     // [byte] per row
+  std::optional<double> operations; // per row; nullopt: not known for the law's kernel
 };
 
-// With `corners`, forces go to element corners. Goes through all rows once.
+// With `corners`, forces go to element corners. Visits all rows once.
 RowCost cost_of(const Binder& binder, bool corners);
 
 std::optional<double> operations_of(const ForceLaw& law, bool damped);

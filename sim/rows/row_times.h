@@ -1,8 +1,8 @@
-// What the rows of each interaction take, for those who ask (ProgramOptions::timed).
+// The run time of the rows of each interaction, if it is measured (ProgramOptions::timed).
 //
-// Rows of all interactions are run tile by tile, by several threads: each thread adds up its own times (Laps)
-// and hands them in once, when its part is done. Where nobody asks there is no RowTimes, and a lap tests a
-// pointer.
+// Rows of all interactions are run tile by tile, by several threads: each thread accumulates its own times
+// (Laps) and adds them once, when its part is done. If nothing is measured there is no RowTimes, and a lap only
+// tests a pointer.
 #pragma once
 
 #include "sim/base/profile.h"
@@ -18,26 +18,26 @@ public:
   void count() { ++evaluations_; }
 
   long evaluations() const { return evaluations_; }
-  double seconds(std::size_t interaction) const { return seconds_[interaction]; } // of all threads together
+  double seconds(std::size_t interaction) const { return seconds_[interaction]; } // summed over all threads
 
-  // Of one part of one evaluation.
+  // For one part of one evaluation.
   class Laps {
   public:
     explicit Laps(RowTimes* times);
     ~Laps();
     Laps(const Laps&) = delete;
     Laps& operator=(const Laps&) = delete;
-    void begin() { // what was since the last lap is nobody's
+    void begin() { // discards the time since the last lap
       if (times_) since_ = Clock::now();
     }
-    void end(std::size_t interaction) { // what was since begin() or the last lap is its
+    void end(std::size_t interaction) { // adds the time since begin() or the last lap
       if (times_) add(interaction);
     }
 
   private:
     using Clock = std::chrono::steady_clock;
     void add(std::size_t interaction);
-    RowTimes* times_;             // null: nobody asks
+    RowTimes* times_;             // null: not measured
     std::vector<double> seconds_; // one per interaction
     Clock::time_point since_;
   };
@@ -48,7 +48,7 @@ private:
   std::mutex mutex_;
   std::vector<double> seconds_; // one per interaction
   long evaluations_ = 0;
-  double reading_; // [s], of the clock
+  double reading_; // [s] that reading the clock takes
 };
 
 } // namespace rend

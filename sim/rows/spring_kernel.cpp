@@ -7,12 +7,12 @@ namespace {
 
 using lanes::load_four;
 
-// Below it a squared length has no inverse: no direction, no force.
+// Below it the inverse of a squared length overflows: no direction, no force.
 constexpr double least_square = 1e-300; // [m²]
 
-// The factor s of d = xj − xi in f_i = s d, of four rows; and k|l − l0| + λ|u·w|, where asked for: the sum of
-// what the springs that a row stands for can do at most. 1/l is l/l²: the root and the division need not wait
-// for each other.
+// The factor s of d = xj − xi in f_i = s d, for four rows; if `summed` also k|l − l0| + λ|u·w|, a bound of the
+// sum of the magnitudes of the springs in a row. 1/l is computed as l/l², so that the root and the division are
+// independent.
 template <bool damped, bool summed = false>
 REND_INLINE Double4 spring_factor(const Double4* d, const KernelArguments& a, const std::uint32_t* i,
                                   const std::uint32_t* j, const double* values, Double4* sum = nullptr) {
@@ -68,7 +68,7 @@ REND_INLINE bool is_whole(const KernelArguments& a, std::size_t block) {
   return range.low >= a.low && range.high < a.high;
 }
 
-// Blocks that stand one after the other are run as one: where a block ends is what the processor cannot guess.
+// Adjacent blocks are run as one: the processor mispredicts the branch at the end of each block.
 template <bool damped, bool summed> REND_INLINE void run(const KernelArguments& a) {
   for (std::size_t block = a.first; block < a.last;) {
     const PackedRows::Range range = a.rows.range(block);

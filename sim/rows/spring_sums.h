@@ -1,7 +1,7 @@
-// The spring kernel with bounds, for criteria that look at single forces.
+// The spring kernel with bounds, for criteria on single forces.
 //
-// The fourth lane of a force record is free: there the same pass adds up the sizes of what springs put on the
-// vertex, of parallel ones each by itself, k|l − l0| + λ|u·w|. Whoever asks for it clears the lane before
+// The fourth lane of a force record is unused: the same pass accumulates there the magnitudes of the spring
+// forces on the vertex, parallel springs each by itself, k|l − l0| + λ|u·w|. The caller clears the lane before
 // others read the forces.
 #pragma once
 
@@ -9,6 +9,6 @@
 
 namespace rend {
 
-void spring_forces_with_sums(const KernelArguments& a); // laws: spring_law() alone
+void spring_forces_with_sums(const KernelArguments& a); // only for spring_law()
 
 } // namespace rend

@@ -6,7 +6,7 @@ namespace {
 
 using namespace lanes;
 
-// u + βv of four rows' particle.
+// u + βv of one particle of four rows.
 template <bool damped>
 REND_INLINE Vector moved(const KernelArguments& a, const std::uint32_t* index, double damping) {
   Double4 u[4];

@@ -1,5 +1,4 @@
-// One unit of an interaction in some state, found by walking the map: for whoever asks a law about single
-// units.
+// One unit of an interaction in a given state, found by walking the map: for evaluating single units.
 #pragma once
 
 #include "sim/mechanics/interaction.h"
@@ -10,16 +9,16 @@ namespace rend {
 
 struct UnitNow {
   const Interaction* interaction = nullptr;
-  Dart owner;                                      // the first dart of the orbit that causes it
-  const double* values = nullptr;                  // the law's
-  int particles = 0;                               // how many of each array count
-  std::array<Dart, most_particles> corner;         // where each particle is found
+  Dart owner;                                      // the first dart of its orbit
+  const double* values = nullptr;                  // ForceLaw::values() of them
+  int particles = 0;                               // number of valid entries of each array
+  std::array<Dart, most_particles> corner;         // the dart that the word of each particle leads to
   std::array<Slot, most_particles> vertex;         // of each particle
   std::array<Vec3, most_particles> position, rest; // [m]
   std::array<Vec3, most_particles> velocity;       // [m/s]
 
   // The unit whose words start at d, the first dart of its owner. Positions [m] and velocities [m/s]: one
-  // record per vertex slot; null velocities: at rest.
+  // record per vertex slot; null velocities: 0.
   UnitNow(const EmbeddedMap& map, const Interaction& interaction_, Dart d, std::size_t unit, const Record* x,
           const Record* v)
       : interaction(&interaction_), owner(d),
