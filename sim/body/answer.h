@@ -1,4 +1,5 @@
-// Answers: what a probe must measure at some time, known from elsewhere: a formula, a book, another program.
+// Reference values for probes: what a probe must measure at some time, known from a formula, a book or another
+// program.
 #pragma once
 
 #include "sim/body/probe.h"
@@ -24,11 +25,10 @@ struct Answer : AnswerSettings {
   std::size_t number = 0; // of the probe, in the body's
 
   bool asked = false;             // its time was reached
-  std::optional<double> measured; // none where its vertices were deleted
+  std::optional<double> measured; // nullopt if its vertices were deleted
 
-  double
-  error() const; // (measured − value) / |value|; where the value is 0, measured itself. NaN: not measured
-  bool holds() const; // the error is there, and at most the tolerance
+  double error() const; // (measured − value) / |value|; if the value is 0, measured itself. NaN: not measured
+  bool holds() const;   // it was measured, and the error is at most the tolerance
 };
 
 } // namespace rend

@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-// At borders of elements.
+// The number of darts on the borders of elements that are not sewn.
 std::size_t open_darts(const GMap& map) {
   std::size_t count = 0;
   map.for_each_dart([&](Dart d) { count += map.is_free(map.dimension(), d); });
@@ -105,14 +105,15 @@ void Body::hold(double time, std::uint8_t* axes) {
   constraints.mark(time, axes);
 }
 
-// Profiles tell forces and integration apart, and what tears looks at forces.
+// Not with a full profile, which separates forces from integration, nor in bodies that tear, whose criteria
+// need the forces.
 bool Body::may_defer_forces() const {
   return integrator->sweeps() && !tears() && !(profile && profile->every_step()) && !program->options().walk &&
          !small_in_parts && !faulty.armed(StepStage::Forces);
 }
 
 void Body::meet_program() {
-  inverse_mass = program->inverse_mass(); // rebinding may have moved them
+  inverse_mass = program->inverse_mass(); // rebinding may have reallocated them
   drag_rate = program->drag_rate();
   force.resize(vertices());
 }
@@ -210,11 +211,11 @@ void Body::advance(double time, double step) {
   else
     integrator->advance(*this, time, step, now, force.data(), next);
   if (faulty.armed(StepStage::Integration)) spoil_next();
-  if (next.large) finish_streams(); // of schemes that put their state on this thread
+  if (next.large) finish_streams(); // for schemes that write their state on this thread
   if (!floor_contact) return;
   const Within contact_within(profile, Phase::Contact);
   floor_contact->apply(next, step);
-  constrain(time + step, next.position.data(), next.velocity.data()); // what is prescribed yields to no floor
+  constrain(time + step, next.position.data(), next.velocity.data()); // prescribed vertices ignore the floor
 }
 
 void Body::go_back(const State& start, double time) {
@@ -236,11 +237,11 @@ void Body::rebind() {
   constraints.rebind(*map, changes);
   loads.rebind(*map);
   for (TearLaw& law : tear_laws) law.rebind(changes);
-  if (changes.whole && tears()) reserve_for_separations(); // there may be more rows than once were thought of
+  if (changes.whole && tears()) reserve_for_separations(); // there may be more rows than were reserved
   changes.clear();
 }
 
-// What is bound to the map is bound again; forces are evaluated at the start of the next step.
+// Derived data is bound again after reading; forces are evaluated at the start of the next step.
 void Body::store(Archive& archive, long done, double step) {
   archive.mark(name);
   const bool fixed = archive.reading() && !tears();
@@ -263,7 +264,7 @@ void Body::store(Archive& archive, long done, double step) {
   outer(time_, map->position().values().data(), map->velocity().values().data());
 }
 
-// Times of steps are products of rounded numbers.
+// Times of steps are products in floating point.
 void Body::check_read(long done, double step) const {
   const double now = static_cast<double>(done) * step;
   refuse_unless(is_count(evaluations), "forces were evaluated less often than never");

@@ -1,4 +1,4 @@
-// A body: a map with all that it carries, the interactions on it, and what is built upon them.
+// A body: a map with its embedded values, its interactions, and the data derived from them.
 #pragma once
 
 #include "sim/body/answer.h"
@@ -35,25 +35,25 @@ struct Body final : System {
   VertexGroups groups; // at the start
   MassColumn* mass = nullptr;
   DragColumn* drag = nullptr;     // null: no viscosity per particle
-  BorderColumn* border = nullptr; // null: nothing tears
+  BorderColumn* border = nullptr; // null: the body cannot tear
   std::vector<std::unique_ptr<Interaction>> interactions;
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
   Loads loads;
   std::vector<TearLaw> tear_laws;
-  std::optional<ContactSettings> contact; // as the preset has it
+  std::optional<ContactSettings> contact; // as given by the preset
   std::optional<FloorContact> floor_contact;
   std::vector<Probe> probes;
   std::vector<Answer> answers;
-  std::vector<std::string> notes;    // what the preset's author should know
-  std::vector<std::string> left_out; // what this body does without, and why
+  std::vector<std::string> notes;    // messages for the author of the preset
+  std::vector<std::string> left_out; // what was not built for this body, and why
 
   std::unique_ptr<Program> program;
-  std::unique_ptr<Assembly> assembly; // null: the scheme does not solve
+  std::unique_ptr<Assembly> assembly; // null: the scheme is explicit
   std::unique_ptr<Integrator> integrator;
   std::vector<Record> force;                // internal [N] at the start of the step, one per vertex slot
-  mutable std::vector<Record> corner_force; // [N], one per corner slot; empty unless a law looks at elements
-  State next;      // where the integrator writes: the old state stays whole until the step is kept
+  mutable std::vector<Record> corner_force; // [N], one per corner slot; empty unless a criterion needs elements
+  State next;      // written by the integrator: the old state stays unchanged until the step is accepted
   Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
   std::function<void(WitnessAt)> witness; // called before and after a law makes its changes; may be empty
@@ -70,7 +70,7 @@ struct Body final : System {
   // `border` is known: a body that nobody draws, touches or exports has none.
   Boundary& boundary();
 
-  // System
+  // The interface System
   std::size_t vertices() const override { return program->vertices(); }
   int parts() const override { return program->parts(); }
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
@@ -83,29 +83,31 @@ struct Body final : System {
                      double by_velocity, BlockMatrix& out) override;
   void hold(double time, std::uint8_t* axes) override;
 
-  void evaluate();     // force and corner_force of the current state
-  void defer_forces(); // to advance(), which evaluates them on its way: where nobody looks at them before
+  void evaluate();     // evaluates force and corner_force in the current state
+  void defer_forces(); // leaves the evaluation to advance(): if they are not needed before
   bool may_defer_forces() const;
-  ForceView view() const; // of that
+  ForceView view() const; // of the evaluated state
   CriterionRequest request_for(const LawSettings& law) const;
   double time() const { return time_; } // [s], of the current state
 
-  // Criteria, changes, rebinding; returns how many changes. Before anything is changed, `sound` may throw.
+  // Criteria, changes, rebinding; returns the number of changes. Calls `sound` before changing anything; it may
+  // throw.
   int tear(double time, long number, const std::function<void()>& sound);
-  void advance(double time, double step);        // the current state to `next`
-  void rebind();                                 // program, constraints, laws
-  void commit();                                 // takes `next`
-  void go_back(const State& start, double time); // [s]: start becomes the current state, of the same topology
-  void spoil_next();                             // as `faulty` says
-  // Between steps, so many of which are done, of `step` [s] each: all that a later one depends on.
+  void advance(double time, double step); // from the current state to `next`
+  void rebind();                          // program, constraints, laws
+  void commit();                          // `next` becomes the current state
+  // [s]: rollback: start, of the same topology, becomes the current state
+  void go_back(const State& start, double time);
+  void spoil_next(); // fault injection, see `faulty`
+  // Between steps; `done` steps of `step` [s] each. Everything that later steps depend on.
   void store(Archive& archive, long done, double step);
 
-  long evaluations = 0; // of the internal forces so far, but for those that probes ask for
+  long evaluations = 0; // number of evaluations of the internal forces, without those for probes
   FaultySpot faulty;
 
-  // Before prepare().
-  Profile* profile = nullptr;  // of the scene; null: there is none
-  bool small_in_parts = false; // ProgramOptions
+  // To be set before prepare().
+  Profile* profile = nullptr;  // of the scene; null: none
+  bool small_in_parts = false; // see ProgramOptions
 
 private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);

@@ -9,7 +9,7 @@
 namespace rend {
 namespace {
 
-// The largest of value(k, rest length, length) over the springs at each vertex.
+// The largest value(k, rest length, length) of the springs at each vertex.
 template <class F> std::vector<double> largest_of_springs(const Body& body, F&& value) {
   std::vector<double> out(body.program->vertices(), 0);
   const auto& x = body.map->position().values();

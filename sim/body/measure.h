@@ -1,22 +1,21 @@
-// Quantities to be shown in colour, one per vertex slot.
+// Quantities for display in colour, one per vertex slot.
 //
-// Springs count by themselves, elements of a continuum as a whole (those of a mass-tensor body as linear ones,
-// which is what they are).
+// Springs are evaluated one by one, elements of a continuum as a whole (those of a mass-tensor body as the
+// linear elements that they are).
 #pragma once
 
 #include "sim/body/body.h"
 
 namespace rend {
 
-// The largest, of what is there, of the elongation ratio |l/l0 − 1| of a spring and the greatest principal
-// strain of an element, by size.
+// The largest elongation |l/l0 − 1| of a spring or principal strain of an element, in magnitude, at the vertex.
 std::vector<double> vertex_strain(const Body& body);
 
-// The largest elastic force that a spring or an element puts on the vertex [N].
+// The largest elastic force of a spring or an element on the vertex [N].
 std::vector<double> vertex_force(const Body& body);
 
-// The largest eigenvalue of the mean of its elements' σ, weighed by their masses (thesis 7.2) [Pa]; 0 under
-// compression alone, and without elements.
+// The largest eigenvalue of the mass-weighted average of its elements' σ (thesis 7.2) [Pa]; 0 if all are
+// compressive, and without elements.
 std::vector<double> vertex_stress(const Body& body);
 
 } // namespace rend

@@ -1,18 +1,17 @@
-// Probes: what an experimenter would measure on a body, at vertices that were chosen at rest.
+// Probes: measurements on a body, at vertices that are selected at rest.
 //
-// Each chosen vertex counts the same, and the fragments of one that was split have its part together, by their
-// element corners (share.h); what was deleted does not count any more. With w_n the parts, Σ w_n = 1:
+// Each selected vertex has the same weight, which the fragments of a split vertex share by their element
+// corners (share.h); deleted corners no longer count. With w_n the weights, Σ w_n = 1:
 //
 //   position       Σ w_n x_n
 //   displacement   Σ w_n (x_n − X_n)
-//   reaction       Σ R_n over the fixed and driven vertices among them, along the axes that are prescribed:
+//   reaction       Σ R_n over the fixed and driven vertices among them, along the prescribed axes:
 //                  R = m a − f − load − m g + γ v, the force [N] that the support exerts on the body there; a
-//                  is the prescribed acceleration (0 but for rotations), f the internal force. At rest: what
-//                  bears it. A static solve has neither a nor v.
+//                  is the prescribed acceleration (0 but for rotations), f the internal force. At rest: the
+//                  supporting force. A static solve has neither a nor v.
+//   stress         the mean σ [Pa] of the elements that contain one of its vertices, with equal weights
 //
-//   stress         the mean σ [Pa] of the elements that have one of its vertices, each counting the same
-//
-// A floor is no support in this sense: it acts by impulses (contact.h).
+// A floor is no support in this sense: it acts by impulses (sim/outside/floor_contact.h).
 #pragma once
 
 #include "sim/outside/selector.h"
@@ -36,8 +35,8 @@ void check_name(const ProbeSettings& probe); // UserError
 
 struct ProbeReading {
   Vec3 position = Vec3::Zero(), displacement = Vec3::Zero(); // [m]
-  std::optional<Vec3> reaction;                              // [N]; none where nothing is prescribed
-  std::optional<Eigen::Matrix3d> stress; // [Pa], in world space; none without finite elements
+  std::optional<Vec3> reaction;                              // [N]; nullopt if nothing is prescribed
+  std::optional<Eigen::Matrix3d> stress; // [Pa], in world axes; nullopt without finite elements
 };
 
 class Probe {
@@ -45,8 +44,8 @@ public:
   Probe(EmbeddedMap& map, std::string name, const std::vector<Slot>& vertices);
   const std::string& name() const { return name_; }
 
-  // Of the present state, which it does not change: forces are evaluated anew. None if all its elements were
-  // deleted.
+  // Measures the current state without changing it: forces are evaluated again. nullopt if all its elements
+  // were deleted.
   std::optional<ProbeReading> read(Body& body) const;
 
   bool on_support(const Body& body) const; // some of its vertices are prescribed
@@ -59,10 +58,10 @@ private:
   ShareColumn* shares_;
 };
 
-// What can be asked of a reading: x, y, z, dx, dy, dz, d, reaction-x, reaction-y, reaction-z, reaction,
-// stress-xx ... NaN if it is not there.
+// The quantities of a reading: x, y, z, dx, dy, dz, d, reaction-x, reaction-y, reaction-z, reaction, stress-xx
+// ... NaN if it has none.
 const std::vector<std::string>& probe_quantities();
-bool has_stress(const Body& body); // there are finite elements that know theirs
+bool has_stress(const Body& body); // whether it has finite elements with stress
 double quantity_of(const ProbeReading& reading, const std::string& quantity);
 
 } // namespace rend

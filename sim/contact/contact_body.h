@@ -1,9 +1,8 @@
-// A body as contact sees it in a step: what of it can be touched, and which way an impulse moves it.
+// A body as seen by contact in a step: its faces, and how impulses act on it.
 //
-// A point of a face, x = Σ b_i x_i with weights b_i that sum up to 1, takes an impulse J as b_i J on each
-// vertex: neither momentum nor angular momentum depends on how it is shared. Its inverse mass is then Σ
-// b_i²/m_i, along each axis: a vertex that is held along an axis has an infinite mass along it, and what holds
-// it takes the momentum.
+// A point of a face, x = Σ b_i x_i with barycentric weights b_i, takes an impulse J as b_i J on each vertex,
+// which preserves momentum and angular momentum. Its inverse mass is then Σ b_i²/m_i, along each axis: a vertex
+// that is constrained along an axis has infinite mass along it, and its support takes the momentum.
 #pragma once
 
 #include "sim/body/body.h"
@@ -16,18 +15,18 @@ class ContactBody {
 public:
   explicit ContactBody(Body& body_) : body(&body_), faces(*body_.map, body_.boundary()) {}
 
-  // Before each step's contacts. `time` [s]: at the end of the step.
+  // Called before the contacts of each step. `time` [s]: at the end of the step.
   void prepare(double time);
 
   Body* body;
   ContactFaces faces;
-  bool changed = true; // the faces, since the last step
+  bool changed = true; // whether the faces changed since the last step
 
   const ContactSettings& settings() const { return *body->contact; }
   std::size_t vertices() const { return body->vertices(); } // slots
   std::size_t bytes() const { return faces.bytes() + bytes_of(held_); }
   bool alive(Slot v) const { return body->inverse_mass[v] != 0; }
-  // [1/kg] along x, y, z; 0: held, or free slot.
+  // [1/kg] along x, y, z; 0: constrained, or free slot.
   Vec3 inverse_mass(Slot v) const {
     const double w = body->inverse_mass[v];
     if (held_.empty()) return Vec3::Constant(w);
@@ -39,14 +38,13 @@ public:
   Record& velocity(Slot v) const { return body->next.velocity[v]; }
 
 private:
-  std::vector<std::uint8_t>
-      held_; // one per vertex slot, bits 0, 1, 2: prescribed along x, y, z; empty: nothing is
+  std::vector<std::uint8_t> held_; // one per vertex slot, bits 0, 1, 2: prescribed along x, y, z; empty: none
 };
 
-// A point of a body: up to three of its vertices with weights that sum up to 1.
+// A point of a body: up to three of its vertices with barycentric weights.
 struct ContactPoint {
   const ContactBody* body = nullptr;
-  std::array<Slot, 3> vertex{}; // the same three times: a vertex
+  std::array<Slot, 3> vertex{}; // three times the same: a vertex
   std::array<double, 3> weight{};
 
   static ContactPoint at(const ContactBody& body, Slot v) { return {&body, {v, v, v}, {1, 0, 0}}; }
@@ -55,13 +53,14 @@ struct ContactPoint {
   Vec3 position() const;     // [m]
   Vec3 velocity() const;     // [m/s]
   Vec3 inverse_mass() const; // [1/kg] along x, y, z
-  // How far the vertex that moves most goes when the point is shifted by 1 along the normal: about 1, and more
-  // where others of the face, or axes that the normal has a part of, are held. Infinite where all are.
+  // The largest displacement of a vertex when the point is shifted by 1 along the normal: about 1, and more if
+  // other vertices of the face, or axes in which the normal has a component, are constrained. Infinite if all
+  // are.
   double leverage(const Vec3& normal) const;
-  // It does not yield along the normal, or so little that it would be thrown about.
+  // Whether it is constrained along the normal, or so nearly that corrections would be too large.
   bool held(const Vec3& normal) const { return leverage(normal) > 4; }
-  void push(const Vec3& impulse, double step) const; // [N·s]: on velocities, and with step × that on positions
-  void shift(const Vec3& by) const;                  // [kg·m]: on positions alone, each b_i/m_i of it
+  void push(const Vec3& impulse, double step) const; // [N·s]: changes velocities, and positions by step × that
+  void shift(const Vec3& by) const; // [kg·m]: changes positions only, each vertex by b_i/m_i of it
 };
 
 } // namespace rend

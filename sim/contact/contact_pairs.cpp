@@ -17,7 +17,7 @@ using Bounds = Eigen::AlignedBox3d;
 
 using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;
 
-// Where it is in the step.
+// The bounding box of its motion in the step.
 Bounds around(const ContactBody& body, Slot v) {
   return Bounds(body.from(v)).extend(body.position(v).vec());
 }
@@ -32,7 +32,7 @@ Bounds grown(const Bounds& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
-// Calls f(object) for objects of a tree below a node, unless a box around them is apart from this one.
+// Calls f(object) for the objects below a node of a tree whose boxes intersect this one.
 template <class F> void meet(const Tree& tree, Tree::Index node, const Bounds& box, const F& f) {
   Tree::VolumeIterator below{}, below_end{};
   Tree::ObjectIterator object{}, object_end{};
@@ -42,8 +42,8 @@ template <class F> void meet(const Tree& tree, Tree::Index node, const Bounds& b
   for (; object != object_end; ++object) f(*object);
 }
 
-// Whether they may come as near as `thickness` before one of them has moved by half the skin: by how far they
-// are apart at the end of the step, and how far they moved against each other in it.
+// Whether they may come within `thickness` before one of them has moved by half the skin: from their distance
+// at the end of the step, and their relative motion in it.
 bool may_meet(const ContactBody& body, Slot v, const ContactBody& other, const ContactFaces::Triangle& triangle,
               double reach) {
   const Vec3 x = body.position(v), moved = x - body.from(v);
@@ -61,7 +61,7 @@ bool is_corner(Slot v, const ContactFaces::Triangle& triangle) {
   return std::find(triangle.vertex.begin(), triangle.vertex.end(), v) != triangle.vertex.end();
 }
 
-// [m], of a vertex from a triangle of the same body.
+// [m], distance of a vertex from a triangle of the same body at rest.
 double apart_at_rest(const ContactBody& body, Slot v, const ContactFaces::Triangle& triangle) {
   const auto& rest = body.body->map->rest();
   const TriangleCorners x{rest[triangle.vertex[0]], rest[triangle.vertex[1]], rest[triangle.vertex[2]]};
@@ -72,7 +72,7 @@ double apart_at_rest(const ContactBody& body, Slot v, const ContactFaces::Triang
 } // namespace
 
 // All faces, those of each fragment in a tree of their own, and those trees in one: most faces near a vertex
-// are those of its own fragment, and are not even looked at.
+// are those of its own fragment, and are skipped as a whole.
 class ContactPairs::FaceTrees {
 public:
   struct Face {
@@ -87,7 +87,7 @@ public:
           grown(around(*bodies[face.body], bodies[face.body]->faces.triangles()[face.triangle]), margin));
     std::vector<std::uint32_t> each(faces_.size());
     std::iota(each.begin(), each.end(), 0U);
-    std::vector<Bounds> whole; // of each fragment
+    std::vector<Bounds> whole; // bounding box of each fragment
     for (std::size_t begin = 0, end = 0; begin < faces_.size(); begin = end) {
       Bounds box;
       while (end < faces_.size() && faces_[end].body == faces_[begin].body &&
@@ -103,8 +103,8 @@ public:
     whole_ = std::move(whole);
   }
 
-  // Calls f(face) for all whose boxes meet this one, but for those of fragments for which skip(face), of any
-  // face of it.
+  // Calls f(face) for the faces whose boxes intersect this one, without the fragments for which skip(any face
+  // of it) is true.
   template <class Skip, class F> void each_near(const Bounds& box, const Skip& skip, const F& f) const {
     if (faces_.empty()) return;
     meet(fragments_, fragments_.getRootIndex(), box, [&](std::uint32_t n) {
@@ -167,7 +167,7 @@ bool ContactPairs::anything(const Bodies& bodies) const {
   return several || asking > 1;
 }
 
-// Whether something moved by half the skin since the last search. What all do together brings nothing nearer.
+// Whether a vertex moved by half the skin since the last search. A common translation is subtracted.
 bool ContactPairs::stale(const Bodies& bodies) const {
   Vec3 mean = Vec3::Zero();
   std::size_t count = 0;
@@ -242,7 +242,7 @@ bool ContactPairs::allowed(const Bodies& bodies, std::size_t entry, const Contac
   return body.settings().self && !is_corner(pair.vertex, body.faces.triangles()[pair.triangle]);
 }
 
-// Whether what joins them holds them apart; finds out whether they are neighbours.
+// Whether the pair is excluded because the material connects it; determines whether they are neighbours.
 bool ContactPairs::joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const {
   if (pair.body != pair.face_body) return false;
   const ContactBody& body = *bodies[pair.body];
@@ -277,7 +277,7 @@ void ContactPairs::store(Archive& archive, const Bodies& bodies) {
   for (std::size_t b = 0; b < of_.size(); ++b) {
     of_[b].store(archive, bodies[b]->body->map->map().capacity());
     if (!archive.reading()) continue;
-    Of now; // as it is listed of the map
+    Of now; // from the current map
     if (bodies[b]->settings().fragments) list(*bodies[b], now);
     refuse_unless(of_[b].same_lists(now), "contact is of other vertices or faces than the body has");
   }
@@ -293,7 +293,7 @@ void ContactPairs::store(Archive& archive, const Bodies& bodies) {
   refuse_unless(listed_ == !of_.empty(), "contact knows nothing of its bodies");
 }
 
-// Pairs are sorted, and of vertices and triangles that there are.
+// Pairs are sorted, and their vertices and triangles exist.
 void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
   const ContactPair& pair = pairs_[number];
   refuse_unless(pair.body < of_.size() && pair.face_body < of_.size(),

@@ -1,13 +1,13 @@
-// Which vertices may meet which faces in a step: the broad phase of contact between bodies and fragments.
+// The broad phase of contact between bodies and fragments: which vertices may touch which faces in a step.
 //
-// Faces are triangles (contact_faces.h). Those of each fragment are kept in a tree of boxes, and those trees in
-// one more, so that a vertex passes by the faces of its own fragment, which are most of those near it. Trees
-// are Eigen's KdBVH (unsupported/Eigen/BVH, MPL 2), since Eigen is there already, a tree is a pure function of
-// the boxes, and what is found is sorted, so that no order of a search shows. (Bullet's btDbvt and FCL would be
-// new dependencies, for single precision or for whole bodies.) Trees cannot follow what moves; so pairs are
-// looked for with a skin around all, and looked for again when a vertex has moved by half of it against the
-// mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967), or when a map was changed. Pairs are more than
-// what meets, and what meets is always among them: when they were looked for leaves no trace.
+// Faces are triangles (contact_faces.h). Those of each fragment are in a tree of bounding boxes, and these
+// trees in a tree above, so that the query of a vertex skips the faces of its own fragment, which are most of
+// those near it. Trees are Eigen's KdBVH (unsupported/Eigen/BVH, MPL 2), since Eigen is a dependency already, a
+// tree is a pure function of the boxes, and results are sorted, so that they do not depend on the order of a
+// search. (Bullet's btDbvt and FCL would be new dependencies, for single precision or for whole bodies.) The
+// trees are static; so pairs are searched with a margin (skin), and again when a vertex has moved by half of it
+// relative to the mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967), or when a map was changed. The
+// pairs always include all that touch, so results do not depend on when they were searched.
 #pragma once
 
 #include "sim/contact/contact_body.h"
@@ -21,7 +21,7 @@ struct ContactPair {
   Slot vertex = 0;
   std::uint32_t face_body = 0;
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
-  bool neighbours = false;    // at rest they are nearer than the thickness
+  bool neighbours = false;    // closer than the thickness at rest
 
   void store(Archive& archive);
 };
@@ -30,39 +30,41 @@ class ContactPairs {
 public:
   using Bodies = std::vector<std::unique_ptr<ContactBody>>;
 
-  // The pairs of this step, by body, vertex, body of the face, triangle. Of bodies with fragments: those of
-  // different bodies and of different fragments, and with self also those within a fragment that are no
-  // neighbours.
+  // The pairs of this step, sorted by body, vertex, body of the face, triangle. For bodies with contact of
+  // fragments: pairs of different bodies and of different fragments, and with `self` also those within a
+  // fragment that are not neighbours.
   const std::vector<ContactPair>& find(const Bodies& bodies);
 
-  // What two bodies keep from each other [m].
+  // The distance that two bodies keep [m].
   static double thickness(const ContactBody& a, const ContactBody& b) {
     return 0.5 * (a.settings().thickness + b.settings().thickness);
   }
   long searches() const { return searches_; }
   std::size_t pairs() const { return pairs_.size(); } // of the last search
   std::size_t bytes() const;
-  void store(Archive& archive, const Bodies& bodies); // whose faces are those of their maps
+  void store(Archive& archive, const Bodies& bodies); // the faces must be those of the maps
 
 private:
   class FaceTrees;
-  struct Of {                                   // a body
+  struct Of {                                   // per body
     std::vector<Slot> vertices;                 // of its faces, increasing
     std::vector<std::uint32_t> vertex_fragment; // one per entry of `vertices`
     std::vector<std::uint32_t> face_fragment;   // one per triangle
-    std::vector<Vec3> there;                    // [m], at the last search, one per entry of `vertices`
-    bool several = false;                       // fragments
+    std::vector<Vec3> there; // [m], positions at the last search, one per entry of `vertices`
+    bool several = false;    // more than one fragment
 
-    void store(Archive& archive, std::size_t most); // vertices or triangles
-    bool same_lists(const Of& other) const;         // but for where they were
+    void store(Archive& archive, std::size_t most); // `most`: bound of the number of vertices or triangles
+    bool same_lists(const Of& other) const;         // without the positions
   };
   void check_pair(const Bodies& bodies, std::size_t number) const; // throws ArchiveError
   void list(const ContactBody& body, Of& of) const;
   bool anything(const Bodies& bodies) const;
   bool stale(const Bodies& bodies) const;
   void search(const Bodies& bodies);
-  void search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach); // b's vertices
-  bool same_fragment(std::size_t entry, const ContactPair& pair) const; // entry: of the vertex in Of::vertices
+  // for the vertices of b
+  void search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach);
+  // entry: index of the vertex in Of::vertices
+  bool same_fragment(std::size_t entry, const ContactPair& pair) const;
   bool allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const;
   bool joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const;
 

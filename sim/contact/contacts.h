@@ -1,6 +1,6 @@
-// All contacts of a scene that are more than one body's with the floor (which is the body's own: contact.h), at
-// the end of each step, after every body has made its own. Bodies and fragments among each other first, then
-// obstacles, the floor last, and what is prescribed yields to none of them.
+// All contacts of a scene other than with the floor (floor_contact.h, handled by the body), at the end of each
+// step, after every body has been advanced. Order: bodies and fragments among each other, obstacles, the floor;
+// prescribed vertices ignore all of them.
 #pragma once
 
 #include "sim/contact/fragment_contact.h"
@@ -10,20 +10,20 @@ namespace rend {
 
 class Contacts {
 public:
-  // Null where no body asks for any: then it costs nothing. Before bodies are prepared.
+  // Null if no body has contacts: they then cost nothing. Called before bodies are prepared.
   static std::unique_ptr<Contacts> of(World& world, const std::vector<std::unique_ptr<Body>>& bodies);
 
   void advance(double time, double step); // [s]: changes the `next` of bodies and spheres
 
   const std::vector<std::unique_ptr<ContactBody>>& bodies() const { return bodies_; }
-  const FragmentContact* fragments() const { return fragments_.get(); } // null: no body asks for it
+  const FragmentContact* fragments() const { return fragments_.get(); } // null: not enabled in any body
   std::size_t bytes() const;
-  void store(Archive& archive); // after the bodies: what is near what, as it was last looked for
+  void store(Archive& archive); // after the bodies: the state of the pair search
 
 private:
   explicit Contacts(World& world) : obstacles_(world) {}
-  std::vector<std::unique_ptr<ContactBody>> bodies_; // that ask for it, in the order of the scene
-  std::unique_ptr<FragmentContact> fragments_;       // null: no body asks for it
+  std::vector<std::unique_ptr<ContactBody>> bodies_; // those with contact, in the order of the scene
+  std::unique_ptr<FragmentContact> fragments_;       // null: not enabled in any body
   ObstacleContact obstacles_;
 };
 

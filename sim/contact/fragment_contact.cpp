@@ -10,9 +10,9 @@ namespace {
 
 constexpr int sweeps = 4;
 constexpr double relaxation = 0.05;  // [s]
-constexpr double coincident = 1e-10; // of the thickness and the face's size
-constexpr double deepest = 0.2; // of a face's size: below a solid's face that is still taken for an overlap
-constexpr double beside = 1.5;  // thicknesses at which a way passes by a face
+constexpr double coincident = 1e-10; // relative to the thickness and the face's size
+constexpr double deepest = 0.2;      // relative to a face's size: the largest penetration of a solid's face
+constexpr double beside = 1.5;       // distance in thicknesses at which a path misses a face
 
 TriangleCorners mixed(const TriangleCorners& a, const TriangleCorners& b, double share) {
   TriangleCorners out;
@@ -24,15 +24,15 @@ Vec3 at(const TriangleCorners& x, const Weights& w) {
   return w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
 }
 
-bool over(const Weights& w) { // and not beside
+bool over(const Weights& w) { // projects onto the face, not beside it
   return w[0] > 0 && w[1] > 0 && w[2] > 0;
 }
 
-// Of a vertex at x and a face: the nearest point, and the direction in which the vertex is to be kept.
+// For a vertex at x and a face: the nearest point, and the contact normal towards the vertex.
 struct Facing {
   Weights weight{};
   Vec3 normal = Vec3::Zero();
-  double gap = 0; // [m], below 0: under the face of a solid
+  double gap = 0; // [m], negative: below the face of a solid
 };
 std::optional<Facing> facing(const Vec3& x, const TriangleCorners& face, bool solid, double thickness) {
   Facing out;
@@ -68,7 +68,7 @@ std::optional<FragmentContact::Touch> FragmentContact::touch(const ContactPairs:
   if (!start) return {};
   const double before = start->gap, after = start->normal.dot(x1 - at(y1, start->weight));
   if (after >= thickness) return {};
-  if (before > thickness) { // where the way comes as near as that: it may pass by
+  if (before > thickness) { // a path that comes so close may still miss the face
     const double share = (before - thickness) / (before - after);
     const Vec3 there = x0 + share * (x1 - x0);
     const Vec3 side = start->normal;

@@ -7,15 +7,15 @@ namespace rend {
 namespace {
 
 constexpr int sweeps = 8;
-constexpr int passes = 2;            // over faces: what one puts out, its neighbour may put in
+constexpr int passes = 2;            // over faces: moving one out may move its neighbour in
 constexpr double touching = 1e-9;    // [m]
-constexpr double relaxation = 0.05;  // [s], of what was inside at the start of the step
-constexpr double fastest = 0.1;      // [m/s], of that
-constexpr double own_friction = 0.5; // between obstacles that say nothing of it
+constexpr double relaxation = 0.05;  // [s], for what was inside at the start of the step
+constexpr double fastest = 0.1;      // [m/s], for the same
+constexpr double own_friction = 0.5; // between obstacles without a friction of their own
 
 using Bounds = Eigen::AlignedBox3d;
 
-// A sphere in a step, as the templates below see it.
+// A sphere in a step, with the interface that the templates below use.
 struct MovingSphere {
   const Sphere* sphere;
   Vec3 velocity() const { return sphere->next_velocity; }
@@ -51,8 +51,8 @@ struct StandingBox {
   Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
 };
 
-// On which sides a point is outside: bits 2 a and 2 a + 1 for less and more along axis a (Cohen and
-// Sutherland's).
+// The sides of a box outside which a point is: bits 2 a and 2 a + 1 for below and above along axis a (outcodes
+// of Cohen and Sutherland).
 using Outside = std::uint8_t;
 Outside outside(const Bounds& near, const Vec3& x) {
   unsigned code = 0;
@@ -62,12 +62,12 @@ Outside outside(const Bounds& near, const Vec3& x) {
   return static_cast<Outside>(code);
 }
 
-// Calls f(point, plane) for each vertex of the body that the obstacle is to stop. `codes`: where that leaves
+// Calls f(point, plane) for each vertex of the body that the obstacle stops. `codes`: the resulting outcode of
 // each slot.
 template <class Shape, class F>
 void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;
-  const Bounds near = shape.bounds(margin - touching); // what lies on a side is not looked at
+  const Bounds near = shape.bounds(margin - touching); // points outside one of its sides are skipped
   codes.resize(body.vertices());
   for (Slot v = 0; v < body.vertices(); ++v) {
     const Vec3 to = body.position(v);
@@ -81,7 +81,7 @@ void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Ou
   }
 }
 
-// The same for the deepest point of each face, with those codes.
+// The same for the deepest point of each face, using those outcodes.
 template <class Shape, class F>
 void for_each_face(const Shape& shape, const ContactBody& body, const std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;
@@ -96,18 +96,18 @@ void for_each_face(const Shape& shape, const ContactBody& body, const std::vecto
   }
 }
 
-// How deep [m] a point may still be at the end of a step that was as deep as `before` at its start.
+// The allowed penetration [m] at the end of a step of a point that was `before` deep at its start.
 double still_deep(double before, double step) {
   return before > 0 ? before - std::min(before * std::min(1.0, step / relaxation), fastest * step) : 0;
 }
 
-// By positions alone, but for a depth that is kept [m].
+// On positions only, leaving the penetration `kept` [m].
 void put_out(const ContactPoint& point, const Plane& plane, double kept) {
   const double gap = plane.normal.dot(point.position()) - plane.offset + kept;
   if (gap < 0) point.shift(-gap / yield_along(plane.normal, point.inverse_mass()) * plane.normal);
 }
 
-// Puts a point out of an obstacle that does not yield.
+// Moves a point out of an obstacle with infinite mass.
 void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacle, double friction, double kept,
               double step) {
   if (plane.normal.dot(point.position()) >= plane.offset || point.held(plane.normal)) return;
@@ -138,7 +138,7 @@ Vec3 nearest(const Box& box, const Vec3& x) {
   return x.cwiseMax(box.low).cwiseMin(box.high);
 }
 
-// The plane that keeps a sphere's centre out of a box.
+// The plane that keeps a sphere's centre outside a box.
 std::optional<Plane> plane_against(const Box& box, const Sphere& sphere) {
   const Vec3 to = sphere.next_centre, at = nearest(box, to), from = to - at;
   const double distance = from.norm();
@@ -147,7 +147,7 @@ std::optional<Plane> plane_against(const Box& box, const Sphere& sphere) {
   return Plane{from / distance, from.dot(at) / distance + sphere.radius};
 }
 
-// By what does not yield.
+// Contact with an object of infinite mass.
 void stop(Sphere& sphere, const Vec3& normal, double friction) {
   sphere.next_velocity += impact(sphere.next_velocity, normal, friction, Vec3::Ones()).whole();
 }
@@ -211,7 +211,7 @@ void ObstacleContact::meet(Touch& touch, double step) {
   sphere.next_velocity -= W * impulse;
 }
 
-// The floor and boxes under a sphere that falls.
+// Contacts of a falling sphere with the floor and boxes.
 void ObstacleContact::support(Sphere& sphere) {
   const double own = sphere.friction.value_or(own_friction);
   if (world_.floor && sphere.next_centre.z() < world_.floor->z + sphere.radius)
@@ -231,7 +231,7 @@ void ObstacleContact::collide(Sphere& a, Sphere& b) {
   b.next_velocity += b.inverse_mass() * impulse;
 }
 
-// With its velocity to where it ends, but not into what stands there.
+// Moves it with its velocity, but not into the floor or boxes.
 void ObstacleContact::settle(Sphere& sphere, double step) {
   sphere.next_centre = sphere.centre + step * sphere.next_velocity;
   for (const Box& box : world_.boxes)

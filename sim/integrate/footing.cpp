@@ -13,11 +13,11 @@
 namespace rend {
 namespace {
 
-using Piece = std::vector<std::uint32_t>; // its vertex slots, as they are reached
+using Piece = std::vector<std::uint32_t>; // its vertex slots, in the order in which they are reached
 
-// Calls f(piece) for every piece, in the order of their smallest slots, until f returns true.
+// Calls f(piece) for every component, in the order of their smallest slots, until f returns true.
 template <class F> bool any_piece(const BlockPattern& pattern, const double* inverse_mass, F&& f) {
-  thread_local std::vector<bool> seen; // kept, so that a step asks for no memory
+  thread_local std::vector<bool> seen; // kept to avoid allocation in each step
   thread_local Piece piece;
   seen.assign(pattern.rows(), false);
   for (std::uint32_t first = 0; first < pattern.rows(); ++first) {
@@ -36,12 +36,14 @@ template <class F> bool any_piece(const BlockPattern& pattern, const double* inv
   return false;
 }
 
-// Of a piece, about its middle and in its own size: which of the six are held, and how well.
+// Of one component, about its centre and scaled by its size: which of the six rigid motions are constrained,
+// and how well.
 struct RigidMotions {
   const Record* position;
   Vec3 centre = Vec3::Zero();
-  double size = 0;                                                        // [m]; 0: a point
-  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero(); // Σ of the rows of held coordinates
+  double size = 0; // [m]; 0: a point
+  // Σ of outer products of the rows of constrained coordinates
+  Eigen::Matrix<double, 6, 6> held = Eigen::Matrix<double, 6, 6>::Zero();
 
   RigidMotions(const Piece& piece, const std::vector<std::uint8_t>& axes, const Record* position_)
       : position(position_) {
@@ -55,7 +57,7 @@ struct RigidMotions {
     return size > 0 ? Vec3((position[v].vec() - centre) / size) : Vec3(Vec3::Zero());
   }
   void hold(std::uint32_t v, unsigned axis) {
-    Eigen::Matrix<double, 6, 1> row; // this coordinate's part in the six motions
+    Eigen::Matrix<double, 6, 1> row; // this coordinate's displacement in the six motions
     row << Vec3::Unit(axis), arm(v).cross(Vec3::Unit(axis));
     held += row * row.transpose();
   }
@@ -168,7 +170,7 @@ double mean_stiffness(const BlockMatrix& matrix, const double* inverse_mass, std
   return stiff / mass;
 }
 
-// What was held when the body first stood and is no more came off by tearing, or was let go.
+// A component that was supported in the first equilibrium and is no longer was torn off or released.
 void Footing::check(System& system, double time, const Records& position, double size, BlockMatrix& matrix) {
   const BlockPattern& pattern = *system.pattern();
   loose.assign(position.size(), 0);

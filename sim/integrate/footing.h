@@ -1,8 +1,8 @@
-// What holds a body: which motions of its pieces as rigid bodies the prescribed coordinates leave.
+// Rigid body motions: which of them the prescribed coordinates (Dirichlet conditions) leave free.
 //
-// A piece is what the pattern of the stiffness joins. Moved as a whole along an axis none of whose coordinates
-// is prescribed, it meets no resistance in any state: there is no equilibrium to be found, or not one alone.
-// Turns are another matter, since a pendulum has an equilibrium.
+// The connected components of the stiffness pattern are treated one by one. A translation along an axis without
+// prescribed coordinates meets no resistance in any state: there is no equilibrium, or it is not unique.
+// Rotations are different, since a pendulum has an equilibrium.
 #pragma once
 
 #include "sim/integrate/integrator.h"
@@ -15,48 +15,49 @@
 
 namespace rend {
 
-// What is left free of the first piece that can move off as a whole ("along x and z ..."); empty: none.
-// `held`: as System::hold; `inverse_mass` 0: free slot.
+// The free translations of the first component that has some ("along x and z ..."); nullopt: none. `held`: as
+// in System::hold; `inverse_mass` 0: free slot.
 std::optional<std::string> drift_of(const BlockPattern& pattern, const double* inverse_mass,
                                     const std::vector<std::uint8_t>& held);
 
-// Whether some piece can turn as a whole, from the present positions.
+// Whether some component can rotate as a rigid body, from the current positions.
 bool can_turn(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
               const Record* position);
 
-// For pieces that came off: holds as many coordinates of each piece that can move off as a whole (or turn,
-// where nothing `turns` with the body) as keep it in its place and leave it to take its own shape, and marks
-// its vertices. Without loads those coordinates carry nothing. `loose`: one per vertex slot.
+// For components that were torn off: constrains as many coordinates of each component that can translate (or
+// rotate, unless its forces are invariant under rotation, `turns`) as make its rigid motions determinate
+// without restricting its shape, and marks its vertices. Without loads the reactions there are 0. `loose`: one
+// per vertex slot.
 void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Record* position, bool turns,
                std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& loose);
 
-// Whether forces turn with the body, measured at quarter turns about z and x, which are exact in coordinates.
-// `size`: its extent() [m]; the matrix and `room` are written.
+// Whether the internal forces are rotation invariant, measured at quarter turns about z and x, which are exact
+// in floating point. `size`: extent() of the body [m]; the matrix and `room` are overwritten.
 using TurningRoom = std::array<Records, 4>; // one record per vertex slot each
 bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix,
                      TurningRoom& room);
 
-// What a static solve knows of how its body is held.
+// The boundary conditions of a static solve.
 struct Footing {
-  std::vector<std::uint8_t> held;  // axes, one per vertex slot
-  std::vector<std::uint8_t> loose; // 1: of a piece that came off, without loads; one per vertex slot
-  bool stood = false;              // in equilibrium, once
-  bool keeps_turned = false;       // what can turn is loose
-  TurningRoom room;                // scratch; empty until something can turn
+  std::vector<std::uint8_t> held;  // constrained axes, one per vertex slot
+  std::vector<std::uint8_t> loose; // 1: of a component that was torn off, without loads; one per vertex slot
+  bool stood = false;              // an equilibrium has been found before
+  bool keeps_turned = false;       // components that can rotate are treated as torn off
+  TurningRoom room;                // scratch; empty until a component can rotate
 
-  // With `held` as the system has it: holds and marks what came off since the body stood, and refuses
-  // (Unsolved) a body that can move off or turn without resistance. Position and size as above; the matrix is
-  // written.
+  // With `held` as set by the system: constrains and marks the components that were torn off since the last
+  // equilibrium, and refuses (Unsolved) a body that can translate or rotate without resistance. Position and
+  // size as above; the matrix is overwritten.
   void check(System& system, double time, const Records& position, double size, BlockMatrix& matrix);
 };
 
 double stiffness_of(const Block3& diagonal); // the largest diagonal entry [N/m]
 
-// The longest side of the box around all vertices [m].
+// The longest side of the bounding box of all vertices [m].
 double extent(const Records& position, const double* inverse_mass);
 
-// [1/s²]: the mean of the diagonal for each unit of mass. inverse_mass: [1/kg], one per vertex slot, 0: free
-// slot.
+// [1/s²]: the trace of the matrix divided by that of the masses. inverse_mass: [1/kg], one per vertex slot, 0:
+// free slot.
 double mean_stiffness(const BlockMatrix& matrix, const double* inverse_mass, std::size_t count);
 
 } // namespace rend

@@ -1,22 +1,21 @@
-// Implicit (backward) Euler (thesis 2.3.1, eq. 2.41): stable at any step, at the price of a damping of its
-// own.
+// Implicit (backward) Euler (thesis 2.3.1, eq. 2.41): stable at any step, with numerical damping.
 //
 //   M (v' − v) = h ( f(x', v') + M g − γ v' + loads ),    x' = x + h v'
 //
-// Solved for v' by Newton's method from v' = v. With the momentum that is left over,
+// Solved for v' by Newton's method from v' = v. With the residual
 //
 //   R(v') = h M a(x', v') − M (v' − v),    ( M + h γ + h D + h² K ) δ = R,    v' ← v' + s δ
 //
-// where K = −∂f/∂x and D = −∂f/∂v are the definite tangents (law.h), so that the matrix is positive whatever
-// the state, and δ leads downhill on the potential of which −R is the gradient. s is halved where |R| grows,
-// unless R·δ at both ends of the step says that the potential falls. Norms are those of kinetic energy, |R|² =
-// Σ |R_i|²/m_i. It stops where |R| is at most 1e-5 of the terms it is the difference of, or round-off; each
-// linear system is solved to a hundredth, and the matrix is kept while |R| falls to a tenth. A step that is not
-// there after 50 iterations (cloth that buckles, wind in gusts) is gone in two halves, these in halves ...
-// 1/1024 at least, and else given up (Unsolved).
+// where K = −∂f/∂x and D = −∂f/∂v are the semi-definite tangents (force_law.h), so that the matrix is positive
+// definite in every state, and δ is a descent direction of the potential whose gradient is −R. Line search: s
+// is halved while |R| grows, unless R·δ at both ends of the update shows that the potential decreases. Norms
+// are those of kinetic energy, |R|² = Σ |R_i|²/m_i. Converged when |R| is at most 1e-5 of the sum of its terms,
+// or round-off; each linear system is solved to 1e-2, and the matrix is reused as long as |R| falls to a tenth.
+// A step that has not converged after 50 iterations (buckling cloth, gusts of wind) is divided into two
+// substeps of half the size, these again ... down to 1/1024, below which it fails (Unsolved).
 //
-// Loads that depend on the state (pressure, wind, what follows the body) have their part in the matrix, h²
-// ∂load/∂x + h ∂load/∂v (load_tangent.h).
+// Loads that depend on the state (pressure, wind, follower loads) contribute h² ∂load/∂x + h ∂load/∂v to the
+// tangent (load_tangent.h).
 //
 // Prescribed coordinates are where they will be from the start, and their rows and columns are those of the
 // identity. Order 1. An undamped oscillator loses the factor 1/√(1 + ω²h²) a step.
@@ -31,16 +30,18 @@
 namespace rend {
 namespace {
 
-constexpr double wanted = 1e-5;        // of the terms
-constexpr double linear_digits = 1e-2; // of R: Newton with a definite tangent gains little more
-constexpr double accepted = 1e-4;     // of the terms, where no step along an update helps: as far as numbers go
-constexpr double keeps_tangent = 0.1; // while |R| falls to so much
+constexpr double wanted = 1e-5; // tolerance, relative to the terms of R
+// tolerance of linear systems, relative to R: Newton's method with an approximate tangent gains little from
+// more
+constexpr double linear_digits = 1e-2;
+constexpr double accepted = 1e-4;     // relative to the terms, if no update reduces R: the limit of round-off
+constexpr double keeps_tangent = 0.1; // the tangent is reused if |R| falls below this share
 
-constexpr int most_iterations = 50, most_halvings = 12; // of Newton's method, of its updates
+constexpr int most_iterations = 50, most_halvings = 12; // of Newton iterations, of the line search
 constexpr int most_parted = 10;                         // halvings of the step
 constexpr double least_part = 1.0 / (1 << most_parted);
 
-// |R| and what it is compared with, in the norm of kinetic energy [√J].
+// |R| and the sum of its terms, in the norm of kinetic energy [√J].
 struct Residual {
   double norm = 0, terms = 0;
   bool finite() const { return std::isfinite(norm); }
@@ -69,15 +70,15 @@ private:
   void keep(const System& system);
 
   // One per vertex slot.
-  Records position_, velocity_, trial_;         // [m], [m/s]: x', v', and a v' that is tried
-  Records reached_position_, reached_velocity_; // [m], [m/s]: at the start of the part of the step
-  Records force_;                               // [N], internal, at the last v' that was tried
+  Records position_, velocity_, trial_;         // [m], [m/s]: x', v', and a trial v' of the line search
+  Records reached_position_, reached_velocity_; // [m], [m/s]: at the start of the substep
+  Records force_;                               // [N], internal, at the last trial v'
   Records momentum_, before_;                   // [N·s], R there, and at velocity_
   Records update_;                              // [m/s], δ
   std::vector<std::uint8_t> held_;              // axes; matrix_ [kg]
 };
 
-// R at v', into momentum_; prescribed coordinates of v' and x' are set.
+// R at v', into momentum_; sets prescribed coordinates of v' and x'.
 Residual ImplicitEuler::evaluate(const Step& step, const Records& v) {
   System& system = step.system;
   const std::size_t count = system.vertices();
@@ -94,7 +95,7 @@ Residual ImplicitEuler::evaluate(const Step& step, const Records& v) {
       continue;
     }
     const Double4 mass = splat(1 / inverse), open = free_axes(held_[i]), w = load(trial_[i]);
-    const Double4 own = open * h * load(force_[i]) * splat(inverse); // [m/s], as all that follow
+    const Double4 own = open * h * load(force_[i]) * splat(inverse); // [m/s], like the following terms
     const Double4 whole = open * h * system.acceleration(i, load(force_[i]), w);
     const Double4 gained = open * (w - load(step.now.velocity[i]));
     const Double4 rest = whole - gained;
@@ -107,7 +108,7 @@ Residual ImplicitEuler::evaluate(const Step& step, const Records& v) {
   return {std::sqrt(sum3(left)), std::sqrt(sum3(internal)) + std::sqrt(sum3(outer)) + std::sqrt(sum3(change))};
 }
 
-// The matrix at velocity_ and its position.
+// Assembles the matrix at velocity_ and its position.
 void ImplicitEuler::linearise(const Step& step) {
   System& system = step.system;
   const double h = step.size;
@@ -122,7 +123,7 @@ void ImplicitEuler::linearise(const Step& step) {
   linear_.take(matrix_);
 }
 
-// What rounding the positions alone leaves of R [√J].
+// The part of R due to rounding of positions [√J].
 double ImplicitEuler::round_off(const Step& step) const {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   Double4 sum{};
@@ -135,7 +136,7 @@ double ImplicitEuler::round_off(const Step& step) const {
   return 4 * epsilon * std::sqrt(sum3(sum));
 }
 
-// Goes along update_ as far as it helps; false where it does not.
+// Line search along update_; false if it does not reduce the residual.
 bool ImplicitEuler::search(const Step& step, Residual& residual) {
   const Residual start = residual;
   const double slope = dot(1, before_, update_);
@@ -145,7 +146,8 @@ bool ImplicitEuler::search(const Step& step, Residual& residual) {
     add_scaled(1, share, update_, trial_);
     residual = evaluate(step, trial_);
     const bool falls =
-        residual.finite() && slope + dot(1, momentum_, update_) > 0.1 * slope; // by the trapezoid rule
+        // the integral of R·δ by the trapezoidal rule
+        residual.finite() && slope + dot(1, momentum_, update_) > 0.1 * slope;
     if (residual.finite() && (residual.norm < start.norm || falls)) {
       velocity_.swap(trial_);
       before_.swap(momentum_);
@@ -155,7 +157,7 @@ bool ImplicitEuler::search(const Step& step, Residual& residual) {
   return false;
 }
 
-// How far the linear system is solved: to a hundredth, or to the end where that is nearer.
+// The tolerance of the linear system: 1e-2, or less strict if that already reaches the final tolerance.
 double digits_for(const Residual& residual) {
   return std::clamp(0.3 * wanted * residual.terms / residual.norm, linear_digits, 0.1);
 }
@@ -170,9 +172,9 @@ double digits_for(const Residual& residual) {
 
 void ImplicitEuler::solve(const Step& step) {
   Residual residual = evaluate(step, velocity_);
-  velocity_.swap(trial_); // with what is prescribed
+  velocity_.swap(trial_); // including prescribed values
   before_.swap(momentum_);
-  bool linear = false, here = false; // there is a matrix; it is that of velocity_
+  bool linear = false, here = false; // linear: a matrix exists; here: it is the tangent at velocity_
   for (int n = 0; residual.norm != 0; ++n) {
     if (n == most_iterations || !residual.finite()) give_up(residual, n);
     if (!linear) linearise(step);
@@ -194,7 +196,7 @@ void ImplicitEuler::solve(const Step& step) {
   }
 }
 
-// From velocity_ and what it led to, to the start of what is left of the step.
+// Accepts a substep: velocity_ and its position become the start of the next.
 void ImplicitEuler::keep(const System& system) {
   for (std::size_t i = 0; i < position_.size(); ++i) {
     if (system.inverse_mass[i] == 0) continue;
@@ -209,7 +211,7 @@ void ImplicitEuler::advance(System& system, double time, double size, const Stat
   for (Records* each : {&position_, &force_, &momentum_, &before_, &update_}) each->resize(count);
   reached_position_.assign(now.position, now.position + count);
   reached_velocity_.assign(now.velocity, now.velocity + count);
-  double gone = 0, part = 1; // of the step; sums of halves, without rounding
+  double gone = 0, part = 1; // shares of the step; sums of powers of two, without rounding
   while (gone < 1) {
     const Step step{
         system, time + size * (gone + part), size * part, {reached_position_.data(), reached_velocity_.data()}};

@@ -1,4 +1,4 @@
-// Time schemes (thesis 2.3.1, eq. 2.38 to 2.41; sim/README.md, "Time schemes"): one file each, and one word in
+// Time schemes (thesis 2.3.1, eq. 2.38 to 2.41; sim/README.md, "Time schemes"): one file each, listed in
 // all_schemes().
 #pragma once
 
@@ -12,17 +12,17 @@
 
 namespace rend {
 
-// What solving took so far.
+// Counters of implicit and adaptive schemes.
 struct SolverFigures {
   long newton = 0;         // iterations of Newton's method
   long cg = 0;             // iterations of conjugate gradients
   long factorisations = 0; // of the direct solver
   std::size_t bytes = 0;   // of matrix, factors and preconditioner
-  long parts = 0;          // into which an adaptive scheme cut its steps
-  long rejected = 0;       // parts whose error was too large, tried again shorter
+  long parts = 0;          // substeps of an adaptive scheme
+  long rejected = 0;       // substeps rejected by their error and repeated with a shorter size
 };
 
-// A step that could not be solved. The state before it is whole.
+// A step that could not be solved. The state before it is unchanged.
 struct Unsolved : std::runtime_error {
   Unsolved(const std::string& what, std::string hint_) : std::runtime_error(what), hint(std::move(hint_)) {}
   std::string hint;
@@ -33,57 +33,55 @@ public:
   virtual ~Integrator() = default;
 
   // One step from `now` at `time` over `step` into `next` (resized by the caller). `force` holds the internal
-  // forces of `now`, which the laws have looked at already: no scheme pays an evaluation for them.
+  // forces of `now`, which the fracture criteria have used already: no scheme evaluates them twice.
   virtual void advance(System& system, double time, double step, const StateView& now, const Record* force,
                        State& next) = 0;
 
-  // The same where nobody looks at the forces of `now` before: the scheme asks for them itself, into `force`,
-  // and each vertex moves on while its force is still in the caches. Schemes that cannot ask for all, and then
-  // advance.
+  // The same if the forces of `now` are not evaluated yet: the scheme evaluates them into `force` and updates
+  // each vertex while its force is still in the caches. The default evaluates all forces and calls advance().
   virtual void sweep(System& system, double time, double step, const StateView& now, Record* force,
                      State& next);
-  virtual bool sweeps() const { return false; } // and gains by it
+  virtual bool sweeps() const { return false; } // whether sweep() is faster
 
   virtual SolverFigures solver() const { return {}; }
-  virtual std::size_t bytes() const {
-    return 0;
-  } // of its own arrays, which stay between steps, without the solver's
+  virtual std::size_t bytes() const { return 0; } // arrays kept between steps, without the solver's
 
-  // What one step hands on to the next besides the state of the body, for those who stop and go on later: a
-  // scheme made anew and given the same numbers goes on to the bit, and counts on. `carry` takes as many
-  // numbers as `carried` gives. False: they are none that it could have given, and nothing was taken.
+  // The internal state of a scheme besides that of the body, for checkpoints: a new scheme that is given these
+  // numbers continues identically to the bit, counters included. `carry` takes as many numbers as `carried`
+  // returns. False: invalid numbers; nothing changed.
   virtual std::vector<double> carried() const { return {}; }
   virtual bool carry(std::span<const double>) { return true; }
 
-  // Whether bodies move in time: where a step is an equilibrium, drives have neither inertia nor viscosity.
+  // Whether bodies have inertia: if each step is an equilibrium, prescribed motions have neither inertia nor
+  // viscosity.
   virtual bool moves() const { return true; }
 };
 
-// ω² and damping rates that bound those of every mode; see frequency_bounds().
+// Bounds of ω² and of damping rates over all modes; see frequency_bounds().
 struct StabilityBounds {
   double omega_squared = 0;   // [1/s²]
   double damping_rate = 0;    // the largest 2ξω [1/s]
   double least_drag_rate = 0; // the smallest [1/s], of ambient viscosity alone
 };
 
-// What a scheme is made for.
+// The parameters of a scheme.
 struct SchemeSettings {
-  double tolerance = 1e-6; // adaptive schemes: the error of a part of the step, as a share of `size`
+  double tolerance = 1e-6; // adaptive schemes: the error of a substep relative to `size`
   double size = 1;         // [m], of the body
 };
 
 struct Scheme {
   std::string name, what;
   int order = 1;
-  int evaluations = 1;                     // of the forces, a step
-  double (*limit)(const StabilityBounds&); // a stable step [s]; 0: there is none; infinity: all are
+  int evaluations = 1;                     // of the forces, per step
+  double (*limit)(const StabilityBounds&); // the largest stable step [s]; 0: none is stable; infinity: all are
   std::unique_ptr<Integrator> (*make)(const SchemeSettings& settings);
-  bool solves = false;   // needs stiffness; its evaluations are the least a step takes
-  bool adaptive = false; // cuts steps into parts by their error; its evaluations are the least, too
+  bool solves = false;   // implicit: needs the stiffness matrix; `evaluations` is the minimum per step
+  bool adaptive = false; // chooses substeps by their error; `evaluations` is the minimum per step
 };
 
 const std::vector<Scheme>& all_schemes();
-const Scheme* find_scheme(const std::string& name); // null: there is none
+const Scheme* find_scheme(const std::string& name); // null: no such scheme
 
 Scheme explicit_euler();
 Scheme symplectic_euler();
@@ -101,7 +99,7 @@ template <class Made> std::unique_ptr<Integrator> make_integrator(const SchemeSe
 
 bool is_whole_count(double number); // that a long was once: of those that a step hands on
 
-// Limits that schemes share. With ω and d = ξω bounded separately, since they belong to different modes:
+// Limits used by several schemes. ω and d = ξω are bounded separately, since they belong to different modes:
 double limit_symplectic(const StabilityBounds& bounds); // 2/(√(ω²+d²) + d)
 double limit_by_drag(const StabilityBounds& bounds);    // 2d/ω² with the least d, and 1/d with the largest
 double no_limit(const StabilityBounds& bounds);         // infinity

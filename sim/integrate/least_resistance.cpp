@@ -8,11 +8,12 @@
 namespace rend {
 namespace {
 
-constexpr double first_shift = 1e-9, most_shift = 64, shift_grows = 4; // of the mean stiffness
+constexpr double first_shift = 1e-9, most_shift = 64, shift_grows = 4; // relative to the mean stiffness
 constexpr int most_iterations = 100;
-constexpr double steady = 1e-4, digits = 1e-8; // of λ + s; of a linear system
+constexpr double steady = 1e-4, digits = 1e-8; // tolerances of λ + s, and of a linear system
 
-// A + s M, held, with the smallest s that makes it positive [1/s²]; 0: none did.
+// Sets the matrix to A + s M with constraints, with the smallest s that makes it positive definite [1/s²]; 0:
+// none did.
 double shifted(const Standing& at, BlockMatrix& matrix, LinearSolver& linear) {
   const std::size_t count = at.position.size();
   const double* inverse_mass = at.system.inverse_mass;
@@ -29,7 +30,7 @@ double shifted(const Standing& at, BlockMatrix& matrix, LinearSolver& linear) {
   return 0;
 }
 
-// Without any symmetry, the same everywhere; 0 at held coordinates and free slots.
+// A start vector without symmetries, the same on every machine; 0 at constrained coordinates and free slots.
 Records start_of(const Standing& at) {
   Records out(at.position.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -66,7 +67,7 @@ double least_resistance(const Standing& at, BlockMatrix& matrix, LinearSolver& l
     if (!(size > 0) || !std::isfinite(size)) return unknown;
     for (Record& r : weighed) store(r, load(r) / splat(size));
     if (!tangent.solve(linear, weighed, next, digits)) return unknown;
-    const double inverse = dot(parts, weighed, next); // of λ + s
+    const double inverse = dot(parts, weighed, next); // 1/(λ + s)
     const double before = found;
     found = 1 / inverse - shift;
     mode.swap(next);

@@ -1,22 +1,22 @@
-// How the motion that is resisted least is resisted, where the tangent is not symmetric.
+// The lowest eigenvalue of the tangent, a test of stability, when the tangent is not symmetric.
 //
-//   J φ = λ M φ,   J = −∂(f + load)/∂x at the free coordinates;   the least λ [1/s²]
+//   J φ = λ M φ,   J = −∂(f + load)/∂x at the free coordinates;   the smallest λ [1/s²]
 //
-// Elements that turn by one mean rotation give no gradient. The symmetric part A of their tangent J bounds λ
-// from below alone, and where volumes are next to incompressible, A is no more positive in states in which
-// every motion comes to rest again. With a shift s from which on A + s M is positive, all λ lie above −s, and
-// inverse iteration
+// The forces of elements with one average rotation have no potential. The symmetric part A of their tangent J
+// only bounds λ from below, and for nearly incompressible materials A is indefinite in states that are stable.
+// With a shift s such that A + s M is positive definite, all λ are above −s, and inverse iteration
 //
 //   φ ← (J + s M)⁻¹ M φ
 //
-// goes to the least one. Each system is solved by GMRES with the factor of A + s M (load_tangent.h).
+// converges to the smallest one. Each system is solved by GMRES preconditioned by the factor of A + s M
+// (load_tangent.h).
 #pragma once
 
 #include "sim/integrate/load_tangent.h"
 
 namespace rend {
 
-// An equilibrium: positions [m], velocities of 0 [m/s], held axes; one per vertex slot.
+// An equilibrium: positions [m], velocities of 0 [m/s], constrained axes; one entry per vertex slot.
 struct Standing {
   System& system;
   double time; // [s]
@@ -24,7 +24,8 @@ struct Standing {
   const std::vector<std::uint8_t>& held;
 };
 
-// λ [1/s²], to a hundredth of the distance from −s; −∞ where it was not found. All three are written.
+// λ [1/s²], to a hundredth of its distance from −s; −∞ if it was not found. The last three arguments are
+// overwritten.
 double least_resistance(const Standing& at, BlockMatrix& matrix, LinearSolver& linear, LoadTangent& tangent);
 
 } // namespace rend

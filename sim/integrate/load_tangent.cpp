@@ -7,9 +7,9 @@ namespace rend {
 namespace {
 
 constexpr std::size_t most_directions = 30;
-constexpr double most_wanted = 1e-4; // of |r|
+constexpr double most_wanted = 1e-4; // relative to |r|
 constexpr double small_motion =
-    1.0e-5; // of the size of the body: digits lost by rounding and by curvature balance
+    1.0e-5; // relative to the size of the body: balances rounding and truncation errors
 
 void scale(double s, Records& x) {
   for (Record& r : x) store(r, splat(s) * load(r));
@@ -82,13 +82,14 @@ bool LoadTangent::multiply(const Records& along, Records& out) {
   return sum3(sum) != 0;
 }
 
-// The next direction v_{n+1}: what y − L A⁻¹ y makes of v_n, without its parts along those before
-// (Gram-Schmidt, modified). False: A could not be solved with.
+// The next basis vector v_{n+1}: v_n − L A⁻¹ v_n, orthogonalised against the previous ones (modified
+// Gram-Schmidt). False: the system with A could not be solved.
 bool LoadTangent::add_direction(LinearSolver& linear, std::size_t n, double digits) {
   if (n > 0 && !linear.solve(basis_[n], solved_[n], digits)) return false;
   basis_[n + 1].resize(basis_[n].size());
   if (matrix_)
-    matrix_->multiply(solved_[n].data(), basis_[n + 1].data()); // what was solved, however near
+    // the actual product, however accurate the solution
+    matrix_->multiply(solved_[n].data(), basis_[n + 1].data());
   else
     basis_[n + 1] = basis_[n];
   if (multiply(solved_[n], image_)) add_scaled(parts_, -1, image_, basis_[n + 1]);
@@ -102,7 +103,8 @@ bool LoadTangent::add_direction(LinearSolver& linear, std::size_t n, double digi
   return true;
 }
 
-// Makes column n triangular, by the rotations before and one more; returns what is left of |r|.
+// Makes column n triangular, by the previous rotations and a new one; returns the residual norm relative to
+// |r|.
 double LoadTangent::rotate(std::size_t n) {
   std::vector<double>& h = column_[n];
   for (std::size_t k = 0; k < n; ++k) {

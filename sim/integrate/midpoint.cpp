@@ -1,7 +1,7 @@
 // Midpoint (RK2), thesis 2.38: the derivative at the middle of the step, reached by half an explicit step.
 //
-// Order 2. Without damping it gains energy, though slowly (z⁴/4 of the amplitude squared a step, z = ω dt).
-// With d = ξω it is stable where dt d ≤ 1 and (ω dt)² ≤ 2a + 2√(a(2−a)), a = dt d: for little damping up to 2
+// Order 2. Without damping it gains energy, though slowly (z⁴/4 of the squared amplitude per step, z = ω dt).
+// With d = ξω it is stable if dt d ≤ 1 and (ω dt)² ≤ 2a + 2√(a(2−a)), a = dt d: for little damping up to 2
 // ξ^⅓/ω.
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/vertex_loop.h"
@@ -53,8 +53,8 @@ class Midpoint final : public Integrator {
   }
 };
 
-// The right-hand side grows with d as far as dt d = 1, so that the least d rules, and the largest ends the
-// search.
+// The right-hand side increases with d up to dt d = 1, so that the smallest d is decisive, and the largest ends
+// the search.
 double limit(const StabilityBounds& b) {
   if (b.omega_squared == 0 || b.least_drag_rate <= 0) return limit_by_drag(b);
   double low = 0, high = 2 / b.damping_rate;

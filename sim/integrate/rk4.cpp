@@ -6,7 +6,7 @@
 //   a4 = a(x + dt v3,   v + dt a3)             v4 = v + dt a3
 //   x' = x + dt/6 (v1 + 2v2 + 2v3 + v4),       v' = v + dt/6 (a1 + 2a2 + 2a3 + a4)
 //
-// Order 4, stable up to 2√2/ω without damping (2.62/ω at ξ = 0.5, 2.78/2d where damping rules).
+// Order 4, stable up to 2√2/ω without damping (2.62/ω at ξ = 0.5, 2.78/2d if damping dominates).
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/vertex_loop.h"
 
@@ -22,7 +22,7 @@ struct Sums {
 };
 
 // Adds the derivative at a stage (its forces, its velocities) with its weight; the first stage sets the sums.
-// Then goes on to the next stage, at `ahead` from the start; it may be the stage itself.
+// Then computes the next stage, at `ahead` from the start, possibly in place.
 template <bool first>
 REND_INLINE void collect(std::size_t begin, std::size_t end, const System& system, const Record* force,
                          const Record* velocity, double weight, const StateView& now, double ahead, Sums& sums,

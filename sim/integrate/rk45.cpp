@@ -1,32 +1,34 @@
-// The embedded pair of Dormand and Prince, of orders 5 and 4, which chooses its own steps (Hairer, Nørsett,
-// Wanner, Solving Ordinary Differential Equations I, II.4 and II.5, table 5.2).
+// The embedded pair of Dormand and Prince, of orders 5 and 4, with adaptive substeps (Hairer, Nørsett, Wanner,
+// Solving Ordinary Differential Equations I, II.4 and II.5, table 5.2).
 //
 // With its coefficients a_ij (whose last row is the solution of order 5) and c_i = Σ_j a_ij, for x'' = a(x,
 // x'):
 //
 //   v_i = v + h Σ_j a_ij a_j,    x_i = x + c_i h v + h² Σ_j ā_ij a_j,    ā = a·a,    a_i = a(x_i, v_i)
 //
-// which is the pair itself with the stages' velocities put in: accelerations alone are kept. The seventh stage
-// is the new state, and its acceleration the first one of what follows. The first stage of all is the force
-// that the laws have looked at. With e the difference of both solutions' weights, what the step of order 4 has
-// wrong is
+// which is the pair itself after substituting the stages' velocities: only accelerations are stored. The
+// seventh stage is the new state, and its acceleration the first one of the next substep (first same as last).
+// The very first stage uses the forces already evaluated for the fracture criteria. With e the difference of
+// the weights of both solutions, the error estimate is
 //
 //   e_v = h Σ e_j a_j,    e_x = h² Σ_j (e·a)_j a_j,
 //   error = √( Σ m (e_x² + (H e_v)²) / Σ m ) / (tolerance · size)
 //
-// over all vertices, each with its mass m; size is the body's. H is the step of the preset, at whose end laws,
-// contact and frames look: an error of velocity counts as the displacement that it makes until then. What is
-// prescribed has no acceleration of its own; where it starts to move or is let go, what hangs on it tells.
+// over all vertices, each with its mass m; size is the body's. H is the step of the preset, at whose end
+// fracture, contact and frames use the state: an error of velocity counts as the displacement that it causes
+// until then. Prescribed coordinates have no acceleration of their own; where they start to move or are
+// released, the vertices attached to them show the error.
 //
-// The step of the preset is gone in parts, none longer than itself, the last one to its end. A part of error
-// above 1 is tried again, 0.9 error^(-1/5) as long. After one that was kept, the next is
+// The step of the preset is divided into substeps, none longer than itself, the last one ending with it. A
+// substep with an error above 1 is repeated with 0.9 error^(-1/5) of its size. After an accepted one the next
+// size is multiplied by
 //
 //   0.9 (last error / error³)^(1/20)
 //
-// as long, which looks at how errors grow, too (II.4, "PI step size control"): what is stiff holds parts at the
-// edge of stability, where without that every third part is rejected. Both between a fifth and five times, and
-// not longer after a part that was tried again. How long, and the last error, one step tells the next
-// (carried). A part below 2^-20 of the step is not tried any more (Unsolved).
+// which also takes the growth of errors into account (II.4, "PI step size control"): stiff bodies keep substeps
+// at the limit of stability, where otherwise every third would be rejected. Both factors are limited to between
+// 1/5 and 5, and to 1 after a repeated substep. The size and the last error are passed on to the next step
+// (carried). A substep below 2^-20 of the step fails (Unsolved).
 #include "sim/integrate/integrator.h"
 #include "sim/solve/vectors.h"
 
@@ -55,7 +57,7 @@ constexpr Weights nodes{0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
 constexpr Weights error_of_velocity{71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
                                     -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 
-// A row of weights of velocities as one of accelerations: their product with the table.
+// From a row of weights of velocities to one of accelerations: the product with the table.
 constexpr Weights twice(const Weights& row) {
   Weights out{};
   for (std::size_t k = 0; k < stages; ++k)
@@ -70,10 +72,10 @@ constexpr Table table_of_position() {
 constexpr Table of_position = table_of_position();
 constexpr Weights error_of_position = twice(error_of_velocity);
 
-constexpr double shortest = 1.0 / (1 << 20); // of the step
+constexpr double shortest = 1.0 / (1 << 20); // relative to the step
 constexpr double safety = 0.9, least_factor = 0.2, most_factor = 5, least_error = 1e-4;
 
-// By Newton's method from above, in operations that are the same everywhere.
+// By Newton's method from above, in operations that give the same bits on every machine.
 double fifth_root(double x) {
   double root = std::max(1.0, x);
   for (int n = 0; n < 100; ++n) {
@@ -84,9 +86,9 @@ double fifth_root(double x) {
   return root;
 }
 
-// How long the next part may be, as a share of one with this error, after one with the last error.
+// The factor of the size of the next substep, given this error and the last one.
 double factor_for(double error, double last) {
-  if (!(error <= 1)) // or not a number
+  if (!(error <= 1)) // or NaN
     return error < 1e4 ? std::max(least_factor, safety / fifth_root(error)) : least_factor;
   const double e = std::max(error, least_error);
   return std::clamp(safety * std::sqrt(std::sqrt(fifth_root(last / (e * e * e)))), least_factor, most_factor);
@@ -94,7 +96,7 @@ double factor_for(double error, double last) {
 
 using Stages = std::array<const Record*, stages>; // accelerations [m/s²], one per vertex slot
 
-// Σ w_j a_j of a vertex over the first `count` stages, without those of no weight.
+// Σ w_j a_j of a vertex over the first `count` stages, skipping zero weights.
 template <int count> REND_INLINE Double4 sum_of(const Weights& weights, const Stages& a, std::size_t i) {
   Double4 sum{};
 #pragma GCC unroll 7
@@ -131,7 +133,7 @@ REND_INLINE void go_to_stage(int stage, std::size_t count, double h, const State
   }
 }
 
-// From forces [N] to accelerations [m/s²], in place where both are one; none along held axes.
+// From forces [N] to accelerations [m/s²], maybe in place; 0 along constrained axes.
 REND_INLINE void accelerate(const System& system, std::size_t count, const Record* force,
                             const Record* velocity, const std::uint8_t* held, Record* out) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -141,7 +143,7 @@ REND_INLINE void accelerate(const System& system, std::size_t count, const Recor
 }
 
 struct ErrorSums {
-  Double4 position{}, velocity{}; // Σ m e_x² [kg m²], Σ m e_v² [kg m²/s²], by coordinate
+  Double4 position{}, velocity{}; // Σ m e_x² [kg m²], Σ m e_v² [kg m²/s²], per coordinate
   double mass = 0;                // [kg]
 };
 REND_INLINE void sum_errors(const double* inverse_mass, std::size_t count, double h, const Stages& a,
@@ -200,11 +202,11 @@ private:
   Stages accelerations() const;
 
   SchemeSettings settings_;
-  double pace_ = std::numeric_limits<double>::infinity(); // [s], how long the next part may be
-  double error_ = least_error;               // of the last part that was kept, as a share of what it may
-  State reached_, stage_;                    // at the start of a part after the first, and within it
+  double pace_ = std::numeric_limits<double>::infinity(); // [s], maximal size of the next substep
+  double error_ = least_error;               // of the last accepted substep, relative to the tolerance
+  State reached_, stage_;                    // at the start of a substep after the first, and within it
   std::array<Records, stages> acceleration_; // [m/s²], one per vertex slot
-  std::vector<std::uint8_t> held_;           // axes, one per vertex slot
+  std::vector<std::uint8_t> held_;           // constrained axes, one per vertex slot
   long parts_ = 0, rejected_ = 0;
 };
 
@@ -221,7 +223,7 @@ void RungeKutta45::derive(System& system, double time, const Record* force, cons
   at_width<accelerate>(system, held_.size(), force, velocity, held_.data(), acceleration_[stage].data());
 }
 
-// To the end of a part, into stage_, from the first acceleration.
+// Computes a substep into stage_, from the first acceleration.
 void RungeKutta45::cross(System& system, const Part& part) {
   for (std::size_t n = 1; n < stages; ++n) {
     const double time = nodes[n] == 1 ? part.end : part.start + nodes[n] * part.size;
@@ -242,16 +244,16 @@ double RungeKutta45::error_of(const System& system, const Part& part, double ste
   return std::sqrt(square) / (settings_.tolerance * settings_.size);
 }
 
-// Crosses one part, as long as pace_ allows, shorter and shorter until its error is small enough.
+// Makes one substep, as long as pace_ allows, repeated with smaller sizes until its error is small enough.
 void RungeKutta45::go_on(System& system, Part& part, double left, double end, double step) {
   for (bool again = false;; again = true) {
     const bool last = pace_ >= left;
-    part.size = last ? left : std::min(pace_, 0.5 * left); // no last part that is next to nothing
+    part.size = last ? left : std::min(pace_, 0.5 * left); // avoids a tiny last substep
     part.end = last ? end : part.start + part.size;
     cross(system, part);
     const double error = error_of(system, part, step);
     const double proposed = part.size * std::min(factor_for(error, error_), again ? 1.0 : most_factor);
-    if (error <= 1) { // of a part cut short by the end: nothing against longer ones
+    if (error <= 1) { // a substep cut short by the end of the step says nothing about longer ones
       pace_ = std::min(step, part.size < pace_ ? std::max(pace_, proposed) : proposed);
       error_ = std::max(error, least_error);
       ++parts_;

@@ -1,30 +1,31 @@
-// The static solve, thesis 2.29: each step ends in equilibrium under what is prescribed at its end.
+// The static solve, thesis 2.29: each step ends in equilibrium under the conditions prescribed at its end.
 //
-//   F(x) = f(x, 0) + M g + loads = 0       at the free coordinates; v' = 0, and viscosity has no part
+//   F(x) = f(x, 0) + M g + loads = 0       at the free coordinates; v' = 0, without viscosity
 //
-// 1. Newton's method with the exact tangent, symmetrised: K δ = F − K u, where u are the ways of the prescribed
-//    coordinates. A linear model is solved by the first iteration: K u = R. Loads that follow the body have
-//    a part in it (load_tangent.h): K − L in place of K; after four iterations what symmetrising left out, too.
-// 2. Where that fails, it goes a part of the way: half of what is new in prescribed coordinates and forces,
-//    half of that ...: F(x) = (1 − s) F(x_start), s from 0 to 1. No line search here: a slender beam must first
-//    be stretched by the bending that a linear step sees, and loses that in the next.
-// 3. Where no part of the way can be gone (a chain at rest resists nothing sideways, a cloth next to nothing, a
-//    strut buckles), it relaxes: (K⁺ + σ M) δ = F with the definite tangent, from a large σ to a small one as
-//    long as the potential falls along δ. That is implicit Euler with ever longer steps and without memory
-//    (pseudo-transient continuation, Kelley & Keyes 1998). Near the end the exact tangent takes the place of K⁺
-//    where a σ of its own makes it positive. First under the loads alone, then again part by part after the
-//    drives, at last under all at once.
+// 1. Newton's method with the exact tangent, symmetrised: K δ = F − K u, where u are the displacements of the
+//    prescribed coordinates. A linear model is solved by the first iteration: K u = R. Follower loads contribute
+//    to the tangent (load_tangent.h): K − L in place of K; after four iterations also what symmetrising left out.
+// 2. If that fails, load steps: half of the increment of prescribed coordinates and forces, half of that ...:
+//    F(x) = (1 − s) F(x_start), s from 0 to 1. Without line search: a slender beam must first be stretched by
+//    the bending that a linear step predicts, and recovers from it in the next.
+// 3. If no load step converges (a straight chain has no lateral stiffness, a cloth hardly any, a strut
+//    buckles), relaxation: (K⁺ + σ M) δ = F with the semi-definite tangent, from a large σ to a small one as
+//    long as the potential decreases along δ. That is implicit Euler with increasing steps and velocities
+//    reset to 0 (pseudo-transient continuation, Kelley & Keyes 1998). Near the solution the exact tangent
+//    replaces K⁺, with a σ of its own that makes it positive definite. First under the loads alone, then in
+//    load steps of the prescribed displacements, finally under everything at once.
 //
-// An equilibrium counts where |F| is at most 1e-9 of the forces it is the sum of, or round-off. What rounding
-// positions makes of F is taken where F is; far away it could exceed all forces, and anything would count: so
-// it is at most 1e-6 of them, or what it is within the reach of the step under the stiffness at its start (a
-// body without forces has no other measure). Newton's method must also find the tangent positive there, or,
-// where it is not symmetric, all motions resisted (least_resistance.h): what buckles is not left upright. (Not
-// asked where loads follow the body, as in a strip that a moment bends to a circle.) Relaxing goes downhill,
-// and stays on a ridge only where symmetry gives it no side. A piece that can move off as a whole is refused,
-// and so is one that can turn in a model of small displacements, where f does not turn with the body: no turn
-// ever meets a resistance. Once the body has stood, what comes off it is no reason to stop: such a piece takes
-// its own shape where it is, without loads.
+// Converged when |F| is at most 1e-9 of the sum of its terms, or round-off. The round-off of F due to rounding
+// positions is included where F is evaluated; far from the origin it could exceed all forces, and any state
+// would be accepted: so it is limited to 1e-6 of the forces, or to its value within the range of positions of
+// the step under the initial stiffness (a body without forces has no other scale). For Newton's method the
+// tangent must also be positive definite there, or, if it is not symmetric, have no negative eigenvalue
+// (least_resistance.h): unstable equilibria (a straight strut beyond its buckling load) are not accepted. (Not
+// tested with follower loads, as for a strip bent to a circle by a moment.) Relaxation decreases the potential,
+// and stays at a saddle point only if symmetry prevents it from leaving. A component with a free translation is
+// refused, and so is one with a free rotation in a linear model, where f is not rotation invariant: no rotation
+// ever meets a resistance. Once an equilibrium has been found, components that come off are no error: they take
+// their rest shape in place, without loads.
 #include "sim/integrate/footing.h"
 #include "sim/integrate/least_resistance.h"
 #include "sim/integrate/newton_scheme.h"
@@ -39,14 +40,16 @@
 namespace rend {
 namespace {
 
-constexpr double wanted = 1e-9, linear_digits = 1e-10, most_noise = 1e-6; // of the forces
-constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();    // of a coordinate
+constexpr double wanted = 1e-9, linear_digits = 1e-10, most_noise = 1e-6; // relative to the forces
+constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();    // relative to a coordinate
 constexpr int most_symmetric = 4, most_newton = 16, most_falling = 60, most_relaxed = 600, most_solved = 3000;
-constexpr double least_part = 1.0 / 256, least_unstable = 1.0 / 16; // of the way
-constexpr double most_reach = 4096; // of a linear step, in sizes of the body: no more than as good as singular
-constexpr double first_sigma = 1e-3, least_sigma = 1e-12, near_digits = 1e-4; // σ of the mean stiffness
-constexpr double far_digits = 1e-2; // what is iterated in single precision
-constexpr double near = 0.05;       // of the forces, left
+constexpr double least_part = 1.0 / 256, least_unstable = 1.0 / 16; // load steps
+// of a linear step, relative to the size of the body: beyond it the matrix counts as singular
+constexpr double most_reach = 4096;
+// σ relative to the mean stiffness
+constexpr double first_sigma = 1e-3, least_sigma = 1e-12, near_digits = 1e-4;
+constexpr double far_digits = 1e-2; // tolerance that is iterated in single precision
+constexpr double near = 0.05;       // remaining share of the forces
 
 enum class Found { Equilibrium, Unstable, Nothing, Singular };
 
@@ -98,11 +101,11 @@ private:
 
   // One per vertex slot.
   Records position_, trial_, start_, still_; // [m]; still_: velocities of 0 [m/s]
-  Records goal_;                             // [m]: where prescribed coordinates are to be
+  Records goal_;                             // [m]: prescribed coordinates at the end of the step
   Records force_, sum_;                      // [N]: internal; F, 0 at prescribed coordinates
   Records first_sum_;                        // [N]: F at start_
-  Records lead_, right_, update_;            // [m], [N], [m]: u, the right side, δ
-  Footing footing_;                          // which coordinates are held
+  Records lead_, right_, update_;            // [m], [N], [m]: u, the right-hand side, δ
+  Footing footing_;                          // constrained coordinates
   double norm_ = 0, terms_ = 0, noise_ = 0;  // [N]: of F, of its terms, and round-off
   std::vector<double> stiff_;                // [N/m]: the largest of each diagonal block; 0: not known yet
   double noise_of_start_ = -1;               // [N]: at most, within reach_ of the origin; < 0: not known yet
@@ -133,7 +136,7 @@ void StaticSolve::prepare(System& system, const StateView& now) {
   footing_.check(system, end_, start_, size_, matrix_);
 }
 
-// What rounding positions makes of F at x, with the stiffness last seen [N].
+// The round-off of F due to rounding positions at x, with the stiffness last assembled [N].
 double StaticSolve::noise(const Records& x) const {
   Double4 sum{};
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -167,7 +170,7 @@ void StaticSolve::evaluate(const Records& x) {
   noise_ = noise(x);
 }
 
-// The tangent at x with prescribed coordinates still in it, and the stiffness that noise() goes by.
+// Assembles the tangent at x without constraints, and the stiffness used by noise().
 void StaticSolve::linearise(const Records& x, Tangent tangent) {
   matrix_.reset(system_->pattern());
   system_->add_stiffness(x.data(), still_.data(), tangent, 1, 0, matrix_);
@@ -180,7 +183,7 @@ void StaticSolve::linearise(const Records& x, Tangent tangent) {
   if (noise_of_start_ < 0) noise_of_start_ = rounded * reach_ * std::sqrt(squares);
 }
 
-// From F, what is wanted at this part of the way, to the right side F − K u; then prescribed rows are held.
+// Computes the right-hand side F − K u of this load step; then constrains the matrix.
 void StaticSolve::aim(double part) {
   const Double4 rest = splat(1 - part);
   bool leads = false;
@@ -202,25 +205,25 @@ void StaticSolve::aim(double part) {
   linear_.take(matrix_);
 }
 
-// How far iteration n solves, where it iterates: no further than brings the square of what the last one did.
+// The tolerance of iteration n for an iterative solver: no stricter than quadratic convergence can use.
 double StaticSolve::digits(int n, double before) const {
   if (linear_.direct()) return linear_digits;
   const double fell = n == 0 ? 1 : norm_ / before;
   return std::clamp(std::max(0.5 * fell * fell, 0.3 * wanted * terms_ / norm_), linear_digits, far_digits);
 }
 
-// Whether the equilibrium at trial_ is stable, as far as that is asked.
+// Whether the equilibrium at trial_ is stable, if that is tested.
 bool StaticSolve::stands(bool whole) {
   if (linear_.factorise() == Definiteness::Positive || load_tangent_.counted()) return true;
   return whole &&
          least_resistance({*system_, end_, trial_, still_, footing_.held}, matrix_, linear_, load_tangent_) > 0;
 }
 
-// From position_ to the equilibrium at this part of the way; position_ stays where there is none.
+// From position_ to the equilibrium of this load step; position_ is unchanged if there is none.
 Found StaticSolve::newton(double part) {
   trial_ = position_;
-  double before[2] = {}; // [N]: |F| of the last iteration, and of that before it
-  bool whole = false;    // the tangent, with what is not symmetric of it
+  double before[2] = {}; // [N]: |F| of the last two iterations
+  bool whole = false;    // include the part of the tangent that is not symmetric
   for (int n = 0; n <= most_falling; ++n) {
     evaluate(trial_);
     Double4 left{};
@@ -243,7 +246,8 @@ Found StaticSolve::newton(double part) {
     if (whole) load_tangent_.with_forces(matrix_);
     if (!load_tangent_.solve(linear_, right_, update_, digits(n, before[0])))
       return n == 0 ? Found::Singular : Found::Nothing;
-    if (n == 0 && largest_coordinate(update_) > most_reach * size_ * part) return Found::Singular; // as good as
+    // nearly singular
+    if (n == 0 && largest_coordinate(update_) > most_reach * size_ * part) return Found::Singular;
     for (std::size_t i = 0; i < trial_.size(); ++i)
       store(trial_[i], load(trial_[i]) + load(update_[i]) + load(lead_[i]));
     before[1] = std::exchange(before[0], norm_);
@@ -267,7 +271,7 @@ bool StaticSolve::in_parts_of_the_way() {
   return gone == 1;
 }
 
-// From position_ along a tangent that σ [1/s²] makes stiffer, into trial_; false: not downhill.
+// The update from position_ with the tangent shifted by σ [1/s²], into trial_; false: not a descent direction.
 bool StaticSolve::direction(Tangent tangent, double sigma, double part) {
   linearise(position_, tangent);
   for (std::size_t i = 0; i < position_.size(); ++i)
@@ -282,17 +286,16 @@ bool StaticSolve::direction(Tangent tangent, double sigma, double part) {
   return true;
 }
 
-// Downhill from position_ to an equilibrium at this part of the way of prescribed coordinates, under all
-// forces.
+// Relaxes from position_ to an equilibrium with the prescribed coordinates of this load step, under all forces.
 bool StaticSolve::relax(double part) {
   first_sum_.assign(position_.size(), Record{});
   evaluate(position_);
   linearise(position_, Tangent::Definite);
   const double mean = mean_stiffness(matrix_, system_->inverse_mass, position_.size());
   double far = first_sigma * mean,
-         close = 1e-6 * mean; // σ of the definite tangent, and of the exact one [1/s²]
-  double tried = 0.1 * norm_; // [N]: where Newton's method is tried
-  bool helped = true;         // the last direction
+         close = 1e-6 * mean; // σ of the semi-definite tangent, and of the exact one [1/s²]
+  double tried = 0.1 * norm_; // [N]: residual at which Newton's method is tried
+  bool helped = true;         // whether the last update reduced the residual
   for (int n = 0; n < most_relaxed && newton_ < last_; ++n) {
     const double before = norm_;
     if (n > 0 && settled()) return true;
@@ -309,7 +312,7 @@ bool StaticSolve::relax(double part) {
     if (!exact && !direction(Tangent::Definite, far, part)) return false;
     const double slope = dot(1, right_, update_);
     evaluate(trial_);
-    const bool falls = n == 0 || slope + dot(1, sum_, update_) > 0 || norm_ < before; // by the trapezoid rule
+    const bool falls = n == 0 || slope + dot(1, sum_, update_) > 0 || norm_ < before; // by the trapezoidal rule
     double& sigma = exact ? close : far;
     const bool kept = std::isfinite(norm_) && falls;
     if (!kept)
@@ -325,7 +328,8 @@ bool StaticSolve::relax(double part) {
   return false;
 }
 
-// Drives are the easier to follow the tighter the body is under its loads: first these, from where it is.
+// A body under tension follows prescribed displacements more easily: so first the loads, at the initial
+// displacements.
 bool StaticSolve::loads_first() {
   position_ = start_;
   if (!relax(0)) return false;
@@ -334,8 +338,8 @@ bool StaticSolve::loads_first() {
   return in_parts_of_the_way();
 }
 
-// What hangs by a hinge since it tore may find no rest, where a mean rotation leaves moments of its own: from
-// then on it stays as what came off.
+// A part that hangs by a hinge after tearing may have no equilibrium, if an average rotation leaves spurious
+// moments: from then on it is treated as torn off.
 bool StaticSolve::without_turns(const StateView& now) {
   if (!footing_.stood || footing_.keeps_turned ||
       !can_turn(*system_->pattern(), system_->inverse_mass, footing_.held, start_.data()))
@@ -369,7 +373,7 @@ void StaticSolve::advance(System& system, double time, double step, const StateV
                    "look for a mass, load or stiffness that is too large");
   first_sum_ = sum_;
   if (!in_parts_of_the_way() && !loads_first() && !relax(1) && !without_turns(now)) give_up();
-  system.constrain(end_, position_.data(), trial_.data()); // to the last bit
+  system.constrain(end_, position_.data(), trial_.data()); // exact to the last bit
   for (std::size_t i = 0; i < position_.size(); ++i) next.put(i, load(position_[i]), Double4{});
   footing_.stood = true;
 }

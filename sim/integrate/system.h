@@ -1,5 +1,5 @@
-// What a time scheme may ask of a body: m dv/dt = f(x, v) + m g − γ v + loads, dx/dt = v, with some vertices
-// prescribed.
+// The interface of a body for time schemes: m dv/dt = f(x, v) + m g − γ v + loads, dx/dt = v, with some
+// vertices prescribed.
 #pragma once
 
 #include "sim/base/bytes.h"
@@ -24,9 +24,9 @@ struct State {
     velocity.resize(vertices);
   }
 
-  // Writes the new state of a vertex, and looks on the way how fast it is and whether it is finite: 0 times
-  // what is not is not 0. In a loop `seen` is a local, to be added to the probe at its end: memory would make
-  // each vertex wait for the one before it.
+  // Writes the new state of a vertex, and accumulates |v|² and a test for finiteness: 0 · x is NaN unless x is
+  // finite. In a loop `seen` is a local variable, added to the probe at the end: a sum in memory would
+  // serialise the vertices.
   REND_INLINE void write(std::size_t i, Double4 x, Double4 v, Double4& seen) {
     if (large) {
       stream(position[i], x);
@@ -39,18 +39,17 @@ struct State {
   }
   REND_INLINE void put(std::size_t i, Double4 x, Double4 v) { write(i, x, v, probe); }
 
-  // Σ |v|² over all vertex slots [m²/s²], as far as they were put; not finite where a number of the state is
-  // not.
+  // Σ |v|² over all vertex slots written by put() [m²/s²]; not finite if any number of the state is not.
   double motion() const { return probe[0] + probe[1] + probe[2]; }
   bool finite() const { return std::isfinite(motion()); }
-  void look(); // the same of what was written without put()
+  void look(); // computes it for a state written without put()
   std::size_t bytes() const { return bytes_of(position) + bytes_of(velocity); }
-  void store(Archive& archive, std::size_t most); // of at most so many vertices
+  void store(Archive& archive, std::size_t most); // of at most `most` vertices
   Double4 probe{};
-  bool large = false; // more than the caches hold
+  bool large = false; // larger than the caches: uses streaming stores
 };
 
-// The same, to be read alone.
+// The same, read-only.
 struct StateView {
   const Record *position, *velocity;
 };
@@ -60,29 +59,29 @@ public:
   virtual ~System() = default;
 
   virtual std::size_t vertices() const = 0; // slots
-  virtual int parts() const { return 1; }   // threads that a loop over all vertices is worth
+  virtual int parts() const { return 1; }   // number of threads for a loop over all vertices
 
-  // Internal forces [N], one per vertex slot. Brings `load` to the same state.
+  // Internal forces [N], one per vertex slot. Updates `load` to the same state.
   virtual void forces(double time, const Record* position, const Record* velocity, Record* force) = 0;
 
-  // The same for a scheme that moves each vertex on as soon as its force is there: calls whole(begin, end) for
-  // stretches of vertex slots that together are all, each once and increasing within a thread; no two threads
-  // get slots of the same `stretch`. By default once, for all.
+  // The same for a scheme that updates each vertex as soon as its force is complete: calls whole(begin, end)
+  // for ranges of vertex slots that cover all, each once and increasing within a thread; no two threads get
+  // slots of the same `stretch`. The default calls it once, for all.
   virtual void forces_in_stretches(double time, const Record* position, const Record* velocity, Record* force,
                                    PartWork whole);
   static constexpr std::size_t stretch = 512; // vertex slots
 
-  // Brings `load` alone to a state. By default loads depend on none.
+  // Updates `load` (external forces) only. By default loads do not depend on the state.
   virtual void outer(double time, const Record* position, const Record* velocity);
 
-  // Puts prescribed vertices where they are at `time`, and gives them their velocity there.
+  // Sets prescribed vertices to their positions and velocities at `time`.
   virtual void constrain(double time, Record* position, Record* velocity) = 0;
 
-  // For schemes that solve. The pattern of stiffness and damping over vertex slots: another object after the
-  // topology changed. By default there is none (CHECK).
+  // For implicit schemes. The sparsity pattern of stiffness and damping over vertex slots: a new object after a
+  // change of topology. By default there is none (CHECK).
   virtual std::shared_ptr<const BlockPattern> pattern();
 
-  // Adds by_position · (−∂f/∂x) + by_velocity · (−∂f/∂v), symmetrised, of the internal forces to a matrix of
+  // Adds by_position · (−∂f/∂x) + by_velocity · (−∂f/∂v), symmetrised, of the internal forces to a matrix with
   // that pattern.
   virtual void add_stiffness(const Record* position, const Record* velocity, Tangent tangent,
                              double by_position, double by_velocity, BlockMatrix& out);

@@ -1,6 +1,7 @@
 // Velocity Verlet:   x' = x + dt v + dt²/2 a,   v' = v + dt/2 (a(x, v) + a(x', v + dt a))
 //
-// Order 2; damping is taken at the predicted velocity, which keeps the order. Stable up to 2/ω without damping.
+// Order 2; damping is evaluated at the predicted velocity, which preserves the order. Stable up to 2/ω without
+// damping.
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/vertex_loop.h"
 
@@ -17,7 +18,7 @@ REND_INLINE void predict(std::size_t begin, std::size_t end, const System& syste
   }
 }
 
-// With w = v + dt a as predicted, v + dt/2 a is (v + w)/2: the loads of the start are not there any more.
+// With the predicted w = v + dt a, v + dt/2 a is (v + w)/2: the loads of the start are no longer available.
 REND_INLINE void correct(std::size_t begin, std::size_t end, const System& system, double step,
                          const StateView& now, const Record* force_there, State& next, Double4& probe) {
   Double4 seen = probe;

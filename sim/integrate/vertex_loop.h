@@ -1,8 +1,8 @@
-// Loops of a scheme over all vertices, at the chosen vector unit and on as many threads as the system is worth.
+// Loops of a scheme over all vertices, with the chosen vector unit and number of threads.
 //
-// A loop takes [begin, end) first, then the system, then what it is given. One that puts the new state takes
-// that state and a probe last (State::write), which it goes on with: probes are summed up over stretches of
-// vertices and then in their order, so that neither threads nor where a loop is broken off show.
+// The arguments of a loop are [begin, end), the system, and its own ones. A loop that writes the new state has
+// that state and a probe as last arguments (State::write): probes are summed over blocks of vertices and then
+// over the blocks in order, so that results do not depend on threads or on how the loop is divided.
 #pragma once
 
 #include "sim/base/threads.h"
@@ -19,14 +19,14 @@ template <auto loop, class... A> void over_vertices(const System& system, A&&...
 
 constexpr std::size_t probed_vertices = System::stretch;
 
-// Room for the probes of so many vertices, all 0; of this thread.
+// The probes for so many vertices, all 0; thread-local.
 inline std::vector<Record>& probes_of(std::size_t vertices) {
   thread_local std::vector<Record> probes;
   probes.assign((vertices + probed_vertices - 1) / probed_vertices, Record{});
   return probes;
 }
 
-// A loop over the vertices of one stretch or a part of it.
+// A loop over the vertices of one block or a part of it.
 template <auto loop, class... A> void put_stretch(std::size_t begin, std::size_t end, Record& seen, A&... a) {
   Double4 probe = load(seen);
   at_width<loop>(begin, end, a..., probe);
@@ -36,17 +36,17 @@ template <auto loop, class... A> void put_stretch(std::size_t begin, std::size_t
 template <auto loop, class... A> void put_vertices(const System& system, State& next, A&&... a) {
   const std::size_t count = system.vertices();
   std::vector<Record>& probes = probes_of(count);
-  Record* const seen = probes.data(); // what is of a thread is not the same in another
+  Record* const seen = probes.data(); // a thread_local name would mean another object in another thread
   in_parts(system.parts(), probes.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n)
       put_stretch<loop>(n * probed_vertices, std::min(count, (n + 1) * probed_vertices), seen[n], system, a...,
                         next);
-    if (next.large) finish_streams(); // other threads are going to read them
+    if (next.large) finish_streams(); // other threads read them next
   });
   for (const Record& one : probes) next.probe += load(one);
 }
 
-// The same while forces are found: each stretch as soon as they are there.
+// The same while forces are evaluated: each block as soon as its forces are complete.
 template <auto loop>
 void sweep_vertices(System& system, double time, State& next, double step, const StateView& now,
                     Record* force) {

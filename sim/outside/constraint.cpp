@@ -127,7 +127,7 @@ Vec3 Motion::offset(const Vec3& rest, double time) const {
 
 bool Motion::moves(double time) const {
   const bool over =
-      then_free ? time > until : time >= until; // who is let go at `until` leaves with the drive's speed
+      then_free ? time > until : time >= until; // a vertex released at `until` leaves with the drive's velocity
   return time >= from && !over;
 }
 

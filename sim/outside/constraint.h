@@ -1,14 +1,14 @@
-// Vertices whose motion is prescribed: fixed ones, and driven ones.
+// Prescribed motions (Dirichlet conditions) of vertices: fixed and driven ones.
 //
-// A motion moves its vertices, along the axes it names, from their rest position X:
+// A motion moves its vertices, along the given axes, from their rest position X:
 //   fix           x = X
 //   velocity V    x = X + V s             s = clamp(t, from, until) − from
 //   displacement  x = X + D s/(until − from)
 //   gradient G    x = X + G X s/(until − from)
 //   rotation      x = c + R(rate s) (X − c)    about the axis through c, by Rodrigues' formula
 // With until infinite, or equal to from, displacement and gradient are reached at `from`. Before `from` a
-// driven vertex is held at X; after `until` it is held where it is, or let go with the speed it has (then =
-// free). Which motions a vertex obeys is embedded on it, and every fragment of a split vertex obeys them too.
+// driven vertex is fixed at X; after `until` it is fixed where it is, or released with its velocity (then =
+// free). The motions of a vertex are embedded on it, and apply to every fragment of a split vertex too.
 #pragma once
 
 #include "sim/base/bytes.h"
@@ -88,7 +88,7 @@ struct Obedience {
 
 class Constraints {
 public:
-  // Makes the vertices obey one more motion. The column is there from the first motion on.
+  // Applies one more motion to the vertices. The column exists from the first motion on.
   void add(EmbeddedMap& map, const Motion& motion, const std::vector<Slot>& vertices);
 
   void rebind(const EmbeddedMap& map, const Changes& changes);
@@ -100,7 +100,7 @@ public:
 
   const std::vector<Slot>& vertices() const { return vertices_; } // increasing
   const std::vector<Motion>& motions() const { return motions_; }
-  // Calls f(motion) for each that the vertex obeys, in the order in which they are applied.
+  // Calls f(motion) for each motion of the vertex, in the order in which they are applied.
   template <class F> void for_each_motion(Slot vertex, F&& f) const {
     if (!obedience_) return;
     std::uint64_t obeys = (*obedience_)[vertex];
@@ -108,13 +108,13 @@ public:
       if (obeys & 1) f(motions_[k]);
   }
   bool drives() const;                                                           // some motion moves
-  std::size_t bytes() const { return bytes_of(motions_) + bytes_of(vertices_); } // besides the embedding
+  std::size_t bytes() const { return bytes_of(motions_) + bytes_of(vertices_); } // without the embedding
 
 private:
   void list(const EmbeddedMap& map);
   std::vector<Motion> motions_;
   Column<Obedience>* obedience_ = nullptr; // null: nothing is prescribed
-  std::vector<Slot> vertices_;             // that obey some motion
+  std::vector<Slot> vertices_;             // with some motion
 };
 
 } // namespace rend

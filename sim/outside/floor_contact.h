@@ -1,11 +1,11 @@
-// What a body does not pass through, and contact with the floor: a vertex that would pass it is put on it,
-// loses what speed it has towards it, and is slowed along it by at most friction × that loss (Coulomb, as an
-// impulse, at the end of the step). Vertices whose motion is prescribed pass it.
+// Contact settings of a body, and contact with the floor: a vertex that would penetrate it is put on it, its
+// normal velocity is set to 0, and its tangential velocity is reduced by at most friction × that change
+// (Coulomb friction as an impulse at the end of the step). Prescribed vertices ignore the floor.
 //
 //   v_n' = max(v_n, 0),   v_t' = v_t max(0, 1 − μ (v_n' − v_n)/|v_t|),   x_t' = x_t + step (v_t' − v_t)
 //
-// The last keeps what sticks where it is. No energy is made: each impulse takes some away. What rests on the
-// floor loses g × step each step, so that friction is μ times the weight, exact to a step's worth of motion.
+// The last keeps sticking vertices in place. Each impulse dissipates energy. A vertex at rest on the floor gets
+// the impulse g × step in each step, so that friction is μ times the weight, up to one step's motion.
 #pragma once
 
 #include "sim/base/settings.h"

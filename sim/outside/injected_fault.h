@@ -1,10 +1,9 @@
-// Faults on purpose, for the check suite: a number that is not finite where a stage of a step has written its
-// own.
+// Fault injection, for the check suite: a NaN in the output of one stage of a step.
 //
-// What a guard is worth shows only where something goes wrong. A fault puts a NaN into what a stage produced
-// for the first live vertex of the first body that has such a value (loads: of the first body with loads). It
-// happens once, at the first try of its step, or is lasting: at every try of it, however small. Without one, a
-// stage pays a branch.
+// A guard can only be tested when something goes wrong. A fault puts a NaN into the output of a stage, for the
+// first live vertex of the first body that has such a value (loads: of the first body with loads). It occurs
+// once, at the first attempt of its step, or is lasting: at every attempt, however small. Without a fault, a
+// stage costs one branch.
 #pragma once
 
 #include "sim/base/record.h"
@@ -15,28 +14,28 @@
 
 namespace rend {
 
-// Of Scene::step(), in this order.
+// The stages of Scene::step(), in order.
 enum class StepStage { Forces, Loads, Integration, Contact };
 const char* name_of(StepStage stage); // "forces"
 
 struct Fault {
   StepStage stage = StepStage::Forces;
-  long step = 0; // steps done before the step that goes wrong
+  long step = 0; // number of steps before the one with the fault
   bool lasting = false;
 };
 
-// What a body asks after each of its stages.
+// The fault state of a body, tested after each of its stages.
 class FaultySpot {
 public:
   void arm(const Fault& fault) { armed_ = fault; }
   void disarm() { armed_.reset(); }
   bool armed(StepStage stage) const { return armed_ && armed_->stage == stage; }
 
-  // Spoils the first live record, and is disarmed unless lasting. `inverse_mass` [1/kg], `values`: one per
-  // vertex slot.
+  // Puts a NaN into the first live record, and is disarmed unless lasting. `inverse_mass` [1/kg], `values`: one
+  // per vertex slot.
   void spoil(const double* inverse_mass, std::size_t count, Record* values);
 
-  // Of loads [N], which others keep: the spoilt ones are a copy.
+  // For loads [N], which are owned by others: returns a copy with the NaN.
   const Record* spoil_copy(const double* inverse_mass, std::size_t count, const Record* values);
 
 private:

@@ -63,7 +63,7 @@ struct Load::Section {
   Vec3 centre = Vec3::Zero();                        // [m]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero(); // [m²]
 
-  // The shortest θ; what is smaller than `least` times the largest moment counts as none.
+  // The minimum-norm solution θ; moments of inertia below `least` times the largest count as 0.
   Solver solver(double least = 1e-10) const {
     Solver s;
     s.setThreshold(least);
@@ -127,7 +127,8 @@ bool Load::possible(const EmbeddedMap& map) const {
 
 void Load::add_moment(const Vec3& moment, const Record* position, Record* force) const {
   const Section s = section(position);
-  const double least = line_ ? 1e-3 : 1e-12; // a line that has bent a little bears no more about itself
+  // a line that is slightly bent carries no moment about itself either
+  const double least = line_ ? 1e-3 : 1e-12;
   const Vec3 turn = s.solver(least).solve(moment);
   for (std::size_t i = 0; i < part_.size(); ++i)
     add_to(force[vertices()[i]], part_[i] * turn.cross(position[vertices()[i]].vec() - s.centre));

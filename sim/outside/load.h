@@ -1,15 +1,15 @@
-// Loads: forces from outside, on a patch of the body's boundary (patch.h).
+// Loads: external forces on a patch of the body's boundary (patch.h).
 //
 //   force F      f_n = a_n F              a_n: the vertex's share of area or length at rest; Σ a_n = 1
 //   moment M     f_n = a_n θ × (x_n − c)  c = Σ a_n x_n / Σ a_n; θ such that Σ (x_n − c) × f_n = M; Σ f_n = 0
-//   pressure p   f_n = −p A_n             A_n: the vertex's vector area now, outwards
+//   pressure p   f_n = −p A_n             A_n: the vertex's vector area in the current state, outward
 //
-// A moment is what a bending stress gives, linear over the section, in the present position: its value stays
-// exact however the patch turns. On a straight edge it has no part along the edge. With follows = body, F and M
-// turn with the patch: by the rotation R that brings it closest to where it is, in the sense of least squares
-// (Kabsch 1976), R = U diag(1, 1, det UVᵀ) Vᵀ of Σ (x_n − c)(X_n − C)ᵀ; of edges and single vertices, with the
-// elements that they belong to. Shares are those of the body as it was built: what is torn off carries its own
-// along, and what is deleted takes it away.
+// A moment acts like a bending stress, linear over the section, in the current position: its value stays exact
+// however the patch rotates. On a straight edge it has no component along the edge. With follows = body
+// (follower loads), F and M rotate with the patch: by the rotation R of the least-squares rigid motion from its
+// rest to its current position (Kabsch 1976), R = U diag(1, 1, det UVᵀ) Vᵀ of Σ (x_n − c)(X_n − C)ᵀ; for edges
+// and single vertices together with the elements that contain them. Shares are those of the undamaged body:
+// parts that are torn off keep theirs, those of deleted elements are lost.
 #pragma once
 
 #include "sim/outside/selector.h"
@@ -42,7 +42,7 @@ void check_load(const LoadSettings& settings);
 
 class Load {
 public:
-  // The patch must have cells; see Patch.
+  // CHECK: the patch has cells; see Patch.
   Load(const EmbeddedMap& map, const LoadSettings& settings, Patch patch);
   void rebind(const EmbeddedMap& map);
 
@@ -53,7 +53,7 @@ public:
   std::size_t cells() const { return patch_.cells().size(); }
   std::size_t bytes() const { return patch_.bytes() + bytes_of(part_) + bytes_of(frame_); }
 
-  // Whether a moment can be had at all: not along a straight line of vertices.
+  // Whether the patch can carry a moment: not if all its vertices are on a straight line.
   bool possible(const EmbeddedMap& map) const;
 
   // Adds the force [N] on each vertex; [m] and [N], one per vertex slot.
@@ -69,13 +69,13 @@ private:
 
   LoadSettings settings_;
   Patch patch_;
-  double whole_ = 0;         // the measure of the whole patch, as it was built [m²], [m] or 1
-  std::vector<double> part_; // of it, one for each of vertices(); not of a pressure
-  std::vector<Slot> frame_;  // whose rotation counts, with repetitions; empty unless it follows the body
-  bool line_ = false;        // at rest, all vertices lie on a straight line
+  double whole_ = 0;         // size of the whole patch of the undamaged body [m²], [m] or 1
+  std::vector<double> part_; // shares of it, one for each of vertices(); not for a pressure
+  std::vector<Slot> frame_;  // vertices that determine R, with repetitions; empty unless it follows the body
+  bool line_ = false;        // at rest, all vertices are on a straight line
 };
 
-// All of a body.
+// All loads of a body.
 class Loads {
 public:
   void add(Load load);
@@ -83,17 +83,17 @@ public:
   bool empty() const { return loads_.empty() && !wind_; }
   const std::vector<Load>& loads() const { return loads_; }
   const std::optional<WindLoad>& wind() const { return wind_; }
-  std::size_t bytes() const; // of lists and of the sum, besides the embeddings
+  std::size_t bytes() const; // of lists and of the sum, without the embeddings
 
   void rebind(const EmbeddedMap& map); // after edits
   void reserve_for_separations(const EmbeddedMap& map);
 
-  bool constant() const; // neither on time, once they are whole, nor on the state
+  bool constant() const; // independent of time, once fully applied, and of the state
 
-  // The sum [N], one per vertex slot; null if there are none. Stays until the next call.
+  // The sum [N], one per vertex slot; null if there are none. Valid until the next call.
   const Record* evaluate(const EmbeddedMap& map, double time, const Record* position, const Record* velocity);
 
-  // How fast wind damps the body where it is at rest, at most [1/s].
+  // An upper bound of the damping rate of wind on the body at rest [1/s].
   double damping_rate(const EmbeddedMap& map, const double* inverse_mass) const {
     return wind_ ? wind_->damping_rate(map, inverse_mass) : 0;
   }
@@ -103,8 +103,8 @@ private:
   std::vector<Load> loads_;
   std::optional<WindLoad> wind_;
   std::vector<Record> sum_;   // [N], one per vertex slot
-  std::vector<double> share_; // of each load, in sum_
-  bool known_ = false;        // sum_ is of the present map
+  std::vector<double> share_; // share() of each load in sum_
+  bool known_ = false;        // sum_ belongs to the current map
 };
 
 } // namespace rend

@@ -70,10 +70,10 @@ Plane tangent(const Vec3& at, double reach) {
   return {length > 0 ? Vec3(at / length) : Vec3(Vec3::UnitZ()), reach};
 }
 
-constexpr double grazing = 0.02; // of the radius: how deep a way may pass through without being stopped
-constexpr double alike = 0.8;    // cosine between two normals, of which the later one is then taken
+constexpr double grazing = 0.02; // relative to the radius: a path that crosses less deep is not stopped
+constexpr double alike = 0.8;    // cosine between two normals above which the later one is used
 
-// Where the way first meets the sphere; `from` itself where it is inside.
+// Where the path enters the sphere; `from` itself if that is inside.
 Vec3 met(const Vec3& from, const Vec3& way, double reach) {
   const double c = from.squaredNorm() - reach * reach, b = from.dot(way), a = way.squaredNorm();
   if (c <= 0 || a == 0) return from;
@@ -92,14 +92,15 @@ std::optional<Plane> Sphere::stop(const Vec3& from, const Vec3& to, double reach
     return tangent(guides ? to : entry, reach);
   }
   const double length = way.squaredNorm(), passed = (1 - grazing) * (1 - grazing) * square;
-  if (length < square - passed) return {}; // too short a chord to pass so deep
+  if (length < square - passed) return {}; // the chord is too short to be so deep
   const double share = -from.dot(way) / length;
   if (share <= 0 || share >= 1 || (from + share * way).squaredNorm() > passed) return {};
   return tangent(met(from, way, reach), reach);
 }
 
 std::optional<Plane> Box::stop(const Vec3& from, const Vec3& to, double margin) const {
-  double in = -1, out = 1, least = 1e300; // shares of the way; depth [m] of `from` below the nearest side
+  // in, out: parameters along the path; least: depth [m] of `from` below the nearest side
+  double in = -1, out = 1, least = 1e300;
   Plane entry, nearest;
   for (int axis = 0; axis < 3; ++axis) {
     const double ends[2] = {low[axis] - margin, high[axis] + margin};
@@ -121,7 +122,7 @@ std::optional<Plane> Box::stop(const Vec3& from, const Vec3& to, double margin) 
       }
     }
   }
-  if (in >= out) return {}; // it passes a corner
+  if (in >= out) return {}; // the path misses the box at a corner
   if (in >= 0) return entry;
   const bool inside = ((to - low).array() > -margin).all() && ((high - to).array() > -margin).all();
   return inside ? std::optional(nearest) : std::nullopt;
@@ -159,7 +160,7 @@ Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point) {
 
 namespace {
 
-// Where in [0, 1] a convex function is least, by golden section, to 1/300; and its value.
+// The minimum of a convex function over [0, 1], by golden section search to 1/300: argument and value.
 template <class F> std::pair<double, double> least(F&& f) {
   constexpr double golden = 0.6180339887498949;
   double low = 0, high = 1, a = 1 - golden, b = golden, fa = f(a), fb = f(b);
@@ -186,7 +187,7 @@ template <class F> std::pair<double, double> least(F&& f) {
 Weights deepest_in_box(const TriangleCorners& x, const Box& box) {
   const Vec3 centre = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
   const Vec3 from = x[0] - centre, side = x[1] - x[0], across = x[2] - x[1];
-  const auto along_chord = [&](double s) { // chords are parallel to the side across from corner 0
+  const auto along_chord = [&](double s) { // chords are parallel to the side opposite corner 0
     return least([&](double t) { return ((from + s * side + s * t * across).cwiseAbs() - half).maxCoeff(); });
   };
   const double s = least([&](double at) { return along_chord(at).second; }).first, t = along_chord(s).first;

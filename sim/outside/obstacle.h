@@ -1,15 +1,15 @@
-// Obstacles: spheres and boxes that bodies do not pass through, and where a point that moves meets them.
+// Obstacles: spheres and boxes, and continuous collision detection of moving points against them.
 //
-// A point that ends a step within an obstacle is kept outside of a plane. Which one depends on where it came
-// from, so that nothing is pushed out on the far side:
+// A point that ends a step inside an obstacle is kept on one side of a plane. Which plane depends on where it
+// came from, so that nothing is pushed out on the far side:
 //
-//   sphere   the tangent plane over the point; where that leans otherwise than the one where its way meets the
-//            sphere, or the way passes through and out again, deeper than 0.02 of the radius, the latter
-//   box      the side through which its way comes in; of a point that was inside, the nearest side
+//   sphere   the tangent plane above the point; if its normal differs much from that where the path enters
+//            the sphere, or the path crosses the sphere entirely, deeper than 0.02 of the radius, the latter
+//   box      the side through which the path enters; for a point that was inside, the nearest side
 //
-// The way is a straight line, relative to the obstacle. What is as long as a step's motion is therefore not
-// missed, nor what is thinner. A sphere moves as prescribed (start + velocity × time), or, having mass, falls:
-// it does not turn, so that friction acts on it as on a slider.
+// The path is a straight line, relative to the obstacle. So objects that are thinner than the motion of a step
+// are not missed. A sphere moves as prescribed (start + velocity × time), or falls if it has mass: it does not
+// rotate, so that friction acts on it as on a sliding block.
 #pragma once
 
 #include "sim/base/settings.h"
@@ -46,7 +46,7 @@ struct Sphere {
   std::optional<double> friction; // Coulomb's coefficient; none: that of the body
 
   Vec3 centre = start, velocity = Vec3::Zero();           // [m], [m/s], of the current state
-  Vec3 next_centre = start, next_velocity = Vec3::Zero(); // at the end of the step that is being made
+  Vec3 next_centre = start, next_velocity = Vec3::Zero(); // at the end of the current step
 
   Sphere() = default;
   explicit Sphere(const SphereSettings& settings); // UserError
@@ -55,13 +55,13 @@ struct Sphere {
   bool moves() const { return falls() || !velocity.isZero(0); }
   double inverse_mass() const { return mass > 0 ? 1 / mass : 0; } // [1/kg]
 
-  // Where it goes if nothing stops it; `time` [s] at the end of the step.
+  // Its motion without contact; `time` [s] at the end of the step.
   void predict(double time, double step, const Vec3& gravity);
   void commit();
-  void store(Archive& archive); // what changes of it
+  void store(Archive& archive); // the members that change
 
-  // For a point that went from → to [m] in the step, relative to the centre at its start and end; `reach` [m]
-  // is the radius and what is kept from it. None: it is outside.
+  // For a point that moved from → to [m] in the step, relative to the sphere's centre at its start and end;
+  // `reach` [m] is the radius plus the distance to keep. nullopt: no contact.
   static std::optional<Plane> stop(const Vec3& from, const Vec3& to, double reach);
 };
 
@@ -70,7 +70,7 @@ struct Box {
   std::optional<double> friction = {};
   SettingsSource source = {};
 
-  // As for a sphere, but in world space; `margin` [m] is kept from it.
+  // As for a sphere, but in world coordinates; `margin` [m] is the distance to keep.
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const;
 };
 
@@ -81,12 +81,12 @@ void check_box(const Box& box); // UserError: it has no inside
 using Weights = std::array<double, 3>;
 using TriangleCorners = std::array<Vec3, 3>;
 
-// Nearest to `point`: Ericson, Real-Time Collision Detection, 5.1.5.
+// The point nearest to `point`: Ericson, Real-Time Collision Detection, 5.1.5.
 Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point);
 
-// Where the largest of the distances to the sides of the box is least: a convex function, whose least is found
-// by golden section within golden section, to 1/300 of the triangle. (Frank and Wolfe's method, Macklin et al.
-// 2020, takes as many evaluations and stalls where two sides are equally far.)
+// The deepest point of a triangle in the box: where the largest signed distance to the sides of the box is
+// minimal. A convex function, minimised by nested golden section searches to 1/300 of the triangle. (Frank and
+// Wolfe's method, Macklin et al. 2020, takes as many evaluations and stalls if two sides are equally far.)
 Weights deepest_in_box(const TriangleCorners& x, const Box& box);
 
 } // namespace rend

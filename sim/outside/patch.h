@@ -1,10 +1,11 @@
-// Patches: the faces, edges or corners of a body on which something from outside acts.
+// Patches: the faces, edges or corners of a body on which an external load acts.
 //
-// What a traction t [N/m²] on a polygon gives to its corners is ∫ N_i t dA: with a vector area for each corner,
+// The nodal forces of a traction t [N/m²] on a polygon are ∫ N_i t dA: expressed by a vector area for each
+// corner,
 //
 //   triangle       a third of its vector area
 //   quad           ∫ N_i x_ξ × x_η dξ dη, exact for the bilinear surface through its corners, warped or not
-//   other polygon  the triangles around its mean point; what falls to that point is shared by all corners
+//   other polygon  the triangles around its mean point; the share of that point is divided among all corners
 //
 // (consistent nodal loads: Zienkiewicz & Taylor, The Finite Element Method, vol. 1). They sum up to the vector
 // area ½ Σ x_i × x_{i+1}, and an edge gives half its length to each end.
@@ -19,7 +20,7 @@
 
 namespace rend {
 
-// The vector area [m²] of each corner of the polygon x, which it goes around counterclockwise; same length.
+// The vector area [m²] of each corner of the polygon x, listed counter-clockwise; same length.
 void corner_areas(std::span<const Vec3> x, std::span<Vec3> area);
 
 // Cells with their vertices, flat.
@@ -32,8 +33,8 @@ public:
   std::span<const Slot> operator[](std::size_t cell) const {
     return std::span(vertices_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
   }
-  std::size_t first(std::size_t cell) const { return first_[cell]; } // where its vertices stand in vertices()
-  const std::vector<Slot>& vertices() const { return vertices_; }    // of all cells, one after another
+  std::size_t first(std::size_t cell) const { return first_[cell]; } // index of its first vertex in vertices()
+  const std::vector<Slot>& vertices() const { return vertices_; }    // of all cells, cell by cell
   std::size_t bytes() const { return bytes_of(first_) + bytes_of(vertices_); }
 
 private:
@@ -41,31 +42,30 @@ private:
   std::vector<Slot> vertices_;
 };
 
-// The vertices of the face of d, in the order in which d → α0 d goes around it; backwards if `turned`.
+// The vertices of the face of d, in the order of the walk d → α0 d; reversed if `turned`.
 void vertices_of_face(const EmbeddedMap& map, Dart d, bool turned, std::vector<Slot>& out);
 
 class Patch {
 public:
   enum class Of { Faces, Edges, Corners };
 
-  // Of a solid, the α3-free faces, and of a sheet, the α2-free edges, all of whose vertices are given. Where
-  // there are none, the corners of those vertices, in equal parts.
+  // For a solid the α3-free faces, for a sheet the α2-free edges, all of whose vertices are given. If there are
+  // none, the corners of those vertices, with equal shares.
   static Patch boundary(EmbeddedMap& map, const std::string& name, const std::vector<Slot>& vertices);
 
-  // Of a solid, the α3-free faces, and of a sheet, the faces, all of whose vertices are given; there may be
-  // none. The faces of a solid are gone around counterclockwise as seen from outside; those of a sheet as its
-  // cells are listed.
+  // For a solid the α3-free faces, for a sheet the faces, all of whose vertices are given; there may be none.
+  // The faces of a solid are oriented counter-clockwise as seen from outside; those of a sheet as its cells are
+  // listed.
   static Patch faces(EmbeddedMap& map, const std::string& name, const std::vector<Slot>& vertices);
 
   void rebind(const EmbeddedMap& map); // after edits
 
   Of of() const { return of_; }
   const CellList& cells() const { return cells_; }
-  const std::vector<Dart>& darts() const { return darts_; }               // one of each cell
-  std::size_t bytes() const { return cells_.bytes() + bytes_of(darts_); } // besides the embedding
+  const std::vector<Dart>& darts() const { return darts_; }               // one dart of each cell
+  std::size_t bytes() const { return cells_.bytes() + bytes_of(darts_); } // without the embedding
 
-  // What belongs to each of cells().vertices(), at rest: area [m²], length [m], or, of corners, their share of
-  // 1.
+  // The share of each of cells().vertices(), at rest: area [m²], length [m], or, for corners, their share of 1.
   std::vector<double> measures(const EmbeddedMap& map) const;
 
 private:
@@ -76,7 +76,7 @@ private:
 
   Patch(Of of, ShareColumn& shares, const EmbeddedMap& map) : of_(of), shares_(&shares) { rebind(map); }
   Of of_;
-  ShareColumn* shares_; // 0: not of the patch; of faces, −1: to be gone around backwards
+  ShareColumn* shares_; // 0: not in the patch; faces: −1: reversed orientation
   CellList cells_;
   std::vector<Dart> darts_;
 };

@@ -1,7 +1,7 @@
-// Shares: which cells an element of a preset is about, and how much each of them counts.
+// Shares: the cells to which an element of a preset refers, and the weight of each.
 //
-// A share is embedded on what a separation never splits (a corner of an element, an edge or a face of one), so
-// that it survives tearing: the fragments of a split vertex have together what the vertex had.
+// A share is embedded on cells that a separation never splits (a corner, an edge or a face of one element), so
+// that it survives tearing: the fragments of a split vertex together have the share that the vertex had.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -22,8 +22,7 @@ struct Share {
 };
 using ShareColumn = Column<Share>;
 
-// A column on element corners, whose sum is 1: the same for each vertex, and within a vertex for each of its
-// corners.
+// A column on element corners with sum 1: equal for all vertices, and within a vertex for all its corners.
 ShareColumn& share_equally(EmbeddedMap& map, const std::string& name, const std::vector<Slot>& vertices);
 
 } // namespace rend

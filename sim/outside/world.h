@@ -1,4 +1,4 @@
-// What surrounds the bodies of a scene.
+// The surroundings of the bodies of a scene.
 #pragma once
 
 #include "sim/outside/obstacle.h"
