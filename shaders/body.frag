@@ -1,4 +1,4 @@
-// Cloth and solids under a key light with a shadow, a fill light, the sky and what the ground throws back.
+// Cloth and solids under a key light with a shadow, a fill light, the sky and light reflected by the ground.
 in vec4 to_eye; // see body.vert
 in vec4 across;
 in vec4 albedo;
@@ -12,7 +12,7 @@ uniform sampler2DShadow shadow;
 
 out vec4 pixel;
 
-// Four taps, each filtered over four texels by the hardware, on a turned square.
+// Four taps, each filtered over four texels by the hardware, on a rotated square.
 float lit() {
   const vec2 a = SHADOW_SPREAD * vec2(0.38, 0.92), b = vec2(-a.y, a.x);
   float sum = texture(shadow, vec3(in_shadow.xy + a, in_shadow.z)) +
@@ -22,9 +22,9 @@ float lit() {
   return 0.25 * sum;
 }
 
-// How much of the pixel is line (x: dark, y: torn). A barycentric coordinate over its slope is a distance in
-// pixels; one over the slope is the height of the triangle: thin lines go where cells are only a few pixels
-// wide.
+// How much of the pixel is covered by lines (x: dark, y: torn). A barycentric coordinate divided by its slope
+// is a distance in pixels; 1 over the slope is the height of the triangle: thin lines fade out where cells are
+// only a few pixels wide.
 vec2 lines() {
   vec3 weight = vec3(albedo.w, in_shadow.w, 1.0 - albedo.w - in_shadow.w);
   vec2 x = dFdx(weight.xy), y = dFdy(weight.xy);
@@ -40,12 +40,12 @@ void main() {
   if (!gl_FrontFacing) unit = -unit;
   float to_key = unit * across.w, up = 0.5 + 0.5 * (unit * turned.x);
   float to_viewer = unit * near * dot(across.xyz, to_eye.xyz), facing = max(to_viewer, 0.0);
-  // At the very rim both sides are the same, or a far side that shows by a sample would speckle it.
+  // At the silhouette both sides are shaded alike, or samples of the far side would speckle it.
   float behind = gl_FrontFacing ? 0.0 : min(4.0 * facing, 1.0);
   vec3 surface = albedo.rgb * (1.0 + behind * (far_side.w - 1.0)) + behind * far_side.rgb;
 
   vec2 line = lines();
-#if WIRES // lines alone, multiplied by their alpha
+#if WIRES // lines only, with premultiplied alpha
   float cover = max(line.x, line.y);
   pixel = vec4(encode(mix(0.6 * surface, vec3(1.0, 0.46, 0.09), line.y / max(cover, 1e-4))) * cover, cover);
 #else
@@ -58,11 +58,11 @@ void main() {
   light += vec3(1.18, 1.12, 1.02) *
            (direct * (max(to_key * (1.0 - wrap) + wrap, 0.0) + transmission * max(-to_key, 0.0)));
   light += vec3(0.17, 0.18, 0.21) * max(unit * turned.y, 0.0);
-  light = mix(light, vec3(1.0), 0.8 * line.y); // a torn edge shows in the shade too
+  light = mix(light, vec3(1.0), 0.8 * line.y); // a torn edge is visible in the shadow too
 
   float rim = 1.0 - facing;
   rim *= rim * rim;
-  float sheen = max(2.0 * to_viewer * to_key - near * to_eye.w, 0.0); // towards the key light, mirrored
+  float sheen = max(2.0 * to_viewer * to_key - near * to_eye.w, 0.0); // towards the reflected key light
   if (squares.x > 0.5) sheen *= sheen;
   float squared = sheen * sheen;
   if (squares.y > 0.5) sheen = squared * squared;

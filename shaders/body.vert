@@ -1,8 +1,8 @@
-// A corner of a triangle: three in a row are a triangle, so that a corner knows which one it is.
+// A corner of a triangle: three consecutive ones are a triangle, so that a corner knows which one it is.
 //
-// Each number of a uniform that a fragment reads costs llvmpipe a gather of eight, some 25 cycles; so fragments
-// have none. What a draw call has in common comes to them flat, which is one instruction a number, and products
-// with directions that are the same everywhere are taken here, since they are linear over a triangle.
+// Each component of a uniform that a fragment reads costs llvmpipe a gather of eight, some 25 cycles; so
+// fragments have none. What is constant in a draw call is passed flat, which is one instruction per component,
+// and products with constant directions are computed here, since they are linear over a triangle.
 layout(location = 0) in vec3 position; // [m]
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 colour;   // sRGB
@@ -12,29 +12,29 @@ uniform mat4 world_to_clip;
 uniform mat4 world_to_shadow; // to the texture: [0, 1]³
 uniform vec3 eye;             // [m]
 uniform vec3 key, fill, sky;  // unit, towards the lights and up
-uniform float shadow_offset;  // how far a point steps out of its own shadow [m]
-uniform float line_scale;     // pixels per pixel of a picture 720 high
+uniform float shadow_offset;  // shadow bias: offset of a point towards the light [m]
+uniform float line_scale;     // relative to a picture of height 720 pixels
 uniform int cells;            // 1: lines between cells are drawn
-uniform float hidden_below;   // height under which nothing is seen: under the floor [m]
+uniform float hidden_below;   // height below which nothing is visible: under the floor [m]
 uniform vec4 finish;          // finish.h: gloss, rim, transmission, wrap / (1 + wrap)
-uniform vec3 sheen;           // 1 where the sheen is squared once, twice more, four times more
-uniform vec4 back;            // the far side's own colour, sRGB; w: its share of the near side's
+uniform vec3 sheen;           // 1 for each squaring of the sheen: once, twice more, four times more
+uniform vec4 back;            // the far side's own colour, sRGB; w: share of the near side's colour
 
-out vec4 to_eye;    // [m]; w: times key
-out vec4 across;    // the normal; w: times key
+out vec4 to_eye;    // [m]; w: dot product with key
+out vec4 across;    // the normal; w: dot product with key
 out vec4 albedo;    // linear; w: first barycentric coordinate
 out vec4 in_shadow; // w: second barycentric coordinate
-out vec2 turned;    // the normal times sky and fill
-// Of the line opposite to each corner: half its width, and half a pixel more [pixels]; how it fades where the
-// triangle is low: its strength is ink times slope x height + start, within 0 and 1; ink is negative for what
-// is torn. w: finish
+out vec2 turned;    // dot products of the normal with sky and fill
+// For the line opposite to each corner: half its width plus half a pixel [pixels]; how it fades where the
+// triangle is low: its strength is ink times slope x height + start, clamped to [0, 1]; ink is negative for
+// torn edges. w: finish
 flat out vec4 reach, slope, start, ink;
 flat out vec4 far_side; // linear; w: back.w
 flat out vec3 squares;  // sheen
 
-// Of a line of that kind: half width [pixels], slope [1/pixel], start, ink.
+// The line of that kind: half width [pixels], slope [1/pixel], start, ink.
 vec4 line_of(uint kind) {
-  if (kind == 3u) return vec4(1.7, 0.0, 1.0, -1.0);  // torn: whatever the triangle's height
+  if (kind == 3u) return vec4(1.7, 0.0, 1.0, -1.0);  // torn: independent of the triangle's height
   if (kind == 2u) return vec4(1.2, 0.25, -0.5, 1.0); // a border
   if (cells == 1 && kind == 4u) return vec4(0.9, 0.25, -0.5, 0.75); // a crease
   if (cells == 1 && kind == 1u) return vec4(0.55, 0.09, -0.4, 0.62); // between cells

@@ -1,18 +1,18 @@
-// Shared by all shaders. Light is added up in linear numbers; the screen's sRGB curve is taken as a square and
-// its inverse as a square root, which is near enough to the eye and costs a quarter of two powers.
+// Shared by all shaders. Light is added in linear colours; the sRGB curve is approximated by a square and its
+// inverse by a square root, which is close enough to the eye and costs a quarter of two powers.
 
 vec3 decode(vec3 colour) { return colour * colour; }
 vec3 encode(vec3 light) { return sqrt(light); }
 
 // The studio's backdrop at a place of the picture (corners at -1 and 1), linear: lightest a little above the
-// middle, where the eye goes, and darker towards the corners.
+// centre, and darker towards the corners.
 vec3 backdrop(vec2 place, vec3 background) {
   vec2 from = place - vec2(0.0, 0.15);
   float fall = dot(from * from, vec2(0.11, 0.16));
   return background * (1.0 - fall);
 }
 
-// A level of a pyramid read smoothly: its texels are large, and plain interpolation would show them as
+// Smooth interpolation of a pyramid level: its texels are large, and bilinear interpolation would show as
 // scallops.
 vec2 smoothly(sampler2D pyramid, vec2 at, float level) {
   vec2 a = vec2(0.5, 0.5) * exp2(level) / vec2(textureSize(pyramid, 0)), b = vec2(-a.x, a.y);

@@ -1,9 +1,7 @@
-// A pixel of the picture: the mean of the bodies' samples, less what occlusion keeps from them, and what is
-// behind.
+// A pixel of the picture: the mean of the bodies' samples, darkened by occlusion, over the background.
 //
 // BODIES: 1 where there may be some. OCCLUDED: 1 with ambient occlusion. BEHIND: 0 nothing, 1 the backdrop, 2
-// the floor where nothing is kept from it, 3 the floor. SAMPLES of each of FINE x FINE pixels are one of the
-// picture.
+// the floor without shadows, 3 the floor. SAMPLES of each of FINE x FINE pixels make one of the picture.
 #if BEHIND
 noperspective in vec2 place; // see composite.vert
 flat in vec3 light;
@@ -21,7 +19,7 @@ uniform sampler2D shade;
 #define Sampled sampler2DMS
 #endif
 #if BODIES
-uniform Sampled colours; // multiplied by their alpha
+uniform Sampled colours; // premultiplied by alpha
 #endif
 out vec4 pixel;
 
@@ -43,15 +41,16 @@ uniform vec2 texel;       // of `kept`, in texture coordinates
 uniform vec2 to_nearness; // see occlusion_depth.frag
 uniform float tolerance;  // [1/m]
 
-// What is left of the light: that of the four nearest places, of those that are as deep.
+// The light that is not occluded: from the four nearest texels, weighted by equal depth.
 vec3 open() {
-  float stored = 1.0; // of a pixel on an edge, the nearest: the farther part is darkened on its other pixels
+  // of a pixel on an edge, the nearest depth: the farther part is darkened in its other pixels
+  float stored = 1.0;
   ivec2 at = ivec2(gl_FragCoord.xy);
   for (int k = 0; k < SAMPLES; ++k) stored = min(stored, texelFetch(depth, at * FINE, k).x);
   float deep = 1.0 / (to_nearness.x + to_nearness.y * stored);
 
   const float back = 0.5 * float(PART) - float(PART / 2);
-  // The blur of place i reaches from i - 2 to i + 1, with i - 1/2 in its middle.
+  // The blur of texel i covers i - 2 to i + 1, centred at i - 1/2.
   vec2 spot = (vec2(at) + back) / float(PART);
   vec2 first = floor(spot), share = spot - first;
   float sum = 0.0, weights = 0.0;
@@ -68,14 +67,15 @@ vec3 open() {
 #endif
 
 #if BEHIND
-// The studio floor has the backdrop's own light, so that it has no end, less what the bodies keep away from it.
+// The studio floor has the same light as the backdrop, so that it has no visible end, darkened by the bodies'
+// shadows.
 vec3 behind() {
   vec3 all = backdrop(place, light);
 #if BEHIND > 1
   float below = 1.0 / max(on_floor.z, 1e-6);
   vec2 at = on_floor.xy * below;
   float away = min(dot(at, at), 1.0);
-  float pool = max(1.0 - 4.0 * away, 0.0); // of the key light, around the middle
+  float pool = max(1.0 - 4.0 * away, 0.0); // of the key light, around the centre
   vec3 left = vec3(0.94 + 0.08 * pool * pool);
 #if BEHIND > 2
   vec2 lost = texture(shade, in_shade * below).xy;

@@ -1,4 +1,4 @@
-// Half as many pixels each way, blurred: the centre and four diagonal neighbours.
+// Half as many pixels along each axis, blurred: the centre and four diagonal neighbours.
 in vec2 place;
 uniform sampler2D source;
 out vec4 pixel;

@@ -1,4 +1,4 @@
-// Bodies as something that keeps light from the floor, with their height above it.
+// Bodies as occluders of the floor, with their height above it.
 layout(location = 0) in vec3 position; // [m]
 uniform mat4 world_to_clip;
 uniform float floor_z; // [m]

@@ -1,4 +1,4 @@
-// Of one pixel along one slice, x: what is kept from it; y: its depth [m]. See render/draw/occlusion.h.
+// For one pixel and one slice, x: occlusion; y: depth [m]. See render/draw/occlusion.h.
 uniform sampler2D depths;
 uniform vec2 texel;    // in texture coordinates
 uniform vec4 ray;      // of pixel (x, y) at depth 1 [m]: ray.xy + (x, y) * ray.zw
@@ -9,19 +9,19 @@ out vec4 pixel;
 
 vec3 place(vec2 at) { return texture(depths, at * texel).x * vec3(ray.xy + at * ray.zw, 1.0); }
 
-// Abramowitz and Stegun 4.4.45, off by less than 7e-5.
+// Abramowitz and Stegun 4.4.45, error below 7e-5.
 float arccos(float x) {
   float a = abs(x);
   float y = sqrt(1.0 - a) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - a * 0.0187293)));
   return x < 0.0 ? 3.14159265 - y : y;
 }
 
-// The nearer of two neighbours: the other may lie on something else.
+// The difference to the neighbour closer in depth: the other may lie on another surface.
 vec3 along(vec3 before, vec3 here, vec3 after) {
   return abs(after.z - here.z) < abs(here.z - before.z) ? after - here : here - before;
 }
 
-// The integral over one side (1 or -1), whose horizon rises above the surface by an angle of that sine.
+// The integral over one side (1 or -1), with the sine of the horizon's angle above the surface.
 float arc(float rise, float side, float cos_n, float sin_n) {
   float cosine = clamp(cos_n * rise - side * sin_n * sqrt(1.0 - rise * rise), -1.0, 1.0);
   float h = side * arccos(cosine), sine = side * sqrt(1.0 - cosine * cosine);
@@ -47,9 +47,10 @@ void main() {
   float size = max(length(projected), 1e-4);
   float sin_n = dot(projected, tangent) / size, cos_n = clamp(dot(projected, eye) / size, 0.0, 1.0);
 
-  // Horizons are measured from the surface: a pixel beside the slice then does not make a plane occlude itself.
+  // Horizons are measured from the surface, so that a plane does not occlude itself through pixels beside the
+  // slice.
   float span = min(reach * pixels / here.z, longest), fall = 1.0 / (reach * reach);
-  float ahead = 0.0, behind = 0.0; // squares of sines, less what is lost by distance
+  float ahead = 0.0, behind = 0.0; // squared sines, reduced by distance
   for (int k = 0; k < 4; ++k) {
     float t = (float(k) + offset) * 0.25;
     vec2 away = floor(direction * max(t * t * span, float(k) + 1.0) + 0.5);
@@ -62,9 +63,9 @@ void main() {
   }
   ahead = min(sqrt(ahead) / size, 1.0);
   behind = min(sqrt(behind) / size, 1.0);
-  float free = cos_n + arccos(cos_n) * abs(sin_n); // where nothing rises
+  float free = cos_n + arccos(cos_n) * abs(sin_n); // without occluders
   float seen = arc(ahead, 1.0, cos_n, sin_n) + arc(behind, -1.0, cos_n, sin_n);
   float kept = size * (free - seen);
-  // Where neighbours are as thin as a pixel, directions vanish: what then is no number fails the comparison.
+  // Where neighbours are as thin as a pixel, directions vanish: a resulting NaN fails the comparison.
   pixel = vec4(kept > 0.0 ? min(kept, 1.0) : 0.0, here.z, 0.0, 1.0);
 }

@@ -1,5 +1,5 @@
-// One triangle that covers the picture, and where the floor lies behind it.
-uniform vec3 floor_plane; // dot(floor_plane, (place, 1)): 1 by the floor's depth [1/m]; 0: there is none
+// One triangle that covers the picture, and the depth of the floor behind it.
+uniform vec3 floor_plane; // dot(floor_plane, (place, 1)): 1 over the floor's depth [1/m]; 0: no floor
 uniform ivec2 end;        // the last pixel of the bodies' picture
 uniform vec2 to_nearness;
 noperspective out float floor_nearness;

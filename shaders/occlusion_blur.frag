@@ -1,8 +1,8 @@
-// The mean over a block of 4 x 4, whose pixels have all slices and offsets among them, of those that lie on the
-// same surface: x; y: depth.
+// The mean over a block of 4 x 4 pixels, which together have all slices and offsets, of those on the same
+// surface: x; y: depth.
 uniform sampler2D kept;
 uniform vec2 texel; // in texture coordinates
-uniform float tolerance; // [1/m]: 1 over the distance from the surface that is too much
+uniform float tolerance; // [1/m]: 1 over the largest distance from the surface
 out vec4 pixel;
 
 vec2 at(vec2 away) { return texture(kept, (gl_FragCoord.xy + away) * texel).xy; }

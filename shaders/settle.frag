@@ -1,11 +1,11 @@
-// What the floor is kept from: x: key light, y: everything, close to where a body touches it.
+// Shadows on the floor: x: of the key light, y: of all light, close to where a body touches it.
 //
-// The penumbra grows with the height of what throws it. `occluders` is a pyramid of ever more blurred pictures
+// The penumbra grows with the height of the occluder. `occluders` is a pyramid of increasingly blurred pictures
 // of the bodies, seen from the light; `blur` says which level of it is the shadow here.
 in vec2 place;
 uniform sampler2D occluders, contact, blur;
-uniform float contact_level; // level of the other pyramid that is blurred as wide as it should be
-uniform vec2 contact_origin, contact_x, contact_y; // from this picture to the contact's
+uniform float contact_level; // level of the other pyramid with the right amount of blur
+uniform vec2 contact_origin, contact_x, contact_y; // from this picture to the contact picture
 out vec4 pixel;
 
 void main() {

@@ -22,7 +22,7 @@ void say_what_it_passes(Body& body, const World& world, const std::optional<Cont
   body.notes.push_back(body.left_out.back());
 }
 
-// What is below the floor is lifted onto it in the first step, which strains it.
+// Vertices that start below the floor are put onto it in the first step, which strains the body.
 void say_what_starts_below(Body& body, double height) {
   double lowest = height;
   for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)

@@ -116,7 +116,8 @@ void build_elasticity(Body& body, const BodySettings& settings) {
 void build_viscosity(Body& body, const ViscositySettings& viscosity) {
   check_settings(viscosity);
   if (viscosity.value == 0) return;
-  if (viscosity.per == ViscositySettings::Per::Body) { // as the mass is spread: one rate for all, and no array
+  // distributed like the mass: one rate for all, and no array
+  if (viscosity.per == ViscositySettings::Per::Body) {
     body.uniform_drag += viscosity.value / total_mass(*body.map, *body.mass);
     return;
   }

@@ -20,7 +20,7 @@ void check_reach(const Body& body, const SettingsSource& shape) {
                    "scale and translate of <place>, and the sizes of the shape, are in metres");
 }
 
-// Of all elements: the area of a sheet [m²], the volume of a solid [m³].
+// The sum over all elements: the area of a sheet [m²], the volume of a solid [m³].
 double extent(const EmbeddedMap& map) {
   double sum = 0;
   if (map.dimension() == 2) {

@@ -5,7 +5,7 @@
 
 namespace rend {
 
-// Where the element and its attributes stand. Reads from it for as long as it lives.
+// The places of the element and its attributes. Refers to the element, which must outlive it.
 inline SettingsSource source_of(const PresetNode& node) {
   return {
       [&node](std::string_view attribute) { return attribute.empty() ? node.place() : node.place(attribute); },

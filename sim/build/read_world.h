@@ -1,4 +1,4 @@
-// From the <world> of a checked preset to what surrounds the bodies.
+// Builds the surroundings of the bodies from the <world> of a checked preset.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -6,7 +6,7 @@
 
 namespace rend {
 
-const ElementType& world_type(); // <world>, as the parameter table has it
+const ElementType& world_type(); // <world> in the parameter table
 
 // It reads from the node for as long as it lives. UserError, with its place, for what cannot be built.
 World read_world(const PresetNode* node); // null: the preset says nothing of it

@@ -10,7 +10,7 @@ const ElementType& body_type();
 const ElementType& world_type();
 const ElementType& time_type();
 
-// Of a <time> [s]. UserError where it has none and its integrator takes one: all but static do.
+// The duration of a <time> [s]. UserError if it has none and its integrator needs one: all but static do.
 double duration_of(const PresetNode& time);
 
 } // namespace rend

@@ -1,4 +1,4 @@
-// Shapes: what a body is made of, cell by cell. Of <sheet>, <bar>, <tube> ... a <body> holds exactly one.
+// Shapes: the mesh of a body. A <body> contains exactly one of <sheet>, <bar>, <tube> ...
 //
 // Adding one: a struct of settings among ShapeSettings, its make_map(), a function `ShapeType my_shape()`, and
 // its name in all_shapes().

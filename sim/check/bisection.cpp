@@ -12,7 +12,8 @@ namespace {
 
 constexpr long steps = 4000;
 constexpr double digits = 1e-3, widest = 1e4;
-constexpr double beats = 1e6; // by how much the energy may swing: 1/(2ε) at ε below the limit, a thousand times
+// allowed oscillation of the energy: 1/(2ε) at ε below the limit, times a thousand
+constexpr double beats = 1e6;
 
 bool stable(const Bench& bench, double step) {
   const Trial trial =

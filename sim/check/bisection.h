@@ -5,12 +5,13 @@
 
 namespace rend {
 
-// [s], to 1e-3; 0 or infinity where every step that was tried was not stable, or was.
+// [s], to 1e-3; 0 or infinity if every step tried was unstable, or stable.
 //
-// Runs of 4000 steps from small random velocities about the state at the start: not stable is a step in whose
-// last half the mean kinetic energy is more than twice that of the second quarter (nothing drives the scene;
-// below its limit a scheme without damping beats, but over fifty steps, not over a thousand), or that throws.
-// `guess` [s] says only where to begin: the search widens until it has a stable step and one that is not.
+// Runs 4000 steps from small random velocities about the initial state: a step is unstable if the mean kinetic
+// energy of the last half is more than twice that of the second quarter (nothing drives the scene; below its
+// limit a scheme without damping shows beats, but with a period of fifty steps, not a thousand), or if it
+// throws. `guess` [s] is only the start of the search, which widens until it has a stable step and an unstable
+// one.
 double bisected_limit(const Bench& bench, double guess);
 
 } // namespace rend

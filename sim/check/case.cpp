@@ -74,9 +74,9 @@ CheckResult run_case(const CheckCase& which, const ReadPreset& read) {
       fail(finding.what.empty() ? "a figure lies outside of its bounds" : finding.what, finding.why);
   } catch (const UserError& error) {
     fail(error.what(), error.hint);
-  } catch (const std::bad_alloc&) { // of others, too
+  } catch (const std::bad_alloc&) { // also from libraries
     throw;
-  } catch (const std::exception& error) { // a fault of ours: the others still run
+  } catch (const std::exception& error) { // a bug: the other cases still run
     fail(error.what(), "this is a fault of rend itself");
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();

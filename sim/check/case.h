@@ -1,17 +1,16 @@
-// A case of `rend check`: a scene that strains the program, what is expected of it, and what happened.
+// A case of `rend check`: a scene that stresses the program, the expected behaviour, and the result.
 //
-// A case is a preset, read by the same reader as a user's, and a function that runs it and takes measures. An
-// expectation is said in words and asked in numbers: every Measure is a figure with the bounds between which it
-// must lie, from an analytic answer, a law of conservation, a bound by energy, or another computation.
-// Verdicts:
+// A case is a preset, read like a user's, and a function that runs it and takes measures. An expectation is
+// stated in words and tested by numbers: every Measure is a value with bounds, from an analytic solution, a
+// conservation law, an energy bound, or another computation. Verdicts:
 //
-//   ok        all measures lie within their bounds
-//   refused   as expected: the preset is not accepted, and the message says where and what would work
-//   limit     a known limit of the model, true and stated; its measures (that it stays finite, say) hold
-//   failed    a measure does not hold, or something was thrown that was not expected
+//   ok        all measures are within their bounds
+//   refused   as expected: the preset is not accepted, and the message has a place and a hint
+//   limit     a known limitation of the model, documented; its measures (it stays finite, say) are within bounds
+//   failed    a measure is out of bounds, or an unexpected exception was thrown
 //
-// States that no preset can express (scrambled vertices) are set on the scene by the function, and
-// `expectation` says so. Adding a family: a file with a function `CheckFamily my_family()`, and its name in
+// States that no preset can express (scrambled vertices) are set on the scene by the function, as stated in
+// `expectation`. To add a family: a file with a function `CheckFamily my_family()`, and its name in
 // all_families().
 #pragma once
 
@@ -33,14 +32,14 @@ struct Measure {
   std::string what; // with its unit
   double got = 0;
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-  bool holds() const { return got >= low && got <= high; } // NaN never does
+  bool holds() const { return got >= low && got <= high; } // false for NaN
 };
 
 struct Finding {
   Verdict verdict = Verdict::Ok;
   std::vector<Measure> measures;
-  std::string what; // what happened, a sentence; may be empty: the measures say it
-  std::string why;  // of a refusal: what would work; of a known limit: its reason; of a failure: where
+  std::string what; // a sentence on what happened; may be empty if the measures say it
+  std::string why;  // of a refusal: the hint; of a known limitation: its reason; of a failure: where
 
   void within(std::string measure, double got, double low, double high);
   void at_most(std::string measure, double got, double high);
@@ -50,7 +49,7 @@ struct Finding {
   bool holds() const; // all measures do
 };
 
-// A scene, and the nodes that it reads from for as long as it lives.
+// A scene with the preset that it refers to.
 struct Trial {
   std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
@@ -58,7 +57,7 @@ struct Trial {
   Body& body(std::size_t n = 0) const { return *scene->bodies()[n]; }
 };
 
-// What a scene does by itself, with nothing that rescues a step.
+// Without a guard that redoes steps.
 inline SceneOptions unguarded() {
   SceneOptions options;
   options.guard = false;
@@ -68,17 +67,17 @@ inline SceneOptions unguarded() {
 using Sets = std::vector<std::pair<std::string, std::string>>; // as --set PATH=VALUE
 
 struct CheckCase;
-// Reads a case's preset as a user's file, or another text in its place. Throws UserError.
+// Reads the preset of a case as a user's file, or `instead`, another text. Throws UserError.
 using ReadPreset =
     std::function<std::unique_ptr<PresetNode>(const CheckCase&, const std::string* instead, const Sets&)>;
 
-// What a case runs with.
+// Opens the scenes of a case.
 class Bench {
 public:
   Bench(const CheckCase& which, const ReadPreset& read) : case_(&which), read_(&read) {}
-  // Throws UserError for what is refused.
+  // Throws UserError if the preset is refused.
   Trial open(const Sets& sets = {}, SceneOptions options = {}) const;
-  Trial open_text(const std::string& preset) const; // another than the case's, to compare with
+  Trial open_text(const std::string& preset) const; // another preset than the case's, for comparison
 
 private:
   const CheckCase* case_;
@@ -88,10 +87,10 @@ private:
 struct CheckCase {
   std::string name;        // unique: "stiffness/chain/rk4/1e12"
   std::string expectation; // a sentence
-  std::string preset;      // XML; empty: the file `path`
+  std::string preset;      // XML; empty: in the file `path`
   std::function<void(const Bench&, Finding&)> run;
   std::string row, column;                                     // of the family's table
-  bool quick = false;                                          // of the few that the tests run
+  bool quick = false;                                          // part of the selection that the tests run
   std::vector<std::pair<std::string, std::string>> files = {}; // name and content, beside the preset (meshes)
   std::string path = {};                                       // of a user's preset
 };
@@ -99,7 +98,7 @@ struct CheckCase {
 struct CheckFamily {
   std::string name;  // "stiffness"
   std::string title; // a heading
-  std::string about; // sentences: what is varied, and what it is held against
+  std::string about; // sentences: what is varied, and what it is compared with
   std::vector<CheckCase> (*cases)();
 };
 const std::vector<CheckFamily>& all_families();
@@ -108,7 +107,7 @@ struct CheckResult {
   Finding finding;
   double seconds = 0;
 };
-// Runs a case; what it throws becomes a finding.
+// Runs a case; an exception becomes a finding.
 CheckResult run_case(const CheckCase& which, const ReadPreset& read);
 
 } // namespace rend

@@ -1,5 +1,5 @@
-// Elements without area, springs without length, points on top of each other: refused with a place and a hint,
-// or simulated without harm.
+// Elements without area, springs without length, coincident points: refused with a place and a hint, or
+// simulated without harm.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"
@@ -103,7 +103,7 @@ CheckCase odd_case(const Odd& odd) {
   one.row = odd.name;
   if (!odd.file.first.empty()) one.files.push_back(odd.file);
   one.quick = odd.name.starts_with("t");
-  const bool pushes = odd.name == "within a sphere"; // which it is to leave
+  const bool pushes = odd.name == "within a sphere"; // the sphere pushes it out
   one.run = [pushes](const Bench& bench, Finding& finding) {
     Trial trial;
     try {

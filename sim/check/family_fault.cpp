@@ -1,4 +1,4 @@
-// A number that is not finite, put into each stage of a step: once, and at every try.
+// Fault injection: a number that is not finite in each stage of a step, once and at every attempt.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"
@@ -62,7 +62,7 @@ std::vector<CheckCase> cases() {
   std::vector<CheckCase> all;
   for (const Scheme& scheme : all_schemes()) {
     if (scheme.name == "static" || scheme.limit({1, 0, 0}) <= 0)
-      continue; // knows no contact; has no stable step
+      continue; // supports no contact; has no stable step
     for (const StepStage stage :
          {StepStage::Forces, StepStage::Loads, StepStage::Integration, StepStage::Contact})
       for (const bool lasting : {false, true}) all.push_back(fault_case(scheme, stage, lasting));

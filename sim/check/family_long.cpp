@@ -1,4 +1,4 @@
-// A million steps without anything that drives or damps.
+// A million steps without drives or damping.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"
@@ -37,13 +37,13 @@ CheckCase long_case(const Matter& matter, const Scheme& scheme, long steps) {
   one.preset = sketch.text();
   one.row = matter.name;
   one.column = scheme.name;
-  // A turn would go on as growth without end, and far from rest displacements round more.
+  // A rotation would be unbounded growth, and far from rest displacements have larger round-off.
   const bool small = matter.small_strain();
   one.run = [=](const Bench& bench, Finding& finding) {
     Trial trial = bench.open();
     const double step = scheme.solves ? trial->step_size() : trial->step_size() / 2;
     if (!scheme.solves) trial = bench.open({{"time.step", fmt::format("{}", step)}});
-    constexpr double pace = 1; // [m/s]; sound takes 100
+    constexpr double pace = 1; // [m/s]; the speed of sound is 100
     shake(trial.body(), pace, 3);
     if (small) stop_as_a_whole(trial.body());
     const Vec3 momentum = trial->momentum(), turn = trial->angular_momentum();

@@ -1,4 +1,4 @@
-// Masses that differ by a million: a light cell between heavy ones, and a heavy ball against a light sheet.
+// Mass ratios of a million: a light cell between heavy ones, and a heavy ball against a light sheet.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double g = 9.81, k = 1e3; // [m/s²], [N/m]
 
-// A ladder 1 m wide, whose five cells are 1, r, 1, r, 1 m high, so that their masses [kg] are that, too: each
-// rung has half of the cells beside it. It hangs by its two rails of springs, all as stiff, whatever their
+// A ladder 1 m wide, whose five cells are 1, r, 1, r, 1 m high, which are also their masses [kg]: each rung has
+// half of the adjacent cells. It hangs by its two rails of springs, all of the same stiffness whatever their
 // length.
 struct Ladder {
   std::vector<double> heights; // [m]
@@ -35,7 +35,7 @@ struct Ladder {
     for (const double h : heights) sum += h;
     return sum;
   }
-  // Each cell's rails carry the rungs below it: the weight of the cells below, and of half of its own.
+  // Each cell's rails carry the rungs below it: the weight of the cells below, and half of its own.
   double extension() const { // [m]
     double sum = 0, below = 0;
     for (std::size_t n = heights.size(); n-- > 0;) {
@@ -48,7 +48,8 @@ struct Ladder {
 
 CheckCase ladder_case(const Scheme& scheme, int exponent) {
   const Ladder ladder(std::pow(10.0, exponent));
-  const double slowest = 12; // [1/s]: three bodies of 1 kg on springs of 2000 N/m swing at 20/s and more
+  // [1/s]: three bodies of 1 kg on springs of 2000 N/m have frequencies of 20/s and more
+  const double slowest = 12;
   Sketch sketch;
   sketch.gravity = "0 0 -9.81";
   sketch.body =
@@ -85,9 +86,8 @@ CheckCase ladder_case(const Scheme& scheme, int exponent) {
   return one;
 }
 
-// Nothing else acts: momentum stays, and so does all of the energy that is not lost in the blow. A ball M times
-// as heavy as the sheet goes on with (M − 1)/(M + 1) of its speed at least: the blow of a body that throws it
-// all back.
+// No other forces act: momentum is conserved, and so is the energy not lost in the impact. A ball M times as
+// heavy as the sheet keeps at least (M − 1)/(M + 1) of its speed: an elastic impact with the whole sheet.
 CheckCase ball_case(int exponent) {
   const double ratio = std::pow(10.0, exponent);
   Sketch sketch;
@@ -125,7 +125,7 @@ std::vector<CheckCase> cases() {
   for (const Scheme& scheme : all_schemes())
     for (const int exponent : {-2, -4, -6})
       if (exponent == -2 || scheme.solves ||
-          scheme.limit({1, 0, 0}) > 0) // what lives on damping takes 1e8 steps
+          scheme.limit({1, 0, 0}) > 0) // a scheme that is stable only with damping needs 1e8 steps
         all.push_back(ladder_case(scheme, exponent));
   for (const int exponent : {0, 2, 4, 6}) all.push_back(ball_case(exponent));
   return all;

@@ -1,5 +1,5 @@
-// Nearly incompressible: the stress of a patch under a uniform strain, and a free body that is shaken, at every
-// ν.
+// Nearly incompressible: the stress of a patch under a uniform strain, and a free body with random velocities,
+// for all ν.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double young = 1e6;
 
-// Every vertex on the outside moves by u = G X; those inside follow.
+// Every vertex on the boundary moves by u = G X; the inner ones are free.
 std::string patch_body(const Matter& matter, double poisson) {
   std::string body = matter.shape + "    <mass total=\"1\"/>\n" + matter.matter(young, poisson);
   const char* gradient = matter.dimension == 3 ? "1e-3 5e-4 5e-4  5e-4 1e-3 5e-4  5e-4 5e-4 1e-3"
@@ -86,7 +86,7 @@ CheckCase shaken(const Matter& matter, double poisson) {
 std::vector<CheckCase> cases() {
   std::vector<CheckCase> all;
   for (const Matter& matter : all_matters("3 3 3", "1 0.8 0.9", "3 3", "1 0.8")) {
-    if (matter.model == "springs") continue; // they know no ν
+    if (matter.model == "springs") continue; // independent of ν
     for (const double poisson : {0.0, 0.3, 0.49, 0.4999}) all.push_back(patch(matter, poisson));
     for (const double poisson : {0.49, 0.4999}) all.push_back(shaken(matter, poisson));
   }

@@ -1,4 +1,4 @@
-// Bodies in shapes that no material survives: flattened to a plane, a line, a point; inside out; scrambled.
+// Bodies in extreme shapes: flattened to a plane, a line, a point; inverted; scrambled.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"
@@ -17,7 +17,7 @@ constexpr long steps = 6000, few_steps = 3000;
 
 const std::vector<std::string> shapes{"plane", "line", "point", "inside out", "scrambled"};
 
-// Where a vertex is put; `seed` for scrambled ones, uniform in the unit cube.
+// The position of a vertex; `seed` for scrambled ones, uniform in the unit cube.
 std::function<Vec3(const Vec3&, std::size_t)> placed(const std::string& shape, const Body& body,
                                                      std::uint64_t seed) {
   if (shape == "plane") return [](const Vec3& x, std::size_t) { return Vec3(x.x(), 0, x.z()); };
@@ -31,13 +31,14 @@ std::function<Vec3(const Vec3&, std::size_t)> placed(const std::string& shape, c
 
 struct Tally {
   int recovered = 0, all = 0;
-  double growth = 0; // the most energy on the way, over that of the start or of the body as a point
-  double unrest = 0; // kinetic energy of those that did not come back, over the elastic one of a point
+  // the largest energy during the run, relative to that of the start or of the body as a point
+  double growth = 0;
+  double unrest = 0; // kinetic energy of bodies that did not recover, relative to the elastic energy of a point
   bool finite = true;
   std::string stopped;
 };
 
-// A sheet without bending is at rest however it is folded; a model of small strain, however it is swollen.
+// A sheet without bending stiffness is in equilibrium in any fold; a linear model in any inflated state.
 bool at_rest(const Trial& trial, const Matter& matter, double scale) {
   const Body& body = trial.body();
   if (matter.small_strain() || (matter.dimension == 2 && matter.model != "springs"))
@@ -62,7 +63,7 @@ void try_once(const Bench& bench, const Matter& matter, const std::string& shape
   ++tally.all;
 }
 
-// What is known not to come back, and why; empty: all must.
+// Why a shape is known not to recover; empty: it must.
 std::string reason(const Matter& matter, const std::string& shape) {
   if (matter.model == "springs")
     return "Springs know lengths alone: what is mirrored or folded has all its lengths, flat they push nowhere "

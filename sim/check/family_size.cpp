@@ -1,4 +1,4 @@
-// From a micrometre to a thousand kilometres: with everything else scaled alike, nothing but round-off may
+// From a micrometre to a thousand kilometres: with everything else scaled accordingly, only round-off may
 // differ.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-// Of length L times that of the one of 1 m: density and E stay, so that time goes with L, and gravity with 1/L.
+// Scaled from 1 m to length L: density and E are constant, so that time scales with L, and gravity with 1/L.
 struct Scaled {
   std::string name;
   std::string (*body)(double L);
@@ -64,7 +64,7 @@ std::string text_of(const Scaled& what, double L, const std::string& scheme) {
   Sketch sketch;
   sketch.body = what.body(L);
   sketch.gravity = fmt::format("0 0 {}", in_short(-9.81 / L));
-  // the same number of steps whatever L: in units of L; implicit and static need the step itself
+  // the same number of steps for all L: in units of L; implicit and static need the step itself
   sketch.time =
       time_of(scheme, scheme == "symplectic" || scheme == "rk4" ? "auto" : in_short(0.01 * L), 0.25 * L);
   return sketch.text();

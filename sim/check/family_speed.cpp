@@ -79,7 +79,7 @@ CheckCase crash(const std::string& name, const std::string& body, const std::str
   one.quick = name.starts_with("floor");
   one.run = [gains](const Bench& bench, Finding& finding) {
     const Trial trial = bench.open();
-    if (!gains) trial->step(); // a drive throws it
+    if (!gains) trial->step(); // accelerated by a drive
     const Course course = run(*trial.scene, 2000, 10);
     finding.what = course.stopped ? course.why : fmt::format("2000 steps of {:.3g} s", trial->step_size());
     finding.at_least("finite", is_finite(*trial.scene), 1);
@@ -92,7 +92,7 @@ CheckCase crash(const std::string& name, const std::string& body, const std::str
 std::vector<CheckCase> cases() {
   std::vector<CheckCase> all;
   for (const Matter& matter : all_matters("2 1 1", "1 0.5 0.5", "2 2", "1 1")) {
-    if (matter.model == "corotational-qr") continue; // differs from the other in its frame alone
+    if (matter.model == "corotational-qr") continue; // differs from the other model only in its rotation
     for (const Scheme& scheme : all_schemes())
       if (!scheme.solves && scheme.limit({1, 0, 0}) > 0) all.push_back(flight(matter, scheme));
     all.push_back(flight(matter, *find_scheme("implicit")));

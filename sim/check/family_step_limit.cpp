@@ -1,4 +1,4 @@
-// How large a step may be: predicted from matrices, and found by running.
+// The largest stable step: predicted from matrices, and found by running.
 #include "sim/check/bisection.h"
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
@@ -13,10 +13,10 @@
 namespace rend {
 namespace {
 
-// What damps is chosen such that the fastest motions have some 0.3 of critical damping: below a tenth of it,
-// growth just above the limit of explicit Euler takes more steps to show than one can run.
+// Damping is chosen so that the highest modes have about 0.3 of critical damping: below a tenth of it, growth
+// just above the limit of explicit Euler takes more steps to show than can be run.
 struct Specimen {
-  std::string name, body;                             // body: without what damps
+  std::string name, body;                             // body: without its damping
   double by_mass, by_particle, of_springs, of_matter; // [N s/m] of the body and of each vertex; [N s/m]; β [s]
 };
 
@@ -63,7 +63,7 @@ std::string damped(const Specimen& s, const std::string& how) {
   return inserted(hinges, "<elasticity", fmt::format(" damping-stiffness=\"{}\"", s.of_matter));
 }
 
-// step="auto" is refused with what would work, or lies below the step that was found [s].
+// step="auto" is refused with a hint, or is below the step that was found [s].
 void ask_for_automatic(const Bench& bench, double found, Finding& finding) {
   try {
     const Trial trial = bench.open({{"time.step", "auto"}});
@@ -79,8 +79,7 @@ void compare(const Scheme& scheme, const Bench& bench, Finding& finding) {
   const Trial trial = bench.open();
   Linearised linear(trial.body(), 0);
   const StepLimit predicted = step_limit(scheme, linear);
-  if (predicted.step ==
-      0) { // a motion that grows by so little that no run shows it is none the less not stable
+  if (predicted.step == 0) { // growth too slow to show in a run is unstable all the same
     finding.what = "no step is stable";
     ask_for_automatic(bench, 0, finding);
     return;
@@ -109,7 +108,7 @@ CheckCase linear_case(const Specimen& specimen, const std::string& damping, cons
   return one;
 }
 
-// Large motions: what hangs level is let go.
+// Large motions: a horizontal body is released.
 struct Mover {
   std::string name, body;
   double duration, least; // [s]; `least`: a step that resolves everything
@@ -128,8 +127,8 @@ std::vector<Mover> movers() {
 }
 
 struct Swing {
-  double kinetic = 0;                                     // [J], the most
-  double limit = std::numeric_limits<double>::infinity(); // [s], the least of those predicted on the way
+  double kinetic = 0;                                     // [J], the maximum
+  double limit = std::numeric_limits<double>::infinity(); // [s], the minimum of those predicted along the way
 };
 
 Swing reference(const Scheme& scheme, const Bench& bench) {
@@ -147,7 +146,7 @@ Swing reference(const Scheme& scheme, const Bench& bench) {
   return swing;
 }
 
-// No energy that was not there: to a fifth of what moves.
+// Energy does not increase, to a fifth of the kinetic energy.
 bool keeps_energy(const Bench& bench, double step, double kinetic) {
   const Trial trial = bench.open({{"time.step", fmt::format("{}", step)}}, unguarded());
   const double start = energy(*trial.scene);

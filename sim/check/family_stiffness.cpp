@@ -1,6 +1,6 @@
-// Stiffness of nine decades, under every scheme: a chain of springs and a bar hang by their own weight, come to
-// rest, and are as long as statics says: (m g/k) N²/2, and ρ g L²/(2 E). Both are exact for these models,
-// however coarse.
+// Stiffness over nine decades, with every scheme: a chain of springs and a bar hang by their own weight, come
+// to rest, and have the length given by statics: (m g/k) N²/2, and ρ g L²/(2 E). Both are exact for these
+// models on any mesh.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 
@@ -12,18 +12,19 @@
 namespace rend {
 namespace {
 
-// A move of dt v below half a unit in the last place is lost: what slows down with 1/ω stops 1/(dt ω) units
-// away.
+// A displacement of dt v below half a unit in the last place is lost: a motion that decays with 1/ω stops 1/(dt
+// ω) units away.
 constexpr double g = 9.81, rounded = 2e-15; // [m/s²]; [m]: some units in the last place of 1 m
-constexpr double tolerance = 2e-6;          // [m]: of adaptive schemes, whose parts may err by 1e-6 of the size
+// [m]: for adaptive schemes, whose substeps have a tolerance of 1e-6 of the size
+constexpr double tolerance = 2e-6;
 constexpr int links = 10;
 
-// Masses m of 10 g, the last of half as much; the slowest frequency is 2 √(k/m) sin(π/4N).
+// Masses m of 10 g, the last of half as much; the lowest frequency is 2 √(k/m) sin(π/4N).
 struct Hanging {
   const char* name;
   double extension; // [m]
-  double slowest;   // [1/s]
-  std::string body; // without what damps
+  double slowest;   // [1/s], lowest frequency
+  std::string body; // without its damping
 };
 
 Hanging chain(double k) {

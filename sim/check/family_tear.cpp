@@ -1,5 +1,5 @@
 // Tearing under strain: every criterion with every change that fits, on bodies that are stiff, tiny, huge,
-// pulled fast, scrambled or bent out of their plane.
+// pulled fast, scrambled or bent out of plane.
 #include "sim/check/families.h"
 #include "sim/check/sketch.h"
 #include "sim/check/watch.h"
@@ -15,11 +15,11 @@ namespace {
 
 constexpr long steps = 400;
 
-// A body of 1 m, a stiffness of 1e4 Pa (or N/m for 1 m), and what is multiplied with them.
+// A body of 1 m, a stiffness of 1e4 Pa (or N/m for 1 m), and factors of these.
 struct Strain {
   std::string name;
   double length = 1, stiffness = 1;
-  double speed = 1;       // of the pull, over that which reaches a strain of 1 in the time of the run
+  double speed = 1;       // of the pull, relative to the speed that reaches a strain of 1 by the end of the run
   bool scrambled = false; // every vertex moved by up to half a cell
   bool out_of_plane = false;
 };
@@ -36,7 +36,7 @@ const std::vector<Strain>& strains() {
 }
 
 struct ForceLaw {
-  std::string criterion, kind, change; // change empty: the cell's own
+  std::string criterion, kind, change; // change: empty: the default of the cell
   double threshold;                    // in units of E (stress), E L² (force), 1 (strain)
 };
 
@@ -74,7 +74,7 @@ const std::vector<Pulled>& bodies() {
   return all;
 }
 
-// Time is measured by that which sound takes along 1 m: T = L √(ρ/E), ρ = 1000 kg/m³.
+// The unit of time is that of a sound wave along 1 m: T = L √(ρ/E), ρ = 1000 kg/m³.
 std::string preset_of(const Pulled& body, const ForceLaw& law, const Strain& strain) {
   const double L = strain.length, E = 1e4 * strain.stiffness, T = L * std::sqrt(1000 / E);
   const std::string l = in_short(L);
@@ -109,7 +109,7 @@ std::string preset_of(const Pulled& body, const ForceLaw& law, const Strain& str
   return sketch.text();
 }
 
-// Half a cell, in every direction that is free.
+// By up to half a cell, in every direction that is not constrained.
 void scramble(Body& body, double reach) {
   std::vector<std::uint8_t> held(body.vertices(), 0);
   body.constraints.mark(0, held.data());

@@ -1,10 +1,10 @@
-// A body as it answers to small motions about a state: M x'' = −K x − D x', prescribed coordinates held.
+// A body linearised about a state: M x'' = −K x − D x', with prescribed coordinates fixed.
 //
-// K and D are those of the assembly (−∂f/∂x and −∂f/∂v), with the tangent that has no negative eigenvalue, so
-// that what buckles by itself is not taken for a step that is too large; D holds damping between particles, and
-// the rates of ambient viscosity and Rayleigh's mass part stand beside it. Wind is left out. It is a System: a
-// time scheme steps it like any body, and since it is linear and homogeneous, a step is the product of the
-// scheme's amplification matrix with the state, whatever the scheme.
+// K and D are those of the assembly (−∂f/∂x and −∂f/∂v), with the semi-definite tangent, so that buckling is
+// not mistaken for an unstable step; D contains the damping between particles, and the rates of ambient
+// viscosity and mass-proportional Rayleigh damping are added. Wind is left out. It is a System: time schemes
+// step it like any body, and since it is linear and homogeneous, a step is the product of the scheme's
+// amplification matrix with the state, for every scheme.
 #pragma once
 
 #include "sim/scene/scene.h"
@@ -16,7 +16,7 @@ namespace rend {
 
 class Linearised final : public System {
 public:
-  // About the present state of the body at `time` [s], which must outlive this.
+  // About the current state of the body at `time` [s]. The body must outlive it.
   Linearised(const Body& body, double time);
 
   const BlockMatrix& stiffness() const { return stiffness_; }     // [N/m]
@@ -29,7 +29,7 @@ public:
   void constrain(double time, Record* position, Record* velocity) override;
 
 private:
-  BlockMatrix stiffness_, damping_; // damping_: empty where nothing damps between particles
+  BlockMatrix stiffness_, damping_; // damping_: empty if there is no damping between particles
   std::vector<std::uint8_t> held_;
   mutable Records product_; // scratch
 };

@@ -50,7 +50,7 @@ void as_it_is(const Bench& bench, Finding& finding) {
                         trial->step_size(), trial->scheme().name, trial->tears(), trial->guard().rejected);
 }
 
-// With its automatic step, or the preset's where there is none.
+// With the automatic step of the scheme, or the preset's if it has none.
 void with_scheme(const Scheme& scheme, const Bench& bench, Finding& finding) {
   const Sets sets{{"time.integrator", scheme.name}};
   Trial trial;
@@ -58,7 +58,7 @@ void with_scheme(const Scheme& scheme, const Bench& bench, Finding& finding) {
     Sets automatic = sets;
     if (!scheme.solves && !scheme.adaptive)
       automatic.emplace_back("time.step", "auto");
-    else if (const Trial own = bench.open(); own->automatic_step()) // as many as pictures
+    else if (const Trial own = bench.open(); own->automatic_step()) // one per frame
       automatic.emplace_back("time.step", fmt::format("{}", std::max(own->duration() / 100, own->step_size())));
     trial = bench.open(automatic);
   } catch (const UserError& error) {
@@ -69,7 +69,7 @@ void with_scheme(const Scheme& scheme, const Bench& bench, Finding& finding) {
     return;
   }
   const Course course = run(*trial.scene, steps_of(*trial.scene, few_steps), 100);
-  if (scheme.name == "static" && course.stopped) { // there may be none
+  if (scheme.name == "static" && course.stopped) { // there may be no equilibrium
     finding.verdict = Verdict::Refused;
     finding.what = course.why;
     finding.why = "an equilibrium takes a hold and forces that balance; implicit needs neither";
@@ -81,7 +81,7 @@ void with_scheme(const Scheme& scheme, const Bench& bench, Finding& finding) {
                                               trial->step_size(), trial->guard().rejected);
 }
 
-// Whether the guard has nothing to do over the first part of the clip.
+// Whether the guard redoes no step in the first part of the clip.
 bool runs_by_itself(const Bench& bench, double step, double time) {
   const Trial trial = bench.open({{"time.step", fmt::format("{}", step)}});
   const Course course = run(*trial.scene, std::max(1L, std::lround(time / step)), 1000000);

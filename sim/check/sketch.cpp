@@ -25,7 +25,7 @@ std::string time_of(const std::string& integrator, const std::string& step, doub
 
 std::string Matter::matter(double young, double poisson, const std::string& more) const {
   if (model == "springs") {
-    // about as stiff as a material of 1 m: k = E L
+    // about the stiffness of a material of 1 m: k = E L
     const std::string k = in_short(young);
     if (dimension == 2)
       return fmt::format(

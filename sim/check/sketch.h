@@ -1,4 +1,4 @@
-// Presets of cases, put together as text.
+// Presets of cases, composed as text.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace rend {
 
-// One scene with one body, or with more where `others` says so.
+// A scene with one body, or more with `others`.
 struct Sketch {
   std::string name = "case", body, others; // elements in <body>; whole <body> elements besides it
   std::string gravity = "0 0 0", world;    // elements in <world>
@@ -14,16 +14,17 @@ struct Sketch {
   std::string text() const;
 };
 
-// `explicit`: its name, and `step` [s] as text; "auto" where the scheme has an automatic step.
+// The attributes of <time>: the scheme's name, and `step` [s] as text; "auto" if the scheme has an automatic
+// step.
 std::string time_of(const std::string& integrator, const std::string& step, double duration);
 
-std::string in_short(double value); // as short as it can be read back: "0.1", "1e+12"
-std::string decade(int exponent);   // "1e12", "1e-6"; 1 and 10 as such
+std::string in_short(double value); // the shortest text that parses to it: "0.1", "1e+12"
+std::string decade(int exponent);   // "1e12", "1e-6"; 1 and 10 in full
 
-// What a body is made of, for the families that vary it.
+// The material of a body, for the families that vary it.
 struct Matter {
   std::string name;  // "corotational tetrahedra"
-  std::string shape; // <bar .../>, of 2 × 2 × 2 boxes unless said otherwise
+  std::string shape; // <bar .../>, of 2 × 2 × 2 boxes unless stated otherwise
   std::string model; // "springs", "linear", "corotational", "corotational-qr", "mass-tensor"
   int dimension = 3;
   // <elasticity .../> or <springs>; `more`: further attributes of elasticity, such as damping-mass.
@@ -31,7 +32,7 @@ struct Matter {
   bool small_strain() const { return model == "linear" || model == "mass-tensor"; }
 };
 
-// Every model on every kind of element that it fits, on a bar or sheet of so many cells and such a size.
+// Every model on every kind of element that it supports, on a bar or sheet with so many cells and such a size.
 std::vector<Matter> all_matters(const std::string& bar_cells, const std::string& bar_size,
                                 const std::string& sheet_cells, const std::string& sheet_size);
 

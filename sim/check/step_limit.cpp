@@ -12,10 +12,10 @@ namespace rend {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-12; // of a radius of 1
+constexpr double rounding = 1e-12; // tolerance of a spectral radius of 1
 constexpr int most_products = 60, halvings = 40;
-constexpr double digits = 2e-4; // to which the limit of a whole body is found
-constexpr double fast = 0.5;    // of the fastest mode
+constexpr double digits = 2e-4; // relative accuracy of the limit of a whole body
+constexpr double fast = 0.5;    // relative to the highest mode
 
 class Oscillator final : public System {
 public:
@@ -63,14 +63,14 @@ double step_limit_of_mode(const Scheme& scheme, double omega_squared, double dam
   if (scheme.solves || (omega_squared <= 0 && damping_rate <= 0)) return infinite;
   const double speed = std::sqrt(std::max(omega_squared, 0.0)) + damping_rate, omega = std::sqrt(omega_squared);
   if (damping_rate <= 0 && scheme.limit({omega_squared, 0, 0}) <= 0)
-    return 0; // it grows less than round-off shows
+    return 0; // it grows by less than round-off
   Oscillator system(omega_squared, damping_rate);
   const auto stable = [&](double step) {
     return radius_of_mode(scheme, system, omega > 0 ? omega : 1, step) <= 1 + rounding;
   };
   double low = 1e-6 / speed, high = low;
   if (!stable(low)) return 0;
-  while (stable(high)) { // the first step that is not: some schemes are stable again far out
+  while (stable(high)) { // the first unstable step: some schemes are stable again at much larger ones
     low = high;
     high *= 1.02;
     if (high * speed > 1e6) return infinite;
@@ -84,7 +84,7 @@ double step_limit_of_mode(const Scheme& scheme, double omega_squared, double dam
 
 namespace {
 
-// The amplification matrix in (ω √m x, √m v), applied; both halves one per vertex slot.
+// Applies the amplification matrix in (ω √m x, √m v); both halves have one record per vertex slot.
 class Amplification {
 public:
   Amplification(const Scheme& scheme, Linearised& body, double omega, double step)
@@ -101,7 +101,7 @@ public:
     to_scaled(to_, y);
   }
 
-  // |√m a|²/ω², of the accelerations by stiffness and by damping alone: they may cancel.
+  // |√m a|²/ω², with the accelerations by stiffness and by damping taken separately: they may cancel.
   double acceleration(const State& x) {
     from_scaled(x, from_);
     const Records nothing(root_.size());
@@ -147,7 +147,7 @@ void add(double s, const State& x, State& y) {
   add_scaled(1, s, x.velocity, y.velocity);
 }
 
-// The fastest mode, and a trace of everything.
+// The highest mode, with a small component of everything.
 State start_of(const Linearised& body, const HighestMode& mode) {
   State start;
   start.position = scattered(body.vertices(), body.inverse_mass, body.held(), 3);
@@ -164,8 +164,8 @@ State start_of(const Linearised& body, const HighestMode& mode) {
 
 struct Krylov {
   std::vector<State> basis;
-  Eigen::MatrixXd matrix; // of Hessenberg's form
-  double left = 0;        // how far it is from closed
+  Eigen::MatrixXd matrix; // Hessenberg matrix
+  double left = 0;        // norm of the residual vector
 };
 
 Krylov krylov(Amplification& matrix, State start) {
@@ -188,7 +188,7 @@ Krylov krylov(Amplification& matrix, State start) {
         add(-along, basis[k], next);
       }
     norm = std::sqrt(product(next, next));
-    if (norm <= 1e-13 * before) norm = 0; // the space is closed
+    if (norm <= 1e-13 * before) norm = 0; // the Krylov space is invariant
     h(size + 1, size) = norm;
     basis.push_back(std::move(next));
   }
@@ -206,7 +206,7 @@ State combined(const std::vector<State>& basis, const Eigen::VectorXd& weights) 
   return sum;
 }
 
-// Both parts of a complex motion together.
+// For both parts of a complex eigenvector together.
 bool is_fast(Amplification& matrix, const Krylov& space, const Eigen::VectorXd& real,
              const Eigen::VectorXd& imaginary) {
   double speeds = 0, accelerations = 0; // squared, in units of √m ω x
@@ -244,7 +244,7 @@ StepLimit step_limit(const Scheme& scheme, Linearised& body) {
   if (limit.of_mode == 0 || std::isinf(limit.of_mode)) return limit;
   const auto stable = [&](double step) { return !grows(scheme, body, mode, step); };
   double low = limit.of_mode * (1 - digits), high = limit.of_mode * (1 + digits);
-  if (stable(low) && !stable(high)) return limit; // the fastest mode rules
+  if (stable(low) && !stable(high)) return limit; // the highest mode is decisive
   if (stable(low))
     while (stable(high) && high < 8 * limit.of_mode) low = std::exchange(high, 1.1 * high);
   else

@@ -1,4 +1,4 @@
-// What cases do to a scene and measure on it.
+// Operations and measurements of cases on a scene.
 #pragma once
 
 #include "sim/check/case.h"
@@ -7,30 +7,30 @@
 
 namespace rend {
 
-double energy(const Scene& scene); // kinetic, elastic and of gravity [J]
+double energy(const Scene& scene); // kinetic, elastic and gravitational [J]
 
-// Adds velocities of up to `speed` [m/s] along each axis, of free coordinates.
+// Adds random velocities of up to `speed` [m/s] along each axis, to free coordinates.
 void shake(Body& body, double speed, std::uint64_t seed);
 
-// Takes the motion of the body as a whole, its drift and its turn, out of its velocities.
+// Removes the rigid body motion, translation and rotation, from the velocities of the body.
 void stop_as_a_whole(Body& body);
 
-// Puts every vertex where `place` has it from its rest position [m]; prescribed ones go back at the next step.
+// Puts every vertex where `place` maps its rest position [m]; prescribed ones return at the next step.
 void put(Body& body, const std::function<Vec3(const Vec3& rest, std::size_t slot)>& place);
 
-double size_of(const Body& body);    // the longest side of the box around its rest positions [m]
-double least_side(const Body& body); // the shortest that is not 0 [m]
+double size_of(const Body& body);    // the longest side of the bounding box of its rest positions [m]
+double least_side(const Body& body); // the shortest side that is not 0 [m]
 
-// How far it is from its shape at rest: the root mean square, weighed by mass, of what is left after the rigid
-// motion that brings it closest (Kabsch 1976) [m].
+// The distance from its rest shape: the mass-weighted root mean square of the difference after the best rigid
+// motion (Kabsch 1976) [m].
 double distortion(const Body& body);
 
-// What a run went through.
+// The course of a run.
 struct Course {
-  bool stopped = false; // as unstable; `why` says how
+  bool stopped = false; // as unstable; reason in `why`
   std::string why;
   long steps = 0;
-  double first_energy = 0, least_energy = 0, most_energy = 0; // [J], looked at every `every` steps
+  double first_energy = 0, least_energy = 0, most_energy = 0; // [J], sampled every `every` steps
 };
 Course run(Scene& scene, long steps, long every = 1);
 

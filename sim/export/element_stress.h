@@ -1,4 +1,4 @@
-// The stress of elements as it is exported.
+// The stress of elements for export.
 #pragma once
 
 #include "sim/body/body.h"
@@ -7,8 +7,8 @@
 
 namespace rend {
 
-// σ [Pa] of the elements whose smallest darts these are, one each: the mean over the continua that an element
-// belongs to (usually one); 0 where there is none, and where an element is so flat that it has no stress.
+// σ [Pa] of the elements with these smallest darts: the mean over the continua of an element (usually one); 0
+// if it has none, or if the element is so flat that its stress is undefined.
 std::vector<Eigen::Matrix3d> stress_of_elements(const Body& body, std::span<const Dart> elements);
 
 // √(3/2 s:s), s the deviator of σ (von Mises 1913).

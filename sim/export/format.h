@@ -1,5 +1,5 @@
-// The file formats that states are exported in. Adding one: a file with a function `ExportFormat my_format()`,
-// and its name in all_export_formats().
+// The file formats for states. To add one: a file with a function `ExportFormat my_format()`, and its name in
+// all_export_formats().
 #pragma once
 
 #include "sim/scene/scene.h"
@@ -11,7 +11,7 @@
 
 namespace rend {
 
-// A file that was written: what an index lists.
+// A file that was written, for the index.
 struct ExportedFile {
   double time;      // [s], of the state
   std::string name; // in the folder of the index
@@ -21,16 +21,17 @@ struct ExportedFile {
 class Exporter {
 public:
   virtual ~Exporter() = default;
-  virtual std::string state() const = 0; // the bytes of a file with the present state
-  // The bytes of the file that lists the others; of a format that has one.
+  virtual std::string state() const = 0; // the bytes of a file with the current state
+  // The bytes of the file that lists the others; only for formats that have one.
   virtual std::string index(std::span<const ExportedFile>) const { return {}; }
 };
 
 struct ExportFormat {
   std::string name, what;                 // "vtu", one line
   std::string extension, index_extension; // ".vtu", ".pvd"; empty: no index
-  bool every_frame; // its readers go by numbers: a state that several frames show is written for each of them
-  std::unique_ptr<Exporter> (*make)(const Scene& scene); // of the scene's first state; the scene outlives it
+  bool every_frame; // files are numbered by frame: a state shown in several frames is written for each
+  // called in the scene's first state; the scene outlives the exporter
+  std::unique_ptr<Exporter> (*make)(const Scene& scene);
 };
 
 // ExportFormat::make of an exporter that takes the scene alone.
@@ -42,9 +43,9 @@ const std::vector<ExportFormat>& all_export_formats();
 const ExportFormat* find_export_format(const std::string& name); // null: there is none
 std::vector<std::string> export_format_names();
 
-// A body's name as formats of text take it, in one word: blanks part the names of several groups (.obj), and
-// the end of a line ends a comment (.ply). What is no visible character becomes '_', and so does a backslash,
-// which joins two lines of .obj; UTF-8 stays as it is.
+// A body's name as one word, for text formats: blanks separate the names of several groups (.obj), and the end
+// of a line ends a comment (.ply). Invisible characters become '_', and so does a backslash, which joins two
+// lines of .obj; UTF-8 is kept.
 std::string one_word(const std::string& name);
 
 ExportFormat vtu_format();

@@ -14,14 +14,14 @@
 namespace rend {
 namespace {
 
-// The numbers on points, while they are gathered.
+// The data on points, while they are collected.
 struct OnPoints {
   std::vector<double> rest, velocity, mass;
   std::vector<std::int64_t> vertex, body;
   std::vector<std::uint8_t> prescribed;
 };
 
-// And on cells.
+// The data on cells.
 struct OnCells {
   std::vector<std::int64_t> element, body, fragment;
   std::vector<double> stress, equivalent; // empty: no body has finite elements
@@ -61,14 +61,14 @@ GridCell grid_cell(ElementKind kind) {
   }
 }
 
-// Puts one body behind what the grid has already.
+// Appends one body to the grid.
 class BodyCells {
 public:
   BodyCells(const Body& body, std::int64_t number, const Sides& sides, Grid& grid)
       : body_(body), map_(*body.map), number_(number), sides_(sides), grid_(grid) {}
 
   void add_points(OnPoints& on);
-  // `fragments`: how many there are in the bodies before; grows by those of this one.
+  // `fragments`: the number in the bodies before; increased by those of this body.
   void add_cells(OnCells& on, std::int64_t& fragments);
 
 private:
@@ -85,7 +85,7 @@ private:
   const Sides& sides_;
   Grid& grid_;
   std::vector<std::int64_t> point_; // of each vertex slot
-  std::vector<Dart> elements_;      // the smallest dart of each cell that was added
+  std::vector<Dart> elements_;      // the smallest dart of each appended cell
 };
 
 void BodyCells::add_points(OnPoints& on) {
@@ -109,7 +109,7 @@ void BodyCells::add_points(OnPoints& on) {
 void BodyCells::add_cells(OnCells& on, std::int64_t& fragments) {
   const GMap& map = map_.map();
   const std::vector<std::uint32_t> labels = label_fragments(map);
-  std::vector<bool> seen(map.capacity(), false); // darts of elements that were added
+  std::vector<bool> seen(map.capacity(), false); // darts of appended elements
   std::vector<Dart> darts;
   std::int64_t most = 0;
   map.for_each_dart([&](Dart first) {
@@ -135,7 +135,7 @@ void BodyCells::add_cell(Dart first) {
   const std::vector<Word>& words = shape_of(place->kind).units[place->unit];
   std::array<Dart, most_particles> corner{};
   for (std::size_t n = 0; n < words.size(); ++n) corner[n] = map_.map().follow(first, words[n]);
-  // The first ring is to turn as seen from inside.
+  // The first ring must be counter-clockwise as seen from inside.
   if (winds_outward(map_, corner[0]))
     for (const auto& [a, b] : shape_of(cell_kind(place->kind)).mirror)
       std::swap(corner[static_cast<std::size_t>(a)], corner[static_cast<std::size_t>(b)]);
@@ -156,7 +156,7 @@ void BodyCells::add_polyhedron(Dart first) {
   const std::size_t begin = grid_.corners.size(), count = grid_.faces.size();
   grid_.faces.push_back(0);
   std::vector<Dart> starts{winds_outward(map_, first) ? first : map.alpha(0, first)};
-  IndexSet seen; // darts of faces that were walked
+  IndexSet seen; // darts of visited faces
   for (std::size_t n = 0; n < starts.size(); ++n) {
     if (seen.contains(starts[n].value)) continue;
     const std::size_t sides = grid_.faces.size();
@@ -173,7 +173,7 @@ void BodyCells::add_polyhedron(Dart first) {
     ++grid_.faces[count];
   }
   const auto own = grid_.corners.begin() + static_cast<std::ptrdiff_t>(begin);
-  std::sort(own, grid_.corners.end()); // each corner once
+  std::sort(own, grid_.corners.end()); // then without duplicates
   grid_.corners.erase(std::unique(own, grid_.corners.end()), grid_.corners.end());
   close(GridCell::Polyhedron);
 }

@@ -1,7 +1,7 @@
 // Wavefront's object file (.obj): one object per body, and in a body that may tear one group per fragment.
 // Wavefront, "B1. Object Files", Advanced Visualizer Manual (1992).
 //
-// Numbers are the shortest that read back as the same double. There are no normals: programs reckon their own.
+// Numbers are the shortest that parse to the same double. There are no normals: programs compute their own.
 #include "sim/export/format.h"
 #include "sim/export/skin.h"
 
@@ -43,7 +43,7 @@ private:
     const auto begin = face == 0 ? 0 : static_cast<std::size_t>(skin_.ends[face - 1]);
     out_ += 'f';
     for (std::size_t c = begin; c < static_cast<std::size_t>(skin_.ends[face]); ++c)
-      add(" {}", skin_.corners[c] + 1); // counted from 1
+      add(" {}", skin_.corners[c] + 1); // from 1
     out_ += '\n';
   }
 

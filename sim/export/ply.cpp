@@ -1,13 +1,13 @@
-// Stanford's polygon file (.ply), binary little-endian: one file holds all bodies, told apart by a property.
+// Stanford's polygon file (.ply), binary little-endian: one file holds all bodies, distinguished by a property.
 // Turk, "The PLY Polygon File Format" (1994).
 //
-// Numbers are double, so that what is read is the state to its last bit. Those on points have names that
-// Blender keeps as attributes (vx vy vz, stress); ParaView reads the surface alone, and has .vtu for the rest.
-// There are no normals: a normal per point would round the creases of a solid, and programs that draw reckon
+// Numbers are doubles, so that a reader gets the state to the last bit. Point properties have names that
+// Blender keeps as attributes (vx vy vz, stress); ParaView reads only the surface, and has .vtu for the rest.
+// There are no normals: a normal per point would round the creases of a solid, and programs that draw compute
 // their own.
 //
-// ParaView takes times from a .series file, which lists the others; the rest of the world goes by their
-// numbers.
+// ParaView takes times from a .series file, which lists the others; other programs use the numbers in their
+// names.
 #include "sim/export/format.h"
 #include "sim/export/skin.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file says so");
 
-// One property of all elements of a kind, or several that stand in one array.
+// One property of all elements of a kind, or several stored in one array.
 struct Column {
   const char* type;
   std::vector<const char*> names;
@@ -112,13 +112,13 @@ private:
 
   void add_corners(std::size_t face) {
     const auto count = static_cast<std::uint32_t>(sides(face));
-    append(&count, many_sides_ ? 4 : 1); // of a little-endian number, the first byte is the lowest
+    append(&count, many_sides_ ? 4 : 1); // the first byte of a little-endian number is the lowest
     append(skin_.corners.data() + begin(face), count * sizeof(std::int32_t));
   }
 
   const Skin& skin_;
   std::vector<Column> on_points_, on_faces_;
-  bool many_sides_ = false; // of some face, more than a byte can count
+  bool many_sides_ = false; // whether some face has more sides than a byte can count
   std::string out_;
 };
 

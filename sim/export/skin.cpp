@@ -20,7 +20,7 @@ struct SkinFace {
   bool bare;              // laid bare by fracture
 };
 
-// Puts one body behind what the skin has already.
+// Appends one body to the skin.
 class BodySkin {
 public:
   BodySkin(Body& body, const Sides& sides, Skin& skin)

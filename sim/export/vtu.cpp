@@ -2,13 +2,12 @@
 // Guide, "VTK File Formats"; numbers of cell types and order of corners: vtkCellType.h and the classes of the
 // cells.
 //
-// Arrays hold the numbers as they are in memory, in base64 ("binary": a 64-bit count of bytes in front,
-// little-endian, uncompressed). Appended raw they would take a quarter less, but VTK 9.1 with the expat of
-// Debian 12's updates reads no appended data, not even its own: "not well-formed" at the end that it makes up
-// for the document.
+// Arrays are the bytes in memory, in base64 ("binary": preceded by a 64-bit count of bytes, little-endian,
+// uncompressed). Appended raw data would take a quarter less, but VTK 9.1 with the expat of Debian 12's updates
+// fails to read it, even its own: "not well-formed" at the end of the document that it constructs.
 //
-// VTK counts corners as Gmsh does, but for the wedge: the first triangle of vtkWedge turns as seen from
-// outside, that of all others as seen from inside.
+// VTK numbers corners as Gmsh does, except for the wedge: the first triangle of vtkWedge is counter-clockwise
+// as seen from outside, that of all other cells as seen from inside.
 #include "sim/base/base64.h"
 #include "sim/export/format.h"
 #include "sim/export/grid.h"

@@ -9,16 +9,19 @@
 namespace rend {
 namespace {
 
-constexpr double factor = 4; // of energy
+constexpr double factor = 4; // allowed ratio of energies
 constexpr long period = Rewind::longest;
-constexpr long exact_period = 4096; // steps, after which B comes down
-constexpr long passing_period = 32; // steps, where speeds alone do not say that neighbours are resolved
+constexpr long exact_period = 4096; // steps between reductions of B
+// steps between tests of neighbours, unless speeds alone rule out that they pass each other
+constexpr long passing_period = 32;
 constexpr int most_parts = 1024;
-constexpr double more = 1.25;         // of K, before U is looked at again
-constexpr double least_motion = 1e-6; // rest lengths in a step: less is no explosion
+constexpr double more = 1.25;         // growth of K before U is tested again
+constexpr double least_motion = 1e-6; // rest lengths per step: slower motion is no explosion
 constexpr long longest_hold = 4096;   // steps
-constexpr double same = 0.1;   // of a growth: by how much half a step may change what is no matter of the step
-constexpr double close = 1.25; // of what may be there: what a redo leaves, unless still smaller parts leave it
+// relative change of a growth under half the step, below which it is not caused by the step
+constexpr double same = 0.1;
+// relative to the budget: energy accepted after a repetition, unless still smaller substeps give the same
+constexpr double close = 1.25;
 
 bool is_part_count(int parts) {
   return parts >= 1 && parts <= most_parts && (parts & (parts - 1)) == 0;
@@ -91,7 +94,7 @@ Trouble Guard::settle(long step, Look look) {
   return Trouble::None;
 }
 
-// Round-off moves, too.
+// Includes kinetic energy due to round-off.
 double Guard::allowed(const Rewind::Account& account) const {
   const double slow = std::isfinite(least_rest_) ? least_motion * least_rest_ / step_ : 0;
   return std::max(budget_ + account.given, 0.0) + account.headroom + 0.5 * account.mass * slow * slow;
@@ -113,7 +116,7 @@ Trouble Guard::judge(const Rewind::Account& account, Look look) {
   return Trouble::None;
 }
 
-// Whether speeds alone do not say that neighbours are resolved.
+// Whether neighbours might pass each other, judged by speeds alone.
 bool Guard::may_pass() const {
   double squares = 0;
   for (const auto& body : bodies_) squares = std::max(squares, body->next.motion());
@@ -153,7 +156,7 @@ Trouble Guard::after_step(long done) {
   return trouble;
 }
 
-// The stretch was gone again: whether it holds.
+// The repetition has reached its last step: is it accepted?
 Trouble Guard::end_redo(long done) {
   const Rewind::Account account = rewind_->account();
   const Held now = held(account);
@@ -244,7 +247,8 @@ void Guard::store(Archive& archive, long done) {
   if (archive.reading() && rewind_) check_read(done);
 }
 
-// Between steps nothing is being redone, and nothing is known of steps to come but how long parts stay.
+// Between steps no repetition is in progress, and no step number lies in the future except the end of kept
+// substeps.
 void Guard::check_read(long done) const {
   const auto gone = [&](long step) { return step >= -1 && step <= done; };
   refuse_unless(gone(settled_) && gone(exactly_) && gone(from_) && gone(goal_),

@@ -1,30 +1,31 @@
-// The guard: a step too large for what happens in it is not the end of a run, nor does it spoil what follows.
+// The guard: detects steps that were too large for what happened in them, and redoes them with substeps
+// (rollback).
 //
-// Every `period` steps, and at each change of topology, a stretch begins (rewind.h). In each step the guard
-// looks at S = Σ |v|², which the integration sums up on its way (State::put): it is not finite where a number
-// of the state is not, and only where it exceeds a threshold, some four times what it was lately, energy is
-// looked at. A body may hold
+// Every `period` steps, and at each change of topology, it saves the state: a new stretch begins (rewind.h). In
+// each step it tests S = Σ |v|², which the integration accumulates (State::put): S is not finite if a number of
+// the state is not, and only if S exceeds a threshold, about four times its recent values, the energy is
+// tested. A body may have
 //
-//   K + U ≤ factor · ( B + what came in since the stretch began + headroom )
+//   K + U ≤ factor · ( B + work done on it since the start of the stretch + headroom )
 //
-// where B is what it might hold then: K + U at the start of the run, with all that came in since; from time to
-// time it comes down to twice what there is. K alone is asked first: U takes as long as many steps. So an
+// where B is its budget: K + U at the start of the run plus all work done since; from time to time it is
+// reduced to twice the actual energy. K alone is tested first, since U costs as much as many steps. So an
 // instability is found whether it explodes in three steps or grows over thousands, and B never follows it
 // upwards.
 //
-// Where a look finds trouble, the stretch is gone again in 2, 4 ... 1024 parts a step up to the same step; then
-// the nominal step returns. If that fails again soon, the parts stay for a while, twice as long each time: each
-// failure of the nominal step costs its stretch, and leaves a trace of the motion that would have exploded. A
-// single step that is not finite is redone alone first.
+// If a test fails, the stretch is repeated with 2, 4 ... 1024 substeps per step up to the same step; then the
+// nominal step is used again. If that fails again soon, the substeps are kept for a while, twice as long each
+// time: each failure of the nominal step costs its stretch, and leaves a trace of the motion that would have
+// exploded. A single step that is not finite is first redone alone.
 //
-// A redo holds where energy is close to what may be there, or where half the step leaves the same growth (by a
-// tenth). Growth beyond the bound that smaller parts do not change is no matter of the step: contact that
-// pushes out, a strain that was there; it is accepted, and B follows. Who sets a state between steps is
-// noticed, and not undone. A time scheme that solves, or is adaptive, keeps its energy and parts its steps
-// itself: only whether numbers are finite is looked at there.
+// A repetition is accepted if the energy is close to the budget, or if half the step gives the same growth
+// (within a tenth). Growth beyond the bound that smaller substeps do not change is not caused by the step
+// (contact that pushes out, an initial strain): it is accepted, and B is increased. A state that was set
+// between steps is detected and kept. Implicit and adaptive schemes control their energy and substeps
+// themselves: for them only finiteness is tested.
 //
-// All hangs on numbers of steps and sums in a fixed order: the same on any number of threads, whatever is
-// shown.
+// Everything depends on numbers of steps and on sums in a fixed order: the same for any number of threads,
+// whatever is displayed.
 #pragma once
 
 #include "sim/base/profile.h"
@@ -44,28 +45,30 @@ public:
   std::size_t bytes() const { return rewind_ ? rewind_->bytes() : 0; }
   bool on() const { return rewind_.has_value(); }
 
-  // What a step tells and asks, in this order; `step`: steps done before it.
-  int parts(long step) const;       // it is made in
-  bool asks_for_forces() const;     // of the present state: a stretch begins
-  void before_laws(long step);      // with its forces
-  Trouble before_change(long step); // of topology; may be asked again
+  // The calls of a step, in this order; `step`: steps done before it.
+  int parts(long step) const;       // number of substeps
+  bool asks_for_forces() const;     // whether it needs those of the current state: a stretch begins
+  void before_laws(long step);      // with the forces of that state
+  Trouble before_change(long step); // of topology; may be called more than once
   void after_laws(long step);
   void after_part() {
     if (!rewind_) return;
     const Within within(profile_, Phase::Guard);
     rewind_->keep();
   }
-  Trouble after_step(long done); // steps done with it
+  Trouble after_step(long done); // steps done including this one
 
-  // Where one of them, or the state, was in trouble, with so many steps done: puts the start of the stretch
-  // back, to be gone again to where it was. Returns the steps done there; none: no smaller parts are left, and
-  // all is as it is.
+  // After one of these, or the state itself, reported trouble at `done` steps: restores the start of the
+  // stretch, to be repeated up to the same step. Returns the steps done there; nullopt: no smaller substeps are
+  // left, and nothing changed.
   std::optional<long> again(Trouble trouble, long done);
   bool redoing() const { return redoing_; }
-  long go_back(); // to the start of the stretch, to be gone in nominal steps; returns the steps done there
-  bool has_gone(long done) const { return rewind_ && rewind_->first() < done; } // beyond that start
-  void forget();                                                                // all before the present state
-  // Between steps, so many of which are done; after the bodies.
+  // rollback to the start of the stretch, to continue with nominal steps; returns the steps done there
+  long go_back();
+  // whether steps were made since that start
+  bool has_gone(long done) const { return rewind_ && rewind_->first() < done; }
+  void forget(); // everything before the current state
+  // Between steps, `done` of which were made; after the bodies.
   void store(Archive& archive, long done);
 
 private:
@@ -87,26 +90,26 @@ private:
   void go_on(long done, double budget, Finer finer);
 
   const Rewind::Bodies& bodies_;
-  Profile* profile_;             // null: nobody asks
+  Profile* profile_;             // null: no profile
   double step_;                  // [s]
-  bool energy_ = false;          // is looked at
+  bool energy_ = false;          // whether energy is tested
   std::optional<Rewind> rewind_; // none: off
   GuardFigures figures_;
 
-  double budget_ = -1;                    // [J], B; < 0: not known yet
-  double threshold_ = 0;                  // [m²/s²], of S
+  double budget_ = -1;                    // [J], B; < 0: not computed yet
+  double threshold_ = 0;                  // [m²/s²], threshold of S
   double lately_ = 0;                     // [m²/s²], the largest S of the stretch
   double heaviest_ = 0;                   // [kg], of all vertices
-  double calm_ = 0;                       // [J], K when U was last found in order; 0: it needed no look
-  double least_rest_ = 0;                 // [m], of neighbours
-  bool begins_ = true;                    // a stretch, with the present step
-  long settled_ = -1, exactly_ = 0;       // steps done when B was brought up to date, and with U
-  bool redoing_ = false;                  // the stretch is gone again ...
-  long from_ = 0, goal_ = 0;              // ... in parts between these steps
-  int parts_ = 1;                         // ... so many a step
-  std::optional<double> start_;           // [J], K + U at its start, if that was asked for
-  std::optional<double> growth_;          // [J], of the last try, beyond what came in
-  long hold_until_ = 0, hold_length_ = 0; // the parts stay
+  double calm_ = 0;                       // [J], K when U was last tested and accepted; 0: no test was needed
+  double least_rest_ = 0;                 // [m], the smallest rest length of neighbours
+  bool begins_ = true;                    // whether a stretch begins with the current step
+  long settled_ = -1, exactly_ = 0;       // steps done when B was last updated, and when with U
+  bool redoing_ = false;                  // the stretch is being repeated ...
+  long from_ = 0, goal_ = 0;              // ... from from_ to goal_ ...
+  int parts_ = 1;                         // ... with this number of substeps per step
+  std::optional<double> start_;           // [J], K + U at its start, if computed
+  std::optional<double> growth_;          // [J], energy growth of the last attempt, without the work done
+  long hold_until_ = 0, hold_length_ = 0; // the substeps are kept until this step, for this many steps
   int hold_parts_ = 1;
 };
 

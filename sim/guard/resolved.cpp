@@ -5,7 +5,8 @@
 namespace rend {
 namespace {
 
-// Calls f(a, b, square of their distance at rest) for each pair; where that is not 0. Returns who joins them.
+// Calls f(a, b, squared rest length) for each pair with a rest length above 0. Returns the interaction that
+// connects them.
 template <class F> const Interaction* for_each_pair(const Body& body, F&& f) {
   const Record* rest = body.map->rest().values().data();
   for (const Binder& binder : body.program->rows()) {

@@ -1,9 +1,9 @@
-// Whether a step resolves how neighbours move against each other.
+// Whether a step resolves the relative motion of neighbours.
 //
-// Two that are joined and move against each other by many times their distance at rest within one step have
-// passed through whatever is between them: no force of the step saw it. What explodes passes this bound long
-// before its numbers overflow, and an element that collapses by a speed that its forces could never stop passes
-// it, too. One that was flattened or turned inside out within what forces resolve is left alone: it recovers.
+// Two connected particles that move relative to each other by many times their rest length within one step have
+// passed through everything between them without any force acting. Explosions exceed this bound long before
+// numbers overflow, and so does an element that collapses at a speed that its forces could never stop. An
+// element that is flattened or inverted at resolved speeds is not reported: it recovers.
 #pragma once
 
 #include "sim/body/body.h"
@@ -12,20 +12,20 @@
 
 namespace rend {
 
-constexpr double most_rest_lengths = 64; // of their distance at rest, in a step
+constexpr double most_rest_lengths = 64; // relative motion per step
 
 struct Neighbours {
-  std::string joined; // by what: the name of the interaction
+  std::string joined; // the interaction that connects them
   Slot a = 0, b = 0;
-  double rate = 0; // rest lengths a second
+  double rate = 0; // [1/s], relative speed / rest length
 };
 
-// Those that move fastest against each other, in their rest lengths. The first kind of interaction says who is
-// one.
+// The neighbours with the fastest relative motion in terms of their rest lengths. The first interaction of the
+// body defines neighbours.
 std::optional<Neighbours> fastest_neighbours(const Body& body,
                                              const Record* velocity); // [m/s], one per vertex slot
 
-// The least distance at rest of neighbours [m]; infinite: there are none. A separation leaves it as it is.
+// The smallest rest length of neighbours [m]; infinite: there are none. Separations do not change it.
 double least_rest_length(const Body& body);
 
 } // namespace rend

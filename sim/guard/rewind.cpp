@@ -131,7 +131,7 @@ void Rewind::add(const Body& body, const Start& start, Account& sum) const {
   sum.headroom += 2 * mass * (step_ * world_.gravity).squaredNorm();
 }
 
-// As they were, and as they would be there by now.
+// The loads at the start, and as they would be there at the current time.
 void Rewind::add_loads(Body& body, const Start& start, Account& sum) const {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   const Record* x0 = from(body, start);
@@ -146,7 +146,7 @@ void Rewind::add_loads(Body& body, const Start& start, Account& sum) const {
     sum.given += dead && f == later[i].vec() ? f.dot(dx) : most * dx.norm();
     sum.headroom += 2 * inverse[i] * most * most * step_ * step_;
   }
-  body.outer(body.time(), x, v); // what the present step goes by
+  body.outer(body.time(), x, v); // restores the loads of the current step
 }
 
 void Rewind::add_drives(const Body& body, const Start& start, Account& sum) const {
@@ -195,7 +195,7 @@ void Rewind::store(Archive& archive, long done) {
   if (archive.reading()) check_read(done);
 }
 
-// After each step a start is aside, of the topology that there is. Before the first one there is none.
+// After each step a start with the current topology is put aside. Before the first step there is none.
 void Rewind::check_read(long done) const {
   refuse_unless(aside_ == (done > 0), "a stretch of steps has no start");
   refuse_unless(first_ >= 0 && first_ <= done && done - first_ <= longest,

@@ -1,4 +1,4 @@
-// What can be wrong with a step, and what the guard did about it (guard.h).
+// What can be wrong with a step, and statistics of the guard (guard.h).
 #pragma once
 
 namespace rend {
@@ -8,19 +8,19 @@ class Archive;
 enum class Trouble {
   None,
   NotFinite, // a number of the state
-  Energy,    // there is more than came in
-  Passing,   // neighbours pass each other within a step
+  Energy,    // more energy than the work done allows
+  Passing,   // neighbours pass through each other within a step
 };
 
 struct GuardFigures {
-  long rejected = 0;   // nominal steps that were thrown away
-  long redone = 0;     // parts of steps that were made in their place
-  long looks = 0;      // at elastic energy
-  long accepted = 0;   // growths of energy that no smaller step changes
-  int most_parts = 1;  // of a step
-  double smallest = 0; // [s], of these parts; 0: none
+  long rejected = 0;   // nominal steps that were discarded
+  long redone = 0;     // substeps made instead
+  long looks = 0;      // evaluations of elastic energy
+  long accepted = 0;   // growths of energy that smaller steps do not change
+  int most_parts = 1;  // substeps of a step
+  double smallest = 0; // [s], substep; 0: none
 
-  void store(Archive& archive); // ArchiveError: no guard counts so
+  void store(Archive& archive); // ArchiveError: impossible values
 };
 
 } // namespace rend

@@ -3,8 +3,8 @@
 //   F(x) = f(x, 0) + M g + loads = 0       at the free coordinates; v' = 0, without viscosity
 //
 // 1. Newton's method with the exact tangent, symmetrised: K δ = F − K u, where u are the displacements of the
-//    prescribed coordinates. A linear model is solved by the first iteration: K u = R. Follower loads contribute
-//    to the tangent (load_tangent.h): K − L in place of K; after four iterations also what symmetrising left out.
+//    prescribed coordinates. A linear model is solved by the first iteration: K u = R. Follower loads add to
+//    the tangent (load_tangent.h): K − L in place of K; after four iterations also what symmetrising left out.
 // 2. If that fails, load steps: half of the increment of prescribed coordinates and forces, half of that ...:
 //    F(x) = (1 − s) F(x_start), s from 0 to 1. Without line search: a slender beam must first be stretched by
 //    the bending that a linear step predicts, and recovers from it in the next.

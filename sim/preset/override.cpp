@@ -12,7 +12,7 @@ namespace {
 
 struct Part {
   std::string name;
-  std::optional<std::string> which; // what stands in the brackets
+  std::optional<std::string> which; // the text in the brackets
 };
 
 std::string shown(const RawElement& element) {
@@ -22,7 +22,7 @@ std::string shown(const RawElement& element) {
   return "(no name)";
 }
 
-// One --set on its way down the tree.
+// The path of one --set, followed down the tree.
 class Path {
 public:
   explicit Path(const Override& override)
@@ -36,7 +36,7 @@ public:
     element->set(attribute(*element->type, parts_.back()), value_, place_);
   }
 
-  // As far as the table alone can tell.
+  // Checked against the table only.
   const ElementType& element(const ElementType& root) const {
     const ElementType* element = &root;
     for (std::size_t i = first_below(root); i + 1 < parts_.size(); ++i)
@@ -158,7 +158,7 @@ private:
   }
 
   const std::string& value_;
-  Place place_; // the command line's words
+  Place place_; // the words of the command line
   std::vector<Part> parts_;
 };
 

@@ -1,10 +1,10 @@
-// --set PATH=VALUE: an attribute of a preset, replaced or added before its value is looked at.
+// --set PATH=VALUE: an attribute of a preset, replaced or added before its value is parsed.
 //
-// A path names elements from the root's children down, then an attribute, with dots between: time.step,
-// body.sheet.cells, body[left].tear[2].threshold. In brackets stands the element's `name` or its number,
-// counted from 1 among those of its kind; a number wins over a name of digits. Brackets are needed where there
-// are several. The root's own name may come first (scene.name and name are the same). An element that is absent
-// but may stand once is made.
+// A path consists of element names from the root's children down, then an attribute, separated by dots:
+// time.step, body.sheet.cells, body[left].tear[2].threshold. Brackets contain the element's `name` or its
+// number, counted from 1 among those of its kind; a number takes precedence over a name of digits. Brackets are
+// required if there are several such elements. The root's own name may come first (scene.name and name are the
+// same). An absent element that may occur once is created.
 #pragma once
 
 #include "sim/preset/raw_preset.h"
@@ -23,14 +23,14 @@ struct Override {
 // Splits "PATH=VALUE" at the first '=' outside brackets. Throws UserError (Usage) if there is none.
 Override parse_override(std::string_view text);
 
-// Applies them in their order. Throws UserError (Usage) that names the part of a path that is not there, and
-// what is. A value that does not fit is found later, and its place is "--set PATH=VALUE".
+// Applies them in order. Throws UserError (Usage) naming the part of a path that does not exist, and what does.
+// A value that does not fit is found later, with the place "--set PATH=VALUE".
 void apply_overrides(RawElement& root, std::span<const Override> overrides);
 
-// What the table alone tells, whatever a preset holds. The attribute that one is for; UserError (Usage) where
-// there is none.
+// What follows from the table alone, for every preset: the attribute of an override; UserError (Usage) if it
+// does not exist.
 const AttributeType& overridden(const ElementType& root, const Override& one);
-// That there is one, and that the value fits it: UserError (Usage, BadInput).
+// Checks that it exists, and that the value fits it: UserError (Usage, BadInput).
 void check_override(const ElementType& root, const Override& one);
 
 } // namespace rend

@@ -20,7 +20,7 @@ void check(const PresetNode& mesh) {
 
 } // namespace
 
-// A file that is not there lies where its name says; where links go in circles nothing does.
+// A file that does not exist is located by its name; a cycle of links leads nowhere.
 bool stays_below(const fs::path& folder, const fs::path& name) {
   if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end()) return false;
   const fs::path here = folder.empty() ? fs::path(".") : folder;

@@ -1,5 +1,5 @@
-// What a file that was given may name: files in its own folder or below it, so that one from elsewhere cannot
-// look around.
+// The files that a preset may refer to: those in its own folder or below, so that a preset from elsewhere
+// cannot read other files.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -9,15 +9,15 @@
 
 namespace rend {
 
-// Whether `name`, which a file in `folder` gives, leads there or below, links followed: false for an absolute
-// name, for "..", and for a symbolic link that leads out.
+// Whether `name`, given by a file in `folder`, refers to a file in or below that folder after following links:
+// false for an absolute name, for "..", and for a symbolic link that leads out.
 bool stays_below(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-// UserError, at the attribute, for a <mesh> of a preset whose file does not.
+// UserError, at the attribute, for a <mesh> of a preset whose file is not.
 void check_paths(const PresetNode& scene);
 
-// Whether `path`, links followed, is `folder` or lies below it. A file that is not there lies where its name
-// says.
+// Whether `path`, after following links, is `folder` or is below it. A file that does not exist is located by
+// its name.
 bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 // A file that a preset names, at a place of it: relative to its folder. And that of a <mesh>.

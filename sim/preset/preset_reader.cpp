@@ -25,7 +25,7 @@ std::vector<std::string> files_in(const fs::path& folder) {
   for (fs::directory_iterator it(folder, error), end; !error && it != end && out.size() < most;
        it.increment(error))
     out.push_back(it->path().filename().string());
-  std::sort(out.begin(), out.end()); // the folder's own order is any
+  std::sort(out.begin(), out.end()); // the order of a directory is unspecified
   return out;
 }
 
@@ -83,7 +83,7 @@ std::unique_ptr<PresetNode> checked(const RawElement& raw) {
 
 } // namespace
 
-// The size is not asked for first: a pipe has none.
+// Without asking for the size: a pipe has none.
 std::string read_preset_file(const fs::path& path) {
   const Place place{path.string(), 0, 0};
   std::error_code error;

@@ -43,9 +43,9 @@ namespace {
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::string_view blanks = " \t\r\n";
 
-// Line and column of a byte. Lines end with \n, \r or \r\n. It goes on from the byte asked for last, as bytes
-// are asked for in their order: a preset may be one long line. (A byte before that one is found from the
-// start.)
+// Line and column of a byte. Lines end with \n, \r or \r\n. Each search continues from the last byte, since
+// bytes are mostly asked for in increasing order: a preset may be one long line. (An earlier byte is searched
+// from the start.)
 class Lines {
 public:
   Lines(std::string_view text, std::string file) : text_(text) { place_.file = std::move(file); }
@@ -108,8 +108,8 @@ std::string_view name_at(std::string_view text, std::size_t byte) {
   return text.substr(0, std::min(text.find_first_of(" \t\r\n=/>\"'<&"), text.size()));
 }
 
-// Reads one file. expat is C and may not be thrown through: an error waits in failure_ until expat has
-// returned.
+// Reads one file. Exceptions must not pass through expat, which is C: an error is kept in failure_ until expat
+// has returned.
 class Reader {
 public:
   Reader(std::string_view text, const std::string& file, const ElementType& root)
@@ -169,8 +169,8 @@ private:
     throw UserError(Exit::BadInput, lines_.at(byte), what, hint);
   }
 
-  // expat would read it, whatever encoding it is told, if it begins so; the raw text would not be what we take
-  // it for.
+  // expat detects UTF-16 by its first bytes, whatever encoding it is given; the raw text would then differ from
+  // what expat parses.
   void refuse_utf16() {
     const bool marked = text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF");
     if (marked || text_.substr(0, 2).find('\0') != std::string_view::npos)
@@ -211,8 +211,8 @@ private:
     return out.substr(1, out.size() - 2);
   }
 
-  // expat tells where a tag begins, not where its attributes stand: their places are looked up in the raw tag,
-  // which is known to be well-formed by now and has them in the same order.
+  // expat reports where a tag begins, not where its attributes are: their places are found in the raw tag,
+  // which is well-formed at this point and lists them in the same order.
   void read_attributes(RawElement& element, const char** attributes) {
     std::size_t byte = here() + 1 + element.type->name.size();
     for (; *attributes; attributes += 2) {
@@ -227,7 +227,7 @@ private:
     }
   }
 
-  // Editors find the schema by these two, on the root.
+  // These two attributes of the root tell editors where the schema is.
   static bool names_schema(std::string_view attribute) {
     return attribute == "xmlns:xsi" || attribute == "xsi:noNamespaceSchemaLocation";
   }
@@ -264,7 +264,7 @@ private:
     fail(here(), fmt::format("the encoding {} is not read", in_quotes(name)), "write the preset in UTF-8");
   }
 
-  // What expat refuses, in our words where they help.
+  // Errors of expat, reworded where that helps.
   [[noreturn]] void fail_as_xml() {
     const XML_Error error = XML_GetErrorCode(parser_);
     const std::size_t byte = here();
@@ -289,7 +289,7 @@ private:
     fail(byte, what, "values stand in quotes; in text, < is written &lt; and & is written &amp;");
   }
 
-  // Within an attribute expat tells only where the tag begins.
+  // Within an attribute expat only reports where the tag begins.
   [[noreturn]] void fail_as_entity(std::size_t tag) {
     constexpr std::string_view known[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&apos;", "&#"};
     const auto stands_at = [&](std::size_t byte) {

@@ -1,5 +1,5 @@
-// What a scene is made of: built bodies, what surrounds them, and how time goes. sim/build makes one from a
-// preset; a program may fill one by itself.
+// The definition of a scene: built bodies, their surroundings, and time settings. sim/build makes one from a
+// preset; a program may fill one itself.
 #pragma once
 
 #include "sim/base/settings.h"
@@ -28,9 +28,9 @@ double duration_of(const TimeSettings& time);
 struct SceneDefinition {
   std::string name = "scene";
   World world;
-  std::vector<std::unique_ptr<Body>> bodies; // declared, and not yet prepared; their names differ
+  std::vector<std::unique_ptr<Body>> bodies; // complete but not yet prepared; their names differ
   TimeSettings time;
-  double build_seconds = 0; // wall clock, that building the bodies took
+  double build_seconds = 0; // wall clock, for building the bodies
 };
 
 } // namespace rend

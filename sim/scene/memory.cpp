@@ -3,7 +3,7 @@
 namespace rend {
 namespace {
 
-// What is gathered; leaves out what has no bytes.
+// A list of holdings; skips empty ones.
 class Gathering {
 public:
   void add(const char* part, std::string name, std::string per, std::size_t bytes) {

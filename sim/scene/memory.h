@@ -1,8 +1,8 @@
-// What a scene holds in memory, array by array.
+// The memory of a scene, array by array.
 //
-// Arrays are counted by what was written to them (base/bytes.h); objects of fixed size, names and the preset
-// are not counted: some kilobytes. What comes with the first step is there after it. A test compares the sum
-// with what the heap has grown by.
+// Arrays count with what was written to them (base/bytes.h); objects of fixed size, names and the preset are
+// not counted: some kilobytes. Arrays allocated by the first step are included after it. A test compares the
+// sum with the growth of the heap.
 #pragma once
 
 #include "sim/scene/scene.h"
@@ -14,15 +14,15 @@ namespace rend {
 
 struct Holding {
   std::string part; // one of footprint_parts()
-  std::string name; // of the array, in words
-  std::string per;  // what it has one of ("vertex"); empty: a list of its own length
+  std::string name; // of the array, in plain language
+  std::string per;  // what it has one entry for ("vertex"); empty: a list of its own length
   std::size_t bytes = 0;
 };
 
 // map, slots, embeddings, program, laws, solver, integrator, state, constraints, loads, contact, guard.
 const std::vector<std::string>& footprint_parts();
 
-// Without what has no bytes. Of a body, and of what the bodies of a scene have together.
+// Without empty arrays. Of a body, and of what the bodies of a scene share.
 std::vector<Holding> footprint_of(const Body& body);
 std::vector<Holding> footprint_of(const Scene& scene);
 

@@ -40,8 +40,8 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
 
 Scene::~Scene() = default;
 
-// Contact acts by impulses after the step, which a scheme that solves for the end of the step does not see; nor
-// does an equilibrium tell where what is free goes.
+// Contact acts by impulses after the step, which an implicit scheme does not take into account in its solution;
+// and an equilibrium does not determine the position of free bodies.
 void Scene::check_contact() {
   if (!scheme().solves) return;
   for (const auto& body : bodies_) {
@@ -69,13 +69,13 @@ double Scene::checked_tolerance() const {
   return time_.tolerance;
 }
 
-// The step of an adaptive scheme is what it divides: by itself it takes that of symplectic, so that laws look
-// as often.
+// An adaptive scheme divides the step of the preset: the default is that of symplectic, so that laws are
+// applied as often.
 void Scene::set_step() {
   step_ = automatic_step() ? stable_step() : *time_.step;
   const double duration = duration_;
   if (automatic_step() && duration > 0)
-    step_ = duration / std::ceil(duration / step_); // ends where the clip does
+    step_ = duration / std::ceil(duration / step_); // the last step ends with the clip
   if (const double limit = stability_limit(); !automatic_step() && step_ > limit)
     notes_.push_back(
         fmt::format("the step of {:.3g} s is above {:.3g} s, up to which '{}' is surely stable here", step_,
@@ -124,7 +124,7 @@ double Scene::time() const {
   return static_cast<double>(steps_done_) * step_;
 }
 
-// Times of steps are products of rounded numbers: an answer is due a little before its time.
+// Times of steps are products in floating point: an answer is due slightly before its time.
 void Scene::set_answers() {
   const double slack = 1e-6 * step_;
   for (auto& body : bodies_) {
@@ -171,7 +171,7 @@ SceneSeconds Scene::seconds() const {
           .integrate = of({Integration, Stiffness, Contact, Guard})};
 }
 
-// What was measured in steps that are gone again.
+// Those measured in steps that are being redone.
 void Scene::forget_answers() {
   for (auto& body : bodies_) {
     for (Answer& answer : body->answers) {
@@ -246,7 +246,7 @@ Vec3 Scene::angular_momentum() const {
   return sum;
 }
 
-// A fault on purpose (fault.h) is no part of a run that is gone on with.
+// Fault injection (injected_fault.h) is not part of a checkpoint.
 void Scene::store(Archive& archive) {
   archive.mark("scene");
   double step = step_;
@@ -262,7 +262,7 @@ void Scene::store(Archive& archive) {
   for (Sphere& sphere : world_.spheres) sphere.store(archive);
   if (contacts_) contacts_->store(archive);
   guard_->store(archive, steps_done_);
-  archive.mark("seconds"); // the last, since they differ from run to run
+  archive.mark("seconds"); // last, since they differ from run to run
   archive(build_seconds_, bind_seconds_, *profile_);
   if (archive.reading()) check_read();
 }

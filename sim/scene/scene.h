@@ -1,4 +1,4 @@
-// A scene: bodies, their surroundings, and the time. step() goes from one state to the next.
+// A scene: bodies, their surroundings, and time. step() advances the state.
 #pragma once
 
 #include "sim/contact/contacts.h"
@@ -12,15 +12,15 @@ namespace rend {
 struct SceneOptions {
   bool walk = false; // --kernels walk
   int threads = 1;
-  bool births = false; // events tell how many fragments there are
-  bool guard = true;   // false: what goes wrong is not redone; what is not finite still stops the run
+  bool births = false; // events count fragments
+  bool guard = true;   // false: failed steps are not redone; a state that is not finite still stops the run
   std::optional<Fault> fault = {};
   bool profile = false;        // every step is timed (base/profile.h)
   bool small_in_parts = false; // ProgramOptions
 };
 
-// Wall clock [s]; those of step() by the scene's profile, of which `forces` holds loads, and `integrate` the
-// solver, contact and the guard.
+// Wall clock [s]; those of step() from the scene's profile: `forces` includes loads, `integrate` the solver,
+// contact and the guard.
 struct SceneSeconds {
   double build = 0, bind = 0, forces = 0, criteria = 0, change = 0, rebind = 0, integrate = 0;
 };
@@ -33,7 +33,7 @@ class Guard;
 
 class Scene {
 public:
-  // UserError (BadInput) where its parts do not fit together.
+  // UserError (BadInput) if its parts do not fit together.
   Scene(SceneDefinition definition, const SceneOptions& options);
   ~Scene();
 
@@ -41,34 +41,35 @@ public:
   const World& world() const { return world_; }
   const std::vector<std::unique_ptr<Body>>& bodies() const { return bodies_; }
 
-  const Contacts* contacts() const { return contacts_.get(); } // null: no body meets more than the floor
+  // null: no body has contact with more than the floor
+  const Contacts* contacts() const { return contacts_.get(); }
 
   double time() const; // [s]
   long steps_done() const { return steps_done_; }
   double step_size() const { return step_; } // [s]
   double duration() const { return duration_; }
   const Scheme& scheme() const { return *time_.scheme; }
-  const std::vector<std::string>& notes() const { return notes_; } // besides those of bodies
+  const std::vector<std::string>& notes() const { return notes_; } // without those of bodies
   bool automatic_step() const { return !time_.step; }
 
-  // One step; where that goes wrong the guard has the last ones redone in parts (guard.h). Throws Unstable
-  // (exit 76) where that does not help, with the positions and velocities before the step whole; what tore at
-  // its start stays torn.
+  // One step; if it fails, the guard redoes the last ones with substeps (guard.h). Throws Unstable (exit 76) if
+  // that does not help, with the positions and velocities before the step restored; changes of topology at its
+  // start are kept.
   void step();
 
-  // Without a guard: throws Unstable where the motion of the current state is not resolved by the step. Before
-  // a state is shown.
+  // Without a guard: throws Unstable if the step does not resolve the motion of the current state. Called
+  // before a state is shown.
   void check_sound() const;
   const GuardFigures& guard() const;
   std::size_t guard_bytes() const;
 
-  // The largest step [s] that is surely stable with a scheme here; 0: none, infinity: any.
+  // The largest step [s] for which a scheme is certainly stable here; 0: none, infinity: any.
   double stability_limit(const Scheme& scheme) const;
 
   std::size_t tears() const;
   std::size_t fragments() const; // walks the maps
   long evaluations() const;      // of internal forces, of all bodies, for all steps so far
-  // Of bodies, and of spheres that fall.
+  // Of bodies, and of falling spheres.
   double kinetic_energy() const;
   double elastic_energy() const;
   double gravity_energy() const;
@@ -79,17 +80,17 @@ public:
   SceneSeconds seconds() const;
   Profile& profile() const { return *profile_; }
 
-  // Between steps: all that a later step, event or figure depends on, to a scene of the same preset and options
-  // that has come no further, and back (base/archive.h). It then goes on to the bit. What is read may have been
-  // written by somebody who means harm: it is looked at before it is used, and what no run can come to is
-  // refused. Throws ArchiveError where it is so, or of another scene; this one is spoilt.
+  // Checkpoint, between steps: everything that later steps, events or figures depend on, written, or read into
+  // a scene with the same preset and options that is no further. It then continues identically to the bit. The
+  // bytes may be malicious: they are checked before use, and impossible states are refused. Throws ArchiveError
+  // for those, or for another scene; this one is then unusable.
   void store(Archive& archive);
 
 private:
   void set_step();
   void set_answers();
   void measure_answers();
-  void forget_answers();   // of later than the present time
+  void forget_answers();   // those later than the current time
   void check_read() const; // throws ArchiveError
   void check_contact();
   double stable_step() const;
@@ -118,19 +119,20 @@ private:
   World world_;
   std::unique_ptr<Profile> profile_;
   std::vector<std::unique_ptr<Body>> bodies_;
-  std::unique_ptr<Contacts> contacts_; // null: no body meets more than the floor
+  std::unique_ptr<Contacts> contacts_; // null: no body has contact with more than the floor
   TimeSettings time_;
   double duration_ = 0; // [s]
   Place step_place_;    // in the preset, for messages
   double step_ = 0;     // [s]
   long steps_done_ = 0;
-  double next_answer_ = std::numeric_limits<double>::infinity(); // [s], to be measured
+  double next_answer_ = std::numeric_limits<double>::infinity(); // [s], when the next one is due
   std::vector<std::string> notes_;
   double build_seconds_ = 0, bind_seconds_ = 0;
   std::unique_ptr<Guard> guard_;
-  std::optional<Unsolved> unsolved_; // why the last try of the step failed; none: it did not, or by its numbers
-  long looked_ = -1;                 // steps done when laws last looked
-  std::vector<State> there_;         // scratch, one per body
+  // why the last attempt of the step failed; nullopt: it did not, or it is not finite
+  std::optional<Unsolved> unsolved_;
+  long looked_ = -1;         // steps_done() when the laws were last applied
+  std::vector<State> there_; // scratch, one per body
   std::optional<Fault> fault_;
 };
 

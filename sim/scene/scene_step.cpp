@@ -1,4 +1,4 @@
-// The steps of a scene, and how one ends that goes wrong.
+// The steps of a scene, and the handling of failed ones.
 #include "sim/guard/guard.h"
 #include "sim/scene/scene.h"
 
@@ -15,7 +15,7 @@ bool equal_bytes(const std::vector<Record>& a, const std::vector<Record>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
 }
 
-struct Distrust { // of the state that is about to be torn
+struct Distrust { // thrown if the state about to be torn is not sound
   Trouble trouble;
 };
 
@@ -40,7 +40,7 @@ Trouble Scene::try_step() {
   return trouble;
 }
 
-// In as many substeps as the guard says. In trouble: steps_done() are those that were made.
+// With the number of substeps that the guard asks for. On failure, steps_done() counts the steps completed.
 Trouble Scene::nominal_step() {
   const int substeps = guard_->parts(steps_done_);
   const double step = step_ / substeps;
@@ -62,8 +62,8 @@ Trouble Scene::substep(double time, double step) {
   return Trouble::None;
 }
 
-// Of the present state; where nobody looks at them beforehand, they are left to the integrator, which evaluates
-// them on its way. A step that is timed tells forces and integration apart.
+// Of the current state; if nobody needs them beforehand, the integrator evaluates them. A timed step separates
+// forces from integration.
 void Scene::evaluate_forces() {
   const bool wanted = profile_->timed() || guard_->asks_for_forces();
   for (auto& body : bodies_) {
@@ -74,7 +74,8 @@ void Scene::evaluate_forces() {
   }
 }
 
-// Laws look once at a step, however often it is made. (Of one that tore, the guard goes back no further.)
+// Laws are applied once per step, however often it is redone. (The guard never rolls back beyond a step that
+// tore.)
 Trouble Scene::apply_laws() {
   if (steps_done_ == looked_) return Trouble::None;
   const Within within(profile_.get(), Phase::Criteria);
@@ -99,14 +100,14 @@ Trouble Scene::integrate(double time, double step) {
       body->advance(time, step);
     } catch (const Unsolved& error) {
       if (!guard_->redoing() && (scheme().solves || !guard_->on())) stop(*body, error.what(), error.hint);
-      unsolved_ = error; // a scheme that solves has divided the step as far as it helps
+      unsolved_ = error; // an implicit scheme has already tried substeps
       return Trouble::NotFinite;
     }
   }
   return Trouble::None;
 }
 
-// All bodies are looked at before one of them moves on.
+// All bodies are checked before one of them is committed.
 Trouble Scene::resolve_contacts(double time, double step) {
   act_by_contacts(time, step);
   return finite() ? Trouble::None : Trouble::NotFinite;
@@ -117,7 +118,7 @@ void Scene::act_by_contacts(double time, double step) {
   if (contacts_) contacts_->advance(time, step);
   for (auto& body : bodies_) {
     if (body->faulty.armed(StepStage::Contact)) body->spoil_next();
-    if (body->contact && body->contact->faces()) body->next.look(); // what contact made of it
+    if (body->contact && body->contact->faces()) body->next.look(); // its values after contact
   }
 }
 
@@ -126,7 +127,7 @@ void Scene::commit() {
   for (Sphere& sphere : world_.spheres) sphere.commit();
 }
 
-// The fault's step begins, or is over.
+// Arms or disarms the fault for the current step.
 void Scene::arm_fault() {
   const auto has = [&](const std::unique_ptr<Body>& body) {
     return body->map->map().dart_count() > 0 && (fault_->stage != StepStage::Loads || !body->loads.empty());
@@ -146,8 +147,8 @@ bool Scene::finite() const {
                      [](const Sphere& s) { return s.next_centre.allFinite() && s.next_velocity.allFinite(); });
 }
 
-// Whether the present state is not what steps made of the start of the stretch, since somebody set it in
-// between: then it is kept, and what was before it is forgotten.
+// Whether the current state is not the result of the steps since the start of the stretch, because it was set
+// in between: then it is kept, and the saved start is discarded.
 bool Scene::was_set() {
   const long done = steps_done_;
   const double time = bodies_.front()->time();
@@ -188,7 +189,7 @@ void Scene::go_back(long step) {
   forget_answers();
 }
 
-// Back to the state before the step: that of the start of the stretch, gone again as it was.
+// Restores the state before the step: from the start of the stretch, repeating its steps.
 void Scene::give_up(Trouble trouble, long entry) {
   const Body* body = bodies_.front().get();
   std::string what;
@@ -215,7 +216,7 @@ void Scene::give_up(Trouble trouble, long entry) {
   stop(*body, what);
 }
 
-// By making the step once more, stage by stage.
+// Found by making the step once more, stage by stage.
 std::string Scene::whose_number(const Body*& whose) {
   std::string found;
   const auto look = [&](const Body& body, StepStage stage, const Record* x, const Record* y) {

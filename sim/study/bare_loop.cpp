@@ -4,7 +4,7 @@
 
 namespace rend {
 
-// A body as a scheme sees it.
+// A body for a time scheme.
 struct BareLoop::Bare final : System {
   Body* body;
   std::unique_ptr<Integrator> integrator;

@@ -1,6 +1,5 @@
-// The time loop of a scene that knows nothing but forces, a scheme, and what is fixed: no laws, loads,
-// contacts, probes, answers, samples of the clock, nor looks at how it goes. What the loop of every scene costs
-// above this is what all that is not asked for costs.
+// A minimal time loop: forces, a scheme, and fixed vertices, without laws, loads, contacts, probes, answers,
+// profile or guard. The difference to the loop of a scene is the overhead of unused features.
 #pragma once
 
 #include "sim/scene/scene.h"
@@ -9,7 +8,8 @@ namespace rend {
 
 class BareLoop {
 public:
-  // Goes on from the scene's state, which it changes; the scene makes no step meanwhile. CHECK: bare_enough().
+  // Continues from the scene's state, which it changes; the scene must make no steps meanwhile. CHECK:
+  // more_than_bare() is empty.
   explicit BareLoop(Scene& scene);
   ~BareLoop();
   void step();
@@ -21,7 +21,7 @@ private:
   long steps_ = 0;
 };
 
-// Empty where the scene has nothing that the loop does not know; else what it has.
+// A feature of the scene that this loop does not have; empty: none.
 std::string more_than_bare(const Scene& scene);
 
 } // namespace rend

@@ -1,4 +1,4 @@
-// What the rows of a study say together: marks, fronts, orders, times to reach.
+// The conclusions from the rows of a study: marks, Pareto fronts, orders, times to reach an error.
 #include "sim/study/study.h"
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 namespace rend {
 namespace {
 
-constexpr double trust = 10; // errors above so many error bars of the reference are those of the run
+// an error of at least so many error bars of the reference is attributed to the run
+constexpr double trust = 10;
 
 void mark(StudyReport& report, std::size_t group) {
   StudyReference& reference = report.references[group];

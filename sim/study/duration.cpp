@@ -9,7 +9,7 @@ namespace {
 
 constexpr double usual = 0.2, usual_steps = 64, after_tear = 1.25, reach_for_answers = 10;
 
-// When the preset, as it is, tears first.
+// When the preset, unmodified, first tears.
 std::optional<double> first_tear(Scene& scene, const StudyCalls& calls) {
   try {
     while (scene.time() < scene.duration() && scene.tears() == 0) {
@@ -17,7 +17,7 @@ std::optional<double> first_tear(Scene& scene, const StudyCalls& calls) {
       scene.step();
     }
   } catch (const Unstable&) {
-    return {}; // the reference will say so
+    return {}; // the reference will report the error
   }
   if (scene.tears() == 0) return {};
   return scene.time();

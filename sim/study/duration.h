@@ -1,8 +1,9 @@
-// How much of a clip a study runs: long enough to tell schemes apart, short enough to be run hundreds of times.
+// How much of a clip a study runs: long enough to distinguish schemes, short enough to be run hundreds of
+// times.
 //
-//   nothing tears   0.2 s, or 64 of symplectic's largest steps where that is more
-//   it tears        a quarter more than the preset itself needs to its first tear; without a tear as above
-//   answers         on to the last <answer> that is due within ten times that
+//   without tears   0.2 s, or 64 of symplectic's largest steps if that is more
+//   with tears      1.25 times the time of the preset's first tear; if it does not tear, as above
+//   with answers    extended to the last <answer> that is due within ten times that
 //
 // and never more than the clip.
 #pragma once

@@ -9,7 +9,7 @@
 namespace rend {
 namespace {
 
-using Pairs = std::vector<std::pair<std::size_t, std::size_t>>; // points of the one and of the other
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>; // indices of corresponding points
 
 double extent_of(const std::vector<Vec3>& points) {
   if (points.empty()) return 0;
@@ -21,8 +21,8 @@ double extent_of(const std::vector<Vec3>& points) {
   return (high - low).norm();
 }
 
-// Points whose rest positions agree to a millionth of the size. Where several points rest in one place (two
-// bodies, the corners of a vertex) nothing tells which is which: they are left out.
+// Points whose rest positions agree to a millionth of the size. Points with the same rest position (two bodies,
+// the corners of a vertex) cannot be told apart and are left out.
 Pairs common_points(const Trajectory& a, const Trajectory& b) {
   Pairs pairs;
   if (a.rest == b.rest) {
@@ -33,7 +33,7 @@ Pairs common_points(const Trajectory& a, const Trajectory& b) {
   const double cell = 1e-6 * std::max(extent_of(a.rest), extent_of(b.rest));
   if (cell == 0) return pairs;
   const auto key =
-      [&](const Vec3& x) { // half a cell off, so that round numbers are not at the border of a cell
+      [&](const Vec3& x) { // shifted by half a cell, so that round numbers are not on the border of a cell
         return Key{std::llround(x.x() / cell + 0.3), std::llround(x.y() / cell + 0.3),
                    std::llround(x.z() / cell + 0.3)};
       };
@@ -52,7 +52,7 @@ struct Distance {
   double square = 0, mass = 0, largest = 0;
   void add(const Vec3& difference, double m) {
     const double d = difference.squaredNorm();
-    if (std::isnan(d)) return; // gone in one of them
+    if (std::isnan(d)) return; // deleted in one of them
     square += m * d;
     mass += m;
     largest = std::max(largest, std::sqrt(d));
@@ -60,7 +60,7 @@ struct Distance {
   double mean() const { return mass > 0 ? std::sqrt(square / mass) : 0; }
 };
 
-// Adds one sample to norms whose over_time is a sum of squares until it is finished.
+// Adds one sample to norms whose over_time is a sum of squares until the end.
 void add(const Distance& d, Norms& norms) {
   norms.over_time += d.mean() * d.mean();
   norms.over_time_max = std::max(norms.over_time_max, d.largest);

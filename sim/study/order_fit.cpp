@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-constexpr double least_span = 2; // of steps
+constexpr double least_span = 2; // ratio of the largest to the smallest step
 
 // The probability that |t| of Student's distribution is below `t` (Abramowitz & Stegun 26.7.3 and 26.7.4).
 double within(double t, int freedom) {
@@ -24,8 +24,8 @@ double within(double t, int freedom) {
   return freedom % 2 ? 2 / pi * (theta + sine * sum) : sine * sum;
 }
 
-// The first row of at least three neighbours, from the smallest step up, whose local orders keep within the
-// spread; indices into `points`.
+// The first sequence of at least three neighbours, from the smallest step up, whose local orders differ by at
+// most the spread; indices into `points`.
 std::vector<std::size_t> straight(const std::vector<OrderPoint>& points, const std::vector<std::size_t>& sorted,
                                   double spread) {
   std::vector<double> orders;

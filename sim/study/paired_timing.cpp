@@ -15,7 +15,7 @@ double seconds_a_step(const std::function<void()>& step, long steps) {
   return (thread_seconds() - start) / static_cast<double>(steps);
 }
 
-// How many steps take so long: both are warm after it, and have made as many.
+// The number of steps that take so long; afterwards both are warmed up by the same number of steps.
 long steps_for(const std::function<void()>& off, const std::function<void()>& on, double seconds) {
   long steps = 1;
   for (;; steps *= 2) {
@@ -24,7 +24,7 @@ long steps_for(const std::function<void()>& off, const std::function<void()>& on
   }
 }
 
-// Between order statistics, as summary_of().
+// Interpolated between order statistics, as in summary_of().
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double at = share * static_cast<double>(values.size() - 1);

@@ -1,29 +1,29 @@
-// Two ways of doing the same, timed against each other.
+// Compares the run times of two alternatives.
 //
-// What else a machine does changes within seconds, and would be taken for a difference. So short runs of both
-// are made in turn, now the one first and now the other, and what counts is the ratio of the two of a pair.
-// Where arrays happen to lie in memory makes a difference of one or two per cent, which no number of runs of
-// the same arrays averages out: both are built anew several times. Of each build the median of its pairs
-// counts; of the builds the median again, known to about 1.25 · 0.74 · IQR/√n (its standard error where the
-// ratios are normally spread; Kendall & Stuart). A difference of less than twice that is noise.
+// Other load on a machine changes within seconds, and would be mistaken for a difference. So short runs of both
+// are made alternately, each first in turn, and the ratio of the two runs of a pair is used. The addresses of
+// arrays make a difference of one or two per cent, which no number of runs with the same arrays averages out:
+// both are rebuilt several times. The result is the median over builds of the median over pairs, with a
+// standard error of about 1.25 · 0.74 · IQR/√n (if the ratios are normally distributed; Kendall & Stuart). A
+// difference of less than twice that is noise.
 #pragma once
 
 #include "sim/study/study.h"
 
 namespace rend {
 
-// Of one build. [s] a step, one of each per pair.
+// Of one build: [s] per step, one entry per pair.
 struct TimedPairs {
   std::vector<double> off, on;
-  long steps = 0; // of each run
+  long steps = 0; // per run
 };
 
-// `off` and `on` make one step each. `seconds`: about how long one run takes.
+// `off` and `on` make one step each. `seconds`: approximate duration of one run.
 TimedPairs time_pairs(const std::function<void()>& off, const std::function<void()>& on, int pairs,
                       double seconds);
 
 struct Comparison {
-  RunTime off, on;          // [s], of a step, over all pairs
+  RunTime off, on;          // [s], per step, over all pairs
   double ratio = 1;         // on / off
   double low = 1, high = 1; // quartiles, over all pairs
   double noise = 0;         // two standard errors of the ratio

@@ -1,4 +1,4 @@
-// What is worth its time: the Pareto front of runs, and when a scheme reaches an error.
+// The Pareto front of runs by time and error, and the time in which a scheme reaches an error.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@ struct Work {
   double error = 0;
 };
 
-// Those that no other beats: none is both no slower and no less exact, and better in one. Indices, by
+// The runs that no other dominates: none is at least as fast and as accurate, and better in one. Indices, by
 // increasing time.
 std::vector<std::size_t> pareto_front(const std::vector<Work>& runs);
 
 struct Reach {
   double seconds = 0;
-  bool at_most = false; // already the coarsest run of the scheme is more exact
+  bool at_most = false; // the coarsest run of the scheme is already more accurate
 };
 
-// The time in which a scheme reaches an error, from its runs in the order of decreasing steps: between the last
-// run above it and the first one that meets it by a power law (a straight line in logarithms). None: not
-// reached.
+// The time in which a scheme reaches an error, from its runs in the order of decreasing steps: interpolated by
+// a power law (linear in logarithms) between the last run above it and the first one that reaches it. nullopt:
+// not reached.
 std::optional<Reach> time_to_reach(const std::vector<Work>& runs, double error);
 
 } // namespace rend

@@ -10,8 +10,9 @@
 namespace rend {
 namespace {
 
-constexpr double round_off = 1e-12; // of the motion: what thousands of steps in double precision leave
-constexpr double tightest = 1e-13;  // tolerance
+// relative to the motion: the round-off of thousands of steps in double precision
+constexpr double round_off = 1e-12;
+constexpr double tightest = 1e-13; // tolerance
 
 struct Attempt {
   SampledRun run;
@@ -47,7 +48,7 @@ std::size_t elements_of(const Scene& scene) {
   return count;
 }
 
-// From the first to the last, each four times the one before.
+// From the first to the last, each four times the previous.
 std::vector<long> numbers_of_steps(long first, long last) {
   std::vector<long> all;
   for (long count = first; count < last; count *= 4) all.push_back(count);

@@ -1,9 +1,9 @@
-// What the runs of a study are compared with, and how far it can be trusted.
+// The reference solution of a study, and its error bar.
 //
 // The scene is run by rk4 at an eighth of its largest stable step, at a quarter of that, and so on down to an
-// eighth of the smallest step that it is studied at, until what is left is round-off or no longer gets smaller;
-// and by a second scheme, which shares neither coefficients nor steps with it: rk45 at a tolerance of 1e-13.
-// How far the two are apart is the reference's error bar.
+// eighth of the smallest step studied, until the difference is round-off or no longer decreases; and by a
+// second scheme, which shares neither coefficients nor steps with it: rk45 at a tolerance of 1e-13. The
+// distance of the two is the error bar of the reference.
 #pragma once
 
 #include "sim/study/runs.h"
@@ -15,7 +15,7 @@ struct Reference {
   StudyReference figures;
 };
 
-// Throws UserError (Unstable) where no scheme gets through the stretch.
+// Throws UserError (Unstable) if no scheme completes the duration.
 Reference make_reference(const MakeScene& make, const StudyGroup& group, double duration, int steps,
                          const StudyCalls& calls);
 

@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-constexpr long asked_every = 64; // steps: whether to go on
+constexpr long asked_every = 64; // steps between calls of `going`
 
 void ask(const std::function<bool()>& going, long step) {
   if (going && step % asked_every == 0 && !going()) throw Interrupted{};
@@ -30,7 +30,7 @@ RunCounts counts_of(const Scene& scene) {
   return counts;
 }
 
-// What went wrong, without where in the preset the step stands.
+// The reason of a failure, without its place in the preset.
 std::string short_reason(const std::string& what) {
   const std::size_t at = what.find("the simulation was stopped");
   return at == std::string::npos ? what : what.substr(at);

@@ -1,4 +1,4 @@
-// Single runs of a study: one that is looked at, and others that are only timed.
+// Single runs of a study: one that is sampled, and others that are only timed.
 #pragma once
 
 #include "sim/study/study.h"
@@ -9,20 +9,19 @@ struct SampledRun {
   Outcome outcome = Outcome::Done;
   std::string reason; // of a failure
   long steps_done = 0;
-  double seconds = 0; // of this thread, samples and all
+  double seconds = 0; // of this thread, including sampling
   RunCounts counts;
   Trajectory trajectory; // up to the failure
 };
 
-// `steps` steps, with a sample at the start and each time that one of study_samples equal parts of them is
-// over.
+// Makes `steps` steps, with a sample at the start and after each of study_samples equal parts of them.
 SampledRun sampled_run(Scene& scene, long steps, const std::function<bool()>& going);
 
-// Seconds of the time loop alone. The run is known not to fail.
+// Seconds of the time loop alone, for a run that is known not to fail.
 double timed_run(Scene& scene, long steps, const std::function<bool()>& going);
 
 RunTime summary_of(std::vector<double> seconds); // at least one (CHECK)
 
-double thread_seconds(); // [s], how long this thread has run
+double thread_seconds(); // [s], CPU time of this thread
 
 } // namespace rend

@@ -15,11 +15,11 @@
 namespace rend {
 namespace {
 
-constexpr double hopeless = 1;             // times the motion: no error but a failure
-constexpr double slow = 1, very_slow = 10; // [s] a run: fewer of them are timed
+constexpr double hopeless = 1;             // relative to the motion: such an error counts as a failure
+constexpr double slow = 1, very_slow = 10; // [s] per run: slower ones are timed fewer times
 constexpr int slow_reruns = 3;
 
-// One study while it is made.
+// One study in progress.
 class Maker {
 public:
   Maker(const StudyPlan& plan, const MakeScene& make, const StudyCalls& calls)

@@ -19,7 +19,7 @@ long meeting(double steps) {
   return power;
 }
 
-// `first` steps, and more and more, over so many decades; each number once.
+// `first` steps, and increasing numbers over `over` decades, without duplicates.
 std::vector<long> spread(long first, int count, double over) {
   std::vector<long> all;
   const double last = static_cast<double>(first) * std::pow(10, over);
@@ -28,7 +28,7 @@ std::vector<long> spread(long first, int count, double over) {
     long steps = meeting(static_cast<double>(first) * std::pow(10, over * share));
     if (n + 1 == count)
       while (static_cast<double>(steps) < last * (1 - 1e-12))
-        steps += study_samples; // not short of the decades
+        steps += study_samples; // to cover the decades fully
     if (all.empty() || steps > all.back()) all.push_back(steps);
   }
   return all;
@@ -45,7 +45,7 @@ bool may_tear(const Scene& scene) {
                      [](const auto& body) { return body->tears(); });
 }
 
-// Laws of tearing look at the ends of steps alone: where something may tear they must not be far apart.
+// Fracture laws are applied only at the ends of steps: if something can tear, they must not be far apart.
 std::vector<Knob> of_tolerances(const Scene& scene, const SweepOptions& options) {
   const double duration = options.duration;
   const long steps = may_tear(scene) ? steps_within(duration, natural_step(scene, duration)) : study_samples;

@@ -31,7 +31,7 @@ std::vector<TornSide> torn_sides(const Scene& scene) {
   return all;
 }
 
-// Where no step ended at its time, an answer was measured a part of a step later, which is no error of the
+// If no step ended at its time, an answer was measured a fraction of a step later, which is no error of the
 // scheme.
 std::vector<AnswerError> answer_errors(const Scene& scene) {
   std::vector<AnswerError> all;
