@@ -6,7 +6,7 @@
 //
 //   ok        all measures are within their bounds
 //   refused   as expected: the preset is not accepted, and the message has a place and a hint
-//   limit     a known limitation of the model, documented; its measures (it stays finite, say) are within bounds
+//   limit     a known limitation of the model, documented; its measures (it stays finite, say) are in bounds
 //   failed    a measure is out of bounds, or an unexpected exception was thrown
 //
 // States that no preset can express (scrambled vertices) are set on the scene by the function, as stated in
