@@ -37,7 +37,7 @@ public:
           const std::vector<std::uint8_t>& held, const Scales& scales);
 
   // Until the next at(): includes the internal forces; `matrix` is their tangent by position plus shift M
-  // [1/s²] (and must outlive the use). Only with by_velocity 0 and share 1.
+  // [1/s²] (and must outlive the use). For static solves, with the default Scales.
   void with_forces(const BlockMatrix& matrix, double shift = 0);
 
   // L δ, 0 at constrained coordinates; false: it is 0, and not written.
