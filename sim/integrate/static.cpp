@@ -15,17 +15,15 @@
 //    replaces K⁺, with a σ of its own that makes it positive definite. First under the loads alone, then in
 //    load steps of the prescribed displacements, finally under everything at once.
 //
-// Converged when |F| is at most 1e-9 of the sum of its terms, or round-off. The round-off of F due to rounding
-// positions is included where F is evaluated; far from the origin it could exceed all forces, and any state
-// would be accepted: so it is limited to 1e-6 of the forces, or to its value within the range of positions of
-// the step under the initial stiffness (a body without forces has no other scale). For Newton's method the
-// tangent must also be positive definite there, or, if it is not symmetric, have no negative eigenvalue
-// (least_resistance.h): unstable equilibria (a straight strut beyond its buckling load) are not accepted. (Not
-// tested with follower loads, as for a strip bent to a circle by a moment.) Relaxation decreases the potential,
-// and stays at a saddle point only if symmetry prevents it from leaving. A component with a free translation is
-// refused, and so is one with a free rotation in a linear model, where f is not rotation invariant: no rotation
-// ever meets a resistance. Once an equilibrium has been found, components that come off are no error: they take
-// their rest shape in place, without loads.
+// Converged when |F| is at most 1e-9 of the sum of its terms, or round-off of positions in F. Far from the
+// origin that could exceed all forces: it is limited to 1e-6 of them, or to its value within the range of
+// positions of the step under the initial stiffness (a body without forces has no other scale). Newton's method
+// must also find the tangent positive definite, or, if it is not symmetric, without negative eigenvalue
+// (least_resistance.h): a straight strut beyond its buckling load is not accepted. (Not tested with follower
+// loads, as for a strip bent to a circle by a moment.) Relaxation decreases the potential, and stays at a
+// saddle point only by symmetry. A component with a free translation is refused, and so is one with a free
+// rotation in a linear model, whose f is not rotation invariant. Once an equilibrium has been found, components
+// that come off are no error: they take their rest shape in place, without loads.
 #include "sim/integrate/footing.h"
 #include "sim/integrate/least_resistance.h"
 #include "sim/integrate/newton_scheme.h"
