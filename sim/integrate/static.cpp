@@ -244,7 +244,6 @@ Found StaticSolve::newton(double part) {
     if (whole) load_tangent_.with_forces(matrix_);
     if (!load_tangent_.solve(linear_, right_, update_, digits(n, before[0])))
       return n == 0 ? Found::Singular : Found::Nothing;
-    // nearly singular
     if (n == 0 && largest_coordinate(update_) > most_reach * size_ * part) return Found::Singular;
     for (std::size_t i = 0; i < trial_.size(); ++i)
       store(trial_[i], load(trial_[i]) + load(update_[i]) + load(lead_[i]));
