@@ -70,8 +70,8 @@ void refuse_unless_finite(std::span<const Record> records);
 class Archive {
 public:
   using Sink = std::function<void(std::span<const std::uint8_t>)>;
-  using Source =
-      std::function<std::span<const std::uint8_t>()>; // returns the next piece, valid until the next call
+  // returns the next piece, valid until the next call
+  using Source = std::function<std::span<const std::uint8_t>()>;
   static constexpr std::size_t piece = std::size_t{1} << 20U; // [bytes]
 
   Archive() = default; // writes into bytes()

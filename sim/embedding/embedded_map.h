@@ -44,8 +44,8 @@ using VertexColumn = Column<VertexRecord>;
 struct Changes {
   std::array<std::vector<Dart>, 4> touched;         // [i]: darts whose αi changed
   std::array<std::vector<Dart>, orbit_kinds> moved; // [orbit]: darts with another slot
-  std::array<std::vector<Slot>, orbit_kinds>
-      slots; // [orbit]: slots of touched orbits, freed slots, and slots whose value was initialised again
+  // [orbit]: slots of touched orbits, freed slots, and slots whose value was initialised again
+  std::array<std::vector<Slot>, orbit_kinds> slots;
   bool any = false;
   bool whole = false; // the map was replaced: everything may differ, and the lists are empty
   void clear();

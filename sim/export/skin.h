@@ -32,8 +32,8 @@ struct Skin {
 
   std::vector<double> points;   // [m], x y z of each
   std::vector<double> velocity; // [m/s], x y z of each
-  std::vector<double>
-      largest_stress; // [Pa], one per point: what look by="stress" shows; empty: no body has elements
+  // [Pa], one per point: what look by="stress" shows; empty: no body has elements
+  std::vector<double> largest_stress;
   std::vector<std::int32_t> vertex;        // one per point: its slot in the body
   std::vector<std::int32_t> body_of_point; // from 0
 
@@ -42,10 +42,10 @@ struct Skin {
   std::vector<std::int32_t> body_of_face;
   std::vector<std::int32_t> fragment; // one per face, numbered over all bodies by their smallest darts
   std::vector<std::uint32_t> element; // one per face: the smallest dart of its cell
-  std::vector<std::uint8_t>
-      bare; // one per face, 1: exposed by fracture; empty: no body can tear, or none is a solid
-  std::vector<double>
-      equivalent; // [Pa], one per face: von Mises stress of its cell; empty: no body has elements
+  // one per face, 1: exposed by fracture; empty: no body can tear, or none is a solid
+  std::vector<std::uint8_t> bare;
+  // [Pa], one per face: von Mises stress of its cell; empty: no body has elements
+  std::vector<double> equivalent;
 };
 
 // Makes skins of a scene's states, starting with the first, which determines which arrays are empty.

@@ -145,9 +145,8 @@ bool ImplicitEuler::search(const Step& step, Residual& residual) {
     trial_ = velocity_;
     add_scaled(1, share, update_, trial_);
     residual = evaluate(step, trial_);
-    const bool falls =
-        // the integral of R·δ by the trapezoidal rule
-        residual.finite() && slope + dot(1, momentum_, update_) > 0.1 * slope;
+    // the integral of R·δ by the trapezoidal rule
+    const bool falls = residual.finite() && slope + dot(1, momentum_, update_) > 0.1 * slope;
     if (residual.finite() && (residual.norm < start.norm || falls)) {
       velocity_.swap(trial_);
       before_.swap(momentum_);

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::size_t most_directions = 30;
 constexpr double most_wanted = 1e-4; // relative to |r|
-constexpr double small_motion =
-    1.0e-5; // relative to the size of the body: balances rounding and truncation errors
+// relative to the size of the body: balances rounding and truncation errors
+constexpr double small_motion = 1.0e-5;
 
 void scale(double s, Records& x) {
   for (Record& r : x) store(r, splat(s) * load(r));

@@ -38,8 +38,8 @@ struct ElementShape {
   int dimension;            // 2: sheet
   int corners;
   int darts; // of the whole element
-  std::vector<std::vector<Word>>
-      units; // words to the corners, one list for each non-equivalent position of the first dart
+  // words to the corners, one list for each non-equivalent position of the first dart
+  std::vector<std::vector<Word>> units;
   std::vector<ReferencePoint> points; // 2 × 2 × 2 points: ξ varies fastest
   int values() const { return static_cast<int>(points.size()) * (dimension * dimension + 1); }
 };

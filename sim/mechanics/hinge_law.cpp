@@ -41,9 +41,8 @@ HingePoints hinge_gradient(const HingePoints& x) {
     const Vec3 across = u.cross(arm); // its length is the distance of P from the hinge line
     const double d2 = across.squaredNorm();
     if (!(d2 > 0)) return none;
-    const Vec3 turn =
-        // θ decreases as side one rotates about u, and increases as side two does
-        (side == 0 ? -1.0 : 1.0) * across / d2;
+    // θ decreases as side one rotates about u, and increases as side two does
+    const Vec3 turn = (side == 0 ? -1.0 : 1.0) * across / d2;
     const double t = arm.dot(u) / length;
     gradient[side + 2] = gradient[side + 3] = 0.5 * turn;
     gradient[side] = -(1 - t) * turn;

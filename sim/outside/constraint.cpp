@@ -126,8 +126,8 @@ Vec3 Motion::offset(const Vec3& rest, double time) const {
 }
 
 bool Motion::moves(double time) const {
-  const bool over =
-      then_free ? time > until : time >= until; // a vertex released at `until` leaves with the drive's velocity
+  // a vertex released at `until` leaves with the drive's velocity
+  const bool over = then_free ? time > until : time >= until;
   return time >= from && !over;
 }
 

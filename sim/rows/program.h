@@ -106,8 +106,8 @@ private:
   std::vector<const Kernel*> kernels_;                        // one per interaction
   std::unique_ptr<RowTimes> folded_times_, elementary_times_; // null: not measured
   std::vector<double> inverse_mass_;                          // [1/kg], one per vertex slot
-  std::vector<Slot>
-      corner_vertex_; // vertex of every element corner slot; no_slot: free; empty without elementary rows
+  // vertex of every element corner slot; no_slot: free; empty without elementary rows
+  std::vector<Slot> corner_vertex_;
   std::vector<double> drag_rate_; // γ/m [1/s], one per vertex slot; empty without drag
   struct Tile {
     std::uint32_t reached; // no row up to this tile adds to this vertex slot or a later one

@@ -77,8 +77,8 @@ struct StudyRow {
 
   std::optional<StateErrors> errors; // absolute; nullopt for a failed run
   double error = 0;                  // of position, over time, relative to Scales: the value plotted
-  std::optional<double>
-      total_error; // the same against the first group's reference, if there are several groups
+  // the same against the first group's reference, if there are several groups
+  std::optional<double> total_error;
   double velocity_error = 0, energy_error = 0; // relative, too
   bool doubtful = false;                       // less than ten times the reference's error bar
   bool on_front = false;                       // on the Pareto front of its group
