@@ -17,21 +17,21 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
-// Of one version of the groups.
+// The file names of one cgroup version.
 struct Files {
   const char *limit, *usage, *inactive;
 };
 constexpr Files version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
 constexpr Files version_2{"memory.max", "memory.current", "inactive_file"};
 
-std::optional<std::size_t> number_in(const fs::path& path) { // "max" is none
+std::optional<std::size_t> number_in(const fs::path& path) { // none for "max" (no limit)
   std::ifstream file(path);
   std::size_t number = 0;
   if (file >> number) return number;
   return {};
 }
 
-// Of lines such as "inactive_file 4096" and "MemAvailable:  4096 kB".
+// Reads a line such as "inactive_file 4096" or "MemAvailable:  4096 kB".
 std::optional<std::size_t> number_called(const std::string& wanted, const fs::path& path) {
   std::ifstream file(path);
   std::string name;
@@ -49,7 +49,7 @@ std::size_t room_in(const fs::path& group, const Files& files) {
 }
 
 struct Mount {
-  std::string root, point; // the group that is seen at a folder
+  std::string root, point; // the cgroup that is mounted, and where
   bool is_2 = false;
 };
 
@@ -72,14 +72,14 @@ std::vector<Mount> mounts_of(const fs::path& root) {
   return all;
 }
 
-// The group as the mount shows it. Where it lies outside of what is mounted, as in a container that sees its
-// own group as the uppermost, that one is.
+// The folder of the cgroup below its mount point. A container sees its own cgroup as the root: a cgroup outside
+// of what is mounted is taken as the mount point itself.
 fs::path seen_in(const Mount& mount, const std::string& group) {
   const fs::path below = fs::path(group).lexically_relative(mount.root);
   return below.empty() || *below.begin() == ".." ? fs::path() : below;
 }
 
-// Of the group and its parents, as far as they are mounted.
+// The least that the cgroup and its mounted parents leave.
 std::size_t room_below(const fs::path& root, const Mount& mount, const std::string& group) {
   const Files& files = mount.is_2 ? version_2 : version_1;
   const fs::path point = root / fs::path(mount.point).relative_path();

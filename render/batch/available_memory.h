@@ -1,11 +1,12 @@
-// How much memory a program may still take: what the machine has left, and what the control groups leave that
-// it runs in, by which Slurm (--mem), containers and systemd bound it; each group's limit holds for those
-// below, too.
+// How much memory a program may still take, given what the machine has left and the limits of the control
+// groups (cgroups) that it runs in: Slurm (--mem), containers and systemd set them. A cgroup's limit also binds
+// the cgroups below it.
 //
-//   the least of MemAvailable and, over the group and its parents, limit - (usage - inactive file pages)
+//   min of MemAvailable and, over the cgroup and its parents, limit - (usage - inactive file pages)
 //
-// Inactive file pages count as usage, and go where memory is wanted. Limit and usage are memory.max and
-// memory.current of version 2 of the groups, memory.limit_in_bytes and memory.usage_in_bytes of version 1.
+// Inactive file pages count as usage, but the kernel reclaims them when memory is needed. Limit and usage are
+// memory.max and memory.current in cgroup version 2, memory.limit_in_bytes and memory.usage_in_bytes in version
+// 1.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@
 
 namespace rend {
 
-// [bytes]. `root` is the folder that /proc and the mounted groups are looked for in. A machine that tells
-// nothing: 1 GiB.
+// [bytes]. `root` is the folder below which /proc and the mounted cgroups are looked for. 1 GiB where the
+// machine gives no figure.
 std::size_t available_memory(const std::filesystem::path& root = "/");
 
 } // namespace rend

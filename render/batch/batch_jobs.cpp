@@ -25,7 +25,7 @@ std::vector<Input> presets_in(const fs::path& folder) {
   std::vector<Input> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file() || entry.path().extension() != ".xml") continue;
-    // By its name in the folder: what a link leads to may lie anywhere.
+    // Kept under its name in the folder: the target of a symbolic link may lie anywhere.
     all.push_back(
         {entry.path().string(), entry.path().lexically_relative(folder).replace_extension().string()});
   }
@@ -53,14 +53,15 @@ std::vector<Input> presets_of(const std::vector<std::string>& inputs) {
   return all;
 }
 
-// Distinct where texts are.
+// Different texts give different hashes.
 std::string short_hash(const std::string& text) {
   return fmt::format("{:08x}", hash_bytes(text.data(), text.size()) & 0xffffffffU);
 }
 
-// Of "body[left].tear.threshold=3 4" "body[left].tear.threshold=3,4". The path as a whole: its last word is
-// that of other attributes, too, and with fewer words a name would depend on what else is swept. No value holds
-// a comma, so that one can stand for a blank; where anything else is replaced a hash keeps names distinct.
+// Makes "body[left].tear.threshold=3 4" of "body[left].tear.threshold=3,4". The whole path is kept: its last
+// word is also that of other attributes, and a shorter path would make the name depend on what else is swept.
+// No value contains a comma, so a comma can stand for a blank; where other characters are replaced, a hash
+// keeps names distinct.
 std::string words_of(const std::string& set) {
   std::string words = set;
   bool replaced = false;
@@ -73,9 +74,9 @@ std::string words_of(const std::string& set) {
   return replaced ? words + "-" + short_hash(set) : words;
 }
 
-constexpr std::size_t longest = 160; // [bytes], of a folder's name: systems take 255
+constexpr std::size_t longest = 160; // [bytes], of a folder's name: file systems allow 255
 
-// Not within a character of UTF-8.
+// Never cuts within a UTF-8 character.
 std::string cut(const std::string& name) {
   if (name.size() <= longest) return name;
   std::size_t end = longest - 9;
@@ -83,7 +84,7 @@ std::string cut(const std::string& name) {
   return name.substr(0, end) + "-" + short_hash(name);
 }
 
-// Below the batch's folder, and not in the place of its page: index.html, index.2-of-7.html.
+// A folder below the batch's, whose name is not that of its page: index.html, index.2-of-7.html.
 std::string folder_of(const std::string& name) {
   fs::path folder;
   for (const fs::path& part : fs::path(name)) {
@@ -96,7 +97,7 @@ std::string folder_of(const std::string& name) {
   return folder.string();
 }
 
-// Every choice of one value of each sweep.
+// The Cartesian product: every choice of one value of each sweep.
 std::vector<std::vector<std::string>> crossed(const std::vector<Sweep>& sweeps) {
   std::vector<std::vector<std::string>> all{{}};
   for (const Sweep& sweep : sweeps) {

@@ -13,8 +13,8 @@ namespace rend {
 namespace {
 
 constexpr std::size_t unknown = std::size_t{200}
-                                << 20U; // [bytes], of the first jobs: more than small presets take
-constexpr std::chrono::milliseconds pause_between(10); // looks
+                                << 20U; // [bytes], expected of the first jobs: more than small presets take
+constexpr std::chrono::milliseconds pause_between(10); // between two polls
 
 } // namespace
 
@@ -48,7 +48,8 @@ bool BatchQueue::room_for_next() const {
 void BatchQueue::begin_next() {
   const std::size_t job = waiting_.front();
   waiting_.pop_front();
-  // llvmpipe draws the same with any number of threads; more than one each would only be in each other's way.
+  // llvmpipe draws the same with any number of threads; with several jobs, more than one thread each would only
+  // compete for the processors.
   std::vector<std::pair<std::string, std::string>> variables;
   if (limits_.jobs > 1) variables.emplace_back("LP_NUM_THREADS", "1");
   try {
@@ -69,9 +70,9 @@ void BatchQueue::finish(Running& one) {
   peaks_[preset] = std::max(peaks_[preset], result.peak);
   const bool stopped = is_of_a_signal(one.child.code());
   ++result.tries;
-  // To go on when there is room: from its checkpoint, if it wrote one. It did where it told its figures, and
-  // did not where it was still building its scene; a checkpoint that is there all the same is of an earlier
-  // batch.
+  // A job that was stopped to free memory resumes once there is room, from its checkpoint if it wrote one. It
+  // did if it printed its figures; it did not if it was still building its scene (a checkpoint found then is of
+  // an earlier batch).
   if (stopped && one.stopped && stop_signal() == 0) {
     again_[one.job] = again_[one.job] || !one.child.out().empty();
     waiting_.push_back(one.job);
@@ -94,7 +95,7 @@ void BatchQueue::collect() {
   }
 }
 
-// The last that was begun makes room, unless one does so already.
+// Stops the job that was started last, unless one is being stopped already.
 void BatchQueue::watch_memory() {
   std::size_t sum = 0;
   for (const Running& one : running_) sum += one.child.resident();

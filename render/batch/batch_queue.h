@@ -1,10 +1,10 @@
-// Jobs of a batch in parallel, as many as there is room for.
+// Runs the jobs of a batch in parallel, as many as memory allows.
 //
-// What a job takes is not known before it ran: what another job of the same preset took is expected of it, else
-// the mean of all so far. One more is begun where what runs and what is expected of it fit into the budget; one
-// always runs. Where what runs outgrows the budget nevertheless, the job begun last is stopped with a
-// checkpoint (SIGTERM), and goes on from there when there is room. Where the system starts no more programs as
-// many run as do then.
+// The memory that a job takes is not known before it has run. The estimate is what another job of the same
+// preset took, else the mean of all jobs so far. A job is started when the running jobs and its own estimate
+// fit into the budget; one job always runs. If the running jobs outgrow the budget nevertheless, the one that
+// was started last is stopped with a checkpoint (SIGTERM), and resumes from there when there is room. If the
+// system refuses to start another process, the number of jobs that run by then becomes the limit.
 #pragma once
 
 #include "render/batch/batch_jobs.h"
@@ -21,31 +21,31 @@ namespace rend {
 
 struct BatchLimits {
   int jobs = 1;           // at once
-  std::size_t memory = 0; // [bytes], of all together
+  std::size_t memory = 0; // [bytes], for all jobs together
 };
 
 class BatchQueue {
 public:
-  // `command`: the arguments of a job's program; `again`: it was stopped for want of room, and left a
-  // checkpoint.
+  // `command`: the arguments of a job's process; `again`: it was stopped to free memory and left a checkpoint.
   using CommandOf = std::function<std::vector<std::string>(const BatchJob& job, bool again)>;
   using Done = std::function<void(std::size_t job, const BatchResult& result)>;
   BatchQueue(const std::vector<BatchJob>& jobs, const BatchLimits& limits, CommandOf command, Done done);
 
-  // Until all ran, or a signal came: then those that run are stopped, and waited for.
+  // Until all jobs have run or a signal came: then running jobs are stopped and waited for.
   std::vector<BatchResult> run();
-  bool has_fewer_jobs() const { return fewer_jobs_; } // at once than it was to have: the system starts no more
+  // the system refused to start as many processes as were asked for
+  bool has_fewer_jobs() const { return fewer_jobs_; }
 
 private:
   struct Running {
     std::size_t job;
     Child child;
     double since;         // [s]
-    std::size_t most = 0; // [bytes], seen so far
-    bool stopped = false; // to make room
+    std::size_t most = 0; // [bytes], the largest resident size seen so far
+    bool stopped = false; // to free memory
   };
   std::size_t expected(const std::string& preset) const;
-  std::size_t taken() const; // by what runs, now or later
+  std::size_t taken() const; // [bytes] by running jobs, now or as estimated
   bool room_for_next() const;
   void begin_next();
   void collect();
@@ -58,11 +58,11 @@ private:
   CommandOf command_;
   Done done_;
   std::deque<std::size_t> waiting_;
-  std::list<Running> running_; // in the order in which they were begun
+  std::list<Running> running_; // in the order of their start
   std::vector<BatchResult> results_;
-  std::vector<bool> again_; // of each job
+  std::vector<bool> again_; // one per job: it resumes from a checkpoint
   bool fewer_jobs_ = false;
-  std::map<std::string, std::size_t> peaks_; // [bytes], of a preset
+  std::map<std::string, std::size_t> peaks_; // [bytes], by preset
 };
 
 } // namespace rend

@@ -40,14 +40,14 @@ std::string content_of(int file) {
 
 constexpr const char* itself = "/proc/self/exe";
 
-// In the new process, up to the other program: by its own name, which others see, or where its file has gone
-// since, by the system's. Where neither can be had, 127 as of a shell.
+// In the child process, up to exec(): by the path that other processes see, or through /proc/self/exe if that
+// file has been moved or removed. Where both fail, exit code 127 as in a shell.
 [[noreturn]] void become(const char* program, const std::vector<char*>& words, int parent, int out, int err,
                          const SignalsHeld& held) {
   ::setpgid(0, 0);
   held.let_in();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(127); // it is gone already
+  if (::getppid() != parent) ::_exit(127); // the parent has ended already
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);
   ::execv(program, words.data());

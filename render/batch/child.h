@@ -1,7 +1,8 @@
-// Another rend, that runs beside this one: a failure of it is a failure of it alone.
+// A child process that runs this same program: if it fails, the parent does not.
 //
-// What it says is caught in memory. It has a process group of its own, so that a key of the terminal reaches
-// this program alone, which passes it on; and it is asked to stop where this program is gone.
+// Its stdout and stderr are captured in memory. It has a process group of its own, so that a key pressed on the
+// terminal (Ctrl-C) signals the parent alone, which passes it on; and the kernel sends it a signal to stop if
+// the parent ends.
 #pragma once
 
 #include <cstddef>
@@ -13,27 +14,27 @@ namespace rend {
 
 class Child {
 public:
-  // Runs this very program with these arguments, and with these variables set as well. Throws UserError:
-  // OutOfBudget where the system starts no more programs, CannotCreate.
+  // Runs this program with these arguments, and with these environment variables added. Throws UserError:
+  // OutOfBudget where the system refuses to start another process, CannotCreate.
   Child(const std::vector<std::string>& arguments,
         const std::vector<std::pair<std::string, std::string>>& variables);
-  ~Child(); // ends it, if it runs
+  ~Child(); // kills it if it still runs
   Child(Child&&) noexcept;
   Child& operator=(Child&&) = delete;
 
-  bool running(); // looks, and does not wait
+  bool running(); // polls, without waiting
   void signal(int number) const;
   std::size_t resident() const; // [bytes], now
 
-  // Once it runs no more.
-  int code() const { return code_; }         // exit code; 128 and the signal's number, where one ended it
-  std::size_t peak() const { return peak_; } // [bytes], the most that was resident
+  // Valid once it has ended.
+  int code() const { return code_; }         // exit code; 128 plus the signal's number where a signal ended it
+  std::size_t peak() const { return peak_; } // [bytes], peak resident size
   std::string out() const;                   // what it wrote to stdout
-  std::string err() const;                   // and to stderr
+  std::string err() const;                   // what it wrote to stderr
 
 private:
-  int process_ = -1;        // its id; −1: it runs no more
-  int out_ = -1, err_ = -1; // descriptors of files in memory
+  int process_ = -1;        // process id; −1: it has ended
+  int out_ = -1, err_ = -1; // descriptors of in-memory files
   int code_ = 0;
   std::size_t peak_ = 0;
 };

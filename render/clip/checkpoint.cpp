@@ -32,7 +32,7 @@ constexpr std::string_view first_line = "rend checkpoint 2\n"; // with the forma
 using HeadNumbers = std::array<std::uint64_t, 2>; // key, next frame
 constexpr std::size_t head_size = first_line.size() + sizeof(HeadNumbers);
 
-// Of what came before, and one more piece.
+// Chains the checksum of all pieces so far with one more piece.
 std::uint64_t sum_with(std::uint64_t sum, std::span<const std::uint8_t> piece) {
   return hash_bytes(piece.data(), piece.size(), sum);
 }
@@ -50,10 +50,10 @@ std::uint64_t number_of(const std::string& key) {
   return std::stoull(key, nullptr, 16);
 }
 
-// A file that is read where it is, a piece at a time: another may take its name meanwhile.
+// A file that is read through one descriptor, a piece at a time: another file may take its name meanwhile.
 class Source {
 public:
-  // Does not wait, whatever has that name. It is not open where there is no such file.
+  // Opens without blocking, whatever kind of file it is. Not open where there is no such file.
   explicit Source(const fs::path& path) : path_(path), file_(::open(path.c_str(), flags)) {
     if (file_ < 0 && errno == ENOENT) return;
     const bool link = file_ < 0 && errno == ELOOP;
@@ -71,9 +71,9 @@ public:
   Source& operator=(const Source&) = delete;
 
   bool is_open() const { return file_ >= 0; }
-  std::size_t left() const { return left_; } // [bytes], that its size promised
+  std::size_t left() const { return left_; } // [bytes] not read yet, by the file's size when it was opened
 
-  // The next bytes, at most so many; fewer only at the end. They stay until the next call.
+  // The next bytes, at most `most`; fewer only at the end. Valid until the next call.
   std::span<const std::uint8_t> next(std::size_t most) {
     bytes_.resize(std::min(most, left_));
     std::size_t count = 0;
@@ -81,7 +81,7 @@ public:
       const ssize_t more = ::read(file_, bytes_.data() + count, bytes_.size() - count);
       if (more < 0 && errno == EINTR) continue;
       if (more < 0) fail();
-      if (more == 0) break; // it has become shorter
+      if (more == 0) break; // the file was truncated meanwhile
       count += static_cast<std::size_t>(more);
     }
     left_ -= bytes_.size();
@@ -103,7 +103,7 @@ private:
   std::vector<std::uint8_t> bytes_;
 };
 
-// None: this is no checkpoint that this rend can read.
+// None: not a checkpoint of this format.
 std::optional<CheckpointHead> head_in(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < head_size || !std::equal(first_line.begin(), first_line.end(), bytes.begin())) return {};
   HeadNumbers fields;
@@ -117,18 +117,19 @@ CheckpointHead head_of(const fs::path& path, std::span<const std::uint8_t> bytes
   return *head;
 }
 
-// What stands between the head and the sum, piece after piece, and whether the sum is theirs.
+// Reads what lies between the header and the checksum, piece by piece, and verifies the checksum.
 class StoredState {
 public:
   StoredState(Source& source, std::span<const std::uint8_t> head) : source_(source), sum_(sum_with(0, head)) {}
 
-  std::size_t size() const { return source_.left() - std::min(source_.left(), sizeof sum_); } // [bytes], left
+  // [bytes], not read yet
+  std::size_t size() const { return source_.left() - std::min(source_.left(), sizeof sum_); }
   std::span<const std::uint8_t> next() {
     const std::span<const std::uint8_t> piece = source_.next(std::min(Archive::piece, size()));
     sum_ = sum_with(sum_, piece);
     return piece;
   }
-  // After the last piece.
+  // Valid after the last piece.
   bool sum_is_right() {
     const std::span<const std::uint8_t> there = source_.next(sizeof sum_);
     return there.size() == sizeof sum_ && std::memcmp(there.data(), &sum_, sizeof sum_) == 0;
@@ -166,7 +167,7 @@ void write_checkpoint(const fs::path& path, const std::string& key, long next, S
   const HeadNumbers fields{number_of(key), static_cast<std::uint64_t>(next)};
   std::vector<std::uint8_t> head(first_line.begin(), first_line.end());
   head.insert(head.end(), bytes_of(fields).begin(), bytes_of(fields).end());
-  sync_folder(path.parent_path()); // it says that the frames before it are there
+  sync_folder(path.parent_path()); // the checkpoint claims that the frames before it exist
   OutputFile file(path);
   file.write(head);
   std::array<std::uint64_t, 1> sum{sum_with(0, head)};
@@ -189,8 +190,9 @@ std::optional<CheckpointHead> read_checkpoint_head(const fs::path& path, const s
   return head;
 }
 
-// The sum is known when all was read: what is damaged by accident is mostly found out by what it says, and
-// what is damaged on purpose has a sum that is right.
+// The checksum is known only when everything has been read. Accidental damage is mostly found earlier, by
+// values that are out of range; a forged file can have a checksum that is right, so each value is validated
+// anyway.
 std::optional<CheckpointHead> read_checkpoint(const fs::path& path, const std::string& key, long first,
                                               Session& session, Film& film) {
   Source source(path);
@@ -224,7 +226,7 @@ fs::path checkpoint_path(const fs::path& folder, const std::string& name, const 
 
 namespace {
 
-// Whether a file is called as a checkpoint of some run of that name is.
+// Whether a file's name is that of a checkpoint of a run called `name`, of any shard.
 bool is_checkpoint_of(const std::string& name, const std::string& file) {
   if (file == checkpoint_path({}, name, {})) return true;
   if (!file.starts_with(name + ".")) return false;
@@ -237,7 +239,7 @@ bool is_checkpoint_of(const std::string& name, const std::string& file) {
   return shard.number >= 1 && shard.number <= shard.count && file == checkpoint_path({}, name, shard);
 }
 
-// None: it is no file that a run wrote, or cannot be read.
+// None: not a checkpoint, or not readable.
 std::optional<CheckpointHead> head_of_another(const fs::path& path) try {
   Source source(path);
   return source.is_open() ? head_in(source.next(head_size)) : std::nullopt;

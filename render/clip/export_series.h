@@ -1,8 +1,8 @@
-// The states of a run on their way to files, one a frame, numbered as pictures are.
+// Writes the states of a run to files, one a frame, numbered as pictures are.
 //
-// A state is held back until the simulation has gone on, or has ended well, as pictures are (film.h). A state
-// that several frames show is written once, under the number of the first, unless the format is one whose
-// readers go by the numbers alone. The index comes last, and lists what there is.
+// A state is held back until the simulation has advanced beyond it or has ended normally, as pictures are
+// (film.h). A state that several frames show is written once, under the number of the first, unless the readers
+// of the format go by file numbers alone. The index file is written last, and lists the files that exist.
 #pragma once
 
 #include "render/clip/figures.h"
@@ -20,15 +20,15 @@ namespace rend {
 
 class ExportSeries {
 public:
-  // Before the first step. Throws UserError (CannotCreate) where nothing could be written to the folder.
+  // Before the first step. Throws UserError (CannotCreate) where the folder is not writable.
   ExportSeries(const Session& session, const ExportFormat& format, const std::filesystem::path& folder,
                const FrameChoice& choice);
 
-  void name_files(NamedFiles& files) const; // that it may write
+  void name_files(NamedFiles& files) const; // registers every file that it may write
 
-  void take(long frame); // of the present state
-  void finish();         // the end was reached, or a signal came
-  void abandon();        // the state went wrong: what is held is dropped
+  void take(long frame); // takes the current state
+  void finish();         // at the end, or after a signal: also writes the state that is held back
+  void abandon();        // the state became unstable: what is held back is dropped
 
   ExportFigures figures() const;
 
@@ -45,10 +45,10 @@ private:
   OutputFolder folder_;
   FrameChoice choice_;
   std::unique_ptr<Exporter> exporter_;
-  std::string held_;                     // bytes of a file; empty: none is held
-  std::vector<ExportedFile> held_files_; // what it is going to be: one, or one for each frame that shows it
-  long held_step_ = -1;                  // of the state taken last
-  std::vector<ExportedFile> files_;      // that were written
+  std::string held_;                     // the bytes of the state that is held back; empty: none
+  std::vector<ExportedFile> held_files_; // its file names: one, or one for each frame that shows it
+  long held_step_ = -1;                  // step number of the last state taken
+  std::vector<ExportedFile> files_;      // files written so far
   std::size_t bytes_ = 0;
   double seconds_ = 0;
 };

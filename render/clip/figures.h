@@ -14,7 +14,7 @@
 
 namespace rend {
 
-// What a run cost beyond the time loop.
+// Costs of a run outside the time loop.
 struct Costs {
   double total = 0;         // [s], from reading the preset on
   double surface = 0;       // [s]

@@ -21,7 +21,7 @@ Film::Film(Session& session, const PipelineOptions& options, const FramePlan& pl
 }
 
 Film::~Film() {
-  pipeline_.reset(); // before the folder, which goes if nothing was written to it
+  pipeline_.reset(); // before the folder object, which removes the folder if it is empty
 }
 
 void Film::take(long frame) {

@@ -1,13 +1,13 @@
-// Frames of a run on their way to files.
+// Turns the states of a run into pictures and hands them to the pipeline.
 //
-// A frame is held back until the simulation has gone on to a later frame, or has ended well: a simulation
-// that explodes at once leaves nothing behind, and no picture shows the state that was about to explode.
-// OpenGL is started and the folder made when the first frame is let go; a folder that was made here and stays
-// empty is removed.
+// A frame is held back until the simulation has advanced to a later frame or has ended normally: a simulation
+// that becomes unstable at once leaves nothing behind, and no picture shows the last state before an
+// instability. OpenGL is started and the folder created when the first frame is released; a folder that was
+// created here and stays empty is removed.
 //
-// A run that a signal stops lets go what it holds, and remembers that in its checkpoint: should the simulation
-// explode before the next frame once it goes on, those pictures are removed again, as if it had never been
-// stopped.
+// A run that is stopped by a signal releases the frames that it holds, and records them in its checkpoint: if
+// the simulation becomes unstable before the next frame after resuming, those pictures are removed again, so
+// that the result is that of an uninterrupted run.
 #pragma once
 
 #include "render/clip/frame_plan.h"
@@ -25,25 +25,25 @@ namespace rend {
 
 class Film {
 public:
-  // Throws UserError where the folder could not be made, or the machine could not draw or encode. Tells what
-  // pictures will not show.
+  // Throws UserError where the folder could not be created, or the machine cannot draw or encode. Prints notes
+  // on what the pictures will not show.
   Film(Session& session, const PipelineOptions& options, const FramePlan& plan);
   ~Film();
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
-  void take(long frame); // of the present state
-  // Before take() of a frame: brings all frames before it to the disk. False where one of them shows the
-  // present state, and is held.
+  void take(long frame); // takes the current state
+  // Call before take() of a frame: flushes all earlier frames to the disk. False if one of them shows the
+  // current state and is still held back.
   bool settle();
   const OutputFolder& folder() const { return folder_; }
-  void pause();                 // a signal came: brings all there is to the disk; the folder is there
-  void store(Archive& archive); // what pictures follow; after settle() or pause()
+  void pause();                 // after a signal: flushes all frames, held ones too; creates the folder
+  void store(Archive& archive); // what pictures remember of earlier frames; after settle() or pause()
 
-  void finish();  // the end was reached, or a signal came: what is held goes out too, and files are closed
-  void abandon(); // the state went wrong: what is held is dropped; frames before it stay, files are closed
+  void finish();  // at the end, or after a signal: held frames are written too, and files are closed
+  void abandon(); // the state became unstable: held frames are dropped, earlier ones stay; files are closed
 
-  long frames() const { return frames_; } // handed on
+  long frames() const { return frames_; } // passed to the pipeline
   PipelineSeconds seconds() const;
   double picture_seconds() const { return maker_.seconds(); }
   std::size_t surface_bytes() const { return maker_.bytes(); }
@@ -60,11 +60,12 @@ private:
   FramePlan plan_;
   PictureMaker maker_;
   std::unique_ptr<Pipeline> pipeline_;
-  PipelineSeconds seconds_; // once it is closed
+  PipelineSeconds seconds_; // valid once the pipeline is closed
   std::optional<Frame> held_;
-  std::vector<std::pair<long, FrameCamera>> showings_; // the frames that show the held state
+  // the frames that show the held state, with their cameras
+  std::vector<std::pair<long, FrameCamera>> showings_;
   long held_step_ = -1;
-  std::vector<long> early_; // frames that show the state of held_step_, and are files: pause() let them go
+  std::vector<long> early_; // frames that show the state of held_step_ and are written already, by pause()
   long frames_ = 0;
 };
 

@@ -16,7 +16,7 @@
 namespace rend {
 namespace {
 
-// Times are products of rounded numbers: what differs by less is meant to be equal.
+// Times are products of rounded numbers: smaller differences count as equal.
 constexpr double slack = 1e-12;
 
 std::optional<long> whole_number(std::string_view text) {

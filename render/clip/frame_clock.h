@@ -1,7 +1,7 @@
-// When pictures are taken, and which of them are wanted.
+// The steps at which the frames of a clip are taken, and the frames that the user chose.
 //
-// Frame k shows the first state at or after k/fps. Frames never alter the steps: where no step falls on
-// k/fps, the picture is up to one step late.
+// Frame k shows the first state at or after k/fps. Frames never alter the steps: where no step falls on k/fps,
+// the picture is up to one step late.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@ public:
 
   double duration() const { return duration_; }
   double fps() const { return fps_; }
-  long steps() const { return steps_; }   // the first whose state is at or after the duration
+  long steps() const { return steps_; }   // of the first step whose state is at or after the duration
   long frames() const { return frames_; } // frames 0 .. frames()-1 lie within the duration
   double time_of(long frame) const { return static_cast<double>(frame) / fps_; } // [s]
-  long step_of(long frame) const; // how many steps are done when the frame is taken
+  long step_of(long frame) const; // number of steps done when the frame is taken
 
 private:
   double duration_, step_, fps_;
@@ -30,11 +30,11 @@ private:
 class FrameChoice {
 public:
   FrameChoice() = default; // all
-  // UserError (Usage) for what is no such list.
+  // UserError (Usage) if the text is not such a list.
   explicit FrameChoice(const std::string& text);
 
   bool has(long frame) const;
-  long last(long frames) const; // the last chosen of 0 .. frames-1; -1: none of them
+  long last(long frames) const; // the last chosen one of 0 .. frames-1; -1: none of them
 
 private:
   struct Range {
@@ -44,10 +44,10 @@ private:
   std::vector<Range> ranges_;
 };
 
-// The last frame of the clip that is wanted. UserError (Usage) where that is none of them.
+// The last chosen frame of the clip. UserError (Usage) if none of them lies within the clip.
 long last_chosen(const FrameChoice& choice, const FrameClock& clock);
 
-// "1280x720". UserError (Usage) where it is no such size, or a side is not between 16 and 8192 pixels.
+// "1280x720". UserError (Usage) if it is not a size, or a side is not between 16 and 8192 pixels.
 struct PictureSize {
   int width = 0, height = 0; // [pixels]
 };

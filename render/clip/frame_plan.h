@@ -1,9 +1,9 @@
-// Which frames of a clip a run is to make: those that were asked for, of these its shard's part, and of these
-// what is not there yet.
+// The frames that a run has to make: those that were chosen, restricted to its shard, without those whose
+// pictures exist already.
 //
-// A shard's frames follow each other, so that all but the last shard end their simulation early. A picture is
-// there where its file is whole, of this run's size, and made of this scene (PngChecker, png.h), whatever its
-// name or date say.
+// The frames of a shard are consecutive, so that all but the last shard can end their simulation early. A
+// picture counts as existing if its file is complete, of this run's size, and marked with this scene's key
+// (PngChecker, png.h), whatever its name or date.
 #pragma once
 
 #include "render/clip/frame_clock.h"
@@ -19,18 +19,18 @@ namespace rend {
 class FramePlan {
 public:
   FramePlan() = default; // none
-  // UserError (Usage) where the clip has none of the frames that were chosen.
+  // UserError (Usage) if none of the chosen frames is in the clip.
   FramePlan(const FrameChoice& choice, const FrameClock& clock, const Shard& shard);
 
-  // Takes out the frames whose pictures are in `folder`, of that shape and marked with `mark`. Looks at as many
-  // at once as there are threads, and memory of 1 GiB for them.
+  // Removes the frames whose pictures exist in `folder`, of that shape and marked with `mark`. Checks as many
+  // files at once as there are threads, within 1 GiB of memory.
   void leave_out_whole(const std::filesystem::path& folder, const std::string& mark, const PngShape& shape,
                        int threads);
 
-  bool has(long frame) const;                                   // is to be made
-  bool keeps(long frame) const;                                 // is this run's, and there already
+  bool has(long frame) const;                                   // has to be made
+  bool keeps(long frame) const;                                 // belongs to this run, and exists already
   const std::vector<long>& to_make() const { return to_make_; } // increasing
-  const std::vector<long>& all() const { return all_; }         // with those that are there; increasing
+  const std::vector<long>& all() const { return all_; }         // including those that exist; increasing
   long last() const { return to_make_.empty() ? -1 : to_make_.back(); }
   long first() const { return to_make_.empty() ? -1 : to_make_.front(); }
 

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What links lead to; of what is not there, as far as it is.
+// Resolves all links; of a path that does not exist, the part that does.
 fs::path without_links(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error);
@@ -23,14 +23,14 @@ fs::path without_links(const fs::path& path) {
   return error ? whole.lexically_normal() : out;
 }
 
-// The same of its folder alone: a rename replaces a link, and not what it leads to.
+// Resolves the links of its folder alone: a rename replaces a link, not its target.
 fs::path name_of(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error);
   return without_links(whole.parent_path()) / whole.filename();
 }
 
-// The file itself, and what it is called while it is written.
+// Whether writing to `written` replaces `name`: the file itself, or one of its temporary names.
 bool is_written_over(const fs::path& name, const fs::path& written) {
   if (name == written) return true;
   const std::string file = name.filename().string();

@@ -1,4 +1,4 @@
-// The files that a command line asks for: none of them twice, and nothing that is read is written over.
+// The files that a command line names. No file may be written twice, and no input overwritten.
 //
 // A file that is written replaces what has its name (render/files/output.h). So of two outputs of one name
 // one would be lost without a word, and so would an input that has it. Names are the same where they lead to
@@ -17,26 +17,27 @@ class PresetNode;
 
 class NamedFiles {
 public:
-  NamedFiles(); // standard output and error are written, where a shell has led them to files
+  NamedFiles(); // standard output and error count as written if the shell redirected them to files
 
-  // `what` is it in messages: "the preset", "--events". All throw UserError (Usage) where a file that was named
-  // before would be written over, or this one.
+  // `what` names the file in messages: "the preset", "--events". All throw UserError (Usage) where a file named
+  // before would be overwritten, or this one.
   void reads(const std::string& what, const std::filesystem::path& path);
   void reads_meshes(const PresetNode& scene); // of a preset
   void writes(const std::string& what, const std::filesystem::path& path);
-  // In a folder all files called NUMBER and EXTENSION ("00012.png") whose number is one of these.
+  // In a folder, all files named NUMBER and EXTENSION ("00012.png") with these numbers.
   void writes_frames(const std::string& what, const std::filesystem::path& folder, const std::string& extension,
                      const std::function<bool(long)>& has);
 
 private:
   struct Input {
     std::string what;
-    std::filesystem::path given, name, place; // as it was given, without links but for its own, without links
+    // as it was given; with its folder's links resolved; with all links resolved
+    std::filesystem::path given, name, place;
   };
   struct Output {
     std::string what;
-    std::filesystem::path given, name;                      // of one file; none: of several
-    std::function<bool(const std::filesystem::path&)> over; // whether what has that name is written over
+    std::filesystem::path given, name;                      // of a single file; empty: of several
+    std::function<bool(const std::filesystem::path&)> over; // whether a file of that name is overwritten
   };
   void add(Output output);
 

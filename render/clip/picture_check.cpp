@@ -20,14 +20,13 @@ std::string in_words(const Vec3& x) {
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", x.x(), x.y(), x.z());
 }
 
-// The solid angle that a triangle fills, as its corners are seen from an eye in the origin (Van Oosterom and
-// Strackee 1983).
+// The solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
-// The bodies' surfaces at the start; made when first asked for, since most cameras are far from all of them.
+// The bodies' surfaces at the start; built on first use, since most cameras are far from all bodies.
 class StartSkin {
 public:
   explicit StartSkin(const Scene& scene) : scene_(scene) {}
@@ -46,8 +45,7 @@ public:
     }
   }
 
-  // Whether a solid closes around the eye: its faces then fill the whole sphere of sight, and otherwise nothing
-  // of it.
+  // Whether a solid encloses the eye: the solid angles of its faces then sum to 4π, otherwise to 0.
   bool surrounds(std::size_t body, const Vec3& eye) {
     double filled = 0;
     each_face(body, [&](const std::vector<Vec3>& ring) {
@@ -62,7 +60,7 @@ private:
   std::optional<Skin> skin_;
 };
 
-// Which sides of the view a point lies beyond: 1, 2, 4, 8, and 16 behind the eye.
+// Outcode of a point: 1, 2, 4, 8 for the sides of the view volume that it lies beyond, and 16 behind the eye.
 unsigned beyond(const Eigen::Matrix4d& world_to_clip, const Vec3& x) {
   const Eigen::Vector4d p = world_to_clip * x.homogeneous();
   return (p.x() < -p.w() ? 1u : 0u) | (p.x() > p.w() ? 2u : 0u) | (p.y() < -p.w() ? 4u : 0u) |
@@ -94,7 +92,7 @@ public:
 private:
   bool has_eye() const { return picture_.camera.eye || !picture_.camera.keys.empty(); }
 
-  // The first solid around an eye.
+  // The first solid that encloses the eye.
   std::optional<std::size_t> around(const Vec3& eye) {
     for (std::size_t n = 0; n < bounds_.size(); ++n)
       if (scene_.bodies()[n]->map->dimension() == 3 && bounds_[n].contains(eye) && skin_.surrounds(n, eye))
@@ -115,7 +113,8 @@ private:
                             in_words(bounds_[*body].max())));
   }
 
-  // By vertices, which nearly always tells; then by faces, which may fill the picture with no vertex in it.
+  // By vertices, which nearly always decides; then by faces, since a face can fill the picture with no vertex
+  // in it.
   bool sees(const FrameCamera& camera, std::size_t n) {
     const Eigen::Matrix4d view = view_of(camera, bounds_[n], aspect_).world_to_clip();
     const EmbeddedMap& map = *scene_.bodies()[n]->map;
@@ -124,7 +123,7 @@ private:
       if (cells.alive(v) && beyond(view, map.position()[v].vec()) == 0) return true;
     bool seen = false;
     skin_.each_face(n, [&](const std::vector<Vec3>& ring) {
-      unsigned all = ~0u; // sides that the whole face lies beyond
+      unsigned all = ~0u; // outcode bits shared by all corners of the face
       for (const Vec3& x : ring) all &= beyond(view, x);
       seen = seen || all == 0;
     });
@@ -146,7 +145,7 @@ private:
   }
 
   void follow_the_way() {
-    constexpr long most = 1000; // looks along the way
+    constexpr long most = 1000; // camera positions tested along its path
     const long stride = std::max(1L, clock_.frames() / most);
     for (long frame = stride; frame < clock_.frames(); frame += stride) {
       const double time = clock_.time_of(frame);

@@ -1,9 +1,9 @@
-// Whether pictures of a scene would show anything: asked before the first step, of the bodies as they are at
-// the start.
+// Whether pictures of a scene would show anything: checked before the first step, with the bodies in their
+// initial positions.
 //
-// An eye inside of a solid sees nothing but the backs of its faces, which are not drawn: an error, where the
-// clip begins there. A body that is not in sight at the start may come into it, and a moving camera may meet
-// the place of a body that is there no more: these are told, and the clip is made.
+// An eye inside a solid sees only back faces, which are culled: an error if the clip begins there. A body that
+// is out of sight at the start may come into view, and a moving camera may pass through a place that a body has
+// left by then: these give notes, and the clip is made.
 #pragma once
 
 #include "render/clip/frame_clock.h"

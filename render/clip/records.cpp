@@ -57,7 +57,7 @@ void Diagnostics::add(long frame, const Scene& scene) {
   flush();
   if (!any_ && text_.empty()) text_ = header_of(scene);
   const Vec3 p = scene.momentum(), l = scene.angular_momentum();
-  // {} of a double is the shortest text that reads back as the same number.
+  // {} of a double gives the shortest text that reads back as the same number.
   held_ = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", frame, scene.steps_done(), scene.time(),
                       scene.kinetic_energy(), scene.elastic_energy(), scene.gravity_energy(), p.x(), p.y(),
                       p.z(), l.x(), l.y(), l.z(), scene.tears(), scene.fragments(), probe_cells(scene));

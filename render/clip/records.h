@@ -1,5 +1,5 @@
-// Files that a run leaves beside its pictures: figures over time, and topological changes. Both appear whole
-// or not at all; numbers have as many digits as it takes to read them back unchanged.
+// Text files with a run's history: figures over time (CSV) and topological changes (JSON lines). Both are
+// written atomically; numbers have as many digits as it takes to read them back unchanged.
 #pragma once
 
 #include "render/files/output.h"
@@ -10,24 +10,24 @@
 
 namespace rend {
 
-// A CSV file with one row a frame, nine columns for each probe among them: cells are empty where there is
-// nothing to tell. Rows are held back as pictures are (film.h).
+// A CSV file with one row a frame, with nine columns for each probe; cells without a value are empty. Rows are
+// held back as pictures are (film.h).
 class Diagnostics {
 public:
   explicit Diagnostics(const std::filesystem::path& path); // throws UserError (CannotCreate)
   void add(long frame, const Scene& scene);
-  void finish();  // the end was reached: all rows
-  void abandon(); // the state went wrong: without the last row; no file if there was no other
+  void finish();  // at the end: writes all rows
+  void abandon(); // the state became unstable: drops the last row; no file if there is no other
 
 private:
   void flush();
   OutputFile file_;
   std::string text_, held_;
-  bool any_ = false; // rows that are not held
+  bool any_ = false; // a row has been written (beyond the held one)
 };
 
-// Topological changes as JSON, one a line, in the order of time; of one step, in the order of bodies. To be
-// written of scenes with births alone (SceneOptions).
+// Topological changes as JSON, one a line, ordered by time, and within a step by body. Needs a scene that
+// records births of fragments (SceneOptions).
 class EventFile {
 public:
   explicit EventFile(const std::filesystem::path& path); // throws UserError (CannotCreate)

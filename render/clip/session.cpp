@@ -56,7 +56,7 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
 
 namespace {
 
-// Of its content, piece after piece; of nothing where it cannot be read.
+// XXH3 of a file's content, read in pieces; of no bytes where it cannot be read.
 std::uint64_t hash_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::vector<char> piece(std::size_t{1} << 20U);
@@ -66,7 +66,7 @@ std::uint64_t hash_of(const std::filesystem::path& path) {
   return hash;
 }
 
-// Of those that the steps of the scene are going to use.
+// For the threads that the steps of the scene are going to use.
 void note_refused_threads(const Scene& scene) {
   int wanted = 1;
   for (const auto& body : scene.bodies()) wanted = std::max(wanted, body->program->parts());
@@ -130,7 +130,7 @@ void Session::check_counts() const {
 
 Stopped Session::run(long last_frame, const Calls& calls, long first_frame) {
   const double start = wall_clock();
-  double away = 0; // [s] in the calls at frames
+  double away = 0; // [s] spent in the calls at frames
   Stopped stopped = Stopped::No;
   try {
     stopped = loop(first_frame, last_frame, calls, away);
@@ -151,7 +151,7 @@ Stopped Session::loop(long first_frame, long last_frame, const Calls& calls, dou
   constexpr long never = std::numeric_limits<long>::max();
   const long last_step = this->last_step(last_frame);
   long frame = first_frame;                                        // the next
-  long due = frame <= last_frame ? clock_->step_of(frame) : never; // the step that it waits for
+  long due = frame <= last_frame ? clock_->step_of(frame) : never; // the step at which it is taken
   while (true) {
     if (scene_->steps_done() >= due || scene_->steps_done() >= last_step) scene_->check_sound();
     if (scene_->steps_done() >= due) {

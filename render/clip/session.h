@@ -1,4 +1,4 @@
-// A run of a preset: what its options say, and the time loop that stops at every frame.
+// A run of a preset: its options, and the time loop that calls back at every frame.
 #pragma once
 
 #include "render/clip/frame_clock.h"
@@ -18,7 +18,7 @@ class App;
 
 namespace rend {
 
-// Options of the command line that all runs share.
+// Command line options that all runs share.
 struct SessionOptions {
   std::string preset;
   std::vector<std::string> sets; // PATH=VALUE
@@ -27,26 +27,26 @@ struct SessionOptions {
   int threads = 0;               // 0: as many as the machine has
   std::string kernels = "flat";  // or walk
   bool quiet = false;
-  bool allow_path = false; // meshes from anywhere
-  bool guard = true;       // steps that go wrong are redone in parts
-  bool births = false;     // events tell how many fragments there are
-  bool profile = false;    // where the time of steps goes is asked for
+  bool allow_path = false; // meshes may lie outside the preset's folder
+  bool guard = true;       // bad steps are rolled back and redone in substeps
+  bool births = false;     // events record how many fragments there are
+  bool profile = false;    // the time of each stage of the step is measured
 };
 void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set
-void add_run_options(CLI::App& app, SessionOptions& options);    // those, and how it is run
+void add_run_options(CLI::App& app, SessionOptions& options);    // those, and the options of the simulation
 
 enum class Stopped { No, Interrupted, Unstable };
 const char* name_of(Stopped stopped); // "unstable"
 
 class Session {
 public:
-  // Reads the preset and builds the scene. Throws UserError; nothing was written then. Prints the bodies'
+  // Reads the preset and builds the scene. Throws UserError, before any file is written. Prints the bodies'
   // notes.
   explicit Session(const SessionOptions& options);
 
   const PresetNode& preset() const { return *preset_; }
-  // Of all that the states of this run hang on: the preset's text, what was set, meshes, how it is run, rend's
-  // version. Reads the meshes once more.
+  // A hash of everything that the states of this run depend on: the preset's text, overrides, meshes, options
+  // of the simulation, rend's version. Reads the mesh files again.
   std::uint64_t key() const;
   const std::string& preset_path() const { return options_.preset; }
   Scene& scene() { return *scene_; }
@@ -57,36 +57,36 @@ public:
   int threads() const; // that were asked for, or all that the machine has
   bool quiet() const { return options_.quiet; }
 
-  // Called in the time loop.
+  // Callbacks of the time loop.
   struct Calls {
-    std::function<void(long frame)> frame; // the state of a frame is reached, from frame 0 on
+    std::function<void(long frame)> frame; // at the state of each frame, from frame 0 on
     std::function<void()> step;            // after each step; may be empty
   };
-  // How many steps run() does for this last frame.
+  // The number of steps that run() does up to this last frame.
   long last_step(long last_frame) const;
-  // Steps until frame `last_frame`, or the end if it is the last of all; or until a signal or an instability.
-  // failure() then says what went wrong. The state is that of a scene that was stored when `first_frame` was
-  // next.
+  // Steps until frame `last_frame` (or the end of the clip, if it is the last frame), a signal, or an
+  // instability, which failure() then describes. To resume, restore first a state stored when `first_frame` was
+  // the next frame.
   Stopped run(long last_frame, const Calls& calls, long first_frame = 0);
 
   const std::optional<Unstable>& failure() const { return failure_; }
-  double step_seconds() const { return step_seconds_; } // in the loop, without the calls at frames
+  double step_seconds() const { return step_seconds_; } // in the time loop, without the calls at frames
 
 private:
   Stopped loop(long first_frame, long last_frame, const Calls& calls, double& away);
   void check_counts() const;
 
   SessionOptions options_;
-  std::uint64_t text_hash_ = 0; // of the preset, as it was read
+  std::uint64_t text_hash_ = 0; // of the preset's file, as it was read
   std::unique_ptr<PresetNode> preset_;
-  std::unique_ptr<Scene> scene_; // reads from the preset for as long as it lives
+  std::unique_ptr<Scene> scene_; // refers to the preset for as long as it lives
   std::unique_ptr<FrameClock> clock_;
   PictureSettings picture_; // reads from the preset too
   std::optional<Unstable> failure_;
   double step_seconds_ = 0;
 };
 
-// The exit code of a run; says what went wrong, if anything did, and which bodies are gone.
+// The exit code of a run; prints what went wrong, if anything, and which bodies have been removed.
 Exit end_of(const Session& session, Stopped stopped);
 
 } // namespace rend

@@ -22,7 +22,7 @@ std::optional<long> number_in(std::string_view text) {
   return value;
 }
 
-// Of the environment; none: it is not there.
+// From an environment variable; none: it is not set.
 std::optional<long> slurm_number(const char* name) {
   const char* text = std::getenv(name);
   if (text == nullptr) return {};

@@ -42,14 +42,14 @@ Shoot::Shoot(Session& session, const ShootOptions& options)
 }
 
 // Whether a state whose next frame is this one lies between this run's start and its end. After the clip's last
-// frame there are steps to its end yet.
+// frame there can be more steps up to its end.
 bool Shoot::is_on_the_way(long next) const {
   if (plan_.all().empty()) return false;
   const long last = plan_.all().back();
   return next <= last || last + 1 == session_.clock().frames();
 }
 
-// From the best checkpoint there is; a run that begins anew has no use for those of others.
+// Starts from the best checkpoint; without --resume none is used.
 void Shoot::begin() {
   const PipelineOptions& files = options_.files;
   last_ = plan_.last();
@@ -63,7 +63,7 @@ void Shoot::begin() {
   const long first = plan_.to_make().empty() ? plan_.all().back() + 1 : plan_.first();
   for (const FoundCheckpoint& found : find_checkpoints(files.folder, files.name, options_.shard, key_, first)) {
     const auto head = read_checkpoint(found.path, key_, first, session_, *film_);
-    if (!head) continue; // it went meanwhile: its shard is done
+    if (!head) continue; // removed meanwhile: its shard has completed
     first_ = head->next;
     if (!session_.quiet())
       print_note(fmt::format("goes on at {:.6g} s, from {}", session_.scene().time(), found.path.string()));
@@ -80,7 +80,7 @@ Stopped Shoot::run() {
   return stopped;
 }
 
-// And what a run that was killed left of one.
+// Also removes the temporary file of a killed run.
 void Shoot::remove_checkpoint() const {
   if (!keeps_checkpoints()) return;
   std::error_code error;
@@ -92,7 +92,7 @@ void Shoot::checkpoint(long next) {
   write_checkpoint(checkpoint_, key_, next, session_, *film_);
 }
 
-// Between frames: a checkpoint takes no more than a twentieth of the time.
+// Called between frames. Checkpoints take at most a twentieth of the run time.
 void Shoot::checkpoint_if_due(long next) {
   constexpr double most_share = 20;
   const double start = wall_clock();
@@ -129,7 +129,7 @@ Stopped Shoot::simulate() {
   return stopped;
 }
 
-// Of those that are there: an unstable run has no more.
+// Of the pictures that exist: an unstable run has fewer.
 Stopped Shoot::video_of_files() {
   const PipelineOptions& files = options_.files;
   VideoWriter video;

@@ -1,15 +1,14 @@
-// The pictures of a run, from its first frame or from where an earlier run was stopped.
+// Makes the pictures of a run, from its first frame or from a checkpoint.
 //
-// What is there already is found out picture by picture (frame_plan.h). The simulation begins at the checkpoint
-// whose next frame is the last that is not after the first one missing, and at the start where there is none.
-// Where this run has a checkpoint it was not at its end: it goes on to there even if no picture is missing,
-// since it might explode on the way, and then keeps no picture of the state that did (film.h). A checkpoint of
-// a state after this run's end is of one that was asked for more frames: it stays, and this run writes none
-// over it.
+// Existing pictures are detected one by one (frame_plan.h). The simulation starts from the latest checkpoint
+// whose next frame is not after the first missing one, or from the start if there is none. A checkpoint of this
+// run means that the run has not completed: it continues to its end even if no picture is missing, since it
+// might become unstable on the way and then has to remove the pictures of that state (film.h). A checkpoint
+// beyond this run's end comes from a run with more frames: it is kept, and this run writes none over it.
 //
-// A video is made of the pictures as they come; where some were there before, of the files at the end: encoders
-// go through a clip once, and pictures lose nothing in a PNG, so that the bytes are those of a run that was
-// never stopped.
+// A video is encoded while the pictures are made; if some existed before, it is encoded from the PNG files at
+// the end instead: an encoder needs all frames in order, and PNG is lossless, so the bytes are those of an
+// uninterrupted run.
 #pragma once
 
 #include "render/clip/checkpoint.h"
@@ -26,19 +25,21 @@ struct ShootOptions {
   FrameChoice choice;
   Shard shard;
   bool resume = false;
-  double checkpoint_every = 60; // [s] on the clock, at frames; 0: only when a signal comes
+  double checkpoint_every = 60; // [s] of wall-clock time, at frames; 0: only after a signal
 };
 
 class Shoot {
 public:
-  // Looks at what is there. UserError (BadInput): a checkpoint of something else; (Usage): no frames.
+  // Finds existing pictures and checkpoints. UserError (BadInput): a checkpoint with another key; (Usage): no
+  // frames.
   Shoot(Session& session, const ShootOptions& options);
 
   Stopped run();
 
-  long made() const { return film_ ? film_->frames() : 0; } // frames
-  long kept() const { return kept_; }                       // that were there
-  bool simulates() const { return last_ >= 0; } // false: all was there, and the scene is as it was built
+  long made() const { return film_ ? film_->frames() : 0; } // frames made
+  long kept() const { return kept_; }                       // frames that existed
+  // false: all pictures exist, and the scene stays in its initial state
+  bool simulates() const { return last_ >= 0; }
   bool left_checkpoint() const { return left_checkpoint_; }
   const Film& film() const { return *film_; }
 
@@ -56,12 +57,12 @@ private:
   ShootOptions options_;
   FramePlan plan_;
   std::filesystem::path checkpoint_;
-  std::string key_; // of it
+  std::string key_; // of the checkpoint
   bool video_at_end_ = false, left_checkpoint_ = false;
-  bool spares_ = false;        // the checkpoint there is of a state after this run's end
-  long kept_ = 0;              // frames that are there
-  long first_ = 0, last_ = -1; // frames: the next when it begins; the last, or -1: none
-  double due_ = std::numeric_limits<double>::infinity(); // [s], on the clock: the next checkpoint
+  bool spares_ = false;        // the existing checkpoint is of a state after this run's end, and is kept
+  long kept_ = 0;              // frames that exist
+  long first_ = 0, last_ = -1; // frames: the next one at the start; the last one, or -1: none
+  double due_ = std::numeric_limits<double>::infinity(); // [s], wall clock: when the next checkpoint is due
   std::optional<Film> film_;
 };
 
