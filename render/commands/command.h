@@ -1,4 +1,4 @@
-// Commands of the program: one file each, and one word in all_commands().
+// The commands of the program: one file each, and one entry in all_commands().
 #pragma once
 
 #include "sim/base/error.h"
@@ -15,7 +15,7 @@ namespace rend {
 
 struct Command {
   std::string name, what;
-  // Declares the command's options, and returns what runs it once they are parsed.
+  // Declares the command's options, and returns the function that runs it after parsing.
   std::function<Exit()> (*declare)(CLI::App& app);
 };
 
@@ -32,7 +32,7 @@ Command study_command();
 Command diff_command();
 Command help_command();
 
-// Parses the command line, runs a command, prints what went wrong. The program's exit code.
+// Parses the command line, runs a command, prints errors. Returns the program's exit code.
 int run_program(int count, const char* const* arguments);
 
 } // namespace rend

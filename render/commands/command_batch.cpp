@@ -1,4 +1,4 @@
-// rend batch: many presets, beside each other.
+// rend batch: many presets in parallel.
 #include "render/batch/available_memory.h"
 #include "render/batch/batch_queue.h"
 #include "render/clip/frame_clock.h"
@@ -52,7 +52,7 @@ std::size_t parse_memory(const std::string& text) {
   const std::size_t unit = after + 1 == end ? units.find(*after) : std::string::npos;
   const bool whole = error == std::errc() && (after == end || unit != std::string::npos);
   for (std::size_t n = 0; unit != std::string::npos && n <= unit; ++n) bytes *= 1024;
-  if (!whole || !(bytes >= 1 && bytes <= most)) // nor what is no number
+  if (!whole || !(bytes >= 1 && bytes <= most)) // also refuses nan
     throw UserError(Exit::Usage, {}, fmt::format("--memory {} is no amount of memory", in_quotes(text)),
                     "an amount is such as 800M or 4G");
   return static_cast<std::size_t>(bytes);
@@ -65,7 +65,7 @@ BatchLimits limits_of(const BatchOptions& options) {
   return limits;
 }
 
-// Those of this shard. Where there are fewer jobs than shards, all of them: then each makes its part of their
+// The jobs of this shard. With fewer jobs than shards every shard takes all jobs, and makes its part of their
 // frames.
 std::vector<BatchJob> jobs_of(const BatchOptions& options, const BatchSettings& settings, const Shard& shard,
                               bool& frames_are_shared) {
@@ -102,7 +102,7 @@ std::vector<std::string> arguments_of(const BatchOptions& options, const BatchSe
   return words;
 }
 
-// What every job would find out, each for itself.
+// Errors that every job would report are reported once, before any job starts.
 void check(const BatchOptions& options) {
   if (!options.frames.empty()) FrameChoice{options.frames};
   if (!options.size.empty()) parse_size(options.size);
@@ -149,7 +149,7 @@ Exit batch(const BatchOptions& options) {
   const Shard frames = frames_are_shared ? shard : Shard{};
   const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
   const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
-  NamedFiles files; // each job sees to its own
+  NamedFiles files; // each job checks its own files
   files.writes("the page", page);
   for (const BatchJob& job : report.jobs) files.reads("the preset", job.preset);
   const OutputFolder folder(options.folder);

@@ -33,13 +33,13 @@ namespace fs = std::filesystem;
 
 struct CheckOptions {
   std::vector<std::string> presets; // empty: the suite
-  std::string folder;               // empty: no files are left
+  std::string folder;               // empty: no files are written
   std::vector<std::string> only;    // patterns of names
   bool list = false, json = false, quick = false, quiet = false, allow_path = false;
   int jobs = 0; // 0: as many as the machine has threads
 };
 
-// A folder for presets that nobody asked to keep.
+// For the cases' presets when no output folder was given.
 class TemporaryFolder {
 public:
   TemporaryFolder() {
@@ -93,7 +93,7 @@ CheckChapter chapter_of(const CheckFamily& family, const CheckOptions& options) 
   return chapter;
 }
 
-// Each case reads the preset anew, which of a pipe gives nothing the second time, or waits for ever.
+// Each case reads the preset again; a pipe would give nothing the second time, or block for ever.
 void refuse_pipe(const fs::path& preset) {
   std::error_code error;
   const fs::file_status there = fs::status(preset, error);
@@ -109,7 +109,7 @@ std::vector<CheckChapter> wanted(const CheckOptions& options) {
   };
   for (const std::string& preset : options.presets) {
     refuse_pipe(preset);
-    const auto scene = load_scene(preset); // what is bad is said before anything slow
+    const auto scene = load_scene(preset); // reports a bad preset before anything slow
     if (!options.allow_path) check_paths(*scene);
     add(chapter_of(preset, options));
   }
@@ -122,7 +122,7 @@ std::vector<CheckChapter> wanted(const CheckOptions& options) {
                   "the families are " + listed(names) + "; --list names all");
 }
 
-// What is read is not written over.
+// No input may be overwritten.
 void check_files(const CheckOptions& options) {
   if (options.folder.empty()) return;
   NamedFiles files;
@@ -152,7 +152,7 @@ std::string line_of(std::size_t number, std::size_t all, const CheckCase& which,
   return line + "\n";
 }
 
-// Runs all cases of all chapters as one list, so that no thread waits at a family's end.
+// Runs the cases of all chapters as one list, so that no thread idles at the end of a family.
 void run_all(std::vector<CheckChapter>& chapters, const fs::path& folder, const CheckOptions& options) {
   std::vector<CheckCase> cases;
   for (const CheckChapter& chapter : chapters)
@@ -168,7 +168,7 @@ void run_all(std::vector<CheckChapter>& chapters, const fs::path& folder, const 
     if (!options.quiet) note_fewer_threads();
   };
   std::vector<CheckResult> results = run_cases(folder, cases, jobs, say, fewer);
-  if (results.size() < cases.size()) return; // a signal
+  if (results.size() < cases.size()) return; // interrupted by a signal
   auto next = results.begin();
   for (CheckChapter& chapter : chapters)
     for (std::size_t n = 0; n < chapter.cases.size(); ++n) chapter.results.push_back(std::move(*next++));

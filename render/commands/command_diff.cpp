@@ -1,4 +1,4 @@
-// rend diff: pictures, or folders of pictures, compared.
+// rend diff: compares pictures, or folders of pictures.
 #include "render/batch/available_memory.h"
 #include "render/clip/named_files.h"
 #include "render/commands/command.h"
@@ -47,7 +47,8 @@ Tolerances tolerances_of(const DiffOptions& options) {
   return out;
 }
 
-// Tells each case as soon as all before it are known, so that lines come in order whatever the threads do.
+// Prints each case as soon as all cases before it are done, so that the order of lines does not depend on
+// threads.
 class InOrder {
 public:
   InOrder(std::vector<std::optional<Compared>>& results, bool json_lines)
@@ -66,8 +67,7 @@ private:
   std::mutex mutex_;
 };
 
-// One case after the other on all threads where there are few; many at once where there are many. Empty after a
-// signal.
+// With few cases, one after another on all threads; with many, in parallel. Empty after a signal.
 std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tolerances& tolerances,
                                   const DiffOptions& options, MemoryBudget& memory) {
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
@@ -131,7 +131,7 @@ void print_report(const DiffOptions& options, const DiffReport& report) {
   }
 }
 
-// What is read is not written over.
+// No input may be overwritten.
 void check_files(const DiffOptions& options, const Cases& cases) {
   NamedFiles files;
   for (const char* file : {"index.html", "diff.json"})
@@ -144,8 +144,8 @@ void check_files(const DiffOptions& options, const Cases& cases) {
       if (!picture.empty() && !options.junit.empty()) files.reads("the picture", picture);
 }
 
-// A report within what is compared would be compared itself the next time; and maps of differences are pictures
-// called as those are that differ.
+// A report within a compared folder would itself be compared the next time, since its difference maps have the
+// names of the pictures that differ.
 void check_folder(const fs::path& report, const Cases& cases) {
   std::vector<fs::path> pictures = cases.folders;
   for (const CasePaths& one : cases.all)
@@ -185,7 +185,8 @@ Exit diff(const DiffOptions& options) {
   }
   report.updated.assign(report.cases.size(), false);
   for (const std::size_t n : chosen) report.updated[n] = true;
-  const std::string page = options.folder.empty() ? "" : diff_page(report); // shows what was expected until now
+  // made before the update: it shows the old expected pictures
+  const std::string page = options.folder.empty() ? "" : diff_page(report);
   update_expected(report.cases, chosen, options.a, memory);
   files.write(page, report);
   if (!options.quiet)
@@ -194,7 +195,7 @@ Exit diff(const DiffOptions& options) {
   return exit_of(report);
 }
 
-// Whatever of the input cannot be compared is trouble, as for diff(1).
+// An input that cannot be compared gives exit code 2 (trouble), as in diff(1).
 Exit run(const DiffOptions& options) {
   try {
     return diff(options);

@@ -69,7 +69,7 @@ std::string page(const CLI::App& root, const HelpOptions& options) {
   if (options.topic == "schema") return schema(scene_type());
   if (options.topic == "man") return man_page(root, !options.element.empty());
   if (options.topic == "completion") return completion(root, options.element);
-  // App::help would print the page of the command that was parsed, which is this one.
+  // App::help would print the page of the subcommand that was parsed, that is, of `help`.
   if (options.topic.empty())
     return root.get_formatter()->make_help(&root, root.get_name(), CLI::AppFormatMode::Normal);
   return root.get_subcommand(options.topic)->help("rend");

@@ -1,4 +1,4 @@
-// rend info: what a preset builds, in bytes, and what it leaves out.
+// rend info: what a preset builds, with its bytes, and what is left out.
 #include "render/commands/command.h"
 #include "render/console/console.h"
 #include "render/console/json_text.h"
@@ -18,7 +18,7 @@ struct InfoOptions {
 };
 
 Exit info(InfoOptions options) {
-  options.session.quiet = true; // notes are part of the answer
+  options.session.quiet = true; // notes are part of the result
   Session session(options.session);
   const Inventory inventory = inventory_of(session);
   print_result(options.json ? text_of(json_of(inventory), 2) + "\n" : inventory_in_words(inventory));

@@ -1,4 +1,4 @@
-// rend mesh: what a mesh file holds, and the same in another format.
+// rend mesh: facts about a mesh file, and its conversion to another format.
 #include "render/clip/named_files.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"

@@ -70,7 +70,7 @@ std::string closing_words(const Shoot& shoot, const PipelineOptions& files, doub
   return out + fmt::format(", in {}\n", seconds_in_words(seconds));
 }
 
-// Before anything slow is done.
+// Reports errors before anything slow is done.
 void check_output(const RenderOptions& options) {
   if (options.no_png && options.video.empty())
     throw UserError(Exit::Usage, {}, "--no-png without --video leaves nothing to write", "add --video mp4");
@@ -97,7 +97,7 @@ ShootOptions shoot_options(const RenderOptions& options, const Session& session)
   return out;
 }
 
-// What is read is not written over.
+// No input may be overwritten.
 void check_files(const Session& session, const ShootOptions& options) {
   const PipelineOptions& out = options.files;
   NamedFiles files;

@@ -1,4 +1,4 @@
-// rend run: the simulation alone, with its figures.
+// rend run: the simulation without pictures.
 #include "render/clip/export_series.h"
 #include "render/clip/figures.h"
 #include "render/clip/named_files.h"
@@ -28,10 +28,10 @@ struct RunOptions {
   SessionOptions session;
   bool json = false;
   std::string diagnostics, events;    // files; empty: none
-  std::string format, folder, frames; // of what is exported; empty: not given
+  std::string format, folder, frames; // of the export; empty: not given
 };
 
-// Before anything slow is done.
+// Reports errors before anything slow is done.
 void check_export(const RunOptions& options) {
   if (!options.format.empty()) {
     export_format(options.format);
@@ -84,7 +84,7 @@ Stopped simulate(Session& session, const RunOptions& options, ExportSeries* seri
   return stopped;
 }
 
-// Those that were reached.
+// Only answers whose time was reached count.
 bool answers_hold(const Scene& scene) {
   for (const auto& body : scene.bodies())
     for (const Answer& answer : body->answers)

@@ -34,7 +34,7 @@ struct SheetOptions {
 };
 
 // The three frames of a row, chosen while the clip runs: the first; the one a twentieth of the clip after the
-// first tear (the middle one where nothing tears by then); the last.
+// first tear (the middle one if nothing has torn by then); the last.
 class Row {
 public:
   explicit Row(long frames) : middle_(frames / 2), last_(frames - 1), lag_(frames / 20) {}
@@ -60,7 +60,7 @@ Exit run(Session& session, double aspect, Row& row) {
   PictureMaker maker(session.picture(), session.scene(), aspect, session.clock().duration(),
                      session.clock().frames());
   const long last = session.clock().frames() - 1;
-  const Keeping keeping; // no more than a word on how far it came
+  const Keeping keeping; // a signal only ends the time loop; it is handled afterwards
   Progress progress(session.quiet(), session.last_step(last), session.clock().duration(), 0);
   Session::Calls calls;
   calls.frame = [&](long frame) {
@@ -89,7 +89,7 @@ Exit make_sheet(const SheetOptions& options) {
   files.writes("the contact sheet", file);
   for (const std::string& preset : options.presets) {
     files.reads("the preset", preset);
-    files.reads_meshes(*load_scene(preset, {})); // what is bad is said before anything slow
+    files.reads_meshes(*load_scene(preset, {})); // reports a bad preset before anything slow
   }
   Image sheet(columns * (size.width + gap) - gap,
               static_cast<int>(options.presets.size()) * (size.height + gap) - gap);
@@ -105,7 +105,7 @@ Exit make_sheet(const SheetOptions& options) {
     Stage stage(size.width, size.height, session.image().samples);
     for (int k = 0; k < columns; ++k) {
       Frame frame = row.frames()[static_cast<std::size_t>(k)];
-      frame.transparent = false; // the sheet is paper
+      frame.transparent = false; // the sheet itself is opaque
       stage.draw(frame);
       paste(stage.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
     }

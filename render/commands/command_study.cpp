@@ -36,7 +36,8 @@ std::vector<std::string> presets_of(const StudyOptions& options) {
   return presets;
 }
 
-// Before anything runs: a folder that cannot be had is said at once. `kind`: what its tables are called.
+// Before anything runs, so that a folder that is not writable is reported at once. `kind`: the base name of its
+// tables.
 fs::path make_folder(const StudyOptions& options, const std::string& name, const std::string& kind) {
   const fs::path folder =
       options.folder.empty() ? fs::path("out") / (name + "-study") : fs::path(options.folder);
@@ -50,11 +51,11 @@ fs::path make_folder(const StudyOptions& options, const std::string& name, const
     throw UserError(Exit::CannotCreate, {folder.string()},
                     "the folder cannot be created" + (error ? ": " + error.message() : std::string{}) + ".",
                     "Choose another one with -o.");
-  OutputFile probe(folder / (kind + ".csv")); // may it be written to? It goes again by itself
+  OutputFile probe(folder / (kind + ".csv")); // tests whether it is writable; removed without commit()
   return folder;
 }
 
-// A line that is overwritten on a terminal; elsewhere one every few seconds.
+// Progress: a line that is overwritten on a terminal; elsewhere one every few seconds.
 class Teller {
 public:
   explicit Teller(bool quiet) : quiet_(quiet), terminal_(is_terminal(stderr)) {}
@@ -98,9 +99,9 @@ Exit stopped(Teller& teller) {
   return exit_of_a_signal();
 }
 
-// The preset as it stands in its file.
+// The text of the preset's file.
 std::string content_of(const fs::path& path, bool allow_path) {
-  const auto scene = load_scene(path, {}); // says what is wrong with it
+  const auto scene = load_scene(path, {}); // reports errors in it
   if (!allow_path) check_paths(*scene);
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -148,7 +149,7 @@ Exit lean(const StudyOptions& options) {
   return kept ? Exit::Done : Exit::No;
 }
 
-// What is asked for, as far as it does not go together.
+// Refuses options that exclude each other.
 void check_options(const StudyOptions& options) {
   if (!options.lean && options.session.preset.empty())
     throw UserError(Exit::Usage, {}, "a preset is missing", "name one: rend study PRESET");

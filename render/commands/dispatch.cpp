@@ -44,7 +44,7 @@ std::unique_ptr<CLI::App> make_app(std::function<Exit()>& chosen) {
   return app;
 }
 
-// What CLI11 would call a missing subcommand.
+// Reports a missing or unknown command in plainer words than CLI11.
 void check_command(int count, const char* const* arguments) {
   std::vector<std::string> names;
   for (const Command& command : all_commands()) names.push_back(command.name);
@@ -65,7 +65,7 @@ void check_command(int count, const char* const* arguments) {
 }
 
 Exit run_command_line(int count, const char* const* arguments) {
-  simd_width(); // a wrong REND_SIMD is refused before anything is done
+  simd_width(); // refuses a wrong REND_SIMD before anything is done
   check_command(count, arguments);
   std::function<Exit()> chosen;
   const std::unique_ptr<CLI::App> app = make_app(chosen);
@@ -97,12 +97,12 @@ int run_program(int count, const char* const* arguments) {
     print_error(error.what(), error.hint);
     return end(error.code);
   } catch (const NobodyReads&) {
-    return 128 + SIGPIPE;           // as other programs end there
-  } catch (const std::bad_alloc&) { // of what does without operator new
+    return 128 + SIGPIPE;           // as if SIGPIPE had ended it
+  } catch (const std::bad_alloc&) { // of allocations without operator new
     end_without_memory();
-  } catch (const std::length_error&) { // more than there is of addresses
+  } catch (const std::length_error&) { // a size beyond the address space
     end_without_memory();
-  } catch (const std::exception& error) { // InternalError among them
+  } catch (const std::exception& error) { // including InternalError
     print_error(fmt::format("this is a fault of rend itself: {}", error.what()),
                 "please report it, with the command line and the preset");
   } catch (...) {

@@ -1,14 +1,12 @@
-// Large arrays in large pages: what the program asks for by operator new is aligned to pages of 2 MB from twice
-// their size on, and the system is told so (madvise; a system that always or never gives large pages is not
-// asked).
+// Large arrays in huge pages: allocations by operator new of at least 4 MB are aligned to 2 MB, and huge pages
+// are requested with madvise (no effect where the system always or never gives them).
 //
-// Arrays of a body of a million elements are read in a row, once a step. With pages of 4 kB the processor looks
-// up one page after another and its prefetchers stop at the end of each: in a virtual machine one thread read
-// 12 GB/s, and 21 with large pages. Nothing is rounded up: what is left behind the last large page stays in
-// small ones.
+// Arrays of a body of a million elements are streamed once a step. With 4 kB pages there are many TLB misses,
+// and the prefetchers stop at the end of each page: in a virtual machine one thread read 12 GB/s, and 21 with
+// huge pages. Sizes are not rounded up: the remainder after the last huge page lies in small pages.
 //
-// Compiled into programs (rend, its benchmarks), not into the library: that leaves operator new to those who
-// link it.
+// Compiled into programs (rend, its benchmarks), not into the library: replacing operator new is left to the
+// program that links it.
 #include <cstdlib>
 #include <new>
 
@@ -43,7 +41,7 @@ void* operator new(std::size_t size) {
   }
 }
 
-// An answer, and no end of the program: who asks so can do with less (std::stable_sort).
+// Returns null instead of ending the program: such callers can do with less (std::stable_sort).
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   return allocated(size);
 }

@@ -1,9 +1,10 @@
-// How threads of this program are started, those of libraries too: what the system refuses is tried again for a
-// moment, as others may end meanwhile; what it refuses for good is counted (sim/base/worker_threads.h).
+// Wraps pthread_create for this program, including its libraries: a refused start is retried for a moment,
+// since other threads may end meanwhile; final refusals are counted (sim/base/worker_threads.h).
 //
-// Few libraries say what they could not start, and llvmpipe (Mesa 22.3) goes on and waits for it.
+// Few libraries report a thread that they could not start, and llvmpipe (Mesa 22.3) goes on to wait for it.
 //
-// Compiled into the program, not into the library: that leaves pthread_create to those who link it.
+// Compiled into the program, not into the library: replacing pthread_create is left to the program that links
+// it.
 #include "sim/base/worker_threads.h"
 
 #include <cerrno>
@@ -15,7 +16,7 @@ extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attribute
                               void* argument) noexcept {
   using Start = int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
   static const auto start = reinterpret_cast<Start>(dlsym(RTLD_NEXT, "pthread_create"));
-  constexpr int tries = 10; // together 45 ms
+  constexpr int tries = 10; // 45 ms in total
   int error = EAGAIN;
   for (int n = 0; n < tries && error == EAGAIN; ++n) {
     if (n > 0) {

@@ -37,7 +37,7 @@ std::string dotted(int number, int place) { // 90103, 100: "9.1.3"
   return fmt::format("{}.{}.{}", number / place / place, number / place % place, number % place);
 }
 
-// Mesa tells its version only once it draws.
+// Mesa reports its version only once a context exists.
 std::string renderer() {
   try {
     return make_device()->renderer();
@@ -79,7 +79,7 @@ std::string version_in_words() {
                                 build.date.empty() ? "" : " of ", build.date);
   out += fmt::format("{:14}{}, {}\n", "compiler", build.compiler, build.flags);
   for (const auto& [name, version] : libraries()) out += fmt::format("{:14}{}\n", name, version);
-  out.pop_back(); // CLI11 ends the line
+  out.pop_back(); // CLI11 adds a line end itself
   return out;
 }
 

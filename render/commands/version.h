@@ -1,12 +1,12 @@
-// rend --version: which rend this is, and with what.
+// rend --version: the version, the build and its libraries.
 #pragma once
 
 #include <string>
 
 namespace rend {
 
-// Version, commit and compiler; then a line of each library: the one that is loaded where it can be asked, else
-// the one that was built with.
+// Version, commit and compiler; then a line for each library: the version loaded at run time where the library
+// reports it, else the version it was built with.
 std::string version_in_words();
 
 } // namespace rend
