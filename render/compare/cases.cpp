@@ -20,7 +20,7 @@ bool is_png(const fs::path& path) {
 
 using Found = std::map<std::string, CasePaths>;
 
-// All pictures of one side, by their names within its folder.
+// Collects the pictures of one side, by their paths within its folder.
 class Walk {
 public:
   Walk(const fs::path& folder, fs::path CasePaths::*side, Cases& cases, Found& found)
@@ -47,7 +47,7 @@ private:
 
   void put(const fs::directory_entry& entry, const std::string& prefix) {
     const std::string name = prefix + entry.path().filename().string();
-    std::error_code gone; // a link that leads nowhere is a picture that cannot be read
+    std::error_code gone; // a dangling link counts as a picture that cannot be read
     if (entry.is_directory(gone)) return into(entry.path(), name + "/");
     if (!is_png(entry.path())) {
       ++cases_.left_out;
@@ -61,7 +61,7 @@ private:
   fs::path CasePaths::*side_;
   Cases& cases_;
   Found& found_;
-  std::vector<fs::path> above_; // the folders that the present one is in, and itself, without links
+  std::vector<fs::path> above_; // canonical paths of the current folder and those that contain it
 };
 
 bool is_folder(const fs::path& path) {

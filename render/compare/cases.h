@@ -1,4 +1,4 @@
-// What is compared with what: two pictures, or two folders of pictures by their names.
+// Pairs up what is compared: two pictures, or the pictures of two folders by their paths.
 #pragma once
 
 #include <filesystem>
@@ -7,22 +7,23 @@
 
 namespace rend {
 
-// `a` is what is expected, `b` what there is now; one of them is empty where that side has no such picture.
+// `a` is the expected picture, `b` the current one; empty where that side has no such picture.
 struct CasePaths {
-  std::string name; // "tear/moebius-12.png": the path within the folders; of two pictures the name of the first
+  // "tear/moebius-12.png": the path within the folders; for two single pictures, the name of the first
+  std::string name;
   std::filesystem::path a, b;
 };
 
 struct Cases {
   std::vector<CasePaths> all;                 // sorted by name
-  std::size_t left_out = 0;                   // files in the folders that are not called .png
-  std::vector<std::filesystem::path> folders; // all that were looked through, without links
+  std::size_t left_out = 0;                   // files in the folders that do not end in .png
+  std::vector<std::filesystem::path> folders; // all folders visited, as canonical paths
 };
 
-// Folders are walked to the bottom, through links to others too; names are compared as bytes, and every file
-// that is called .png (or .PNG) counts. Throws UserError (Trouble) where one is not there, for a folder against
-// a file, where there is no picture in either folder, where a folder cannot be read, and for a link to a folder
-// that it is in.
+// Folders are searched recursively, links to folders included; names are compared as bytes, and every file that
+// ends in .png (or .PNG) counts. Throws UserError (Trouble) where one does not exist, for a folder against a
+// file, where neither folder contains a picture, where a folder cannot be read, and for a link to a folder that
+// contains it.
 Cases cases_of(const std::filesystem::path& a, const std::filesystem::path& b);
 
 } // namespace rend

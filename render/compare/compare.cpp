@@ -34,7 +34,7 @@ bool same_size(const PngHead& a, const PngHead& b) {
   return a.width == b.width && a.height == b.height;
 }
 
-// [bytes] at most
+// [bytes], upper bound
 std::size_t comparing_bytes(const PngHead& a, const PngHead& b, const PngHead& mask) {
   const std::size_t decoding = a.decoding_bytes() + b.decoding_bytes();
   if (!same_size(a, b)) return decoding;
@@ -56,13 +56,13 @@ void check_room(std::size_t bytes, const fs::path& path, const PngHead& head, co
                               static_cast<double>(memory.whole()) / 1e9));
 }
 
-// One side of a case. What was found wrong with it ends it.
+// One side of a case. An error on it ends the comparison.
 struct Side {
   fs::path path;
   PngHead head;
   std::vector<std::uint8_t> bytes;
   DeepImage image;
-  std::string trouble; // empty: it was read
+  std::string trouble; // the error; empty: it was read
 
   void look() {
     attempt([&] { head = png_head(path); });
@@ -72,10 +72,10 @@ struct Side {
   }
   void decode() {
     attempt([&] { image = read_deep_png(bytes, path.string()); });
-    bytes = std::vector<std::uint8_t>(); // where {} would keep its room
+    bytes = std::vector<std::uint8_t>(); // assigning {} would keep the capacity
   }
 
-  // The memory that it takes is that of the head.
+  // The memory budget was taken by the size that `head` states.
   static std::vector<std::uint8_t> bytes_of(const fs::path& path, const PngHead& head) {
     std::vector<std::uint8_t> bytes = file_bytes(path);
     if (png_head(bytes, path.string()) != head)
@@ -99,8 +99,8 @@ bool both_are_well(const Sides& sides) {
   return sides[0].trouble.empty() && sides[1].trouble.empty();
 }
 
-// Both at once, on two threads where there are two. Whether their bytes are equal: then the first alone has an
-// image.
+// Reads both pictures, on two threads if allowed. Returns whether their bytes are equal: then only the first
+// has an image.
 bool read_both(int threads, Sides& sides) {
   for (Side& side : sides) side.read();
   const bool equal = both_are_well(sides) && sides[0].bytes == sides[1].bytes;
@@ -155,7 +155,7 @@ void judge(Sides& sides, bool equal, const PngHead& mask_head, const CompareOpti
   out.metrics = std::move(metrics);
 }
 
-// Only one side is there: whether it is a picture at all.
+// Only one side exists: tests whether it is a valid picture at all.
 void look_at_one(const fs::path& path, MemoryBudget& memory, Compared& out) {
   const PngHead head = check_picture(path, memory);
   out.width = head.width;
@@ -211,7 +211,7 @@ PngHead check_picture(const fs::path& path, MemoryBudget& memory) {
   return head;
 }
 
-// Whatever happens to one pair ends no other: a page of a thousand must not be lost to one file.
+// An error with one pair must not end the others: one bad file must not cost a page of a thousand.
 Compared compare_case(const CasePaths& paths, const CompareOptions& options, MemoryBudget& memory) {
   const auto trouble = [&](const std::string& what) {
     Compared out;
@@ -231,7 +231,7 @@ Compared compare_case(const CasePaths& paths, const CompareOptions& options, Mem
     return trouble(error.what());
   } catch (const std::bad_alloc&) {
     return trouble("there is not enough memory to compare it");
-  } catch (const std::exception& error) { // InternalError among them
+  } catch (const std::exception& error) { // including InternalError
     return trouble(fmt::format("it cannot be compared, by a fault of rend itself: {}", error.what()));
   }
 }

@@ -1,6 +1,6 @@
-// How far two pictures are apart, pixel by pixel.
+// Difference metrics of two pictures, pixel by pixel: maximum, mean, RMSE, PSNR.
 //
-//   d(p, c) = |a(p, c) − b(p, c)|                 [levels], of every pixel p that counts and every channel c
+//   d(p, c) = |a(p, c) − b(p, c)|                 [levels], of every unmasked pixel p and every channel c
 //   max = max d     mean = Σ d / N     RMSE = √(Σ d² / N)
 //   PSNR = 20 log10(255 / RMSE) [dB], infinite where equal
 //
@@ -19,10 +19,10 @@ struct Pixel {
 struct Difference {
   double max = 0, mean = 0, rmse = 0; // [levels]
   double psnr = 0;                    // [dB]
-  std::size_t counted = 0;            // pixels that count
-  std::size_t differing = 0;          // those of them that differ at all
+  std::size_t counted = 0;            // unmasked pixels
+  std::size_t differing = 0;          // unmasked pixels that differ at all
   Pixel worst;                        // the first pixel whose difference is `max`
-  Levels largest; // [levels] the largest d of each pixel over its channels; 0 where it does not count
+  Levels largest; // [levels] per pixel, the largest d over its channels; 0 where it is masked out
 };
 
 // Pictures of one size, both with alpha or neither (CHECK).

@@ -14,11 +14,11 @@ namespace {
 
 using Row = std::vector<float>;
 
-// One picture after the filters along its rows.
+// One picture after the horizontal filter pass.
 struct Filtered {
-  // Of YCxCz: luminance, red-green, and blue-yellow twice.
+  // The channels of YCxCz: luminance, red-green, and blue-yellow with either Gaussian.
   Levels luminance, red_green, blue_narrow, blue_wide;
-  // Of Y, 0 to 1: by each of the feature filters.
+  // Luminance, 0 to 1, after each of the feature filters.
   Levels gaussian, edge, point;
 
   explicit Filtered(std::size_t pixels)
@@ -37,12 +37,13 @@ public:
   }
 
   void along_rows(std::size_t picture, int y);
-  void along_columns(int y, float* out) const; // after along_rows of all rows of both
+  // vertical pass; after along_rows() for all rows of both pictures
+  void along_columns(int y, float* out) const;
 
 private:
-  struct Seen { // of one row of one picture
+  struct Seen { // one row of one picture after both passes
     std::vector<Colour3> lab;
-    Row edges, points; // lengths of the gradients
+    Row edges, points; // magnitudes of the gradients
   };
   Seen seen(const Filtered& filtered, int y) const;
   float linear(float level) const {

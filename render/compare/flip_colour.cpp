@@ -6,7 +6,7 @@
 namespace rend {
 namespace {
 
-// Linear RGB to XYZ, divided by the white of D65: rows sum to 1 but for rounding.
+// Linear RGB to XYZ, divided by the D65 white point: rows sum to 1 up to rounding.
 constexpr double white_x = 0.950428545, white_z = 1.088900371;
 constexpr std::array<std::array<double, 3>, 3> to_xyz{
     {{10135552. / 24577794 / white_x, 8788810. / 24577794 / white_x, 4435075. / 24577794 / white_x},

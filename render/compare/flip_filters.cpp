@@ -27,7 +27,7 @@ Filter scaled(const std::vector<double>& values, double factor) {
   return filter;
 }
 
-// What is above 0 is brought to the sum 1, what is below to −1.
+// Scales the positive weights to the sum 1, the negative ones to −1.
 Filter balanced(const std::vector<double>& values) {
   double above = 0, below = 0;
   for (const double value : values) (value > 0 ? above : below) += std::abs(value);
@@ -60,7 +60,7 @@ ColourFilters colour_filters(double pixels_per_degree) {
 }
 
 FeatureFilters feature_filters(double pixels_per_degree) {
-  constexpr double width = 0.082; // of what is taken for an edge [degrees]
+  constexpr double width = 0.082; // [degrees], of what counts as an edge
   const double deviation = 0.5 * width * pixels_per_degree;
   const int radius = static_cast<int>(std::ceil(3 * deviation));
   const std::vector<double> base = gaussian(1 / (2 * deviation * deviation), radius);

@@ -1,5 +1,5 @@
-// The filters of FLIP, one-dimensional: each of the two-dimensional ones is a product of two of these, or a sum
-// of two products. Borders repeat the outermost pixel.
+// The one-dimensional filters of FLIP: each two-dimensional filter is a product of two of these, or a sum of
+// two products. Border pixels are repeated outwards.
 #pragma once
 
 #include <vector>
@@ -11,21 +11,21 @@ struct Filter {
   int radius() const { return static_cast<int>(weights.size() / 2); }
 };
 
-// What the eye makes of colour at some pixels a degree: g(x, y) = Σ aᵢ √(π/bᵢ) exp(−π² (x² + y²)/bᵢ), (x, y in
-// degrees), which sums to 1. Luminance and red-green are one Gaussian, blue-yellow two.
+// Contrast sensitivity of the eye at a number of pixels per degree: g(x, y) = Σ aᵢ √(π/bᵢ) exp(−π² (x² +
+// y²)/bᵢ), (x, y in degrees), which sums to 1. Luminance and red-green are one Gaussian, blue-yellow two.
 struct ColourFilters {
   Filter luminance, red_green, blue_narrow, blue_wide;
 };
 ColourFilters colour_filters(double pixels_per_degree);
 
-// A Gaussian of the standard deviation 0.5 · 0.082 degrees, and its first and second derivatives. What is above
-// 0 sums to 1 in each derivative, what is below to −1.
+// A Gaussian with standard deviation 0.5 · 0.082 degrees, and its first and second derivatives. In each
+// derivative the positive weights sum to 1 and the negative ones to −1.
 struct FeatureFilters {
   Filter gaussian, edge, point;
 };
 FeatureFilters feature_filters(double pixels_per_degree);
 
-// out[x] = Σ weights[k] row[x + k]; `scratch` is for the function.
+// out[x] = Σ weights[k] row[x + k]; `scratch` is working memory.
 void filter_row(const Filter& filter, const float* row, int width, std::vector<float>& scratch, float* out);
 
 // The same along columns, of row y of a plane.

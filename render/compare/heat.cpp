@@ -10,8 +10,8 @@ namespace {
 
 using Rgb = std::array<float, 3>;
 
-// Every eighth of magma, by S. van der Walt and N. Smith (CC0); straight lines between them are within 6 levels
-// of it.
+// The colour map magma at multiples of 1/8, by S. van der Walt and N. Smith (CC0); linear interpolation between
+// them is within 6 levels of it.
 constexpr std::array<Rgb, 9> magma{{{0, 0, 4},
                                     {28, 16, 68},
                                     {79, 18, 123},

@@ -1,5 +1,6 @@
-// A map of values from 0 to 1 as a picture: black over violet and orange to pale yellow (magma), as FLIP's
-// authors show theirs. Brightness grows with the value throughout, so that it reads in grey as well.
+// Heat map: values from 0 to 1 as a picture, in the colours of magma (black over violet and orange to pale
+// yellow), as FLIP's authors show theirs. Lightness grows with the value throughout, so that it can be read in
+// grey as well.
 #pragma once
 
 #include "render/compare/picture.h"
@@ -7,7 +8,7 @@
 
 namespace rend {
 
-// What the mask leaves out is grey.
+// Masked pixels are grey.
 Image heat_of(const Levels& map, int width, int height, const Mask& mask);
 
 } // namespace rend

@@ -1,7 +1,7 @@
-// What two pictures may differ by and still match: limits on figures, by name.
+// The limits within which two pictures match, by the name of the metric.
 //
-// The names stand in tolerance files, on the command line and in reports. Another figure that can be limited is
-// one row in all_limits().
+// The names are those of tolerance files, the command line and reports. To add a limit on another metric, add a
+// row to all_limits().
 #pragma once
 
 #include "render/compare/metrics.h"
@@ -30,12 +30,12 @@ struct Tolerance {
   double threshold = 0;                 // [levels] see MeasureOptions
   int window_side = 16;                 // [pixels]
   std::map<std::string, double> limits; // by name
-  bool lifted = false;                  // "any" was said of a limit: where no other is left, anything matches
+  bool lifted = false; // "any" was given for a limit: if no other limit is left, anything matches
 };
-// Those that hold, by name: where none was ever spoken of pictures must be equal.
+// The limits in effect, by name: where none was ever given, pictures must be equal.
 const std::map<std::string, double>& limits_of(const Tolerance& tolerance);
 
-// A figure outside its limit.
+// A metric outside its limit.
 struct Excess {
   const Limit* limit;
   double asked, got;

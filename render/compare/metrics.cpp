@@ -41,7 +41,7 @@ Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& op
   Metrics out;
   out.difference = difference_of(a, b, mask, options.threads);
   out.over = over_threshold(out.difference, a.width, a.height, options.threshold, options.window_side);
-  if (out.difference.differing == 0) return out; // SSIM is 1, FLIP 0
+  if (out.difference.differing == 0) return out; // equal pictures: SSIM is 1, FLIP 0
   a = over_white(std::move(a));
   b = over_white(std::move(b));
   out.ssim = ssim_of(a, b, mask, options.threads);

@@ -1,4 +1,4 @@
-// All that is measured between two pictures, each in a file of its own beside this one.
+// All metrics between two pictures; each is computed in a file of its own beside this one.
 #pragma once
 
 #include "render/compare/difference.h"
@@ -7,7 +7,7 @@
 namespace rend {
 
 struct FlipFigures {
-  double mean = 0, max = 0;                   // over the pixels that count
+  double mean = 0, max = 0;                   // over unmasked pixels
   double quartile = 0, median = 0, upper = 0; // weighted percentiles 25, 50, 75
 };
 
@@ -16,18 +16,17 @@ struct Metrics {
   OverThreshold over;
   double ssim = 1;
   FlipFigures flip;
-  Pixel worst;     // middle of the 16 x 16 pixels in which FLIP is largest: where to look
+  Pixel worst;     // centre of the 16 x 16 window in which FLIP is largest: where to look
   Levels flip_map; // height x width; empty where the pictures are equal
 };
 
 struct MeasureOptions {
-  double threshold = 0; // [levels] above it a pixel counts as over
+  double threshold = 0; // [levels] a pixel with a larger difference counts as over the threshold
   int window_side = 16; // [pixels]
   int threads = 1;
 };
 
-// Two pictures of one size (CHECK). What the mask leaves out is in no figure. The same on any number of
-// threads.
+// Two pictures of one size (CHECK). Masked pixels enter no metric. The same on any number of threads.
 Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& options);
 
 } // namespace rend

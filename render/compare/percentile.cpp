@@ -9,12 +9,13 @@
 namespace rend {
 namespace {
 
-// The upper half of a float's bits: of floats that are not negative it grows with them.
+// The upper 16 bits of a float: monotonic for floats that are not negative.
 std::uint32_t bucket_of(float value) {
   return std::bit_cast<std::uint32_t>(value) >> 16;
 }
 
-// The least of `values` (in that bucket) up to which the sum, begun at `below`, reaches `wanted`.
+// The smallest of `values` (all in that bucket) at which the running sum, starting from `below`, reaches
+// `wanted`.
 float find(std::span<const float> values, std::uint32_t bucket, double below, double wanted) {
   std::vector<float> sorted;
   for (const float value : values)
@@ -29,8 +30,8 @@ float find(std::span<const float> values, std::uint32_t bucket, double below, do
 
 } // namespace
 
-// Sums per bucket first: only the bucket in which a percentile falls is sorted, which takes a tenth of sorting
-// all.
+// A sum per bucket first: only the bucket that contains a percentile is sorted, which takes a tenth of the time
+// of sorting everything.
 std::vector<float> weighted_percentiles(std::span<const float> values, std::span<const double> percents) {
   std::vector<double> sums(std::size_t{1} << 15);
   for (const float value : values) {

@@ -1,12 +1,12 @@
-// Weighted percentiles: where the errors that matter lie.
+// Weighted percentiles, each value being its own weight.
 //
-// Every value weighs as much as it is large: the p-th weighted percentile is the least value v with
+// The p-th weighted percentile is the smallest value v with
 //
 //   Σ (values ≤ v) ≥ p/100 · Σ (all values)
 //
-// A picture that differs in few pixels has a mean near 0, whatever happened there; weighted, the many zeros do
-// not count. Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: FLIP: A Difference Evaluator for
-// Alternating Images. Proc. ACM Comput. Graph. Interact. Tech. 3 (2020): there, for pooling.
+// If only few pixels of a picture differ, the mean is near 0 however large the differences are; weighted, the
+// many zeros do not count. Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: FLIP: A Difference
+// Evaluator for Alternating Images. Proc. ACM Comput. Graph. Interact. Tech. 3 (2020): there, for pooling.
 #pragma once
 
 #include <span>
@@ -14,8 +14,9 @@
 
 namespace rend {
 
-// One value per entry of `percents` (each above 0, at most 100, growing: CHECK). `values`: none below 0. All 0
-// where no value is above 0. Exact but for the rounding of the sums, whose order is that of the values.
+// One result per entry of `percents` (each above 0, at most 100, increasing: CHECK). `values` must not be
+// negative. All results are 0 if all values are. Exact up to the rounding of the sums, which are taken in the
+// order of the values.
 std::vector<float> weighted_percentiles(std::span<const float> values, std::span<const double> percents);
 
 } // namespace rend

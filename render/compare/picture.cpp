@@ -11,7 +11,7 @@ Picture picture_of(const DeepImage& image) {
   out.width = image.width;
   out.height = image.height;
   out.alpha = image.channels == 4;
-  const float unit = image.bits == 16 ? 257.f : 1.f; // of a level
+  const float unit = image.bits == 16 ? 257.f : 1.f; // samples per level
   const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t c = 0; c < channels; ++c) {
     Levels& plane = out.planes[c];
@@ -29,7 +29,7 @@ Picture over_white(Picture picture) {
   if (!picture.alpha) return picture;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t n = 0; n < picture.pixels(); ++n) picture.planes[c][n] += 255.f - picture.planes[3][n];
-  picture.planes[3] = Levels(); // where {} would keep its room
+  picture.planes[3] = Levels(); // assigning {} would keep the capacity
   picture.alpha = false;
   return picture;
 }

@@ -1,9 +1,8 @@
-// A picture as it is compared: planes of levels, whatever the file was.
+// A picture as it is compared: planes of levels, whatever the format of the file.
 //
-// A level is a float from 0 to 255: that of 8 bits as it stands, that of 16 bits divided by 257. Where a
-// picture is transparent its colours are multiplied by alpha: what cannot be seen does not count, and two
-// pixels are equal if and only if they look the same over every background. A picture without alpha is opaque:
-// it equals one whose alpha is 255 everywhere.
+// A level is a float from 0 to 255: an 8-bit sample unchanged, a 16-bit sample divided by 257. Colours are
+// premultiplied by alpha: invisible colours do not count, and two pixels are equal if and only if they look the
+// same over every background. A picture without alpha is opaque: it equals one whose alpha is 255 everywhere.
 #pragma once
 
 #include "render/files/png_reader.h"
@@ -26,24 +25,24 @@ struct Picture {
 
 Picture picture_of(const DeepImage& image);
 
-// As it looks on white paper, without alpha. What the eye sees (SSIM, FLIP) is compared so.
+// The picture composited over white, without alpha. Perceptual metrics (SSIM, FLIP) compare this.
 Picture over_white(Picture picture);
 
-// Which pixels count.
+// The pixels that are compared.
 struct Mask {
-  std::vector<std::uint8_t> counts; // height x width: 1 counts, 0 does not; empty: all count
+  std::vector<std::uint8_t> counts; // height x width: 1 is compared, 0 is not; empty: all are compared
 
   bool operator[](std::size_t pixel) const { return counts.empty() || counts[pixel] != 0; }
 };
 
-// White counts, black does not: a pixel whose red, over black, is below 128 is left out.
+// White is compared, black is not: a pixel whose red, over black, is below 128 is masked out.
 Mask mask_of(const Picture& picture);
 
-// Makes `b` equal to `a` wherever the mask does not count, so that what is left out cannot reach the pixels
-// beside it through the filters of SSIM and FLIP. All of one size; both with alpha or neither (CHECK).
+// Sets masked pixels of `b` to those of `a`, so that they cannot influence their neighbours through the filters
+// of SSIM and FLIP. All of one size; both with alpha or neither (CHECK).
 void leave_out(const Mask& mask, const Picture& a, Picture& b);
 
-// Gives an opaque picture its alpha, where another has one.
+// Adds an alpha plane to an opaque picture.
 void make_alpha(Picture& picture);
 
 } // namespace rend

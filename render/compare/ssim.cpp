@@ -11,7 +11,7 @@ namespace {
 constexpr int side = 7;
 constexpr double c1 = (0.01 * 255) * (0.01 * 255), c2 = (0.03 * 255) * (0.03 * 255);
 
-// Sums over a part of a column, one array a quantity, one number a column of the picture.
+// Column sums over the height of a window, one array per quantity, one number per column of the picture.
 struct Sums {
   std::vector<double> a, b, aa, bb, ab;
   explicit Sums(std::size_t width) : a(width), b(width), aa(width), bb(width), ab(width) {}
@@ -28,7 +28,8 @@ void add_row(const float* a, const float* b, Sums& sums) {
   }
 }
 
-// Every entry becomes the sum of itself and the across − 1 after it; the last ones mean nothing then.
+// Replaces every entry by the sum of itself and the across − 1 entries after it; the last ones are meaningless
+// then.
 void add_across(std::vector<double>& column, int across, std::vector<double>& scratch) {
   const std::size_t count = column.size() - static_cast<std::size_t>(across) + 1;
   std::copy_n(column.begin(), count, scratch.begin());
@@ -53,7 +54,7 @@ struct Window {
   }
 };
 
-// The windows whose uppermost row is y.
+// The windows whose top row is y.
 Total total_of(const Levels& a, const Levels& b, const Mask& mask, int width, int y, const Window& window) {
   const auto row = static_cast<std::size_t>(width);
   Sums sums(row);

@@ -66,8 +66,8 @@ void check_mask(const PresetNode& node, const std::filesystem::path& folder) {
             "put the mask beside the tolerances, or allow it with --allow-path");
 }
 
-// "name" where a node gives it, and it does nothing: neither of `limits` holds for any picture that the node
-// fits.
+// Whether a node sets `setting` ("threshold", ...) without effect: no picture that the node applies to has one
+// of `limits`.
 bool idle(const Tolerances& all, const PresetNode& node, const char* setting,
           std::initializer_list<const char*> limits, const std::vector<std::string>& names) {
   if (!node.given(setting)) return false;
@@ -82,7 +82,7 @@ bool idle(const Tolerances& all, const PresetNode& node, const char* setting,
   return fits_one;
 }
 
-// A setting of the command line as it would stand in a <default/>.
+// A --limit of the command line, as a <default/> element.
 std::unique_ptr<PresetNode> node_of(const std::string& name, const std::string& value) {
   auto node = std::make_unique<PresetNode>(default_type(), Place{});
   const AttributeType* attribute = default_type().find(name);

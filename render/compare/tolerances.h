@@ -7,10 +7,9 @@
 //   </tolerances>
 //
 // It is read as presets are: misspelt names and values out of range are refused with their place. `name` is a
-// pattern of the shell (* and ? stand for anything, / too). Every case that fits applies, in the order of the
-// file; what a later one says replaces what was said before, and "any" is no limit: where no other is left,
-// anything of the right size matches. The attributes are the names of all_limits(), and threshold, window-size,
-// mask.
+// shell pattern (* and ? also match /). Every case that matches applies, in the order of the file; later values
+// replace earlier ones, and "any" removes a limit: if no other is left, anything of the right size matches. The
+// attributes are the names of all_limits(), and threshold, window-size, mask.
 #pragma once
 
 #include "render/compare/compare.h"
@@ -33,22 +32,22 @@ public:
   // (sim/preset/paths.h), unless `allow_path`.
   explicit Tolerances(const std::filesystem::path& file, bool allow_path = false);
 
-  // As the last word of all: from the command line. "share=0.01", "share=any", "threshold=2". Throws UserError
-  // (Usage).
+  // Adds a setting of the command line, which overrides the file: "share=0.01", "share=any", "threshold=2".
+  // Throws UserError (Usage).
   void add(const std::string& setting);
   void mask_all(const std::filesystem::path& mask) { mask_ = mask; }
 
-  // What holds for the picture of that name; `heat` and `threads` are left as they are by default.
+  // The options for the picture of that name; `heat` and `threads` keep their defaults.
   CompareOptions of(const std::string& name) const;
-  // What is most likely a slip, as sentences: patterns of the file that fit none of `names`, a threshold or
-  // window-size where nothing is limited that they are for.
+  // Likely mistakes, as sentences: patterns of the file that match none of `names`, a threshold or window-size
+  // without a limit that uses it.
   std::vector<std::string> remarks(const std::vector<std::string>& names) const;
 
 private:
   std::vector<std::string> unused(const std::vector<std::string>& names) const;
 
   std::shared_ptr<const PresetNode> file_;
-  std::filesystem::path folder_; // of the file: masks are named from there
+  std::filesystem::path folder_; // of the file: paths of masks are relative to it
   std::vector<std::pair<std::string, std::string>> settings_;
   std::filesystem::path mask_;
 };

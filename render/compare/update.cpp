@@ -39,7 +39,7 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
 
 namespace {
 
-// What would be copied where, all of it looked at before anything is written.
+// Checks the source of one copy; all are checked before anything is written.
 void check_source(const Compared& one, MemoryBudget& memory) {
   if (one.paths.b.empty())
     throw UserError(Exit::Trouble, {one.paths.a.string()},
@@ -48,8 +48,8 @@ void check_source(const Compared& one, MemoryBudget& memory) {
   check_picture(one.paths.b, memory);
 }
 
-// Files that lie complete beside those that they are to replace; what has not taken its place goes. None is
-// held open, so that there can be any number.
+// Temporary copies beside the files that they will replace; removed if not committed. Their descriptors are
+// closed, so that there can be any number.
 class Parts {
 public:
   Parts() = default;
@@ -65,8 +65,8 @@ public:
     std::error_code error;
     fs::create_directories(to.parent_path(), error);
     const fs::path path = fs::weakly_canonical(followed(to));
-    { const OutputFile any(path); }     // whether it can be made at all
-    const auto other = all_.find(path); // two names of one file, by a link
+    { const OutputFile any(path); }     // tests whether it can be created
+    const auto other = all_.find(path); // two names of one file, through a link
     if (other != all_.end() && file_bytes(other->second.from) != bytes)
       throw UserError(Exit::Trouble, {to.string()},
                       fmt::format("--update: this file has two names, and would become both {} and {}",
@@ -79,7 +79,7 @@ public:
     file.write(bytes);
     file.commit();
   }
-  // Asks for no memory: where that is gone, too, all are replaced or none.
+  // Allocates no memory, so that even when none is left all files are replaced or none.
   void commit() {
     for (; !all_.empty(); all_.erase(all_.begin())) {
       const fs::path& path = all_.begin()->first;
@@ -96,8 +96,8 @@ private:
     fs::path from, part;
     TemporaryPath temporary{part.c_str()};
   };
-  std::map<fs::path, Part> all_; // of what is replaced, without links
-  std::set<fs::path> folders_;   // where that lies
+  std::map<fs::path, Part> all_; // by the path that is replaced, with links resolved
+  std::set<fs::path> folders_;   // the folders of these files
 };
 
 } // namespace

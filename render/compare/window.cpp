@@ -9,14 +9,14 @@ namespace rend {
 namespace {
 
 struct Densest {
-  Pixel corner; // the upper left one, the first of equals by rows
+  Pixel corner; // upper left; the first of equals in row order
   double sum = 0;
 };
 
-// The window of across x down pixels in which the sum of value(x, y), not below 0, is largest.
+// The window of across x down pixels with the largest sum of value(x, y) ≥ 0.
 template <class Value> Densest densest(int width, int height, int across, int down, const Value& value) {
   Densest out;
-  std::vector<double> columns(static_cast<std::size_t>(width)); // sums over the rows of the window
+  std::vector<double> columns(static_cast<std::size_t>(width)); // column sums over the rows of the window
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) columns[x] += value(x, y) - (y >= down ? value(x, y - down) : 0);
     if (y + 1 < down) continue;
