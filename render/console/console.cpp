@@ -38,7 +38,7 @@ void print_result(std::string_view text) {
 void print_page(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-  if (stop_signal() == SIGHUP) return; // its terminal has gone, and nobody reads on
+  if (stop_signal() == SIGHUP) return; // the terminal has closed: nobody reads any more
   if (errno == EPIPE) throw NobodyReads();
   throw UserError(Exit::ReadWrite, {},
                   fmt::format("writing to standard output failed: {}", std::strerror(errno)));

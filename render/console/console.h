@@ -1,4 +1,4 @@
-// What is said to the user: results on stdout, all else on stderr.
+// Output for the user: results on stdout, everything else on stderr.
 #pragma once
 
 #include "sim/base/error.h"
@@ -9,34 +9,35 @@
 
 namespace rend {
 
-// Descriptors 0 to 2 that the program was started without are taken, so that no file that it opens gets one of
-// them and is mistaken for what is said. Reading and writing there fails as if they were closed.
+// Opens standard descriptors 0 to 2 that were closed when the program started, so that no file opened later
+// gets one of them and receives messages. Reading and writing there still fails.
 void keep_standard_streams();
 
 bool is_terminal(std::FILE* stream);
 bool wants_colour(std::FILE* stream); // a terminal that knows colours, and NO_COLOR is not set
 
-// Names of files, bodies, groups come from outside, and messages of libraries too: all that is said is made
-// printable here (sim/base/printable.h), once. A result has lines of its own, and so a name in one of its lines
-// needs printable() where the line is made.
+// Names of files, bodies and groups, and messages of libraries, are untrusted text: everything is made
+// printable here (sim/base/printable.h), once. Results consist of lines; a name within a line needs printable()
+// when the line is made.
 
-// Whoever read the results has gone (rend help preset | head -1): the program ends, and says nothing of it.
+// Thrown when the reader of the results has closed the pipe (rend help preset | head -1): the program ends
+// silently.
 struct NobodyReads {};
 
-// Writes to stdout at once. Throws where that fails: NobodyReads, or UserError (ReadWrite) for a full disk.
+// Writes to stdout and flushes. Throws where that fails: NobodyReads, or UserError (ReadWrite) for a full disk.
 void print_result(std::string_view text);
-void print_page(std::string_view text); // the same of rend's own words, with its colours
+void print_page(std::string_view text); // the same for rend's own text, which may contain colour codes
 
 // "rend: error: ..." and below it "  hint: ...", each on one line.
 void print_error(const std::string& what, const std::string& hint = {});
 void print_note(const std::string& what);
-void note_fewer_threads(); // than were wanted: the system starts no more
+void note_fewer_threads(); // a note that the system refused to start as many threads as were asked for
 
-// On stderr as it is, carriage returns and colours too: names within are to be printable(). Whoever does not
-// read it any more misses it.
+// Written to stderr unchanged, carriage returns and colour codes included: names in it must be printable()
+// already. Errors are ignored.
 void print_progress(std::string_view text);
 
 std::string seconds_in_words(double seconds);  // "0.84 s", "12.3 s", "3 min 20 s"
-std::string bytes_in_words(std::size_t bytes); // "12.8 kB", of 1000 bytes
+std::string bytes_in_words(std::size_t bytes); // "12.8 kB", of 1000 bytes each
 
 } // namespace rend

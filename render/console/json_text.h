@@ -1,5 +1,4 @@
-// JSON as it is written: names of files come from outside, and may hold bytes that are no UTF-8, which JSON
-// must be.
+// JSON as text. File names may contain bytes that are not UTF-8, which JSON requires.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,8 +7,8 @@
 
 namespace rend {
 
-// On one line, or indented. What is no character of UTF-8 becomes U+FFFD; what could act on a terminal
-// (sim/base/printable.h) stands as \u202e: a reader of JSON gets the name as it is.
+// On one line, or indented. Invalid UTF-8 becomes U+FFFD; characters that could control a terminal
+// (sim/base/printable.h) are escaped, such as \u202e, so a JSON reader gets the name unchanged.
 std::string text_of(const nlohmann::ordered_json& json, int indent = -1);
 
 } // namespace rend

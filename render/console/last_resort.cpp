@@ -41,7 +41,7 @@ void say(std::string_view text) {
   }
 }
 
-// As print_error(), without memory.
+// As print_error(), without allocating memory.
 void say(const LastWords& words, std::string_view more) {
   say(coloured ? "\033[1;31mrend: error:\033[0m " : "rend: error: ");
   say(words.what);
@@ -53,14 +53,14 @@ void say(const LastWords& words, std::string_view more) {
   say("\n");
 }
 
-// One thread ends the program, and others that come to their end meanwhile wait for that.
+// The first thread that gets here ends the program; others wait for that.
 [[noreturn]] void end(Exit code, const LastWords& words, std::string_view more = {}) noexcept {
   static std::atomic<pid_t> first = 0;
   pid_t none = 0;
   const pid_t self = ::gettid();
   if (!first.compare_exchange_strong(none, self)) {
     while (none != self) ::pause();
-    ::_exit(static_cast<int>(code)); // it crashed while it ended
+    ::_exit(static_cast<int>(code)); // a crash in the code below, in the same thread
   }
   say(words, more);
   remove_temporaries();
@@ -70,8 +70,8 @@ void say(const LastWords& words, std::string_view more) {
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGABRT, SIGILL};
 std::array<struct sigaction, crashes.size()> before;
 
-// Where memory is not the reason the signal is taken as it was before: the instruction is done again, and what
-// was sent is sent again.
+// If memory is not the reason, restores the previous handler: a faulting instruction is executed again on
+// return, a signal that was sent is raised again.
 void on_crash(int signal, siginfo_t* info, void*) {
   if (!is_memory_left()) end(Exit::OutOfBudget, no_memory);
   for (std::size_t n = 0; n < crashes.size(); ++n)
@@ -87,7 +87,7 @@ void on_crash(int signal, siginfo_t* info, void*) {
   } catch (const UserError& error_of_user) {
     end(error_of_user.code, {"", error_of_user.hint.c_str()}, error_of_user.what());
   } catch (const std::exception& thrown) {
-    // oneTBB's own threads start others, and throw this (sim/base/threads.cpp).
+    // Thrown when a thread of oneTBB fails to start another one (sim/base/threads.cpp).
     const auto* of_system = dynamic_cast<const std::system_error*>(&thrown);
     const bool of_thread = std::strstr(thrown.what(), "pthread_create") != nullptr ||
                            (of_system != nullptr && of_system->code().value() == EAGAIN);

@@ -1,4 +1,4 @@
-// How the program ends where it cannot go on, and an error that goes up to main() is no way out.
+// How the program ends where it cannot continue, and unwinding to main() is not possible.
 //
 // From the first allocation by operator new that fails, in whatever thread, it ends at once: with 75, words
 // that lie ready and ask for no memory, and without temporary files (render/files/temporaries.h). Nothing is
@@ -6,20 +6,19 @@
 // and LLVM, which were compiled without exceptions: they would be left with their locks held, and the end
 // might never come. Pictures that are whole stay, as after a kill.
 //
-// Libraries in C say that there is no memory, and that is an error like others (75); or they do not look and
-// crash, or abort: where there is no memory then, that is what the program says, with 75. A crash for another
-// reason stays one.
+// A C library either reports a failed allocation, which is an error like others (75), or does not check, and
+// crashes or aborts: if no memory is left at that moment, the program reports that, with 75. Other crashes stay
+// crashes.
 //
-// What reaches std::terminate (an exception in a thread of a library) ends with the code that it has anywhere
-// else, and words.
+// An exception that reaches std::terminate (in a library's thread) gives its usual exit code and message.
 #pragma once
 
 namespace rend {
 
-// From now on, for this whole program.
+// Installs the handlers, for the whole process.
 void arm_last_resort();
 
-// Says that there is not enough memory, and ends with 75.
+// Prints that there is not enough memory, and exits with 75.
 [[noreturn]] void end_without_memory() noexcept;
 
 } // namespace rend

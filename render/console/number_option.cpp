@@ -14,18 +14,19 @@ namespace rend {
 namespace {
 
 template <class T> std::optional<T> number_in(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1); // from_chars takes none
+  // from_chars accepts no plus sign
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return {};
   return value;
 }
 
-// The text becomes a form that is read in one way only.
+// Rewrites the text in a form that can be read in one way only.
 template <class T> CLI::Validator number_between(T low, T high, const char* kind, const char* what) {
   const auto read = [=](std::string& text) -> std::string {
     const std::optional<T> value = number_in<T>(text);
-    if (!value || !(*value >= low && *value <= high)) // nor what is no number
+    if (!value || !(*value >= low && *value <= high)) // also refuses nan
       return fmt::format("{} is no {} from {} to {}", in_quotes(text), what, low, high);
     text = fmt::format("{}", *value);
     return {};

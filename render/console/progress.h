@@ -1,4 +1,4 @@
-// How far a run is, on stderr: a bar on a terminal, a line every few seconds elsewhere, nothing if quiet.
+// Progress of a run on stderr: a bar on a terminal, a line every few seconds elsewhere, nothing if quiet.
 #pragma once
 
 #include <deque>
@@ -14,9 +14,9 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Cheap enough for every step: looks at a coarse clock, and prints seldom.
+  // Cheap enough to be called in every step: reads a coarse clock, and prints rarely.
   void update(long step, double time, long frame);
-  void clear(); // takes the bar off the screen, before something else is printed
+  void clear(); // removes the bar before other text is printed
 
 private:
   struct Sample {
@@ -28,9 +28,9 @@ private:
   bool quiet_, terminal_, colour_;
   long steps_, frames_;
   double duration_;
-  double next_ = 0;          // when to print [s]
+  double next_ = 0;          // [s], when to print next
   bool shown_ = false;       // a bar is on the screen
-  std::deque<Sample> trail_; // of the last seconds: how fast it goes now, not on average
+  std::deque<Sample> trail_; // the last seconds, for the current speed instead of the average
 };
 
 } // namespace rend

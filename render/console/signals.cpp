@@ -12,12 +12,13 @@ namespace {
 
 constexpr std::array all{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
 
-// Of the handler, which runs in any thread: two may be in it at once.
+// Shared with the handler, which can run in two threads at once.
 std::atomic<int> caught = 0, keeping = 0;
 std::atomic<double> first_at = 0; // [s], of the first signal
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
 
-// [s] What comes within it of the first signal was sent to several at once, or by several, and is the same.
+// [s]. A signal within this time of the first counts as the same request: it was sent to the whole process
+// group, or by several senders.
 constexpr double same = 0.3;
 
 double now() {
@@ -26,7 +27,8 @@ double now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Whether the system said it and not somebody: every second, from a limit of processor time to the next.
+// Whether the kernel sent it because of a limit of processor time: then it comes every second, from the soft to
+// the hard limit.
 bool is_repeated(const siginfo_t& how) {
   return how.si_signo == SIGXCPU && how.si_code == SI_KERNEL;
 }
@@ -49,7 +51,7 @@ bool is_ignored(int signal) {
 
 } // namespace
 
-// Calls that wait are not cut short: what they wait for may be on its way, and none of them looks for EINTR.
+// SA_RESTART: blocking calls are not interrupted, since their callers do not handle EINTR.
 void catch_signals() {
   struct sigaction action {};
   action.sa_sigaction = on_signal;

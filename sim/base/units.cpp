@@ -30,7 +30,8 @@ std::string in_units(double value, const std::string& unit) {
   double size = std::abs(value);
   if (unit.empty()) return sign + fmt::format("{:.3g}", size);
   if (size == 0) return "0 " + unit;
-  size = std::strtod(fmt::format("{:.2e}", size).c_str(), nullptr); // 999.9 becomes 1 of the next
+  // rounding 999.9 to three digits may need the next prefix
+  size = std::strtod(fmt::format("{:.2e}", size).c_str(), nullptr);
   for (const Prefix& prefix : prefixes)
     if (size >= prefix.factor)
       return sign + fmt::format("{:.3g} {}{}", size / prefix.factor, prefix.name, unit);
