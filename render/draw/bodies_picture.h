@@ -1,4 +1,4 @@
-// What was drawn of the bodies, with its samples, and nothing behind.
+// The render targets of the bodies: colour and depth textures, multisampled, without floor and backdrop.
 #pragma once
 
 #include "render/draw/gl.h"
@@ -7,10 +7,10 @@
 namespace rend {
 
 struct BodiesPicture {
-  GLuint colours = 0, depth = 0; // textures, with samples; colours are multiplied by their alpha
-  int samples = 1;               // of each of their pixels: 1 or 4
-  int fine = 1;                  // pixels of theirs for one of the picture, each way
-  PixelBox covered;              // of the picture: elsewhere are none, and beyond it the textures may end
+  GLuint colours = 0, depth = 0; // textures, multisampled if samples > 1; colours are premultiplied by alpha
+  int samples = 1;               // per texel: 1 or 4
+  int fine = 1;                  // supersampling: texels per pixel of the picture, each way
+  PixelBox covered; // [pixels] of the picture: no body is outside of it, and the textures may end beyond it
 
   GLenum kind() const { return samples == 1 ? GL_TEXTURE_2D : GL_TEXTURE_2D_MULTISAMPLE; }
 };

@@ -1,7 +1,5 @@
-// Draws rectangles of a picture, all at once: their edges lie between pixels, so that neighbours leave no gap
-// and share no pixel.
-//
-// A Device must be current, from construction to destruction.
+// Draws rectangles of pixels in one call. Their edges lie on pixel borders, so that adjacent rectangles neither
+// leave a gap nor share a pixel.
 #pragma once
 
 #include "render/draw/gl.h"
@@ -14,14 +12,14 @@ namespace rend {
 class Boxes {
 public:
   Boxes();
-  // With the program in use, whose vertex shader finds places in attribute 0: corners of the picture at -1 and
-  // 1.
+  // Needs a program in use whose vertex shader takes positions from attribute 0, in normalized device
+  // coordinates (corners of the picture at -1 and 1).
   void draw(const std::vector<PixelBox>& boxes, int width, int height);
 
 private:
   GlVertexArray array_;
   GlBuffer buffer_;
-  std::vector<Eigen::Vector2f> corners_; // two triangles a box
+  std::vector<Eigen::Vector2f> corners_; // two triangles per rectangle
 };
 
 } // namespace rend

@@ -40,7 +40,7 @@ View view_of(const FrameCamera& camera, const Eigen::AlignedBox3d& bounds, doubl
   view.world_to_eye.topLeftCorner<3, 3>() = axes.transpose();
   view.world_to_eye.topRightCorner<3, 1>() = -axes.transpose() * camera.eye;
 
-  // Depth has 24 bits: far / near is kept below 5,000.
+  // The depth buffer has 24 bits: far / near is kept below 5,000.
   double nearest = view.distance, farthest = view.distance;
   if (!bounds.isEmpty()) {
     nearest = 1e300;
@@ -67,7 +67,7 @@ FrameCamera frame_auto(const Eigen::AlignedBox3d& bounds, double fov, double asp
                        const Eigen::Vector3d& direction) {
   CHECK(!bounds.isEmpty() && direction.allFinite() && direction.norm() > 0);
   CHECK(fov > 0 && fov < 180 && aspect > 0);
-  constexpr double margin = 1.12; // a twelfth of the picture stays free
+  constexpr double margin = 1.12; // leaves about a twelfth of the picture free
   FrameCamera camera;
   camera.fov = fov;
   camera.target = bounds.center();

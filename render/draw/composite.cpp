@@ -6,14 +6,16 @@
 namespace rend {
 namespace {
 
-constexpr double floor_reach = 4; // where the floor has become backdrop, in distances from eye to target
+// where the floor has faded into the backdrop, in distances from eye to target
+constexpr double floor_reach = 4;
 
-// How the floor is seen, in numbers that are linear over the picture (composite.vert). Lengths on the floor are
-// taken from below the camera's target, in units of the floor's reach.
+// The floor's ray equation, in terms that are linear over the picture (composite.vert). Lengths on the floor
+// are measured from the point below the camera's target, in units of the floor's reach.
 struct FloorView {
   FloorView(const Frame& frame, const View& view, const FloorShadow& shadow);
   Eigen::Vector3d along(double x, double y) const { return ray + x * ray_x + y * ray_y; } // corners at -1 and 1
-  // Where a corner of a block looks at the shade, in texture coordinates; none: not at the floor.
+  // Where the ray through a block's corner hits the shade texture, in texture coordinates; none: it misses the
+  // floor.
   std::optional<Eigen::Vector2d> shade_at(double x, double y) const;
 
   Eigen::Vector3d eye, ray, ray_x, ray_y;
@@ -64,7 +66,7 @@ void set_shade(const GlProgram& program, const FloorView& floor, GLuint shade) {
   glBindTexture(GL_TEXTURE_2D, shade);
 }
 
-// Whether a shadow may reach what is seen in a block.
+// Whether a shadow may reach a block of pixels.
 bool in_shadow(const FloorView& floor, const Footprint& reached, const PixelBox& block, int width, int height) {
   Eigen::AlignedBox2d seen; // in squares of `reached`
   int hits = 0;
@@ -74,7 +76,7 @@ bool in_shadow(const FloorView& floor, const Footprint& reached, const PixelBox&
     if (at) seen.extend(Eigen::Vector2d(*at * reached.columns()));
     hits += at ? 1 : 0;
   }
-  if (hits < 4) return hits > 0;  // across the horizon: it may be anywhere
+  if (hits < 4) return hits > 0;  // the block crosses the horizon: a shadow may be anywhere in it
   constexpr double margin = 0.05; // for rounding
   const auto f = [](double number) { return static_cast<float>(number); };
   return reached.any(f(seen.min().x() - margin), f(seen.min().y() - margin), f(seen.max().x() + margin),
@@ -92,7 +94,7 @@ void set_bodies(const GlProgram& program, const BodiesPicture& bodies) {
 void Composite::draw(const Frame& frame, const View& view, const BodiesPicture& bodies, const Footprint& blocks,
                      const FloorShadow& shadow, const Occlusion* occlusion) {
   const bool seen =
-      frame.floor && !frame.transparent && view.eye.z() > frame.floor->z; // from below it is not there
+      frame.floor && !frame.transparent && view.eye.z() > frame.floor->z; // the floor is invisible from below
   const std::optional<FloorView> floor = seen ? std::optional(FloorView(frame, view, shadow)) : std::nullopt;
   const Behind bare = frame.transparent ? Behind::Nothing : floor ? Behind::Floor : Behind::Backdrop;
   const Behind shaded = floor ? Behind::FloorInShadow : bare;

@@ -1,9 +1,9 @@
-// The last pass: brings the bodies' samples to one a pixel, takes from them what occlusion keeps, and puts the
-// studio (floor and backdrop) behind them.
+// The last render pass: resolves the bodies' samples, multiplies in ambient occlusion, and puts the studio
+// (floor and backdrop) behind them.
 //
-// One pass instead of four: the samples are read where they are wanted, nothing is rounded in between, and a
-// pixel is written once. Only where bodies may be are samples looked at, and only where the floor may lie in a
-// shadow is that looked up: the rest, most of the picture, is a few products a pixel.
+// It is one pass instead of four: no intermediate rounding, and each pixel is written once. Samples are read
+// only in blocks that bodies may cover, and the shadow is looked up only where it may reach the floor: for the
+// rest, most of the picture, a pixel costs a few multiplications.
 //
 // A Device must be current, from construction to destruction.
 #pragma once
@@ -22,14 +22,14 @@ class Composite {
 public:
   Composite(int width, int height) : width_(width), height_(height) {} // [pixels]
 
-  // Into the bound framebuffer, of that size. bodies: always with as many samples; shadow: of the frame's
-  // floor, if it has one; occlusion: of these bodies, null without. blocks: those that bodies cover.
+  // Into the bound framebuffer, which has that size. bodies: always with the same number of samples; shadow: of
+  // the frame's floor, if it has one; occlusion: of these bodies, or null. blocks: those that bodies cover.
   void draw(const Frame& frame, const View& view, const BodiesPicture& bodies, const Footprint& blocks,
             const FloorShadow& shadow, const Occlusion* occlusion);
 
 private:
   enum class Behind { Nothing = 0, Backdrop = 1, Floor = 2, FloorInShadow = 3 };
-  struct Kind { // of program
+  struct Kind { // a variant of the program
     bool bodies, occluded;
     Behind behind;
     auto operator<=>(const Kind&) const = default;
@@ -38,7 +38,7 @@ private:
   const GlProgram& program(const Kind& kind, const BodiesPicture& bodies);
 
   int width_, height_;
-  std::map<Kind, GlProgram> programs_; // compiled when they are first needed
+  std::map<Kind, GlProgram> programs_; // compiled on first use
   Boxes boxes_;
 };
 

@@ -20,9 +20,9 @@ namespace {
   throw UserError(Exit::CannotCreate, {}, "pictures cannot be drawn: " + what, hint);
 }
 
-// llvmpipe crashes with vectors of 512 bits; 128 and 256 give the same pictures, so a choice of 128 is
-// respected. Mesa keeps compiled shaders on disk and forgets how wide their vectors were: found again at
-// another width they write beyond their buffers. Compiling them anew takes a third of a second.
+// llvmpipe crashes with 512-bit vectors; 128 and 256 bits give the same pictures, so a user's choice of 128 is
+// kept. Mesa's disk cache of compiled shaders does not record the vector width: cached code for another width
+// writes beyond its buffers. So the cache is disabled; compiling takes a third of a second.
 void pin_vector_width() {
   const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
   if (width == nullptr || std::strcmp(width, "128") != 0) setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
@@ -33,15 +33,15 @@ void must_have_memory() {
   if (!is_memory_left()) refuse_without_memory();
 }
 
-// llvmpipe starts two sets of so many threads, once for the whole program, and waits for ever for one of the
-// first that was refused. So it is to have as many as there can be, besides others that come yet. Returns
-// whether these are fewer than it would have.
+// llvmpipe starts two sets of this many threads, once per process, and waits for ever for one of the first set
+// that could not be started. So the number is bounded by what can be started, besides threads that are started
+// later. Returns whether this is fewer than llvmpipe would use.
 bool bound_threads() {
-  constexpr int of_others = 8; // the pipeline's and its encoder's
+  constexpr int of_others = 8; // threads of the pipeline and its encoder
   static const bool fewer = [] {
     const char* given = std::getenv("LP_NUM_THREADS");
     const int here = static_cast<int>(std::thread::hardware_concurrency());
-    const int wanted = std::clamp(given != nullptr ? std::atoi(given) : here, 0, 16); // it takes no more
+    const int wanted = std::clamp(given != nullptr ? std::atoi(given) : here, 0, 16); // llvmpipe's maximum
     const int most = std::max(0, startable_threads(2 * wanted + of_others) - of_others) / 2;
     if (most >= wanted) return false;
     setenv("LP_NUM_THREADS", std::to_string(most).c_str(), 1);
@@ -72,7 +72,7 @@ public:
                                          0};
     context_.reset(OSMesaCreateContextAttribs(attributes.data(), nullptr));
     if (refused_thread_starts() > refused) {
-      context_.release(); // nothing may wait for its threads; the program ends
+      context_.release(); // must not wait for its threads: the program is ending
       refuse_without_thread("drawing");
     }
     if (!context_) must_have_memory();
@@ -107,7 +107,7 @@ private:
     void operator()(OSMesaContext context) const { OSMesaDestroyContext(context); }
   };
   std::array<std::uint8_t, 4>
-      buffer_{}; // one RGBA pixel: OSMesa wants a buffer, all drawing goes to framebuffers
+      buffer_{}; // one RGBA pixel: OSMesa needs a buffer, although all drawing goes to framebuffer objects
   std::unique_ptr<osmesa_context, Destroy> context_;
   std::string renderer_;
   bool fewer_threads_ = false;

@@ -6,13 +6,14 @@
 namespace rend {
 namespace {
 
-constexpr double light_width = 0.22;   // of the key light, as seen from the floor: penumbra per distance
-constexpr int blur_side = 64;          // [texels]: how blurred a shadow is changes slowly
+// of the key light, seen from the floor: width of the penumbra per distance of the occluder
+constexpr double light_width = 0.22;
+constexpr int blur_side = 64;          // [texels]; small, since the width of the blur varies slowly
 constexpr int shade_side = 256;        // [texels]: 512 would take 17 ms more, and differ by at most 9 of 255
-constexpr double contact_reach = 0.08; // height at which contact ends, per scale of the picture
+constexpr double contact_reach = 0.08; // height at which the contact shadow ends, per scale of the picture
 
-// How far from a body its blurred picture reaches, in texels of the coarsest level that is looked at: a texel's
-// own four corners are looked at over two texels, and each level took in one texel more of the one before it.
+// How far the blurred picture of a body extends beyond it, in texels of the coarsest level used: bilinear
+// lookups take two texels, and each level adds one texel of the level before it.
 constexpr double blurred_over = 3.1;
 
 void clamp_to_edge(GLint filter) {
@@ -33,7 +34,7 @@ void make_target(const GlTexture& texture, const GlFramebuffer& target, GLint fo
   check_framebuffer("FloorShadow");
 }
 
-// Textures are read beyond their edge as at their edge, and there nothing is kept from the floor.
+// Lookups beyond the edge return the edge texel (clamp to edge): the outermost texels stay 0, no shadow.
 void begin_with_empty_rim(const GlFramebuffer& target, int side) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.name());
   glViewport(0, 0, side, side);
@@ -44,14 +45,14 @@ void begin_with_empty_rim(const GlFramebuffer& target, int side) {
   glScissor(1, 1, side - 2, side - 2);
 }
 
-// From (x, y, z, 1) [m] to texture coordinates of what is seen from a light.
+// From (x, y, z, 1) [m] to texture coordinates of a light's view.
 Eigen::Matrix<float, 2, 4> texture_of(const LightView& view) {
   Eigen::Matrix<double, 2, 4> map = 0.5 * view.world_to_clip.topRows<2>();
   map.col(3).array() += 0.5;
   return map.cast<float>();
 }
 
-// From (x, y, 1) on the floor [m] to texture coordinates of what is seen from a light.
+// From (x, y, 1) on the floor [m] to texture coordinates of a light's view.
 Eigen::Matrix<double, 2, 3> texture_of_floor(const LightView& view, double floor_z) {
   Eigen::Matrix<double, 2, 3> map;
   map << view.world_to_clip.topLeftCorner<2, 2>(),
@@ -92,7 +93,8 @@ void Pyramid::build(const GlProgram& halve, const Eigen::AlignedBox2f& drawn,
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
     begin_with_empty_rim(levels_[static_cast<std::size_t>(level)], side_ >> level);
     if (drawn.isEmpty()) continue;
-    const auto at = [&](float u) { // a texel of margin for the blur, and one for rounding; the rim stays empty
+    // a texel of margin for the blur, and one for rounding; the outermost texel stays empty
+    const auto at = [&](float u) {
       return std::clamp(static_cast<int>(std::floor(u * static_cast<float>(side_ >> level))), 3,
                         (side_ >> level) - 3);
     };
@@ -114,11 +116,11 @@ void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& tow
                         const Eigen::AlignedBox3d& lit, const std::vector<std::span<const Corner>>& triangles,
                         const std::function<void()>& draw) {
   const double contact = contact_reach * scale;      // [m]
-  const Eigen::Vector3d around(contact, contact, 0); // room for the blur, which reaches beyond the bodies
+  const Eigen::Vector3d around(contact, contact, 0); // margin for the blur, which extends beyond the bodies
   const Eigen::AlignedBox3d covered(lit.min() - around, lit.max() + around);
   const LightView key = light_view(towards_key, covered), above = light_view(Eigen::Vector3d::UnitZ(), covered);
   const double key_reach = 2 * key.half; // [m]
-  // A level is blurred over about two of its texels.
+  // The blur of a level is about two of its texels wide.
   const double key_texel = 2 * key.half / key_.side(), contact_texel = 2 * above.half / contact_.side();
   const double penumbra = std::log2(light_width * key_reach / towards_key.z() / (2 * key_texel));
   const double contact_level = std::clamp(std::log2(0.4 * contact / contact_texel), 0.0, 4.0);
@@ -153,7 +155,7 @@ void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& tow
   settle(contact_level, texture_of_floor(above, floor_z));
 }
 
-// All that triangles can bring to the floor, with what blurs it.
+// Marks the squares that the blurred shadow of any triangle can reach on the floor.
 void FloorShadow::find_reached(const Views& views, const std::vector<std::span<const Corner>>& triangles) {
   reached_.clear();
   key_drawn_.setEmpty();

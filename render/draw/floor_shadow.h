@@ -1,9 +1,11 @@
-// What bodies keep from the floor: the key light's soft shadow, and the dark where something nearly touches.
+// Shadows on the floor: the key light's soft shadow, and the contact shadow where something nearly touches the
+// floor.
 //
-// Both are pyramids: a small picture of the bodies (seen from the light, or from straight above), and the same
-// ever coarser and more blurred. The floor picks a level by how high the thing is that throws the shadow, so a
-// shadow is sharp at its foot and soft far from it. That choice is made once for each texel of the shade, seen
-// from the light, and the floor reads it once a pixel.
+// Both are mip pyramids: level 0 is a small picture of the bodies (seen from the light, or from straight
+// above), further levels are coarser and blurred. The level is chosen by the height of the occluder above the
+// floor, so a shadow is sharp where the occluder touches the floor and soft far from it. That choice is made
+// once for each texel of the shade texture, seen from the light; the composite pass reads the shade once a
+// pixel.
 #pragma once
 
 #include "render/draw/boxes.h"
@@ -20,9 +22,10 @@ namespace rend {
 // A texture of two channels (16 bits each) with halved and blurred levels.
 class Pyramid {
 public:
-  Pyramid(int side, int levels); // [texels] of level 0; levels counts level 0
-  // Draws level 0 by `draw` (bound and cleared, its rim left empty), then the others out of it. drawn: what it
-  // draws, in texture coordinates; elsewhere nothing is looked at. Empty: all is cleared.
+  Pyramid(int side, int levels); // [texels] of level 0; levels includes level 0
+  // Renders level 0 by `draw` (bound and cleared, its outermost texels left empty), then each level from the
+  // one before. drawn: the bounds of what it draws, in texture coordinates; the rest is not processed. Empty:
+  // all levels are cleared.
   void build(const GlProgram& halve, const Eigen::AlignedBox2f& drawn, const std::function<void()>& draw);
   GLuint texture() const { return texture_.name(); }
   int side() const { return side_; }
@@ -36,25 +39,25 @@ private:
 class FloorShadow {
 public:
   FloorShadow();
-  // `draw` issues the draw calls of all bodies that throw shadows (positions in attribute 0), which lie in
-  // `lit` and have these triangles, three corners each. scale: a length that belongs to the picture [m]:
-  // contact is seen within a small part of it. towards_key: unit, above the floor.
+  // `draw` issues the draw calls of all bodies that cast shadows (positions in attribute 0); these lie in `lit`
+  // and have these triangles, three corners each. scale: a characteristic length of the picture [m], by which
+  // the reach of contact shadows is chosen. towards_key: unit, above the floor.
   void build(double floor_z, double scale, const Eigen::Vector3d& towards_key, const Eigen::AlignedBox3d& lit,
              const std::vector<std::span<const Corner>>& triangles, const std::function<void()>& draw);
-  // x: the share of key light kept away, y: of all light. 256² texels: the square of build(), seen along the
-  // key.
+  // x: the share of key light that is blocked, y: of all light. 256² texels: the square that build() covers,
+  // seen along the key light.
   GLuint shade() const { return shade_.name(); }
-  // Squares of that texture beyond which nothing is kept from the floor.
+  // The squares of that texture that any shadow can reach.
   const Footprint& reached() const { return reached_; }
   // From (x, y, 1) on the floor [m] to shade's texture coordinates.
   const Eigen::Matrix<double, 2, 3>& shade_of_floor() const { return shade_of_floor_; }
 
 private:
-  struct Views { // of what throws shadows, to texture coordinates
+  struct Views { // matrices from positions of shadow casters to texture coordinates
     Eigen::Matrix<float, 2, 4> key, above,
-        below; // along the key; from above; of what is straight below, along the key
-    float low; // height under which contact counts [m]
-    Eigen::Vector2f key_blur, contact_blur; // how far either pyramid is blurred, in key's texture coordinates
+        below; // along the key light; from above; of the point straight below on the floor, along the key light
+    float low; // height below which contact shadows count [m]
+    Eigen::Vector2f key_blur, contact_blur; // extents of either pyramid's blur, in key's texture coordinates
   };
   void find_reached(const Views& views, const std::vector<std::span<const Corner>>& triangles);
   void choose_blur(double penumbra);
@@ -65,7 +68,7 @@ private:
   GlProgram settle_{"boxes.vert", "settle.frag"};
   Pyramid key_{512, 5}, contact_{256, 5};
   GlProgram choose_{"screen.vert", "blur.frag"};
-  GlTexture blur_, shade_; // one channel: which level of key_ is the shadow; two: see shade()
+  GlTexture blur_, shade_; // one channel: the level of key_ to use; two channels: see shade()
   GlFramebuffer blur_target_, shade_target_;
   Eigen::Matrix<double, 2, 3> shade_of_floor_;
   Footprint reached_{32, 32};

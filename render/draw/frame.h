@@ -1,8 +1,8 @@
-// A frame: all that is needed to draw one picture, and nothing of how it came about.
+// A frame: everything that is needed to draw one picture, independent of the simulation.
 //
-// Bodies come as corners, three a triangle, not indexed: every corner has its own normal, so that a Möbius band
-// (no consistent sides), a crease and a face laid bare by fracture need no special case; and the line along
-// each side of a triangle is a property of the corner opposite to it, so that a quad shows as a quad.
+// Bodies are triangle soups: three corners per triangle, not indexed. Every corner has its own normal, so that
+// a Möbius band (not orientable), a crease and a face exposed by fracture need no special case; and the line
+// along each side of a triangle is an attribute of the opposite corner, so that a quad shows as a quad.
 #pragma once
 
 #include "render/draw/finish.h"
@@ -21,7 +21,7 @@ enum class Line : std::uint8_t {
   None = 0,   // the diagonal of a quad
   Cell = 1,   // an edge between two cells
   Border = 2, // an edge that was a border from the start
-  Torn = 3,   // an edge laid bare by tearing
+  Torn = 3,   // an edge exposed by tearing
   Crease = 4, // a sharp edge of a solid
 };
 
@@ -31,22 +31,24 @@ inline std::array<float, 3> as_floats(const Eigen::Vector3d& v) {
 
 // One corner of a drawn triangle: 32 bytes, uploaded as it is.
 struct Corner {
-  std::array<float, 3> position;      // [m]
-  std::array<float, 3> normal;        // unit, or 0 for a flat triangle; the three of a triangle agree in sign
+  std::array<float, 3> position; // [m]
+  // unit, or 0 for a flat triangle; the normals of a triangle lie on the same side of it
+  std::array<float, 3> normal;
   std::array<std::uint8_t, 4> colour; // sRGB, alpha = 255
-  std::array<std::uint8_t, 4> line; // [k]: Line along the side opposite to corner k, alike in all three; [3]: 0
+  // [k]: Line along the side opposite to corner k, the same in all three corners; [3]: 0
+  std::array<std::uint8_t, 4> line;
 };
 static_assert(sizeof(Corner) == 32);
 
 struct FrameBody {
-  std::vector<Corner> corners; // 3 a triangle
-  bool edges = true;           // draw lines of cells and creases (torn and border lines are drawn all the same)
-  bool two_sided = true; // a sheet; false: a solid, whose triangles run counter-clockwise seen from outside and
-                         // are drawn from there alone
-  bool sides = true;     // a sheet's far side is a shade darker; false: there is but one side (a Möbius band)
-  std::optional<std::array<std::uint8_t, 3>> back; // sRGB, of a sheet's far side; none: as the near side
+  std::vector<Corner> corners; // three per triangle
+  bool edges = true;           // draw lines of cells and creases (torn and border lines are drawn in any case)
+  // a sheet; false: a solid, whose triangles are counter-clockwise seen from outside, with back faces culled
+  bool two_sided = true;
+  bool sides = true; // the back of a sheet is drawn a shade darker; false: front and back alike (a Möbius band)
+  std::optional<std::array<std::uint8_t, 3>> back; // sRGB, of a sheet's back; none: as the front
   Finish finish = finishes().front();
-  bool filled = true; // false: only the lines are there, and one sees through (a wire frame)
+  bool filled = true; // false: lines only (a wire frame)
 };
 
 struct FrameCamera {
@@ -66,11 +68,11 @@ struct Frame {
   std::optional<FrameFloor> floor;
   FrameCamera camera;
   std::optional<Eigen::Vector3d>
-      light; // towards the key light, any length; none: over the camera's left shoulder
+      light; // towards the key light, any length; none: from over the camera's left shoulder
   std::array<float, 3> background{0.93f, 0.94f, 0.96f}; // sRGB; a soft gradient around it
-  bool transparent = false; // nothing is behind the bodies, not even the floor: the picture has an alpha
-  bool occlusion = false;   // what stands near a place keeps light from it: ambient occlusion
-  HudContent hud;           // written over it all; empty: nothing is
+  bool transparent = false; // no floor and no backdrop: the picture has an alpha channel
+  bool occlusion = false;   // draw with ambient occlusion
+  HudContent hud;           // drawn over the picture; empty: nothing
 };
 
 } // namespace rend

@@ -85,7 +85,7 @@ void GlProgram::set(const char* name, const Eigen::Matrix4d& value) const {
 
 namespace {
 
-// Where little is left Mesa may have gone without some, and drawn less: that picture is not to be trusted.
+// After an out-of-memory error Mesa may have drawn less than it was told: the picture is not valid.
 void check_memory(GLenum error) {
   if (error == GL_OUT_OF_MEMORY || !is_memory_left()) refuse_without_memory();
 }
@@ -100,7 +100,8 @@ void check_gl(const char* where) {
 
 void check_framebuffer(const char* where) {
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE) check_memory(glGetError()); // what is attached has none
+  // an attachment without storage is a lack of memory
+  if (status != GL_FRAMEBUFFER_COMPLETE) check_memory(glGetError());
   CHECK_NOTE(status == GL_FRAMEBUFFER_COMPLETE, fmt::format("framebuffer 0x{:04x} in {}", status, where));
 }
 

@@ -1,7 +1,7 @@
-// OpenGL objects that free themselves, and programs whose uniforms are set by name.
+// OpenGL objects with RAII, and programs whose uniforms are set by name.
 //
-// Only for use while a Device is current. The prototypes are linked from libOSMesa itself (no loader: the
-// loaders that Debian packages look for libGL and give black frames or abort).
+// Only for use while a Device is current. The functions are linked from libOSMesa itself, without a loader: the
+// loaders that Debian packages look for libGL and give black frames or abort.
 #pragma once
 
 #ifndef GL_GLEXT_PROTOTYPES
@@ -39,17 +39,17 @@ using GlFramebuffer = GlObject<glGenFramebuffers, glDeleteFramebuffers>;
 using GlRenderbuffer = GlObject<glGenRenderbuffers, glDeleteRenderbuffers>;
 using GlVertexArray = GlObject<glGenVertexArrays, glDeleteVertexArrays>;
 
-// A vertex and a fragment shader out of shaders/, each with common.glsl in front.
+// A vertex and a fragment shader from shaders/, each with common.glsl prepended.
 class GlProgram {
 public:
-  // Names as in shaders/; definitions: lines of #define for both.
+  // File names as in shaders/; definitions: #define lines for both.
   GlProgram(const std::string& vertex, const std::string& fragment, const std::string& definitions = "");
   ~GlProgram();
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;
 
   void use() const;
-  // Set uniforms of the program in use. CHECK that the program has one of that name.
+  // Set uniforms of the program in use. CHECK that the program has a uniform of that name.
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
   void set(const char* name, const Eigen::Vector2i& value) const;
@@ -64,7 +64,7 @@ private:
 };
 
 // Throws InternalError if OpenGL reported an error, or if the bound framebuffer is not complete; UserError
-// (OutOfBudget) where memory is the reason.
+// (OutOfBudget) if the reason is lack of memory.
 void check_gl(const char* where);
 void check_framebuffer(const char* where);
 

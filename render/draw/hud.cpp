@@ -16,7 +16,7 @@ namespace {
 constexpr ImU32 ink = IM_COL32(28, 32, 38, 255), faint = IM_COL32(28, 32, 38, 150);
 constexpr ImU32 paper = IM_COL32(255, 255, 255, 168), hair = IM_COL32(28, 32, 38, 60);
 
-// In shares of the picture's height.
+// As fractions of the picture's height.
 constexpr float title_size = 1 / 26.0f, text_size = 1 / 42.0f, margin = 1 / 30.0f, padding = 1 / 60.0f;
 constexpr float plot_width = 0.42f, plot_height = 0.17f, bar_width = 0.30f, bar_height = 1 / 50.0f;
 
@@ -24,7 +24,7 @@ ImU32 colour(const std::array<std::uint8_t, 3>& c) {
   return IM_COL32(c[0], c[1], c[2], 255);
 }
 
-// Latin with its accents, Greek, and the marks and signs that units and figures want.
+// Latin with diacritics, Greek, punctuation and symbols of units.
 const ImWchar glyphs[] = {0x20,   0xff,   0x131,  0x131,  0x391,  0x3c9, 0x2013,
                           0x2026, 0x207a, 0x207b, 0x2212, 0x2212, 0};
 
@@ -44,15 +44,15 @@ struct Hud::Context {
   void panel(float x, float y, float width, float height);
   void titles(const HudContent& content);
   void figures(const HudContent& content);
-  float plot(const HudPlot& plot, float bottom); // returns where its panel begins
+  float plot(const HudPlot& plot, float bottom); // returns the y of its panel's upper edge
   void curves(const HudPlot& plot, ImVec2 low, ImVec2 high);
   void names(const HudPlot& plot, float x, float y);
-  float legend(const HudLegend& legend, float bottom); // the same
+  float legend(const HudLegend& legend, float bottom); // likewise
 
   float width_, height_; // [pixels]
   ImGuiContext* context_;
   ImFont *title_ = nullptr, *text_ = nullptr; // owned by the context
-  ImDrawList* list_ = nullptr;                // of the frame at hand
+  ImDrawList* list_ = nullptr;                // of the current frame
 };
 
 Hud::Context::Context(int width, int height)
@@ -123,7 +123,7 @@ void Hud::Context::curves(const HudPlot& plot, ImVec2 low, ImVec2 high) {
   }
 }
 
-// The names of the curves beside marks in their colours.
+// The names of the curves, beside markers in their colours.
 void Hud::Context::names(const HudPlot& plot, float x, float y) {
   const float mark = text_->FontSize * 0.55f;
   for (const HudCurve& curve : plot.curves) {
@@ -137,9 +137,9 @@ void Hud::Context::names(const HudPlot& plot, float x, float y) {
 
 float Hud::Context::plot(const HudPlot& plot, float bottom) {
   const float pad = at(padding), line = text_->FontSize * 1.35f;
-  float across = at(plot_width), named = 0; // as wide as the curves' names need
+  float across = at(plot_width), named = 0; // as wide as the names of the curves need
   for (const HudCurve& curve : plot.curves) named += size_of(text_, curve.name).x + 1.95f * text_->FontSize;
-  named += size_of(text_, plot.low_text).x; // behind them
+  named += size_of(text_, plot.low_text).x; // written after them
   across = std::max(across, named);
   const float width = across + 2 * pad, height = at(plot_height) + 2 * line + 2 * pad;
   const float left = at(margin), top = bottom - height;
@@ -158,7 +158,8 @@ float Hud::Context::plot(const HudPlot& plot, float bottom) {
 float Hud::Context::legend(const HudLegend& legend, float bottom) {
   const float pad = at(padding), line = text_->FontSize * 1.35f;
   const float words = size_of(text_, legend.low).x + text_->FontSize + size_of(text_, legend.high).x;
-  const float across = std::max({at(bar_width), size_of(text_, legend.title).x, words}); // as its words need
+  // as wide as its text needs
+  const float across = std::max({at(bar_width), size_of(text_, legend.title).x, words});
   const float width = across + 2 * pad, height = at(bar_height) + 2 * line + 2 * pad;
   const float left = width_ - at(margin) - width, top = bottom - height;
   panel(left, top, width, height);

@@ -1,8 +1,8 @@
 // The head-up display: writes HudContent over the picture that was drawn, with Dear ImGui.
 //
-// Only ImGui's lists of shapes and text are used, none of its windows: places and sizes are shares of the
-// picture's height, and the font is baked at the size it is drawn at, so that it is crisp and laid out alike at
-// any size.
+// Only ImGui's draw lists are used, not its windows: positions and sizes are fractions of the picture's height,
+// and the font is rasterized at the size at which it is drawn, so that text is crisp and the layout is the same
+// at any size.
 //
 // A Device must be current, from construction to destruction; one Hud at a time in a thread.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace rend {
 
-// False where rend was built without REND_HUD: a Hud then draws nothing.
+// False if rend was built without REND_HUD: a Hud then draws nothing.
 bool hud_available();
 
 class Hud {

@@ -1,5 +1,5 @@
-// What is written over a picture: words, curves and the legend of its colours. Numbers come as text, since what
-// they mean and how exact they are is not known here.
+// The content of the head-up display: text, plots, and legends of colour scales. Numbers come as text,
+// formatted by who knows their meaning and precision.
 #pragma once
 
 #include <array>
@@ -12,19 +12,19 @@ namespace rend {
 struct HudCurve {
   std::string name;
   std::array<std::uint8_t, 3> colour; // sRGB
-  std::vector<float> values;          // one a frame of the clip, from its first
+  std::vector<float> values;          // one per frame of the clip, from its first
 };
 
-// Curves over the clip's time, in one frame of axes.
+// Curves over the clip's time, with common axes.
 struct HudPlot {
   std::string title;               // with the unit
-  std::vector<HudCurve> curves;    // all as long
+  std::vector<HudCurve> curves;    // all of the same length
   float low = 0, high = 0;         // of the axis
-  std::string low_text, high_text; // what is written at its ends
-  long frames = 0;                 // of the whole clip: where the curves will end
+  std::string low_text, high_text; // labels of its ends
+  long frames = 0;                 // of the whole clip: the length of the time axis
 };
 
-// A bar of colours with its ends.
+// A colour bar, labelled at its ends.
 struct HudLegend {
   std::string title; // with the unit
   std::string low, high;
@@ -35,7 +35,7 @@ struct HudContent {
   std::string title, subtitle;      // top left
   std::vector<std::string> figures; // top right, one a line
   std::vector<HudPlot> plots;       // bottom left
-  std::vector<HudLegend> legends;   // bottom right, one above another
+  std::vector<HudLegend> legends;   // bottom right, stacked
 
   bool empty() const {
     return title.empty() && subtitle.empty() && figures.empty() && plots.empty() && legends.empty();

@@ -3,7 +3,7 @@
 
 #include "sim/base/check.h"
 
-// The assembler puts the files into the program as they are.
+// The assembler embeds the font files unchanged.
 __asm__(".section .rodata\n"
         ".global rend_hud_font, rend_hud_font_end, rend_hud_font_bold, rend_hud_font_bold_end\n"
         ".balign 16\n"

@@ -12,8 +12,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// The least power of √2 that is not below x > 0. Powers of two are exact, so no run or machine sees another
-// one.
+// The smallest power of √2 not below x > 0. Its mantissa is one of two constants, so the result is the same on
+// every machine.
 double power_of_root_two(double x) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent); // x = mantissa 2^exponent, mantissa in [1/2, 1)
@@ -21,7 +21,7 @@ double power_of_root_two(double x) {
   return std::ldexp(mantissa <= half_root ? half_root : 1.0, exponent);
 }
 
-// Columns: any two directions across `towards`, and `towards`.
+// Columns: two unit vectors perpendicular to `towards`, and `towards`.
 Matrix3d across(const Vector3d& towards) {
   const Vector3d other = std::abs(towards.z()) < 0.99 ? Vector3d::UnitZ() : Vector3d::UnitY();
   const Vector3d x = other.cross(towards).normalized();
@@ -37,7 +37,7 @@ Lights lights_of(const Frame& frame) {
   Lights lights;
   lights.sky = frame.floor ? Vector3d::UnitZ() : camera.up.normalized();
   const Vector3d& sky = lights.sky;
-  Vector3d back = camera.eye - camera.target; // level, towards the camera
+  Vector3d back = camera.eye - camera.target; // horizontal, towards the camera
   back -= sky * sky.dot(back);
   if (back.norm() < 1e-3 * (camera.eye - camera.target).norm()) back = -(camera.up - sky * sky.dot(camera.up));
   if (back.norm() < 1e-9) back = across(sky).col(0);
@@ -69,7 +69,7 @@ LightView light_view(const Vector3d& towards, const Eigen::AlignedBox3d& bounds)
     box.extend(Vector3d(axes.transpose() * bounds.corner(Eigen::AlignedBox3d::CornerType(i))));
   LightView view;
   const Vector3d sizes = box.sizes();
-  constexpr double margin = 1.15; // room for half a step of the centre and for the blur of the edges
+  constexpr double margin = 1.15; // room for half a step of the centre and for the blur of the shadow's edges
   const double side = std::max({sizes.x(), sizes.y(), 1e-6});
   view.half = power_of_root_two(0.5 * side * margin);
   const double depth = power_of_root_two(std::max(0.5 * sizes.z() * margin, view.half));
@@ -80,7 +80,7 @@ LightView light_view(const Vector3d& towards, const Eigen::AlignedBox3d& bounds)
   Matrix3d scaled = axes.transpose();
   scaled.row(0) /= view.half;
   scaled.row(1) /= view.half;
-  scaled.row(2) /= -depth; // nearer to the light is less deep
+  scaled.row(2) /= -depth; // depth grows away from the light
   view.world_to_clip.setIdentity();
   view.world_to_clip.topLeftCorner<3, 3>() = scaled;
   view.world_to_clip(0, 3) = -centre.x() / view.half;

@@ -1,10 +1,10 @@
-// The lights of the studio, and what the shadow maps cover.
+// The lights of the studio, and the areas that shadow maps cover.
 //
-// Everything here is a pure function of the frame, so that a frame drawn alone is the frame of the whole clip,
-// and yet it is steady: the light stands still unless the camera moves (or stands where the frame says), and a
-// shadow map covers a square whose side is a power of √2 and whose centre moves by whole texels. A texel of the
-// map is therefore a fixed spot in the scene, and shadow edges do not crawl. (Fitting the map to the first
-// frame would be as steady, but then a frame would depend on where the clip began.)
+// Everything here is a pure function of the frame, so that a frame drawn alone equals the same frame of the
+// whole clip. Shadows are stable nevertheless: the light is fixed relative to the camera (or given by the
+// frame), and a shadow map covers a square whose side is a power of √2 and whose centre moves by whole texels.
+// A texel of the map is therefore a fixed place in the scene, and shadow edges do not crawl. (Fitting the map
+// to the first frame would be as stable, but then a frame would depend on where the clip began.)
 #pragma once
 
 #include "render/draw/camera.h"
@@ -12,26 +12,26 @@
 
 namespace rend {
 
-// A square seen along an axis, by an orthographic view: x and y across it, z towards the light.
+// The orthographic view of a square along an axis: x and y in its plane, z towards the light.
 struct LightView {
   Eigen::Matrix4d world_to_clip; // the square to [-1, 1]²; depth -1 is nearest to the light
   double half = 1;               // half the side of the square [m]
 };
 
 struct Lights {
-  Eigen::Vector3d sky;  // unit, upwards: z where there is a floor, the camera's up otherwise
+  Eigen::Vector3d sky;  // unit, upwards: z if there is a floor, else the camera's up
   Eigen::Vector3d key;  // unit, towards the key light
-  Eigen::Vector3d fill; // unit, towards the weak light that opens the shadows
+  Eigen::Vector3d fill; // unit, towards the weak light that brightens the shadows
 };
 
 Lights lights_of(const Frame& frame);
 
-// The box that shadows are worked out for: `bounds`, cut to what is near enough to the camera's target to be
+// The box that shadows are computed for: `bounds`, clipped to what is near enough to the camera's target to be
 // seen.
 Eigen::AlignedBox3d lit_bounds(const FrameCamera& camera, double aspect, const Eigen::AlignedBox3d& bounds);
 
-// A view along `towards` (unit, from the scene to the light) that covers `bounds` with a margin. Steps of the
-// square's centre are whole texels of any map of up to 2048² texels that is at least 32 wide.
+// A view along `towards` (unit, from the scene to the light) that covers `bounds` with a margin. The square's
+// centre moves in steps of whole texels of any map that is 32 to 2048 texels wide.
 LightView light_view(const Eigen::Vector3d& towards, const Eigen::AlignedBox3d& bounds);
 
 } // namespace rend

@@ -6,9 +6,9 @@
 namespace rend {
 namespace {
 
-constexpr int part = 3;                // of the picture's pixels, each way, one is looked at
-constexpr double reach_share = 0.11;   // how far away things still keep light, in distances from eye to target
-constexpr double longest_share = 0.18; // that reach seems at most so long, in heights of the picture
+constexpr int part = 3;                // resolution: one texel for so many pixels of the picture, each way
+constexpr double reach_share = 0.11;   // radius of occlusion, in distances from eye to target
+constexpr double longest_share = 0.18; // its largest length on the picture, in heights of the picture
 
 constexpr float very_far = 1e9f; // [m]
 
@@ -16,7 +16,8 @@ void make_target(const GlTexture& texture, const GlFramebuffer& target, GLint fo
                  int width, int height) {
   glBindTexture(GL_TEXTURE_2D, texture.name());
   glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, channels, GL_FLOAT, nullptr);
-  const float far_away[4] = {channels == GL_RED ? very_far : 0, very_far, 0, 0}; // what is beyond the picture
+  // value beyond the border of the picture
+  const float far_away[4] = {channels == GL_RED ? very_far : 0, very_far, 0, 0};
   glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, far_away);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
@@ -42,12 +43,13 @@ double reach(const View& view) {
   return reach_share * view.distance;
 }
 
-// 1 over the depth that keeps neighbours apart [1/m]: a quarter of the reach.
+// 1 over the difference in depth above which neighbours are on different surfaces [1/m]: a quarter of the
+// radius.
 float tolerance(const View& view) {
   return static_cast<float>(4 / reach(view));
 }
 
-// 1 / depth = x + y * what the depth buffer holds.
+// 1 / depth = x + y * (value of the depth buffer).
 Eigen::Vector2f to_nearness(const View& view) {
   const Eigen::Matrix4d& clip = view.eye_to_clip;
   return Eigen::Vector2d((clip(2, 2) - 1) / clip(2, 3), 2 / clip(2, 3)).cast<float>();
@@ -71,7 +73,7 @@ Occlusion::Occlusion(int width, int height, int samples, int fine)
 void Occlusion::find(const BodiesPicture& bodies, const View& view, std::optional<double> floor_z) {
   const PixelBox& covered = bodies.covered;
   const auto longest = static_cast<int>(longest_share * small_height_);
-  const auto grown = [&](int margin) { // small
+  const auto grown = [&](int margin) { // `covered` in texels of the small picture, enlarged by a margin
     const int x = std::max(covered.x / part - margin, 0), y = std::max(covered.y / part - margin, 0);
     return PixelBox{x, y, std::min((covered.x + covered.width) / part + 1 + margin, small_width_) - x,
                     std::min((covered.y + covered.height) / part + 1 + margin, small_height_) - y};
@@ -98,9 +100,9 @@ void Occlusion::set(const GlProgram& program, const View& view, const BodiesPict
 
 void Occlusion::read_depths(const BodiesPicture& bodies, const View& view, const PixelBox& box,
                             std::optional<double> floor_z) {
-  Eigen::Vector3d floor = Eigen::Vector3d::Zero(); // its nearness over the small picture
+  Eigen::Vector3d floor = Eigen::Vector3d::Zero(); // 1 / depth of the floor, linear over the small picture
   if (floor_z) {
-    const Eigen::Vector3d up = view.world_to_eye.topLeftCorner<3, 3>().col(2); // in the eye's axes
+    const Eigen::Vector3d up = view.world_to_eye.topLeftCorner<3, 3>().col(2); // in eye coordinates
     const double x = up.x() / view.eye_to_clip(0, 0), y = up.y() / view.eye_to_clip(1, 1);
     const double odd_x = 1.0 * part * small_width_ / width_, odd_y = 1.0 * part * small_height_ / height_;
     floor = {x * odd_x, y * odd_y, x * (odd_x - 1) + y * (odd_y - 1) - up.z()};

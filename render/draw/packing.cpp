@@ -10,11 +10,11 @@ namespace {
 using Eigen::Vector3f;
 using ConstMap = Eigen::Map<const Vector3f>;
 
-// The three corners of a triangle; wound: their order says which side is its front.
+// Prepares the three corners of a triangle; wound: their order defines the front.
 void wind(Corner* corner, bool wound) {
   const ConstMap a(corner[0].position.data()), b(corner[1].position.data()), c(corner[2].position.data());
-  const Vector3f across = (b - a).cross(c - a); // twice the area, along the side that winds counter-clockwise
-  // The sum of all numbers is finite only if each of them is, or if it overflowed: a frame is not that large.
+  const Vector3f across = (b - a).cross(c - a); // twice the area times the normal, counter-clockwise
+  // The sum is finite if each number is; it could overflow only for coordinates that no frame has.
   Vector3f sum = a + b + c, normals = Vector3f::Zero();
   for (int k = 0; k < 3; ++k) normals += ConstMap(corner[k].normal.data());
   CHECK_NOTE((sum + normals).allFinite(), "a frame holds a number that is not finite");

@@ -1,10 +1,10 @@
-// A rectangle of a picture.
+// A rectangle of pixels.
 #pragma once
 
 namespace rend {
 
 struct PixelBox {
-  int x = 0, y = 0;          // of its lower left corner, from the picture's [pixels]
+  int x = 0, y = 0;          // [pixels], lower left corner, from that of the picture
   int width = 0, height = 0; // [pixels]
 };
 

@@ -17,7 +17,7 @@ void Footprint::mark_all() {
 }
 
 Footprint::Range Footprint::range(float low_x, float low_y, float high_x, float high_y) const {
-  const auto square = [](float at, int most) { // clamped first: what is far away is no int
+  const auto square = [](float at, int most) { // clamped first: far coordinates would overflow an int
     return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(most)));
   };
   if (!(high_x >= 0 && high_y >= 0)) return {};
@@ -70,7 +70,7 @@ void mark_covered(Footprint& blocks, std::span<const Corner> corners, const View
       const auto& p = corners[n + k].position;
       const Eigen::Vector4f clip =
           matrix.col(0) * p[0] + matrix.col(1) * p[1] + matrix.col(2) * p[2] + matrix.col(3);
-      if (clip.w() < behind) return blocks.mark_all(); // behind the eye or beside it
+      if (clip.w() < behind) return blocks.mark_all(); // crosses the plane of the eye: may project anywhere
       const float inverse = 1 / clip.w(), x = clip.x() * inverse, y = clip.y() * inverse;
       low_x = std::min(low_x, x);
       low_y = std::min(low_y, y);

@@ -6,7 +6,7 @@
 
 namespace rend {
 
-// The text of a file of shaders/, such as "body.frag". CHECK that there is one of that name.
+// The source of a file of shaders/, such as "body.frag". CHECK that there is one of that name.
 std::string_view shader_source(std::string_view name);
 
 } // namespace rend

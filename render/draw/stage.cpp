@@ -14,10 +14,11 @@ namespace {
 
 // [texels]. With four taps an edge is some five texels wide: softer than at 2048, and 1.4 ms instead of 5.5.
 constexpr int shadow_side = 1024;
-constexpr float shadow_spread = 2.0f; // of the four taps [texels]
+constexpr float shadow_spread = 2.0f; // [texels], of the four taps (percentage-closer filtering)
 constexpr float far_side_tint = 0.74f;
-constexpr double sunk = 0.002;          // what may lie in the floor and still be seen, in the same distances
-constexpr float shadow_step_out = 2.5f; // along the normal [texels]
+// depth below the floor down to which bodies are drawn, in distances from eye to target
+constexpr double sunk = 0.002;
+constexpr float shadow_step_out = 2.5f; // offset of the shadow lookup along the normal [texels]
 
 // From [-1, 1]³ to [0, 1]³.
 Eigen::Matrix4d to_texture(const Eigen::Matrix4d& clip) {
@@ -27,13 +28,14 @@ Eigen::Matrix4d to_texture(const Eigen::Matrix4d& clip) {
   return half * clip;
 }
 
-// RGBA to RGB. Four bytes at once, of which the last is written over by the next pixel: a third of the time.
+// RGBA to RGB. Copies four bytes at once, of which the last is overwritten by the next pixel: three times as
+// fast.
 void drop_alpha(const std::uint8_t* from, std::uint8_t* to, int pixels) {
   for (int x = 0; x + 1 < pixels; ++x) std::memcpy(to + std::ptrdiff_t{3} * x, from + std::ptrdiff_t{4} * x, 4);
   std::memcpy(to + std::ptrdiff_t{3} * (pixels - 1), from + std::ptrdiff_t{4} * (pixels - 1), 3);
 }
 
-// What was multiplied by its alpha, as it was before: PNG keeps them apart.
+// From premultiplied to straight alpha, as PNG has it.
 void unmultiply(const std::uint8_t* from, std::uint8_t* to, int pixels) {
   for (int x = 0; x < pixels; ++x, from += 4, to += 4) {
     const int alpha = from[3];
@@ -60,13 +62,14 @@ Stage::Stage(int width, int height, int samples)
     throw UserError(Exit::BadInput, {}, "this machine's OpenGL cannot take 4 samples a pixel.",
                     "Set samples=\"1\" and draw a larger picture.");
   make_picture();
-  make_target(width * fine_, height * fine_); // whether there is room for the most that may be needed
+  // fails early if there is no room for the largest target that may be needed
+  make_target(width * fine_, height * fine_);
   make_shadow_map();
   make_vertex_array();
   check_gl("Stage");
 }
 
-// Of the framebuffer bound: what is larger than the machine's OpenGL can hold is known only by trying.
+// For the bound framebuffer. Whether OpenGL can allocate it is known only by trying.
 void Stage::must_hold() const {
   const bool full = glGetError() == GL_OUT_OF_MEMORY;
   if (!full && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
@@ -78,7 +81,7 @@ void Stage::must_hold() const {
   throw UserError(Exit::BadInput, {}, picture + " is more than this machine's OpenGL can hold", hint);
 }
 
-// Whether it could with memory enough. A proxy asks for none; that of depths takes as much.
+// Whether it could with enough memory: a proxy texture allocates nothing. The depth texture takes as much.
 bool Stage::can_ever_hold() const {
   const int width = width_ * fine_, height = height_ * fine_;
   const bool many = taken_ > 1;
@@ -119,9 +122,9 @@ void Stage::make_target(int width, int height) {
   target_height_ = height;
 }
 
-// Made anew where what is to be drawn does not fit, or is less than half of it; in coarse steps, which bodies
-// that move seldom take. It begins where the picture does: elsewhere, corners of triangles would be rounded to
-// other parts of a pixel.
+// Reallocates the target if the covered area does not fit, or is less than half of it; in coarse steps, so that
+// moving bodies rarely cause it. The target always starts at the picture's corner: at another origin, vertices
+// would be rounded to other sub-pixel positions.
 void Stage::fit_target(const PixelBox& covered) {
   constexpr int step = 128; // [pixels]
   const auto rounded = [&](int size, int most) {
@@ -208,7 +211,8 @@ void Stage::upload(const Frame& frame) {
     }
   glBindBuffer(GL_ARRAY_BUFFER, corners_buffer_.name());
   if (packed_.size() > capacity_) {
-    capacity_ = packed_.size() + packed_.size() / 4; // tearing adds a few corners a frame
+    // room for the corners that tearing adds from frame to frame
+    capacity_ = packed_.size() + packed_.size() / 4;
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_ * sizeof(Corner)), nullptr, GL_STREAM_DRAW);
   }
   glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(packed_.size() * sizeof(Corner)), packed_.data());
@@ -228,7 +232,7 @@ std::vector<std::span<const Corner>> Stage::casting() const {
 void Stage::draw_all() const {
   glBindVertexArray(corners_array_.name());
   for (const Draw& draw : draws_)
-    if (draw.body->filled) glDrawArrays(GL_TRIANGLES, draw.first, draw.count); // wires throw no shadow
+    if (draw.body->filled) glDrawArrays(GL_TRIANGLES, draw.first, draw.count); // wire frames cast no shadow
 }
 
 void Stage::draw_shadow_map(const LightView& light) {
@@ -237,7 +241,7 @@ void Stage::draw_shadow_map(const LightView& light) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glClear(GL_DEPTH_BUFFER_BIT);
-  glEnable(GL_SCISSOR_TEST); // an empty rim: beyond the edge there is no shadow
+  glEnable(GL_SCISSOR_TEST); // the outermost texels stay empty: no shadow beyond the edge
   glScissor(1, 1, shadow_side - 2, shadow_side - 2);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2, 2);
@@ -255,13 +259,13 @@ void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& ligh
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
   glViewport(0, 0, width_ * fine_, height_ * fine_);
   glEnable(GL_DEPTH_TEST);
-  glClearColor(0, 0, 0, 0); // nothing: the studio goes behind
+  glClearColor(0, 0, 0, 0); // transparent: the studio is composited behind
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
   glBindVertexArray(corners_array_.name());
   glEnable(GL_CLIP_DISTANCE0);
-  for (const bool filled : {true, false}) { // one sees through wires to what is behind them
+  for (const bool filled : {true, false}) { // wire frames last: what is behind them shows through
     if (std::none_of(draws_.begin(), draws_.end(),
                      [&](const Draw& draw) { return draw.body->filled == filled; }))
       continue;
@@ -319,7 +323,7 @@ void Stage::draw_body(const GlProgram& program, const Draw& draw) const {
   program.set("cells", body.edges ? 1 : 0);
   if (body.filled) set_finish(program, body);
   Eigen::Vector4f back(0, 0, 0,
-                       body.sides ? far_side_tint : 1); // what the far side has of its own, and of the near
+                       body.sides ? far_side_tint : 1); // the back's own tint, relative to the front's
   if (body.back && body.sides) {
     const auto& colour = *body.back;
     back = Eigen::Vector4f(colour[0], colour[1], colour[2], 0) / 255;
