@@ -1,7 +1,7 @@
-// A picture in memory: 8-bit rows, top first, no padding between them.
+// A picture in memory: 8-bit rows, top first, without padding.
 //
-// Everything that leaves the renderer (PNG, video, comparison) reads this one type, so that nobody else needs
-// to know that OpenGL hands its rows over upside down.
+// Everything after the renderer (PNG, video, comparison) uses this type, so that nothing else needs to know
+// that OpenGL returns rows bottom first.
 #pragma once
 
 #include "sim/base/check.h"
@@ -25,11 +25,11 @@ struct Image {
     CHECK(channels == 3 || channels == 4);
   }
 
-  std::size_t stride() const { return static_cast<std::size_t>(width) * channels; } // bytes a row
+  std::size_t stride() const { return static_cast<std::size_t>(width) * channels; } // bytes per row
   std::uint8_t* row(int y) { return pixels.data() + y * stride(); }
   const std::uint8_t* row(int y) const { return pixels.data() + y * stride(); }
   const std::uint8_t* at(int x, int y) const& { return row(y) + static_cast<std::size_t>(x) * channels; }
-  const std::uint8_t* at(int x, int y) const&& = delete; // it would point into a picture that is gone
+  const std::uint8_t* at(int x, int y) const&& = delete; // would point into a temporary image
 
   bool operator==(const Image&) const = default;
 };

@@ -7,8 +7,8 @@ namespace rend {
 
 void must_av(int result, const std::filesystem::path& file, const char* doing) {
   if (result >= 0) return;
-  // What libraries below libav answer where they get no memory or no threads: of all that they are given
-  // nothing else can be wrong.
+  // Encoders and filters below libav return these codes when they get no memory or no threads; their arguments
+  // are known to be valid here.
   const bool out_of_room = result == AVERROR(ENOMEM) || result == AVERROR(EAGAIN) || result == AVERROR_EXTERNAL;
   if (out_of_room)
     throw UserError(Exit::OutOfBudget, {file.string()},

@@ -1,4 +1,4 @@
-// What all files that use libav share: owners of its objects, and its errors in words. Only for builds with
+// Shared by all files that use libav: owners of its objects, and its errors as messages. Only for builds with
 // video.
 #pragma once
 
@@ -32,17 +32,17 @@ struct FreeOfLibav {
 };
 template <class T> using Owned = std::unique_ptr<T, FreeOfLibav>;
 
-// Throws UserError about the file where a result of libav is negative: ReadWrite, or OutOfBudget for want of
+// Throws UserError about the file if a result of libav is negative: ReadWrite, or OutOfBudget for lack of
 // memory or threads.
 void must_av(int result, const std::filesystem::path& file, const char* doing);
 
-// What libav makes is null where there is no memory: throws std::bad_alloc.
+// Allocation functions of libav return null when out of memory: throws std::bad_alloc then.
 template <class T> T* must_be_made(T* made) {
   if (made == nullptr) throw std::bad_alloc();
   return made;
 }
 
-// Options as libav takes them; freed with this, whatever libav left in it.
+// An AVDictionary of options, freed with this object; libav removes the entries that it has used.
 class AvOptions {
 public:
   explicit AvOptions(const std::vector<std::pair<std::string, std::string>>& options);

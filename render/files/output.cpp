@@ -26,7 +26,7 @@ fs::path numbered(const fs::path& temporary, int n) {
          (temporary.stem().string() + "." + std::to_string(n) + temporary.extension().string());
 }
 
-// Whether a file that was opened still has that name: who had it before may have renamed or removed it.
+// Whether an open file still has that name: another process may have renamed or removed it.
 bool is_called(int file, const fs::path& path) {
   struct stat ours {
   }, there{};
@@ -34,15 +34,15 @@ bool is_called(int file, const fs::path& path) {
          ours.st_dev == there.st_dev;
 }
 
-// Whether it may be what a killed run left: no link, pipe or folder, not another user's, nor a file that is
-// known by another name too.
+// Whether it can be the temporary file of a killed run: no link, pipe or folder, not another user's, and
+// without further hard links.
 bool may_be_leftover(const struct stat& there) {
   return S_ISREG(there.st_mode) && there.st_nlink == 1 && there.st_uid == ::geteuid();
 }
 
-// Removes what a killed run left under this name. False where something else is there, or what a running
-// program writes to. It is looked at before it is opened, which may already do something (a pipe's other end
-// sees it), and again once it is locked.
+// Removes a killed run's temporary file of this name. False if something else has that name, or a running
+// program writes to it. It is checked before it is opened, since opening can have effects (the other end of a
+// pipe notices), and again once it is locked.
 bool remove_if_leftover(const fs::path& temporary) {
   struct stat there {};
   if (::lstat(temporary.c_str(), &there) != 0) return errno == ENOENT;
@@ -55,10 +55,10 @@ bool remove_if_leftover(const fs::path& temporary) {
   return removed;
 }
 
-// A descriptor of a temporary file that was not there before, locked; -1, with errno. Where files cannot be
-// locked (some network file systems) it has no lock, and none is taken for a leftover.
+// The descriptor of a new temporary file, locked; -1 with errno on failure. Where files cannot be locked (some
+// network file systems) it has no lock, and no existing file is taken for a leftover.
 int make_temporary(const fs::path& wanted, fs::path& temporary) {
-  constexpr int most = 1000; // names that are taken, and programs that change one while we look
+  constexpr int most = 1000; // names that are taken, and races with other programs
   constexpr int anew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
   for (int n = 1, tries = 0; tries < most; ++tries) {
     temporary = numbered(wanted, n);
@@ -68,7 +68,7 @@ int make_temporary(const fs::path& wanted, fs::path& temporary) {
       n += !remove_if_leftover(temporary);
       continue;
     }
-    // Another may have taken it for a leftover before it was locked.
+    // Another program may have taken it for a leftover and locked it first.
     const bool theirs = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     if (!theirs && is_called(file, temporary)) return file;
     ::close(file);
@@ -77,20 +77,20 @@ int make_temporary(const fs::path& wanted, fs::path& temporary) {
   return -1;
 }
 
-// Removes the leftovers up to the first number that is not there: the file without a number goes when its
-// program ends, and others may still be there.
+// Removes leftovers up to the first number that does not exist: the program that wrote the file without a
+// number may have ended and left those of others.
 void remove_leftovers(const fs::path& wanted) {
   struct stat there {};
   for (int n = 1; n == 1 || ::lstat(numbered(wanted, n).c_str(), &there) == 0; ++n)
     remove_if_leftover(numbered(wanted, n));
 }
 
-// Whether it can be replaced by a file.
+// Refuses to replace anything but a file.
 void check_what_is_there(const fs::path& path, const fs::file_status& there) {
   if (fs::is_directory(there))
     throw UserError(Exit::CannotCreate, {path.string()}, "a folder of this name is in the way.",
                     "Choose another name for the output.");
-  if (fs::is_other(there) && there.type() != fs::file_type::unknown) // which says why when it is opened
+  if (fs::is_other(there) && there.type() != fs::file_type::unknown) // unknown: opening it will report why
     throw UserError(
         Exit::CannotCreate, {path.string()}, "this is no ordinary file, and would be replaced by one.",
         "Name a file; what is written appears whole or not at all, which a pipe or device cannot do.");
@@ -118,7 +118,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
 
 OutputFile::~OutputFile() {
   if (file_ < 0) return;
-  if (is_called(file_, temporary_)) ::unlink(temporary_.c_str()); // while it is locked
+  if (is_called(file_, temporary_)) ::unlink(temporary_.c_str()); // while it is still locked
   ::close(file_);
 }
 
@@ -140,7 +140,7 @@ std::int64_t OutputFile::seek(std::int64_t offset, int whence) {
 
 void OutputFile::commit() {
   CHECK(file_ >= 0);
-  errno = ENOENT; // should the name be another's by now
+  errno = ENOENT; // for the case that another file has the name now
   const bool kept =
       is_called(file_, temporary_) && ::fsync(file_) == 0 && ::rename(temporary_.c_str(), path_.c_str()) == 0;
   const std::string why = kept ? "" : reason();
@@ -165,13 +165,13 @@ void write_whole(const std::filesystem::path& path, const std::string& bytes) {
 }
 
 fs::path followed(const fs::path& path) {
-  constexpr int most = 40; // links, as the system allows
+  constexpr int most = 40; // symbolic links, the limit of Linux
   std::error_code error;
-  check_what_is_there(path, fs::status(path, error)); // what /dev/stdout leads to has no name
+  check_what_is_there(path, fs::status(path, error)); // what /dev/stdout points to may have no path
   fs::path at = path;
   for (int n = 0; n < most; ++n) {
     if (!fs::is_symlink(at, error)) return at;
-    at = at.parent_path() / fs::read_symlink(at, error); // the latter alone, where it begins with a slash
+    at = at.parent_path() / fs::read_symlink(at, error); // `/` keeps only an absolute right-hand side
   }
   throw UserError(Exit::CannotCreate, {path.string()}, "this link leads in a circle.",
                   "Choose another name for the output.");
@@ -180,8 +180,9 @@ fs::path followed(const fs::path& path) {
 void sync_folder(const fs::path& folder) {
   const fs::path path = folder.empty() ? fs::path(".") : folder;
   const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool hidden = file < 0 && errno == EACCES;                        // one may write there, and not look
-  const bool kept = file >= 0 && (::fsync(file) == 0 || errno == EINVAL); // or knows nothing of it
+  const bool hidden = file < 0 && errno == EACCES; // the folder may be writable, but not readable
+  // EINVAL: the file system does not support it
+  const bool kept = file >= 0 && (::fsync(file) == 0 || errno == EINVAL);
   const std::string why = reason();
   if (file >= 0) ::close(file);
   if (!kept && !hidden)

@@ -1,16 +1,16 @@
-// A file that appears whole or not at all.
+// A file that is written atomically: it appears complete or not at all.
 //
-// It is written under a temporary name in the same folder (only a rename within one file system is atomic),
-// brought to the disk, and renamed. Until commit() the old file, if any, is untouched; without commit() the
+// It is written under a temporary name in the same folder (rename is atomic only within one file system),
+// flushed to the disk (fsync), and renamed. Until commit() an existing file is untouched; without commit() the
 // temporary file is removed. The temporary name is fixed (NAME.part), so that what a killed run leaves behind
-// is replaced by the next and never piles up.
+// is replaced by the next run and does not accumulate.
 //
-// Nothing is ever written through a link. The temporary file is made anew (O_EXCL), and locked while it is
-// written (flock(2), which ends with the program). Where there is something of its name already, that goes if
-// it can only be a killed run's: a regular file of this user's, without a second name, whose lock is free.
-// Anything else stays, unopened, and NAME.2.part is taken: of two programs that write the same file at once,
-// the last to end wins. Were the second killed, commit() of the next removes what it left. The final name may
-// be a link or another user's file: a rename replaces the name, and not what it leads to.
+// Nothing is ever written through a link. The temporary file is created with O_EXCL, and locked while it is
+// written (flock(2), released when the program ends). If its name is taken, that file is removed if it can only
+// be a killed run's: a regular file of this user, with one hard link, whose lock is free. Anything else is
+// kept, unopened, and NAME.2.part is used: if two programs write the same file at once, the last to finish
+// wins. If the second one is killed, the next commit() removes its temporary file. The final name may be a link
+// or another user's file: rename replaces the name, not the target.
 #pragma once
 
 #include "render/files/temporaries.h"
@@ -33,7 +33,7 @@ public:
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  const std::filesystem::path& temporary() const { return temporary_; } // for libraries that write by name
+  const std::filesystem::path& temporary() const { return temporary_; } // for libraries that open files by name
 
   void write(std::span<const std::uint8_t> bytes);    // throws UserError (ReadWrite)
   std::int64_t seek(std::int64_t offset, int whence); // as lseek(2)
@@ -41,22 +41,22 @@ public:
 
 private:
   std::filesystem::path path_, wanted_, temporary_; // wanted_: the temporary name without a number
-  TemporaryPath part_;                              // temporary_, as long as it is there
-  int file_ = -1;                                   // descriptor; -1 once it is closed
+  TemporaryPath part_;                              // registers temporary_ while the file exists
+  int file_ = -1;                                   // descriptor; -1 once closed
 };
 
-// Removes the temporary files of runs that were killed; one that is being written stays.
+// Removes temporary files of killed runs; one that is being written is kept.
 void remove_leftover(const std::filesystem::path& path);
 
-// The whole file at once. Throws as OutputFile does.
+// Writes a whole file at once. Throws as OutputFile does.
 void write_whole(const std::filesystem::path& path, const std::string& bytes);
 
-// The file that a name of the user's stands for: a link that he names is followed, even to what is not there
-// yet. Throws UserError (CannotCreate) where links lead in a circle.
+// The file that a user's path stands for: a symbolic link in the path that the user named is followed, even if
+// its target does not exist yet. Throws UserError (CannotCreate) where links form a cycle.
 std::filesystem::path followed(const std::filesystem::path& path);
 
-// Brings to the disk which files a folder has: a file that was renamed is there after a crash only then. Too
-// dear for every picture. "" is the present folder. Throws UserError (ReadWrite).
+// Flushes a folder's entries to the disk: only then does a renamed file survive a crash of the system. Too slow
+// to do for every picture. "" is the current folder. Throws UserError (ReadWrite).
 void sync_folder(const std::filesystem::path& folder);
 
 } // namespace rend

@@ -1,5 +1,5 @@
-// A folder that files are going to be written to. That they can be is found out at once, and not after an hour
-// of simulation; it is made when the first file comes; and what was made and stays empty is removed.
+// An output folder. Whether it is writable is tested at once, not after an hour of simulation; it is created
+// when the first file is written; a folder that was created here and stays empty is removed.
 #pragma once
 
 #include "render/files/temporaries.h"
@@ -13,7 +13,7 @@ namespace rend {
 
 class OutputFolder {
 public:
-  // Throws UserError (CannotCreate) where the folder could not be made or written to.
+  // Throws UserError (CannotCreate) if the folder cannot be created or written to.
   explicit OutputFolder(const std::filesystem::path& path);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -21,15 +21,15 @@ public:
 
   const std::filesystem::path& path() const { return path_; }
   void make() const; // throws UserError (CannotCreate)
-  void sync() const; // the end was reached: what it has is on the disk (render/files/output.h), if it was made
+  void sync() const; // at the end: flushes its entries to the disk (render/files/output.h), if it was created
 
 private:
   std::filesystem::path path_;
-  std::vector<std::filesystem::path> missing_; // folders that were not there before, outermost first
-  std::deque<TemporaryPath> temporary_;        // these, as long as they may be empty
+  std::vector<std::filesystem::path> missing_; // folders that did not exist, outermost first
+  std::deque<TemporaryPath> temporary_;        // registers them while they may be empty
 };
 
-// `given`, or out/ and the scene's name where nothing was.
+// `given`, or out/ and the scene's name if it is empty.
 std::filesystem::path folder_for(const std::string& given, const std::string& scene);
 
 } // namespace rend

@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-void append(Bytes& out, std::uint32_t number) { // in network byte order
+void append(Bytes& out, std::uint32_t number) { // big-endian
   for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<std::uint8_t>(number >> shift));
 }
 
@@ -28,7 +28,7 @@ void append_chunk(Bytes& out, const char* kind, std::span<const std::uint8_t> co
   append(out, libdeflate_crc32(0, out.data() + first, out.size() - first));
 }
 
-// What a thread that writes many pictures need not make anew for each: it takes a sixth of the time.
+// Kept per thread, since a new one for each picture would take a sixth of the time.
 struct Workspace {
   struct Free {
     void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
@@ -36,7 +36,7 @@ struct Workspace {
   std::unique_ptr<libdeflate_compressor, Free> compressor{libdeflate_alloc_compressor(1)};
   Bytes rows, deflated;
 
-  // What a huge picture took is not kept from all others; to make it anew does not show beside its encoding.
+  // Frees large buffers after a huge picture; allocating them again is negligible beside its encoding.
   void let_go_of_much() {
     constexpr std::size_t much = 64 << 20; // bytes
     for (Bytes* bytes : {&rows, &deflated})
@@ -44,7 +44,7 @@ struct Workspace {
   }
 };
 
-// Each row behind the number of its filter: 1, SUB, what a pixel differs by from the one before it.
+// Prefixes each row with its filter type: 1, SUB, the difference from the pixel to the left.
 void filter(const Image& image, Bytes& rows) {
   const std::size_t step = static_cast<std::size_t>(image.channels), stride = image.stride();
   rows.resize((stride + 1) * image.height);
@@ -81,7 +81,8 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
   append(head, static_cast<std::uint32_t>(image.width));
   append(head, static_cast<std::uint32_t>(image.height));
   const std::uint8_t colours = image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB;
-  head.insert(head.end(), {8, colours, 0, 0, 0}); // bits; deflated, filtered by rows, not interlaced
+  // bit depth, colour type; deflate, adaptive filtering, no interlacing
+  head.insert(head.end(), {8, colours, 0, 0, 0});
   append_chunk(out, "IHDR", head);
   if (!text.keyword.empty()) {
     Bytes content(text.keyword.begin(), text.keyword.end());
@@ -91,7 +92,8 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
   }
   thread_local Workspace work;
   const std::span<const std::uint8_t> rows = deflated_rows(image, work);
-  out.reserve(out.size() + rows.size() + 64); // and the names, lengths and sums of the last two chunks
+  // room for the names, lengths and CRCs of the last two chunks as well
+  out.reserve(out.size() + rows.size() + 64);
   append_chunk(out, "IDAT", rows);
   append_chunk(out, "IEND", {});
   work.let_go_of_much();

@@ -28,7 +28,7 @@ std::size_t channels_of(int colour) {
   }
 }
 
-// Of a picture, or of one pass of an interlaced one.
+// For a whole picture, or one pass of an interlaced one.
 std::size_t rows_bytes(std::size_t width, std::size_t height, std::size_t pixel_bits) {
   return width == 0 ? 0 : height * (1 + (width * pixel_bits + 7) / 8);
 }
@@ -66,7 +66,7 @@ std::size_t png_rows_bytes(const PngHeader& header) {
         width * height <= std::size_t{1} << 31);
   const std::size_t bits = channels_of(header.colour) * static_cast<std::size_t>(header.bits);
   if (header.interlaced == 0) return rows_bytes(width, height, bits);
-  struct Pass { // every step-th pixel, from the first on (PNG specification, 8.2)
+  struct Pass { // every step-th pixel (Adam7; PNG specification, 8.2)
     std::size_t x, y, step_x, step_y;
   };
   constexpr Pass passes[] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},

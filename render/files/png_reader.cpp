@@ -40,7 +40,7 @@ std::size_t size_of(const std::filesystem::path& path) {
   return size;
 }
 
-// At most so many bytes.
+// Reads at most so many bytes.
 std::vector<std::uint8_t> first_bytes(const std::filesystem::path& path, std::size_t most) {
   const File file = opened(path);
   std::vector<std::uint8_t> bytes(std::min(most, size_of(path)));
@@ -72,7 +72,7 @@ std::size_t row_bytes(const PngHead& head) {
 
 } // namespace
 
-// libpng keeps two rows.
+// Besides the file: libpng keeps two rows.
 std::size_t PngHead::checking_bytes() const {
   return file_bytes + 3 * row_bytes(*this);
 }
@@ -91,7 +91,8 @@ std::size_t PngHead::decoding_bytes() const {
 #include <png.h>
 #include <string_view>
 
-// libpng reports errors by longjmp: the functions that call setjmp below hold nothing that has a destructor.
+// libpng reports errors by longjmp: the functions below that call setjmp have no local objects with
+// destructors.
 
 namespace rend {
 namespace {
@@ -130,10 +131,10 @@ struct Reader {
   }
 };
 
-// Up to the pixels. False: message says why; so with all below.
+// Reads up to the pixels. False on error, with the message set; likewise below.
 bool read_header(Reader& reader) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
-  // Texts and profiles change nothing here, and each inflates to megabytes.
+  // Text chunks and profiles do not affect the pixels, and each can inflate to megabytes.
   png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(reader.png, reader.info);
   return true;
@@ -162,8 +163,8 @@ bool read_end(Reader& reader) {
   return true;
 }
 
-// Room grows with the rows that were read: what is claimed and not there takes little. Of an interlaced picture
-// the first pass is strewn over all rows.
+// The buffer grows with the rows that were read, so that a header with a false size takes little memory. The
+// first pass of an interlaced picture is spread over all rows.
 bool read_rows(Reader& reader, std::size_t height, int passes, std::vector<std::uint8_t>& out) {
   constexpr std::size_t at_first = 64 << 20; // bytes: most pictures are smaller
   const std::size_t stride = png_get_rowbytes(reader.png, reader.info), all = stride * height;
@@ -200,7 +201,7 @@ std::string kind_of(const Reader& reader) {
   return kind;
 }
 
-// What a file that is no PNG is by its first bytes; empty where that cannot be told.
+// The kind of a file that is not a PNG, by its first bytes; empty if unknown.
 std::string other_kind(std::span<const std::uint8_t> bytes) {
   const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
                                std::min<std::size_t>(bytes.size(), 12));
@@ -222,10 +223,10 @@ void check_signature(std::span<const std::uint8_t> bytes, const Place& place) {
                   other.empty() ? "this is no PNG" : "this is " + other + ", and no PNG");
 }
 
-// A picture as libpng gives it: RGB or RGBA, of 8 bits a channel, or of 16 in the machine's order of bytes.
+// Pixels as libpng returns them: RGB or RGBA, 8 bits a channel, or 16 bits in native byte order.
 struct Decoded {
   int width = 0, height = 0, channels = 0, bits = 0;
-  std::vector<std::uint8_t> bytes; // height rows, one after another
+  std::vector<std::uint8_t> bytes; // `height` rows, one after another
   std::string kind;
 };
 
@@ -236,7 +237,7 @@ void check_pixels(std::size_t width, std::size_t height, const Place& place) {
                                 max_png_pixels));
 }
 
-// Before there is room for them, whether there can be so many.
+// Checks that the compressed data can hold the stated size, before memory is allocated.
 void check_data(const Reader& reader, std::span<const std::uint8_t> bytes, const Place& place) {
   const auto width = png_get_image_width(reader.png, reader.info),
              height = png_get_image_height(reader.png, reader.info);
@@ -263,7 +264,8 @@ Decoded decode(std::span<const std::uint8_t> bytes, const std::string& name, Wan
   check_signature(bytes, place);
   Reader reader(bytes);
   const auto refuse = [&]() -> UserError {
-    if (std::strstr(reader.message, "emory") != nullptr) throw std::bad_alloc(); // libpng had none
+    // libpng's own allocation failed
+    if (std::strstr(reader.message, "emory") != nullptr) throw std::bad_alloc();
     return {Exit::BadInput, place, std::string("the PNG cannot be read: ") + reader.message};
   };
   if (!read_header(reader)) throw refuse();
@@ -285,7 +287,7 @@ Decoded decode(std::span<const std::uint8_t> bytes, const std::string& name, Wan
   return out;
 }
 
-// Each sample is two bytes here, and one or two there.
+// Widens samples of one or two bytes to 16 bits.
 std::vector<std::uint16_t> samples_of(const Decoded& from) {
   if (from.bits == 8) return {from.bytes.begin(), from.bytes.end()};
   std::vector<std::uint16_t> out(from.bytes.size() / 2);
@@ -305,7 +307,7 @@ PngHead png_head(std::span<const std::uint8_t> bytes, const std::string& name) {
   PngHead head;
   head.file_bytes = bytes.size();
   const auto header = png_header(bytes);
-  if (!header || header->width == 0 || header->height == 0) return head; // a reader says what is wrong
+  if (!header || header->width == 0 || header->height == 0) return head; // the reader will report what is wrong
   check_pixels(header->width, header->height, place);
   head.width = static_cast<int>(header->width);
   head.height = static_cast<int>(header->height);

@@ -1,4 +1,4 @@
-// Whether a file is a whole picture that need not be made again.
+// PngChecker: whether a file is a complete picture that need not be made again.
 #include "render/files/png.h"
 
 #ifdef REND_PNG
@@ -13,10 +13,10 @@
 namespace rend {
 namespace {
 
-// A descriptor that is closed in the end.
+// Owns a file descriptor.
 struct Opened {
   int file;
-  // Of a FIFO that nobody writes to it would wait otherwise.
+  // O_NONBLOCK: opening a FIFO without a writer would block.
   explicit Opened(const std::filesystem::path& path)
       : file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
   ~Opened() {
@@ -26,7 +26,7 @@ struct Opened {
   Opened& operator=(const Opened&) = delete;
 };
 
-// The whole of an ordinary file of at most so many bytes; of what is none, nothing.
+// The content of a regular file of at most so many bytes; empty for anything else.
 void read_file(const std::filesystem::path& path, std::size_t most, std::vector<std::uint8_t>& bytes) {
   bytes.clear();
   const Opened opened(path);
@@ -40,10 +40,10 @@ void read_file(const std::filesystem::path& path, std::size_t most, std::vector<
   bytes.resize(count);
 }
 
-// What a file of this run could do without, and a reader may pass over (PNG specification, 5.4). Transparent
-// colours would change the picture.
+// Ancillary chunks may be skipped by a reader (PNG specification, 5.4), except tRNS, which would change the
+// picture.
 bool may_be_skipped(std::string_view name) {
-  constexpr char small = 0x20; // the bit of a small letter: ancillary
+  constexpr char small = 0x20; // bit 5 of the first letter: ancillary
   return (name[0] & small) != 0 && name != "tRNS";
 }
 
@@ -77,7 +77,7 @@ std::size_t PngChecker::bytes(const PngShape& shape) {
 }
 
 bool PngChecker::is_whole(const std::filesystem::path& path, const PngText& text) {
-  // Deflate makes rows longer by some bytes in thousands at most; chunks may have been added.
+  // Deflate expands incompressible rows by less than a percent; other programs may have added chunks.
   constexpr std::size_t added = 16 << 20;
   Work& work = *work_;
   read_file(path, 2 * bytes(shape_) + added, work.file);
@@ -92,7 +92,7 @@ bool PngChecker::is_whole(const std::filesystem::path& path, const PngText& text
   return has_whole_chunks(text) && has_whole_rows();
 }
 
-// Leaves the zlib stream in work_->data.
+// Collects the zlib stream in work_->data.
 bool PngChecker::has_whole_chunks(const PngText& text) {
   Work& work = *work_;
   work.data.clear();
@@ -103,11 +103,11 @@ bool PngChecker::has_whole_chunks(const PngText& text) {
     if (!crc_is_right(*chunk)) return false;
     if (chunk->name == "IEND") return rest.empty() && found == text.text;
     if (chunk->name == "IDAT") {
-      if (before != "IDAT" && !work.data.empty()) return false; // the stream is in one piece
+      if (before != "IDAT" && !work.data.empty()) return false; // IDAT chunks must be consecutive
       work.data.insert(work.data.end(), chunk->data.begin(), chunk->data.end());
     } else if (chunk->name == "tEXt" && as_text(chunk->data).starts_with(wanted)) {
       found = as_text(chunk->data).substr(wanted.size());
-    } else if (!before.empty() && !may_be_skipped(chunk->name)) { // the first is IHDR
+    } else if (!before.empty() && !may_be_skipped(chunk->name)) { // the first must be IHDR
       return false;
     }
     before = chunk->name;
@@ -115,7 +115,7 @@ bool PngChecker::has_whole_chunks(const PngText& text) {
   return false;
 }
 
-// The stream is exactly as many rows as there should be, each behind one of the five filters.
+// The stream inflates to exactly the expected rows, each with one of the five filter types.
 bool PngChecker::has_whole_rows() {
   Work& work = *work_;
   work.rows.resize(bytes(shape_));

@@ -15,11 +15,11 @@ namespace rend {
 namespace {
 
 TemporaryPath* newest = nullptr;
-std::atomic_flag taken;         // the list; no mutex, which a signal handler could not take
-std::atomic<int> opening = 0;   // files that are being created, and not in the list yet
-std::atomic<bool> over = false; // all has been removed, or is about to be
+std::atomic_flag taken;         // spin lock of the list: a signal handler must not lock a mutex
+std::atomic<int> opening = 0;   // files that are being created and not in the list yet
+std::atomic<bool> over = false; // all are removed, or are being removed
 
-constexpr int most_waits = 100; // of a millisecond: a file system may not answer at all
+constexpr int most_waits = 100; // of one millisecond each: a file system may hang
 
 void wait_a_moment() {
   const timespec moment{0, 1'000'000};
@@ -40,7 +40,7 @@ void wait_for_the_end() {
   while (over) ::pause();
 }
 
-// readdir() asks for memory.
+// By getdents64, since readdir() allocates memory.
 void remove_files_in(const char* path) {
   const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;

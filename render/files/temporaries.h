@@ -1,14 +1,14 @@
-// What is to be gone when the program ends at once: temporary files, and folders that nothing was written to.
+// What must be removed if the program ends without unwinding: temporary files, and folders that stayed empty.
 //
-// Where an error goes up to main() destructors remove them. Where memory is gone, or a library gives up
-// (render/console/last_resort.h), nothing is unwound any more, and remove_temporaries() does it: it asks for no
-// memory, and may be called from a signal handler.
+// An error that propagates to main() runs destructors, which remove them. When memory has run out, or a library
+// aborts (render/console/last_resort.h), the stack is not unwound, and remove_temporaries() does it: it
+// allocates no memory, and may be called from a signal handler.
 //
-//   TemporaryPath part;      from here to is() the program waits a moment before it ends
+//   TemporaryPath part;      until is(), a program that ends waits for this file, for a moment
 //   ... creates the file
-//   part.is(name);           by pointer: a name that outlives it
+//   part.is(name);           keeps the pointer: the name must outlive it
 //   ... writes it, renames or removes it
-//   part.is_gone();          as its destructor does
+//   part.is_gone();          also done by its destructor
 #pragma once
 
 namespace rend {
@@ -16,15 +16,15 @@ namespace rend {
 class TemporaryPath {
 public:
   TemporaryPath();
-  explicit TemporaryPath(const char* path); // is() at once
+  explicit TemporaryPath(const char* path); // calls is(path)
   ~TemporaryPath();
   TemporaryPath(const TemporaryPath&) = delete;
   TemporaryPath& operator=(const TemporaryPath&) = delete;
 
-  // A file, or a folder; it need not be there yet. A folder goes if it is empty.
+  // A file, or a folder, which is removed only if it is empty; it need not exist yet.
   void is(const char* path);
-  void holds_files(); // a folder that goes with the files in it
-  void is_gone();     // or is to stay
+  void holds_files(); // it is a folder to be removed with the files in it
+  void is_gone();     // removed, renamed, or to be kept
 
 private:
   friend void remove_temporaries() noexcept;
@@ -32,11 +32,11 @@ private:
 
   const char* path_ = nullptr; // null: none yet
   bool with_files_ = false, opening_ = true;
-  TemporaryPath *before_ = nullptr, *after_ = nullptr; // in the list of all
+  TemporaryPath *before_ = nullptr, *after_ = nullptr; // doubly linked list of all objects
 };
 
-// Removes all that there are, the newest first. The program is to end then: what other threads are about to
-// create waits for that.
+// Removes all registered files and folders, the newest first. Call it only before the program ends: other
+// threads that are about to create a file block for ever.
 void remove_temporaries() noexcept;
 
 } // namespace rend

@@ -32,7 +32,7 @@ std::filesystem::path part_of(const std::filesystem::path& path) {
   return path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
 }
 
-// RGB of that size, the last column and row repeated.
+// RGB of that size, with the last column and row repeated.
 Image padded(const Image& image, int width, int height) {
   Image out(width, height, 3);
   for (int y = 0; y < height; ++y) {
@@ -46,7 +46,7 @@ Image padded(const Image& image, int width, int height) {
 
 } // namespace
 
-// One video under way.
+// A video that is being encoded.
 struct VideoWriter::Encoder {
   Encoder(const std::filesystem::path& path, const VideoFormat& format, int width, int height, double fps);
   void add(const Image& image);
@@ -55,10 +55,10 @@ struct VideoWriter::Encoder {
 private:
   void open_codec(AVRational rate);
   void set_colours();
-  void send(const AVFrame* frame); // null: no more frames
+  void send(const AVFrame* frame); // null: flush
 
   const VideoFormat& kind_;
-  int width_, height_, wide_, high_; // [pixels], of the pictures given, and padded
+  int width_, height_, wide_, high_; // [pixels], of the input, and padded
   VideoSink sink_;
   VideoFilter filter_;
   Owned<AVCodecContext> codec_;
@@ -87,8 +87,9 @@ void VideoWriter::Encoder::open_codec(AVRational rate) {
   codec_->time_base = filter_.time_base();
   codec_->sample_aspect_ratio = {1, 1};
   set_colours();
-  codec_->gop_size = std::clamp(static_cast<int>(std::ceil(av_q2d(rate))), 1, 60); // a second: a fragment
-  codec_->thread_count = 2; // fixed: what an encoder decides may depend on it
+  // one key frame a second: a fragment of MP4
+  codec_->gop_size = std::clamp(static_cast<int>(std::ceil(av_q2d(rate))), 1, 60);
+  codec_->thread_count = 2; // fixed: an encoder's output may depend on it
   codec_->flags |= AV_CODEC_FLAG_BITEXACT;
   if ((sink_.container()->oformat->flags & AVFMT_GLOBALHEADER) != 0)
     codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
@@ -97,7 +98,7 @@ void VideoWriter::Encoder::open_codec(AVRational rate) {
   const int result = avcodec_open2(codec_.get(), codec, quality.get());
   if (result < 0 && refused_thread_starts() > refused) refuse_without_thread("the encoder");
   sink_.must(result, "starting the encoder");
-  CHECK(av_dict_count(*quality.get()) == 0); // all are known
+  CHECK(av_dict_count(*quality.get()) == 0); // none is unknown
 
   stream_ = must_be_made(avformat_new_stream(sink_.container(), nullptr));
   sink_.must(avcodec_parameters_from_context(stream_->codecpar, codec_.get()), "describing the video");
@@ -145,7 +146,8 @@ void VideoWriter::Encoder::close() {
   send(nullptr);
   sink_.end();
   if (kind_.remuxed)
-    remux(sink_.file().temporary(), sink_.file().path(), kind_.muxer); // what was written goes with this
+    // the temporary file of the first pass is removed with this object
+    remux(sink_.file().temporary(), sink_.file().path(), kind_.muxer);
   else
     sink_.commit();
 }
@@ -201,7 +203,7 @@ void VideoWriter::add(const Image& image) {
 
 void VideoWriter::close() {
   CHECK(is_open());
-  const std::unique_ptr<Encoder> last = std::move(encoder_); // whatever happens, it is over
+  const std::unique_ptr<Encoder> last = std::move(encoder_); // ends the encoder even if closing throws
   last->close();
 }
 

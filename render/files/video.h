@@ -1,12 +1,11 @@
 // Video, by libav: the formats of video_format.h.
 //
-// The same pictures give the same file, byte for byte: a fixed number of threads, the bit-exact flags of codec,
-// container and colour conversion, no dates and no names of programs.
+// The same pictures give the same file, byte for byte: a fixed number of threads, bit-exact flags for codec,
+// muxer and colour conversion, no dates and no program names.
 //
-// While pictures come the video stands beside its place as NAME.part.EXT, written through picture by picture,
-// so that a run that is killed leaves something that plays. At the end it appears under its name, whole: an
-// .mp4, written in fragments until then, once more with its index in front, since a browser then starts at
-// once.
+// During encoding the video is NAME.part.EXT in the same folder, flushed after every packet, so that a killed
+// run leaves a file that plays. At the end it is renamed. An .mp4 is written in fragments first, and at the end
+// remuxed with its index in front (fast start), so that browsers start playing at once.
 #pragma once
 
 #include "render/files/image.h"
@@ -17,28 +16,28 @@
 
 namespace rend {
 
-// False where rend was built without REND_VIDEO; VideoWriter::open then throws UserError (Usage).
+// False if rend was built without REND_VIDEO; VideoWriter::open then throws UserError (Usage).
 bool video_available();
 
-// Whether a kind of video, by its name or its file's extension, can be written. Throws UserError: Usage where
-// there is no such kind or rend was built without video, CannotCreate where this machine's FFmpeg libraries
-// lack what it takes.
+// Checks that a video format, given by its name or file extension, can be written. Throws UserError: Usage for
+// an unknown format or a build without video, CannotCreate where this machine's FFmpeg libraries lack the
+// encoder, muxer or filters.
 void require_video(const std::string& name);
 struct VideoFormat;
-void require_encoder(const VideoFormat& format); // the last part of that
+void require_encoder(const VideoFormat& format); // only the check of the FFmpeg libraries
 
 class VideoWriter {
 public:
   VideoWriter();
-  ~VideoWriter(); // without close() nothing is left behind
+  ~VideoWriter(); // without close() the file is removed
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) noexcept;
 
-  // width, height [pixels], fps [1/s]. Throws UserError: Usage for a file type that is not known or a rend
-  // without video, CannotCreate where the file cannot be made.
+  // width, height [pixels], fps [1/s]. Throws UserError: Usage for an unknown file type or a build without
+  // video, CannotCreate where the file cannot be created.
   void open(const std::filesystem::path& path, int width, int height, double fps);
   void add(const Image& image); // CHECK: of the size given to open. Throws UserError (ReadWrite)
-  void close();                 // the file appears under its name. Throws UserError (ReadWrite)
+  void close();                 // renames the finished file. Throws UserError (ReadWrite)
   bool is_open() const;
 
 private:

@@ -38,7 +38,7 @@ VideoFilter::VideoFilter(const std::string& chain, int width, int height, AVRati
   in_->format = AV_PIX_FMT_RGB24;
   in_->width = width;
   in_->height = height;
-  constexpr int aligned = 64; // [bytes], as libav likes its rows
+  constexpr int aligned = 64; // [bytes], row alignment that libav prefers
   stride_ = (3 * width + aligned - 1) / aligned * aligned;
   rooms_.reset(
       must_be_made(av_buffer_pool_init(static_cast<std::size_t>(stride_) * height + aligned, nullptr)));
@@ -60,7 +60,7 @@ AVRational VideoFilter::time_base() const {
 void VideoFilter::push(const Image* image, const std::function<void(const AVFrame*)>& take) {
   if (image != nullptr) {
     CHECK(image->channels == 3 && image->width == in_->width && image->height == in_->height);
-    const Owned<AVFrame> copy(must_be_made(av_frame_alloc())); // the chain may keep it
+    const Owned<AVFrame> copy(must_be_made(av_frame_alloc())); // the filter graph may keep a reference
     copy->format = in_->format;
     copy->width = in_->width;
     copy->height = in_->height;
@@ -76,7 +76,8 @@ void VideoFilter::push(const Image* image, const std::function<void(const AVFram
     copy->pts = count_++;
     must_av(av_buffersrc_add_frame(source_, copy.get()), file_, "preparing a picture");
   } else {
-    must_av(av_buffersrc_close(source_, count_, 0), file_, "preparing a picture"); // the last one lasts, too
+    // the end time: the last picture has a duration, too
+    must_av(av_buffersrc_close(source_, count_, 0), file_, "preparing a picture");
   }
   while (true) {
     const int result = av_buffersink_get_frame(sink_, out_.get());

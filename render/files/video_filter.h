@@ -1,4 +1,4 @@
-// The way of a picture to the encoder: a chain of libavfilter. Only for builds with video.
+// Converts pictures for the encoder with a libavfilter graph. Only for builds with video.
 #pragma once
 
 #include "render/files/image.h"
@@ -10,17 +10,17 @@ namespace rend {
 
 class VideoFilter {
 public:
-  // width, height [pixels] of the pictures that will come, RGB; `chain` in libavfilter's own words; one thread,
-  // so that the same comes out every time. `file` is what errors name.
+  // width, height [pixels] of the input pictures, RGB; `chain` in libavfilter's syntax; one thread, for
+  // reproducible output. `file` is named in errors.
   VideoFilter(const std::string& chain, int width, int height, AVRational rate,
               const std::filesystem::path& file);
 
-  int width() const; // [pixels], of what comes out
+  int width() const; // [pixels], of the output
   int height() const;
   AVPixelFormat pixels() const;
   AVRational time_base() const;
 
-  // A picture goes in (null: no more), and what comes out goes to `take`.
+  // Filters a picture (null: flush) and passes each resulting frame to `take`.
   void push(const Image* image, const std::function<void(const AVFrame*)>& take);
 
 private:
@@ -28,9 +28,10 @@ private:
   Owned<AVFilterGraph> graph_;
   AVFilterContext *source_ = nullptr, *sink_ = nullptr; // owned by graph_
   Owned<AVFrame> in_, out_;
-  Owned<AVBufferPool> rooms_; // for pictures: made anew each time, they cost as much as their copying
-  int stride_ = 0;            // [bytes], of their rows
-  std::int64_t count_ = 0;    // pictures so far
+  // reused frame buffers: allocating them each time costs as much as copying the pictures
+  Owned<AVBufferPool> rooms_;
+  int stride_ = 0;         // [bytes] per row
+  std::int64_t count_ = 0; // pictures so far
 };
 
 } // namespace rend

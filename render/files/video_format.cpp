@@ -3,13 +3,13 @@
 namespace rend {
 namespace {
 
-// BT.709, limited range, 4:2:0: what players expect of a video of this size.
+// BT.709, limited range, 4:2:0: what players expect of HD video.
 const char* to_video =
     "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+bitexact,format=yuv420p";
 const char* preview = "scale=w=min(480\\,iw):h=-1:flags=lanczos+accurate_rnd+bitexact";
 
-// veryfast: 8 ms a picture of 1280 x 720; medium: 17 ms. A fragment a second: what a killed run leaves is whole
-// up to its last second.
+// Preset veryfast takes 8 ms for a picture of 1280 x 720; medium 17 ms. One fragment a second: a killed run
+// leaves a file that is complete up to its last second.
 VideoFormat mp4() {
   return {"mp4",
           "H.264, plays everywhere",
@@ -54,7 +54,8 @@ VideoFormat gif() {
           "a preview of at most 480 pixels across",
           "gif",
           "gif",
-          // Its clock has hundredths of a second, and browsers slow down what is faster than 50 a second.
+          // GIF delays are hundredths of a second, and browsers slow down anything faster than 50 frames a
+          // second.
           "fps=fps=min(50\\,source_fps)," + std::string(preview) +
               ",split[a][b];[a]palettegen=stats_mode=single[palette];"
               "[b][palette]paletteuse=new=1:dither=bayer:bayer_scale=4",

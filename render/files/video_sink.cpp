@@ -9,8 +9,8 @@ VideoSink::VideoSink(const std::filesystem::path& path, const std::filesystem::p
                      const std::string& muxer)
     : file_(path, part) {
   AVFormatContext* format = nullptr;
-  // The name is for an index that is moved to the front by reading the file again; "file:" lets it hold a
-  // colon.
+  // The muxer opens the file by name again to move the index to the front; the prefix "file:" allows colons in
+  // it.
   const std::string name = "file:" + file_.temporary().string();
   must(avformat_alloc_output_context2(&format, nullptr, muxer.c_str(), name.c_str()), "starting the video");
   format_.reset(format);
@@ -19,14 +19,14 @@ VideoSink::VideoSink(const std::filesystem::path& path, const std::filesystem::p
   io_.reset(must_be_made(
       avio_alloc_context(buffer, size, 1, this, nullptr, &VideoSink::write_bytes, &VideoSink::seek)));
   format_->pb = io_.get();
-  // What is written is in the file at once, and not in a buffer that dies with the program.
+  // Flushes every packet to the file, so that a killed run loses nothing.
   format_->flags |= AVFMT_FLAG_CUSTOM_IO | AVFMT_FLAG_BITEXACT | AVFMT_FLAG_FLUSH_PACKETS;
 }
 
 void VideoSink::begin(const std::vector<std::pair<std::string, std::string>>& options) {
   AvOptions given(options);
   must(avformat_write_header(format_.get(), given.get()), "writing the head of the video");
-  CHECK(av_dict_count(*given.get()) == 0); // all are known
+  CHECK(av_dict_count(*given.get()) == 0); // none is unknown
 }
 
 void VideoSink::write(AVPacket* packet) {
@@ -77,7 +77,8 @@ void remux(const std::filesystem::path& from, const std::filesystem::path& to, c
   out->avg_frame_rate = in->avg_frame_rate;
   sink.begin({{"movflags", "+faststart"}});
   const Owned<AVPacket> packet(must_be_made(av_packet_alloc()));
-  std::int64_t start = AV_NOPTS_VALUE; // of what is seen: decoding began earlier, where pictures look ahead
+  // of the first frame shown: decoding starts earlier if there are B-frames
+  std::int64_t start = AV_NOPTS_VALUE;
   while (true) {
     const int result = av_read_frame(source.get(), packet.get());
     if (result == AVERROR_EOF) break;

@@ -1,4 +1,4 @@
-// A container that is being written to an OutputFile by libavformat. Only for builds with video.
+// A libavformat muxer that writes to an OutputFile. Only for builds with video.
 #pragma once
 
 #include "render/files/libav.h"
@@ -10,18 +10,20 @@ namespace rend {
 
 class VideoSink {
 public:
-  // The file is written under `part` until it is committed. Throws UserError (CannotCreate).
+  // The file is written as `part` until it is committed. Throws UserError (CannotCreate).
   VideoSink(const std::filesystem::path& path, const std::filesystem::path& part, const std::string& muxer);
 
   AVFormatContext* container() { return format_.get(); }
   void
-  begin(const std::vector<std::pair<std::string, std::string>>& options); // the streams are there: the head
-  void write(AVPacket* packet);                                           // as av_interleaved_write_frame
-  void end();                                                             // the tail; all is in the file
+  // after the streams were added: writes the header
+  begin(const std::vector<std::pair<std::string, std::string>>& options);
+  void write(AVPacket* packet); // as av_interleaved_write_frame
+  void end();                   // writes the trailer, and flushes
   void commit() { file_.commit(); }
   const OutputFile& file() const { return file_; }
 
-  // Turns an error of libav into one for the user; the file's own error, if there was one, says more.
+  // Throws a UserError for an error of libav; if writing to the file failed, the error of that instead, which
+  // says more.
   void must(int result, const char* doing) const;
 
 private:
@@ -29,12 +31,12 @@ private:
   static std::int64_t seek(void* self, std::int64_t offset, int whence);
 
   OutputFile file_;
-  std::exception_ptr failure_; // what stopped write_bytes()
-  Owned<AVIOContext> io_;      // before the container: it is freed after it
+  std::exception_ptr failure_; // thrown in write_bytes(), which libav calls
+  Owned<AVIOContext> io_;      // declared before the muxer, which must be freed first
   Owned<AVFormatContext> format_;
 };
 
-// The same stream in a new container, with its index in front. Throws UserError (ReadWrite).
+// Copies the stream into a new file with its index in front. Throws UserError (ReadWrite).
 void remux(const std::filesystem::path& from, const std::filesystem::path& to, const std::string& muxer);
 
 } // namespace rend
