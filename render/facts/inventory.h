@@ -1,6 +1,5 @@
-// What a scene is made of: cells, arrays with their bytes, where the time step comes from, what a step goes
-// through, and what is not there. Arrays are those of a scene that has made its first step, since some come
-// with it.
+// What a scene consists of: cells, arrays with their bytes, what limits the time step, the passes of a step,
+// and what is left out. Arrays are those after the first step, since some are allocated in it.
 #pragma once
 
 #include "render/clip/figures.h"

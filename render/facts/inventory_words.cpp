@@ -13,7 +13,7 @@ std::string folded(const std::string& head, const std::string& words) {
   const std::string text = printable(words);
   constexpr std::size_t columns = 100;
   std::string out, line = head;
-  bool bare = true; // nothing stands on the line yet
+  bool bare = true; // the line is still empty
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::string token = text.substr(at, end - at);

@@ -1,5 +1,5 @@
-// What a scene does without, and why: each a sentence "what: why". What the builders of a body know only while
-// they build it, they note themselves (Body::left_out); the rest is seen in what was built.
+// What a scene leaves out, and why: each a sentence "what: why". What only the builders of a body know is
+// recorded by them (Body::left_out); the rest is derived from what was built.
 #pragma once
 
 #include "sim/scene/scene.h"

@@ -12,16 +12,16 @@
 namespace rend {
 namespace {
 
-constexpr std::size_t records = std::size_t{1} << 21U; // of an array: 64 MiB
+constexpr std::size_t records = std::size_t{1} << 21U; // per array: 64 MiB
 constexpr int tries = 7;
-constexpr long turns = 1L << 18U; // of the arithmetic loop
+constexpr long turns = 1L << 18U; // iterations of the arithmetic loop
 constexpr std::size_t chains = 12;
 
 struct Arrays {
   std::vector<Record> a, b, c;
 };
 
-// The least of a few [s].
+// The shortest of several runs [s].
 template <class F> double seconds_of(F&& f) {
   double least = std::numeric_limits<double>::infinity();
   for (int n = 0; n < tries; ++n) {
@@ -37,7 +37,7 @@ REND_INLINE void triad(Arrays& arrays, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) stream(arrays.a[i], load(arrays.b[i]) + s * load(arrays.c[i]));
 }
 
-// Goes to 1 from anywhere. What is returned is written, or nothing would be computed.
+// Converges to 1 from any value. The result is stored, or the compiler would remove the computation.
 REND_INLINE void multiply_add(Record& out) {
   std::array<Double4, chains> x;
   for (std::size_t n = 0; n < chains; ++n) x[n] = splat(static_cast<double>(n));
@@ -62,13 +62,13 @@ double bytes_a_second(int threads) {
 }
 
 double operations_a_second(int threads) {
-  std::vector<Record> out(static_cast<std::size_t>(threads) * 2); // of each thread, on a cache line of its own
+  std::vector<Record> out(static_cast<std::size_t>(threads) * 2); // per thread, on a cache line of its own
   const double seconds = seconds_of([&] {
     in_parts(threads, static_cast<std::size_t>(threads), [&](std::size_t begin, std::size_t end) {
       for (std::size_t thread = begin; thread < end; ++thread) at_width<multiply_add>(out[2 * thread]);
     });
   });
-  return 2.0 * 4 * chains * turns * threads / seconds; // of four lanes each
+  return 2.0 * 4 * chains * turns * threads / seconds; // each operation has four lanes
 }
 
 } // namespace

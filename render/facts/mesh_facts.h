@@ -1,4 +1,4 @@
-// What `rend mesh info` tells of a mesh.
+// The facts that `rend mesh info` prints about a mesh.
 #pragma once
 
 #include "sim/mesh/reader.h"

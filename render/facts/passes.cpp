@@ -56,7 +56,7 @@ private:
                    .bytes = bytes});
   }
 
-  // Of the forces, a step.
+  // Evaluations of the forces per step.
   double evaluations_of(const Body& body) const {
     const Scheme& scheme = scene_.scheme();
     return scheme.solves ? 1.0 + static_cast<double>(body.integrator->solver().newton) : scheme.evaluations;
@@ -111,7 +111,7 @@ private:
   const Scene& scene_;
   std::vector<Pass>& to_;
   const Body* body_ = nullptr;
-  std::size_t vertices_ = 0; // bytes of a record for each vertex slot
+  std::size_t vertices_ = 0; // bytes of one Record for each vertex slot
 };
 
 } // namespace

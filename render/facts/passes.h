@@ -1,7 +1,7 @@
-// What a step does, in its order: which arrays are gone through how often.
+// The passes of a step over the arrays, in order, with how often each is made.
 //
-// Bytes are those of the arrays that a pass goes through, each once: what must come from memory where nothing
-// stays in the caches. They are no measurement.
+// Bytes are those of the arrays that a pass traverses, each counted once: the memory traffic if nothing stays
+// in the caches. They are computed, not measured.
 #pragma once
 
 #include "sim/scene/scene.h"

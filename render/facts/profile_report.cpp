@@ -33,7 +33,7 @@ Phase phase_of(PassStage stage) {
   return Phase::Forces;
 }
 
-// [byte] a step, by stage.
+// [bytes] per step, by stage.
 std::array<double, phase_count> bytes_by_stage(const Scene& scene) {
   std::array<double, phase_count> bytes{};
   for (const Pass& pass : passes_of(scene))

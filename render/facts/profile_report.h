@@ -1,9 +1,9 @@
 // Where the time and the bytes of a run went (rend run --profile): by stage of the step, by interaction, and as
-// a share of what this machine can do at this moment.
+// a share of this machine's measured bandwidth and arithmetic speed.
 //
-// Bytes are those that must be read and written at least, each array once a pass (passes.h,
-// sim/rows/row_cost.h): a share of the memory's bandwidth above 1 says that they came from caches. They are
-// those of the state at the end.
+// Bytes are a lower bound of what is read and written, each array once per pass (passes.h,
+// sim/rows/row_cost.h): a share of the memory bandwidth above 1 means that data came from the caches. They are
+// computed for the final state.
 #pragma once
 
 #include "render/clip/session.h"

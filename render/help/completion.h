@@ -1,7 +1,6 @@
-// What a shell offers when Tab is pressed: scripts made from the command line's own declarations and the
-// parameter table.
+// Shell completion: scripts generated from the command line's declarations and the parameter table.
 //
-// Adding a shell: a file with a function `Shell my_shell()`, and its name in all_shells().
+// To add a shell: a file with a function `Shell my_shell()`, and its name in all_shells().
 #pragma once
 
 #include "render/help/usage.h"
@@ -11,19 +10,19 @@
 
 namespace rend {
 
-// What the words after an option or at a place may be.
+// What can be completed after an option or at a position.
 struct Offer {
   enum class Kind { Nothing, Words, List, Files, Folders, Attributes, Elements };
   Kind kind = Kind::Nothing;
-  std::vector<std::string> words = {}; // Words; List: any of them, with commas
-  std::string extension = {};          // Files: "xml"; empty: any. Folders are offered beside them.
+  std::vector<std::string> words = {}; // Words: one of them; List: several, separated by commas
+  std::string extension = {};          // Files: "xml"; empty: any. Folders are always offered.
 };
 Offer offer_of(const OptionUsage& option, const CommandUsage& program);
 
 struct CompletionSource {
   CommandUsage program;
-  std::vector<SetUsage> sets;        // behind --set
-  std::vector<std::string> elements; // second words of `rend help`
+  std::vector<SetUsage> sets;        // after --set
+  std::vector<std::string> elements; // arguments of `rend help preset`
 };
 
 struct Shell {
@@ -34,8 +33,8 @@ const std::vector<Shell>& all_shells();
 const Shell* find_shell(const std::string& name); // null: there is none
 std::vector<std::string> shell_names();
 
-std::string in_a_row(const std::vector<std::string>& words); // with blanks between them
-std::string cut_short(const std::string& what);              // its first part, for a list
+std::string in_a_row(const std::vector<std::string>& words); // separated by blanks
+std::string cut_short(const std::string& what);              // only its first part, for a list
 
 Shell bash_shell();
 Shell zsh_shell();

@@ -1,7 +1,7 @@
 // Completion for bash, without the package bash-completion.
 //
-// Bash splits words at = and :, which stand in what rend takes (--set time.step=1e-3): the script puts them
-// together again, and offers only what stands behind the last =, as bash then replaces no more.
+// Bash splits words at = and :, which occur in rend's arguments (--set time.step=1e-3): the script joins them
+// again, and offers only what follows the last =, since bash replaces only that.
 #include "render/help/completion.h"
 
 #include "sim/base/enum_words.h"
@@ -21,7 +21,7 @@ std::string coded(const Offer& offer) {
 }
 
 struct Tables {
-  std::string commands, options, takes; // branches of case
+  std::string commands, options, takes; // branches of a case statement
 };
 
 void add_command(const CommandUsage& command, const std::string& path, const CommandUsage& program,

@@ -15,7 +15,7 @@ std::string quoted(const std::string& text) {
   return fmt::format("'{}'", out);
 }
 
-// What stands behind -x -a, or what takes its place.
+// The argument of -x -a, or its replacement.
 std::string arguments(const Offer& offer) {
   switch (offer.kind) {
   case Offer::Kind::Nothing:

@@ -1,4 +1,4 @@
-// Completion for zsh: a function of _arguments for each command.
+// Completion for zsh: an _arguments function for each command.
 #include "render/help/completion.h"
 
 #include <fmt/format.h>
@@ -38,8 +38,8 @@ std::string action(const Offer& offer) {
   return " ";
 }
 
-// '*'{-o,--output}'[folder]:DIR:_files -/': a star where it may stand again, else the names that exclude each
-// other.
+// '*'{-o,--output}'[folder]:DIR:_files -/': a star for an option that can be repeated, else the list of names
+// that exclude each other.
 std::string option_words(const OptionUsage& option, const CommandUsage& program) {
   std::string names;
   for (const std::string& name : option.names) {

@@ -23,13 +23,13 @@ private:
   }
 };
 
-// Columns that a UTF-8 text takes on a terminal; units and names here hold no double-width letters.
+// Width of UTF-8 text in terminal columns; assumes no double-width characters.
 std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-// Breaks `text` at blanks into lines that fit behind an indent of `indent` columns.
+// Wraps `text` at blanks into lines that fit with an indent of `indent` columns.
 std::vector<std::string> folded(std::string_view text, std::size_t indent) {
   std::vector<std::string> lines(1);
   while (!text.empty()) {
@@ -61,7 +61,7 @@ std::string value_of(const AttributeType& attribute) {
   return out + (attribute.fallback->empty() ? "; default empty" : "; default " + *attribute.fallback);
 }
 
-// name, then what it is and what it takes, behind a column of names.
+// A row per attribute: name, description and type, aligned after the column of names.
 void print_attributes(const ElementType& type, const Style& style, std::string& out) {
   std::size_t longest = 8;
   for (const AttributeType& attribute : type.attributes) longest = std::max(longest, width(attribute.name));
@@ -105,7 +105,7 @@ void print_entry(const TableEntry& entry, const Style& style, std::string& out) 
   }
 }
 
-// Whether `asked` is the entry's name or one of its paths, with or without the root's name before it.
+// Whether `asked` is the entry's name or one of its paths, with or without the root's name.
 bool matches(const TableEntry& entry, const std::string& root, const std::string& asked) {
   if (entry.type->name == asked) return true;
   return std::any_of(entry.places.begin(), entry.places.end(), [&](const TablePlace& place) {

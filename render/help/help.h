@@ -1,4 +1,4 @@
-// `rend help preset`: the parameter table as a page to read, at most 100 columns wide.
+// `rend help preset`: the parameter table as text, at most 100 columns wide.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -8,12 +8,11 @@
 
 namespace rend {
 
-// The page of all elements, or of `element`, which is a name (stretch: all elements of that name) or a path as
-// in --set (body.springs.stretch). `colour` adds terminal codes. Throws UserError (Usage) if there is no such
-// element.
+// The page of all elements, or of `element`: a name (stretch: all elements of that name) or a path as in --set
+// (body.springs.stretch). `colour` adds terminal codes. Throws UserError (Usage) if there is no such element.
 std::string help_preset(const ElementType& root, const std::optional<std::string>& element, bool colour);
 
-// What a preset is, in a few sentences.
+// A few sentences on what a preset is.
 std::string introduction(const ElementType& root);
 
 } // namespace rend

@@ -12,7 +12,8 @@
 namespace rend {
 namespace {
 
-// Text as troff shows it: a dot or quote at a line's start would be a request, a minus must stay one.
+// Escapes text for troff: a dot or quote at the start of a line would be a request, and a minus must stay
+// ASCII.
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -73,7 +74,7 @@ bool is_help(const OptionUsage& option) {
   return option.names.back() == "--help";
 }
 
-// A command, or each of its parts.
+// A command, or one of its subcommands.
 std::string command_section(const CommandUsage& command, const std::string& name) {
   std::string out;
   for (const CommandUsage& part : command.commands) out += command_section(part, name + " " + part.name);

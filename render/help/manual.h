@@ -1,5 +1,5 @@
-// The manual as troff, for man(1): rend(1) from the command line's own declarations, rend-preset(5) from the
-// parameter table. What they say stands in one place, which is not here.
+// The manual pages in troff for man(1): rend(1) from the command line's declarations, rend-preset(5) from the
+// parameter table. They contain no text of their own that could become outdated.
 #pragma once
 
 #include "render/help/usage.h"

@@ -17,7 +17,7 @@ std::string escaped(std::string_view text) {
   return in_markup(text, MarkupQuotes::Double);
 }
 
-// The schema grows line by line, indented by the depth of open elements.
+// Appends lines to the schema, indented by the depth of open elements.
 class Schema {
 public:
   explicit Schema(const ElementType& root) : entries_(table_entries(root)) {
@@ -52,7 +52,7 @@ private:
     line(fmt::format("<xs:annotation><xs:documentation>{}</xs:documentation></xs:annotation>", escaped(text)));
   }
 
-  // xs:double knows INF and NaN, which a preset does not.
+  // Excludes INF and NaN, which xs:double allows and presets do not.
   void number_type() {
     const AttributeType free;
     open(R"(xs:simpleType name="number")");
@@ -154,7 +154,7 @@ private:
     const AttributeType free;
     const bool whole = attribute.kind == AttributeKind::Integer || attribute.kind == AttributeKind::Integers;
     const double lowest = whole ? INT_MIN : free.low, highest = whole ? INT_MAX : free.high;
-    // A whole number's bound is one as well, or the facet would not be of its type.
+    // The bound of an integer must be an integer, as a facet must be of its type.
     const double low = whole && attribute.open_low ? std::floor(attribute.low) : attribute.low;
     open(fmt::format(R"(xs:restriction base="{}")", whole ? "xs:int" : "number"));
     if (low > lowest)

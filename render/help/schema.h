@@ -1,9 +1,9 @@
-// presets/scene.xsd, from the same table that reads presets: editors complete and check by it.
+// presets/scene.xsd, from the table by which presets are read: for completion and checks in editors.
 //
-// XSD 1.0 cannot say all of the table. Elements in any order are xs:all where none may be repeated, and then
-// their numbers are exact; where one may, they are an xs:choice of any of them, so that too few or too many of
-// one kind pass the schema (the reader refuses them). Attributes are exact but for this: the schema takes
-// numbers too small for a double, and lets xsi: attributes stand anywhere.
+// XSD 1.0 cannot express all of the table. Elements in any order are xs:all where none may be repeated, and
+// then their counts are exact; where one may be repeated, they are an xs:choice, so that too few or too many of
+// a kind pass the schema (the reader refuses them). Attributes are exact with two exceptions: the schema
+// accepts numbers too small for a double, and xsi: attributes anywhere.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -12,7 +12,7 @@
 
 namespace rend {
 
-// The schema, XSD 1.0, UTF-8. Types are called by the path of the element that has them first.
+// The schema, XSD 1.0, UTF-8. A type is named after the path of the first element that has it.
 std::string schema(const ElementType& root);
 
 } // namespace rend

@@ -10,7 +10,7 @@ void collect(const ElementType& type, const TablePlace& place, std::vector<Table
       std::find_if(out.begin(), out.end(), [&](const TableEntry& one) { return one.type == &type; });
   if (known != out.end()) {
     known->places.push_back(place);
-    return; // what is below it is listed already
+    return; // its children are listed already
   }
   out.push_back({&type, {place}});
   for (const ChildType& child : type.children)

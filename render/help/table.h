@@ -1,4 +1,4 @@
-// The parameter table laid out as a list, for those who print all of it: help and the schema.
+// The parameter table as a flat list, for help and the schema.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -8,13 +8,13 @@
 
 namespace rend {
 
-// Where an element may stand.
+// A position at which an element may occur.
 struct TablePlace {
   std::string path; // "scene.body.sheet"
   int at_least = 1, at_most = 1;
 };
 
-// An element type, once, however many elements share it.
+// An element type; listed once even if several elements share it.
 struct TableEntry {
   const ElementType* type;
   std::vector<TablePlace> places; // in the order of the table; not empty

@@ -16,7 +16,7 @@ OptionUsage option_usage(const CLI::Option& option) {
   for (const std::string& name : option.get_snames()) out.names.emplace_back("-" + name);
   for (const std::string& name : option.get_lnames()) out.names.emplace_back("--" + name);
   if (out.names.empty()) out.names.push_back(option.get_name(true));
-  const std::string type = option.get_type_name(); // "N:INT in [1 - 256]" where it is checked
+  const std::string type = option.get_type_name(); // "N:INT in [1 - 256]" for a validated number
   if (option.get_items_expected_max() > 0) out.value = type.substr(0, type.find(':'));
   out.what = option.get_description();
   out.fallback = option.get_default_str();
@@ -25,7 +25,7 @@ OptionUsage option_usage(const CLI::Option& option) {
   return out;
 }
 
-// Every element wherever it may stand, with its path without the root's name.
+// Visits every element at each of its positions, with its path without the root's name.
 void visit(const ElementType& type, const std::string& path,
            const std::function<void(const ElementType&, const std::string&)>& take) {
   take(type, path);

@@ -1,8 +1,8 @@
-// The command line as data: what --help prints, for those who write it down otherwise (manual.h, completion.h).
-// Taken from the commands' own declarations, so that a new command or option is in all of them by itself.
+// The command line as data: what --help prints, for the manual and completions (manual.h, completion.h). Taken
+// from the commands' own declarations, so that new commands and options appear by themselves.
 //
-// What an option takes is told by its type name: PRESET, DIR, FILE.png, PATH=VALUE, or choices with bars
-// between them: mp4|webm; with ",..." behind them, several with commas.
+// The type name of an option says what it takes: PRESET, DIR, FILE.png, PATH=VALUE, or choices separated by
+// bars: mp4|webm; with a trailing ",..." several of them, separated by commas.
 #pragma once
 
 #include <string>
@@ -17,16 +17,16 @@ namespace rend {
 struct ElementType;
 
 struct OptionUsage {
-  std::vector<std::string> names; // "-o", "--output"; of a positional its name
+  std::vector<std::string> names; // "-o", "--output"; for a positional argument its name
   std::string value;              // its type name; empty: a flag
-  std::string what, fallback;     // fallback: empty where there is none
+  std::string what, fallback;     // fallback: the default; empty: none
   bool required = false, repeated = false;
 };
 
 struct CommandUsage {
-  std::string name; // "rend", "render"; of its parts "info"
+  std::string name; // "rend", "render"; for a subcommand "info"
   std::string what;
-  std::string footer; // empty where it is that of the command above
+  std::string footer; // empty if it is its parent's
   std::vector<OptionUsage> positionals, options;
   std::vector<CommandUsage> commands;
 };
@@ -36,13 +36,13 @@ CommandUsage usage_of(const CLI::App& app);
 // A type name: "mp4|webm|mkv".
 std::string choices(const std::vector<std::string>& names);
 
-// What can stand behind --set.
+// An attribute that can be given to --set.
 struct SetUsage {
   std::string path;                // "body.sheet.cells"
-  std::vector<std::string> values; // of a word or a flag; empty: numbers or text
+  std::vector<std::string> values; // of a keyword or a flag; empty: numbers or text
 };
 
-std::vector<SetUsage> set_usages(const ElementType& root); // of all elements wherever they may stand; sorted
+std::vector<SetUsage> set_usages(const ElementType& root); // of all elements at each of their positions; sorted
 std::vector<std::string> element_names(const ElementType& root); // as `rend help preset` takes them; sorted
 
 } // namespace rend
