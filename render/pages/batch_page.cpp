@@ -20,7 +20,7 @@ using namespace html;
 
 constexpr int thumbnail_width = 176; // [pixels]
 
-// Each pixel the mean of those of the larger picture that it covers.
+// Downscales by a box filter: each pixel is the mean of those that it covers.
 Image made_smaller(const Image& from, int width) {
   const int height = std::max(1, from.height * width / from.width);
   Image to(width, height, from.channels);
@@ -49,7 +49,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   return all;
 }
 
-// Of the picture two thirds of the way through: a good deal has happened by then.
+// The picture two thirds into the clip: by then much has usually happened.
 Html thumbnail(const fs::path& folder, const std::string& name) {
   const std::vector<fs::path> all = pictures_in(folder);
   if (all.empty() || !png_available()) return muted("no pictures");

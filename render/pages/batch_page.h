@@ -1,4 +1,4 @@
-// What came of a batch: one page with a picture of each job, and the same as JSON, one object a line.
+// The results of a batch: a page with a picture of each job, and the same as JSON lines.
 #pragma once
 
 #include "render/batch/batch_jobs.h"
@@ -14,9 +14,9 @@ namespace rend {
 struct BatchReport {
   std::filesystem::path folder;
   std::vector<BatchJob> jobs;
-  std::vector<BatchResult> results; // of each
+  std::vector<BatchResult> results; // one per job
   BatchLimits limits;
-  double seconds = 0; // on the clock, of all
+  double seconds = 0; // wall clock, of the whole batch
 };
 
 nlohmann::ordered_json line_of(const BatchJob& job, const BatchResult& result);

@@ -39,7 +39,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace html;
 
-// JSON has no numbers that are not finite.
+// JSON has no numbers for infinity and NaN.
 Json number_or_word(double value) {
   if (std::isfinite(value)) return value;
   return in_digits(value);
@@ -99,7 +99,7 @@ Html happened(const Finding& finding) {
   return out;
 }
 
-// The part of a case's name after its family's.
+// A case's name without that of its family.
 std::string short_name(const CheckChapter& chapter, const CheckCase& which) {
   const std::string front = chapter.family.name + "/";
   return which.name.starts_with(front) ? which.name.substr(front.size()) : which.name;
@@ -175,9 +175,9 @@ Html Report::picked(Verdict verdict, const std::string& title, const std::string
   return heading(2, title) + paragraph(escaped(about)) + table(t);
 }
 
-// What is known of a model is said once, with the cases in which it shows.
+// A known limit of a model is described once, with the cases that show it.
 Html limits_of(const std::vector<CheckChapter>& chapters) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> all; // why, and the cases
+  std::vector<std::pair<std::string, std::vector<std::string>>> all; // reason, and its cases
   for (const CheckChapter& chapter : chapters)
     for (std::size_t n = 0; n < chapter.results.size(); ++n) {
       const Finding& finding = chapter.results[n].finding;
@@ -203,7 +203,7 @@ Html limits_of(const std::vector<CheckChapter>& chapters) {
   return out;
 }
 
-// Rows and columns in the order in which cases name them. Empty where there would be a single column.
+// Rows and columns in the order of the cases' names. Empty if there would be a single column.
 Html Report::matrix(const CheckChapter& chapter) const {
   std::vector<std::string> across, down;
   std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> at;

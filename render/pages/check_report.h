@@ -1,4 +1,4 @@
-// What a check found, as JSON and as a page.
+// The results of a check, as JSON and as a page.
 #pragma once
 
 #include "sim/check/case.h"
@@ -10,7 +10,7 @@
 
 namespace rend {
 
-// One family with the cases of it that were run.
+// A family, with those of its cases that were run.
 struct CheckChapter {
   CheckFamily family;
   std::vector<CheckCase> cases;

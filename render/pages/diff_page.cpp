@@ -33,7 +33,7 @@ Tone tone_of(CaseState state) {
   return Tone::Bad;
 }
 
-std::uintmax_t size_of(const fs::path& path) { // 0 where there is none
+std::uintmax_t size_of(const fs::path& path) { // 0 if there is no such file
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
   return error ? 0 : size;
@@ -116,7 +116,7 @@ private:
   Html pictures(const Compared& one);
 
   const DiffReport& report_;
-  std::size_t bytes_ = 0; // of pictures so far
+  std::size_t bytes_ = 0; // of the pictures embedded so far
 };
 
 Html Chapters::pictures(const Compared& one) {

@@ -1,4 +1,4 @@
-// The page of a comparison: failures first, each to be looked at in every way; and the files beside it.
+// The page of a comparison, failures first, with an interactive view of each; and the files beside it.
 #pragma once
 
 #include "render/files/output.h"
@@ -10,18 +10,18 @@
 
 namespace rend {
 
-// Reads the pictures of what failed from their files, which it embeds as they are; a picture that cannot be
-// shown is left out, and so are the pictures of further cases once the page has 100 MB of them (it says so).
+// Reads the pictures of failed cases from their files, and embeds them unchanged; a picture that cannot be
+// shown is omitted, and so are the pictures of further cases once the page has 100 MB of them (the page says
+// so).
 std::string diff_page(const DiffReport& report);
 
-// What is left on the disk: a folder with index.html, diff.json, and for what differs maps/NAME.png; and
-// JUnit's XML. That they can be written is known before anything is compared, and none is there before it is
-// whole.
+// The output files: a folder with index.html, diff.json, and maps/NAME.png for cases that differ; and JUnit
+// XML. That they are writable is tested before anything is compared; each is written atomically.
 class DiffFiles {
 public:
-  // Of an empty name nothing is written. Throws UserError: CannotCreate.
+  // An empty name: not written. Throws UserError: CannotCreate.
   DiffFiles(const std::string& folder, const std::string& junit);
-  // `page`: what diff_page() gave. Throws UserError: CannotCreate, ReadWrite.
+  // `page`: from diff_page(). Throws UserError: CannotCreate, ReadWrite.
   void write(const std::string& page, const DiffReport& report);
 
 private:

@@ -1,4 +1,4 @@
-// What a comparison found: as text, JSON, JSON lines and JUnit.
+// The results of a comparison: as text, JSON, JSON lines and JUnit XML.
 #pragma once
 
 #include "render/compare/compare.h"
@@ -16,7 +16,7 @@ namespace rend {
 enum class Expectation { Kept, Updated };
 
 struct DiffReport {
-  std::string a, b;                 // as they were named
+  std::string a, b;                 // as on the command line
   std::vector<Compared> cases;      // by name
   std::vector<bool> updated;        // one per case: what is expected has been replaced
   std::vector<std::string> remarks; // on the whole, such as patterns that fit nothing
@@ -24,25 +24,25 @@ struct DiffReport {
   Expectation expectation(std::size_t n) const { return updated[n] ? Expectation::Updated : Expectation::Kept; }
 };
 
-// How many cases are in that state, without those that were updated.
+// The number of cases in that state, not counting those that were updated.
 std::size_t count(const DiffReport& report, CaseState state);
 std::size_t updated(const DiffReport& report);
-// Indices of the cases: what failed first, by states in the order of all_states(), the largest mean of FLIP
-// first among those that differ; then what was updated and what matches, by name.
+// Indices of the cases, failures first, by state in the order of all_states(), those that differ by decreasing
+// mean of FLIP; then updated and matching cases, by name.
 std::vector<std::size_t> failures_first(const DiffReport& report);
 bool failed(const DiffReport& report, std::size_t n);
 
-// 0: all match or were updated; 2: one is unreadable; else 1.
+// 0: all match or were updated; 2: one cannot be read; else 1.
 Exit exit_of(const DiffReport& report);
 
 // Name, state, figures, reasons. psnr is null where the pictures are equal (it would be infinite).
 nlohmann::ordered_json case_json(const Compared& one, Expectation expectation);
 nlohmann::ordered_json diff_json(const DiffReport& report);
 
-// One line a failure, then a summary; of a single pair its figures.
+// A line per failure, then a summary; for a single pair, its metrics.
 std::string diff_text(const DiffReport& report);
 
-// As Jenkins, GitLab and others read it: a failure for every case that fails, an error for the unreadable.
+// JUnit XML for Jenkins, GitLab and others: a failure for every case that fails, an error for unreadable ones.
 std::string diff_junit(const DiffReport& report);
 
 } // namespace rend

@@ -30,7 +30,7 @@ std::string sameness(const LeanRow& row) {
   return row.same_state ? "same bits" : "same pixels";
 }
 
-// The words of the page and of the table alike.
+// Shared by the page and the table.
 std::string verdict_on_unused(const std::vector<LeanRow>& rows) {
   std::string out;
   for (const LeanRow& row : rows) {

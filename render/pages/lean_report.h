@@ -1,4 +1,4 @@
-// What `rend study --lean` found, as CSV, JSON, a table to read, and a page.
+// The results of `rend study --lean`, as CSV, JSON, a text table, and a page.
 #pragma once
 
 #include "render/pages/provenance.h"

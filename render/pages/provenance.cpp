@@ -14,7 +14,7 @@
 namespace rend {
 namespace {
 
-// The command line as the system keeps it; the program's own name without its folder.
+// The command line from /proc; the program's name without its folder.
 std::vector<std::string> command_words() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> words;

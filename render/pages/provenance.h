@@ -1,5 +1,4 @@
-// Where figures come from: machine, build, preset and command line, for reports that others should be able to
-// repeat.
+// Provenance of figures: machine, build, preset and command line, for reproducible reports.
 #pragma once
 
 #include "render/report/machine.h"
@@ -13,8 +12,8 @@ namespace rend {
 
 struct Provenance {
   Machine machine;
-  std::string preset, hash; // its path as it was given, and XXH3 of its bytes, 16 hex digits
-  std::string command;      // for a shell
+  std::string preset, hash; // its path as given, and the XXH3 of its bytes, 16 hex digits
+  std::string command;      // quoted for a shell
   std::string date;         // of the run, UTC: ISO 8601
 };
 
@@ -25,7 +24,7 @@ Provenance provenance_of(const std::filesystem::path& preset, const std::string&
 nlohmann::ordered_json json_of(const Provenance& provenance);
 html::Html facts_of(const Provenance& provenance); // a part of a page
 
-// The words as a shell reads them again.
+// The words, quoted so that a shell splits them in the same way.
 std::string quoted_for_shell(const std::vector<std::string>& words);
 
 } // namespace rend

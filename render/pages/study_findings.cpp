@@ -1,4 +1,4 @@
-// The sentences that open the page of a study.
+// The findings at the top of a study's page.
 #include "render/console/console.h"
 #include "render/pages/study_page.h"
 
@@ -29,7 +29,7 @@ struct Reached {
   Reach reach;
 };
 
-// Who reaches the target in this group, the fastest first.
+// The schemes that reach the target in this group, the fastest first.
 std::vector<Reached> reached(const StudyReport& report, std::size_t group, std::size_t target) {
   std::vector<Reached> all;
   for (const StudyCurve& curve : report.curves)
@@ -39,7 +39,7 @@ std::vector<Reached> reached(const StudyReport& report, std::size_t group, std::
   return all;
 }
 
-// "3.4", "28", "270": two digits.
+// "3.4", "28", "270": two significant digits.
 std::string times_in_words(double factor) {
   return factor < 9.95 ? fmt::format("{:.1f}", factor)
                        : fmt::format("{:.0f}", factor < 100 ? factor : 10 * std::round(factor / 10));
@@ -92,7 +92,7 @@ std::string failures(const StudyReport& report, std::size_t group) {
   for (const StudyCurve& curve : report.curves) {
     if (curve.group != group) continue;
     std::size_t failed = 0;
-    const StudyRow* finest = nullptr; // of those that failed
+    const StudyRow* finest = nullptr; // of the failed runs
     for (std::size_t n : curve.rows) {
       const StudyRow& row = report.rows[n];
       if (!row.failed()) continue;

@@ -10,7 +10,7 @@ namespace rend {
 namespace {
 
 using namespace html;
-using html::Cell, html::Column, html::Table; // and not the map's
+using html::Cell, html::Column, html::Table; // sim/embedding has a Column, too
 
 Cell text_cell(const std::string& text) {
   return {escaped(text)};
@@ -39,7 +39,7 @@ bool many(const StudyReport& report) {
   return report.groups.size() > 1;
 }
 
-// Puts the group's name before the cells of a row, where there are several groups.
+// Prepends a cell with the group's name if there are several groups.
 std::vector<Cell> begin_row(const StudyReport& report, std::size_t group) {
   std::vector<Cell> row;
   if (many(report)) row.push_back(text_cell(group_name(report, group)));

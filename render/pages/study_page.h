@@ -1,5 +1,4 @@
-// The page of a study: what it found, in words made from its numbers; plots, tables, and where it all comes
-// from.
+// The page of a study: its findings as generated sentences; plots, tables, provenance.
 #pragma once
 
 #include "render/pages/provenance.h"
@@ -12,11 +11,12 @@ namespace rend {
 
 // A plot as it goes into the page.
 struct DrawnPlot {
-  std::string svg; // a whole file; empty: it could not be drawn
+  std::string svg; // content of an SVG file; empty: it could not be drawn
   std::string caption;
 };
 
-// Sentences, the most important first: which scheme reaches what the cheapest, orders, failures, the reference.
+// Sentences, the most important first: which scheme reaches a target error fastest, orders of convergence,
+// failures, the reference.
 std::vector<std::string> findings_of(const StudyReport& report);
 
 std::string page_of(const StudyReport& report, const std::string& name, const std::vector<DrawnPlot>& plots,

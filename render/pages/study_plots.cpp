@@ -8,7 +8,7 @@
 namespace rend {
 namespace {
 
-// The same scheme looks the same in all plots of all studies.
+// A scheme has the same style in all plots of all studies.
 int look_of(const std::string& integrator) {
   const auto& all = all_schemes();
   const auto found =
@@ -16,13 +16,13 @@ int look_of(const std::string& integrator) {
   return static_cast<int>(found - all.begin());
 }
 
-// What a plot has on its axes.
+// The options of a plot's axes.
 struct Axes {
   double (*x)(const StudyRow&);
   std::optional<double> (*y)(const StudyReport&, const StudyRow&);
   bool log_y = true;
-  bool spread = false; // of the run times, along x
-  bool doubts = false; // errors may be the reference's
+  bool spread = false; // error bars for the run times, along x
+  bool doubts = false; // marks errors that may be those of the reference
 };
 
 double seconds(const StudyRow& row) {

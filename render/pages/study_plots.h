@@ -7,13 +7,14 @@
 namespace rend {
 
 struct NamedPlot {
-  std::string file;    // without its ending
-  std::string caption; // what is to be seen
+  std::string file;    // without its extension
+  std::string caption; // description of the plot
   Plot plot;
 };
 
-// Error against run time, error against step, energy; of what tears, its first tear and what is torn. One set
-// for each group, and where there are several, all of them together against the most exact one.
+// Error against run time, error against step size, energy; for bodies that tear, the time of the first tear and
+// what has torn. One set for each group; with several groups, also all of them together against the most exact
+// one.
 std::vector<NamedPlot> plots_of(const StudyReport& report, const std::string& name);
 
 } // namespace rend

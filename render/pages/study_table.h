@@ -1,5 +1,5 @@
-// A study as numbers: one row a run as CSV (RFC 4180), and all of it as JSON. Numbers have all their digits;
-// what is not there (the error of a failed run) is empty in CSV and null in JSON.
+// A study's data: one row per run as CSV (RFC 4180), and everything as JSON. Numbers have all their digits; a
+// value that does not exist (the error of a failed run) is empty in CSV and null in JSON.
 #pragma once
 
 #include "sim/study/study.h"

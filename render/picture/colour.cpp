@@ -27,7 +27,7 @@ constexpr std::array<Colour, 9> viridis{{{68, 1, 84},
                                          {170, 220, 50},
                                          {253, 231, 37}}};
 
-// pow may differ in its last bit between processors, which rounding to 8 bits hides.
+// The last bit of pow may differ between processors; rounding to 8 bits hides that.
 std::uint8_t encoded(double linear) {
   const double x = std::clamp(linear, 0.0, 1.0);
   const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;

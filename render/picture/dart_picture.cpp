@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::array<Colour, 4> link_colours{{{25, 25, 28}, {200, 35, 45}, {35, 80, 190}, {30, 140, 70}}};
 constexpr Colour dart_colour{40, 42, 48};
-// Where the dot of a dart lies between its vertex, the middles of its edge and face and, in a solid, of its
-// volume.
+// The dot of a dart is interpolated between its vertex and the midpoints of its edge, of its face and, in a
+// solid, of its volume.
 constexpr double to_edge = 0.22, to_face = 0.24, to_volume = 0.16;
 
 class Darts {
@@ -56,7 +56,7 @@ private:
     return at;
   }
 
-  // A bar of four sides, with normals as a round one has.
+  // A bar with four sides, with the normals of a round one.
   void add_rod(const Vec3& from, const Vec3& to, const Colour& colour) {
     const Vec3 along = to - from;
     if (along.norm() == 0) return;
@@ -79,7 +79,7 @@ private:
   const Body& body_;
   FrameBody& out_;
   std::vector<Vec3> dots_; // [m], one per dart
-  double size_ = 0;        // [m], half a rod's width
+  double size_ = 0;        // [m], half the width of a bar
 };
 
 } // namespace

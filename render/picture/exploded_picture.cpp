@@ -27,7 +27,7 @@ public:
   }
 
 private:
-  bool on_border(Dart d) const { // where nothing tears it is as it was
+  bool on_border(Dart d) const { // without tearing, as at the start
     return body_.border ? (*body_.border)[body_.map->slot(FaceOfVolume, d)] != 0 : map_.is_free(3, d);
   }
   Vec3 place(Dart d) const { return x_[vertices_.slot(d)].vec(); }
@@ -60,14 +60,14 @@ private:
   const Body& body_;
   const GMap& map_;
   const CellIndex& vertices_;
-  const std::vector<Record>& x_; // [m], one per vertex slot
+  const std::vector<Record>& x_; // [m], positions, one per vertex slot
   const bool solid_;
   const double apart_;
   const std::function<Colour(const CellCorner&)>& colour_;
   FrameBody& out_;
   Vec3 middle_ = Vec3::Zero();      // [m]
-  std::vector<std::uint8_t> drawn_; // one per dart: its face is
-  std::vector<Dart> corners_;       // of the face at hand, one a vertex
+  std::vector<std::uint8_t> drawn_; // one per dart: its face is drawn already
+  std::vector<Dart> corners_;       // of the current face, one per vertex
 };
 
 } // namespace

@@ -1,5 +1,5 @@
-// A body whose cells are drawn apart: every face of a sheet, every volume of a solid, whole and by itself,
-// moved away from the body's middle by a share of its distance from there:
+// Exploded view: every face of a sheet, every volume of a solid is drawn separately, moved away from the body's
+// centre m in proportion to the distance of the cell's centre c:
 //
 //   x' = x + apart (c − m)
 #pragma once
@@ -16,11 +16,11 @@ namespace rend {
 struct CellCorner {
   Dart dart;
   Slot vertex;
-  bool inner; // its face lay between two cells at the start
+  bool inner; // its face was between two cells at the start
 };
 
-// Appends the triangles to `out`; a solid's run counter-clockwise seen from outside of each volume that is not
-// inverted.
+// Appends the triangles to `out`; those of a solid are counter-clockwise seen from outside of each volume,
+// unless that is inverted.
 void draw_exploded(const Body& body, double apart, const std::function<Colour(const CellCorner&)>& colour,
                    FrameBody& out);
 

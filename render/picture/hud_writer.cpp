@@ -12,9 +12,9 @@
 namespace rend {
 namespace {
 
-constexpr double nothing = 1e-15; // [J], what is left of a sum that is zero; no axis is made for it
+constexpr double nothing = 1e-15; // [J], round-off of sums that are zero; a smaller range gives no axis
 constexpr std::array<const char*, 4> names{"kinetic", "elastic", "gravity", "sum"};
-// Told apart by hue and by lightness (Okabe and Ito 2008).
+// Distinguishable by hue and by lightness (Okabe and Ito 2008).
 constexpr std::array<Colour, 4> colours{{{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {60, 60, 60}}};
 
 } // namespace

@@ -1,4 +1,4 @@
-// What <hud> asks for, written from the state of a scene: HudContent.
+// Fills HudContent from the state of a scene, as the preset's <hud> asks for.
 //
 // Curves and scales follow the whole clip, whether a frame is drawn or not: observe() is called for every one,
 // as for pictures (scene_picture.h). What is not asked for is neither measured nor kept.
@@ -30,10 +30,10 @@ public:
   // frames: of the clip.
   HudWriter(const HudSettings& hud, const Scene& scene, long frames);
 
-  void observe(); // the state is that of a frame
+  void observe(); // call with the state of each frame
   HudContent content(std::vector<HudLegend> legends) const;
   bool wants_legends() const { return legend_; }
-  void store(Archive& archive); // the curves so far
+  void store(Archive& archive); // the curves so far; checkpoint
 
 private:
   HudPlot energy_plot() const;
@@ -42,9 +42,10 @@ private:
   std::string title_, subtitle_;
   bool time_ = false, energy_ = false, tears_ = false, legend_ = false, cost_ = false;
   long frames_;
-  std::array<std::vector<float>, 4> energies_; // [J]: kinetic, elastic, of gravity since the start, their sum
-  double gravity_at_start_ = 0;                // [J]
-  double low_ = 0, high_ = 0;                  // [J], of the energies' axis
+  // [J]: kinetic, elastic, gravitational since the start, their sum
+  std::array<std::vector<float>, 4> energies_;
+  double gravity_at_start_ = 0; // [J]
+  double low_ = 0, high_ = 0;   // [J], range of the energy axis
 };
 
 } // namespace rend

@@ -7,13 +7,13 @@
 namespace rend {
 namespace {
 
-constexpr int sphere_segments = 16; // to an eighth of a turn: 0.06 % of the radius from round
+constexpr int sphere_segments = 16; // per eighth of a turn: deviates from a circle by 0.06 % of the radius
 constexpr int box_segments = 3;
-constexpr double rounding = 0.02; // of a box's edges, in shares of its smallest size
+constexpr double rounding = 0.02; // radius of a box's rounded edges, in parts of its smallest size
 
-// Along one side of a cube: from −1 to 1, and 0 twice, once for each half.
+// Positions along one side of a cube: from −1 to 1, with 0 twice, once for each half.
 struct Tick {
-  double at, half; // half: −1, 1
+  double at, half; // half: −1 or 1
 };
 std::vector<Tick> ticks(int segments) {
   std::vector<Tick> all;
@@ -21,7 +21,7 @@ std::vector<Tick> ticks(int segments) {
     for (int n = 0; n <= segments; ++n) {
       const double share = static_cast<double>(half < 0 ? segments - n : n) / segments;
       const double tangent =
-          sine_of_degrees(45 * share) / cosine_of_degrees(45 * share); // even over the sphere
+          sine_of_degrees(45 * share) / cosine_of_degrees(45 * share); // equal angles on the sphere
       all.push_back({half * tangent, static_cast<double>(half)});
     }
   return all;

@@ -1,7 +1,7 @@
-// How spheres and boxes are shown: triangles with smooth normals, and no lines.
+// Pictures of spheres and boxes: triangles with smooth normals, without lines.
 //
-// Both are one shape, a box with rounded edges: the points of a sphere, moved outwards by the box that is left
-// without its roundings. Of a sphere nothing is left; a box has edges that catch the light.
+// Both are the same shape, a rounded box: the points of a sphere, offset by the corners of an inner box. For a
+// sphere the inner box is a point; a box has rounded edges that show highlights.
 #pragma once
 
 #include "render/draw/frame.h"

@@ -76,7 +76,8 @@ std::optional<HudLegend> BodyPicture::legend() const {
 void BodyPicture::label_fragments(std::size_t& fragments_seen) {
   labels_ = rend::label_fragments(body_->map->map());
   fragment_colours_.clear();
-  body_->map->map().for_each_dart([&](Dart d) { // the first dart of a label is its smallest
+  // darts come in increasing order, so the first of a label is its smallest
+  body_->map->map().for_each_dart([&](Dart d) {
     if (labels_[d.value] != fragment_colours_.size()) return;
     const auto [at, added] = numbers_.try_emplace(d.value, fragments_seen);
     if (added) ++fragments_seen;
@@ -131,7 +132,7 @@ void BodyPicture::draw_sheet(FrameBody& out) {
     if (look_.by == ShownBy::Fragment)
       colour = fragment_colours_[labels_[body_->map->cells(FaceOfVolume).first_dart(triangle.face).value]];
     for (Slot v : triangle.vertex) {
-      // A vertex normal's sign is its own: within a triangle all are turned to the triangle's side.
+      // A vertex normal has an arbitrary sign: within a triangle all are turned to the triangle's side.
       Vec3 normal = normals_[v];
       const double side = normal.dot(flat);
       if (side < 0) normal = -normal;
@@ -209,7 +210,7 @@ Frame PictureMaker::draw(long number, double time) {
   return frame;
 }
 
-// Each kind of scale once: bodies that share it need not say it twice.
+// Each scale once, even if several bodies share it.
 std::vector<HudLegend> PictureMaker::legends() const {
   std::vector<HudLegend> all;
   if (!hud_->wants_legends()) return all;

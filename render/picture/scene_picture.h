@@ -1,10 +1,10 @@
-// From the state of a scene to a Frame: triangles with normals, colours and lines; obstacles; the floor; the
+// Makes a Frame from the state of a scene: triangles with normals, colours and lines; obstacles; the floor; the
 // camera.
 //
-// Colours that depend on a scale or on an order of things must not flicker, and a frame drawn alone must be
-// that of the whole clip. So observe() is called for every frame of the clip, drawn or not: a scale is the
-// largest value seen so far, rounded up to 1, 2 or 5 times a power of ten; and a fragment has the colour that
-// its smallest dart was given when it was first seen, so that of two parts one stays as it was.
+// Colours that depend on a scale or an order must not flicker, and a frame drawn alone must equal the same
+// frame of the whole clip. So observe() is called for every frame of the clip, drawn or not: a scale is the
+// largest value so far, rounded up to 1, 2 or 5 times a power of ten; and a fragment's colour is assigned to
+// its smallest dart when it is first observed, so that when a fragment splits, one part keeps its colour.
 #pragma once
 
 #include "render/draw/frame.h"
@@ -24,12 +24,12 @@ class BodyPicture {
 public:
   BodyPicture(Body& body, LookSettings look); // UserError: darts of a body that has too many to be drawn
 
-  void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that were given a colour
+  void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that have a colour
   FrameBody draw();                          // of the state that was observed
   std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
   std::size_t bytes() const;               // of its surface
   std::size_t fragments_seen() const { return numbers_.size(); } // of this body
-  void store(Archive& archive);                                  // what it has seen
+  void store(Archive& archive);                                  // scale and colours so far; checkpoint
 
 private:
   void draw_sheet(FrameBody& out);
@@ -55,13 +55,13 @@ public:
   // aspect: width / height; duration [s] and frames of the clip. UserError where the camera looks at nothing.
   PictureMaker(const PictureSettings& settings, Scene& scene, double aspect, double duration, long frames);
 
-  void observe(); // the state is that of a frame
+  void observe(); // call with the state of each frame
   Frame draw(long number,
-             double time); // `time` [s] of the frame in the clip, for the camera; observe() came before
+             double time); // `time` [s] of the frame in the clip, for the camera; call observe() first
   FrameCamera camera(double time) const { return viewpoint_.at(time); }
   std::size_t bytes() const;                  // of surfaces
   double seconds() const { return seconds_; } // spent in observe() and draw()
-  void store(Archive& archive);               // what it has seen, of the frames so far
+  void store(Archive& archive);               // scales and colours of the frames so far; checkpoint
 
 private:
   std::vector<HudLegend> legends() const;
@@ -71,7 +71,7 @@ private:
   std::vector<SphereLook> spheres_; // one each
   std::vector<BoxLook> boxes_;
   std::vector<std::unique_ptr<BodyPicture>> bodies_;
-  std::optional<HudWriter> hud_; // none: nothing is written over the pictures
+  std::optional<HudWriter> hud_; // none: the preset has no HUD
   std::size_t fragments_seen_ = 0;
   double seconds_ = 0;
 };

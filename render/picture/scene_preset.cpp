@@ -62,7 +62,7 @@ const ElementType& drawn_world_type() {
   return type;
 }
 
-// A name that is a path, hides its file, or acts on the terminal that lists it, would surprise.
+// Refuses names that contain a path, give a hidden file, or contain terminal control characters.
 void check_name(const PresetNode& scene) {
   const std::string& name = scene.text("name");
   const char* hint = "pictures and videos are called by it: letters, digits and - do";
@@ -94,7 +94,7 @@ void check_look(const PresetNode& look) {
     look.fail("finish", "there is no finish " + in_quotes(finish), suggestion(finish, names, "there are"));
 }
 
-// Colours show what elements or springs know.
+// Colours by stress need elements, colours by force need springs, and so on.
 void check_colours(const PresetNode& body, const PresetNode& look) {
   const std::string& by = look.text("by");
   const bool springs = body.child("springs"), elements = body.child("elasticity");
@@ -111,7 +111,7 @@ void check_colours(const PresetNode& body, const PresetNode& look) {
               "give it <springs> or <elasticity>, or show by=\"fragment\" or \"plain\"");
 }
 
-// What only pictures need is looked at as well, so that a preset is good or bad for all commands alike.
+// Also validates what only pictures use, so that all commands agree on whether a preset is valid.
 std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
   check_name(*scene);
   duration_of(*scene->child("time")); // said by all commands alike

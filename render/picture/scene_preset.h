@@ -1,5 +1,5 @@
 // The whole parameter table: the root <scene>, with what the simulation reads (sim/build/scene_types.h) and
-// what pictures are made by.
+// what pictures need.
 #pragma once
 
 #include "render/picture/picture_settings.h"
@@ -13,12 +13,12 @@ namespace rend {
 
 const ElementType& scene_type();
 
-// Reads a preset, checked against the table. Its name must do as a file name, since pictures are called by it.
-// Throws UserError as read_preset does.
+// Reads a preset and checks it against the table. Its name must be valid as a file name, since outputs are
+// named after it. Throws UserError as read_preset does.
 std::unique_ptr<PresetNode> load_scene(const std::filesystem::path& path,
                                        std::span<const Override> overrides = {});
 
-// The same for a text; `file` is what its places are called by.
+// The same for a text; `file` is the file name in error messages.
 std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::string& file,
                                             std::span<const Override> overrides = {});
 

@@ -18,7 +18,7 @@ Vec3 corner_of(const Bounds& box, int n) {
   return box.corner(static_cast<Bounds::CornerType>(n));
 }
 
-// Whether prescribed vertices hold the body on all sides: then it sags, but does not swing down.
+// Whether fixed vertices hold the body on all sides: then it sags, but does not swing down.
 bool held_all_around(const Body& body, const Bounds& box, int vertical) {
   Bounds held;
   for (Slot v : body.constraints.vertices()) held.extend(body.map->position()[v].vec());
@@ -44,7 +44,7 @@ Bounds room_of(const Body& body, double duration) {
   return room.merged(below);
 }
 
-// Towards the side that a flat thing shows: from the front, a little from the right and from above.
+// Faces the flat side of a thin body, slightly from the right and from above.
 Vec3 best_direction(const Bounds& box) {
   int thin = 0;
   box.sizes().minCoeff(&thin);
@@ -57,8 +57,8 @@ Bounds bounds_of(const Sphere& sphere) {
   return {sphere.start - reach, sphere.start + reach};
 }
 
-// What a sphere needs that moves: where it starts, and where it goes to as far as that is in the bodies' room,
-// or it would make them small.
+// What the camera should show of a moving sphere: its start, and its path as far as it lies in the bodies' box;
+// all of it would make the bodies small.
 Bounds room_of(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, double duration) {
   const Bounds start = bounds_of(sphere);
   Vec3 way = duration * sphere.velocity;
@@ -134,8 +134,8 @@ void Viewpoint::read_keys(const CameraSettings& camera) {
   }
 }
 
-// Cubic Hermite pieces, whose slopes are those between the neighbours; it stands still before the first and
-// after the last.
+// Cubic Hermite interpolation; the slope at a key is that between its neighbours. Constant before the first and
+// after the last key.
 FrameCamera Viewpoint::between_keys(double time) const {
   FrameCamera camera = start_;
   const auto set = [&](const Eigen::Matrix<double, 7, 1>& at) {
@@ -164,13 +164,13 @@ void Viewpoint::observe(const Scene& scene) {
   for (const auto& body : scene.bodies()) box.extend(bounds_of(*body));
   box =
       box.intersection(Bounds(start_middle_ - Vec3::Constant(reach_), start_middle_ + Vec3::Constant(reach_)));
-  if (box.isEmpty()) return; // all is far away
+  if (box.isEmpty()) return; // no body is within reach
   const double passed = last_ < 0 ? 0 : scene.time() - last_, share = passed / (passed + lag);
   last_ = scene.time();
   const double distance = (start_.eye - start_.target).norm();
   const FrameCamera wanted = frame_auto(box, start_.fov, aspect_, direction_);
   start_.target += share * (wanted.target - start_.target);
-  Bounds around = box; // with its mirror image, so that the target is its middle
+  Bounds around = box; // with its mirror image, so that the target is its centre
   around.extend(2 * start_.target - box.min()).extend(2 * start_.target - box.max());
   const FrameCamera needed = frame_auto(around, start_.fov, aspect_, direction_);
   const double near = (needed.eye - needed.target).norm(), far = (wanted.eye - wanted.target).norm();

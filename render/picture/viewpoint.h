@@ -1,8 +1,8 @@
 // Where a scene is seen from: what CameraSettings say, or what fits the bodies.
 //
-// A given, fitted, turning or keyed camera has one path for the whole clip, worked out before the first step.
-// One that follows the bodies looks at every frame's state (observe): it goes after their middle as if on a
-// damped spring, and is never so near that one of them leaves the picture.
+// A given, fitted, turning or keyed camera has one path for the whole clip, computed before the first step. A
+// following camera needs the state of every frame (observe): it follows the centre of the bodies like a damped
+// spring, and keeps far enough away to have all of them in the picture.
 #pragma once
 
 #include "render/draw/frame.h"
@@ -14,13 +14,13 @@
 
 namespace rend {
 
-// The box around a body's vertices as they are [m]; empty if it has none.
+// The bounding box of a body's current vertices [m]; empty if it has none.
 Eigen::AlignedBox3d bounds_of(const Body& body);
 
-// A box that the bodies and obstacles hardly leave: where they are, where they are driven to by `duration`, and
-// room below them to hang or fall (as deep as they are wide where nothing holds them up on all sides, but not
-// below the floor). Of a sphere that moves, only what it passes between the start and the end of the bodies'
-// room counts.
+// A box that bodies and obstacles hardly leave: their positions, the targets of driven ones by `duration`, and
+// room below to hang or fall (as deep as the bodies are wide unless they are held on all sides, but not below
+// the floor). Of a moving sphere, only the part of its path counts that is between the start and the end of the
+// bodies' box.
 Eigen::AlignedBox3d room_of(const Scene& scene, double duration);
 
 class Viewpoint {
@@ -29,9 +29,9 @@ public:
   // settings do not fit together.
   Viewpoint(const CameraSettings& camera, const Scene& scene, double aspect, double duration);
 
-  void observe(const Scene& scene);  // the state is that of a frame; only needed by a camera that follows
+  void observe(const Scene& scene);  // call with the state of each frame; needed only by a following camera
   FrameCamera at(double time) const; // [s]
-  void store(Archive& archive, double now); // [s]: where one that follows has come to
+  void store(Archive& archive, double now); // [s]: state of a following camera; checkpoint
 
 private:
   struct Key {
@@ -42,13 +42,14 @@ private:
   FrameCamera between_keys(double time) const;
 
   FrameCamera start_;
-  std::vector<Key> keys_; // in order of time; empty: start_ holds
+  std::vector<Key> keys_; // ordered by time; empty: start_ is used
   bool follows_ = false;
-  double aspect_ = 1, reach_ = 0;    // width / height; how far from the start's middle bodies are followed [m]
+  // width / height; distance from the initial centre within which bodies are followed [m]
+  double aspect_ = 1, reach_ = 0;
   Vec3 start_middle_ = Vec3::Zero(); // [m], of the bodies
-  Vec3 direction_ = Vec3::Zero();    // towards the eye, of a camera that follows
+  Vec3 direction_ = Vec3::Zero();    // towards the eye, of a following camera
   double last_ = -1;                 // [s], of the last state observed
-  double turn_ = 0;                  // [degrees] over the clip
+  double turn_ = 0;                  // [degrees] turned over the clip
   double duration_ = 0;
 };
 
