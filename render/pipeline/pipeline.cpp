@@ -24,14 +24,15 @@ struct Picture {
   int number = 0;
   Image image;
 };
-using SharedPicture = std::shared_ptr<const Picture>; // both writers read the same one
+using SharedPicture = std::shared_ptr<const Picture>; // shared by both writers
 
-constexpr std::size_t waiting = 3; // things in a queue: enough to smooth over an uneven stage
+constexpr std::size_t waiting = 3; // capacity of each queue: enough to smooth over an uneven stage
 
 } // namespace
 
 void check_pipeline(const PipelineOptions& options) {
-  constexpr int surely = 4096; // pixels each way that every OpenGL 3.3 can draw: it is started for more alone
+  // picture size that every OpenGL 3.3 supports: OpenGL is started in advance only for larger ones
+  constexpr int surely = 4096;
   if (options.video) require_video(options.extension);
   const int fine = options.samples == 16 ? 2 : 1;
   if (fine * std::max(options.width, options.height) <= surely) return;
@@ -51,7 +52,7 @@ PngText png_mark(const std::string& mark, long number) {
 struct Pipeline::Stages {
   explicit Stages(const PipelineOptions& options);
   ~Stages();
-  void start(); // once it is made: should a thread not start, the destructor stops the others
+  void start(); // not in the constructor: if a thread fails to start, the destructor stops the others
   void push(Frame&& frame);
   void drain();
   void finish();
@@ -75,11 +76,11 @@ private:
   VideoWriter video_;
   BoundedQueue<Frame> frames_{waiting};
   BoundedQueue<SharedPicture> for_png_{waiting}, for_video_{waiting};
-  mutable std::mutex mutex_; // of the next two
-  std::exception_ptr error_; // the first of any thread
+  mutable std::mutex mutex_; // guards the next two
+  std::exception_ptr error_; // the first one of any thread
   PipelineSeconds seconds_;
   int last_number_ = -1;
-  long pushed_ = 0, done_ = 0; // frames; done_ is drawn, and written if PNGs are
+  long pushed_ = 0, done_ = 0; // frames; done_: drawn, and written if PNGs are made
   std::condition_variable one_done_;
   bool finished_ = false;
   bool fewer_threads_ = false;
@@ -129,7 +130,7 @@ template <class Work> void Pipeline::Stages::must_start(Work work, const char* w
   if (!start(work)) refuse_without_thread(what);
 }
 
-// Stops all threads; what waits in the queues is dropped.
+// Stops all threads; queued items are dropped.
 void Pipeline::Stages::fail(std::exception_ptr error) {
   {
     const std::lock_guard lock(mutex_);
@@ -167,8 +168,9 @@ void Pipeline::Stages::spent(double PipelineSeconds::*stage, double since) {
 
 void Pipeline::Stages::draw() {
   device_->make_current();
-  const std::unique_ptr<Stage> stage = std::move(stage_); // frees its OpenGL objects where they are current
-  std::unique_ptr<Hud> hud;                               // made for the first frame that has one
+  // frees its OpenGL objects in this thread, where they are current
+  const std::unique_ptr<Stage> stage = std::move(stage_);
+  std::unique_ptr<Hud> hud; // created for the first frame that has one
   while (auto frame = frames_.pop()) {
     const double start = wall_clock();
     auto picture = std::make_shared<Picture>();

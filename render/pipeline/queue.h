@@ -1,5 +1,5 @@
-// A queue between two stages of the pipeline that never holds more than a few things: a fast stage waits for a
-// slow one, so memory stays bounded.
+// A bounded blocking queue between two stages of the pipeline: a fast stage waits for a slow one, so memory
+// stays bounded.
 #pragma once
 
 #include <condition_variable>
@@ -15,7 +15,7 @@ template <class T> class BoundedQueue {
 public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  // Waits for room. False: the queue was abandoned or closed, and the thing is dropped.
+  // Blocks until there is room. False: the queue was abandoned or closed, and the item is dropped.
   bool push(T thing) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return closed_ || things_.size() < capacity_; });
@@ -25,7 +25,7 @@ public:
     return true;
   }
 
-  // Waits for a thing. None: the queue is closed and empty.
+  // Blocks until there is an item. None: the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return closed_ || !things_.empty(); });
@@ -36,14 +36,14 @@ public:
     return thing;
   }
 
-  // No more pushes; what is inside may still be taken.
+  // No more pushes; remaining items can still be popped.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
     changed_.notify_all();
   }
 
-  // No more pushes, and what is inside is dropped.
+  // No more pushes, and remaining items are dropped.
   void abandon() {
     const std::lock_guard lock(mutex_);
     closed_ = true;

@@ -20,7 +20,7 @@ namespace {
                   "Check that 'gnuplot' in your PATH runs; Debian has it as gnuplot-nox.");
 }
 
-// A file without a name, in memory: unlike a pipe it never waits for its other end.
+// An unnamed in-memory file: unlike a pipe it never blocks.
 class Scratch {
 public:
   explicit Scratch(const char* name) : file_(::memfd_create(name, MFD_CLOEXEC)) {
@@ -57,14 +57,14 @@ private:
   int file_;
 };
 
-// Starts it; 0: it is not installed.
+// Starts the process; 0: it is not installed.
 pid_t start(const Scratch& in, const Scratch& out, const Scratch& err) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in.file(), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out.file(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err.file(), STDERR_FILENO);
-  std::string program = "gnuplot", defaults = "--default-settings"; // the reader's ~/.gnuplot has no say
+  std::string program = "gnuplot", defaults = "--default-settings"; // ignores the user's ~/.gnuplot
   std::array<char*, 3> arguments{program.data(), defaults.data(), nullptr};
   pid_t child = 0;
   const int error = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);

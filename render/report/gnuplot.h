@@ -1,4 +1,4 @@
-// gnuplot as a filter: a script in, a picture out. It is a program of its own (Debian: gnuplot-nox), looked for
+// Runs gnuplot as a filter: a script in, a picture out. It is an external program (Debian: gnuplot-nox), found
 // in PATH and started without a shell.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace rend {
 
-// What gnuplot wrote to its standard output. None where it is not installed. Throws UserError (ReadWrite) with
-// what it said where it fails or draws nothing.
+// What gnuplot wrote to its standard output. None if it is not installed. Throws UserError (ReadWrite) with its
+// messages if it fails or writes nothing.
 std::optional<std::string> run_gnuplot(const std::string& script);
 
 } // namespace rend

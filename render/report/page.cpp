@@ -44,7 +44,8 @@ Html code(std::string_view text) {
 Html link(std::string_view href, std::string_view text) {
   return {"<a href=\"" + escaped_text(href) + "\">" + escaped_text(text) + "</a>"};
 }
-// RFC 3986: in a relative address '?', '#', '%' and a ':' in the first part would mean something.
+// Percent-encoding (RFC 3986): '?', '#', '%', and a ':' in the first segment have a meaning in relative
+// addresses.
 std::string address_of(std::string_view path) {
   std::string out;
   for (const char c : path) {
@@ -121,7 +122,7 @@ Html tiles(const std::vector<Tile>& all) {
 }
 
 Html figure(PictureFormat format, std::string_view bytes, std::string_view alternative, const Html& caption) {
-  // As an image, not as elements: the names within one plot must not meet those of another.
+  // Embedded as an <img>, not inline, so that ids within one plot cannot clash with those of another.
   std::string out = fmt::format("<figure><img alt=\"{}\" src=\"{}\"/>", escaped_text(alternative),
                                 data_address(format, bytes));
   if (!caption.text.empty()) out += "<figcaption>" + caption.text + "</figcaption>";

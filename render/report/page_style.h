@@ -1,12 +1,12 @@
-// How a page of page.h looks, and what sorts its tables.
+// CSS of page.h, and the script that sorts its tables.
 #pragma once
 
 #include <string_view>
 
 namespace rend::html {
 
-// One set of names for colours; only their values change on a dark screen. Badges differ by their words as
-// well.
+// One set of custom properties for colours; dark mode changes only their values. Badges also differ by their
+// words.
 inline constexpr std::string_view page_style = R"(
 :root { --text:#1c2126; --soft:#5b6670; --line:#dde2e7; --back:#ffffff; --panel:#f5f7f9; --link:#0b5cad;
   --good:#1a7f37; --good-back:#dff3e4; --note:#0b5cad; --note-back:#e0edfa;
@@ -66,7 +66,8 @@ details[open] > summary { border-bottom:1px solid var(--line); }
   .badge, .tile { border:1px solid; } a { color:inherit; } }
 )";
 
-// A click on a column's name sorts by it: as numbers where both are, else as words; the order of equals stays.
+// A click on a column's name sorts by it: numerically where both cells are numbers, else as text; the sort is
+// stable.
 inline constexpr std::string_view page_script = R"(
 document.querySelectorAll('table.sortable th').forEach(function (head) {
   head.addEventListener('click', function () {

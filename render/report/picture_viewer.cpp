@@ -10,7 +10,7 @@ const std::string_view compare_style = comparison_style, compare_script = compar
 
 namespace {
 
-// Smaller pictures are enlarged, pixel by pixel.
+// Pictures narrower than this are enlarged without interpolation.
 constexpr int small = 480;
 
 std::string image(const char* role, std::string_view bytes, const std::string& what) {

@@ -1,4 +1,4 @@
-// How a comparison of comparison.h looks, and what its buttons do.
+// CSS and script of picture_viewer.h.
 #pragma once
 
 #include <string_view>
@@ -52,7 +52,7 @@ inline constexpr std::string_view comparison_style = R"(
 @media print { .compare .bar, .compare input[type=range] { display:none; } }
 )";
 
-// No < and no & in here: a page is well-formed XML too.
+// Without < and &: a page must also be well-formed XML.
 inline constexpr std::string_view comparison_script = R"(
 (function () {
   var part = 32;

@@ -32,8 +32,8 @@ const Look& look_of(const PlotSeries& series) {
   return looks[static_cast<std::size_t>(series.look) % looks.size()];
 }
 
-// A string of gnuplot's. Between single quotes nothing has a meaning but the quote (which doubled does not do
-// everywhere) and, in some versions, the backquote: apostrophes of typography take their place.
+// A gnuplot string. Within single quotes only the quote itself is special (doubling it is not supported
+// everywhere), and in some versions the backquote: both are replaced by typographic apostrophes.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : printable(text)) out += c == '\'' || c == '`' ? "\u2019" : std::string(1, c);
@@ -49,7 +49,7 @@ struct Range {
   }
 };
 
-// A little air around the data.
+// Adds a margin around the data.
 std::string range_text(Range r, bool logarithmic) {
   if (r.low > r.high) return logarithmic ? "[0.1:1]" : "[0:1]";
   if (logarithmic) {
@@ -60,7 +60,8 @@ std::string range_text(Range r, bool logarithmic) {
   return fmt::format("[{:.17g}:{:.17g}]", r.low - air, r.high + air);
 }
 
-// Tics at every decade, or every so many where there are many; between them numbers where there are hardly two.
+// Tics at every decade, or every few decades on a long axis; below 1.2 decades gnuplot's own tics, as plain
+// numbers.
 std::string axis_text(const char* axis, Range r, bool logarithmic) {
   std::string out = fmt::format("set {}range {}\n", axis, range_text(r, logarithmic));
   if (!logarithmic) return out;
@@ -84,7 +85,7 @@ std::string data_block(const std::string& name, const std::vector<PlotPoint>& po
   return out + "END_OF_DATA\n";
 }
 
-// Collects gnuplot's data blocks and the parts of its one plot command.
+// Collects gnuplot's data blocks and the clauses of its single plot command.
 class Writer {
 public:
   std::string data;
@@ -131,7 +132,7 @@ private:
   int count_ = 0;
 };
 
-// The upper edge, where what has no y stands.
+// The upper edge, where points without a y value are marked.
 double upper_edge(Range y, bool logarithmic) {
   if (y.low > y.high) return 1;
   return logarithmic ? y.high * std::max(2.5, std::pow(y.high / y.low, 0.07))
@@ -145,7 +146,8 @@ std::string head_of(const Plot& plot, PlotFormat format) {
   std::string out =
       fmt::format("set encoding utf8\nset terminal {} background rgb '#ffffff' linewidth {} enhanced\n", fonts,
                   format == PlotFormat::Svg ? "1" : "1.5");
-  out += fmt::format("mark = {}\n", format == PlotFormat::Svg ? "0.85" : "1.35"); // as large in both
+  // the same size in both formats
+  out += fmt::format("mark = {}\n", format == PlotFormat::Svg ? "0.85" : "1.35");
   if (!plot.title.empty()) out += "set title " + quoted(plot.title) + " noenhanced\n";
   out +=
       "set xlabel " + quoted(plot.x_label) + " noenhanced\nset ylabel " + quoted(plot.y_label) +

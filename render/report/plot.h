@@ -1,9 +1,9 @@
 // A plot for a report: curves of points on linear or logarithmic axes, drawn by gnuplot.
 //
-// Data go in by standard input, the picture comes out by standard output; no shell and no file name is
-// involved, and no text of a plot is read as a command. The same plot gives the same bytes with the same
-// gnuplot. Colours are those of Okabe & Ito ("Color universal design", 2008), which colour-blind readers tell
-// apart; marks and dashes tell curves apart in grey as well.
+// Data go in by standard input, the picture comes out by standard output; neither a shell nor file names are
+// involved, and text of a plot is never interpreted as a command. The same plot gives the same bytes with the
+// same gnuplot. Colours are those of Okabe & Ito ("Color universal design", 2008), distinguishable for
+// colour-blind readers; marks and dashes distinguish curves in grey as well.
 #pragma once
 
 #include <optional>
@@ -21,10 +21,10 @@ struct PlotPoint {
 
 struct PlotSeries {
   enum class Style {
-    Curve,  // a line, and marks on the points
-    Line,   // a thin line alone
-    Points, // marks alone
-    Back,   // a broad grey line behind all others
+    Curve,  // a line with marks
+    Line,   // a thin line without marks
+    Points, // marks without a line
+    Back,   // a broad grey line behind the others
   };
   std::string name; // in the legend; empty: not there
   std::vector<PlotPoint> points = {};
@@ -33,28 +33,28 @@ struct PlotSeries {
   std::vector<double> out = {}; // x of what has no y: crosses at the upper edge
 };
 
-// A horizontal line with a name beside it.
+// A horizontal line with a label.
 struct PlotLevel {
   double y = 0;
   std::string name;
 };
 
 struct Plot {
-  std::string title, x_label, y_label; // units belong into the labels
+  std::string title, x_label, y_label; // labels should contain units
   bool log_x = false, log_y = false;
   std::vector<PlotSeries> series;
   std::vector<PlotLevel> levels;
-  std::string out_name;    // what the crosses stand for, in the legend
-  std::string hollow_name; // what hollow marks stand for, in the legend
+  std::string out_name;    // legend entry of the crosses
+  std::string hollow_name; // legend entry of hollow marks
 };
 
 enum class PlotFormat { Svg, Png };
 
-// The file's bytes. None where gnuplot is not installed. Throws UserError (ReadWrite) with gnuplot's own words
-// where it fails. A plot without any point is drawn as empty axes.
+// The file's bytes. None if gnuplot is not installed. Throws UserError (ReadWrite) with gnuplot's message if it
+// fails. A plot without points gives empty axes.
 std::optional<std::string> draw(const Plot& plot, PlotFormat format);
 
-// What gnuplot is told.
+// The gnuplot script.
 std::string script_of(const Plot& plot, PlotFormat format);
 
 } // namespace rend

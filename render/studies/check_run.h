@@ -1,4 +1,4 @@
-// Runs the cases of a check, several at once, each from a preset file as a user would.
+// Runs the cases of a check in parallel, each from a preset file as a user would.
 #pragma once
 
 #include "sim/check/case.h"
@@ -8,14 +8,14 @@
 
 namespace rend {
 
-// A case's name without what no file name should hold: its preset is this and ".xml".
+// A case's name with characters replaced that file names should not contain: its preset is this plus ".xml".
 std::string file_name(const std::string& case_name);
 
-// Writes each preset, and what it reads, into the folder.
+// Writes each preset, and its input files, into the folder.
 void write_cases(const std::filesystem::path& folder, const std::vector<CheckCase>& cases);
 
-// In the order of the cases, whatever the number of jobs. `done` is called once a case, one at a time. Cases
-// that a signal leaves over are not in the result. `fewer` is called where not all threads could be started.
+// In the order of the cases, for any number of jobs. `done` is called once per case, never concurrently. After
+// a signal, remaining cases are missing from the result. `fewer` is called if not all threads could be started.
 std::vector<CheckResult> run_cases(const std::filesystem::path& folder, const std::vector<CheckCase>& cases,
                                    int jobs,
                                    const std::function<void(std::size_t which, const CheckResult&)>& done,

@@ -38,7 +38,7 @@ LeanFeature law(const std::string& criterion, const std::string& more = {}) {
                  "<tear criterion=\"" + criterion + "\" " + more + " threshold=\"1e30\"/>", LeanSame::Pixels);
 }
 
-// With what the world has besides, on both sides.
+// Both sides get `world`, what there is to touch; one of them gets <contact> as well.
 LeanFeature contact(const std::string& with, const std::string& name, const std::string& what,
                     const std::string& world) {
   const std::string element = "<contact with=\"" + with + "\" thickness=\"0.0001\"/>";
@@ -49,7 +49,7 @@ LeanFeature contact(const std::string& with, const std::string& name, const std:
           .acts_elsewhere = true};
 }
 
-// At a step that is stable for each.
+// At a time step that is stable for either.
 LeanFeature scheme(const std::string& name) {
   const Setting step{"time.step", "1e-6"};
   return {"scheme " + name,

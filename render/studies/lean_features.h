@@ -1,8 +1,8 @@
-// What `rend study --lean` switches off and on: one entry a feature, in the order of the table.
+// The features that `rend study --lean` switches off and on: one entry each, in the order of the table.
 //
-// A feature is text that is put into the preset: into its first body, or by --set. Where its presence must
-// change nothing (a law whose threshold is never reached, wind without drag, contact with what is far away),
-// pixels are compared bit by bit, and the state as well but where sums are made in another order.
+// A feature is text that is added to the preset: to its first body, or by --set. If a feature must have no
+// effect on a scene (a tearing law whose threshold is never reached, wind without drag, contact with distant
+// objects), pixels are compared bit by bit; the state as well, unless sums are made in another order.
 #pragma once
 
 #include "sim/study/study.h"
@@ -17,30 +17,30 @@ struct LeanSide {
   std::vector<Setting> settings = {}; // as --set
   std::string surroundings = "";      // of the world, as XML
   bool walk = false, births = false;
-  bool bare = false; // bare_loop.h, in place of the scene's own loop
+  bool bare = false; // bare_loop.h instead of the scene's own loop
 };
 
 enum class LeanSame {
-  State,  // to the last bit, and so the pixels
-  Pixels, // what is summed up in another order differs by round-off
-  Free    // another scheme: another motion
+  State,  // bitwise equal states, and so equal pixels
+  Pixels, // equal pixels; states differ by round-off, since sums are made in another order
+  Free    // no claim: another scheme gives another motion
 };
 
 struct LeanFeature {
   std::string name, what;
   LeanSide off, on;
   LeanSame same = LeanSame::State;
-  bool acts_elsewhere = false; // on scenes that are not built in it may change the motion
+  bool acts_elsewhere = false; // may change the motion of scenes that are not built in
   std::string needs = "";      // an element that the preset must have, such as "springs"
 };
 
 const std::vector<LeanFeature>& lean_features();
 
-// A scene to measure on.
+// A scene to measure features on.
 struct LeanScene {
-  std::string name, text; // a preset's
-  std::string file;       // that it was read from; empty: built in
+  std::string name, text; // text of a preset
+  std::string file;       // its path; empty: built in
 };
-const std::vector<LeanScene>& lean_scenes(); // of springs, and of finite elements
+const std::vector<LeanScene>& lean_scenes(); // one of springs, one of finite elements
 
 } // namespace rend

@@ -1,4 +1,4 @@
-// Pictures of states, to be compared bit by bit.
+// Renders small pictures of states, to compare them bit by bit.
 #pragma once
 
 #include "render/files/image.h"

@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-// A preset with more in the first element of this name.
+// A preset's text with `more` inserted into the first element of this name.
 std::string with(const std::string& text, const std::string& name, const std::string& more) {
   if (more.empty()) return text;
   const std::size_t end = text.find("</" + name + ">");
@@ -20,7 +20,7 @@ std::string with(const std::string& text, const std::string& name, const std::st
   return text.substr(0, end) + more + text.substr(end);
 }
 
-// One side of a comparison.
+// One of the two scenes of a comparison.
 class Built {
 public:
   Built(const LeanScene& scene, const LeanSide& side, std::vector<Override> overrides) : bare_(side.bare) {
@@ -54,13 +54,13 @@ public:
 
 private:
   std::unique_ptr<PresetNode> preset_;
-  std::unique_ptr<Scene> scene_; // reads from the preset
+  std::unique_ptr<Scene> scene_; // refers to the preset
   std::unique_ptr<BareLoop> loop_;
   bool bare_;
 };
 
-// Builds both sides, the one that is built first taking turns: what it takes of memory is where the other
-// begins.
+// Builds both scenes, alternating which is built first, since that determines where the second one lies in
+// memory.
 struct BothSides {
   BothSides(const LeanFeature& feature, const LeanScene& scene, const LeanPlan& plan, bool off_first) {
     const auto build = [&](std::unique_ptr<Built>& to, const LeanSide& side) {
@@ -116,7 +116,7 @@ std::vector<LeanRow> run_lean(const LeanPlan& plan, const StudyCalls& calls) {
   const auto& features = lean_features();
   const double count = static_cast<double>(plan.scenes.size() * features.size());
   for (const LeanScene& scene : plan.scenes) {
-    Built(scene, {}, plan.overrides); // whatever is wrong with it is said now
+    Built(scene, {}, plan.overrides); // reports errors in it now
     for (const LeanFeature& feature : features) {
       if (calls.going && !calls.going()) throw Interrupted{};
       if (calls.progress)

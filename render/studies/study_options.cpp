@@ -32,7 +32,7 @@ std::vector<std::string> split(const std::string& text, const std::string& optio
   return parts;
 }
 
-// Those that move in time: a static solve has no error against steps.
+// Schemes that step in time: a static solve has no error against step size.
 std::vector<std::string> schemes_that_move() {
   std::vector<std::string> names;
   for (const Scheme& scheme : all_schemes())
@@ -84,7 +84,8 @@ std::string multiplied(const std::vector<double>& cells, int factor) {
   return out;
 }
 
-// What makes a body's mesh so many times finer: more cells of its generator. A mesh of a file has none.
+// The override that refines a body's mesh by a factor: more cells of its generator. A mesh from a file has
+// none.
 Setting refinement_of(const PresetNode& body, std::size_t number, int factor, const std::string& option) {
   for (const char* shape : {"sheet", "bar", "tube"})
     if (const PresetNode* node = body.child(shape))
@@ -108,7 +109,7 @@ Values values_of_refine(const PresetNode& preset, const std::string& refine) {
         group.settings.push_back(refinement_of(*bodies[n], n + 1, factor, option));
     values.push_back(std::move(group));
   }
-  std::reverse(values.begin(), values.end()); // the finest is the most exact
+  std::reverse(values.begin(), values.end()); // the finest mesh is the most exact
   return values;
 }
 
@@ -130,7 +131,7 @@ std::vector<StudyGroup> crossed(const std::vector<Values>& dimensions) {
   return groups;
 }
 
-// The preset as it was when the study began: what is edited meanwhile is for the next one.
+// The preset's text when the study began: later edits of the file have no effect.
 struct Source {
   std::string preset, text;
   std::vector<Override> overrides;
@@ -148,11 +149,11 @@ struct Source {
   }
 };
 
-// A scene and the preset that it keeps reading from, gone in this order.
+// A scene together with the preset that it refers to, destroyed in the right order.
 std::shared_ptr<Scene> build(const Source& source, const Variant& variant) {
   std::shared_ptr<PresetNode> node = source.load(variant);
   SceneOptions options;
-  options.guard = false; // a step that is too large is to be seen as it is
+  options.guard = false; // too large a step must show as such
   return {new Scene(read_scene(*node), options), [node](const Scene* scene) { delete scene; }};
 }
 
@@ -160,7 +161,7 @@ std::shared_ptr<Scene> build(const Source& source, const Variant& variant) {
 
 void declare_study(CLI::App& app, StudyOptions& options) {
   add_preset_options(app, options.session);
-  app.get_option("preset")->required(false); // --lean has scenes of its own
+  app.get_option("preset")->required(false); // --lean has built-in scenes
   app.add_option("further", options.further, "more presets, with --lean")->type_name("PRESET...");
   app.add_option("-o,--output", options.folder, "where page, plots and tables go; default: out/NAME-study")
       ->type_name("DIR");
@@ -209,7 +210,7 @@ StudyTask study_task(const StudyOptions& options) {
   task.plan.duration = options.duration.value_or(0);
   task.make = [source](const Variant& variant) { return build(source, variant); };
   for (const StudyGroup& group : task.plan.groups) {
-    const auto scene = task.make({"", 0, {}, group.settings}); // whatever is wrong with it is said now
+    const auto scene = task.make({"", 0, {}, group.settings}); // reports errors in it now
     if (options.duration && *options.duration > scene->duration() * (1 + 1e-9))
       refuse(fmt::format("--duration {:g}", *options.duration),
              fmt::format("the clip has {:g} s only", scene->duration()),

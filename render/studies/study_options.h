@@ -1,4 +1,4 @@
-// What `rend study` is asked for, and the plan that it makes of it.
+// The options of `rend study`, and the plan made from them.
 #pragma once
 
 #include "render/clip/session.h"
@@ -12,12 +12,12 @@ struct StudyOptions {
   std::string integrators;         // "a,b"; empty: all
   std::string refine;              // "1,2,4"; empty: the preset's mesh alone
   std::vector<std::string> sweeps; // "PATH=a,b,c"
-  int steps = 7;                   // a scheme
+  int steps = 7;                   // per scheme
   std::optional<double> duration;  // [s]
   int reruns = 7;
   bool quick = false, json = false;
-  bool lean = false;                // what features cost, in place of errors
-  std::vector<std::string> further; // presets, with `lean`
+  bool lean = false;                // measure the cost of features instead of errors
+  std::vector<std::string> further; // more presets, for `lean`
 };
 void declare_study(CLI::App& app, StudyOptions& options);
 
@@ -28,8 +28,7 @@ struct StudyTask {
   MakeScene make;
 };
 
-// Reads the preset in each of the groups' forms, so that whatever is wrong is said before anything runs.
-// UserError.
+// Reads the preset with each group's overrides, so that errors are reported before anything runs. UserError.
 StudyTask study_task(const StudyOptions& options);
 
 } // namespace rend
