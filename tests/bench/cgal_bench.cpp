@@ -1,5 +1,5 @@
-// The peer of map_bench.cpp: CGAL's generalized map, with a point as the one attribute of its vertices, on the
-// same blocks. Built where the library is installed (libcgal-dev); nothing of rend is in here.
+// The counterpart of map_bench.cpp: CGAL's generalized map, with a point as the only attribute of its vertices,
+// on the same blocks. Built if the library is installed (libcgal-dev); contains no code of rend.
 #include <CGAL/Linear_cell_complex_for_generalized_map.h>
 #include <CGAL/Linear_cell_complex_traits.h>
 #include <CGAL/Simple_cartesian.h>
@@ -18,11 +18,11 @@ using Traits = CGAL::Linear_cell_complex_traits<3, CGAL::Simple_cartesian<double
 using Complex = CGAL::Linear_cell_complex_for_generalized_map<3, 3, Traits>;
 using Handle = Complex::Dart_handle;
 using Point = Complex::Point;
-using Sides = std::vector<std::pair<Handle, Handle>>; // darts by which inner faces are sewn
+using Sides = std::vector<std::pair<Handle, Handle>>; // darts by which inner faces will be sewn
 
 using Box = std::array<Point, 8>; // corners in Gmsh's order
 
-void add_tetrahedra(Complex& map, const Box& b) { // as sim/mesh/bar.cpp parts a box
+void add_tetrahedra(Complex& map, const Box& b) { // splits a box as sim/mesh/bar.cpp does
   constexpr std::array<std::array<std::size_t, 2>, 6> paths{{{1, 2}, {3, 2}, {1, 5}, {4, 5}, {3, 7}, {4, 7}}};
   for (const auto& [p, q] : paths) map.make_tetrahedron(b[0], b[p], b[q], b[6]);
 }
@@ -42,7 +42,7 @@ void add_cells(Complex& map, bool tetrahedra) {
       }
 }
 
-// Pairs of faces with the same corners, by the dart of each that stands at its smallest corner and looks to the
+// Pairs of faces with the same corners, each given by the dart at its smallest corner that points to the
 // smaller neighbour of that.
 Sides matching_sides(Complex& map) {
   std::map<std::array<Point, 3>, Handle> open;
@@ -92,7 +92,7 @@ BENCHMARK_CAPTURE(walk_vertices, tetrahedra, true)->Name("figure/vertex_orbit_te
 BENCHMARK_CAPTURE(walk_edges, hexahedra, false)->Name("figure/edge_orbit_hexahedra_cgal");
 BENCHMARK_CAPTURE(walk_edges, tetrahedra, true)->Name("figure/edge_orbit_tetrahedra_cgal");
 
-// Which faces meet is told beforehand: it is not what CGAL is asked for.
+// The pairs of faces are computed beforehand, outside of the measured time: CGAL offers no function for that.
 void build_and_sew(benchmark::State& state) {
   std::int64_t darts = 0;
   for (auto _ : state) {
@@ -111,7 +111,7 @@ void build_and_sew(benchmark::State& state) {
 }
 BENCHMARK(build_and_sew)->Name("figure/build_and_sew_hexahedra_cgal")->Unit(benchmark::kMillisecond);
 
-// together: links alone first, then all attributes at once (CGAL's way to make many changes).
+// together: links first, then all attributes at once (CGAL's way to make many changes).
 void unsew_faces(benchmark::State& state, bool together) {
   std::int64_t faces = 0;
   for (auto _ : state) {
@@ -135,7 +135,7 @@ BENCHMARK_CAPTURE(unsew_faces, single, false)
     ->Name("figure/unsew3_one_face_cgal")
     ->Unit(benchmark::kMillisecond);
 
-// Links and points alone: no rest state, no velocity, no element.
+// Links and points only: no rest state, velocity or element.
 void bytes_of_tetrahedra(benchmark::State& state, std::size_t n) {
   Block block(true);
   for (auto _ : state)

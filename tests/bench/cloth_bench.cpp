@@ -1,5 +1,5 @@
-// The cloth of the thesis's table 7.1: steps, criteria, flat against walk, and a plain loop over the same
-// springs.
+// The cloth of the thesis's table 7.1: steps, criteria, flat arrays against walking the map, and a plain loop
+// over the same springs.
 #include "bench/plain_cloth.h"
 #include "sim/boundary/surface.h"
 #include "sim/presets.h"
@@ -38,8 +38,8 @@ BENCHMARK_CAPTURE(rk4_step, mixed, "mixed", "");
 BENCHMARK_CAPTURE(rk4_step, mixed_global, "mixed", global_law);
 BENCHMARK_CAPTURE(rk4_step, mixed_atomic, "mixed", atomic_law);
 
-// A step of 100 x 100 quads that are stretched by 2 %, and the share of a law. Far: no value is anywhere near
-// the threshold; near: half of it, everywhere.
+// A step of 100 x 100 quads that are stretched by 2 %, and what a tearing law adds to it. far: all values are
+// far below the threshold; near: half of it, everywhere.
 void criterion_step(benchmark::State& state, const std::string& attributes, bool near) {
   const auto cloth = [&](double threshold) {
     const std::string law =
@@ -112,8 +112,8 @@ void build_and_bind(benchmark::State& state) {
 }
 BENCHMARK(build_and_bind)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond)->Iterations(1);
 
-// One edge after another across the middle of the sheet: the map, embeddings, program and surface brought up to
-// date.
+// Separates one edge after another across the middle of the sheet, and updates the map, embeddings, program and
+// surface.
 void one_separation(benchmark::State& state) {
   const int cells = static_cast<int>(state.range(0));
   presets::Loaded scene = presets::load(presets::cloth("quads", cells, global_law, small_steps));
@@ -144,7 +144,7 @@ BENCHMARK(one_separation)->Arg(1000)->Iterations(2500);
 } // namespace rend
 namespace rend {
 namespace {
-// The forces alone, without the rest of the step.
+// The forces only, without the rest of the step.
 void forces(benchmark::State& state) {
   presets::Loaded scene =
       presets::load(presets::cloth("quads", static_cast<int>(state.range(0)), "", small_steps));
@@ -154,8 +154,8 @@ void forces(benchmark::State& state) {
 }
 BENCHMARK(forces)->Arg(10)->Arg(64)->Arg(1000);
 
-// Table 6.3: springs over edges against hinges. What a hinge takes: the difference to no bending, by their
-// number.
+// Table 6.3: springs over two edges against hinges. The cost of a hinge is the difference to a run without
+// bending, divided by their number.
 void bending(benchmark::State& state, const std::string& bend) {
   presets::Loaded scene = presets::load(presets::cloth("quads", 16, "", small_steps, bend));
   Body& body = scene.body();

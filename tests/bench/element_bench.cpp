@@ -1,4 +1,4 @@
-// Elements by the kernel: nanoseconds an element and an evaluation of forces, one thread.
+// Element kernels: nanoseconds per element and evaluation of forces, one thread.
 #include "sim/elements.h"
 #include "sim/presets.h"
 
@@ -36,8 +36,8 @@ BENCHMARK_CAPTURE(forces, hexahedra_tensors_elementary, hexahedra, 100,
                   {"mass-tensor", "polar", 0, Cumulated::No});
 BENCHMARK_CAPTURE(forces, prisms_polar, BarPattern::Prisms, 50, {"corotational"});
 
-// A symplectic step of 20,400 tetrahedra that are held stretched by 1 %, and the share of a law. Far: no stress
-// is anywhere near the threshold; near: two thirds of it everywhere.
+// A symplectic step of 20,400 tetrahedra held at a stretch of 1 %, and what a tearing law adds to it. Far: all
+// stresses are far below the threshold; near: two thirds of it, everywhere.
 std::string stretched() {
   return R"(<scene name="bar"><body name="bar">)"
          R"(<bar pattern="tetrahedra" cells="34 10 10" size="0.34 0.1 0.1"/>)"
@@ -72,7 +72,7 @@ BENCHMARK_CAPTURE(corotational_step, element_stress, "atomic-element", false);
 BENCHMARK_CAPTURE(corotational_step, element_stress_near, "atomic-element", true);
 BENCHMARK_CAPTURE(corotational_step, vertex_force, "atomic-vertex", false);
 
-// Force and stiffness, as an implicit step asks for them.
+// Force and stiffness, as in an implicit step.
 void stiffness(benchmark::State& state, ElementKind kind, const Model& model, Tangent tangent) {
   Element e(kind, model, distorted(kind, 0.1, 3), 0.01);
   e.shake(0.1, 2);

@@ -1,10 +1,9 @@
-// Frames a second of the whole way from a Frame to PNG files and an .mp4 at once, and what each part of it
-// takes.
+// Throughput of the pipeline, from a Frame to PNG files and an .mp4 at once, and the time of each stage.
 //
-// A cloth of 5,000 or 200,000 triangles that waves, so that no frame is like the last, framed as rend frames
-// bodies: 1280 x 720, four samples, key light's shadow, floor, HUD. Frames are made beforehand: what is
-// measured is what follows a simulation. Parts are measured by processor time of all threads, which neighbours
-// on the machine disturb little.
+// A waving cloth of 5,000 or 200,000 triangles, so that no two frames are equal, framed as rend frames bodies:
+// 1280 x 720, four samples, shadow map, floor, HUD. Frames are made beforehand: only what follows the
+// simulation is measured. Stages are measured by processor time of all threads, which other programs on the
+// machine disturb little.
 #include "render/draw/camera.h"
 #include "render/draw/device.h"
 #include "render/draw/hud.h"
@@ -25,7 +24,7 @@ namespace rend {
 namespace {
 
 constexpr int width = 1280, height = 720;
-constexpr int phases = 16; // frames of one wave
+constexpr int phases = 16; // frames of one period
 
 void in_processor_time(benchmark::internal::Benchmark* bench) {
   bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
@@ -56,7 +55,7 @@ HudContent figures(int number) {
   return hud;
 }
 
-// A unit square of `across` x `along` cells of two triangles each.
+// A unit square of `across` x `along` cells with two triangles each.
 FrameBody cloth(int across, int along, double phase) {
   const auto vertex = [&](int i, int j, Corner& corner) {
     const double x = 2.0 * i / across - 1, y = 2.0 * j / along - 1;
@@ -112,7 +111,8 @@ void count(benchmark::State& state, long frames) {
       benchmark::Counter(static_cast<double>(frames * state.iterations()), benchmark::Counter::kIsRate);
 }
 
-// Shares of the clock that each stage was at work; draw_waits: that drawing waited for those behind it.
+// Shares of the wall-clock time that each stage was busy; draw_waits: that drawing was blocked by the stages
+// behind it.
 void tell_stages(benchmark::State& state, const PipelineSeconds& now, const PipelineSeconds& before,
                  double seconds) {
   state.counters["draw"] = (now.draw - before.draw) / seconds;
@@ -121,8 +121,8 @@ void tell_stages(benchmark::State& state, const PipelineSeconds& now, const Pipe
   state.counters["draw_waits"] = (now.draw_waits - before.draw_waits) / seconds;
 }
 
-// The whole way, frames as fast as they are taken, after a first one, for which OpenGL compiles what it draws
-// with (half a second of one thread; tests/bench/first-frame).
+// The whole pipeline at full speed, after a first frame, for which OpenGL compiles shaders (half a second of
+// one thread; tests/bench/first-frame).
 void overlapped(benchmark::State& state, int triangles, bool occlusion) {
   const auto& clip = frames(triangles);
   const int frames_each = triangles > 10'000 ? 24 : 120;
@@ -147,7 +147,8 @@ void overlapped(benchmark::State& state, int triangles, bool occlusion) {
   count(state, frames_each);
 }
 
-// The same stages in a row, in one thread but for those that OpenGL and the encoder start themselves.
+// The same stages one after another, in one thread except for those that OpenGL and the encoder start
+// themselves.
 void in_a_row(benchmark::State& state, int triangles) {
   const auto& clip = frames(triangles);
   constexpr int frames_each = 120;
@@ -183,7 +184,7 @@ BENCHMARK_CAPTURE(in_a_row, frames, 5'000)->Name("figure/frame_5000_serial")->Ap
 BENCHMARK_CAPTURE(overlapped, occluded, 5'000, true)->Name("figure/frame_5000_occlusion")->Apply(whole_way);
 BENCHMARK_CAPTURE(overlapped, many, 200'000, false)->Name("figure/frame_200000")->Apply(whole_way);
 
-// Drawing alone, with what is named taken away, or occlusion added.
+// Drawing only, with the named feature removed, or occlusion added.
 void draw(benchmark::State& state, const std::string& without) {
   const std::unique_ptr<Device> device = make_device();
   Stage stage(width, height, without == "samples" ? 1 : 4);

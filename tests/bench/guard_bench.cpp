@@ -1,4 +1,4 @@
-// What the guard costs a step in which nothing goes wrong: the same scenes with and without it, by turns.
+// What the guard costs in steps that it accepts: the same scenes with and without it, interleaved.
 #include "sim/presets.h"
 
 #include <benchmark/benchmark.h>
@@ -18,7 +18,7 @@ std::string cloth(const std::string& scheme, int cells) {
                         R"(<time step="1e-6" duration="1" integrator=")" + scheme + R"("/>)");
 }
 
-// In one process and by turns, since times of this and that minute differ by more than what is looked for.
+// In one process and interleaved, since run times drift from minute to minute by more than the difference.
 void guarded(benchmark::State& state, const std::string& xml) {
   const presets::Loaded with = presets::load(xml), without = presets::load(xml, {.guard = false});
   constexpr int steps = 640;

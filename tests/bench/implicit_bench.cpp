@@ -1,4 +1,4 @@
-// Implicit steps and static solves, and the two ways to solve what they ask: by iterations and directly.
+// Implicit steps and static solves, with iterative and direct linear solvers.
 #include "sim/presets.h"
 #include "sim/solve/linear_solver.h"
 
@@ -21,7 +21,7 @@ std::string solid(const char* scheme) {
 
 void steps(benchmark::State& state, const std::string& xml) {
   presets::Loaded scene = presets::load(xml);
-  scene->step(); // orders, places
+  scene->step(); // computes the elimination order and allocates
   const SolverFigures before = scene.body().integrator->solver();
   for (auto _ : state) scene->step();
   const SolverFigures after = scene.body().integrator->solver();
@@ -44,7 +44,8 @@ void implicit_solid(benchmark::State& state) {
 }
 BENCHMARK(implicit_solid)->Unit(benchmark::kMillisecond)->Iterations(10);
 
-// The organ of 20,000 tetrahedra, held at its base, falling; run where presets/ is. ν in hundredths.
+// The organ of 20,000 tetrahedra, held at its base, falling; to be run in the folder that contains presets/.
+// Argument: ν in hundredths.
 void implicit_organ(benchmark::State& state) {
   steps(state, fmt::format(R"(<scene><body><mesh file="presets/meshes/organ-20k.msh"/><mass density="1000"/>)"
                            R"(<elasticity young="1e6" poisson="0.{}"/><fix group="base"/></body>{}</scene>)",

@@ -1,5 +1,4 @@
-// Springs, elements and threads, as the README's table has them. All that moves is deformed, each row
-// otherwise.
+// Springs, elements and threads: the table in the README. Everything is deformed, each row differently.
 #include "bench/per_element.h"
 #include "bench/plain_cloth.h"
 #include "sim/elements.h"
@@ -12,8 +11,8 @@ using namespace elements;
 
 const char* const small_steps = R"(<time step="1e-6" integrator="symplectic" duration="1"/>)";
 
-// cells x cells quads with stretch, shear and bend: some six springs a quad. Vertices are off their places by
-// up to 2 % of a quad.
+// cells x cells quads with stretch, shear and bend: about six springs per quad. Vertices are displaced by up to
+// 2 % of a quad.
 presets::Loaded shaken_cloth(int cells, int threads = 1) {
   presets::Loaded scene = presets::load(presets::cloth("quads", cells, "", small_steps), {.threads = threads});
   meshes::Noise noise(1);
@@ -55,7 +54,7 @@ void quads_rk4(benchmark::State& state) {
 }
 BENCHMARK(quads_rk4)->Name("figure/quads_10_rk4");
 
-// As many elements as the argument, or up to a few per cent more, warped at rest and shaken by 5 % of their
+// As many elements as the argument, up to a few per cent more, warped at rest and displaced by 5 % of their
 // size.
 void element_forces(benchmark::State& state, BarPattern pattern, const Elastic& recipe) {
   const int each = pattern == BarPattern::Tetrahedra ? 6 : 1, side = state.range(0) > 100000 ? 60 : 10;

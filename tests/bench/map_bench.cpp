@@ -1,6 +1,6 @@
-// The map's figures: walks, building, separations and bytes, on blocks of 20 × 20 × 20 hexahedra (384,000
-// darts) and of 6 × 15³ tetrahedra (486,000). cgal_bench.cpp does the same with CGAL's generalized map, where
-// it is installed.
+// Benchmarks of the map: walks, construction, separations and bytes, on blocks of 20 × 20 × 20 hexahedra
+// (384,000 darts) and of 6 × 15³ tetrahedra (486,000). cgal_bench.cpp does the same with CGAL's generalized
+// map, if it is installed.
 #include "bench/walk_orbits.h"
 #include "sim/elements.h"
 
@@ -26,7 +26,7 @@ BENCHMARK_CAPTURE(walk_all, vertex_tetrahedra, Vertex, true)->Name("figure/verte
 BENCHMARK_CAPTURE(walk_all, edge_hexahedra, Edge, false)->Name("figure/edge_orbit_hexahedra");
 BENCHMARK_CAPTURE(walk_all, edge_tetrahedra, Edge, true)->Name("figure/edge_orbit_tetrahedra");
 
-// From points and cells to a map with its vertices and their three columns; a dart is an item.
+// From points and cells to a map with its vertices and three columns on them; an item is a dart.
 void build_and_sew(benchmark::State& state) {
   const CellMesh cells = bar_cells({BarPattern::Hexahedra, 20, 20, 20, Vec3(1, 1, 1)});
   std::int64_t darts = 0;
@@ -46,7 +46,7 @@ std::vector<Dart> inner_faces(const GMap& map) {
   return inner;
 }
 
-// All inner faces, vertices split; a face is an item.
+// All inner faces, with vertices split; an item is a face.
 void unsew_faces(benchmark::State& state, bool together) {
   std::int64_t faces = 0;
   for (auto _ : state) {
@@ -71,7 +71,7 @@ void unsew_faces(benchmark::State& state, bool together) {
 BENCHMARK_CAPTURE(unsew_faces, together, true)->Name("figure/unsew3_all_faces")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(unsew_faces, single, false)->Name("figure/unsew3_one_face")->Unit(benchmark::kMillisecond);
 
-// Map, slots and columns of co-rotational tetrahedra that may tear, every `n`-th inner face separated (0:
+// Map, slots and columns of co-rotational tetrahedra that can tear, with every `n`-th inner face separated (0:
 // none).
 void bytes_of_tetrahedra(benchmark::State& state, std::size_t n) {
   const std::unique_ptr<Body> body = elements::elastic_body(block(true), {});

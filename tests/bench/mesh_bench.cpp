@@ -1,4 +1,4 @@
-// Reading and sewing about 1,000,000 tetrahedra: at most 10 s and 64 bytes a dart are wanted.
+// Reading and sewing about 1,000,000 tetrahedra: the target is at most 10 s and 64 bytes a dart.
 #include "sim/mechanics/mass.h"
 #include "sim/mesh/bar.h"
 #include "sim/mesh/msh_writer.h"

@@ -1,5 +1,5 @@
-// A body of a million tetrahedra that breaks: whether a step in which much is parted takes much longer than any
-// other.
+// A body of a million tetrahedra that breaks: whether a step with many separations takes much longer than
+// others.
 #include "sim/boundary/solid_surface.h"
 #include "sim/presets.h"
 
@@ -15,7 +15,7 @@
 namespace rend {
 namespace {
 
-// The world and the body of presets/showcase/slab.xml, with so many cells, without how it looks.
+// The world and the body of presets/showcase/slab.xml, with the given number of cells, without its <look>.
 std::string slab(const std::string& cells) {
   std::ifstream file(std::string(REND_ROOT) + "/presets/showcase/slab.xml");
   std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -27,7 +27,7 @@ std::string slab(const std::string& cells) {
 void million(benchmark::State& state) {
   presets::Loaded scene = presets::load(slab("152 102 11"));
   SolidSurface surface(*scene.body().map, scene.body().border);
-  std::vector<double> seconds; // of each step, with what follows from it for the surface
+  std::vector<double> seconds; // of each step, including the update of the surface
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
     scene->step();

@@ -1,4 +1,4 @@
-// What a figure says: the time of an element or a row [ns], whatever its benchmark takes for all of them.
+// Counters per element or row [ns], instead of the time of a whole benchmark.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,5 +1,5 @@
-// The limit for springs: what one would write by hand for the same springs, in plain arrays and one scalar
-// loop, with symplectic Euler, without map, tearing or guard.
+// The lower bound for springs: the same springs in hand-written code, with plain arrays and one scalar loop,
+// symplectic Euler, without map, tearing or guard.
 #pragma once
 
 #include "sim/body/body.h"

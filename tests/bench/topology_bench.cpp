@@ -1,4 +1,4 @@
-// What a walk, a separation and a subdivision cost. Run alone: cmake -DREND_BENCH=ON, then topology_bench.
+// The cost of a walk, a separation and a subdivision. Build with cmake -DREND_BENCH=ON, and run topology_bench.
 #include "bench/walk_orbits.h"
 #include "sim/base/archive.h"
 #include "sim/boundary/solid_surface.h"
@@ -77,8 +77,8 @@ void collect_orbits(benchmark::State& state) {
 }
 BENCHMARK(collect_orbits)->Arg(Vertex.mask)->Arg(Edge.mask)->Arg(FaceOfVolume.mask)->Arg(Component.mask);
 
-// The east edges of every second column, bottom to top: each but the first of a column splits a vertex at
-// least.
+// The east edges of every second column, bottom to top: each one but the first of a column splits at least one
+// vertex.
 std::vector<Dart> columns_of_edges(std::uint32_t n) {
   std::vector<Dart> edges;
   for (std::uint32_t x = 0; x + 1 < n; x += 2)
@@ -88,7 +88,7 @@ std::vector<Dart> columns_of_edges(std::uint32_t n) {
 
 enum Way { Single, ByRule, Together };
 
-// Vertices and one column more than the points; per edge. state: side of the sheet, way.
+// The vertices and one more column besides the points; per edge. state: side of the sheet, variant.
 void unsew_edges(benchmark::State& state) {
   const auto n = static_cast<std::uint32_t>(state.range(0));
   const std::vector<Dart> edges = columns_of_edges(n);
@@ -134,12 +134,11 @@ void subdivide_sheet(benchmark::State& state) {
 }
 BENCHMARK(subdivide_sheet)->ArgName("side")->Arg(112)->Unit(benchmark::kMillisecond);
 
-// A cube of 6 n³ co-rotational tetrahedra that tears, and what is seen of it.
+// A cube of 6 n³ co-rotational tetrahedra that tears, and its surface.
 struct TornCube {
   std::unique_ptr<Body> body;
   std::unique_ptr<SolidSurface> surface;
-  std::vector<Dart>
-      cracks; // faces across x between boxes, plane after plane, each row by row: as a crack grows
+  std::vector<Dart> cracks; // faces normal to x, plane after plane, row by row: as a crack grows
 
   explicit TornCube(int n) : body(elements::elastic_body(cube(n), {})) {
     body->border = &body->map->add(BornBorder(3));
@@ -173,7 +172,7 @@ struct TornCube {
   }
 };
 
-// One after another, with all that follows: embeddings, program, surface.
+// One after another, with all that depends on them: embeddings, program, surface.
 void separate_tetrahedra(benchmark::State& state) {
   TornCube cube(static_cast<int>(state.range(0)));
   std::size_t next = 0;
@@ -204,9 +203,9 @@ void storm(benchmark::State& state) {
 }
 BENCHMARK(storm)->Iterations(1)->Unit(benchmark::kMillisecond);
 
-// A third of the faces let go, anywhere and a few at a time; then slots in the order of darts again
-// (embedding/reorder.h), with all that follows where that is asked for. state: boxes, whether what is bound to
-// the map follows.
+// Separates a third of the faces, at random places and a few at a time; then renumbers slots in the order of
+// darts (embedding/reorder.h), optionally with all that depends on the map. state: boxes, whether dependents
+// are updated.
 void number_anew(benchmark::State& state) {
   TornCube cube(static_cast<int>(state.range(0)));
   EmbeddedMap& map = *cube.body->map;

@@ -1,4 +1,4 @@
-// What a walk costs: every orbit of a map by itself, from its smallest dart; a dart is an item.
+// The cost of a walk: visits every orbit of a map once, from its smallest dart; an item is a dart.
 #pragma once
 
 #include "sim/embedding/cell_index.h"

@@ -1,5 +1,5 @@
-// The simulation's libraries alone: six squares sewn into a cube. Prints its vertices, edges, faces, and V - E
-// + F.
+// Uses only the libraries of the simulation: six squares sewn into a cube. Prints its vertices, edges, faces,
+// and V - E + F.
 #include "sim/mesh/polygons.h"
 #include "sim/topology/count.h"
 

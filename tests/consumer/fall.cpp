@@ -1,4 +1,4 @@
-// A scene from a preset's text, stepped: a sheet that falls freely. Prints how far, in millimetres.
+// Steps a scene given as the text of a preset: a sheet in free fall. Prints the height of fall in millimetres.
 #include "render/picture/scene_preset.h"
 #include "sim/build/build_scene.h"
 #include "sim/scene/scene.h"
