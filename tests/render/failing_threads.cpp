@@ -1,10 +1,10 @@
-// A library for LD_PRELOAD: the system as it is where it starts no more threads or programs. Limits of users
-// (ulimit -u) do not hold for root, which tests may run as.
+// A library for LD_PRELOAD that simulates a system that refuses to start threads or processes. Limits of users
+// (ulimit -u) do not apply to root, as whom tests may run.
 //
-//   REND_THREAD_THAT_FAILS=3   the third that is started is refused
-//   REND_MOST_THREADS=3        so are all while three live beside the first
-//   REND_THREADS_MARK=FILE     that a thread was refused: then there is such a file
-//   REND_FORK_THAT_FAILS=2     the second program that is started is refused
+//   REND_THREAD_THAT_FAILS=3   the third thread is refused
+//   REND_MOST_THREADS=3        threads are refused while three run besides the main thread
+//   REND_THREADS_MARK=FILE     this file is created when a thread is refused
+//   REND_FORK_THAT_FAILS=2     the second fork is refused
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>

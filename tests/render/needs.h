@@ -1,4 +1,4 @@
-// Tests that a rend built with less skips.
+// Skips tests that need an optional part that this build lacks.
 #pragma once
 
 #include "render/files/png.h"
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-// They return from the test.
+// These return from the test.
 #define NEEDS_PNG                                                                                              \
   if (!rend::png_available()) GTEST_SKIP() << "built without PNG"
 #define NEEDS_VIDEO                                                                                            \

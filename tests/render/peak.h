@@ -1,4 +1,4 @@
-// How much memory something takes at most.
+// Measures peak memory.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,15 @@
 
 namespace rend::test {
 
-// Does it in a process of its own, whose peak is not that of tests before. [bytes] that this process grew by,
-// or that the largest of the programs took which it ran; -1 where the action threw.
+// Runs the action in a child process, since the peak of this one includes earlier tests. Returns [bytes] by
+// which that process grew, or the peak of the largest program that it ran; -1 if the action threw.
 template <class Action> std::int64_t peak_of(const Action& action) {
   const auto of = [](int who) {
     rusage usage{};
     getrusage(who, &usage);
     return std::int64_t{usage.ru_maxrss} * 1024;
   };
-  malloc_trim(0); // else it might work in what earlier tests have left, and not grow
+  malloc_trim(0); // else it might reuse memory freed by earlier tests, and not grow
   int ends[2];
   if (pipe(ends) != 0) return -1;
   const pid_t child = fork();

@@ -1,4 +1,4 @@
-// Small frames and a place for files, for the tests of render/.
+// Small frames and a temporary folder, for the tests of render/.
 #pragma once
 
 #include "render/draw/frame.h"
@@ -15,7 +15,7 @@ namespace rend::test {
 using Colour = std::array<std::uint8_t, 4>;
 constexpr Colour red{220, 30, 30, 255}, green{30, 200, 40, 255}, grey{180, 180, 180, 255};
 
-// A folder that is gone when the test ends.
+// A temporary folder, removed at the end of the test.
 class Folder {
 public:
   Folder() {
@@ -54,7 +54,7 @@ inline FrameBody screen(float y, float half, Colour colour, Line line = Line::No
   return body;
 }
 
-// A level square, |x|, |y| < half, at z.
+// A horizontal square, |x|, |y| < half, at z.
 inline FrameBody table(float z, float half, Colour colour) {
   FrameBody body;
   const Eigen::Vector3f a(-half, -half, z), b(half, -half, z), c(half, half, z), d(-half, half, z);
@@ -83,7 +83,7 @@ inline int largest_difference(const Image& a, const Image& b) {
   return largest;
 }
 
-// A picture with something in it that depends on `seed`.
+// A picture whose content depends on `seed`.
 inline Image pattern(int width, int height, int channels = 3, int seed = 0) {
   Image image(width, height, channels);
   for (int y = 0; y < height; ++y)

@@ -1,4 +1,4 @@
-// The memory that may be taken, on machines that are made of files.
+// Available memory, on simulated machines: folders with files as in /proc and /sys.
 #include "render/batch/available_memory.h"
 #include "tests/render/commands/program_run.h"
 
@@ -69,7 +69,7 @@ TEST_F(AvailableMemory, is_of_the_groups_of_version_1_too) {
   EXPECT_EQ(here(), 2400000u);
 }
 
-// There the mount shows the container's own group, and what is said of the group is as the host or the
+// In a container the mount shows the container's own cgroup, and /proc names the group as the host or the
 // container sees it.
 TEST_F(AvailableMemory, is_of_the_group_of_a_container) {
   group_2("", "3000000", 1000000);

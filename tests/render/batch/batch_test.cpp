@@ -1,4 +1,4 @@
-// Batches: every job as rend render alone would do it, whatever becomes of the others.
+// Batches: each job gives what rend render alone would give, whatever happens to the others.
 #include "render/batch/batch_jobs.h"
 #include "render/clip/shard.h"
 #include "render/picture/scene_preset.h"
@@ -194,14 +194,15 @@ TEST_F(Batch, a_budget_that_nothing_fits_into_runs_one_job_after_another) {
   EXPECT_EQ(pictures("tight/a").size(), 7u);
 }
 
-// A shell's words: waits until that holds, 20 s at the most.
+// Shell code that waits until the condition holds, for at most 20 s.
 std::string until(const std::string& condition) {
   return "n=0; until " + condition + " || [ $n -ge 2000 ]; do sleep 0.01; n=$((n+1)); done; ";
 }
 
 TEST_F(Batch, a_signal_stops_all_jobs_and_going_on_makes_the_rest) {
   NEEDS_PNG;
-  const std::string options = " -q --set time.step=5e-7 --jobs 2 --memory 8G"; // many seconds: one starts later
+  // takes many seconds, so that one job starts later
+  const std::string options = " -q --set time.step=5e-7 --jobs 2 --memory 8G";
   EXPECT_EQ(place.rend("batch presets -o whole" + options).code, 0);
   const Outcome outcome =
       place.shell(std::string(REND_PROGRAM) + " batch presets -o cut" + options + " & " +
@@ -219,7 +220,7 @@ TEST_F(Batch, a_signal_stops_all_jobs_and_going_on_makes_the_rest) {
   for (const std::string& file : place.files()) EXPECT_FALSE(file.ends_with(".checkpoint")) << file;
 }
 
-// By anyone but the batch: a job that waits for its preset, from a pipe, is there to be found.
+// The job is blocked reading its preset from a pipe, so that the test can find and kill it.
 TEST_F(Batch, a_job_that_was_ended_from_outside_is_not_done) {
   NEEDS_PNG;
   for (const auto& [signal, code] : {std::pair{"TERM", 143}, {"KILL", 137}}) {
@@ -238,8 +239,8 @@ TEST_F(Batch, a_job_that_was_ended_from_outside_is_not_done) {
   }
 }
 
-// Memory that pictures take: sizes are such that two jobs of one preset begin, and have no room beside each
-// other.
+// Jobs whose memory is mostly that of their pictures; sizes are such that two jobs of one preset are started,
+// but do not fit into the budget together.
 class TightBatch : public Batch {
 protected:
   TightBatch() {
@@ -249,13 +250,13 @@ protected:
     const Outcome alone =
         place.rend("batch presets/a.xml large.xml -o whole -q --json --jobs 1 --set time.duration=0.15");
     EXPECT_EQ(alone.code, 0) << alone.err;
-    // The small preset comes first: what it takes is then expected of the others.
+    // The small preset comes first: its memory is then the estimate for the others.
     for (const auto& line : lines(alone.out))
       (line["job"] == "a" ? small_ : large_) = line["peak_bytes"].get<std::size_t>();
     EXPECT_GT(budget(), 2 * small_);
   }
-  // [bytes] On a busy machine the large one takes less than it did; and two jobs of which nothing is known yet,
-  // of which 200 MB are expected each, are not to begin together.
+  // [bytes] On a busy machine the large job takes less than it did alone; and two jobs without an estimate, for
+  // which 200 MB are assumed each, must not be started together.
   std::size_t budget() const { return std::min(large_ * 65 / 100, std::size_t{390} << 20U); }
   std::size_t small_ = 0, large_ = 0; // [bytes]
 };
@@ -264,7 +265,7 @@ TEST_F(TightBatch, a_job_that_made_room_before_it_had_a_checkpoint_begins_anew) 
   NEEDS_PNG;
   fs::create_directories(place.path() / "tight/pipe");
   place.write("tight/pipe/pulled.checkpoint", "of an earlier batch");
-  // It builds its scene for as long as its preset is not there: until the large one is done.
+  // It blocks in building its scene while its preset does not arrive: until the large job is done.
   const Outcome outcome = place.shell(fmt::format("mkfifo pipe.xml; {} batch presets/a.xml large.xml pipe.xml "
                                                   "-o tight -q --json --jobs 2 --set time.duration=0.15 "
                                                   "--memory {} & batch=$!; ",
@@ -279,8 +280,8 @@ TEST_F(TightBatch, a_job_that_made_room_before_it_had_a_checkpoint_begins_anew) 
   EXPECT_EQ(pictures("tight/pipe"), pictures("whole/a"));
 }
 
-// The large one waits for its preset until the one begun after it is on its way, and then takes more than there
-// is.
+// The large job waits for its preset until the one started after it is in progress, and then exceeds the memory
+// budget.
 TEST_F(TightBatch, a_job_that_made_room_goes_on_from_its_checkpoint) {
   NEEDS_PNG;
   std::string text = program::pulled;
@@ -352,7 +353,7 @@ TEST_F(Batch, what_is_said_is_utf8_whatever_files_are_called) {
   EXPECT_EQ(place.rend("render b*.xml -o alone -q --json --frames 0").json()["frames"], 1);
 }
 
-// Without stdout, or any of the three: what a job says is caught all the same.
+// With stdout, or all three streams closed: the output of jobs is captured all the same.
 TEST_F(Batch, jobs_run_where_standard_streams_are_closed) {
   NEEDS_PNG;
   for (const char* closed : {">&-", "2>&-", "<&- >&- 2>&-"}) {

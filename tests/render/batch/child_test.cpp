@@ -1,4 +1,4 @@
-// A program beside this one, which is this one again.
+// A child process that runs this same program.
 #include "render/batch/child.h"
 
 #include "render/console/signals.h"
@@ -24,9 +24,9 @@ TEST(Child, waits_when_it_is_one) {
   while (true) ::pause();
 }
 
-// Some of the signals come before the new program is there: how many is the system's choice.
+// Some signals arrive before exec(): how many depends on the scheduler.
 TEST(Child, is_ended_by_a_signal_however_early_it_comes) {
-  const pid_t other = ::fork(); // which has handlers
+  const pid_t other = ::fork(); // which has signal handlers installed
   if (other == 0) {
     catch_signals();
     const Keeping keeping;
@@ -40,7 +40,7 @@ TEST(Child, is_ended_by_a_signal_however_early_it_comes) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     const bool all = std::all_of(children.begin(), children.end(),
                                  [](Child& child) { return !child.running() && child.code() == 143; });
-    children.clear(); // ends those that run
+    children.clear(); // kills those that still run
     ::_exit(all ? 0 : 1);
   }
   int status = 0;

@@ -1,5 +1,5 @@
-// Answers on the command line: what `rend run` says and ends with, and that every preset of presets/verify
-// holds.
+// Answers on the command line: the output and exit code of `rend run`, and that every preset of presets/verify
+// satisfies its answers.
 #include "tests/render/commands/program_run.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using program::Place;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-// A falling sheet, and what is said of it.
+// A falling sheet, with answers about it.
 std::string falling(const std::string& answers) {
   return R"(<scene name="falling"><body><sheet cells="1 1" size="1 1"/><mass total="1"/>
     <fix near="0 0 0"/><probe name="free" near="1 1 0"/><probe name="held" near="0 0 0"/>)" +
@@ -92,7 +92,7 @@ TEST_F(Answers, and_probes_are_columns_of_the_diagnostics) {
   EXPECT_THAT(first, HasSubstr(",1,1,0,0,0,0,,,,0,0,0,0,0,0,0,0,2.4525"));
 }
 
-// Presets of presets/verify and their numbers of answers: none may fall silent.
+// Presets of presets/verify with their number of answers: none may lose one.
 TEST(Verify, every_preset_holds) {
   const std::vector<std::pair<std::string, std::size_t>> presets{
       {"verify/bar-waves", 7},
@@ -138,7 +138,7 @@ TEST(Verify, every_preset_holds) {
   }
 }
 
-// Presets beyond this list hold as well.
+// Presets outside of the list would not be tested.
 TEST(Verify, no_preset_is_without_an_answer) {
   const Place place;
   for (const auto& entry : fs::directory_iterator(fs::path(REND_ROOT) / "presets/verify")) {

@@ -1,4 +1,4 @@
-// Checkpoints: which are gone on from, what they hold, and what leaves them alone.
+// Checkpoints: which ones a run resumes from, what they contain, and which are left alone.
 #include "render/clip/checkpoint.h"
 
 #include "render/clip/film.h"
@@ -43,7 +43,7 @@ TEST_F(Checkpoint, a_checkpoint_of_something_else_is_refused_and_nothing_is_lost
   EXPECT_FALSE(in("c").contains("clip.checkpoint"));
 }
 
-// Its pictures are the same bytes, but the state that it stored is no other program's.
+// It produces the same pictures, but its checkpoint belongs to its own program file.
 TEST_F(Checkpoint, another_build_of_the_same_commit_keeps_pictures_and_no_state) {
   NEEDS_PNG;
   const Files all = alone();
@@ -80,7 +80,7 @@ TEST_F(Checkpoint, fewer_frames_leave_the_checkpoint_of_a_later_one_alone) {
   expect_same(in("c"), all, "");
 }
 
-// A run in this process, its pictures left out.
+// A run in this process that writes no pictures.
 struct Made {
   Session session;
   Film film;
@@ -126,7 +126,7 @@ TEST_F(Checkpoint, a_checkpoint_s_next_frame_and_state_are_of_the_same_bytes) {
     place.write("one.checkpoint", other);
     EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.film), UserError) << "byte " << n;
   }
-  write_checkpoint(path, from.key, 7, from.session, from.film); // of a state before frame 6
+  write_checkpoint(path, from.key, 7, from.session, from.film); // a state before frame 6
   EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.film), UserError);
 }
 
@@ -171,7 +171,7 @@ TEST_F(Checkpoint, only_files_that_a_run_of_this_name_writes_are_looked_at) {
   EXPECT_EQ(found().size(), 2u);
 }
 
-// Neither is waited for, nor opened through a link.
+// A FIFO is not waited for, and a link is not followed.
 TEST_F(Checkpoint, what_is_no_regular_file_is_refused_and_of_others_left_out) {
   Made run(place);
   fs::create_directories(place.path() / "c");
@@ -203,7 +203,7 @@ TEST_F(Checkpoint, what_is_no_regular_file_is_refused_and_of_others_left_out) {
   EXPECT_TRUE(fs::exists(genuine));
 }
 
-// A terabyte by its size, and hardly anything on the disk.
+// A sparse file of a terabyte.
 TEST_F(Checkpoint, a_file_that_is_nearly_all_holes_takes_neither_time_nor_memory) {
   Made from(place), to(place);
   const fs::path path = place.path() / "one.checkpoint";

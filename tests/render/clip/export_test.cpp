@@ -1,5 +1,5 @@
-// `rend run --export vtu`, read back by meshio: the cells are whole and turn the right way, and the numbers on
-// them are those that `rend run --json` tells.
+// `rend run --export vtu`, read back by meshio: cells are complete and have the right orientation, and their
+// data are those that `rend run --json` reports.
 #include "tests/render/commands/program_run.h"
 
 #include <gmock/gmock.h>
@@ -31,7 +31,7 @@ double dot(const V& a, const V& b) {
 
 using Ring = std::vector<std::size_t>;
 
-// The faces of each cell as they turn when seen from outside, from the documentation of VTK and Gmsh.
+// The faces of each cell, counter-clockwise seen from outside, from the documentation of VTK and Gmsh.
 std::vector<Ring> faces_of(const std::string& type) {
   if (type == "tetra") return {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   if (type == "hexahedron")
@@ -50,7 +50,7 @@ V area_vector(const std::vector<V>& ring) {
   return sum;
 }
 
-// What one file holds.
+// The content of one file.
 struct File {
   explicit File(const Json& json)
       : all(json), points(json["points"].get<std::vector<V>>()),
@@ -70,7 +70,7 @@ struct File {
     return std::set<double>(values.begin(), values.end()).size();
   }
 
-  // [m³] of a solid's cell at rest: cones over its faces' triangles.
+  // [m³] of a solid's cell at rest: a sum of cones over the triangles of its faces.
   double rest_volume(const Json& cell) const {
     double sixfold = 0;
     const bool given = cell[0].get<std::string>().starts_with("polyhedron");
@@ -119,7 +119,7 @@ protected:
   const Place place;
 };
 
-// Counts, mass, momentum and energy, reckoned from the file alone.
+// Counts, mass, momentum and energy, computed from the file only.
 void expect_same_state(const File& file, const Json& figures) {
   EXPECT_EQ(file.points.size(), figures["vertices"].get<std::size_t>());
   EXPECT_EQ(file.all["cells"].size(), figures["elements"].get<std::size_t>());
@@ -187,7 +187,8 @@ TEST_F(Export, of_a_mixed_bar_has_cells_of_positive_volume_and_their_stress) {
     EXPECT_EQ(tip[axis], figures["probes"]["tip"]["position"][axis].get<double>());
   const Json& stress = file.all["cell_data"]["stress"];
   const std::vector<double> equivalent = file.scalars("cell_data", "von Mises stress");
-  for (std::size_t c = 0; c < stress.size(); ++c) { // by the components: 2 σ² = Σ (σii − σjj)² + 6 Σ τ²
+  // von Mises, from the components: 2 σ² = Σ (σii − σjj)² + 6 Σ τ²
+  for (std::size_t c = 0; c < stress.size(); ++c) {
     const auto s = stress[c].get<std::array<double, 9>>();
     const auto square = [](double x) { return x * x; };
     const double twice = square(s[0] - s[4]) + square(s[4] - s[8]) + square(s[8] - s[0]) +
@@ -205,7 +206,7 @@ TEST_F(Export, of_a_patch_test_has_the_stress_that_is_known) {
     for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(one[k].get<double>(), k % 4 == 0 ? 2000 : 400, 1e-6);
 }
 
-// A Moka file of the volume whose faces these are, as they turn when seen from outside.
+// A Moka file of the volume with these faces, counter-clockwise seen from outside.
 std::string moka(const std::vector<V>& points, const std::vector<Ring>& faces) {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> side; // from a corner to the next: its first dart
   std::size_t darts = 0;
@@ -262,7 +263,7 @@ TEST_F(Export, of_a_state_that_several_frames_show_is_one_file) {
 }
 
 TEST_F(Export, of_a_run_that_went_wrong_ends_with_the_last_good_state) {
-  std::string torn_off = bar; // faster than any part of a step resolves
+  std::string torn_off = bar; // faster than any substep can resolve
   torn_off.replace(torn_off.find("<probe"), 0, R"(<drive side="+x" velocity="1e12 0 0" from="0.05"/>)");
   torn_off.erase(torn_off.find("<load"),
                  torn_off.find("/>", torn_off.find("<load")) + 2 - torn_off.find("<load"));

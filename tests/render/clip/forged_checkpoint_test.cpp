@@ -1,4 +1,4 @@
-// Checkpoints that somebody forged: bytes of a genuine one changed, cut out, put in, and the sum mended.
+// Forged checkpoints: a genuine one with bytes changed, removed or inserted, and the checksum recomputed.
 //
 // Each is gone on from in a process of its own. It is refused in words (65), or it is just another state:
 // that goes on and stays finite, or is stopped as unstable (76). It never ends by a signal, as a fault of
@@ -36,7 +36,8 @@ bool whole() {
   return std::getenv("REND_WHOLE") != nullptr;
 }
 
-// Small scenes, and the frame before which each is stored: every kind of thing that a checkpoint may hold.
+// Small scenes, and the frame before which each is stored: together they contain every kind of data in a
+// checkpoint.
 struct Clip {
   std::string name, xml;
   long next;
@@ -124,7 +125,7 @@ struct Made {
     SessionOptions options;
     options.preset = (place.path() / "clip.xml").string();
     options.quiet = true;
-    options.threads = 1; // what forks has no others
+    options.threads = 1; // fork() copies only the calling thread
     options.guard = clip.name != "unguarded";
     return options;
   }
@@ -159,7 +160,7 @@ std::size_t head_size(const std::string& bytes) {
   return bytes.find('\n') + 1 + 16;
 }
 
-// With the sum that these bytes should have.
+// With the correct checksum for these bytes.
 std::string mended(std::string bytes) {
   const std::size_t end = bytes.size() - sum_size;
   std::uint64_t sum = hash_bytes(bytes.data(), head_size(bytes), 0);
@@ -169,7 +170,7 @@ std::string mended(std::string bytes) {
   return bytes;
 }
 
-// Changes a genuine checkpoint as an attacker would.
+// Modifies a genuine checkpoint as an attacker would.
 class Forger {
 public:
   Forger(std::string bytes, std::string other, unsigned seed)
@@ -180,7 +181,7 @@ public:
         marks_.push_back(at);
   }
 
-  // And what was done.
+  // The forged bytes, and a description of the change.
   std::pair<std::string, std::string> next() {
     std::string out = bytes_;
     const std::size_t kind = below(12);
@@ -253,12 +254,12 @@ private:
     return fmt::format("{} bytes at {} are {:x}; ", size, at, word);
   }
 
-  std::string bytes_, other_; // of two moments of a run
+  std::string bytes_, other_; // of two states of a run
   std::vector<std::size_t> marks_;
   std::mt19937_64 random_;
 };
 
-// 10 s of work, 1 GB more than there is now; nothing is said.
+// Limits: 10 s of processor time, 1 GB of memory beyond the present use; stderr is discarded.
 void limit() {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -272,11 +273,11 @@ void limit() {
   if (std::getenv("REND_LOUD") == nullptr) std::freopen("/dev/null", "w", stderr);
 }
 
-// What a program would end with: 65, 76, or 0 after some frames.
+// The exit code that the program would have: 65, 76, or 0 after some frames.
 int go_on_from(const fs::path& path, Made& run) try {
   const long frames = run.session.clock().frames();
   const auto head = read_checkpoint(path, run.key, frames, run.session, run.film);
-  if (!head) return 65; // it says that it is of something else
+  if (!head) return 65; // its key or next frame does not fit
   if (run.run(head->next, frames - 1) == Stopped::Unstable) return 76;
   for (const auto& body : run.session.scene().bodies())
     for (const Record& x : body->map->position().values())
@@ -313,7 +314,7 @@ TEST_P(Forged, is_refused_in_words_or_goes_on) {
   place.write("clip.xml", clip.xml);
   const std::string bytes = genuine(place, clip, clip.next), later = genuine(place, clip, clip.next + 2);
   const fs::path path = place.path() / "forged.checkpoint";
-  Made run(place, clip); // each process gets it as it was built
+  Made run(place, clip); // forked processes get it as it was built
   place.write("forged.checkpoint", mended(bytes));
   ASSERT_EQ(in_a_process_of_its_own(path, run), 0) << "as it was";
   Forger forger(bytes, later, 17);
@@ -336,7 +337,7 @@ INSTANTIATE_TEST_SUITE_P(Every, Forged, testing::ValuesIn(clips()),
 
 class ForgedClip : public program::StoppedClip {};
 
-// The same of the program.
+// The same for the whole program.
 TEST_F(ForgedClip, ends_a_run_that_goes_on_from_it_in_words_or_not_at_all) {
   NEEDS_PNG;
   alone();

@@ -26,7 +26,7 @@ TEST(FrameClock, IsNotAStepLateByRounding) {
         const double at = static_cast<double>(clock.step_of(k)) * step, due = clock.time_of(k);
         EXPECT_GE(at, due * (1 - 1e-11)) << step << " " << fps << " " << k;
         EXPECT_LT(at - step, due * (1 - 1e-13)) << step << " " << fps << " " << k;
-        if (k == 0) break; // at − step < 0 is all there is to say
+        if (k == 0) break; // frame 0 has only this condition
       }
       EXPECT_LE(clock.step_of(clock.frames() - 1), clock.steps());
     }

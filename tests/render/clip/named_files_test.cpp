@@ -1,4 +1,4 @@
-// One file asked for twice, or read and written: refused before anything is written.
+// A file named twice, or both read and written: refused before anything is written.
 #include "render/files/png.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
@@ -24,7 +24,7 @@ protected:
     place.write("pulled.xml", program::pulled);
     fs::create_directories(place.path() / "d");
     fs::create_directory_symlink("d", place.path() / "same");
-    fs::create_symlink("d/s.csv", place.path() / "link.csv"); // to what is not there
+    fs::create_symlink("d/s.csv", place.path() / "link.csv"); // a dangling link
     fs::create_symlink("pulled.xml", place.path() / "preset.csv");
     place.write("d/00001.obj", triangle);
     place.write("d/mesh.xml", R"(<scene name="mesh"><body><mesh file="00001.obj"/><mass total="1"/></body>

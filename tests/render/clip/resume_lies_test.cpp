@@ -1,4 +1,4 @@
-// What --resume keeps: pictures, and not what only looks like one from outside.
+// What --resume keeps: valid pictures, but not files that only look like pictures.
 #include "render/files/png.h"
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
@@ -25,7 +25,7 @@ protected:
     ASSERT_EQ(all.size(), 31u);
   }
   static std::string name_of(int frame) { return fmt::format("{:05d}.png", frame); }
-  // Chunk by name, as it stands in the picture of a frame, with its mark.
+  // A chunk of the picture of a frame, with its mark.
   std::string chunk(int frame, const std::string& name) const {
     const std::string& file = all.at(name_of(frame));
     PngBytes rest(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
@@ -68,7 +68,7 @@ TEST_F(ResumeLies, what_has_the_right_mark_and_is_no_picture_of_this_size_is_mad
   filter[47 * (1 + 64 * 3)] = 5; // of the last row
   put(12, header, idat(filter));
   std::string data = deflated(rows);
-  data.back() = static_cast<char>(data.back() ^ 1); // its own sum
+  data.back() = static_cast<char>(data.back() ^ 1); // breaks the checksum of the zlib stream
   put(13, header, png_chunk("IDAT", data));
   put(14, header, png_chunk("tRNS", std::string(6, '\0')) + idat(rows));
   put(15, header, png_chunk("NEED", "") + idat(rows));
@@ -76,7 +76,7 @@ TEST_F(ResumeLies, what_has_the_right_mark_and_is_no_picture_of_this_size_is_mad
   put(16, header,
       png_chunk("IDAT", whole.substr(0, 9)) + png_chunk("tIME", "") + png_chunk("IDAT", whole.substr(9)));
   put(17, header_of(16384, 16384, 16, 6), png_chunk("IDAT", deflated("")));
-  fs::resize_file(place.path() / "alone" / name_of(18), std::uintmax_t{1} << 40); // mostly a hole
+  fs::resize_file(place.path() / "alone" / name_of(18), std::uintmax_t{1} << 40); // mostly a hole (sparse)
   const Outcome outcome = place.rend("render clip.xml --resume -o alone --json");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.json()["frames"], 18);
@@ -102,7 +102,7 @@ TEST_F(ResumeLies, the_same_pixels_in_other_chunks_are_kept) {
   }
 }
 
-// With an alpha, one that has none is of another shape.
+// If the clip has alpha, a picture without alpha does not match.
 TEST_F(ResumeLies, transparent_pictures_are_kept_too) {
   const std::string line = "render clip.xml -q --set image.background=none -o clear --frames 0-9 --json";
   EXPECT_EQ(place.rend(line).code, 0);
@@ -116,7 +116,7 @@ TEST_F(ResumeLies, transparent_pictures_are_kept_too) {
   expect_same(in("clear"), clear, "");
 }
 
-// What stands in the way of a picture is refused, as without --resume, and waited for by nobody.
+// Something else at a picture's path is refused, as without --resume, and does not block the run.
 TEST_F(ResumeLies, pipes_and_folders_are_no_pictures) {
   for (const char* made : {"mkfifo", "mkdir"}) {
     const fs::path path = place.path() / "alone" / name_of(5);

@@ -1,4 +1,4 @@
-// Runs that are killed or stopped leave the bytes of one that was left alone.
+// Runs that are killed or stopped and then resumed give the same bytes as an uninterrupted run.
 //
 // By default at a few moments each; with REND_WHOLE in the environment at fifty (tests/run --all).
 #include "tests/render/clip/stopped_clip.h"
@@ -34,7 +34,7 @@ TEST_F(Resume, after_a_kill_at_any_moment_no_picture_is_partial_and_all_bytes_co
     const double first = moment();
     stopped("KILL", first, line);
     expect_part_of(in(folder), all, fmt::format("{}, killed after {:.3f} s", note, first));
-    stopped("KILL", moment(), line); // and again, on its way from there
+    stopped("KILL", moment(), line); // killed again after resuming
     expect_part_of(in(folder), all, note + ", killed twice");
     const Outcome last = place.rend(line);
     EXPECT_EQ(last.code, 0) << last.err;
@@ -59,7 +59,7 @@ TEST_F(Resume, a_signal_leaves_a_checkpoint_and_going_on_equals_never_having_sto
       EXPECT_THAT(last.err, HasSubstr("goes on at")) << "not from the start";
       EXPECT_EQ(last.code, 0) << last.err;
     } else {
-      EXPECT_EQ(place.rend(line).code, 0); // it was building, or done
+      EXPECT_EQ(place.rend(line).code, 0); // it was building the scene, or done
     }
     expect_same(in(folder), all, note);
   }
@@ -83,7 +83,7 @@ TEST_F(Resume, a_signal_after_the_first_picture_leaves_a_checkpoint) {
   expect_same(in("c"), in("alone"), "");
 }
 
-// All that its only picture shows is the start.
+// Its only picture shows the initial state.
 TEST_F(Resume, a_run_that_is_stopped_before_it_goes_wrong_keeps_no_more_than_one_that_is_not) {
   NEEDS_PNG;
   const std::string line = "render clip.xml -q --no-guard --set 'body[cloth].sheet.cells=100 100' "
@@ -165,7 +165,8 @@ TEST_F(Resume, a_full_disk_leaves_whole_pictures_alone_and_going_on_makes_the_re
     least = std::min(least, bytes.size());
     most = std::max(most, bytes.size());
   }
-  const std::size_t blocks = most / 512 - (most % 512 == 0 ? 1 : 0); // of sh: less than the largest picture
+  // units of the shell's ulimit -f: less than the largest picture
+  const std::size_t blocks = most / 512 - (most % 512 == 0 ? 1 : 0);
   const Outcome outcome =
       place.shell(fmt::format("(ulimit -f {}; exec {} render clip.xml -q -o full)", blocks, REND_PROGRAM));
   EXPECT_EQ(outcome.code, 74) << outcome.err;

@@ -1,8 +1,8 @@
-// The same preset gives the same files, byte for byte, pictures and video: again, and whatever the threads of
-// the simulation and of the renderer.
+// The same preset gives the same files, byte for byte, pictures and video: in repeated runs, and for any number
+// of threads of the simulation and of the renderer.
 //
-// By default a few small pictures, some times over; with REND_WHOLE in the environment a whole clip that tears,
-// at its full size, 20 times (tests/run --all).
+// By default a few small pictures, a few times; with REND_WHOLE in the environment a whole clip that tears, at
+// its full size, 20 times (tests/run --all).
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
 
@@ -39,7 +39,7 @@ TEST(RepeatedRenders, give_the_same_bytes_on_any_number_of_threads) {
   };
   const auto first = rendered("1", "1");
   ASSERT_GE(first.size(), 7u);
-  constexpr std::array counts{"2", "4", "1", "0"}; // 0: the renderer works in the thread that draws
+  constexpr std::array counts{"2", "4", "1", "0"}; // 0: llvmpipe has no threads of its own
   for (std::size_t turn = 0; turn < (whole ? 20 : 3); ++turn) {
     const auto again = rendered(counts[turn % 4], counts[(turn + turn / 4) % 3]);
     ASSERT_EQ(again.size(), first.size());

@@ -1,4 +1,4 @@
-// Runs that share their frames leave the bytes of one that made them all.
+// Sharded runs together give the bytes of a single run.
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
 
@@ -20,14 +20,14 @@ TEST_F(Shards, shards_make_the_bytes_of_one_run) {
   for (int count : {1, 2, 3, 7, 40}) {
     const std::string folder = fmt::format("shards-{}", count);
     for (int n = 1; n <= count; ++n) {
-      if (count == 40 && n > 2 && n < 39) continue; // some of them have nothing to do
+      if (count == 40 && n > 2 && n < 39) continue; // with 40 shards, some have no frames
       EXPECT_EQ(place.rend(fmt::format("render clip.xml -q -o {} --shard {}/{}", folder, n, count)).code, 0);
     }
     count < 40 ? expect_same(in(folder), all, folder) : expect_part_of(in(folder), all, folder);
   }
 }
 
-// One frame for two shards: the first has none.
+// One frame and two shards: the first has none.
 TEST_F(Shards, a_shard_without_frames_leaves_the_checkpoint_of_one_that_has_some) {
   NEEDS_PNG;
   const std::string line = "render clip.xml --set time.step=5e-5 -o c --shard 1/2";

@@ -1,4 +1,4 @@
-// A clip that is stopped on its way, for tests of what goes on from there.
+// A clip that is stopped before its end, for tests of resuming.
 #pragma once
 
 #include "tests/render/commands/program_run.h"
@@ -10,8 +10,7 @@
 
 namespace rend::program {
 
-// All that pictures follow over a clip: a scale, colours of fragments, curves, a camera that goes after the
-// body.
+// Everything that pictures remember over a clip: a scale, colours of fragments, curves, a following camera.
 constexpr const char* followed = R"(<scene name="clip">
   <body name="cloth">
     <sheet cells="8 8" size="1 1"/><place rotate="90 0 0"/><mass total="0.1"/>
@@ -46,7 +45,7 @@ protected:
       all[at->path().filename().string()] = content(at->path());
     return all;
   }
-  // Of a run that was left alone, and how long it takes [s].
+  // The files of an uninterrupted run; also measures how long it takes [s].
   Files alone(const std::string& more = "") {
     const auto start = std::chrono::steady_clock::now();
     EXPECT_EQ(place.rend("render clip.xml -q -o alone " + more).code, 0);
@@ -59,7 +58,7 @@ protected:
   }
   double moment() { return 0.02 + seconds * std::uniform_real_distribution<>(0, 1)(random); }
 
-  // Stops it as soon as `ready`, a condition of the shell in which $pid is the program's, holds.
+  // Stops it as soon as `ready` holds, a shell condition in which $pid is that of the program.
   Outcome stopped_when(const std::string& ready, const std::string& arguments,
                        const std::string& signal = "TERM") const {
     return place.shell(fmt::format("{} {} & pid=$!; until {} || ! kill -0 $pid; do sleep 0.005; done; "
@@ -67,7 +66,7 @@ protected:
                                    REND_PROGRAM, arguments, ready, signal));
   }
 
-  // Stops runs into a folder at moments between too early and too late, until one leaves its checkpoint there.
+  // Starts and stops runs into a folder, bisecting the moment, until one leaves its checkpoint there.
   void stop_on_the_way(const std::string& folder, const std::string& line = "render clip.xml -q") const {
     double early = 0, late = 1.2 * seconds;
     for (int n = 0; n < 20 && !in(folder).contains("clip.checkpoint"); ++n) {
@@ -75,7 +74,7 @@ protected:
       const double after = 0.5 * (early + late);
       const Outcome outcome = stopped("TERM", after, line + " -o " + folder);
       (outcome.code == 143 ? early : late) = after;
-      early *= 0.9; // machines are not always as fast
+      early *= 0.9; // the speed of a machine varies
       late *= 1.1;
     }
     ASSERT_TRUE(in(folder).contains("clip.checkpoint"));

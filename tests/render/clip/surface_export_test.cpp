@@ -1,5 +1,5 @@
-// `rend run --export ply` and `obj`, read back by a reader that knows nothing of rend and by tinyobjloader: the
-// same points and faces, and the numbers of the .vtu files of the same run.
+// `rend run --export ply` and `obj`, read back by an independent reader and by tinyobjloader: the same points
+// and faces, and the same data as in the .vtu files of the same run.
 #include "tests/render/commands/program_run.h"
 
 #include <gmock/gmock.h>
@@ -64,7 +64,8 @@ std::vector<std::vector<int>> faces_of(const tinyobj::ObjReader& reader) {
   return all;
 }
 
-// Of the lines that begin with v, by strtod, which rounds rightly; tinyobjloader's own way does not.
+// The points of the lines that begin with v, read by strtod, which rounds correctly; tinyobjloader's parser
+// does not.
 std::vector<double> points_as_written(const std::string& obj) {
   std::vector<double> all;
   std::istringstream text(obj);
@@ -89,10 +90,10 @@ TEST_F(SurfaceExport, as_ply_tells_of_its_points_and_faces_what_vtu_tells_of_ver
   run(bar, "--export ply -o states");
   const Json ply = this->ply("states/00002.ply"), vtu = read("vtu_to_json.py", "states/00002.vtu");
   EXPECT_THAT(ply["comments"], ElementsAre("time 0.2 s, lengths in m, z is up", "body 0 is a_bar"));
-  std::map<int, std::size_t> row_of; // of vtu
+  std::map<int, std::size_t> row_of; // of the .vtu file
   for (std::size_t p = 0; p < vtu["points"].size(); ++p) row_of[vtu["point_data"]["vertex"][p]] = p;
   const Json& vertex = ply["vertex"];
-  EXPECT_LT(vertex["x"].size(), vtu["points"].size()); // those inside are not there
+  EXPECT_LT(vertex["x"].size(), vtu["points"].size()); // inner points are missing
   for (std::size_t p = 0; p < vertex["x"].size(); ++p) {
     const std::size_t row = row_of.at(vertex["vertex"][p]);
     EXPECT_EQ(Json::array({vertex["x"][p], vertex["y"][p], vertex["z"][p]}), vtu["points"][row]);

@@ -1,5 +1,4 @@
-// Loaded into a program before the C library (LD_PRELOAD): tells a file, one a line, what the program renames
-// and what it brings to the disk.
+// A library for LD_PRELOAD that logs calls of rename and fsync to a file, one a line.
 #include <array>
 #include <cstdio>
 #include <cstdlib>

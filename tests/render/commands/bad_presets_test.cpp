@@ -1,5 +1,4 @@
-// Every preset of tests/bad is refused as its first line says, by run and by render alike, and leaves nothing
-// behind.
+// Every preset of tests/bad is refused by run and by render as its first line says, and no file is written.
 //
 //   <!-- expect CODE at LINE:COLUMN: words of the message or its hint -->
 #include "render/files/png.h"

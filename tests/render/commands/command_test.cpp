@@ -1,4 +1,4 @@
-// The program as a user meets it: exit codes, files, figures.
+// The program as a user runs it: exit codes, files, figures.
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
 
@@ -148,7 +148,7 @@ TEST_F(Program, CannotWriteWhereAFileIs) {
   expect_nothing_left();
 }
 
-// A pipe whose reader has gone: the shell holds both ends, and closes that one.
+// A pipe whose reader has closed: the shell holds both ends, and closes the reading one.
 TEST_F(Program, EndsQuietlyWhereNobodyReadsItsResults) {
   const std::string pipe = "mkfifo pipe; exec 3<>pipe 4>pipe 3>&-; rm pipe; ";
   for (const char* line : {"help preset", "help schema", "--help", "--version", "run --help", "info pulled.xml",
@@ -157,8 +157,8 @@ TEST_F(Program, EndsQuietlyWhereNobodyReadsItsResults) {
     EXPECT_EQ(outcome.code, 141) << line;
     EXPECT_EQ(outcome.err, "") << line;
   }
-  EXPECT_EQ(place.rend("help preset > /dev/full").code, 74); // another matter
-  // What is missed on stderr is no fault of the run.
+  EXPECT_EQ(place.rend("help preset > /dev/full").code, 74); // a full disk is an error
+  // Failing to write to stderr is not an error of the run.
   EXPECT_EQ(place.shell(pipe + REND_PROGRAM + " check pulled.xml --only threads 2>&4").code, 0);
   EXPECT_EQ(place.shell(pipe + REND_PROGRAM + " run missing.xml 2>&4").code, 66);
   expect_nothing_left();
@@ -336,7 +336,7 @@ TEST_F(Program, RunsSoManySteps) {
   EXPECT_EQ(place.rend("run pulled.xml --json --steps 0").json()["time"], 0);
 }
 
-// Starts `rend ARGUMENTS` on a clip without end, and stops it as soon as `file` is there.
+// Starts `rend ARGUMENTS` on an endless clip, and stops it as soon as `file` exists.
 Outcome stopped_once_there_is(const std::string& file, const std::string& arguments, const Place& place) {
   const std::string endless = " --set time.duration=1e5 --set body.drive.until=0.1 & ";
   return place.shell(std::string(REND_PROGRAM) + " " + arguments + endless + "while [ ! -e " + file +

@@ -30,7 +30,7 @@ protected:
   static Image picture(int seed = 0, int width = 40, int height = 30) {
     return test::pattern(width, height, 3, seed);
   }
-  // One pixel a little off.
+  // A picture with one pixel slightly different.
   static Image touched(int by = 5) {
     Image image = picture();
     image.pixels[3 * (40 * 12 + 20) + 1] = static_cast<std::uint8_t>(image.pixels[3 * (40 * 12 + 20) + 1] + by);
@@ -46,7 +46,7 @@ protected:
     for (const auto& one : report["cases"]) out[one["name"]] = one["state"];
     return out;
   }
-  // Every state once.
+  // Pictures with every state once.
   void make_all_states() const {
     put_both("in/match.png", picture());
     put("a/differ.png", picture());
@@ -124,7 +124,7 @@ TEST_F(Diff, of_two_equal_files_that_are_no_pictures_is_unreadable) {
 TEST_F(Diff, does_not_believe_a_file_that_claims_a_huge_picture) {
   put_both("one.png", picture());
   std::string bytes = content(place.path() / "a/one.png");
-  bytes.replace(16, 8, std::string("\0\1\0\0\0\1\0\0", 8)); // 65536 x 65536; its checksum is wrong as well
+  bytes.replace(16, 8, std::string("\0\1\0\0\0\1\0\0", 8)); // 65536 x 65536; the CRC is wrong as well
   place.write("b/one.png", bytes);
   EXPECT_EQ(diff("a b").code, 2);
 }
@@ -155,10 +155,11 @@ TEST_F(Diff, follows_links_to_folders_and_refuses_those_that_lead_back) {
   put_both("one.png", picture());
   put("a/in/two.png", picture());
   put("b/in/two.png", touched());
-  for (const char* side : {"a", "b"}) { // the folders that differ are elsewhere, and linked to
+  for (const char* side : {"a", "b"}) { // the folders that differ lie elsewhere and are reached through links
     fs::rename(place.path() / side / "in", place.path() / (side + std::string("-in")));
     fs::create_directory_symlink("../" + std::string(side) + "-in", place.path() / side / "sub");
-    fs::create_directory_symlink("sub", place.path() / side / "again"); // twice the same is no loop
+    // a second link to a folder is not a cycle
+    fs::create_directory_symlink("sub", place.path() / side / "again");
   }
   const std::map<std::string, std::string> expected{
       {"one.png", "match"}, {"sub/two.png", "differ"}, {"again/two.png", "differ"}};
@@ -194,7 +195,7 @@ TEST_F(Diff, takes_any_as_no_limit_and_not_as_equality) {
     EXPECT_EQ(outcome.code, 0) << limit;
     EXPECT_TRUE(outcome.json()["cases"][0]["limits"].empty());
   }
-  EXPECT_EQ(diff("a b --limit max=any --limit flip-max=0").code, 1); // another holds
+  EXPECT_EQ(diff("a b --limit max=any --limit flip-max=0").code, 1); // another limit still holds
   EXPECT_EQ(diff("a b --limit max=any --limit max=4").code, 1);
   place.write("t.xml", R"(<tolerances><default max="any"/><case name="in/*" max="0"/></tolerances>)");
   put("a/in/two.png", picture());
@@ -203,7 +204,7 @@ TEST_F(Diff, takes_any_as_no_limit_and_not_as_equality) {
   EXPECT_EQ(found.at("one.png"), "match");
   EXPECT_EQ(found.at("in/two.png"), "differ");
   put("b/one.png", picture(0, 8, 8));
-  EXPECT_EQ(diff("a/one.png b/one.png --limit max=any").code, 1); // a size is none of the limits
+  EXPECT_EQ(diff("a/one.png b/one.png --limit max=any").code, 1); // the size cannot be tolerated
   EXPECT_EQ(diff("a/in b/in --json").json()["cases"][0]["limits"], nlohmann::json({{"max", 0}}));
 }
 
@@ -243,8 +244,8 @@ TEST_F(Diff, takes_tolerances_by_picture_from_a_file) {
   EXPECT_EQ(found.at("one.png"), "differ");
   EXPECT_EQ(found.at("in/one.png"), "match");
   EXPECT_EQ(found.at("in/two.png"), "match");
-  EXPECT_THAT(diff("a b -t t.xml").err, HasSubstr("fig-7.*")); // fits nothing
-  EXPECT_EQ(diff("a b -t t.xml --limit max=5").code, 0);       // has the last word
+  EXPECT_THAT(diff("a b -t t.xml").err, HasSubstr("fig-7.*")); // matches nothing
+  EXPECT_EQ(diff("a b -t t.xml --limit max=5").code, 0);       // the command line overrides the file
   EXPECT_EQ(diff("a b --mask mask.png").code, 0);
 }
 
@@ -259,7 +260,7 @@ TEST_F(Diff, refuses_bad_tolerances_with_their_place) {
   put("small.png", picture(0, 8, 8));
   const Outcome small = diff("a b --mask small.png");
   EXPECT_EQ(small.code, 2);
-  EXPECT_THAT(small.out, HasSubstr("8 x 8")); // of that pair
+  EXPECT_THAT(small.out, HasSubstr("8 x 8")); // of this pair
 }
 
 TEST_F(Diff, writes_a_page_maps_json_and_junit) {
@@ -314,11 +315,11 @@ TEST_F(Diff, updates_all_that_is_named_or_nothing) {
   make_all_states();
   const std::string before = content(place.path() / "a/differ.png");
   EXPECT_EQ(diff("a b --update differ --update torn").code, 2);       // unreadable
-  EXPECT_EQ(diff("a b --update differ --update in/missing").code, 2); // not there
+  EXPECT_EQ(diff("a b --update differ --update in/missing").code, 2); // does not exist
   EXPECT_EQ(diff("a b --update differ --update nothing").code, 64);   // no such case
   EXPECT_EQ(diff("a b --update").code, 64);
   EXPECT_EQ(content(place.path() / "a/differ.png"), before);
-  // A disk that is full, by a limit on the size of files: 512 bytes.
+  // A limit on file size simulates a full disk: 512 bytes.
   Image noise(40, 30);
   for (std::size_t n = 0; n < noise.pixels.size(); ++n)
     noise.pixels[n] = static_cast<std::uint8_t>(n * n * n >> 5);
@@ -372,7 +373,8 @@ TEST_F(Diff, knows_that_its_reports_can_be_written_before_it_compares_or_updates
     EXPECT_EQ(outcome.code, 73) << bad;
     EXPECT_EQ(diff("a b --json-lines " + std::string(bad)).out, "") << bad; // nothing was compared
     EXPECT_EQ(content(place.path() / "a/one.png"), before) << bad;
-    EXPECT_FALSE(fs::exists(place.path() / "report")) << bad; // made, empty and removed again
+    // created, and removed again since it stayed empty
+    EXPECT_FALSE(fs::exists(place.path() / "report")) << bad;
   }
   for (const std::string& name : place.files()) EXPECT_FALSE(name.ends_with(".part")) << name;
 }

@@ -1,4 +1,5 @@
-// rend diff on files that lie: one of them is the trouble of one pair, and takes no memory for its claims.
+// rend diff on malformed files: each affects only its own pair, and memory does not grow with the sizes that
+// they claim.
 #include "render/files/png.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
@@ -30,7 +31,7 @@ protected:
     write_png(place.path() / "a/5-differ.png", pattern(40, 30));
     write_png(place.path() / "b/5-differ.png", pattern(40, 30, 3, 1));
   }
-  // All others are compared, the page is there, and nothing took much memory.
+  // All other pairs are compared, the page is written, and memory stays small.
   void expect_one_trouble(const std::string& name, const std::string& why, const std::string& more = "") const {
     int code = -1;
     const std::int64_t peak = peak_of([&] {
@@ -80,7 +81,7 @@ TEST_F(DiffLies, a_picture_of_65_bytes_takes_no_gigabytes) {
   }
 }
 
-// Whole pictures, of 33 kB a file: they would take 26 GB.
+// Valid pictures of 33 kB a file that would take 26 GB.
 TEST_F(DiffLies, pictures_that_are_too_large_for_the_memory_are_told_so) {
   place.write("a/3.png", black_png(header_of(16384, 16384, 1, 0)));
   fs::copy_file(place.path() / "a/3.png", place.path() / "b/3.png");
@@ -90,7 +91,7 @@ TEST_F(DiffLies, pictures_that_are_too_large_for_the_memory_are_told_so) {
   EXPECT_THAT(alone.out, HasSubstr("GB of memory, and there are"));
 }
 
-// Before, 0.6 GB.
+// It took 0.6 GB when it was decoded as a whole.
 TEST_F(DiffLies, a_picture_that_is_compared_with_nothing_is_looked_through_row_by_row) {
   place.write("b/3.png", black_png(header_of(8192, 8192, 1, 0)));
   const std::int64_t peak = peak_of([&] {

@@ -1,4 +1,4 @@
-// Masks that a tolerance file names: those of its own folder and below.
+// Masks in tolerance files: only files in the same folder or below are allowed.
 #include "render/files/png.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 class DiffMask : public testing::Test {
 protected:
-  // Pictures that differ all over, and masks of which no pixel counts.
+  // Pictures that differ everywhere, and masks that exclude every pixel.
   void SetUp() override {
     NEEDS_PNG;
     for (const char* folder : {"a", "b", "t/masks", "elsewhere"}) fs::create_directories(place.path() / folder);
@@ -46,7 +46,7 @@ TEST_F(DiffMask, lies_in_the_folder_of_the_tolerances_or_below) {
   const std::string absolute = (place.path() / "t/masks/m.png").string();
   for (const std::string name : {"../m.png", "masks/../../m.png", "m.png", "outside/m.png", "circle/m.png",
                                  "/dev/zero", absolute.c_str()}) {
-    for (const char* element : {"default", "case name=\"two.png\""}) { // whether or not it would be read
+    for (const char* element : {"default", "case name=\"two.png\""}) { // whether or not it would be used
       const Outcome outcome = with(name, element);
       EXPECT_EQ(outcome.code, 2) << name;
       EXPECT_THAT(outcome.err, HasSubstr("t/t.xml:2:")) << name;

@@ -1,4 +1,4 @@
-// The program where memory is gone: 75 and words, soon, and nothing half-written.
+// The program when memory runs out: exit code 75 and a message, promptly, and no incomplete files.
 #include "render/console/last_resort.h"
 
 #include "sim/base/error.h"
@@ -23,7 +23,7 @@ using testing::AllOf;
 using testing::ExitedWithCode;
 using testing::HasSubstr;
 
-// Of this process: more is refused.
+// Limits the address space of this process to so much more.
 void bound_memory(rlim_t bytes) {
   const rlimit limit{bytes, bytes};
   ::setrlimit(RLIMIT_AS, &limit);
@@ -31,7 +31,7 @@ void bound_memory(rlim_t bytes) {
 
 [[noreturn]] void throw_in_a_thread(const auto& error) {
   arm_last_resort();
-  std::thread([&] { throw error; }).join(); // where no one catches
+  std::thread([&] { throw error; }).join(); // uncaught
   _exit(1);
 }
 
@@ -57,12 +57,12 @@ class WithoutMemory : public testing::Test {
 protected:
   WithoutMemory() { place.write("pulled.xml", program::pulled); }
 
-  // With so much of address space [MB]. One that waits for ever is killed after ten seconds (137).
+  // With this limit of address space [MB]. A hanging program is killed after ten seconds (137).
   Outcome rend(int megabytes, const std::string& arguments) const {
     return place.shell("ulimit -v " + std::to_string(1000 * megabytes) +
                        "; timeout -s KILL 10 " REND_PROGRAM " " + arguments);
   }
-  // The least, in steps, that the program and its libraries fit into; what they take depends on the machine.
+  // The smallest limit, in steps, at which the program and its libraries start; it depends on the machine.
   int least_to_start(int step) const {
     int megabytes = step;
     while (rend(megabytes, "--version > /dev/null; exit $(($? == 127))").code != 0) megabytes += step;

@@ -1,4 +1,4 @@
-// rend mesh, and <mesh> in a preset, as a user meets them.
+// rend mesh, and <mesh> in a preset, as a user runs them.
 #include "tests/render/commands/program_run.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 const fs::path organ = fs::path(REND_ROOT) / "presets/meshes/organ-600.msh";
 
-// A tetrahedron of four nodes, of which one has a group of its own.
+// A tetrahedron of four nodes, one of which is in a group.
 constexpr const char* tetrahedron =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n0 4 \"top\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 "
     "0\n"

@@ -1,5 +1,5 @@
-// Names of files, bodies and groups hold what they like: nothing of it acts on a terminal, makes a line of its
-// own, or spoils a page.
+// Names of files, bodies and groups may contain anything: none of it may control a terminal, fake a line of
+// output, or break a page.
 #include "render/console/json_text.h"
 #include "sim/base/printable.h"
 #include "tests/render/commands/program_run.h"
@@ -21,11 +21,12 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-// A colour; a line that looks like one of ours; DEL; U+009B, which begins a sequence as ESC [ does; U+202E,
-// from which on text runs backwards; a byte that is no UTF-8. The shell takes it as it is in single quotes.
+// A colour code; a line end followed by text that looks like our error; DEL; U+009B, which starts a control
+// sequence like ESC [; U+202E, which reverses the direction of text; a byte that is not UTF-8. In single quotes
+// the shell passes it unchanged.
 const std::string evil = "a\033[31m\nrend: error: made up\x7f\u009b1m\u202eb\xff";
 const std::string shown = R"(a\x1b[31m\nrend: error: made up\x7f\u{9b}1m\u{202e}b\xff)";
-// The same as far as XML knows it.
+// The same as far as XML can represent it.
 const std::string in_xml = "a&#10;rend: error: made up&#127;&#x9b;1m&#x202e;b";
 
 void expect_tame(const std::string& text, const std::string& where) {
@@ -62,7 +63,7 @@ TEST_F(Names, stand_in_errors_as_escapes) {
   place.write(evil + ".xml", "<scene name=\"s\"><bady/></scene>");
   EXPECT_THAT(rend("run 'EVIL.xml'", 65).err, HasSubstr(shown + ".xml:1:17: there is no <bady> in <scene>"));
   EXPECT_THAT(rend("'EVIL'", 64).err, HasSubstr(R"(there is no command 'a\x1b[31m\nrend: error: made up)"));
-  EXPECT_THAT(rend("run pulled.xml '--EVIL'", 64).err, HasSubstr(shown)); // CLI11's words
+  EXPECT_THAT(rend("run pulled.xml '--EVIL'", 64).err, HasSubstr(shown)); // a message of CLI11
   rend("run pulled.xml 'EVIL'", 64);
   rend("run pulled.xml --set 'EVIL'", 64);
   rend("run pulled.xml --set 'body.EVIL=1'", 64);
@@ -83,7 +84,7 @@ TEST_F(Names, of_bodies_stand_in_notes_and_figures_as_escapes) {
   EXPECT_THAT(rend("run body.xml", 0).out, HasSubstr("of '" + called + "' above"));
   EXPECT_THAT(rend("info body.xml", 0).out, HasSubstr("body " + called + ": a sheet"));
   rend("run pulled.xml --steps 1 --set 'body.name=EVIL'", 0);
-  // JSON has them as they are, in escapes of its own.
+  // JSON has the exact names, escaped in its own way.
   const Outcome json = rend("run body.xml --json --events e.jsonl --export obj -o states --frames 0", 0);
   EXPECT_EQ(json.json()["laws"][0]["body"], "a\nrend: error: made up\x7f\u009b1m\u202eb");
   EXPECT_THAT(json.out, HasSubstr(R"(a\nrend: error: made up\u007f\u009b1m\u202eb)"));
@@ -95,7 +96,7 @@ TEST_F(Names, of_groups_and_mesh_files_stand_on_one_line) {
   place.write(evil + ".msh",
               "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n0 4 \"to\033[31mp\u202e\u009b\"\n"
               "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n2\n"
-              "1 15 2 4 0 4\n2 4 2 0 0 1 3 2 4\n$EndElements\n"); // inside out, which is a note
+              "1 15 2 4 0 4\n2 4 2 0 0 1 3 2 4\n$EndElements\n"); // inverted, which gives a note
   const Outcome info = rend("mesh info 'EVIL.msh'", 0);
   EXPECT_THAT(info.out, AllOf(HasSubstr(shown + ".msh: a solid of 4 vertices"),
                               HasSubstr(R"(group 'to\x1b[31mp\u{202e}\u{9b}')"),
@@ -104,7 +105,7 @@ TEST_F(Names, of_groups_and_mesh_files_stand_on_one_line) {
   EXPECT_THAT(rend("mesh convert 'EVIL.msh' b.moka", 0).err, HasSubstr("note: " + shown + ".msh: 1 of 1"));
 }
 
-// Of which a name begins with the words that tell an error.
+// One name begins with the words that begin an error message.
 TEST_F(Names, of_jobs_stand_in_lists_and_pages_as_escapes) {
   NEEDS_PNG;
   place.write(evil + ".xml", program::pulled);
@@ -153,7 +154,7 @@ TEST_F(Names, of_studies_and_cases_stand_in_tables_as_escapes) {
   for (const char* file : {"index.html", "study.csv", "study.json"}) {
     const std::string text = content(place.path() / evil / file);
     EXPECT_THAT(text, HasSubstr("made up")) << file;
-    std::string lines = text; // CSV ends them with both
+    std::string lines = text; // CSV ends lines with both
     for (std::size_t at; (at = lines.find("\r\n")) != std::string::npos;) lines.erase(at, 1);
     expect_tame(lines, file);
   }

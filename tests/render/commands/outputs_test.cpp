@@ -1,4 +1,4 @@
-// What is written where: among files that are not rend's, and to the disk.
+// Where outputs are written: beside files that are not rend's; and that they are flushed to the disk.
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
 
@@ -50,18 +50,19 @@ TEST_F(Outputs, of_a_run_go_through_no_link_and_wait_for_no_pipe) {
   EXPECT_EQ(fs::hard_link_count(place.path() / "mine"), 2u);
   EXPECT_TRUE(fs::is_directory(c / "00002.png.part"));
   EXPECT_TRUE(fs::is_fifo(c / "00003.png.part"));
-  const std::size_t given = 3, around = 3; // files beside the folders, and what is no link in c
+  const std::size_t given = 3, around = 3; // files beside the folders, and files in c that are not links
   EXPECT_EQ(place.files().size(), given + 2 * (1 + alone.size()) + around + links.size()) << "no more";
 }
 
-// Each of these files is named by the command line.
+// Each of these files is named on the command line.
 TEST_F(Outputs, that_the_user_names_go_where_his_links_lead) {
   NEEDS_PNG;
   place.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   fs::create_directory(place.path() / "there");
   for (const char* name : {"s.csv", "e.jsonl", "s.png", "j.xml", "m.msh"}) {
     fs::create_symlink(fs::path("there") / name, place.path() / name);
-    if (*name != 's') place.write(std::string("there/") + name, "old"); // the others are not there yet
+    // the targets of the other links do not exist yet
+    if (*name != 's') place.write(std::string("there/") + name, "old");
   }
   EXPECT_EQ(place.rend("run pulled.xml -q --diagnostics s.csv --events e.jsonl").code, 0);
   EXPECT_EQ(place.rend("sheet pulled.xml -q -o s.png --size 32x32").code, 0);
@@ -81,7 +82,7 @@ TEST_F(Outputs, that_the_user_names_go_where_his_links_lead) {
 
 class Watched : public Outputs {
 protected:
-  // What `rend ARGUMENTS` did: "sync" and "rename", each with the last part of the name.
+  // The system calls of `rend ARGUMENTS`: "sync" and "rename", each with the file name.
   std::vector<std::string> watch(const std::string& arguments, int code) const {
     const fs::path log = place.path() / "log";
     fs::remove(log);

@@ -1,5 +1,5 @@
-// Every preset of the house: it loads, runs, tears if it has a law, is known to somebody, and gives the same
-// bytes.
+// Every shipped preset: it loads, runs, tears if it has a tearing law, is referred to somewhere, and gives the
+// same bytes.
 #include "render/picture/scene_preset.h"
 #include "sim/base/simd_width.h"
 #include "tests/render/commands/program_run.h"
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 const fs::path root = REND_ROOT;
 
-// Paths without folder and ending: "tear/moebius".
+// Paths without folder and extension: "tear/moebius".
 std::vector<std::string> all_presets() {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(root / "presets"))
@@ -45,11 +45,11 @@ protected:
   const fs::path path = root / "presets" / (GetParam() + ".xml");
   const Place place;
 
-  // `environment`: settings before the command.
+  // `environment`: variables before the command.
   nlohmann::json run(const std::string& options, const std::string& environment = "") const {
     const Outcome outcome =
         place.shell(environment + " " REND_PROGRAM " run '" + path.string() + "' --json --quiet " + options);
-    EXPECT_LE(outcome.code, 1) << outcome.err; // 1: an answer does not hold, which is to come later
+    EXPECT_LE(outcome.code, 1) << outcome.err; // 1: an answer is not satisfied, as its time is not reached
     return outcome.code <= 1 ? outcome.json() : nlohmann::json();
   }
   std::string tenth() const {
@@ -71,9 +71,8 @@ TEST_P(EveryPreset, is_called_as_its_file) {
   EXPECT_TRUE(name == stem || name == path.parent_path().filename().string() + "-" + stem) << name;
 }
 
-// On the vector unit that the program chooses, and on two others (where the processor has them: simd_width.h)
-// with another number of threads. The second run is that of an old processor, for the C library's functions as
-// well.
+// With the SIMD width that the program chooses, and two others (if the processor has them: simd_width.h) with
+// another number of threads. The second run also makes the C library use its functions for old processors.
 TEST_P(EveryPreset, runs_and_gives_the_same_state_again_on_any_vector_unit_and_on_two_threads) {
   const std::string part = std::getenv("REND_WHOLE") ? "" : tenth();
   const std::string old = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX2,-AVX,-FMA,-FMA4 REND_SIMD=sse2";
@@ -87,14 +86,15 @@ TEST_P(EveryPreset, runs_and_gives_the_same_state_again_on_any_vector_unit_and_o
   }
 }
 
-// In the README, in the demo command, or in a test or benchmark.
+// In the README, in presets/demo, or in a test or benchmark.
 TEST_P(EveryPreset, is_used_by_somebody) {
   std::string texts = content(root / "README.md") + content(root / "presets/demo");
   for (const auto& entry : fs::recursive_directory_iterator(root / "tests"))
     if (entry.is_regular_file() && entry.path().filename() != "presets_test.cpp")
       texts += content(entry.path());
   std::string name = GetParam();
-  for (const std::string cells : {"quads", "triangles", "mixed"}) // as tests/bench/table-7.1 spells its nine
+  // as tests/bench/table-7.1 composes its nine names
+  for (const std::string cells : {"quads", "triangles", "mixed"})
     if (name.starts_with("tear/table-7.1-" + cells + "-"))
       name = "$cells" + name.substr(("tear/table-7.1-" + cells).size());
   EXPECT_NE(texts.find(name), std::string::npos) << "nobody names " << name;
@@ -102,7 +102,7 @@ TEST_P(EveryPreset, is_used_by_somebody) {
 
 class PresetWithALaw : public EveryPreset {};
 
-// (That it tears at all, tests/sim/fracture/torn_presets_test.cpp sees.)
+// (tests/sim/fracture/torn_presets_test.cpp tests that it tears.)
 TEST_P(PresetWithALaw, goes_through_to_its_end) {
   if (!std::getenv("REND_WHOLE")) GTEST_SKIP() << "with REND_WHOLE in the environment";
   const auto figures = run("");
@@ -131,7 +131,7 @@ TEST(Schema, beside_the_presets_is_what_the_program_prints) {
   EXPECT_EQ(printed.out, content(root / "presets/scene.xsd")) << "rend help schema > presets/scene.xsd";
 }
 
-// Frame 0, one with the cloth whipping, and the last.
+// Frame 0, one in fast motion, and the last.
 TEST(Pictures, of_the_torn_cloth_are_the_same_bytes_twice_and_show_something) {
   NEEDS_PNG;
   const Place place;

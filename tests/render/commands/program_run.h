@@ -1,4 +1,4 @@
-// For tests that run the built program as a user does: in a folder of its own, with what it says caught.
+// For tests that run the built program as a user does, in a folder of its own, and capture its output.
 #pragma once
 
 #include <cstdlib>
@@ -22,12 +22,12 @@ inline std::string content(const fs::path& path) {
 }
 
 struct Outcome {
-  int code = 0; // exit code; 128 and the signal's number, if one ended it
+  int code = 0; // exit code; 128 plus the signal's number, if a signal ended it
   std::string out, err;
   nlohmann::json json() const { return nlohmann::json::parse(out); }
 };
 
-// A folder that goes when the test ends, and what is run in it.
+// A temporary folder, removed at the end of the test, in which commands are run.
 class Place {
 public:
   Place() : path_(fs::temp_directory_path() / ("rend-program-" + std::to_string(std::random_device()()))) {
@@ -40,7 +40,7 @@ public:
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
 
-  // Runs `rend ARGUMENTS`, which are words of the shell.
+  // Runs `rend ARGUMENTS` through the shell.
   Outcome rend(const std::string& arguments) const {
     return shell(std::string(REND_PROGRAM) + " " + arguments);
   }
@@ -61,7 +61,7 @@ public:
     std::ofstream(path() / name, std::ios::binary) << text;
   }
 
-  // All that is there, folders too, sorted, as paths from here.
+  // All files and folders below, sorted, as relative paths.
   std::vector<std::string> files() const {
     std::vector<std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(path()))
@@ -75,7 +75,7 @@ private:
   fs::path path_;
 };
 
-// A small cloth that is pulled apart: it tears within its 0.3 s. Pictures are small, so that tests are quick.
+// A small cloth that is pulled apart and tears within its 0.3 s. Pictures are small, so that tests are quick.
 inline const char* pulled = R"(<scene name="pulled">
   <body name="cloth">
     <sheet cells="6 6" size="1 1"/>

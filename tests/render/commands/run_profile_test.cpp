@@ -1,4 +1,4 @@
-// rend run --profile: where time and bytes went.
+// rend run --profile: time and bytes by stage.
 #include "tests/render/commands/program_run.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ TEST_F(ProfileOfARun, parts_the_time_loop_into_stages) {
   const auto plain = place.rend("run pulled.xml --json -q --set body.tear.threshold=1").json();
   const auto asked = place.rend("run pulled.xml --json -q --set body.tear.threshold=1 --profile").json();
   EXPECT_FALSE(plain.contains("profile"));
-  EXPECT_EQ(plain["hash"], asked["hash"]); // to look at it changes nothing
+  EXPECT_EQ(plain["hash"], asked["hash"]); // profiling does not change the result
   ASSERT_GT(plain["tears"], 0);
   const auto& profile = asked["profile"];
   double sum = 0, shares = 0;

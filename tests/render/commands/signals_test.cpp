@@ -1,5 +1,4 @@
-// What signals do: to the handler itself, in a program that waits for ever; and to the program as a user runs
-// it.
+// Signals: the handler itself, in a process that blocks for ever; and the program as a user runs it.
 #include "render/console/signals.h"
 
 #include "tests/render/clip/stopped_clip.h"
@@ -28,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array signals{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
 
-// Another process, which catches signals and does that; what it writes to `tell` is read here.
+// A child process that catches signals and runs an action; what it writes to `tell` is read here.
 class Other {
 public:
   explicit Other(const std::function<void(int tell)>& what) {
@@ -37,7 +36,8 @@ public:
     process_ = ::fork();
     if (process_ == 0) {
       ::close(ends[0]);
-      for (const int signal : signals) std::signal(signal, SIG_DFL); // whatever these tests were started by
+      // resets dispositions inherited from the test runner
+      for (const int signal : signals) std::signal(signal, SIG_DFL);
       what(ends[1]);
       ::_exit(0);
     }
@@ -67,7 +67,7 @@ public:
     }
     return process_ < 0;
   }
-  // Its exit code, at the latest after 20 s; until then it is sent the signal, if one is given.
+  // Its exit code, after at most 20 s; meanwhile it is sent the signal repeatedly, if one is given.
   int code(int signal = 0) {
     for (int n = 0; n < 2000 && !ended(); ++n) {
       if (signal != 0) send(signal);
@@ -85,14 +85,14 @@ void tell(int where, char word) {
   EXPECT_EQ(::write(where, &word, 1), 1);
 }
 
-// A call that nothing ends, of a program that has said that it is on its way there.
+// A call that blocks for ever, in a process that reports just before it.
 class Pipe {
 public:
   Pipe() { EXPECT_EQ(::mkfifo((place_.path() / "pipe").c_str(), 0666), 0); }
   void wait_for_ever(int where) const {
     const std::string name = (place_.path() / "pipe").string();
     tell(where, 'r');
-    while (true) ::open(name.c_str(), O_RDONLY); // until somebody writes
+    while (true) ::open(name.c_str(), O_RDONLY); // blocks until a writer opens it
   }
 
 private:
@@ -137,13 +137,13 @@ TEST(Signals, sent_at_once_are_one_and_the_next_ends_the_program) {
   ASSERT_EQ(other.next_word(), 'r');
   other.send(SIGSTOP);
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) other.send(signal);
-  other.send(SIGCONT); // now all three come, and the handler of one after the other
+  other.send(SIGCONT); // now all three are pending, and handled one after another
   EXPECT_EQ(other.next_word(), 's');
   EXPECT_FALSE(other.ended());
   EXPECT_EQ(other.code(SIGTERM), 143);
 }
 
-// The system says so every second, once a limit is reached; not so who sends it by hand.
+// The kernel sends SIGXCPU every second once the limit is reached; a user sends it with another si_code.
 TEST(Signals, a_limit_of_processor_time_is_no_second_signal) {
   Other other([&](int where) {
     catch_signals();
@@ -236,7 +236,7 @@ TEST_F(SignalledProgram, stops_when_its_terminal_goes) {
   EXPECT_TRUE(in("c").contains("pulled.checkpoint"));
 }
 
-// Of a pipe that nobody writes to.
+// From a pipe without a writer.
 TEST_F(SignalledProgram, that_waits_for_its_input_ends_at_once) {
   NEEDS_PNG;
   ASSERT_EQ(place.shell("mkfifo pipe.xml").code, 0);

@@ -21,7 +21,7 @@ const char* hanging =
   <springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs><viscosity value="0.1" per="body"/>
   <fix side="-x"/></body><time step="1e-3" integrator="rk4" duration="1"/></scene>)";
 
-// RFC 4180, apart from the program.
+// An independent parser of RFC 4180.
 std::vector<std::vector<std::string>> read_csv(const std::string& text) {
   std::vector<std::vector<std::string>> rows{{""}};
   bool quoted = false;
@@ -129,7 +129,7 @@ TEST(StudyCommand, refuses_before_it_runs) {
   refused("-o hanging.xml", 73, "hanging.xml");
   refused("-o /proc/none", 73, "/proc/none");
   EXPECT_EQ(place.rend("study nothing.xml").code, 66);
-  // A mesh of a file has no cells to ask more of; as it is it can be studied.
+  // A mesh from a file cannot be refined; without refinement it can be studied.
   place.write("two.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
   std::string of_file = hanging;
   const std::string generated = R"(<sheet cells="3 3" size="1 1"/>)";

@@ -1,5 +1,5 @@
-// Commands where the system starts few threads, or refuses one (failing_threads.cpp): they go on with fewer and
-// say so, or end with 75. None waits for ever, crashes, or leaves something half-written.
+// Commands on a system that allows few threads, or refuses one (failing_threads.cpp): they continue with fewer
+// and say so, or end with 75. None hangs, crashes, or leaves incomplete files.
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
 
@@ -20,7 +20,7 @@ class ThreadStarts : public testing::Test {
 protected:
   ThreadStarts() { place.write("pulled.xml", program::pulled); }
 
-  // Of a system that has `limit` set; a program that waits for ever is killed after ten seconds (137).
+  // On a system with `limit` set; a hanging program is killed after ten seconds (137).
   Outcome rend(const std::string& limit, const std::string& arguments) const {
     const std::string system = limit + " REND_THREADS_MARK=refused LD_PRELOAD=" REND_FAILING_THREADS;
     return place.shell("timeout -s KILL 10 env " + system + " " REND_PROGRAM " " + arguments);
@@ -29,7 +29,7 @@ protected:
 
   bool one_was_refused() const { return std::filesystem::remove(place.path() / "refused"); }
 
-  // 0, or 75 in words; true: 0.
+  // Exit code 0, or 75 with a message; returns whether it was 0.
   bool done_or_refused(const Outcome& outcome, const std::string& when) const {
     EXPECT_THAT(outcome.code, testing::AnyOf(0, 75)) << when << "\n" << outcome.err;
     if (outcome.code == 75) {
@@ -58,7 +58,7 @@ TEST_F(ThreadStarts, any_one_may_be_refused_for_a_moment) {
     EXPECT_EQ(content(place.path() / folder / "00002.png"), content(place.path() / "1/00002.png"));
     EXPECT_EQ(content(place.path() / folder / "pulled.mp4"), content(place.path() / "1/pulled.mp4"));
   } while (one_was_refused());
-  EXPECT_GT(n, 4); // drawing, two writers, the video
+  EXPECT_GT(n, 4); // drawing, two PNG writers, the video
 }
 
 TEST_F(ThreadStarts, pictures_are_made_with_fewer_or_refused_in_words) {
@@ -106,7 +106,7 @@ TEST_F(ThreadStarts, a_simulation_goes_on_with_those_there_are) {
 TEST_F(ThreadStarts, comparisons_and_checks_go_on_with_those_there_are) {
   NEEDS_PNG;
   ASSERT_EQ(place.rend("render pulled.xml -q -o a").code, 0);
-  for (const char* threads : {"2", "4"}) { // of seven pictures: one after another, or several at once
+  for (const char* threads : {"2", "4"}) { // seven pictures: one after another, or several at once
     const Outcome outcome = rend(at_most(0), std::string("diff a a --threads ") + threads);
     EXPECT_TRUE(done_or_refused(outcome, threads));
     if (std::thread::hardware_concurrency() > 1) {

@@ -1,4 +1,4 @@
-// One case compared: whatever is wrong with a pair is its own trouble, and its memory is known before.
+// Comparing one case: errors of a pair stay with that pair, and its memory is known beforehand.
 #include "render/compare/compare.h"
 
 #include "render/files/png.h"
@@ -50,7 +50,7 @@ TEST_F(CompareCase, wants_no_more_memory_than_it_is_given) {
   EXPECT_EQ(compare(2'000'000).state, CaseState::Differ);
 }
 
-// So that a report of a thousand pictures holds no maps.
+// So that a report of a thousand pictures does not accumulate maps.
 TEST_F(CompareCase, gives_back_the_memory_of_its_maps) {
   write("a.png", pattern(200, 100));
   write("b.png", pattern(200, 100, 3, 1));
@@ -77,7 +77,7 @@ TEST_F(CompareCase, takes_what_the_header_of_the_budget_says) {
     const std::int64_t peak = peak_of([&] {
       if (compare(plenty, "mask.png", true).state != CaseState::Differ) throw 1;
     });
-    EXPECT_GT(peak, 80 * pixels) << what; // so that it is measured at all
+    EXPECT_GT(peak, 80 * pixels) << what; // so that something is measured at all
     EXPECT_LT(peak, files + 96 * pixels + 10 * megabyte) << what;
   };
   write("a.png", noise(4, 1));
@@ -91,7 +91,7 @@ TEST_F(CompareCase, takes_what_the_header_of_the_budget_says) {
   expect_within("16 bits");
 }
 
-// Enough to read both (162 MB at most), and not for the planes of one (216 MB).
+// Enough to read both pictures (at most 162 MB), but not for their planes (216 MB).
 TEST_F(CompareCase, memory_that_is_gone_is_the_trouble_of_that_pair) {
   write("a.png", pattern(3000, 3000));
   write("b.png", pattern(3000, 3000, 3, 1));
@@ -150,7 +150,7 @@ TEST(MemoryBudget, lets_as_many_at_once_as_fit) {
   all.clear();
   EXPECT_FALSE(over);
   EXPECT_GT(most, 0);
-  const MemoryBudget::Share all_of_it = memory.take(100); // all was given back
+  const MemoryBudget::Share all_of_it = memory.take(100); // the whole budget was returned
 }
 
 TEST(MemoryBudget, is_three_quarters_of_what_is_available_and_8_GiB_at_most) {

@@ -1,6 +1,6 @@
-// Defects that pictures have had, in this program or in others: each is put into a picture of a preset, a frame
-// of it or its scene, and the tolerances of the goldens must not let it pass. And the same picture again must
-// always pass.
+// Rendering defects that occurred in this program or in others: each is injected into a picture of a preset, a
+// frame of it or its scene, and must exceed the tolerances of the goldens. The unmodified picture must always
+// pass.
 #include "render/clip/session.h"
 #include "render/compare/tolerances.h"
 #include "render/draw/device.h"
@@ -80,7 +80,7 @@ protected:
   static const Frame& torn() { return frames_.back(); }
   static const Frame& solid() { return solid_.back(); }
 
-  // Of the picture, of the torn cloth's frame, of the bar's frame, of the cloth's preset.
+  // The defect is injected into the picture, the torn cloth's frame, the bar's frame, or the cloth's preset.
   void expect_caught(const char* what, const std::function<void(Image&)>& defect) {
     const Image good = drawn(torn());
     Image bad = good;
@@ -126,7 +126,7 @@ TEST_F(Defects, of_pictures_are_caught) {
   expect_caught("all shifted by a pixel to the right", [](Image& i) { shift(i, 3); });
   expect_caught("all shifted by a row", [](Image& i) { shift(i, static_cast<std::ptrdiff_t>(i.stride())); });
   expect_caught("one pixel shifted", [](Image& i) {
-    // At the first edge there is.
+    // At the first edge in the picture.
     for (std::size_t n = 0; n + 3 < i.pixels.size(); n += 3)
       if (std::abs(i.pixels[n] - i.pixels[n + 3]) > 20)
         return void(std::swap_ranges(&i.pixels[n], &i.pixels[n + 3], &i.pixels[n + 3]));
@@ -169,8 +169,8 @@ TEST_F(Defects, of_frames_surfaces_are_caught) {
   });
   caught("a lost body", [](Frame& f) { f.bodies.clear(); });
   caught("the surface from before the tear", [](Frame& f) {
-    // Corners of the old surface follow their places, but the torn edges hang together: as a surface that was
-    // not rebuilt.
+    // Corners of the old surface move along, but the torn edges stay connected: as if the surface had not been
+    // rebuilt.
     const auto first = std::find_if(frames_.rbegin(), frames_.rend(), [](const Frame& old) {
       const auto& corners = old.bodies[0].corners;
       return std::none_of(corners.begin(), corners.end(), [](const Corner& c) {
@@ -208,7 +208,7 @@ TEST_F(Defects, of_frames_lines_and_shades_are_caught) {
     each_corner(f, [](Corner& c) { c.colour[1] = static_cast<std::uint8_t>(c.colour[1] + 4); });
   });
   expect_caught_in_frame("a swapped normal", solid(), [](Frame& f) {
-    // Of a triangle that is seen: one of the front, in the middle.
+    // A visible triangle: one at the front, in the middle.
     auto& corners = f.bodies[0].corners;
     for (std::size_t n = 0; n < corners.size(); n += 3)
       if (corners[n].normal[1] < -0.9f) {
@@ -251,7 +251,8 @@ TEST_F(Defects, are_not_seen_where_there_is_none) {
   EXPECT_TRUE(passes(good, drawn(torn())));
 }
 
-// The whole way, from preset to file and through `rend diff`; 200 times with REND_WHOLE in the environment.
+// End to end, from the preset to the file and through `rend diff`; 200 times with REND_WHOLE in the
+// environment.
 TEST(RepeatedRenders, raise_no_false_alarm) {
   NEEDS_PNG;
   const program::Place place;
@@ -260,7 +261,7 @@ TEST(RepeatedRenders, raise_no_false_alarm) {
   ASSERT_EQ(place.rend(render + "first").code, 0);
   const int turns = std::getenv("REND_WHOLE") ? 200 : 5;
   for (int turn = 0; turn < turns; ++turn) {
-    // As other machines would do it: other threads, other widths of llvmpipe's vectors.
+    // As on other machines: other numbers of threads and vector widths of llvmpipe.
     const std::string threads = std::to_string(1 + turn % 4), width_of_vectors = turn % 2 ? "128" : "256";
     const auto rendered = place.shell("LP_NATIVE_VECTOR_WIDTH=" + width_of_vectors +
                                       " LP_NUM_THREADS=" + std::to_string(turn % 3) + " " + REND_PROGRAM + " " +

@@ -1,5 +1,5 @@
-// FLIP against values of the authors' program. (Against an implementation of its own in numpy:
-// tests/compare/recompute.py.)
+// FLIP against values of the authors' program. (tests/compare/recompute.py compares with an independent
+// implementation in numpy.)
 #include "render/compare/flip.h"
 
 #include "render/compare/metrics.h"
@@ -33,7 +33,7 @@ TEST(Flip, of_one_white_pixel_is_that_of_the_reference) {
   const FlipFigures figures = flip(black, dot);
   EXPECT_NEAR(figures.mean, 0.003493, tolerance);
   EXPECT_NEAR(figures.max, 0.864907, tolerance);
-  EXPECT_GT(figures.median, 10 * figures.mean); // what is 0 weighs nothing
+  EXPECT_GT(figures.median, 10 * figures.mean); // zeros have no weight
 }
 
 TEST(Flip, does_not_ask_which_picture_comes_first) {

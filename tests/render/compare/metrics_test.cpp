@@ -120,7 +120,7 @@ TEST(Mask, leaves_out_pixels_and_what_they_would_do_to_others) {
 }
 
 TEST(Transparency, counts_as_far_as_it_is_seen) {
-  Picture clear = flat(8, 8, 0), other = flat(8, 8, 0); // transparent black, and what is transparent red
+  Picture clear = flat(8, 8, 0), other = flat(8, 8, 0); // transparent black, and transparent red
   DeepImage red;
   red.width = red.height = 8;
   red.channels = 4;
@@ -128,11 +128,12 @@ TEST(Transparency, counts_as_far_as_it_is_seen) {
   make_alpha(clear);
   clear.planes[3].assign(64, 0);
   EXPECT_EQ(measure(clear, picture_of(red), {}, {}).difference.max, 0);
-  // Opaque black without alpha is opaque black with it, and not what is transparent.
+  // Opaque black without an alpha channel equals opaque black with one, but not transparent black.
   make_alpha(other);
   EXPECT_EQ(measure(flat(8, 8, 0), other, {}, {}).difference.max, 0);
   EXPECT_EQ(measure(flat(8, 8, 0), clear, {}, {}).difference.max, 255);
-  EXPECT_NEAR(measure(flat(8, 8, 0), clear, {}, {}).flip.mean, 0.967380, 5e-5); // black against white paper
+  // black against the white background
+  EXPECT_NEAR(measure(flat(8, 8, 0), clear, {}, {}).flip.mean, 0.967380, 5e-5);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Pictures to be measured.
+// Simple pictures for tests of metrics.
 #pragma once
 
 #include "render/compare/picture.h"

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// One window, summed twice: means first, then squares of what is left.
+// One window in two passes: means first, then squared deviations.
 double of_window(const Picture& a, const Picture& b, std::size_t c, int x, int y, int across, int down) {
   const double n = across * down;
   const auto mean = [&](const auto& value) {

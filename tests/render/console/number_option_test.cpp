@@ -1,4 +1,5 @@
-// Numbers on the command line: what is none, or beyond its bounds, is refused in a sentence by every command.
+// Numbers on the command line: invalid ones, and those out of range, are refused with a message by every
+// command.
 #include "tests/render/commands/program_run.h"
 
 #include <gmock/gmock.h>

@@ -16,7 +16,7 @@ protected:
   static void SetUpTestSuite() { device_ = make_device(); }
   static void TearDownTestSuite() { device_.reset(); }
 
-  // How often each pixel was drawn, when boxes were one after another.
+  // How often each pixel is drawn when the boxes are drawn one after another.
   static std::vector<int> drawn(Boxes& boxes, const std::vector<PixelBox>& which, int width, int height) {
     constexpr int once = 5;
     const Canvas canvas(width, height, {});
@@ -48,7 +48,7 @@ private:
   static inline std::unique_ptr<Device> device_;
 };
 
-// Odd sizes, whose pixels have no round coordinates; a row as wide as pictures get.
+// Odd sizes, for which pixel coordinates are not exact; a row as wide as the largest picture.
 TEST_F(BoxesTest, CoverThePixelsThatWereAskedForAndNoOther) {
   std::mt19937 random(3);
   const auto up_to = [&](int most) { return std::uniform_int_distribution(0, most)(random); };

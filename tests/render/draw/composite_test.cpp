@@ -15,19 +15,18 @@ using namespace test;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int width = 107, height = 70; // blocks are cut at the right and at the top
+constexpr int width = 107, height = 70; // blocks are cut off at the right and at the top
 constexpr double aspect = static_cast<double>(width) / height;
-constexpr Pixel garbage{11, 222, 33, 144}; // what the picture held before
+constexpr Pixel garbage{11, 222, 33, 144}; // the picture before the pass
 
-Vector2d place_of(int x, int y) { // corners of the picture at -1 and 1
+Vector2d place_of(int x, int y) { // normalized device coordinates
   return {2 * (x + 0.5) / width - 1, 2 * (y + 0.5) / height - 1};
 }
 
-// Samples of bodies as they come: numbers known on this side, and textures with them. Colours are multiplied by
-// alpha.
+// Textures with known samples. Colours are premultiplied by alpha.
 class KnownBodies {
 public:
-  // Pixels of the picture that the textures hold, from its corner on. seed 0: there is nothing anywhere.
+  // Size of the textures [pixels of the picture], from the picture's corner. seed 0: all samples are empty.
   KnownBodies(int across, int up, int samples, int fine, unsigned seed)
       : across_(across * fine), up_(up * fine), samples_(samples), fine_(fine) {
     std::mt19937 random(seed);
@@ -48,7 +47,7 @@ public:
 
   BodiesPicture picture() const { return {colours_.name(), 0, samples_, fine_, {0, 0, width, height}}; }
 
-  // Of a pixel of the picture [0 to 255].
+  // Of one pixel of the picture [0 to 255].
   Eigen::Vector4d mean(int x, int y) const {
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
     for (const Pixels& all : layers_)
@@ -68,7 +67,7 @@ private:
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   }
-  // One sample after another, out of a texture with what it is to hold.
+  // Draws one sample after another from a texture with the wanted values.
   void draw_samples() const {
     glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, colours_.name());
     glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples_, GL_RGBA8, across_, up_, GL_TRUE);
@@ -93,8 +92,8 @@ private:
     glDisable(GL_SAMPLE_MASK);
   }
 
-  int across_, up_, samples_, fine_; // [pixels of theirs]
-  std::vector<Pixels> layers_;       // one a sample
+  int across_, up_, samples_, fine_; // [texels]
+  std::vector<Pixels> layers_;       // one per sample
   GlTexture colours_;
 };
 
@@ -112,7 +111,7 @@ protected:
     frame.background = {0.8f, 0.9f, 0.5f};
     return frame;
   }
-  // Looking down, with the horizon in the picture, and from under the floor.
+  // Looking down, with the horizon in the picture, and from below the floor.
   static std::vector<Frame> frames() {
     std::vector<Frame> all{over_a_floor({3, -3, 4}), over_a_floor({3, -3, 0.5}), over_a_floor({1, -3, -1})};
     all.push_back(all[0]);
@@ -120,7 +119,7 @@ protected:
     return all;
   }
 
-  // What the frame's bodies keep from its floor.
+  // Casts shadows of the frame's bodies onto its floor.
   static void cast(FloorShadow& shadow, const Frame& frame) {
     if (!frame.floor) return;
     const std::vector<Corner> none;
@@ -165,7 +164,7 @@ private:
   static inline std::unique_ptr<Device> device_;
 };
 
-// Of the studio without shadows, by a ray to the floor for each pixel [0 to 255].
+// The studio without shadows, by a ray to the floor for each pixel [0 to 255].
 Vector3d studio(const Frame& frame, const View& view, int x, int y) {
   const Vector2d place = place_of(x, y), from = place - Vector2d(0, 0.15);
   const double fall = 0.11 * from.x() * from.x() + 0.16 * from.y() * from.y();
@@ -175,7 +174,7 @@ Vector3d studio(const Frame& frame, const View& view, int x, int y) {
     const Vector3d along = far.head<3>() / far.w() - view.eye;
     if (along.z() < 0) {
       const Vector3d hit = view.eye + (frame.floor->z - view.eye.z()) / along.z() * along;
-      const double reach = 4 * view.distance; // where the floor has become backdrop
+      const double reach = 4 * view.distance; // where the floor has faded into the backdrop
       const double away = std::min((hit - frame.camera.target).head<2>().squaredNorm() / (reach * reach), 1.0);
       const double pool = std::max(1 - 4 * away, 0.0), fade = away * away * (3 - 2 * away);
       left = (0.94 + 0.08 * pool * pool) * (1 - fade) + fade;
@@ -206,7 +205,7 @@ TEST_F(CompositeTest, WhereNoBodyIsTheStudioIsSeen) {
   }
 }
 
-// Textures hold no more than the blocks that bodies cover: two of four columns, and two of three rows.
+// The textures cover only the blocks that bodies may cover: two of four columns, two of three rows.
 TEST_F(CompositeTest, APixelIsTheMeanOfItsSamplesOverWhatIsBehind) {
   Footprint blocks = blocks_of(width, height);
   blocks.mark(0, 0, 1.5f, 0.5f);
@@ -250,8 +249,8 @@ TEST_F(CompositeTest, ATransparentPictureHasNothingBehind) {
   }
 }
 
-// Most blocks are drawn by programs that leave out what is not there. Against all of them drawn with bodies and
-// shadow.
+// Most blocks are drawn by specialized programs that omit what a block does not need. Compares with drawing all
+// of them with bodies and shadow.
 TEST_F(CompositeTest, BlocksOfEveryKindComeOutAsByTheMostGeneralProgram) {
   const KnownBodies none(width, height, 4, 1, 0);
   Footprint some = blocks_of(width, height);
@@ -265,7 +264,7 @@ TEST_F(CompositeTest, BlocksOfEveryKindComeOutAsByTheMostGeneralProgram) {
       for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, std::abs(found[n][c] - general[n][c]));
       shaded += bare[n] != general[n];
     }
-    EXPECT_LE(worst, 1); // where numbers round between two of 255
+    EXPECT_LE(worst, 1); // rounding between two of 255 levels
     const bool floor_seen = frame.floor && frame.camera.eye.z() > frame.floor->z;
     EXPECT_EQ(shaded > 50, floor_seen) << shaded;
     EXPECT_LT(shaded, width * height / 2) << "there is floor without a shadow";

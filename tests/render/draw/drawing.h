@@ -1,5 +1,5 @@
-// A picture to draw on, and programs with fragment shaders of their own: for tests that draw without a stage. A
-// Device must be current.
+// A framebuffer, and programs with their own fragment shaders: for tests that draw without a Stage. A Device
+// must be current.
 #pragma once
 
 #include "render/draw/gl.h"
@@ -11,7 +11,7 @@
 namespace rend::test {
 
 using Pixel = std::array<std::uint8_t, 4>; // RGBA
-using Pixels = std::vector<Pixel>;         // rows from the bottom up: as OpenGL has them
+using Pixels = std::vector<Pixel>;         // rows from the bottom up, as in OpenGL
 
 class Canvas {
 public:
@@ -43,7 +43,7 @@ private:
   GlRenderbuffer colour_;
 };
 
-// With boxes.vert in front.
+// A fragment shader with boxes.vert as its vertex shader.
 class FragmentProgram {
 public:
   explicit FragmentProgram(const char* fragment) : name_(glCreateProgram()) {

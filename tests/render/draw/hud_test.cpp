@@ -51,7 +51,7 @@ protected:
     return stage.read();
   }
 
-  // The box of the pixels that differ: left, top, right, bottom; shares of the picture.
+  // The bounding box of the pixels that differ: left, top, right, bottom, as fractions of the picture.
   static std::array<double, 4> changed(const Image& a, const Image& b) {
     int left = a.width, top = a.height, right = 0, bottom = 0;
     for (int y = 0; y < a.height; ++y)
@@ -103,7 +103,7 @@ TEST_F(HudTest, EachPartStandsInItsCorner) {
   EXPECT_GT(box_of(legend)[1], 0.5);
 }
 
-// Of each part alone the box that it changes; of all together nothing outside of these.
+// Draws each part separately to find its box; all parts together change nothing outside of these boxes.
 TEST_F(HudTest, NothingChangesOutsideOfItsBoxes) {
   const HudContent all = rich_content();
   std::array<HudContent, 4> parts;
@@ -135,7 +135,7 @@ TEST_F(HudTest, ALegendShowsItsColoursFromLowToHigh) {
   HudContent content;
   content.legends = rich_content().legends;
   const Image image = picture(1280, 720, &content);
-  std::vector<std::array<int, 3>> seen; // along each row, changes between the legend's own colours
+  std::vector<std::array<int, 3>> seen; // along each row, runs of the legend's own colours
   for (int y = 0; y < image.height && seen.size() != 3; ++y) {
     seen.clear();
     for (int x = 0; x < image.width; ++x) {

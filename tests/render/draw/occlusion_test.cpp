@@ -38,10 +38,10 @@ private:
 
 struct Hit {
   double distance; // [m]
-  Vector3d normal; // towards where the ray came from
+  Vector3d normal; // towards the ray's origin
 };
 
-// The first triangle that a ray meets, by trying all (Möller and Trumbore 1997).
+// The first triangle hit by a ray, by testing all of them (Möller and Trumbore 1997).
 std::optional<Hit> cast(const Frame& frame, const Vector3d& from, const Vector3d& along) {
   std::optional<Hit> first;
   for (const FrameBody& body : frame.bodies)
@@ -62,8 +62,7 @@ std::optional<Hit> cast(const Frame& frame, const Vector3d& from, const Vector3d
   return first;
 }
 
-// The cosine-weighted share of the hemisphere in which something is within reach, that counts less the farther
-// it is.
+// The cosine-weighted share of the hemisphere that is occluded within the radius, with a fall-off by distance.
 double kept(const Frame& frame, const Vector3d& at, const Vector3d& normal, double reach) {
   const Vector3d other = std::abs(normal.z()) < 0.9 ? Vector3d::UnitZ() : Vector3d::UnitX();
   const Vector3d x = other.cross(normal).normalized(), y = normal.cross(x);
@@ -80,7 +79,7 @@ double kept(const Frame& frame, const Vector3d& at, const Vector3d& normal, doub
   return sum / (rings * turns);
 }
 
-// Three squares that meet in a corner, seen from the room's diagonal.
+// Three squares that meet in a corner, seen along the diagonal.
 Frame corner_of_a_room() {
   Frame frame;
   frame.camera.eye = {3, -3.2, 2.6};
@@ -96,7 +95,7 @@ Frame corner_of_a_room() {
   return frame;
 }
 
-// One pixel of 400, against rays into 768 directions.
+// One pixel in 400, against 768 rays each.
 TEST_F(OcclusionTest, ACornerIsAsDarkAsRaysSay) {
   const Frame frame = corner_of_a_room();
   const Image with = picture(frame, true), without = picture(frame, false);
@@ -115,7 +114,7 @@ TEST_F(OcclusionTest, ACornerIsAsDarkAsRaysSay) {
           kept(frame, view.eye + hit->distance * along, hit->normal, reach_share * view.distance);
       const double ratio =
           static_cast<double>(brightness(with, column, row)) / brightness(without, column, row);
-      const double found = 1 - ratio * ratio; // pictures hold square roots of light
+      const double found = 1 - ratio * ratio; // pixel values are square roots of light
       worst = std::max(worst, std::abs(found - expected));
       sum += std::abs(found - expected);
       darkest = std::max(darkest, expected);
@@ -124,7 +123,7 @@ TEST_F(OcclusionTest, ACornerIsAsDarkAsRaysSay) {
   EXPECT_GT(count, 300);
   EXPECT_GT(darkest, 0.4);
   EXPECT_LT(sum / count, 0.03);
-  EXPECT_LT(worst, 0.15); // in the very corner, where the mean over neighbours is less dark
+  EXPECT_LT(worst, 0.15); // in the very corner, which the mean over neighbours brightens
 }
 
 TEST_F(OcclusionTest, APlaneKeepsNothingFromItself) {
@@ -136,8 +135,8 @@ TEST_F(OcclusionTest, APlaneKeepsNothingFromItself) {
   }
 }
 
-// An octahedron and a fine ball. Beside a sharp edge the normal may be taken from the face beyond it: 2 % of
-// the light.
+// An octahedron and a finely tessellated ball. At a sharp edge the normal may be that of the neighbouring face:
+// 2 % of the light.
 TEST_F(OcclusionTest, AConvexBodyKeepsNothingFromItself) {
   for (const int parts : {4, 48}) {
     Frame frame = front_view();
@@ -159,7 +158,7 @@ TEST_F(OcclusionTest, AConvexBodyKeepsNothingFromItself) {
   }
 }
 
-// No halo: what stands farther in front than the reach leaves what is behind it as it is, up to its edge.
+// No halo: an object farther in front than the radius does not darken what is behind it, up to its silhouette.
 TEST_F(OcclusionTest, WhatIsOutOfReachKeepsNothing) {
   Frame frame = front_view();
   frame.bodies = {screen(0.5f, 1.2f, grey), screen(-0.5f, 0.4f, red)};

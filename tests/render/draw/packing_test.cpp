@@ -35,7 +35,7 @@ TEST(Packing, TurnsATriangleAroundItsNormalWithItsLines) {
   pack(body, packed);
   EXPECT_EQ(position(packed[1]), Vector3f(0, 2, 0));
   EXPECT_EQ(position(packed[2]), Vector3f(2, 0, 0));
-  const std::array<std::uint8_t, 4> lines{0, 3, 1, 0}; // torn is still opposite to (0, 2, 0)
+  const std::array<std::uint8_t, 4> lines{0, 3, 1, 0}; // the torn line is still opposite (0, 2, 0)
   for (const Corner& corner : packed) {
     EXPECT_EQ(corner.line, lines);
     EXPECT_EQ(normal(corner), Vector3f(0, 0, -1));

@@ -32,7 +32,7 @@ TEST(Footprint, WhatLiesBeyondTheGridMarksNothing) {
   EXPECT_EQ(grid.bounds().width * grid.bounds().height, 16);
 }
 
-// Points all over each triangle, against the blocks that are said to hold it.
+// Samples points of each triangle, and tests that their blocks are marked.
 TEST(Footprint, BlocksThatAreCoveredHoldEveryPointOfATriangle) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(-1, 1), share(0, 1);

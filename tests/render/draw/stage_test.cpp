@@ -28,7 +28,7 @@ protected:
     return stage.read();
   }
 
-  // A cloth of many colours and lines over a floor, which uses all there is.
+  // A cloth of many colours and lines over a floor, which uses every feature.
   static Frame rich_frame() {
     Frame frame = front_view();
     frame.camera.eye = {1, -3, 1.5};
@@ -89,7 +89,7 @@ TEST_F(StageTest, OfASolidOnlyTheOutsideIsDrawn) {
   for (std::size_t n = 0; n < 6; n += 3)
     std::swap(frame.bodies[0].corners[n + 1], frame.bodies[0].corners[n + 2]);
   EXPECT_LT(largest_difference(picture(frame), empty), 3);
-  frame.bodies.push_back(screen(-0.2f, 0.2f, green)); // and sheets beside it keep both sides
+  frame.bodies.push_back(screen(-0.2f, 0.2f, green)); // while sheets beside it show both sides
   for (std::size_t n = 0; n < 6; n += 3)
     std::swap(frame.bodies[1].corners[n + 1], frame.bodies[1].corners[n + 2]);
   EXPECT_GT(largest_difference(picture(frame), empty), 100);
@@ -154,12 +154,13 @@ TEST_F(StageTest, TheFloorIsDarkWhereABodyNearlyTouchesIt) {
   frame.camera.eye = {0, -3, 2};
   frame.floor = FrameFloor{0};
   frame.light =
-      Eigen::Vector3d(0, 1, 1.2); // from behind: the shadow comes towards the camera, hiding nothing at x < 0
+      // from behind: the shadow falls towards the camera and covers nothing at x < 0
+      Eigen::Vector3d(0, 1, 1.2);
   frame.bodies.push_back(table(0.02f, 0.4f, red));
   const Image near = picture(frame);
   frame.bodies[0] = table(1.0f, 0.4f, red);
   const Image high = picture(frame);
-  const int x = width * 35 / 100, y = height / 2; // just beside it
+  const int x = width * 35 / 100, y = height / 2; // just beside the lid
   EXPECT_LT(brightness(near, x, y), brightness(high, x, y) - 10);
 }
 
@@ -180,7 +181,7 @@ TEST_F(StageTest, FromBelowTheFloorIsNotThere) {
   EXPECT_EQ(picture(frame), open);
 }
 
-// The height of the row of the brightest red in the middle column, within `margin` rows of y.
+// The row of the brightest red in column x, within `margin` rows of y.
 int warmest(const Image& image, int x, int y, int margin) {
   int best = y, most = -1000;
   for (int row = y - margin; row <= y + margin; ++row) {
@@ -195,11 +196,12 @@ TEST_F(StageTest, ATornLineShowsAlongItsEdge) {
   frame.bodies.push_back(screen(0, 0.5, grey, Line::Torn));
   const Image image = picture(frame);
   const double tangent = std::tan(35 * 3.14159265 / 360);
-  const int edge = static_cast<int>(height / 2 * (1 - 0.5 / 4 / tangent)); // the upper one
+  const int edge = static_cast<int>(height / 2 * (1 - 0.5 / 4 / tangent)); // the upper edge
   const int row = warmest(image, width / 2, edge, 5);
   EXPECT_NEAR(row, edge, 1);
   EXPECT_GT(image.at(width / 2, row)[0], image.at(width / 2, row)[2] + 40);
-  EXPECT_LT(image.at(width / 2, height / 2)[0], image.at(width / 2, height / 2)[2] + 20); // none in the middle
+  // no line in the middle
+  EXPECT_LT(image.at(width / 2, height / 2)[0], image.at(width / 2, height / 2)[2] + 20);
 }
 
 TEST_F(StageTest, LinesOfCellsAreDrawnOnlyWhereTheyAreWanted) {
@@ -228,7 +230,7 @@ TEST_F(StageTest, FourSamplesSmoothAnEdge) {
   FrameBody body;
   add_triangle(body, {-0.8f, 0, -0.5f}, {0.8f, 0, -0.4f}, {0, 0, 0.7f}, {0, 0, 0, 255});
   frame.bodies.push_back(body);
-  const auto between = [](const Image& image) { // pixels that are neither dark nor light
+  const auto between = [](const Image& image) { // intermediate pixels, neither dark nor light
     int count = 0;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) count += image.at(x, y)[1] > 100 && image.at(x, y)[1] < 180;
@@ -287,7 +289,8 @@ TEST_F(StageTest, ASizeThatCannotBeDrawnIsTheUsersError) {
   EXPECT_THROW(Stage(0, 10, 1), UserError);
 }
 
-// llvmpipe reads the number of threads once, so each number takes a process of its own: this program again.
+// llvmpipe reads the number of threads once per process, so each number needs a process: this test runs its own
+// program again.
 TEST_F(StageTest, DISABLED_WritesAPicture) {
   write_png(std::getenv("REND_TEST_PICTURE"), picture(rich_frame()));
 }
@@ -307,11 +310,11 @@ TEST_F(StageTest, ThePictureIsTheSameForAnyNumberOfThreads) {
   }
 }
 
-// More samples bring the picture nearer to one that is drawn four times as large and averaged.
+// More samples bring the picture nearer to one that is rendered at four times the size and averaged.
 TEST_F(StageTest, SixteenSamplesAreTheMeanOfALargerPicture) {
   Frame frame = rich_frame();
-  frame.occlusion = false; // it is found in as many pixels as the picture has, whatever its samples
-  for (auto* bodies : {&frame.bodies, &frame.obstacles}) // lines are as wide as the picture is high
+  frame.occlusion = false;                               // its resolution does not depend on the samples
+  for (auto* bodies : {&frame.bodies, &frame.obstacles}) // the width of lines depends on the picture's height
     for (FrameBody& body : *bodies)
       for (Corner& corner : body.corners) corner.line = {};
   const Image fine = picture(frame, 16);
@@ -373,7 +376,7 @@ TEST_F(StageTest, ASheetsFarSideHasItsOwnColour) {
   EXPECT_TRUE((b[0] > 2 * b[2]) != (f[0] > 2 * f[2]));
 }
 
-// A mirror image of the light is brighter the glossier the surface, and smaller the harder.
+// The highlight is brighter the glossier the surface, and smaller the sharper.
 TEST_F(StageTest, AFinishChangesTheLightAndNotTheShape) {
   Frame frame = rich_frame();
   const Image cloth = picture(frame);

@@ -1,4 +1,4 @@
-// rend info: its sum of bytes against what the heap has grown by, and what is left out against what is there.
+// rend info: the sum of its bytes against the growth of the heap, and what is left out against what is built.
 #include "render/facts/inventory.h"
 #include "sim/scene/memory.h"
 #include "tests/render/commands/program_run.h"
@@ -16,7 +16,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-// What the program has from the allocator [bytes].
+// Bytes in use in the allocator.
 std::size_t on_heap() {
   malloc_trim(0);
   const struct mallinfo2 info = mallinfo2();
@@ -30,7 +30,7 @@ struct Built {
     options.sets = std::move(sets);
     options.quiet = true;
     options.threads = 1;
-    { // what libraries keep for themselves is there after this
+    { // libraries keep caches, which are allocated here
       Session first(options);
       first.scene().step();
     }
@@ -44,9 +44,9 @@ struct Built {
   double grown = 0, listed = 0; // [bytes]
 };
 
-// Fixed objects, names and the preset take some 50 kB; nothing else may be missing.
+// Fixed objects, names and the preset take some 50 kB; everything else must be listed.
 void expect_all_is_listed(const Built& built) {
-  EXPECT_GT(built.listed, 1e6); // else 50 kB would be much
+  EXPECT_GT(built.listed, 1e6); // so that 50 kB are little
   EXPECT_LT(std::abs(built.grown - built.listed), 5e4 + 0.005 * built.grown)
       << built.listed << " bytes are listed, and the heap has grown by " << built.grown;
 }
@@ -73,7 +73,7 @@ TEST(Inventory, lists_all_of_wind_loads_and_contact) {
   expect_all_is_listed(Built("contact/drape.xml", {"body.sheet.cells=60 60"}));
 }
 
-// Of what is listed by name, in the order of the preset's parts.
+// Sum over the arrays that are listed by name.
 std::size_t listed(const Json& arrays) {
   std::size_t sum = 0;
   for (const Json& one : arrays) sum += one["bytes"].get<std::size_t>();
@@ -90,7 +90,7 @@ TEST(Inventory, sums_up_what_it_lists_in_every_preset) {
       std::size_t sum = listed(info["arrays"]);
       for (const Json& body : info["bodies"]) {
         sum += listed(body["arrays"]);
-        std::size_t tables = 0, parts = 0; // the tables that name what they are on say the same
+        std::size_t tables = 0, parts = 0; // the two tables must agree
         for (const char* table : {"slots", "embeddings", "laws"}) tables += listed(body[table]);
         for (const char* part : {"slots", "embeddings", "laws"})
           parts += body["bytes"].value(part, std::size_t{0});

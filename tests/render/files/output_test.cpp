@@ -39,7 +39,7 @@ Exit code_of(const std::function<void()>& what) {
   return Exit::Done;
 }
 
-// A file of the user's, and under six temporary names what is no killed run's.
+// A user's file, and six temporary names taken by what is not a killed run's file.
 class OutputAmongOthers : public testing::Test {
 protected:
   OutputAmongOthers() {
@@ -132,7 +132,7 @@ TEST(OutputFile, FollowsALinkThatTheUserNames) {
   EXPECT_EQ(content(folder / "other/file"), "new");
   EXPECT_TRUE(fs::is_symlink(folder / "x"));
 
-  fs::create_symlink(folder / "other/later", folder / "y"); // to what is not there yet
+  fs::create_symlink(folder / "other/later", folder / "y"); // a dangling link
   write_whole(followed(folder / "y"), "new");
   EXPECT_EQ(content(folder / "other/later"), "new");
   EXPECT_TRUE(fs::is_symlink(folder / "y"));
@@ -188,7 +188,7 @@ TEST(OutputFile, TwoThatWriteTheSameFileAtOnceDoNotDisturbEachOther) {
     EXPECT_EQ(first.temporary(), folder / "x.part");
     EXPECT_EQ(second.temporary(), folder / "x.2.part");
     EXPECT_EQ(third.temporary(), folder / "x.3.part");
-    remove_leftover(folder / "x"); // it is none
+    remove_leftover(folder / "x"); // not a temporary file
     second.write(bytes);
     second.write(bytes);
     second.commit();
@@ -233,7 +233,7 @@ TEST(OutputFile, OverwritesWhatAKilledRunLeftBehind) {
     std::filesystem::copy_file(file.temporary(), folder / "kept",
                                std::filesystem::copy_options::overwrite_existing);
     file.commit();
-    std::filesystem::copy_file(folder / "kept", file.temporary()); // as if it had never been renamed
+    std::filesystem::copy_file(folder / "kept", file.temporary()); // as if the rename had not happened
   }
   EXPECT_EQ(std::filesystem::file_size(folder / "x"), 3u);
 }

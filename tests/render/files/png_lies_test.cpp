@@ -1,4 +1,4 @@
-// PNG files that claim what they do not hold.
+// PNG files whose headers claim more than the files contain.
 #include "render/files/png_reader.h"
 
 #include "render/files/png.h"
@@ -21,7 +21,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& file) {
   return {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};
 }
 
-// What is wrong with it; empty where it can be read.
+// The error message; empty if it can be read.
 std::string said_of(const std::string& file) {
   try {
     read_deep_png(bytes_of(file), "a.png");
@@ -39,7 +39,7 @@ std::string said_of(const std::string& file) {
   return "";
 }
 
-// Both readers.
+// Peak memory of either reader.
 std::int64_t peak_of_reading(const std::string& file) {
   const Folder folder;
   std::ofstream(folder / "a.png", std::ios::binary) << file;
@@ -86,7 +86,7 @@ TEST(PngLies, memory_grows_with_the_rows_that_are_there) {
   EXPECT_LT(peak, 20 * megabyte);
 }
 
-// libpng is the judge: a byte fewer, and it misses one.
+// libpng decides: with one byte fewer it reports missing data.
 TEST(PngLies, the_size_of_the_rows_is_that_of_the_format) {
   NEEDS_PNG;
   const std::pair<int, int> kinds[] = {{1, 0},  {2, 0}, {4, 0}, {16, 0}, {8, 2},
@@ -128,7 +128,7 @@ TEST(PngLies, what_readers_forgive_is_read_and_the_rest_is_not) {
   EXPECT_THAT(said_of(file(png_chunk("IDAT", deflated(filter)))), HasSubstr("cannot be read"));
 }
 
-// Each text of 8 kB inflates to megabytes.
+// Each text chunk of 8 kB would inflate to megabytes.
 TEST(PngLies, texts_are_not_inflated) {
   NEEDS_PNG;
   const std::string text = png_chunk("zTXt", std::string("a\0\0", 3) + deflated(std::string(7'000'000, ' ')));
@@ -157,7 +157,7 @@ TEST(PngLies, a_header_tells_what_reading_will_take) {
         const std::vector<std::uint8_t> bytes = file_bytes(folder / "a.png");
         read_deep_png(bytes, "a.png");
       });
-      EXPECT_GT(peak, 2250000 * 6); // what is given back
+      EXPECT_GT(peak, 2250000 * 6); // the returned image
       EXPECT_LT(peak, static_cast<std::int64_t>(head.decoding_bytes()) + 5 * megabyte) << bits << " " << width;
       const std::int64_t checked = peak_of([&] { check_png(file_bytes(folder / "a.png"), "a.png"); });
       EXPECT_GE(checked, 0);

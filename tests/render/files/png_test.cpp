@@ -55,7 +55,7 @@ TEST(Png, OverAFolderCannotBeCreated) {
   EXPECT_EQ(folder.files(), 1);
 }
 
-// A limit on the size of files stands in for a disk that is full.
+// A limit on file size simulates a full disk.
 TEST(Png, AFailedWriteLeavesTheOldPictureAndNothingElse) {
   NEEDS_PNG;
   const Folder folder;
@@ -110,7 +110,7 @@ TEST(Png, WhatCannotBeReadIsSaidAsInComparisons) {
   const std::vector<std::uint8_t> png = encode_png(pattern(64, 64));
   std::string bytes(png.begin(), png.end());
   EXPECT_NE(said(bytes.substr(0, bytes.size() - 12)).find("cut off"), std::string::npos);
-  // A header that claims 2^32 pixels, with its CRC: nothing of that size is asked for.
+  // A header that claims 2^32 pixels, with a valid CRC: no memory of that size is allocated.
   bytes = bytes.substr(0, 16) + std::string("\0\1\0\0\0\1\0\0\10\2\0\0\0"
                                             "\xe3\xe6\xa7\xb4",
                                             17);

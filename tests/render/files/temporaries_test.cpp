@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In a process of its own, which ends then: what is removed here is so for good.
+// In a child process, since the program has to end afterwards.
 TEST(Temporaries, go_where_the_program_ends_at_once) {
   const test::Folder folder;
   const std::string empty = folder / "empty", full = folder / "full", cases = folder / "cases";
@@ -57,7 +57,7 @@ TEST(Temporaries, those_that_are_kept_stay) {
   EXPECT_TRUE(fs::exists(name));
 }
 
-// A file that another thread has created, and not yet told of.
+// A file that another thread has created, but not registered yet.
 TEST(Temporaries, one_that_is_being_created_is_waited_for) {
   const test::Folder folder;
   const std::string name = folder / "x";

@@ -22,7 +22,7 @@ class VideoTest : public testing::Test {
 protected:
   void SetUp() override { NEEDS_VIDEO; }
 
-  // A video of `count` pictures that change.
+  // Writes a video of `count` pictures that differ.
   static void write(const std::filesystem::path& path, int width, int height, int count, double fps = 25) {
     VideoWriter video;
     video.open(path, width, height, fps);
@@ -35,7 +35,8 @@ protected:
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  // What ffprobe says of the stream's `entries`, one after another, split by commas; skips the test without it.
+  // What ffprobe prints for `entries` of the stream, separated by commas; skips the test if it is not
+  // installed.
   static std::string probe(const std::filesystem::path& path, const std::string& entries) {
     const std::string command = fmt::format("ffprobe -v error -count_frames -select_streams v:0 -show_entries "
                                             "stream={} -of csv=p=0 '{}' 2>/dev/null",
@@ -97,7 +98,7 @@ TEST_F(VideoTest, PreviewsAreSmall) {
   }
 }
 
-// Pictures that look ahead are decoded earlier, but none is shown later: videos can be cut together.
+// With B-frames decoding starts earlier, but the first frame is shown at 0: videos can be concatenated.
 TEST_F(VideoTest, EveryVideoStartsAtZero) {
   if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe";
   for (const VideoFormat& format : video_formats()) {
@@ -117,7 +118,7 @@ TEST_F(VideoTest, AGifOfMoreThanFiftyPicturesASecondIsSlowedDown) {
   EXPECT_EQ(probe(folder / "a.gif", "nb_read_frames"), "25");
 }
 
-// What a program that is killed leaves behind can be played, but for its last second or so.
+// The file that a killed program leaves can be played, except for about its last second.
 TEST_F(VideoTest, WhatAKilledRunLeavesCanBePlayed) {
   if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe";
   for (const VideoFormat& format : video_formats()) {
@@ -128,7 +129,7 @@ TEST_F(VideoTest, WhatAKilledRunLeavesCanBePlayed) {
       VideoWriter video;
       video.open(folder / ("a." + format.name), 64, 64, 25);
       for (int k = 0; k < 120; ++k) video.add(pattern(64, 64, 3, k));
-      _exit(0); // nothing is closed
+      _exit(0); // without closing anything
     }
     ASSERT_GT(child, 0);
     int status = 0;

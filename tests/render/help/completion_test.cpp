@@ -13,7 +13,7 @@ namespace {
 using program::Outcome;
 using program::Place;
 
-// Asks the shells themselves: each reads the script that the program prints, and completes by it.
+// Runs the real shells: each loads the script that the program prints, and completes with it.
 class Completion : public testing::Test {
 protected:
   void SetUp() override {
@@ -26,7 +26,7 @@ protected:
     ASSERT_EQ(place.rend("help completion " + shell + " > ../" + shell).code, 0);
   }
 
-  // What bash offers for the last of these words, which are split as it splits them.
+  // What bash offers for the last of these words, split as bash does.
   std::string bash(const std::string& words) const {
     const Outcome outcome = place.shell("bash -c 'source ../bash; COMP_WORDS=(rend " + words +
                                         "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _rend; "
@@ -35,7 +35,7 @@ protected:
     EXPECT_EQ(outcome.err, "");
     return outcome.out.substr(0, outcome.out.size() - 1);
   }
-  // The same of fish, without descriptions, with blanks between.
+  // The same for fish, without descriptions, separated by blanks.
   std::string fish(const std::string& line) const {
     const Outcome outcome = place.shell("HOME=$PWD/.. fish -c 'source ../fish; complete -C \"rend " + line +
                                         "\"' | cut -f1 | tr '\\n' ' '");
@@ -93,7 +93,7 @@ TEST_F(Completion, of_fish_offers_commands_options_choices_and_files) {
   EXPECT_EQ(fish("help preset stret"), "stretch");
 }
 
-// A zsh that types: its completion works on a terminal only.
+// zsh in a pseudo-terminal: its completion works on a terminal only.
 TEST_F(Completion, of_zsh_offers_commands_options_choices_and_files) {
   if (!has("zsh")) GTEST_SKIP() << "zsh is not installed";
   if (::access("/dev/pts/ptmx", F_OK) != 0) GTEST_SKIP() << "there are no pseudo-terminals here";
@@ -113,7 +113,7 @@ for line in 'rend inf' 'rend render --vide' 'rend render --video=we' 'rend rende
 done
 )zsh");
   const Outcome outcome = place.shell("timeout 60 zsh type");
-  // Where the cursor leaves, zsh takes back the blank or = that it put there.
+  // When the cursor moves on, zsh removes the blank or = that it had inserted.
   EXPECT_EQ(outcome.out, "rend info\nrend render --video\nrend render --video=webm\nrend render plate.xml\n"
                          "rend mesh convert\nrend help schema\nrend render --set time.integrator\n"
                          "rend run --set time.integrator=symplectic\n"

@@ -28,7 +28,7 @@ TEST(Help, ShowsWhereASharedElementMayStand) {
 TEST(Help, TakesNamesAndPaths) {
   EXPECT_EQ(help_preset(scene, "body.springs.stretch", false), help_preset(scene, "stretch", false));
   EXPECT_EQ(help_preset(scene, "scene.body.springs.stretch", false), help_preset(scene, "stretch", false));
-  const std::string both = help_preset(scene, "key", false); // two types of that name
+  const std::string both = help_preset(scene, "key", false); // two types share the name
   EXPECT_NE(both.find("scene.camera.key"), std::string::npos);
   EXPECT_NE(both.find("scene.map.key"), std::string::npos);
   EXPECT_EQ(help_preset(scene, "map.key", false).find("camera"), std::string::npos);

@@ -46,7 +46,7 @@ TEST(Manual, of_presets_has_every_element) {
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
 }
 
-// Two readers of troff that know nothing of ours.
+// By two independent troff programs.
 TEST(Manual, is_read_without_warnings) {
   const Place place;
   ASSERT_EQ(place.rend("help man > rend.1").code, 0);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace small_table;
 
-// Asks xmllint (libxml2), which knows nothing of our reader.
+// Runs xmllint (libxml2), which is independent of our reader.
 class SchemaTest : public testing::Test {
 protected:
   void SetUp() override {
@@ -27,7 +27,7 @@ protected:
     if (!folder_.empty()) fs::remove_all(folder_);
   }
 
-  // xmllint's code: 0 valid, 3 not valid, 5 the schema itself is wrong.
+  // xmllint's exit code: 0 valid, 3 not valid, 5 the schema itself is wrong.
   int xmllint(const std::string& text) const {
     std::ofstream(folder_ / "p.xml") << text;
     const std::string folder = folder_.string();
@@ -100,7 +100,7 @@ TEST_F(SchemaTest, AgreesWithTheReader) {
   }
 }
 
-TEST_F(SchemaTest, LeavesSomeCountsToTheReader) { // as its header says
+TEST_F(SchemaTest, LeavesSomeCountsToTheReader) { // as schema.h says
   const std::string twice = changed("<map>", "<time/><map>");
   EXPECT_EQ(xmllint(twice), 0) << log();
   EXPECT_THROW(read_preset_text(twice, "p.xml", scene), UserError);

@@ -1,5 +1,5 @@
-// A small table of its own for the tests of what reads and prints tables. <look> is shared by two parents, and
-// two different types are called <key>.
+// A small parameter table for tests of what reads and prints tables. <look> is shared by two parents, and two
+// different types are called <key>.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -50,7 +50,7 @@ inline const ElementType scene{
     {text("name", "its name").is_required(), word("version", {"1"}, "of the format").otherwise("1")},
     {{&body, 1, -1}, {&time}, {&hud}, {&camera}, {&map}}};
 
-// A preset that fits, over several lines.
+// A valid preset, over several lines.
 inline constexpr const char* preset = R"(<?xml version="1.0" encoding="UTF-8"?>
 <!-- A preset of the small table. -->
 <scene name="small" version="1">

@@ -16,7 +16,7 @@ TEST(Colour, OfFragmentsDiffer) {
   for (std::size_t a = 0; a < 24; ++a)
     for (std::size_t b = 0; b < a; ++b)
       EXPECT_GT(distance(colour_of_number(a), colour_of_number(b)), 12) << a << " " << b;
-  for (std::size_t a = 1; a < 100; ++a) // those that come one after the other, by far
+  for (std::size_t a = 1; a < 100; ++a) // consecutive colours differ clearly
     EXPECT_GT(distance(colour_of_number(a), colour_of_number(a - 1)), 80) << a;
 }
 

@@ -12,7 +12,7 @@ Vec3 vec(const std::array<float, 3>& v) {
   return {v[0], v[1], v[2]};
 }
 
-// By the divergence theorem: only a closed surface that runs counter-clockwise everywhere gives it.
+// By the divergence theorem: right only for a closed surface that is counter-clockwise everywhere.
 double volume(const FrameBody& body) {
   double sum = 0;
   for (std::size_t n = 0; n < body.corners.size(); n += 3)

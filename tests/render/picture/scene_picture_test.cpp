@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-// A cloth that is pulled apart, with `sheet`, `look` and more elements of the scene.
+// A cloth that is pulled apart, with the given sheet, look and further elements of the scene.
 struct Shown {
   std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
@@ -144,7 +144,7 @@ TEST(Picture, TakesColourAndSceneFromThePreset) {
   EXPECT_EQ(frame.camera.eye, Eigen::Vector3d(0, -5, 0));
 }
 
-// A bar of 4 × 2 × 2 boxes that remembers its borders, and whose halves a test may part.
+// A bar of 4 × 2 × 2 boxes that records its initial borders, and whose halves a test may separate.
 struct ShownBar {
   std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
@@ -295,7 +295,7 @@ TEST(PictureMaker, a_hud_tells_what_it_is_asked_for) {
   EXPECT_EQ(hud.legends[0].high, "5 N");
   ASSERT_EQ(hud.plots.size(), 1u);
   ASSERT_EQ(hud.plots[0].curves.size(), 4u);
-  EXPECT_FLOAT_EQ(hud.plots[0].curves[2].values[0], 0); // of gravity, since the start
+  EXPECT_FLOAT_EQ(hud.plots[0].curves[2].values[0], 0); // of gravity, relative to the start
   EXPECT_EQ(hud.plots[0].frames, 31);
   EXPECT_EQ(
       hud.plots[0].curves[0].values,
@@ -329,10 +329,10 @@ TEST(PictureMaker, exploded_cells_are_all_there_whole_and_apart) {
     PictureMaker maker(picture_settings(*preset), scene, 1.5, 1, 31);
     maker.observe();
     const Frame frame = maker.draw(0, 0);
-    EXPECT_NEAR(volume_of(frame.bodies[0]), 12, 1e-4) << pattern; // nothing is lost or twice
+    EXPECT_NEAR(volume_of(frame.bodies[0]), 12, 1e-4) << pattern; // no cell is lost or doubled
     Eigen::AlignedBox3f box;
     for (const Corner& corner : frame.bodies[0].corners) box.extend(position(corner));
-    if (std::string(pattern) == "hexahedra") { // the outer ones' middles were 2 apart
+    if (std::string(pattern) == "hexahedra") { // the centres of the outermost cells were 2 apart
       EXPECT_NEAR(box.sizes().x(), 3 + 0.5 * 2, 1e-5);
     }
   }

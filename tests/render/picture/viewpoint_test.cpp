@@ -1,4 +1,4 @@
-// A camera that moves: by keys, and after the bodies.
+// A moving camera: keyed, and following the bodies.
 #include "render/picture/viewpoint.h"
 #include "sim/build/build_scene.h"
 
@@ -52,7 +52,7 @@ TEST(Viewpoint, keys_out_of_order_are_refused) {
   EXPECT_THROW(Viewpoint(picture_settings(*preset).camera, scene, 1.5, 2), UserError);
 }
 
-// Two bodies' worth of fall: every vertex stays inside of the picture.
+// The body falls twice its own size: every vertex stays inside the picture.
 TEST(Viewpoint, one_that_follows_loses_nothing_out_of_sight) {
   const auto preset = scene_with(R"(<camera frame="follow"/>)", R"(<fix near="0 0 0"/>)");
   Scene scene(read_scene(*preset), {});

@@ -24,7 +24,7 @@ PipelineOptions small(const std::filesystem::path& folder) {
   return options;
 }
 
-// A red square that grows with the number.
+// A red square whose size grows with the number.
 Frame numbered(int number) {
   Frame frame = front_view();
   frame.number = number;
@@ -43,7 +43,7 @@ TEST(Pipeline, WritesEveryFrameUnderItsNumber) {
   NEEDS_PNG;
   const Folder folder;
   for (const int writers : {1, 2}) {
-    PipelineOptions options = small(folder / "new/folder"); // made on the way
+    PipelineOptions options = small(folder / "new/folder"); // created by the pipeline
     options.png_writers = writers;
     Pipeline pipeline(options);
     for (const int number : {0, 2, 4, 6}) pipeline.push(numbered(number));
@@ -93,9 +93,9 @@ TEST(Pipeline, WithoutFinishKeepsPicturesAndRemovesTheVideo) {
 TEST(Pipeline, AnErrorOfAWriterComesOutOfPushOrFinish) {
   NEEDS_PNG;
   const Folder folder;
-  std::filesystem::create_directory(folder / "00001.png"); // in the way
+  std::filesystem::create_directory(folder / "00001.png"); // blocks the name of a picture
   try {
-    Pipeline pipeline(small(folder.path())); // it waits for the other writer when it goes
+    Pipeline pipeline(small(folder.path())); // its destructor waits for the other writer
     for (int number = 0; number < 50; ++number) pipeline.push(numbered(number));
     pipeline.finish();
     FAIL();

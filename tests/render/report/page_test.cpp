@@ -33,8 +33,7 @@ TEST(Page, IsWellFormedAsXmlAndAsHtml) {
       fs::temp_directory_path() / ("rend-page-" + std::to_string(std::random_device()()) + ".html");
   std::ofstream(file, std::ios::binary) << page("rend & \"all\"", all_blocks());
   EXPECT_EQ(std::system(("xmllint --noout '" + file.string() + "'").c_str()), 0);
-  // libxml2 knows the tags of HTML 4 alone, and says so of <main>, <figure>, <details>: whatever else it says
-  // is wrong
+  // libxml2 knows only HTML 4, and complains about <main>, <figure>, <details>: any other complaint is an error
   const std::string html =
       "xmllint --html --noout '" + file.string() + "' 2>&1 | grep ' error : ' | grep -v 'Tag .* invalid'";
   EXPECT_NE(std::system(html.c_str()), 0) << "xmllint found more";
@@ -59,8 +58,8 @@ TEST(Page, ShowsAsEscapesWhatIsNoCharacterOrActs) {
   EXPECT_EQ(escaped_lines("a\n\tb\033<").text, "a\n\tb\\x1b&lt;");
   EXPECT_EQ(preformatted("a\nb\n").text, "<pre>a\nb\n</pre>\n");
   EXPECT_EQ(escaped(std::string("a\0\033b", 4)).text, R"(a\x00\x1bb)");
-  EXPECT_EQ(escaped("\xff\xc0\xaf").text, R"(\xff\xc0\xaf)");                 // no UTF-8, and too long for '/'
-  EXPECT_EQ(escaped("\u009b\u202e\uffff").text, R"(\u{9b}\u{202e}\u{ffff})"); // U+FFFF is not for XML
+  EXPECT_EQ(escaped("\xff\xc0\xaf").text, R"(\xff\xc0\xaf)"); // invalid UTF-8, and an overlong '/'
+  EXPECT_EQ(escaped("\u009b\u202e\uffff").text, R"(\u{9b}\u{202e}\u{ffff})"); // U+FFFF is not allowed in XML
 }
 
 TEST(Page, WritesAddressesOfFilesOfAnyName) {

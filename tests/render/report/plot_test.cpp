@@ -1,4 +1,4 @@
-// Plots, against the script that gnuplot gets and the pictures that it makes of it.
+// Plots: the script for gnuplot, and the pictures that gnuplot makes from it.
 #include "render/report/gnuplot.h"
 #include "render/report/plot.h"
 #include "sim/base/check.h"
@@ -52,7 +52,7 @@ TEST(Plot, is_drawn_as_svg_and_as_png_the_same_bytes_each_time) {
   EXPECT_THAT(png, StartsWith("\x89PNG"));
   EXPECT_EQ(svg, *draw(example(), PlotFormat::Svg));
   EXPECT_EQ(png, *draw(example(), PlotFormat::Png));
-  if (const char* folder = std::getenv("REND_LOOK")) { // to be looked at
+  if (const char* folder = std::getenv("REND_LOOK")) { // set REND_LOOK to keep the pictures for inspection
     std::fwrite(png.data(), 1, png.size(), std::fopen((std::string(folder) + "/plot.png").c_str(), "wb"));
   }
 }

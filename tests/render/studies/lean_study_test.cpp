@@ -1,5 +1,5 @@
-// rend study --lean: what is switched on changes nothing where it must not, and what is not asked for takes no
-// bytes. Times are not looked at here.
+// rend study --lean: features have no effect where they must have none, and features that are off take no
+// bytes. Times are not tested here.
 #include "render/picture/scene_preset.h"
 #include "render/studies/lean_study.h"
 #include "sim/build/build_scene.h"
@@ -17,7 +17,7 @@ using program::Outcome;
 using program::Place;
 using testing::HasSubstr;
 
-// Some steps of every feature on the scenes of the house, made small.
+// A few steps of every feature on the built-in scenes, made small.
 const std::vector<LeanRow>& rows() {
   static const std::vector<LeanRow> all = [] {
     LeanPlan plan;
