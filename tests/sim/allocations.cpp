@@ -17,13 +17,14 @@ namespace {
 constexpr int deepest = 24;
 std::atomic<bool> looking{false};
 std::atomic<long> asked{0};
-std::array<void*, deepest> first{}; // the calls that led to the first of them
+std::array<void*, deepest> first{}; // the call stack of the first allocation
 int first_depth = 0;
 } // namespace
 
 void note(void* caller);
 
-// `caller`: of malloc or operator new. Never inlined, nor is what calls it: `first` names their callers.
+// `caller`: the return address of malloc or operator new. Neither this function nor its callers may be inlined,
+// since `first` records their callers.
 __attribute__((noinline)) void note(void* caller) {
   if (!looking.load(std::memory_order_relaxed)) return;
   Dl_info info;
@@ -33,7 +34,7 @@ __attribute__((noinline)) void note(void* caller) {
 
 long in(const std::function<void()>& work) {
   std::array<void*, 1> any;
-  backtrace(any.data(), 1); // loads what it needs, once
+  backtrace(any.data(), 1); // the first call of backtrace() loads libraries
   first_depth = 0;
   asked = 0;
   looking = true;

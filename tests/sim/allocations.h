@@ -1,8 +1,7 @@
-// Counts what asks for memory while it is looked at: operator new and the malloc family (Eigen), on every
-// thread.
+// Counts memory allocations of a piece of code, by operator new and the malloc family (Eigen), on every thread.
 //
-// allocations.cpp replaces both for the whole test program. What oneTBB asks for to hand out tasks is its own
-// affair and not counted. Not under AddressSanitizer, which replaces them itself.
+// allocations.cpp replaces both for the whole test program. Allocations by oneTBB's scheduler are not counted.
+// Not available under AddressSanitizer, which replaces them itself.
 #pragma once
 
 #include <functional>
@@ -16,7 +15,7 @@ constexpr bool counted = false;
 constexpr bool counted = true;
 #endif
 
-long in(const std::function<void()>& work); // how often memory is asked for in work()
-std::string who();                          // asked first in it: the calls that led there, for addr2line
+long in(const std::function<void()>& work); // the number of allocations made by work()
+std::string who();                          // the call stack of the first of them, for addr2line
 
 } // namespace rend::allocations

@@ -1,4 +1,4 @@
-// The maps that tests are run over: small, built by rules where rules can, and each odd in its own way.
+// The maps that tests run over: small, built by rules where possible, and each irregular in its own way.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -28,7 +28,7 @@ inline std::vector<Dart> all_darts(const GMap& map) {
   return darts;
 }
 
-// The four links of every dart, removed ones included: two maps are the same to the last link if these are.
+// The four links of every dart, removed ones included: equal lists mean identical maps.
 inline std::vector<std::array<std::uint32_t, 4>> links(const GMap& map) {
   std::vector<std::array<std::uint32_t, 4>> all(map.capacity());
   map.for_each_dart([&](Dart d) {
@@ -41,7 +41,7 @@ inline Dart add_quad(EmbeddedMap& body, double x, double y) {
   return apply(create_quad, body, {}, {{at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}, {}}).dart('a');
 }
 
-// Sews every pair of α2-free edges whose ends are at the same places.
+// Sews every pair of α2-free edges whose end points coincide.
 inline void sew_coincident(EmbeddedMap& body) {
   const GMap& map = body.map();
   const auto place = [&](Dart d) { return body.position_of(d); };
@@ -73,7 +73,7 @@ inline Body grid(int columns, int rows) {
   return body;
 }
 
-// Vertex, edge, face, subdivision: the way of thesis 3.4.2. 2^levels cells on a side.
+// Built by rules as in thesis 3.4.2: vertex, edge, face, subdivision. 2^levels cells on a side.
 inline Body checkerboard(int levels) {
   auto body = std::make_unique<EmbeddedMap>(2);
   const Dart d = apply(create_vertex, *body, {}, {{at(0, 0)}, {}}).dart('a');
@@ -106,7 +106,7 @@ inline Body fan(int n) {
 inline Body loop_of_quads(int n, bool twisted) {
   Body body = grid(n, 1);
   const GMap& map = body->map();
-  const auto find = [&](double x, double y) { // an α2-free dart there, of the edge that goes up or down
+  const auto find = [&](double x, double y) { // an α2-free dart there, of a vertical edge
     for (Dart d : all_darts(map))
       if (map.is_free(2, d) && body->position_of(d) == Vec3(x, y, 0) &&
           body->position_of(map.alpha(0, d)).x() == x)
@@ -141,7 +141,7 @@ inline Body mixed_sheet() {
   return body;
 }
 
-// Triangles, quads and pentagons sewn by chance: any surface, orientable or not, with edges sewn to themselves.
+// Triangles, quads and pentagons sewn at random: any surface, orientable or not, with edges sewn to themselves.
 inline Body random_sewing(unsigned seed, int faces, int attempts) {
   std::mt19937 random(seed);
   const auto coordinate = [&] { return static_cast<double>(random() % 100); };
@@ -161,9 +161,8 @@ inline Body random_sewing(unsigned seed, int faces, int attempts) {
   return body;
 }
 
-// The hexahedron with a corner at x: six quads sewn along their edges. Returns the dart of each face, -x +x -y
-// +y -z +z, that stands at the face's lowest corner and whose edge runs along the first axis that the face
-// holds.
+// The hexahedron with a corner at x: six quads sewn along their edges. Returns for each face, -x +x -y +y -z
+// +z, the dart at the face's lowest corner whose edge runs along the first axis in the face's plane.
 inline std::array<Dart, 6> add_cube(MapEdit& edit, std::vector<Vec3>& place, const Vec3& x) {
   std::vector<Dart> darts;
   std::array<Dart, 6> faces;
@@ -244,7 +243,7 @@ inline std::vector<Asset> all() {
           {"two cubes", [] { return row_of_cubes(2); }}};
 }
 
-// Arguments that satisfy any rule.
+// Arguments that satisfy the parameters of any rule.
 inline Arguments some_arguments() {
   return {{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, {Vec3(0, 0, 1)}};
 }

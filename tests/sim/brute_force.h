@@ -1,5 +1,5 @@
-// Forces and criteria computed from lists of polygons alone: no darts, no patterns, no folding. Slow and plain,
-// to compare the program with.
+// Forces and criteria computed from lists of polygons: no darts, no patterns, no folding. Slow and simple
+// reference implementations for the program.
 #pragma once
 
 #include "sim/random_meshes.h"
@@ -21,8 +21,7 @@ public:
     find_edges();
   }
 
-  // The polygons of a body that may be torn: points are vertex slots; sides that are open are no one's
-  // neighbours.
+  // The polygons of a body that may be torn: points are vertex slots; open sides have no neighbour.
   explicit BruteForce(const EmbeddedMap& map) {
     for (const Record& rest : map.rest().values()) mesh_.points.push_back(rest.vec());
     mesh_.first.push_back(0);
@@ -52,7 +51,7 @@ public:
     singles_.clear();
   }
 
-  // Adds the forces of an interaction, and counts: its units, and the pairs of particles that they act between.
+  // Adds the forces of an interaction, and counts its units and the pairs of particles that they connect.
   void add(const Spring& spring) {
     units_ = 0;
     pairs_.clear();
@@ -68,17 +67,18 @@ public:
   std::size_t units() const { return units_; }
   std::size_t pairs() const { return pairs_.size(); }
 
-  // Single springs and hinges, one after another.
+  // Elementary springs and hinges.
   struct Single {
-    std::string element;                               // "stretch", "shear", "bend"
-    double force = 0;                                  // [N], of a hinge its moment [N.m]; by size
-    double elongation = 0;                             // l/l0 − 1
-    Dart on;                                           // some dart of its cell: edge, face, edge
-    std::vector<std::pair<std::uint32_t, Vec3>> pulls; // point, force on it as one element corner [N]
+    std::string element;   // "stretch", "shear", "bend"
+    double force = 0;      // [N], magnitude; of a hinge its moment [N.m]
+    double elongation = 0; // l/l0 − 1
+    Dart on;               // some dart of its cell: edge, face, edge
+    // point, and the force on it as a corner of one element [N]
+    std::vector<std::pair<std::uint32_t, Vec3>> pulls;
   };
   const std::vector<Single>& singles() const { return singles_; }
   const std::vector<Dart>& darts() const { return dart_; } // of each corner
-  std::size_t corner_at(std::uint32_t point) const {       // one of them
+  std::size_t corner_at(std::uint32_t point) const {       // one of the corners there
     return static_cast<std::size_t>(std::find(mesh_.corners.begin(), mesh_.corners.end(), point) -
                                     mesh_.corners.begin());
   }
@@ -105,7 +105,8 @@ public:
       const Vec3 f = atomic ? Vec3((corner_[e.p.a] + corner_[e.p.b]) - (corner_[e.q.a] + corner_[e.q.b]))
                             : Vec3(force_[e.a] + force_[e.b]);
       Vec3 n1 = normal(e.p.polygon), n2 = normal(e.q.polygon);
-      if (e.p.forward == e.q.forward) n2 = -n2; // both walk their common edge the same way: turned over
+      // both traverse their common edge in the same direction: one is flipped
+      if (e.p.forward == e.q.forward) n2 = -n2;
       const Vec3 sum = (n1 + n2).norm() < 1e-12 ? n1 : Vec3(n1 + n2);
       const Vec3 across = (x_[e.b] - x_[e.a]).cross(sum);
       const Dart d = dart_[side(e)];
@@ -117,11 +118,11 @@ public:
   }
 
 private:
-  struct Flank { // an edge as one of its polygons has it; corners are indices into the list of all
+  struct Flank { // an edge as a side of one of its polygons; corners are indices into the list of all corners
     std::size_t polygon = 0;
     std::size_t a = 0, b = 0;           // at the edge's ends
-    std::size_t near_a = 0, near_b = 0; // the neighbours of these in the polygon, off the edge
-    bool forward = true;                // walked from a to b
+    std::size_t near_a = 0, near_b = 0; // their other neighbours in the polygon
+    bool forward = true;                // traversed from a to b
   };
   struct Edge {
     std::uint32_t a, b; // points
@@ -210,8 +211,7 @@ private:
     return sum / static_cast<double>(sides(f.polygon));
   }
 
-  // The dihedral angle from the directions that lead from the hinge into the two faces: π less the angle
-  // between them.
+  // The dihedral angle from the directions from the hinge into the two faces: π minus the angle between them.
   template <class Place> double dihedral(const Edge& e, Place&& place) const {
     const Vec3 a = place(e.p.a), u = (place(e.p.b) - a).normalized();
     const auto into = [&](const Flank& f) {
@@ -223,8 +223,8 @@ private:
     return (q.dot(u.cross(p)) > 0 ? -1 : 1) * (pi_ - between);
   }
 
-  // What is left of a hinge's forces where a triangle (hinge, face centre) has less than 1/8 of the smaller
-  // one's area at rest, by the squares of areas.
+  // The factor on a hinge's forces if the area of a triangle (hinge, face centre) is less than 1/8 of the
+  // smaller one's at rest, by the squares of areas.
   double crushed(const Edge& e) const {
     const auto area = [&](const Flank& f, auto&& place) {
       const Vec3 a = place(e.p.a);
@@ -247,7 +247,7 @@ private:
       const Vec3 a = at(e.p.a), ab = at(e.p.b) - a, u = ab.normalized();
       std::vector<std::pair<std::size_t, Vec3>> pulls; // corner, ∂θ/∂x
       for (const Flank& f : {e.p, e.q}) {
-        // The two outer vertices turn about the hinge as the point between them does.
+        // Both outer vertices have half the gradient of the midpoint between them.
         const Vec3 between = 0.5 * (at(f.near_a) + at(f.near_b)) - a, across = u.cross(between);
         const Vec3 g = (f.polygon == e.p.polygon ? -1 : 1) / across.norm() * across.normalized();
         const double t = between.dot(u) / ab.norm();
@@ -262,7 +262,7 @@ private:
       for (const auto& [c, g] : pulls) moment += s.damping * g.dot(speed(c));
       for (const auto& [c, g] : pulls) push(c, -moment * g);
       Single single{s.element, std::abs(fade * moment), 0, dart_[side(e)], {}};
-      std::map<std::size_t, Vec3> on_corner; // a triangle's outer vertex is near both ends
+      std::map<std::size_t, Vec3> on_corner; // the outer vertex of a triangle is a neighbour of both ends
       for (const auto& [c, g] : pulls) on_corner.try_emplace(c, Vec3::Zero()).first->second -= moment * g;
       for (const auto& [c, f] : on_corner) single.pulls.push_back({mesh_.corners[c], f});
       singles_.push_back(std::move(single));
@@ -280,7 +280,7 @@ private:
 
   PolygonMesh mesh_;       // points at rest
   std::vector<Dart> dart_; // of each corner, along the side that starts there
-  std::vector<bool> open_; // that side
+  std::vector<bool> open_; // whether that side is open
   std::vector<Edge> edges_;
   std::vector<Vec3> x_, v_, force_; // by point
   std::vector<Vec3> corner_;        // force, by corner

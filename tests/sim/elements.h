@@ -1,5 +1,5 @@
-// Single elements of every kind, distorted, and laws upon them; and bodies with elasticity: for tests that
-// compare with what is computed from the corners alone.
+// Single distorted elements of every kind with their laws, and elastic bodies: for tests that compare with what
+// is computed from the corners directly.
 #pragma once
 
 #include "sim/mechanics/elasticity.h"
@@ -39,7 +39,7 @@ inline Eigen::Matrix3d random_rotation(Noise& noise) {
   return Eigen::Quaterniond(noise(), noise(), noise(), noise() + 0.1).normalized().toRotationMatrix();
 }
 
-// Corners moved by up to `amount`, then turned and moved somewhere. Of a sheet in a plane of its own.
+// Corners displaced by up to `amount`, then rotated and translated at random. For a sheet, within its plane.
 inline std::vector<Vec3> distorted(ElementKind kind, double amount, unsigned seed) {
   Noise noise(seed);
   std::vector<Vec3> corners = regular(kind);
@@ -66,7 +66,7 @@ inline const std::vector<Model>& every_model() {
   return all;
 }
 
-// A law and one unit of it.
+// A law and one element for it.
 struct Element {
   std::vector<Vec3> rest, x, v;
   std::shared_ptr<const ElementLaw> law;
@@ -115,7 +115,7 @@ inline double largest(const std::vector<Vec3>& vectors) {
   return most;
 }
 
-// A bar whose inner and outer points are moved by up to `amount` of a box.
+// A bar whose inner and outer points are displaced by up to `amount` of a box.
 inline CellMesh warped_bar(BarPattern pattern, int nx, int ny, int nz, double amount, unsigned seed) {
   CellMesh mesh = bar_cells({pattern, nx, ny, nz, Vec3(nx, ny, nz)});
   Noise noise(seed);
@@ -162,7 +162,7 @@ struct NamedMap {
   std::unique_ptr<EmbeddedMap> map;
 };
 
-// Irregular sheets and solids of every kind of element, and mixed ones.
+// Irregular sheets and solids with every kind of element, and mixed ones.
 inline std::vector<NamedMap> irregular_maps(double amount = 0.15) {
   std::vector<NamedMap> all;
   all.push_back({"hexahedra", solid_from(warped_bar(BarPattern::Hexahedra, 3, 2, 3, amount, 1))});

@@ -1,4 +1,4 @@
-// The presets of the house, for tests that take each of them.
+// The shipped presets, for tests that run over each of them.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline std::filesystem::path path_of(const std::string& name) {
   return folder() / (name + ".xml");
 }
 
-// Sorted, such as "tear/moebius".
+// Sorted names, such as "tear/moebius".
 inline std::vector<std::string> all_presets() {
   namespace fs = std::filesystem;
   std::vector<std::string> names;
@@ -28,7 +28,7 @@ inline std::vector<std::string> all_presets() {
   return names;
 }
 
-// What a test of a preset is called.
+// The name of a preset as part of a test's name.
 inline std::string as_word(const testing::TestParamInfo<std::string>& one) {
   std::string name = one.param;
   std::replace_if(

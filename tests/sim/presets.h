@@ -21,7 +21,7 @@ inline const ElementType& scene_type() {
   return type;
 }
 
-// A scene and the preset that it keeps reading from.
+// A scene, with the preset that it refers to.
 struct Loaded {
   std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
@@ -36,7 +36,7 @@ inline Loaded load(const std::string& xml, const SceneOptions& options = {}) {
   return loaded;
 }
 
-// The cloth of the thesis's fig. 7.17 and table 7.1: two corners fixed. `tear` is the text of laws.
+// The cloth of the thesis's fig. 7.17 and table 7.1: two fixed corners. `tear` is XML of tearing laws.
 inline std::string cloth(const std::string& pattern, int cells, const std::string& tear = "",
                          const std::string& time = R"(<time step="1e-3" integrator="rk4" duration="1"/>)",
                          const std::string& bend = R"(<bend kind="provot" k="10"/>)",

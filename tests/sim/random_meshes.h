@@ -1,5 +1,5 @@
-// Irregular, warped sheets, and bodies put together from them without a preset: for tests that compare with
-// what is computed from the polygons alone.
+// Irregular, warped sheets, and bodies built from them without a preset: for tests that compare with references
+// computed from polygons.
 #pragma once
 
 #include "sim/body/body.h"
@@ -14,7 +14,7 @@
 
 namespace rend::meshes {
 
-// Numbers in [-1, 1), the same with every library.
+// Random numbers in [-1, 1), the same with every standard library.
 class Noise {
 public:
   explicit Noise(unsigned seed) : random_(seed) {}
@@ -29,7 +29,7 @@ private:
   std::mt19937 random_;
 };
 
-// Cells of about one by one.
+// Cells of about unit size.
 inline PolygonMesh sheet(SheetPattern pattern, int nx, int ny, SheetClosure closure = SheetClosure::None) {
   SheetShape shape;
   shape.pattern = pattern;
@@ -40,7 +40,7 @@ inline PolygonMesh sheet(SheetPattern pattern, int nx, int ny, SheetClosure clos
   return sheet_polygons(shape);
 }
 
-// Rows of bricks, each row moved by half a brick: hexagons, with triangles, quads and pentagons among them.
+// Rows of bricks, each shifted by half a brick: hexagons, with triangles, quads and pentagons among them.
 inline PolygonMesh bricks(int width, int rows) {
   PolygonMesh mesh;
   for (int y = 0; y <= rows; ++y)
@@ -64,7 +64,7 @@ inline PolygonMesh bricks(int width, int rows) {
   return mesh;
 }
 
-// Moves every point by up to `amount` in each direction.
+// Displaces every point by up to `amount` in each direction.
 inline PolygonMesh warped(PolygonMesh mesh, double amount, unsigned seed) {
   Noise noise(seed);
   for (Vec3& x : mesh.points) x += amount * noise.vector();
@@ -98,7 +98,7 @@ struct Spring {
   double k = 1, damping = 0;
 };
 
-// One of each interaction, with stiffnesses that tell them apart.
+// One of each interaction, with distinct stiffnesses.
 inline std::vector<Spring> all_springs(double damping = 0) {
   return {{"stretch", "", 60, damping},
           {"shear", "isotropic", 43, 0.7 * damping},
@@ -110,7 +110,7 @@ inline std::vector<Spring> all_springs(double damping = 0) {
 struct Recipe {
   std::vector<Spring> springs = all_springs();
   Cumulated cumulated = Cumulated::Auto;
-  std::vector<std::string> criteria; // laws that never apply by themselves
+  std::vector<std::string> criteria; // laws that never reach their threshold
   double threshold = 1e30;
   double drag = 0;    // per particle
   bool fixed = false; // the vertex of dart 0 is held
@@ -188,7 +188,7 @@ inline double largest(const std::vector<Record>& forces) {
   return most;
 }
 
-// The largest difference of two lists of forces, as a share of the largest force.
+// The largest difference of two lists of forces, relative to the largest force.
 inline double difference(const std::vector<Record>& a, const std::vector<Record>& b) {
   if (a.size() != b.size()) return 1e300;
   double most = 0;

@@ -1,4 +1,4 @@
-// Four arc tangents at once against one after another, bit for bit.
+// The SIMD arc tangent of four doubles against the scalar one, bit for bit.
 #include "sim/base/arc_tangent.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(ArcTangentOfFour, has_the_bits_of_one_at_any_scale_and_beyond) {
         y.push_back(signs & 1 ? -a : a);
         x.push_back(signs & 2 ? -b : b);
       }
-  for (int n = 0; n < 100000; ++n) { // of any bits at all
+  for (int n = 0; n < 100000; ++n) { // random bit patterns
     y.push_back(std::bit_cast<double>(random()));
     x.push_back(std::bit_cast<double>(random()));
   }

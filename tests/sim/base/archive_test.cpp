@@ -164,7 +164,7 @@ TEST(Archive, takes_what_is_infinite_where_that_is_said_and_never_a_nan) {
 TEST(Archive, refuses_lists_that_are_longer_than_they_may_be_before_there_is_room_for_them) {
   std::vector<std::uint8_t> bytes(1'000'000);
   const auto first = [&](std::uint64_t count) { std::memcpy(bytes.data(), &count, sizeof count); };
-  std::vector<Thing> things; // each takes 12 bytes here, and 40 in memory
+  std::vector<Thing> things; // each takes 12 bytes in the archive, and 40 in memory
   std::vector<std::uint8_t> plain;
   for (const std::uint64_t count :
        {std::uint64_t{11}, std::uint64_t{900'000}, std::uint64_t{1} << 60U, ~std::uint64_t{0}}) {

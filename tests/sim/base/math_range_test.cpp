@@ -1,4 +1,4 @@
-// Angles of many turns and of none, where a reduction by rounded steps would show.
+// Angles of many turns and tiny ones, where a range reduction with rounding errors would show.
 #include "sim/base/math.h"
 
 #include <cmath>

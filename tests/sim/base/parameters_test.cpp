@@ -30,7 +30,7 @@ PresetNode with(std::string_view attribute, const std::string& value) {
   return node;
 }
 
-// Runs `act`, which must be refused as bad input at `place`; returns the message, with the hint behind it.
+// Runs `act`, which must throw a UserError (BadInput) at `place`; returns its message and hint.
 template <class Act> std::string refusal(Act act, const std::string& place = "tree.xml:3:14") {
   try {
     act();
@@ -81,7 +81,8 @@ TEST(Parameters, HintsAtTheDecimalPoint) {
 }
 
 TEST(Parameters, ReadsNumbersInAnyLocale) {
-  const char* german = std::setlocale(LC_NUMERIC, "de_DE.UTF-8"); // may not be installed: then nothing is lost
+  // may not be installed: then this is not tested
+  const char* german = std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
   EXPECT_EQ(with("length", "1.5").number("length"), 1.5);
   if (german) std::setlocale(LC_NUMERIC, "C");
 }
@@ -223,9 +224,9 @@ TEST(Parameters, ChildrenAreFoundByTheirNames) {
 
 TEST(Parameters, AskingForTheWrongKindIsOurOwnSlip) {
   const PresetNode node = with("step", "auto");
-  EXPECT_THROW(node.number("step"), InternalError);   // a word stands there
-  EXPECT_THROW(node.integer("step"), InternalError);  // another kind
-  EXPECT_THROW(node.number("length"), InternalError); // not there
+  EXPECT_THROW(node.number("step"), InternalError);   // the attribute is a keyword
+  EXPECT_THROW(node.integer("step"), InternalError);  // the attribute is a real number
+  EXPECT_THROW(node.number("length"), InternalError); // no value
   EXPECT_THROW(node.number("lenght"), InternalError); // not in the table
   EXPECT_THROW(node.has("lenght"), InternalError);
   EXPECT_THROW(with("knots", "1 2").vector("knots"), InternalError);

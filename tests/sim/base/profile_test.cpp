@@ -18,7 +18,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// However long the machine does something else in between.
+// However long the thread is descheduled in between.
 TEST(Profile, gives_each_second_to_the_innermost_phase) {
   const auto before = Clock::now();
   Profile profile(Profile::Extent::EveryStep);
@@ -37,11 +37,12 @@ TEST(Profile, gives_each_second_to_the_innermost_phase) {
   const double all = seconds_since(before);
   const double forces = profile.spent(Phase::Forces).seconds,
                integration = profile.spent(Phase::Integration).seconds;
-  EXPECT_GE(forces, 0.0199); // sleeping lasts at least so long, but for a reading
+  EXPECT_GE(forces, 0.0199); // sleeping lasts at least that long, up to the resolution of the clock
   EXPECT_GE(integration, 0.0099);
   EXPECT_LE(profile.total(), all);
-  EXPECT_GE(forces + integration, inside - 3 * profile.reading() - 1e-9); // taken off; and rounding
-  EXPECT_EQ(profile.spent(Phase::Integration).turns, 2);                  // there, and back to it
+  // the cost of reading the clock is subtracted; rounding
+  EXPECT_GE(forces + integration, inside - 3 * profile.reading() - 1e-9);
+  EXPECT_EQ(profile.spent(Phase::Integration).turns, 2); // entering and returning to it
   EXPECT_EQ(profile.spent(Phase::Forces).turns, 1);
   EXPECT_EQ(profile.spent(Phase::Contact).turns, 0);
 }
@@ -59,7 +60,7 @@ TEST(Profile, forgets_what_was_before) {
   EXPECT_EQ(profile.spent(Phase::Guard).turns, 0);
 }
 
-// Of many tries one at least is not interrupted.
+// At least one of many tries is not interrupted.
 TEST(Profile, takes_the_reading_of_the_clock_off) {
   Profile profile(Profile::Extent::EveryStep);
   EXPECT_GT(profile.reading(), 0);
@@ -69,7 +70,7 @@ TEST(Profile, takes_the_reading_of_the_clock_off) {
     for (int n = 0; n < 2000; ++n) const Within forces(&profile, Phase::Forces);
     least = std::min(least, profile.spent(Phase::Forces).seconds);
   }
-  EXPECT_LT(least, 2000 * profile.reading()); // next to nothing was done
+  EXPECT_LT(least, 2000 * profile.reading()); // almost nothing was done
 }
 
 TEST(Profile, that_nobody_asks_for_is_no_profile) {
@@ -83,11 +84,12 @@ TEST(Profile, times_one_step_in_sixteen_and_changes_of_topology_in_all) {
     {
       const Within forces(&profile, Phase::Forces);
       const Within changes(&profile, Phase::Changes);
-      const Within inside(&profile, Phase::Forces); // of a change: not by itself where the step is not timed
+      const Within inside(&profile, Phase::Forces); // nested: no time of its own in steps that are not sampled
     }
     profile.end_step();
   }
-  EXPECT_EQ(profile.spent(Phase::Changes).turns, 32 + 2); // there; and back to it in the two timed steps
+  // entering, and returning to it in the two sampled steps
+  EXPECT_EQ(profile.spent(Phase::Changes).turns, 32 + 2);
   EXPECT_EQ(profile.spent(Phase::Forces).turns, 2 * 3);
   EXPECT_EQ(profile.seconds(Phase::Changes), profile.spent(Phase::Changes).seconds);
   EXPECT_DOUBLE_EQ(profile.seconds(Phase::Forces), 16 * profile.spent(Phase::Forces).seconds);

@@ -1,4 +1,4 @@
-// Copies of a loop for each vector unit against each other, bit for bit, and what REND_SIMD may say.
+// The versions of a loop for each SIMD width against each other, bit for bit, and the values of REND_SIMD.
 #include "sim/base/simd_width.h"
 
 #include "sim/base/simd.h"
@@ -16,7 +16,7 @@
 namespace rend {
 namespace {
 
-// Products and sums that a fused multiply-add would round otherwise, roots, quotients, and a sum over lanes.
+// Products and sums that a fused multiply-add would round differently, roots, quotients, and a sum over lanes.
 REND_INLINE double mix(const Record* a, const Record* b, std::size_t count, Record* out) {
   Double4 total{};
   for (std::size_t i = 0; i + 4 <= count; i += 4) {

@@ -9,11 +9,11 @@ namespace {
 const std::vector<std::string> words = {"stretch", "shear", "bend", "thickness", "k", "eye"};
 
 TEST(Wording, FindsTheNearestName) {
-  EXPECT_EQ(nearest("strech", words), "stretch");  // a letter too few
-  EXPECT_EQ(nearest("sheear", words), "shear");    // one too many
-  EXPECT_EQ(nearest("bned", words), "bend");       // two swapped
+  EXPECT_EQ(nearest("strech", words), "stretch");  // a missing letter
+  EXPECT_EQ(nearest("sheear", words), "shear");    // an extra letter
+  EXPECT_EQ(nearest("bned", words), "bend");       // two letters swapped
   EXPECT_EQ(nearest("BEND", words), "bend");       // capitals
-  EXPECT_EQ(nearest("thick", words), "thickness"); // a beginning
+  EXPECT_EQ(nearest("thick", words), "thickness"); // a prefix
   EXPECT_EQ(nearest("ey", words), "eye");
 }
 
@@ -50,9 +50,10 @@ TEST(Wording, QuotesKeepATerminalSafe) {
   EXPECT_EQ(in_quotes("abc"), "'abc'");
   EXPECT_EQ(in_quotes("a\033[1m\nb\x7f"), R"('a\x1b[1m\nb\x7f')");
   EXPECT_EQ(in_quotes(std::string(100, 'x')), "'" + std::string(60, 'x') + "...'");
-  EXPECT_EQ(in_quotes(std::string(59, 'x') + "\n"), "'" + std::string(59, 'x') + "...'"); // as it is shown
+  // the escaped length counts
+  EXPECT_EQ(in_quotes(std::string(59, 'x') + "\n"), "'" + std::string(59, 'x') + "...'");
   EXPECT_EQ(in_quotes("é€😀"), "'é€😀'");
-  // The 60th byte lies within the é, which is left out whole.
+  // The 60th byte is within the é, which is dropped as a whole.
   EXPECT_EQ(in_quotes(std::string(59, 'x') + "é and more"), "'" + std::string(59, 'x') + "...'");
 }
 

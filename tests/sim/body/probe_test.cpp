@@ -1,5 +1,5 @@
-// Probes against means and against the laws of motion: what supports a body bears its weight, its loads and
-// what it takes to turn it.
+// Probes against averages and laws of motion: the reaction of a support balances the weight, the loads and the
+// change of angular momentum.
 #include "sim/body/probe.h"
 
 #include "sim/base/math.h"
@@ -41,7 +41,7 @@ TEST(Probe, tells_the_mean_of_its_vertices_however_they_are_split) {
   }
 }
 
-// At rest, and on the way there: the reaction is what Newton's law leaves.
+// At rest and in motion: the reaction follows from Newton's law.
 TEST(Probe, finds_that_a_support_bears_the_weight_of_what_hangs_on_it) {
   const auto scene = cloth(R"(<viscosity value="2" per="body"/><fix side="+z"/><probe name="top" side="+z"/>
     <probe name="low" side="-z"/><load near="0.5 0 0" force="0.5 0 -1"/>)");
@@ -62,8 +62,8 @@ TEST(Probe, finds_the_force_that_a_turning_body_takes) {
   EXPECT_NEAR((*reading(scene).reaction - rate * Vec3(0, 1, 0).cross(scene->momentum())).norm(), 0, 1e-11);
 }
 
-// The patch test of MacNeal & Harder (1985), plane stress: u = G X with E = 1e6 and ν = 0.25 gives
-// σx = σy = 1333.3, τ = 400.
+// The patch test of MacNeal & Harder (1985), plane stress: u = G X with E = 1e6 and ν = 0.25 gives σx = σy =
+// 1333.3, τ = 400 [Pa].
 TEST(Probe, tells_the_stress_of_the_elements_there) {
   for (const char* pattern : {"quads", "triangles", "mixed"}) {
     const auto scene = presets::load(R"(<scene><body><sheet pattern=")" + std::string(pattern) +

@@ -39,10 +39,10 @@ TEST(Hull, knows_its_outside_where_a_volume_is_not_convex) {
   body->map().for_each_dart([&](Dart d) {
     ASSERT_FALSE(body->map().is_free(2, d));
     const Vec3 area = rest_area_vector(*body, d);
-    Vec3 centre = Vec3::Zero(); // a point of the face, pushed along its normal: inside or outside the L?
+    Vec3 centre = Vec3::Zero(); // a point of the face, offset along its normal: inside or outside of the L?
     const auto darts = darts_of(body->map(), FaceOfVolume, d);
     for (Dart e : darts) centre += body->rest_of(e) / static_cast<double>(darts.size());
-    if (darts.size() == 12) centre.head<2>().setConstant(0.5); // the mean of an L's corners is not in it
+    if (darts.size() == 12) centre.head<2>().setConstant(0.5); // the mean of an L's corners is not inside it
     const Vec3 probe = centre + 0.1 * area.normalized();
     const bool inside = probe.z() > 0 && probe.z() < 1 && probe.x() > 0 && probe.y() > 0 &&
                         ((probe.x() < 3 && probe.y() < 1) || (probe.x() < 1 && probe.y() < 3));

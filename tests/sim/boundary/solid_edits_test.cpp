@@ -1,4 +1,5 @@
-// The surface of solids after edits, against the α3-free faces found orbit by orbit, and against a new one.
+// The surface of solids after edits, against the α3-free faces found by visiting every orbit, and against a
+// surface built from scratch.
 #include "sim/boundary/solid_surface.h"
 
 #include "sim/assets.h"
@@ -16,7 +17,7 @@ namespace {
 using namespace solids;
 using meshes::Noise;
 
-// The α3-free faces, orbit by orbit, with groups by merging and neighbours by collecting <2,3>.
+// Finds α3-free faces orbit by orbit, groups by union, neighbours by collecting orbits <2,3>.
 class BruteForce {
 public:
   explicit BruteForce(const Body& body, const std::set<Dart>& born_free) : body_(body), map_(body.map->map()) {
@@ -33,7 +34,7 @@ public:
   const std::vector<Dart>& faces() const { return faces_; }
   bool bare(Dart first) const { return bare_.at(first); }
 
-  // Twice the area at rest or now, away from the cell's middle.
+  // Twice the area vector at rest or now, pointing away from the cell's centre.
   Vec3 outward(Dart d, bool rest) const {
     const Vec3 middle = mean(Volume, d, rest), centre = mean(FaceOfVolume, d, rest);
     Vec3 sum = Vec3::Zero();
@@ -47,7 +48,7 @@ public:
     return rest && sum.dot(centre - middle) < 0 ? Vec3(-sum) : rest_side;
   }
 
-  // By the group's name.
+  // Normals by the representative dart of their group.
   std::map<Dart, Vec3> normals() {
     std::map<Dart, Vec3> all;
     for (Dart first : faces_) {
@@ -98,7 +99,7 @@ private:
     } while (at != from);
     return false;
   }
-  // 1: the walk from d over α0(d) is outward at rest.
+  // 1: the cycle from d through α0(d) is counter-clockwise seen from outside, at rest.
   double outward_sign(Dart d) const {
     const Vec3 middle = mean(Volume, d, true), centre = mean(FaceOfVolume, d, true);
     const Vec3 next = place(map_.alpha(0, d), true);
@@ -203,7 +204,7 @@ TEST(SolidSurface, equals_brute_force_and_a_new_one_along_storms_of_separations_
 TEST(SolidSurface, equals_a_new_one_along_storms_of_any_edit) {
   std::vector<Named> solids = all();
   solids.push_back({"warped hexahedra", bar(BarPattern::Hexahedra, 3, 3, 3)});
-  Noise warp(2); // edges of all angles, faces not flat
+  Noise warp(2); // edges of all angles, non-planar faces
   for (Vec3& x : solids.back().mesh.points) x += 0.25 * warp.vector();
   for (const Named& solid : solids) {
     SCOPED_TRACE(solid.name);
@@ -216,10 +217,10 @@ TEST(SolidSurface, equals_a_new_one_along_storms_of_any_edit) {
           for (;;)
             if (const Dart d{noise.below(body->map->map().capacity())}; body->map->map().alive(d)) return d;
         };
-        for (int n = 0; n < 2; ++n) { // several edits to one update
+        for (int n = 0; n < 2; ++n) { // several edits before an update
           body->map->edit([&](Edit& edit) {
             for (int k = 0; k < 4; ++k) unsew(edit, 3, any());
-            for (int k = 0; k < 60; ++k) sew(edit, 3, any(), any()); // faces that never met, too
+            for (int k = 0; k < 60; ++k) sew(edit, 3, any(), any()); // also faces that were never neighbours
             if (round % 5 == 4 && count_cells(edit.map(), Volume) > 3) remove_element(edit, any());
           });
           if (round % 3 == 1) apply(triangulate_face_both_sides, *body->map, any());
@@ -241,7 +242,7 @@ void remove_cells(Body& body, std::initializer_list<std::uint32_t> cells) {
   });
 }
 
-// Two holes that touch at a point of the solid: two fans around one vertex.
+// Two holes that touch at a vertex of the solid: two fans of faces around it.
 TEST(SolidSurface, of_a_vertex_with_two_fans_sees_both) {
   const auto body = solids::body(bar(BarPattern::Hexahedra, 2, 2, 2));
   const std::set<Dart> born = free_faces(body->map->map());
@@ -259,7 +260,8 @@ TEST(SolidSurface, of_a_vertex_with_two_fans_sees_both) {
   expect_equal(surface, *body, BruteForce(*body, born));
 }
 
-// Two cells between the same two layers that share nothing but an edge's ends: four faces there, two by two.
+// Two cells that share only the end points of an edge, between the same two layers: four faces there, in two
+// pairs.
 TEST(SolidSurface, of_an_edge_that_two_sheets_of_the_hull_touch_along_keeps_them_apart) {
   const auto body = solids::body(bar(BarPattern::Hexahedra, 2, 2, 3), false);
   SolidSurface surface(*body->map, body->border);

@@ -1,4 +1,4 @@
-// The surface of solids, against their cells as plain lists.
+// The surface of solids, against their cells as index lists.
 #include "sim/boundary/solid_surface.h"
 
 #include "sim/assets.h"
@@ -14,7 +14,7 @@ namespace {
 
 using namespace solids;
 
-// Faces of single cells, by their sorted points.
+// Faces that belong to a single cell, as sorted points.
 std::multiset<std::vector<std::uint32_t>> faces_of_one_cell(const CellMesh& mesh) {
   constexpr std::array<const char*, 4> faces{"012 013 023 123", "0123 4567 0145 1256 2367 3047",
                                              "012 345 0143 1254 2035", "0123 014 124 234 304"};
@@ -114,7 +114,7 @@ TEST(SolidSurface, of_a_bar_has_sharp_edges_between_flat_sides) {
       for (std::size_t k = 0; k < 3; ++k) {
         if (t.side[k] == Side::Inner) continue;
         const Vec3 x = place(*body, t.vertex[(k + 1) % 3]), y = place(*body, t.vertex[(k + 2) % 3]);
-        int planes = 0; // sides of the bar that the edge lies in
+        int planes = 0; // sides of the bar that contain the edge
         for (int axis = 0; axis < 3; ++axis)
           planes += x[axis] == y[axis] && (x[axis] == 0 || x[axis] == (axis == 0 ? 4 : 2));
         EXPECT_EQ(t.side[k], planes == 2 ? Side::Crease : Side::Cell);
@@ -141,7 +141,7 @@ TEST(SolidSurface, of_a_ball_is_smooth) {
 TEST(SolidSurface, turns_and_bends_its_normals_with_the_body_but_keeps_its_creases) {
   const auto body = solids::body(bar(BarPattern::Hexahedra, 12, 2, 2));
   SolidSurface surface(*body->map, body->border);
-  for (Record& x : body->map->position().values()) { // a quarter of a ring of radius 8 in the middle
+  for (Record& x : body->map->position().values()) { // bent into a quarter of a ring of radius 8
     const double angle = x.vec().x() / 8, r = 7 + x.vec().z();
     x = Record(Vec3(r * std::sin(angle), x.vec().y(), r * std::cos(angle)));
   }
@@ -153,7 +153,7 @@ TEST(SolidSurface, turns_and_bends_its_normals_with_the_body_but_keeps_its_creas
       const Vec3 along(std::cos(angle), 0, -std::sin(angle)), up(std::sin(angle), 0, std::cos(angle));
       const Vec3 n = normals[t.corner[k]];
       const double best = std::max(
-          {std::abs(n.dot(along)), std::abs(n.dot(up)), std::abs(n.y())}); // along one of the turned axes
+          {std::abs(n.dot(along)), std::abs(n.dot(up)), std::abs(n.y())}); // along one of the rotated axes
       EXPECT_GT(best, std::cos(0.07));
     }
 }
@@ -195,7 +195,7 @@ TEST(SolidSurface, keeps_the_hull_smooth_and_the_bare_faces_flat_on_a_warped_sol
   CellMesh mesh = ball(BarPattern::Hexahedra, 6);
   const auto body = solids::body(mesh);
   SolidSurface surface(*body->map, body->border);
-  body->map->edit([&](Edit& edit) { // all that is sewn through the middle
+  body->map->edit([&](Edit& edit) { // unsews the cross-section in the middle
     for (std::uint32_t d = 0; d < edit.map().capacity(); ++d) {
       double most = 0;
       for (Dart e : darts_of(edit.map(), FaceOfVolume, Dart{d}))
@@ -211,7 +211,7 @@ TEST(SolidSurface, keeps_the_hull_smooth_and_the_bare_faces_flat_on_a_warped_sol
       bare += t.bare;
       const Vec3 expected =
           t.bare ? area_vector(*body, t).normalized() : place(*body, t.vertex[k]).normalized();
-      // Next to the cut a hull corner sees its own side alone, which is a chord's tilt.
+      // At a cut, a corner averages over its own side only, which is tilted like a chord.
       EXPECT_GT(normals[t.corner[k]].dot(expected), t.bare ? 1 - 1e-12 : std::cos(0.25));
     }
   EXPECT_EQ(bare, 2u * 36 * 2 * 3);
@@ -226,7 +226,7 @@ TEST(SolidSurface, marks_nothing_bare_where_nothing_may_tear) {
   surface.update();
   EXPECT_TRUE(surface.same_as(SolidSurface(*body->map, body->border)));
   for (const Triangle& t : triangles_of(surface)) EXPECT_FALSE(t.bare);
-  EXPECT_FALSE(body->map->uses(FaceOfVolume)); // nor is there a slot for any face
+  EXPECT_FALSE(body->map->uses(FaceOfVolume)); // no slots for faces are allocated either
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// What a solid's surface draws, taken from its triangles one by one, for tests of it.
+// Quantities of a solid's surface, computed triangle by triangle.
 #pragma once
 
 #include "sim/body/body.h"
@@ -33,15 +33,15 @@ inline Vec3 area_vector(const Body& body, const Triangle& t) {
   return 0.5 * (place(body, t.vertex[1]) - a).cross(place(body, t.vertex[2]) - a);
 }
 
-// Of what the triangles enclose.
+// The volume enclosed by the triangles.
 inline double volume_of(const Body& body, const SolidSurface& surface) {
   double sum = 0;
   for (const Triangle& t : triangles_of(surface)) sum += place(body, t.vertex[0]).dot(area_vector(body, t)) / 3;
   return sum;
 }
 
-// How often each directed side of a triangle occurs, less how often its opposite does: nothing remains of what
-// is closed.
+// For each directed side of a triangle, how often it occurs minus how often its opposite does: empty for a
+// closed surface.
 inline std::map<std::pair<Slot, Slot>, int> open_sides(const SolidSurface& surface) {
   std::map<std::pair<Slot, Slot>, int> count;
   for (const Triangle& t : triangles_of(surface))

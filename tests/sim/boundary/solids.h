@@ -1,5 +1,4 @@
-// Solids for tests of their surface: bodies without mechanics, made of cells, and the same cells as plain
-// lists.
+// Solids for tests of their surface: bodies of cells without mechanics, and the same cells as index lists.
 #pragma once
 
 #include "sim/body/body.h"
@@ -20,7 +19,7 @@ inline CellMesh bar(BarPattern pattern, int nx, int ny, int nz) {
 constexpr std::array<BarPattern, 4> all_patterns{BarPattern::Hexahedra, BarPattern::Tetrahedra,
                                                  BarPattern::Prisms, BarPattern::Mixed};
 
-// A cube of cells drawn onto a ball of radius 1, smoothly (Nowell's map): the cube's surface becomes the
+// A cube of cells mapped smoothly onto a ball of radius 1 (Nowell's map): the cube's surface becomes the
 // sphere.
 inline CellMesh ball(BarPattern pattern, int cells) {
   CellMesh mesh = bar(pattern, cells, cells, cells);
@@ -46,7 +45,7 @@ inline std::vector<Named> all() {
       {"tube", tube_cells({8, 4, Vec3(1, 1, 2), 0.2})},   {"ball", ball(BarPattern::Tetrahedra, 4)}};
 }
 
-// With memory of its borders, as one that tears has.
+// With a column that records initial borders, as for bodies that can tear.
 inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, bool tears = true) {
   auto made = std::make_unique<Body>();
   made->map = std::move(map);

@@ -1,4 +1,4 @@
-// The surface along a run that tears, and on a band without sides.
+// The surface during a run that tears, and on a non-orientable band.
 #include "sim/boundary/surface.h"
 
 #include "sim/presets.h"
@@ -49,7 +49,7 @@ TEST(SurfaceOfARun, keeps_its_triangles_and_shows_two_torn_sides_a_tear) {
   EXPECT_EQ(border, 4u * 8);
 }
 
-// Neighbours on a smooth band have nearly the same normal, up to its sign; so have those across the seam.
+// Neighbours on a smooth band have nearly the same normal, up to its sign; also across the seam.
 TEST(SurfaceOfAMoebiusBand, has_normals_that_are_continuous_up_to_their_sign) {
   for (const char* pattern : {"quads", "triangles", "crossed", "mixed"}) {
     const auto scene = presets::load(std::string(R"(<scene><body><sheet pattern=")") + pattern +

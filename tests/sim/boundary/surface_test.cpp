@@ -26,7 +26,8 @@ std::unique_ptr<Body> tearing(const PolygonMesh& mesh) {
   return body(mesh, recipe);
 }
 
-// Sides that are drawn as lines: by the pair of their ends, what they are. Slots are a body's vertices.
+// The sides that are drawn as lines, with their kind, by the pair of their end points. Slots are those of
+// vertices.
 std::multimap<std::pair<Slot, Slot>, Side> lines_of(const Surface& surface) {
   std::multimap<std::pair<Slot, Slot>, Side> lines;
   for (const Surface::Triangle& t : triangles_of(surface))
@@ -124,7 +125,7 @@ TEST(Surface, marks_both_lips_of_a_tear_and_no_border) {
       EXPECT_EQ(count(Side::Border), border);
     }
     EXPECT_GT(torn, 8u);
-    const Surface anew(*body->map, body->border); // what is torn is known to the body, not to the surface
+    const Surface anew(*body->map, body->border); // what is torn is recorded in the body, not in the surface
     EXPECT_TRUE(anew.same_as(surface));
   }
 }
@@ -184,7 +185,7 @@ TEST(Surface, normals_are_the_sums_over_corners_up_to_their_sign) {
     const Surface surface(*body->map, body->border);
     std::vector<Vec3> normals;
     surface.normals(normals);
-    // Around each point the corners' vectors, turned to agree with their neighbours by walking over shared
+    // Around each point the corners' normals, oriented like those of their neighbours by walking across shared
     // edges.
     for (std::uint32_t p = 0; p < sheet.mesh.points.size(); ++p) {
       struct Corner {
@@ -232,7 +233,7 @@ TEST(Surface, normals_of_a_moebius_band_are_unit_vectors_everywhere) {
     std::vector<Vec3> normals;
     surface.normals(normals);
     for (Slot v = 0; v < normals.size(); ++v) EXPECT_NEAR(normals[v].norm(), 1, 1e-12);
-    body->map->edit([](Edit& edit) { // and torn all along
+    body->map->edit([](Edit& edit) { // and torn along its length
       for (std::uint32_t d = 0; d < edit.map().capacity(); d += 3) unsew(edit, 2, Dart{d});
     });
     surface.update();

@@ -1,4 +1,4 @@
-// What bodies are made of, from presets: elasticity, springs of solids, and what is refused.
+// Bodies built from presets: elasticity, springs of solids, and invalid combinations.
 #include "sim/build/build_matter.h"
 
 #include "sim/body/measure.h"
@@ -77,7 +77,7 @@ TEST(Elasticity, names_an_element_without_area) {
   PolygonMesh mesh;
   mesh.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(2, 0, 0)};
   mesh.add({0, 1, 2});
-  mesh.add({0, 1, 3}); // in a line
+  mesh.add({0, 1, 3}); // collinear
   for (const char* model : {"corotational", "mass-tensor"}) {
     try {
       elements::elastic_body(sheet_from(mesh), {model});
@@ -90,7 +90,7 @@ TEST(Elasticity, names_an_element_without_area) {
   }
 }
 
-// Every vertex of a body under F = Q (I + E): the same stress and strain.
+// Every vertex under F = Q (I + E): every model gives the same stress and strain everywhere.
 TEST(Measure, of_a_uniform_strain_is_the_same_everywhere_for_every_model) {
   for (const char* model : {"linear", "corotational", "mass-tensor"}) {
     for (auto& each : elements::irregular_maps()) {
@@ -111,13 +111,13 @@ TEST(Measure, of_a_uniform_strain_is_the_same_everywhere_for_every_model) {
   }
 }
 
-// A cell at rest and one that is pulled, which share a face: thesis 7.2 gives the vertices between them the
-// share of the pulled one's mass, however many corners each mass is spread over.
+// A cell at rest and a stretched one, which share a face: by thesis 7.2 the stress at the vertices between them
+// is weighted by mass, however many corners each mass is spread over.
 struct Pair {
   std::string name;
   std::unique_ptr<EmbeddedMap> map;
-  Vec3 pulled;      // where the vertices are [m] that only the pulled one has
-  double share = 0; // of its mass
+  Vec3 pulled;      // [m], positions of vertices of the stretched cell only
+  double share = 0; // the stretched cell's share of mass
 };
 
 std::vector<Pair> pairs_of_cells() {
@@ -136,7 +136,7 @@ std::vector<Pair> pairs_of_cells() {
   return all;
 }
 
-// [Pa], the stress along x of a cell 1 m long whose end moves by 1 mm.
+// [Pa], stress along x of a cell 1 m long that is stretched by 1 mm.
 double pulled_by_a_millimetre(int dimension) {
   const ElasticMaterial m = ElasticMaterial::of(1000, 0.3, dimension);
   return (m.lambda + 2 * m.mu) * 1e-3;
@@ -174,7 +174,7 @@ TEST(Measure, of_stress_is_each_cells_own_once_they_have_let_go) {
     SCOPED_TRACE(pair.name);
     const auto body = pulled_pair(pair, "corotational");
     const int dimension = body->map->dimension();
-    const std::size_t corners = dimension == 2 ? 3 : 5; // of the pulled cell
+    const std::size_t corners = dimension == 2 ? 3 : 5; // of the stretched cell
     const double pulled = pulled_by_a_millimetre(dimension);
     body->map->edit(
         [&](Edit& edit) { body->map->map().for_each_dart([&](Dart d) { unsew(edit, dimension, d); }); });
@@ -204,7 +204,7 @@ TEST(Measure, of_force_is_the_largest_that_one_element_puts_on_the_vertex) {
   for (std::size_t v = 0; v < expected.size(); ++v) EXPECT_NEAR(force[v], expected[v], 1e-11 * expected[v]);
 }
 
-// A scrambled solid comes back to rest (relaxed against its own drag).
+// A scrambled solid returns to its rest shape (with viscous drag).
 TEST(Elasticity, a_scrambled_solid_comes_back_to_rest) {
   const auto scene =
       presets::load(scene_of(R"(<bar pattern="tetrahedra" cells="2 2 2" size="1 1 1"/><mass density="1000"/>)"

@@ -21,7 +21,7 @@ const ReadPreset read = [](const CheckCase& which, const std::string* instead, c
   return load_scene_text(instead ? *instead : which.preset, which.name, overrides);
 };
 
-// A pair of masses on springs, stepped with symplectic Euler: 20/s, so that 0.1 s is the limit.
+// Masses on springs with symplectic Euler: ω = 20/s, so the stable step is 0.1 s.
 CheckCase oscillator(const std::string& step) {
   CheckCase one;
   one.name = "test/oscillator";
@@ -59,7 +59,7 @@ TEST(CheckCase, FailsInWordsWhereSomethingIsThrown) {
   EXPECT_EQ(result.finding.verdict, Verdict::Failed);
   EXPECT_NE(result.finding.what.find("step"), std::string::npos);
   one.run = [](const Bench&, Finding& finding) { finding.at_most("x", NAN, 1); };
-  EXPECT_EQ(run_case(one, read).finding.verdict, Verdict::Failed); // no number lies within no bounds
+  EXPECT_EQ(run_case(one, read).finding.verdict, Verdict::Failed); // NaN is within no bounds
 }
 
 TEST(CheckFamilies, HaveNamesOfTheirOwnAndGoodPresets) {

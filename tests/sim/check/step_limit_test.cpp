@@ -14,7 +14,7 @@ const Scheme& scheme(const char* name) {
   return *find_scheme(name);
 }
 
-// The formulas of mechanics.md, "Time", come out of the schemes themselves.
+// The closed forms of stable steps (tests/README.md, "Closed forms") follow numerically from the schemes.
 TEST(StepLimitOfMode, IsTheFormulaWhereThereIsOne) {
   for (const double omega : {0.5, 40.0, 3e5}) {
     const double w2 = omega * omega;
@@ -53,8 +53,8 @@ Built built(const std::string& matter, const std::string& integrator) {
   return b;
 }
 
-// Damped by mass and stiffness together every mode stands for itself, and the fastest rules; the body is free,
-// so that drifting and turning must not be taken for growth.
+// With Rayleigh damping the modes are decoupled, and the fastest one determines the step. The body is free:
+// rigid motions must not be taken for growth.
 TEST(StepLimit, OfABodyIsThatOfItsFastestModeUnderProportionalDamping) {
   for (const char* name : {"symplectic", "verlet", "rk4"})
     for (const char* more : {"", " damping-mass=\"3\"", " damping-mass=\"3\" damping-stiffness=\"2e-3\""}) {
@@ -66,7 +66,8 @@ TEST(StepLimit, OfABodyIsThatOfItsFastestModeUnderProportionalDamping) {
     }
 }
 
-// Each particle alike: what is light is damped most. No formula says how much; the scheme's matrix does.
+// Equal damping of each particle: light ones are damped most, and modes are coupled. There is no closed form;
+// the scheme's amplification matrix is used.
 TEST(StepLimit, SeesWhatDampingCouples) {
   const Built b =
       built("<elasticity model=\"corotational\" young=\"1e4\"/><viscosity value=\"30\"/>", "verlet");

@@ -1,4 +1,4 @@
-// The floor against Coulomb's law.
+// Contact with the floor, against Coulomb's law.
 #include "sim/outside/floor_contact.h"
 
 #include "sim/presets.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double thickness = 0.002;
 
-// A sheet that lies on the floor and was given a speed along it.
+// A sheet on the floor with an initial tangential velocity.
 presets::Loaded sliding(const std::string& friction, const std::string& integrator) {
   return presets::load(
       R"(<scene><body><sheet cells="3 3" size="1 1"/><place translate="0 0 0.002"/><mass total="0.1"/>

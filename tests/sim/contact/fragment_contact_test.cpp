@@ -1,5 +1,5 @@
-// Pieces among each other: they keep momentum, do not pass, and neither explode nor stick where they were
-// parted.
+// Contact between fragments: they conserve momentum, do not interpenetrate, and neither explode nor stick where
+// they were separated.
 #include "sim/contact/fragment_contact.h"
 
 #include "sim/presets.h"
@@ -76,7 +76,7 @@ TEST(FragmentContact, solids_that_collide_keep_their_momentum_and_do_not_pass) {
   EXPECT_GT(apart.z(), 0.1);
 }
 
-// Cuts a sheet or solid in two where x passes `at`, by unsewing.
+// Cuts a sheet or solid in two at the plane x = `at`, by unsewing.
 void cut(Body& body, double at) {
   EmbeddedMap& map = *body.map;
   const int link = map.dimension();
@@ -129,7 +129,7 @@ TEST(FragmentContact, halves_of_a_solid_that_was_cut_do_not_pass_back_through_ea
   const Vec3 momentum = scene->momentum();
   for (int n = 0; n < 400; ++n) scene->step();
   EXPECT_LT((scene->momentum() - momentum).norm(), 1e-12);
-  double left = -1e300, right = 1e300; // where the halves meet
+  double left = -1e300, right = 1e300; // x of the halves where they meet
   const auto& x = scene.body().map->position();
   for (Slot n = 0; n < vertices.slots(); ++n)
     if (label[vertices.first_dart(n).value] == 0)
@@ -139,7 +139,7 @@ TEST(FragmentContact, halves_of_a_solid_that_was_cut_do_not_pass_back_through_ea
   EXPECT_LT(left - right, 0.03) << "a tenth of the size";
 }
 
-// How many edges of a sheet pass through faces that they share no vertex with: by brute force.
+// The number of edges of a sheet that intersect faces with which they share no vertex: by brute force.
 int crossings(const Body& body) {
   const auto& x = body.map->position();
   Boundary boundary(*body.map, body.border);
@@ -169,7 +169,7 @@ int crossings(const Body& body) {
   return count;
 }
 
-// A strip that is folded by its own weight.
+// A strip that folds under its own weight.
 TEST(FragmentContact, self_keeps_a_falling_strip_from_passing_through_itself) {
   const auto run = [](const std::string& with, int threads) {
     SceneOptions options;

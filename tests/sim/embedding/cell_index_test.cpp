@@ -19,7 +19,7 @@ Orbit orbit_of(int mask) {
   return orbit;
 }
 
-// Every orbit has one slot and every live slot one orbit, whose smallest dart it knows.
+// Every orbit has one slot and every live slot one orbit, whose smallest dart it records.
 void expect_sound(const GMap& map, const CellIndex& cells) {
   std::set<Slot> met;
   std::vector<char> seen(map.capacity(), 0);
@@ -38,7 +38,7 @@ void expect_sound(const GMap& map, const CellIndex& cells) {
   for (Slot s = 0; s < cells.slots(); ++s) ASSERT_EQ(cells.alive(s), met.count(s) == 1);
 }
 
-// The orbits as they are, by slot.
+// The darts of each orbit, by slot.
 std::map<Slot, std::vector<Dart>> orbits(const GMap& map, const CellIndex& cells) {
   std::map<Slot, std::vector<Dart>> all;
   map.for_each_dart([&](Dart d) { all[cells.slot(d)].push_back(d); });
@@ -211,7 +211,7 @@ TEST(CellIndex, what_becomes_one_keeps_the_slot_of_its_smallest_dart) {
   }
 }
 
-// Three quads in a row, of which two are sewn. The edit lets go of the one and sews the middle one to the
+// Three quads in a row, of which two are sewn. The edit unsews the middle quad from the one and sews it to the
 // other.
 void expect_that_the_middle_changes_sides(bool from_the_first) {
   GMap map(2);

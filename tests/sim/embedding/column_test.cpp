@@ -16,7 +16,7 @@ struct Calls {
   void clear() { *this = {}; }
 };
 
-// Counts what is asked of it; the value is a sum of what it was made of.
+// Counts the calls of its policies; the value is the sum of what it was made of.
 struct Counting {
   using Value = double;
   std::string name = "counting";
@@ -37,7 +37,7 @@ struct Counting {
   }
 };
 
-// A corner's share of the mass of its face, by the area at rest [kg], of a sheet of 1 kg/m².
+// A corner's share of the mass of its face, by area at rest [kg], of a sheet of 1 kg/m².
 struct CornerMass {
   using Value = double;
   std::string name = "corner mass";

@@ -35,10 +35,10 @@ TEST(EmbeddedMap, separating_one_edge_inside_a_sheet_splits_no_vertex) {
   const CellIndex& vertices = body->cells(Vertex);
   apply(unsew_edge, *body, find_edge(*body, Vec3(1, 1, 0), Vec3(2, 1, 0)));
   EXPECT_EQ(vertices.count(), 16u);
-  // The next edge from the same vertex splits it, ...
+  // Separating the next edge at the same vertex splits it, ...
   apply(unsew_edge, *body, find_edge(*body, Vec3(2, 1, 0), Vec3(2, 2, 0)));
   EXPECT_EQ(vertices.count(), 17u);
-  // ... and one that runs to the border splits both its ends.
+  // ... and an edge that ends at the border splits both its end points.
   apply(unsew_edge, *body, find_edge(*body, Vec3(1, 1, 0), Vec3(0, 1, 0)));
   EXPECT_EQ(vertices.count(), 19u);
   EXPECT_FALSE(validate(*body));
@@ -121,7 +121,7 @@ TEST(EmbeddedMap, readers_are_told_which_darts_and_slots_an_edit_changed) {
     const auto& moved = changes.moved[Vertex.mask];
     EXPECT_EQ(before[e.value] != body->vertex(e), std::count(moved.begin(), moved.end(), e) == 1);
   }
-  EXPECT_EQ(changes.slots[Vertex.mask].size(), 4u); // two splits: whole and fragment
+  EXPECT_EQ(changes.slots[Vertex.mask].size(), 4u); // two splits: the remaining part and the fragment
   EXPECT_TRUE(changes.moved[FaceOfVolume.mask].empty());
   changes.clear();
   body->unsubscribe(changes);

@@ -12,7 +12,7 @@
 namespace rend {
 namespace {
 
-// Where each dart is, and something on its corner.
+// The position of each dart, and a value at its corner.
 struct Carried {
   using Value = std::uint32_t;
   std::string name = "who I am";
@@ -30,7 +30,7 @@ std::vector<Dart> inner_faces(const GMap& map) {
   return faces;
 }
 
-// Tetrahedra, some of whose faces have let go one after another, anywhere.
+// Tetrahedra, with some faces separated one after another, at random.
 std::unique_ptr<EmbeddedMap> crumbled(int n, double share, Changes* reader = nullptr) {
   auto body = solid_from(bar_cells({BarPattern::Tetrahedra, n, n, n, Vec3(1, 1, 1)}));
   body->add(Carried{});
@@ -59,7 +59,7 @@ void expect_numbered_as_if_built_now(const EmbeddedMap& body) {
 TEST(Reorder, gives_the_slots_of_a_map_built_now_and_every_dart_keeps_its_values) {
   Changes reader;
   const auto body = crumbled(3, 0.5, &reader);
-  body->edit([&](Edit& edit) { // slots without darts, before and after others
+  body->edit([&](Edit& edit) { // free slots before and after others
     for (const Dart first : {Dart{48u}, Dart{240u}}) {
       for (const Dart d : darts_of(edit.map(), Volume, first)) unsew(edit, 3, d);
       remove_orbit(edit, Volume, first);

@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-// As elements have them: four slots for each 24 darts, some darts removed.
+// As for elements: four slots for each 24 darts, some darts removed.
 std::vector<Slot> slots_of_elements(std::size_t darts) {
   std::vector<Slot> slots;
   for (std::uint32_t d = 0; d < darts; ++d) slots.push_back(d % 97 == 5 ? no_slot : 4 * (d / 24) + d % 4);
@@ -47,7 +47,7 @@ TEST(SlotTable, stays_wide_where_slots_lie_far_apart) {
   EXPECT_EQ(table.bytes(), 4000);
 }
 
-// Whatever is set afterwards: no slot, one near by, one far away, more darts.
+// Whatever is set afterwards: no slot, a nearby one, a distant one, more darts.
 TEST(SlotTable, is_the_same_as_a_plain_array_whatever_is_set) {
   std::vector<Slot> slots = slots_of_elements(3000);
   SlotTable table = table_of(slots);
@@ -67,7 +67,7 @@ TEST(SlotTable, is_the_same_as_a_plain_array_whatever_is_set) {
   expect_same(table, slots);
 }
 
-// Over a small one, over one that is wide, and back.
+// Reads over a small table, over a large one, and back.
 TEST(SlotTable, is_stored_as_it_is_and_takes_no_more_room_where_it_is_read) {
   const std::vector<Slot> slots = slots_of_elements(2000);
   SlotTable wide = table_of(slots), packed = table_of(slots), small(5), once_packed = table_of(slots);

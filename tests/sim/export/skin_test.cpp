@@ -1,5 +1,5 @@
-// The skin that is exported: what pictures show, welded as the map is, turned outward, at the state's own
-// positions.
+// The exported surface: the same as in pictures, with vertices merged as in the map, oriented outward, at the
+// positions of the state.
 #include "sim/export/skin.h"
 
 #include "sim/boundary/solid_surface.h"
@@ -15,7 +15,7 @@
 namespace rend {
 namespace {
 
-using Corner = std::array<double, 3>; // a position: bodies that hang together nowhere share none here
+using Corner = std::array<double, 3>; // a position; unconnected bodies have no position in common here
 using Side = std::pair<std::int32_t, std::int32_t>;
 
 std::vector<std::int32_t> ring_of(const Skin& skin, std::size_t face) {
@@ -28,7 +28,7 @@ Vec3 point_of(const Skin& skin, std::int32_t p) {
   return {x[0], x[1], x[2]};
 }
 
-// How often each side is walked, one way.
+// The number of traversals of each directed side.
 std::map<Side, int> sides_of(const Skin& skin) {
   std::map<Side, int> all;
   for (std::size_t f = 0; f < skin.ends.size(); ++f) {
@@ -48,7 +48,7 @@ std::size_t open_sides(const Skin& skin) {
   return open;
 }
 
-// Cones over triangles of the faces [m³].
+// By cones over triangles of the faces [m³].
 double volume_of(const Skin& skin) {
   double sixfold = 0;
   for (std::size_t f = 0; f < skin.ends.size(); ++f) {
@@ -69,7 +69,7 @@ void expect_positions_of(const Skin& skin, const Scene& scene) {
   }
 }
 
-// Triangles as sets of vertex slots, so that neither order nor the first corner counts.
+// Triangles as sets of vertex slots, independent of orientation and first corner.
 using Triangles = std::multiset<std::set<Slot>>;
 
 Triangles fans_of(const Skin& skin) {
@@ -172,7 +172,7 @@ TEST(Skin, holds_several_bodies_one_after_another) {
   EXPECT_EQ(skin.bodies, (std::vector<SkinOfBody>{{"first", false, 6, 2}, {"second", false, 14, 8}}));
   EXPECT_EQ(skin.body_of_face, (std::vector<std::int32_t>{0, 0, 1, 1, 1, 1, 1, 1}));
   EXPECT_EQ(skin.fragment, skin.body_of_face);
-  EXPECT_EQ(skin.equivalent.size(), 8u); // of the sheet 0
+  EXPECT_EQ(skin.equivalent.size(), 8u); // on the sheet, 0
   EXPECT_EQ(skin.largest_stress.size(), 14u);
   EXPECT_EQ(open_sides(skin), 6u);
 }

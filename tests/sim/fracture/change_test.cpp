@@ -1,4 +1,4 @@
-// Topological changes, against what is counted by hand and what plain lists of elements say.
+// Topological changes, against counts by hand and a reference on lists of elements.
 #include "sim/fracture/torn_bodies.h"
 
 #include <gtest/gtest.h>
@@ -25,12 +25,12 @@ TEST(Separate, of_one_edge_inside_a_sheet_splits_no_vertex_and_of_the_next_one) 
   EXPECT_TRUE(separate_at(*body, {2, 1.5, 0}));
   EXPECT_EQ(counts(*body), "25 41 16 0 in 1"); // a slit
   EXPECT_TRUE(separate_at(*body, {2, 2.5, 0}));
-  EXPECT_EQ(counts(*body), "26 42 16 0 in 1"); // longer: its middle opens
+  EXPECT_EQ(counts(*body), "26 42 16 0 in 1"); // longer: its middle vertex splits
   EXPECT_TRUE(separate_at(*body, {2, 0.5, 0}));
-  EXPECT_EQ(counts(*body), "28 43 16 0 in 1"); // to the border: there, too
+  EXPECT_EQ(counts(*body), "28 43 16 0 in 1"); // up to the border: that vertex splits as well
   EXPECT_TRUE(separate_at(*body, {2, 3.5, 0}));
   EXPECT_EQ(counts(*body), "30 44 16 0 in 2");
-  EXPECT_FALSE(separate_at(*body, {0, 0.5, 0})); // a border
+  EXPECT_FALSE(separate_at(*body, {0, 0.5, 0})); // already a border
 }
 
 TEST(Separate, of_faces_isolates_a_hexahedron_of_a_block) {
@@ -41,7 +41,7 @@ TEST(Separate, of_faces_isolates_a_hexahedron_of_a_block) {
   for (const Vec3& side : {Vec3(1.5, 1.5, 2), Vec3(1.5, 1, 1.5), Vec3(1.5, 2, 1.5), Vec3(1, 1.5, 1.5)})
     EXPECT_TRUE(separate_at(*body, side));
   EXPECT_TRUE(separate_at(*body, {2, 1.5, 1.5}));
-  // Its 8 vertices, 12 edges and 6 faces are its own now.
+  // Its 8 vertices, 12 edges and 6 faces are no longer shared.
   EXPECT_EQ(counts(*body), "72 156 114 27 in 2");
 }
 
@@ -49,7 +49,7 @@ TEST(Separate, of_three_faces_isolates_the_corner_of_a_block) {
   const auto body = block(3);
   for (const Vec3& side : {Vec3(1, 0.5, 0.5), Vec3(0.5, 1, 0.5), Vec3(0.5, 0.5, 1)})
     EXPECT_TRUE(separate_at(*body, side));
-  EXPECT_EQ(counts(*body), "71 153 111 27 in 2"); // all but its own vertex and three edges were shared
+  EXPECT_EQ(counts(*body), "71 153 111 27 in 2"); // all were shared but one vertex and three edges
 }
 
 TEST(DeleteElement, leaves_a_hole_in_a_block) {
@@ -74,26 +74,26 @@ TEST(DeleteElement, of_one_face_of_a_sheet_leaves_a_hole) {
 TEST(DeleteEdge, deletes_all_that_hold_it) {
   const auto sheet = quads(3, 3);
   EXPECT_TRUE(make(*sheet, "delete-edge", Cell::Edges, {1, cell_at(*sheet, Cell::Edges, {1, 1.5, 0}), {}}));
-  EXPECT_EQ(counts(*sheet), "16 22 7 0 in 1"); // it, and a side that no other face has
+  EXPECT_EQ(counts(*sheet), "16 22 7 0 in 1"); // the face, and a side that belongs to no other
   const auto solid = block(3);
   EXPECT_TRUE(make(*solid, "delete-edge", Cell::Edges, {1, cell_at(*solid, Cell::Edges, {1, 1, 1.5}), {}}));
-  EXPECT_EQ(count_cells(solid->map->map()).volumes, 23u); // a hole of four
+  EXPECT_EQ(count_cells(solid->map->map()).volumes, 23u); // a hole of four cells
   EXPECT_TRUE(make(*solid, "delete-edge", Cell::Edges, {1, cell_at(*solid, Cell::Edges, {3, 3, 0.5}), {}}));
-  EXPECT_EQ(count_cells(solid->map->map()).volumes, 22u); // on a ridge one holds it
+  EXPECT_EQ(count_cells(solid->map->map()).volumes, 22u); // in a ridge only one cell contains it
 }
 
 TEST(SplitVertex, on_an_edge_splits_the_other_end_where_one_cannot_be_split) {
   const auto body =
       torn::body(sheet_from(meshes::sheet(SheetPattern::Quads, 3, 4)), {{"split-vertex", Cell::Edges}});
   ASSERT_NE(body->corner_force.size(), 0u);
-  // At the side of the sheet both faces lie on one side of the plane: it is the inner end that is split,
-  // lengthwise.
+  // At the side of the sheet both faces are on one side of the plane: the vertex at the inner end is split,
+  // along the edge.
   EXPECT_TRUE(make(*body, "split-vertex", Cell::Edges, {1, cell_at(*body, Cell::Edges, {0.5, 2, 0}), {}}));
   EXPECT_EQ(counts(*body), "21 33 12 0 in 1");
   EXPECT_EQ(body->map->cells(Vertex).count(), 21u);
 }
 
-// Σ over the corners, at that end, of the two faces that hold the edge.
+// Σ over the corners, at that end, of the two faces at the edge.
 double pull(const Body& body, Dart end, Dart other) {
   const GMap& map = body.map->map();
   const Vec3 along = (body.map->position_of(other) - body.map->position_of(end)).normalized();
@@ -135,7 +135,7 @@ TEST(Separate, cuts_a_moebius_band_once_without_parting_it) {
   EXPECT_EQ(count_cells(body->map->map()).euler, 1); // a strip
 }
 
-// Elements as lists of their points.
+// Elements as lists of points.
 struct Lists {
   std::vector<Vec3> rest;
   std::vector<std::vector<std::uint32_t>> elements;
@@ -156,7 +156,7 @@ Lists lists_of(const CellMesh& mesh) {
   return lists;
 }
 
-// How many fragments the plane makes of a point: elements on one side hang together where they share a border.
+// Into how many fragments the plane splits a point: elements on one side are connected if they share a border.
 int fragments_of(const Lists& lists, const std::vector<Vec3>& x, std::uint32_t point, const Vec3& normal) {
   std::vector<std::size_t> at;
   std::vector<bool> above;

@@ -1,5 +1,5 @@
-// All criteria on every mesh and model against their definitions (plain_body.h, brute_force.h), and known
-// answers.
+// All criteria on every mesh and model against their definitions (plain_body.h, brute_force.h), and against
+// known answers.
 #include "sim/brute_force.h"
 #include "sim/fracture/plain_body.h"
 #include "sim/rules/rules.h"
@@ -72,7 +72,7 @@ void prepare(Body& body, unsigned seed, double amount = 0.2) {
   body.evaluate();
 }
 
-// What a law finds is what exceeds its threshold, with its value and its plane.
+// A law must find exactly the cells whose value exceeds its threshold, with value and plane.
 void expect_found(Body& body, TearLaw& law, const Values& expected) {
   const double threshold = law.settings().threshold;
   double most = 0;
@@ -86,13 +86,13 @@ void expect_found(Body& body, TearLaw& law, const Values& expected) {
     EXPECT_NEAR(c.value, expected.at(c.dart).value, 1e-11 * most);
     if (law.settings().cell != Cell::Vertices) continue;
     EXPECT_NEAR(c.normal.norm(), 1, 1e-12);
-    if (law.settings().criterion->name == "vertex-stress") continue; // its eigenvalue is tested by itself
+    if (law.settings().criterion->name == "vertex-stress") continue; // its eigenvalue is tested separately
     EXPECT_NEAR(std::abs(c.normal.dot(expected.at(c.dart).normal)), 1, 1e-6);
   }
 }
 
-// A threshold that about half of them exceed, in the middle of the widest gap there: both ends of a spring feel
-// the same.
+// A threshold that about half of the values exceed, in the middle of the widest gap there, since both ends of a
+// spring have the same value.
 double middle(const Values& values) {
   std::vector<double> sorted;
   for (const auto& [dart, m] : values) sorted.push_back(m.value);
@@ -106,7 +106,7 @@ double middle(const Values& values) {
   return best;
 }
 
-// Every threshold from nothing to too much.
+// Tests thresholds from 0 to beyond the largest value.
 void expect_measured(Body& body, const Asked& asked, const Values& expected) {
   SCOPED_TRACE(asked.criterion + " " + asked.kind + (asked.compression ? " compression" : ""));
   ASSERT_FALSE(expected.empty());
@@ -150,7 +150,7 @@ TEST(Criteria, measure_borders_of_every_solid) {
       if (each.map->dimension() == 2) continue;
       SCOPED_TRACE(matter.name + " " + each.name);
       const auto body = made_of(std::move(each.map), matter);
-      add_law(*body, {"atomic-border", ""}, 1e30); // so that corners are evaluated
+      add_law(*body, {"atomic-border", ""}, 1e30); // so that corner forces are evaluated
       prepare(*body, ++seed);
       const PlainBody all = plain_of(*body, matter);
       for (const char* criterion : {"global-border", "atomic-border"})
@@ -182,7 +182,7 @@ TEST(Criteria, measure_single_springs_of_solids) {
   }
 }
 
-// Of a sheet, from its polygons.
+// Reference values for a sheet, from its polygons.
 Values of_sheet(const EmbeddedMap& map, const meshes::BruteForce& brute, const Asked& asked) {
   Values all;
   for (const auto& single : brute.singles()) {

@@ -1,4 +1,4 @@
-// What the criteria measure, against their definitions computed from the polygons alone (thesis 7.4).
+// The values of criteria, against their definitions computed from polygons (thesis 7.4).
 #include "sim/brute_force.h"
 #include "sim/rules/rules.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace meshes;
 
-// A body with every interaction and both criteria at a threshold, its forces evaluated.
+// A body with every interaction and both criteria, with its forces evaluated.
 std::unique_ptr<Body> strained(const PolygonMesh& mesh, double threshold, const std::vector<Spring>& springs) {
   Recipe recipe;
   recipe.springs = springs;
@@ -21,7 +21,7 @@ std::unique_ptr<Body> strained(const PolygonMesh& mesh, double threshold, const 
   return made;
 }
 
-// Both criteria's values at all edges are those of the polygons.
+// Both criteria give the polygons' values at all edges.
 void expect_values_of(Body& body, const BruteForce& brute) {
   for (TearLaw& law : body.tear_laws) {
     const bool atomic = law.settings().criterion->elementary;
@@ -87,10 +87,10 @@ TEST(Criterion, measures_on_torn_sheets_what_its_definition_says) {
 TEST(Criterion, does_not_depend_on_which_way_round_the_faces_are_walked) {
   PolygonMesh mesh = warped(sheet(SheetPattern::Mixed, 4, 3), 0.2, 5);
   const auto one = strained(mesh, 1e-9, all_springs());
-  for (std::size_t p = 0; p < mesh.polygons(); p += 2) // every second face the other way
+  for (std::size_t p = 0; p < mesh.polygons(); p += 2) // every second face with opposite orientation
     std::reverse(mesh.corners.begin() + mesh.first[p] + 1, mesh.corners.begin() + mesh.first[p + 1]);
   const auto two = strained(mesh, 1e-9, all_springs());
-  // Slots are numbered anew, so the same state is given by place.
+  // Slots differ, so the same state is assigned by position.
   for (Slot v = 0; v < two->program->vertices(); ++v)
     for (Slot w = 0; w < one->program->vertices(); ++w)
       if (one->map->rest()[w].vec() == two->map->rest()[v].vec()) {
@@ -127,7 +127,7 @@ TEST(ForceLaw, breaks_ties_by_the_smallest_dart) {
   recipe.criteria = {"global-border"};
   recipe.threshold = 1e-3;
   const auto body = meshes::body(sheet(SheetPattern::Quads, 4, 4), recipe);
-  for (Slot v = 0; v < body->program->vertices(); ++v) // the middle column is moved, and mirrors itself
+  for (Slot v = 0; v < body->program->vertices(); ++v) // the middle column is displaced symmetrically
     if (body->map->rest()[v].x == 2) body->map->position()[v].x = 2.5;
   body->evaluate();
   const ForceView view = body->view();

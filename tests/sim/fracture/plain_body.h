@@ -1,5 +1,5 @@
-// What criteria measure, computed from lists of polyhedra (in a sheet: polygons) and the definitions alone
-// (thesis 7.4; sim/README.md, "Tearing"): no rows, no folding, nothing ruled out early.
+// Reference values of criteria, computed from lists of polyhedra (for a sheet: polygons) by the definitions
+// (thesis 7.4; sim/README.md, "Tearing"): no rows, no folding, no early rejection.
 #pragma once
 
 #include "sim/elements.h"
@@ -24,7 +24,7 @@ struct Polygon {
   std::vector<Dart> dart; // of each corner, along the side that starts there
   std::vector<Slot> vertex;
 };
-struct Polyhedron { // a sheet's has one face
+struct Polyhedron { // for a sheet, with one face
   std::vector<Polygon> faces;
   Dart first;
 };
@@ -199,8 +199,8 @@ private:
     return at == corner_.end() ? Vec3(Vec3::Zero()) : at->second;
   }
 
-  // The volume [m³] or area [m²] at rest, which is as the mass: a body has one density. Each face is its fan
-  // from the mean of its corners, and the volume that of the tetrahedra from there to its middle.
+  // Volume [m³] or area [m²] at rest, proportional to mass, since a body has one density. Each face is split
+  // into triangles from the mean of its corners, and the volume into tetrahedra from these to its centre.
   double extent(const Polyhedron& p) const {
     const auto mean = [&](const std::vector<Slot>& of) {
       Vec3 sum = Vec3::Zero();
@@ -237,7 +237,7 @@ private:
   std::vector<Polyhedron> elements_;
   std::vector<Vec3> force_;                      // [N], by vertex
   std::map<std::pair<Dart, Slot>, Vec3> corner_; // [N], by element and vertex
-  std::map<Slot, Vec3> singles_at_;              // the largest [N]
+  std::map<Slot, Vec3> singles_at_;              // largest force of a single element [N]
   std::vector<Single> singles_;
   std::map<Dart, Eigen::Matrix3d> stress_, strain_;                // by element
   std::map<Slot, std::vector<std::pair<double, Dart>>> at_vertex_; // extents and elements

@@ -1,5 +1,6 @@
-// Storms: all changes, by chance, on every kind of mesh. The map stays valid; nothing moves; what is built upon
-// the map equals what would be built anew; and fragments are counted right after each single change.
+// Stress tests: all changes at random cells, on every kind of mesh. The map stays valid; no vertex moves; all
+// that depends on the map equals what is built from scratch; and fragments are counted correctly after each
+// change.
 #include "sim/fracture/torn_bodies.h"
 #include "sim/fracture/torn_checks.h"
 
@@ -34,7 +35,7 @@ void blow(Body& body, int steps) {
     for (std::size_t e = events; e < body.events.size(); ++e)
       deleted |= deletes(body.tear_laws[static_cast<std::size_t>(body.events[e].law)].settings().change->name);
     expect_nothing_moved(body, before, deleted);
-    if (n % 3 == 0) continue; // sometimes two before anybody looks
+    if (n % 3 == 0) continue; // sometimes two changes before an update
     seen.update();
     expect_as_built_anew(body, seen);
     if (testing::Test::HasFailure()) FAIL() << "after step " << n;
@@ -55,7 +56,8 @@ TEST(Storm, of_each_change_on_every_mesh_leaves_a_valid_map_and_moves_nothing) {
 TEST(Storm, of_all_laws_at_once_leaves_a_valid_map_and_moves_nothing) {
   for (auto& each : elements::irregular_maps()) {
     SCOPED_TRACE(each.name);
-    const auto body = torn::body(std::move(each.map), every_way(), "rk4", true); // both sets of rows
+    // full binding and rebinding of both sets of rows
+    const auto body = torn::body(std::move(each.map), every_way(), "rk4", true);
     blow(*body, 25);
     EXPECT_GT(body->events.size(), 5u);
   }
@@ -71,8 +73,8 @@ TEST(Storm, on_sheets_of_many_sides_and_without_sides_leaves_a_valid_map) {
 
 TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
   for (const By& way : every_way()) {
-    // The ends of an edge are told by the slots of before all changes: one after the other is not the same
-    // there.
+    // The ends of an edge are identified by slots from before all changes: changes made one by one have other
+    // slots then.
     if (way.change == "split-vertex" && way.cell == Cell::Edges) continue;
     for (std::size_t m = 0; m < elements::irregular_maps().size(); ++m) {
       auto maps = elements::irregular_maps(), twins = elements::irregular_maps();
@@ -91,12 +93,12 @@ TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
           told.insert(told.end(), some->begin(), some->end());
           some->clear();
         }
-        std::vector<std::vector<Dart>> cells; // of the events of one law, before its first
+        std::vector<std::vector<Dart>> cells; // cells of the events of one law, before its first change
         std::size_t noted = first;
         for (std::size_t e = first; e < body->events.size(); ++e) {
           const TearEvent& event = body->events[e];
           const By by = event.law == 0 ? way : By{"separate", Cell::Borders};
-          if (noted == e) twin->evaluate(); // a law looks at forces once, and then makes its changes
+          if (noted == e) twin->evaluate(); // a law evaluates forces once, and then makes all its changes
           for (; noted < body->events.size() && body->events[noted].law == event.law; ++noted)
             cells.push_back(cell_of(*twin, by.cell, body->events[noted].dart));
           const auto candidate = std::find_if(told.begin(), told.end(), [&](const Candidate& c) {

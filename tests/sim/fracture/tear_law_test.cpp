@@ -1,4 +1,4 @@
-// Laws in scenes: when they look, what they refuse, and where sheets tear.
+// Tearing laws in scenes: when they are evaluated, what they refuse, and where sheets tear.
 #include "sim/presets.h"
 #include "sim/topology/count.h"
 
@@ -24,7 +24,7 @@ void run(Scene& scene, int steps) {
 }
 
 TEST(ForceLaw, tears_a_sheet_pulled_apart_across_the_pull) {
-  // Quasi-static, forces at a vertex cancel: the global criterion sees a quick pull alone.
+  // In quasi-static motion forces at a vertex cancel: the global criterion detects only a quick pull.
   const std::array<std::array<std::string, 3>, 2> pulls{
       {{"global-border", "1", "8"}, {"atomic-border", "1", "0.5"}}};
   for (const auto& [criterion, threshold, speed] : pulls) {
@@ -35,12 +35,12 @@ TEST(ForceLaw, tears_a_sheet_pulled_apart_across_the_pull) {
     EXPECT_GT(scene->tears(), 3u) << criterion;
     EXPECT_GT(count_cells(body.map->map(), Component), 1u) << criterion;
     ASSERT_GE(body.events.size(), 4u);
-    for (std::size_t n = 0; n < 4; ++n) { // as many as it has rows; after that it recoils
+    for (std::size_t n = 0; n < 4; ++n) { // as many as there are rows; then it recoils
       const Dart d = body.events[n].dart;
       const Vec3 a = body.map->rest_of(d), b = body.map->rest_of(body.map->map().alpha(0, d));
       EXPECT_LT(std::abs(a.x() - b.x()), 1e-9) << criterion;
     }
-    // Each end still hangs on its own side.
+    // Each end is still connected to its own side.
     EXPECT_LT((body.map->position_of(Dart{0u}) - Vec3(0, 0, 0)).norm(), 1e-12);
   }
 }
@@ -111,8 +111,8 @@ TEST(ForceLaw, tears_a_moebius_band) {
   }
 }
 
-// Two edges tear in one step, and the first deletion takes one side of the second: mirror images tear alike,
-// wherever the darts' numbers start.
+// Two edges tear in one step, and the first deletion removes one side of the second: mirror images tear alike,
+// independent of dart numbers.
 TEST(ForceLaw, deletes_what_is_left_of_an_edge_in_mirror_images_alike) {
   const auto ends = [](double fixed, double moved) {
     const auto box = [](double x) {

@@ -1,4 +1,5 @@
-// Bodies of every kind of mesh for tests of topological changes, and a criterion that says what it is told to.
+// Bodies of every kind of mesh for tests of topological changes, and a criterion whose findings the test
+// controls.
 #pragma once
 
 #include "sim/boundary/solid_surface.h"
@@ -15,12 +16,12 @@ namespace rend::torn {
 
 using meshes::Noise;
 
-// Finds cells by chance: some candidates each time it is asked, with planes by chance.
+// Finds cells at random: some candidates each time it is evaluated, with random planes.
 template <Cell C> class Chance final : public Criterion {
 public:
   static inline std::size_t most = 4;
   static inline Noise noise{1};
-  static inline std::vector<Candidate> told; // all that was found
+  static inline std::vector<Candidate> told; // all candidates so far
 
   explicit Chance(const CriterionRequest&) {}
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
@@ -59,7 +60,7 @@ inline const ChangeType& change(const std::string& name) {
   throw std::invalid_argument(name);
 }
 
-// A change on the cells that chance finds.
+// A change on cells found at random.
 struct By {
   std::string change;
   Cell cell;
@@ -79,7 +80,7 @@ inline const CriterionType& chance_on(Cell cell) {
   return chance<Cell::Elements>();
 }
 
-// Laws with each criterion that the body can be measured by; none ever acts by itself.
+// Adds a law with each applicable criterion; none ever reaches its threshold.
 inline void watch(Body& body) {
   for (const CriterionType& type : all_criteria()) {
     LawSettings law;
@@ -95,7 +96,7 @@ inline void watch(Body& body) {
   }
 }
 
-// Co-rotational, with springs along its edges, damped by its surroundings, with one vertex fixed; shaken.
+// Co-rotational elements and springs along edges, viscous drag, one fixed vertex; displaced at random.
 inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::vector<By>& laws = {},
                                   const std::string& scheme = "symplectic", bool watched = false) {
   auto made = std::make_unique<Body>();
@@ -131,7 +132,7 @@ inline std::unique_ptr<Body> block(int n) {
   return body(solid_from(solids::bar(BarPattern::Hexahedra, n, n, n)));
 }
 
-// The map's own numbers.
+// The cell counts of the map.
 inline std::string counts(const Body& body) {
   const CellCounts c = count_cells(body.map->map());
   return std::to_string(c.vertices) + " " + std::to_string(c.edges) + " " + std::to_string(c.faces) + " " +
@@ -142,7 +143,7 @@ inline std::vector<Dart> cell_of(const Body& body, Cell cell, Dart d) {
   return darts_of(body.map->map(), orbit_of(cell, body.map->dimension()), d);
 }
 
-// Makes one change as a law would, on what is left of a cell, by the forces that were last evaluated; false: it
+// Makes one change as a law would, on the remains of a cell, by the forces that were last evaluated; false: it
 // was not possible.
 inline bool make(Body& body, const std::string& name, Cell cell, const Candidate& candidate,
                  std::vector<Dart> darts) {
@@ -160,7 +161,7 @@ inline bool make(Body& body, const std::string& name, Cell cell, const Candidate
   return made;
 }
 
-// The dart of the cell whose middle is nearest, at rest.
+// The dart of the cell whose centre at rest is nearest.
 inline Dart cell_at(const Body& body, Cell cell, const Vec3& place) {
   Dart best;
   double least = 1e300;

@@ -1,4 +1,4 @@
-// What every topological change must keep, asked of a body before and after it.
+// Invariants of topological changes, checked on a body before and after a change.
 #pragma once
 
 #include "sim/body/body.h"
@@ -14,7 +14,7 @@ inline bool same_bits(const Vec3& a, const Vec3& b) {
   return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0;
 }
 
-// What each dart has, by number: place, speed, and its corner's mass.
+// Per dart, by number: position, velocity, and its corner's mass.
 struct Snapshot {
   std::vector<Vec3> position, velocity;
   std::vector<double> mass;
@@ -53,7 +53,7 @@ inline std::vector<Slot> prescribed(const Body& body) {
   return found;
 }
 
-// Surfaces of either kind.
+// A surface of either kind.
 struct Seen {
   std::unique_ptr<Surface> sheet;
   std::unique_ptr<SolidSurface> solid;
@@ -82,7 +82,7 @@ inline void expect_criteria_as_built_anew(Body& body) {
   body.evaluate();
   const ForceView view = body.view();
   for (TearLaw& law : body.tear_laws) {
-    if (law.settings().criterion->name == "chance") continue; // never twice the same
+    if (law.settings().criterion->name == "chance") continue; // its result differs at each call
     TearLaw anew(body.request_for(law.settings()), law.settings());
     EXPECT_TRUE(same(law.find(view), anew.find(view))) << law.settings().criterion->name;
   }

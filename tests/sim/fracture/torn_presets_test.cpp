@@ -1,6 +1,6 @@
-// Every preset of the house that tears, watched at each change: the map stays valid, nothing moves, mass and
-// momentum keep their last bit, and what is built upon the map equals what would be built anew; flat arrays
-// agree with walking the map; and two threads make the same events.
+// Every shipped preset that tears, checked at each change: the map stays valid, no vertex moves, mass and
+// momentum are conserved to the last bit, and all that depends on the map equals what is built from scratch;
+// flat arrays agree with walking the map; and two threads give the same events.
 //
 // By default the first torn steps of each; with REND_WHOLE in the environment the whole clips (tests/run
 // --all).
@@ -45,7 +45,7 @@ struct Played {
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
 };
 
-// 1e-12 of the largest force, or of what the springs and elements at a vertex cancel to.
+// Within 1e-12 of the largest force, or of the forces that cancel at a vertex.
 void expect_walk_agrees(const Body& body) {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   std::vector<Record> flat(body.vertices()), walked(body.vertices());
@@ -59,7 +59,7 @@ void expect_walk_agrees(const Body& body) {
   EXPECT_LE(apart, 1e-12 * most);
 }
 
-// Looks at a body before and after each law's changes.
+// Checks a body before and after each law's changes.
 class Watch {
 public:
   explicit Watch(Body& body) : body_(body), seen_(body) {
@@ -102,7 +102,7 @@ bool same_events(const Body& a, const Body& b) {
 class TornPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(TornPreset, keeps_what_a_change_must_keep_and_two_threads_make_the_same_events) {
-  const int most = std::getenv("REND_WHOLE") ? std::numeric_limits<int>::max() : 12; // looks
+  const int most = std::getenv("REND_WHOLE") ? std::numeric_limits<int>::max() : 12; // number of checks
   Played run(GetParam(), 1), other(GetParam(), 2);
   std::vector<std::unique_ptr<Watch>> watches;
   for (const auto& body : run.scene.bodies())

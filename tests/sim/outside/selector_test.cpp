@@ -9,7 +9,7 @@
 namespace rend {
 namespace {
 
-// The rest positions selected by <fix>, of a cloth of 10 × 10 cells, placed.
+// The rest positions selected by <fix>, of a placed cloth of 10 × 10 cells.
 std::vector<Vec3> selected(const std::string& selector, const std::string& place = "",
                            const std::string& sheet = R"(cells="10 10" size="1 1")") {
   const auto scene = presets::load("<scene><body><sheet " + sheet + "/>" + place + R"(<mass total="1"/><fix )" +
@@ -25,7 +25,7 @@ TEST(Selector, near_takes_the_closest_vertex) {
   const std::vector<Vec3> inner = selected(R"(near="0.52 0.31 0.1")");
   ASSERT_EQ(inner.size(), 1u);
   EXPECT_LT((inner[0] - Vec3(0.5, 0.3, 0)).norm(), 1e-15);
-  EXPECT_EQ(selected(R"(near="0.05 0 0")").size(), 1u); // a tie
+  EXPECT_EQ(selected(R"(near="0.05 0 0")").size(), 1u); // equidistant vertices
 }
 
 TEST(Selector, side_takes_a_whole_end) {
