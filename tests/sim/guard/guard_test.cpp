@@ -1,4 +1,5 @@
-// The guard against runs without it: what small steps give, what was put in, and what a scene surely conserves.
+// The guard, against runs without it: results with small steps, energy that was supplied, and conserved
+// quantities.
 #include "sim/build/build_scene.h"
 #include "sim/guard/guard.h"
 
@@ -43,7 +44,7 @@ void run(const presets::Loaded& scene, double until) {
   while (scene->time() < until - 1e-9) scene->step();
 }
 
-// The root of the mean square of how far the vertices of two are apart [m].
+// The RMS distance of the vertices of two scenes [m].
 double apart(const presets::Loaded& a, const presets::Loaded& b) {
   const auto &x = a.body().map->position().values(), &y = b.body().map->position().values();
   double sum = 0;
@@ -59,8 +60,8 @@ bool finite(const presets::Loaded& scene) {
   return true;
 }
 
-// Four times the automatic step is surely too large. In the parts that hold it is as wrong as the scheme by
-// itself at its automatic step; twice that, since a part of a stretch may be larger where nothing grows yet.
+// Four times the automatic step is certainly too large. In substeps that are accepted, the error is that of the
+// scheme at its automatic step; the bound is twice that, since a substep may be longer where nothing grows yet.
 TEST(Guard, goes_on_with_a_step_that_is_too_large_near_where_small_steps_lead) {
   for (const std::string name : {"cloth", "bar"}) {
     for (const char* scheme : {"symplectic", "verlet", "rk4"}) {
@@ -138,7 +139,7 @@ TEST(Guard, stops_where_it_lasts_and_names_stage_step_and_vertex) {
   }
 }
 
-// What moves fast for a reason is left alone.
+// Fast motion with a physical cause is not rejected.
 TEST(Guard, rejects_no_step_of_what_is_given_energy) {
   const std::string sheet = R"(<sheet cells="6 6" size="1 1"/><mass total="0.1"/><springs><stretch k="60"/>)"
                             R"(<shear k="40"/></springs>)";
@@ -185,7 +186,7 @@ TEST(Guard, rejects_no_step_of_the_presets_of_the_house) {
     Scene scene(read_scene(*preset), {});
     std::size_t vertices = 0;
     for (const auto& body : scene.bodies()) vertices += body->vertices();
-    if (scene.scheme().solves || vertices > 1500) continue; // for the time that they take
+    if (scene.scheme().solves || vertices > 1500) continue; // to limit the run time
     for (int n = 0; n < 50; ++n) scene.step();
     EXPECT_EQ(scene.guard().rejected, 0) << entry.path();
     ++seen;
@@ -215,7 +216,7 @@ TEST(Guard, does_the_same_on_any_number_of_threads_and_whatever_is_looked_at) {
   EXPECT_EQ(hash(4, false), one);
 }
 
-// A redo begins where something tore last: what tore before stays as it was.
+// A rollback does not undo earlier tears: substeps start after the last one.
 TEST(Guard, leaves_what_tore_before_as_it_tore) {
   const std::string law = R"(<tear criterion="global-border" threshold="0.5"/>)";
   const double step = presets::load(cloth(automatic("symplectic"), law))->step_size();
@@ -243,9 +244,9 @@ TEST(Guard, leaves_what_tore_before_as_it_tore) {
   EXPECT_TRUE(finite(guarded));
 }
 
-// Without viscosity the scheme makes energy of nothing, at any step. Four times is what it may have where it is
-// looked at; that is only where speeds have grown, and elastic energy may go on alone until then: so twice as
-// much here.
+// Without viscosity the scheme produces energy at any step. The guard allows a factor of four where it checks;
+// it checks only where speeds have grown, and elastic energy may grow alone until then: the bound is twice as
+// much.
 TEST(Guard, lets_no_scheme_make_many_times_the_energy_that_there_was) {
   const std::string text =
       R"(<scene><world gravity="0 0 0"/><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/>)"

@@ -19,7 +19,7 @@ presets::Loaded loaded(const SceneOptions& options) {
                        options);
 }
 
-// With no guard, a fault is what stops the run, with the state before it whole.
+// Without the guard, a fault stops the run, with the state before it intact.
 TEST(Faults, spoil_the_step_and_the_stage_that_they_name) {
   for (const StepStage stage : stages) {
     SceneOptions options;
@@ -48,7 +48,7 @@ TEST(Faults, happen_once_unless_they_last) {
     }
     EXPECT_THROW(once->step(), Unstable);
     for (int tries = 0; tries < 3; ++tries) EXPECT_THROW(lasting->step(), Unstable) << name_of(stage);
-    for (int n = 2; n < 20; ++n) once->step(); // again, and on
+    for (int n = 2; n < 20; ++n) once->step(); // again, and further
     for (int n = 0; n < 20; ++n) never->step();
     EXPECT_EQ(once->hash(), never->hash()) << name_of(stage);
   }

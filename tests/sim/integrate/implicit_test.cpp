@@ -29,7 +29,7 @@ TEST(Steps, of_implicit_are_to_be_given) {
   }
 }
 
-// A driven edge, another fixed along two axes: to the last bit where they are to be.
+// A driven edge, another fixed along two axes: prescribed coordinates are exact to the last bit.
 TEST(Schemes, that_solve_keep_prescribed_coordinates_exactly) {
   for (const char* scheme : {"implicit", "static"}) {
     const auto s = presets::load(presets::cloth(
@@ -70,7 +70,7 @@ TEST(ImplicitEuler, is_stable_where_explicit_schemes_explode) {
     EXPECT_LT(total(), before + 1e-6) << n;
     before = total();
   }
-  const auto exploding = cloth("symplectic"); // even in parts
+  const auto exploding = cloth("symplectic"); // unstable even in substeps
   EXPECT_THROW(
       {
         for (int n = 0; n < 50; ++n) exploding->step();
@@ -78,7 +78,8 @@ TEST(ImplicitEuler, is_stable_where_explicit_schemes_explode) {
       Unstable);
 }
 
-// It buckles at once under an edge that is pushed: whole steps of 0.1 s leave 0.86 of the forces.
+// It buckles at once under an edge that is pushed: steps of 0.1 s without substeps leave a residual of 0.86 of
+// the forces.
 TEST(ImplicitEuler, goes_a_step_in_parts_where_it_is_not_solved_at_once) {
   const auto s = presets::load(scene(
       R"(<body><sheet pattern="quads" cells="12 12" size="1 1"/><place rotate="90 0 0"/><mass total="0.1"/>)"

@@ -41,7 +41,7 @@ double observed_order(const Scheme& scheme, const Oscillators::Mode& mode) {
   return std::log2(error(steps) / error(2 * steps));
 }
 
-// The largest growth of (x, v) over one step: the spectral radius of the scheme's own propagation.
+// The largest growth of (x, v) over one step: the spectral radius of the scheme's amplification matrix.
 double growth(const Scheme& scheme, const Oscillators::Mode& mode, double step) {
   std::array<double, 4> m{}; // columns: images of (1, 0) and (0, 1)
   for (std::size_t column = 0; column < 2; ++column) {
@@ -57,7 +57,7 @@ double growth(const Scheme& scheme, const Oscillators::Mode& mode, double step) 
   return std::max(std::abs(half + root), std::abs(half - root));
 }
 
-// The largest step from which on the oscillator grows.
+// The smallest step at which the oscillator grows, by bisection.
 double bisected_limit(const Scheme& scheme, const Oscillators::Mode& mode) {
   double low = 0, high = 0.01 / (mode.omega + mode.d + mode.drag);
   while (growth(scheme, mode, high) <= 1 + 1e-9) high *= 1.05;
@@ -83,13 +83,13 @@ std::vector<Scheme> schemes_that(bool (*ask)(const Scheme&)) {
   std::copy_if(all_schemes().begin(), all_schemes().end(), std::back_inserter(chosen), ask);
   return chosen;
 }
-std::vector<Scheme> marching_schemes() { // those that follow a motion
+std::vector<Scheme> marching_schemes() { // time-stepping schemes, without static
   return schemes_that([](const Scheme& s) { return s.name != "static"; });
 }
 std::vector<Scheme> explicit_schemes() {
   return schemes_that([](const Scheme& s) { return !s.solves; });
 }
-std::vector<Scheme> steady_schemes() { // whose steps are those that are asked for
+std::vector<Scheme> steady_schemes() { // schemes with a fixed step
   return schemes_that([](const Scheme& s) { return s.name != "static" && !s.adaptive; });
 }
 std::vector<Scheme> limited_schemes() {
@@ -155,7 +155,7 @@ TEST(Schemes, find_their_names) {
   EXPECT_EQ(find_scheme(""), nullptr);
 }
 
-// Written past the caches where there are many vertices: the values are the same.
+// With many vertices, states are written by non-temporal stores: the values must be the same.
 TEST(Schemes, step_many_vertices_as_they_step_one) {
   constexpr std::size_t many = 200001;
   for (const Scheme& each : marching_schemes()) {
@@ -177,9 +177,10 @@ TEST(Schemes, step_many_vertices_as_they_step_one) {
   }
 }
 
-// ½(v² + ω²x²) − ½ω² dt x v, with the velocity first (tests/README.md, "Closed forms").
+// The modified energy ½(v² + ω²x²) − ½ω² dt x v, with the velocity updated first (tests/README.md, "Closed
+// forms").
 TEST(SymplecticEuler, keeps_its_invariant) {
-  const double dt = 1.9 / omega; // just below what is stable
+  const double dt = 1.9 / omega; // just below the limit of stability
   Oscillators system({{omega, 0, 0}});
   system.now.position[0] = Record(1, 0, 0);
   system.now.velocity[0] = Record(0.7, 0, 0);
@@ -193,7 +194,8 @@ TEST(SymplecticEuler, keeps_its_invariant) {
   EXPECT_NEAR(invariant(), start, 1e-9 * start);
 }
 
-// The frequency is (2/dt) asin(ω dt/2): after so many steps the oscillator is where it started.
+// The numerical frequency is (2/dt) asin(ω dt/2): after the corresponding number of steps the oscillator is
+// back at its start.
 TEST(SymplecticEuler, oscillates_a_little_faster) {
   const int steps = 12;
   const double dt = 2 / omega * std::sin(pi / steps);
@@ -228,10 +230,9 @@ TEST(Stability, ends_where_theory_has_it_with_damping) {
   EXPECT_NEAR(bisected_limit(scheme("rk4"), {omega, 0.5 * omega, 0}), 2.62 / omega, 0.01 * 2.62 / omega);
 }
 
-// What step="auto" relies on: the limit never exceeds the true one, and does not fall far below. RK4's is the
-// farthest:
-// it takes the shape of the symplectic limit, and is 0.39 of the true one at ξ = 1 (0.92 at ξ = 0, 0.93 at
-// large ξ).
+// step="auto" relies on this: the limit never exceeds the true one, and is not far below it. The largest
+// distance is that of RK4: its limit has the form of the symplectic one, and is 0.39 of the true one at ξ = 1
+// (0.92 at ξ = 0, 0.93 at large ξ).
 TEST(Stability, limits_are_safe_and_not_far_below_the_true_ones) {
   for (const Scheme& each : limited_schemes()) {
     double worst = 1;
@@ -246,7 +247,8 @@ TEST(Stability, limits_are_safe_and_not_far_below_the_true_ones) {
   }
 }
 
-// The bounds on ω and on damping belong to different modes: every mode within them must be stable at the limit.
+// The bounds on ω and on damping may come from different modes: every mode within them must be stable at the
+// limit.
 TEST(Stability, holds_for_all_modes_within_the_bounds) {
   for (const Scheme& each : limited_schemes()) {
     for (const double least : {0.0, 0.2, 3.0, 40.0}) {
@@ -288,7 +290,7 @@ TEST(ImplicitEuler, damps_an_oscillator_as_the_formula_says) {
   }
 }
 
-// Prescribed vertices: a scheme must ask for them wherever it evaluates forces, and at the end.
+// Prescribed vertices: a scheme must set them wherever it evaluates forces, and at the end.
 TEST(Schemes, evaluate_forces_on_prescribed_vertices_where_they_then_are) {
   struct Driven final : System {
     std::vector<double> inverse{1.0};

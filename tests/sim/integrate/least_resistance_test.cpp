@@ -1,4 +1,5 @@
-// The least eigenvalue of a tangent that is not symmetric, against all of them from differences of the forces.
+// The smallest eigenvalue of a non-symmetric tangent, against all eigenvalues of a dense matrix from
+// differences of forces.
 #include "sim/integrate/least_resistance.h"
 
 #include "sim/presets.h"
@@ -38,7 +39,7 @@ Eigen::MatrixXd dense(const Standing& at) {
   return out;
 }
 
-// A short bar of stiff volume, held at one end, bent and turned.
+// A short, nearly incompressible bar, clamped at one end, bent and twisted.
 TEST(LeastResistance, is_the_least_of_all_eigenvalues) {
   int below = 0, above = 0;
   for (const double bent : {0.0, 0.02, 0.05, 0.1, 0.2, 0.3}) {
@@ -62,7 +63,7 @@ TEST(LeastResistance, is_the_least_of_all_eigenvalues) {
       const Eigen::VectorXcd all = dense(at).eigenvalues();
       Eigen::Index least = 0;
       all.real().minCoeff(&least);
-      if (all[least].imag() != 0) continue; // an inverse iteration with a real shift finds no pair
+      if (all[least].imag() != 0) continue; // inverse iteration with a real shift cannot find a complex pair
       BlockMatrix matrix;
       LinearSolver linear;
       LoadTangent tangent;

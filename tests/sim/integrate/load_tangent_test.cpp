@@ -1,4 +1,4 @@
-// Loads that depend on the state, in the schemes that solve.
+// Loads that depend on the state (follower loads), in implicit schemes and static solves.
 #include "sim/scene/scene.h"
 
 #include "sim/presets.h"
@@ -12,7 +12,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Where the end of a strip of length 1 that a moment M L/EI = t bends is on a circle: (sin t/t, (1 − cos t)/t).
+// A strip of length 1 bent by a moment M with M L/EI = t is a circular arc; its end is at (sin t/t, (1 − cos
+// t)/t).
 TEST(StaticSolve, bends_a_strip_by_a_moment_along_a_circle_in_few_iterations) {
   const double thick = 0.05, stiffness = 1e7 * 0.05 * thick * thick * thick / 12; // [m], EI [N·m²]
   const auto s = presets::load(fmt::format(
@@ -31,9 +32,9 @@ TEST(StaticSolve, bends_a_strip_by_a_moment_along_a_circle_in_few_iterations) {
   EXPECT_LT(s.body().integrator->solver().newton, 4 * 15);
 }
 
-// Two chains of n links, tied to each other and held at both ends, under pressure: the corners lie on a circle
-// of radius R, of which they span 2φ. With a link's angle α = 2φ/n, the tension of a chain of half the width w
-// is
+// Two parallel chains of n links, connected to each other and held at both ends, under pressure: the corners
+// lie on a circle of radius R and span an angle of 2φ. With a link's angle α = 2φ/n, the tension of a chain of
+// half the width w is
 //
 //   T = p w/2 · R cos α/2 = k (2R sin α/2 − L/n),     R = L / (2 sin φ)
 TEST(StaticSolve, blows_a_chain_up_to_an_arc) {
@@ -46,7 +47,7 @@ TEST(StaticSolve, blows_a_chain_up_to_an_arc) {
       links, width, k, p));
   s->step();
   double low = 1e-6, high = pi / 2;
-  const auto surplus = [&](double phi) { // of tension over what the pressure asks for
+  const auto surplus = [&](double phi) { // tension of the springs minus that required by the pressure
     const double radius = 0.5 / std::sin(phi), half = phi / links;
     return k * (2 * radius * std::sin(half) - 1.0 / links) - p * width / 2 * radius * std::cos(half);
   };
@@ -57,8 +58,8 @@ TEST(StaticSolve, blows_a_chain_up_to_an_arc) {
     EXPECT_NEAR(std::hypot(x.x - 0.5, x.z - depth), radius, 1e-7);
 }
 
-// A cloth under all of them: implicit Euler comes to what RK4 finds with small steps, half the error with half
-// the step.
+// A cloth under all of these loads: implicit Euler converges to the result of RK4 with small steps, with half
+// the error at half the step.
 TEST(ImplicitEuler, goes_where_rk4_goes_under_loads_that_follow) {
   const auto end_of = [](const char* scheme, double step) {
     const auto s = presets::load(fmt::format(

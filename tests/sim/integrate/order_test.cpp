@@ -1,5 +1,5 @@
-// Every scheme reaches its order on whole scenes whose motion is smooth: springs, elements, dampers, drives,
-// loads.
+// Every scheme has its order of convergence on whole scenes with smooth motion: springs, elements, dampers,
+// drives, loads.
 #include "sim/presets.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@ struct Smooth {
   std::string world = "";
 };
 
-// Small bodies that move through some radians of their fastest motion.
+// Small bodies, over some radians of their fastest mode.
 const std::vector<Smooth>& smooth_scenes() {
   const std::string cloth = R"(<sheet pattern="quads" cells="3 3" size="1 1"/><place rotate="90 0 0"/>)"
                             R"(<mass total="0.1"/>)";
@@ -81,9 +81,9 @@ Errors between(const Reached& a, const Reached& b) {
   return {std::sqrt(x / mass), std::sqrt(v / mass)};
 }
 
-// Both together to a tenth; each by itself as fast at least: without damping and from rest, symplectic Euler is
-// the leapfrog scheme of order 2 whose positions are looked at half a step late, and its velocities are of that
-// order.
+// Position and velocity together have the order to within a tenth; each by itself at least: without damping and
+// from rest, symplectic Euler is the leapfrog scheme of order 2 with positions shifted by half a step, and its
+// velocities are of that order.
 TEST(Orders, are_reached_on_smooth_scenes) {
   for (const Smooth& smooth : smooth_scenes()) {
     const Reached exact = reached(smooth, "rk4", 4096);

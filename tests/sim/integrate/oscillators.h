@@ -1,4 +1,4 @@
-// A system with a known answer, and how a scheme takes it a step on.
+// A system with a known solution, and one step of a scheme on it.
 #pragma once
 
 #include "sim/integrate/integrator.h"
@@ -7,7 +7,7 @@
 
 namespace rend {
 
-// Particles of 2 kg that do not know of each other: x'' = −ω² x − 2d x', each with its own ω and d.
+// Independent particles of 2 kg: x'' = −ω² x − 2d x', each with its own ω and d.
 class Oscillators final : public System {
 public:
   struct Mode {

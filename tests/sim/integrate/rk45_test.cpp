@@ -1,5 +1,4 @@
-// The pair of Dormand and Prince: its order, its error against what theory says of it, its parts, and whole
-// scenes.
+// The Dormand-Prince pair: its order, its error estimate against theory, its substeps, and whole scenes.
 #include "sim/integrate/oscillators.h"
 #include "sim/presets.h"
 
@@ -18,7 +17,7 @@ using testing::HasSubstr;
 const Scheme& rk45() {
   return *find_scheme("rk45");
 }
-constexpr SchemeSettings whole_steps{.tolerance = 0.1, .size = 1e30}; // any error will do
+constexpr SchemeSettings whole_steps{.tolerance = 0.1, .size = 1e30}; // any error is accepted
 
 // One particle of 1 kg under a force that depends on its position.
 class Particle final : public System {
@@ -35,7 +34,7 @@ public:
   }
   void constrain(double, Record*, Record*) override {}
 
-  // From where it is, over `end` in steps of equal length.
+  // Integrates from the current state over `end` in steps of equal length.
   Vec3 go(const Scheme& scheme, const SchemeSettings& settings, double end, int steps) {
     const auto integrator = scheme.make(settings);
     for (int n = 0; n < steps; ++n) {
@@ -58,7 +57,8 @@ private:
   double one_ = 1;
 };
 
-// On a spring of 400 N/m and 1 m from the origin, thrown from the level: it swings, turns and stretches.
+// On a spring of 400 N/m and 1 m attached to the origin, thrown from the horizontal: it swings, rotates and
+// stretches.
 Particle pendulum() {
   Particle p([](const Vec3& x) { return Vec3(-400 * (x.norm() - 1) / x.norm() * x + Vec3(0, 0, -9.81)); });
   p.now.position[0] = Record(1.1, 0, 0);
@@ -66,7 +66,7 @@ Particle pendulum() {
   return p;
 }
 
-// About the sun, 10 times as far at its farthest as 1/19 of that: one turn takes 2π s.
+// An orbit around the sun, with an aphelion of 19 times the perihelion; the period is 2π s.
 Particle comet() {
   Particle p([](const Vec3& x) { return Vec3(-x / (x.norm() * x.squaredNorm())); });
   p.now.position[0] = Record(1.9, 0, 0);
@@ -89,7 +89,7 @@ TEST(RungeKutta45, is_of_order_five_in_whole_steps) {
 }
 
 // For x'' = −ω²x, both solutions of a step are polynomials of z = iωh; of order 5: Σ z^n/n! + z⁶/600, of order
-// 4: 1097/120000, 161/120000 and 1/24000 of z⁵, z⁶ and z⁷. A part is rejected where their difference is above
+// 4: 1097/120000, 161/120000 and 1/24000 of z⁵, z⁶ and z⁷. A substep is rejected if their difference exceeds
 // the tolerance.
 TEST(RungeKutta45, measures_the_difference_of_its_two_solutions) {
   constexpr double omega = 17;
@@ -123,7 +123,7 @@ TEST(RungeKutta45, errs_in_proportion_to_the_tolerance) {
   EXPECT_NEAR(std::log10(errors.front() / errors.back()) / 5, 1, 0.1);
 }
 
-// What is slow but for a moment: a comet in its path, back where it started.
+// An orbit that is slow except near perihelion, over one period.
 TEST(RungeKutta45, takes_fewer_evaluations_than_fixed_steps) {
   constexpr double turn = 2 * 3.14159265358979323846;
   const Vec3 start(1.9, 0, 0);
@@ -178,7 +178,7 @@ void run(Scene& scene, double end) {
   while (scene.time() < end * (1 - 1e-9)) scene.step();
 }
 
-// An edge that starts to move, and stops, within a step; another one is let go.
+// An edge that starts and stops moving within a step; another one is released.
 TEST(RungeKutta45, follows_drives_within_a_step) {
   const auto cloth = [](const std::string& time) {
     return presets::load(presets::cloth("quads", 6, "", time, R"(<bend kind="angular" k="1e-3"/>)",
@@ -199,7 +199,7 @@ TEST(RungeKutta45, follows_drives_within_a_step) {
   }
 }
 
-// A sheet in honey that is at rest, struck within 4 ms, and comes to rest again.
+// An overdamped sheet at rest, struck for 4 ms, that comes to rest again.
 TEST(RungeKutta45, takes_fewer_evaluations_than_fixed_steps_where_something_sudden_happens) {
   const auto struck = [](const std::string& scheme, double step, const std::string& more = "") {
     auto s = presets::load(
@@ -259,7 +259,7 @@ std::string stiff(double k, double step) {
       k, time_of("rk45", step, R"(tolerance="1e-8")"));
 }
 
-// An explicit scheme of fixed steps explodes here: 2/ω is some 1e-5 s.
+// An explicit scheme with fixed steps is unstable here: 2/ω is about 1e-5 s.
 TEST(RungeKutta45, holds_what_is_stiff_in_many_parts) {
   const auto s = presets::load(stiff(1e8, 1e-2));
   const double start = s->gravity_energy();

@@ -1,5 +1,5 @@
-// Every tear law under the schemes that solve: bodies tear, go on, stay valid, and their matrices are those of
-// bodies built anew, to the last bit.
+// Every tearing law under implicit and static schemes: bodies tear, the run continues, maps stay valid, and
+// matrices equal those assembled from scratch, to the last bit.
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
 #include "sim/topology/count.h"
@@ -15,11 +15,11 @@ namespace {
 using namespace torn;
 
 struct Asked {
-  const char* law;     // without its threshold
-  double sheet, solid; // thresholds; 0: does not fit
+  const char* law;     // attributes without the threshold
+  double sheet, solid; // thresholds; 0: not applicable
 };
 
-// Criteria with every change that fits them.
+// All criteria, each with every change that it allows.
 const std::vector<Asked>& every_law() {
   static const std::vector<Asked> all{
       {R"(criterion="atomic-border" change="separate")", 1, 20},
@@ -40,7 +40,7 @@ std::string time_of(const std::string& scheme) {
   return fmt::format(R"(<time step="0.02" integrator="{}" duration="1"/>)", scheme);
 }
 
-// Both held at one end and pulled at the other: nothing but the pull tears them.
+// Both are held at one end and pulled at the other: only the pull tears them.
 presets::Loaded sheet(const std::string& law, double threshold, const std::string& scheme) {
   return presets::load(presets::cloth("quads", 6, fmt::format(R"(<tear {} threshold="{}"/>)", law, threshold),
                                       time_of(scheme), R"(<bend kind="provot" k="10"/>)",
@@ -102,7 +102,7 @@ TEST(TornSolved, by_every_law_goes_on_with_the_matrix_of_a_body_built_anew) {
   }
 }
 
-// The sheet of a strip is pulled in two in weightlessness; both ends lose what they bore.
+// A strip is torn in two without gravity; both ends lose their load.
 TEST(TornSolved, pieces_that_nothing_holds_take_their_own_shape_in_their_place_under_static) {
   for (const bool linear : {false, true}) {
     const auto s = presets::load(fmt::format(
@@ -114,8 +114,8 @@ TEST(TornSolved, pieces_that_nothing_holds_take_their_own_shape_in_their_place_u
     EXPECT_FALSE(s.body().notes.empty());
     for (int n = 0; n < 30; ++n) s->step();
     const Body& body = s.body();
-    EXPECT_GE(count_cells(body.map->map(), Component), 3u); // two ends that are held, and what is between
-    // What is between has the length it had at rest.
+    EXPECT_GE(count_cells(body.map->map(), Component), 3u); // two held ends, and the piece between them
+    // The piece between them has its length at rest.
     std::map<Dart, std::pair<double, double>> span;
     double low = 1e9, high = -1e9;
     for (Slot v = 0; v < body.vertices(); ++v) {
@@ -128,7 +128,7 @@ TEST(TornSolved, pieces_that_nothing_holds_take_their_own_shape_in_their_place_u
   }
 }
 
-// Under implicit they fall.
+// Under implicit Euler they fall.
 TEST(TornSolved, pieces_that_nothing_holds_fall_under_implicit) {
   const auto s = solid(R"(criterion="atomic-border" change="separate" until="0.2")", 20, "implicit");
   for (int n = 0; n < 50; ++n) s->step();

@@ -1,4 +1,4 @@
-// Loops over vertices: the same bits on any number of threads, of the state and of what was seen on the way.
+// Loops over vertices: the same bits on any number of threads, for the state and for reductions.
 #include "sim/integrate/vertex_loop.h"
 
 #include "sim/random_meshes.h"

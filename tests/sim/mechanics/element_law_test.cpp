@@ -1,4 +1,4 @@
-// The laws of single elements against differences, closed forms and brute force.
+// The laws of single elements against finite differences, closed forms and brute force.
 #include "sim/mechanics/element_law.h"
 
 #include "sim/elements.h"
@@ -160,7 +160,7 @@ TEST(ElementLaw, a_uniform_strain_gives_the_stress_of_the_closed_form_in_every_d
         }
         Matrix3d Q = random_rotation(noise);
         if (model.model == ElasticModel::Linear) Q.setIdentity();
-        if (model.rotation == Rotation::Qr) Q.setIdentity(), E.setZero(); // its frame is not that of E
+        if (model.rotation == Rotation::Qr) Q.setIdentity(), E.setZero(); // its frame is not the rotation of F
         for (std::size_t n = 0; n < e.corners(); ++n) e.x[n] = Q * (e.rest[n] + E * e.rest[n]);
         const ElasticMaterial& m = e.law->material();
         const Matrix3d sigma = m.lambda * E.trace() * plane + 2 * m.mu * E;
@@ -186,7 +186,7 @@ TEST(ElementLaw,
   EXPECT_NEAR(solid.lambda * 3e-3 + 2 * solid.mu * 1e-3, 2000, 1e-9);
 }
 
-// The same element with its corners named in another order that keeps faces faces.
+// The same element with its corners permuted by a symmetry of its shape.
 std::vector<std::size_t> renamed(ElementKind kind) {
   switch (kind) {
   case ElementKind::Triangle:
@@ -246,7 +246,7 @@ TEST(ElementLaw, the_bound_is_the_frequency_of_the_element_itself) {
   });
 }
 
-// All distances between corners, as a share of those at rest.
+// All distances between corners, relative to those at rest.
 double strain_of_distances(const Element& e) {
   double most = 0;
   for (std::size_t n = 0; n < e.corners(); ++n)
@@ -279,10 +279,10 @@ TEST(ElementLaw, flat_collapsed_and_inverted_elements_come_back_to_rest) {
       relax(e);
       EXPECT_LT(strain_of_distances(e), 1e-6);
     }
-    Element pushed = start; // the last corner through the others
+    Element pushed = start; // moves the last corner through the others
     pushed.x.back() += 4 * (pushed.x.front() - pushed.x.back());
     relax(pushed);
-    if (start.law->shape().kind == ElementKind::Quad) { // it bends freely: its diagonals may rest shorter
+    if (start.law->shape().kind == ElementKind::Quad) { // it bends freely: its diagonals may become shorter
       EXPECT_LT(strain_of_distances(pushed), 1e-2) << name;
       EXPECT_LT(largest(pushed.forces()), 1e-4) << name;
       return;

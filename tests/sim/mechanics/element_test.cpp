@@ -1,4 +1,4 @@
-// Elements as they are found in a map, from every dart.
+// Recognizing elements in a map, from every dart.
 #include "sim/mechanics/element.h"
 
 #include "sim/elements.h"
@@ -32,8 +32,8 @@ double volume_by_points(const ElementShape& shape, const std::vector<double>& va
   return volume;
 }
 
-// Wherever the first dart of an element lies after an edit, exactly one unit is there, and finds the same
-// element.
+// Wherever the first dart of an element is after an edit, exactly one of its darts is a unit, and identifies
+// the same element.
 TEST(Element, is_recognised_from_each_of_its_darts) {
   for (ElementKind kind :
        {ElementKind::Tetrahedron, ElementKind::Hexahedron, ElementKind::Prism, ElementKind::Pyramid}) {
@@ -53,7 +53,8 @@ TEST(Element, is_recognised_from_each_of_its_darts) {
       ASSERT_TRUE(write_element(shape, rest.data(), Eigen::Matrix3d::Identity(), 1, values.data()));
       EXPECT_NEAR(volume_by_points(shape, values), rest_volume(*map, d), 1e-14);
     });
-    EXPECT_EQ(element_at(map->map(), Dart{0u})->unit, 0u); // meshes start where the plain words do
+    // generators number darts so that the first dart fits the plain pattern
+    EXPECT_EQ(element_at(map->map(), Dart{0u})->unit, 0u);
   }
 }
 
@@ -88,7 +89,7 @@ TEST(Element, a_volume_that_is_no_element_is_none) {
   const auto sheet = sheet_from(meshes::sheet(SheetPattern::Quads, 2, 2));
   EXPECT_TRUE(element_at(sheet->map(), Dart{0u}));
   const auto map = single(ElementKind::Hexahedron, regular(ElementKind::Hexahedron));
-  map->edit([&](Edit& edit) { unsew(edit, 2, Dart{0u}); }); // open
+  map->edit([&](Edit& edit) { unsew(edit, 2, Dart{0u}); }); // not closed
   EXPECT_FALSE(element_at(map->map(), Dart{5u}));
 }
 

@@ -15,7 +15,7 @@ using meshes::Noise;
 
 constexpr HingeParameters stiff{2.0, 0, 0};
 
-// Two triangles on the hinge (0,0,0)-(1,0,0): M1 in the xy plane at y < 0, M2 turned up by `angle` from flat.
+// Two triangles at the hinge (0,0,0)-(1,0,0): M1 in the xy plane at y < 0, M2 rotated up by `angle` from flat.
 HingePoints folded(double angle) {
   const Vec3 a(0, 0, 0), b(1, 0, 0), m1(0.3, -0.8, 0), m2(0.6, 0.9 * std::cos(angle), 0.9 * std::sin(angle));
   return {a, b, m1, m1, a, b, m2, m2};
@@ -39,7 +39,7 @@ const HingePoints still = [] {
   return v;
 }();
 
-// Where the vertices stand among the eight points: four of a pair of triangles, six of a pair of quads.
+// Indices of the vertices among the eight points: four for a pair of triangles, six for a pair of quads.
 using Places = std::vector<std::vector<std::size_t>>;
 const Places of_triangles{{0, 4}, {1, 5}, {2, 3}, {6, 7}};
 const Places of_quads{{0, 4}, {1, 5}, {2}, {3}, {6}, {7}};
@@ -73,7 +73,7 @@ TEST(Hinge, angle_changes_sign_with_the_sides_and_with_the_direction) {
   }
 }
 
-// At the angle and rest angle given: force against the difference of energies.
+// At the given angle and rest angle: the force against finite differences of the energy.
 void expect_gradient(const HingePoints& x, double rest, const Places& vertices) {
   HingeParameters p = stiff;
   p.rest = rest;
@@ -105,7 +105,7 @@ TEST(Hinge, force_is_minus_the_gradient_of_the_energy_on_warped_quads) {
 }
 
 TEST(Hinge, force_is_minus_the_gradient_across_the_fold_back) {
-  // From a rest of 2.9, angles beyond π come out negative: their difference from rest is still small.
+  // With a rest angle of 2.9, angles beyond π are negative: the difference from the rest angle is still small.
   for (double angle : {3.0, pi + 0.2, pi + 0.5}) {
     const double sign = hinge_angle(folded(0.1)) > 0 ? 1 : -1;
     expect_gradient(folded(angle), sign * 2.9, of_triangles);
@@ -117,7 +117,7 @@ TEST(Hinge, force_is_minus_the_gradient_across_the_fold_back) {
 
 TEST(Hinge, turns_back_towards_rest) {
   const HingePoints f = hinge_forces(stiff, folded(0.3), still);
-  EXPECT_LT(at_vertex(f, of_triangles[3]).z(), 0); // M2 was turned up
+  EXPECT_LT(at_vertex(f, of_triangles[3]).z(), 0); // M2 was rotated up
   EXPECT_GT(hinge_forces(stiff, folded(-0.3), still)[6].z(), 0);
 }
 
@@ -142,7 +142,7 @@ TEST(Hinge, conserves_linear_and_angular_momentum_on_warped_quads) {
 
 TEST(Hinge, conserves_momentum_with_an_outer_vertex_on_the_hinge_line) {
   HingePoints x = folded(0.5);
-  x[2] = Vec3(-0.5, 0, 0); // one of side one's two outer vertices
+  x[2] = Vec3(-0.5, 0, 0); // one of the two outer vertices of side one
   const HingePoints f = hinge_forces(stiff, x, still);
   Vec3 moment = Vec3::Zero();
   for (std::size_t p = 0; p < 8; ++p) moment += x[p].cross(f[p]);
@@ -161,7 +161,7 @@ TEST(Hinge, without_length_or_area_gives_no_force) {
   for (const Vec3& force : hinge_forces({2, 1, 0.1}, point, point)) EXPECT_EQ(force, Vec3(0, 0, 0));
 }
 
-// A pair of triangles whose side two is as high as it was at rest, times `height`.
+// A pair of triangles, side two of which has `height` times its height at rest.
 HingePoints crushed_to(double height) {
   HingePoints x = folded(0.7);
   x[6] = x[7] = Vec3(0.6, 0, 0) + height * (x[6] - Vec3(0.6, 0, 0));
@@ -187,7 +187,7 @@ TEST(Hinge, force_is_bounded_however_flat_a_side_is_crushed) {
     EXPECT_LE(largest_of(hinge_forces(damped, crushed_to(height), v)), 8 * 8 * 2 * rate_at_rest) << height;
   }
   EXPECT_GT(largest_of(hinge_forces(p, crushed_to(0.13), still)), 5 * at_rest);
-  EXPECT_LT(largest_of(hinge_forces(p, crushed_to(1e-6), still)), 1e-3 * at_rest); // sides change: through 0
+  EXPECT_LT(largest_of(hinge_forces(p, crushed_to(1e-6), still)), 1e-3 * at_rest); // side two passes through 0
 }
 
 TEST(Hinge, force_is_what_it_was_to_the_bit_where_nothing_is_crushed) {
@@ -250,8 +250,8 @@ TEST(Hinge, damping_rate_is_that_of_the_angle) {
   }
 }
 
-// A ball tears a cloth, whose pieces fall and are crushed: with forces without bound it was torn to bits by
-// them, and stopped as unstable at 0.95 s.
+// A ball tears a cloth, whose pieces fall and are crushed: with unbounded forces it was torn to shreds and
+// stopped as unstable at 0.95 s.
 TEST(Hinge, lets_a_torn_cloth_fall_in_a_heap) {
   const auto s = presets::load(
       R"(<scene><body><sheet pattern="crossed" cells="10 10" size="1 1"/>)"

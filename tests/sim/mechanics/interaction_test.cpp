@@ -1,4 +1,4 @@
-// Every interaction, on irregular and warped sheets, against the same computed from the polygons alone.
+// Every interaction, on irregular and warped sheets, against a reference computed from polygons.
 #include "sim/brute_force.h"
 #include "sim/mechanics/spring_law.h"
 #include "sim/presets.h"
@@ -14,7 +14,7 @@ using namespace meshes;
 
 constexpr double damping = 0.8;
 
-// A body with one interaction; null where the sheet has none of it.
+// A body with one interaction; null if it does not occur on the sheet.
 std::unique_ptr<Body> body_with(const Spring& spring, const PolygonMesh& mesh,
                                 Cumulated cumulated = Cumulated::Auto) {
   Recipe recipe;
@@ -39,7 +39,7 @@ Forces forces_of(const Body& body) {
   return f;
 }
 
-// Calls f(body, what the polygons give) for every interaction on every sheet, away from rest.
+// Calls f(body, reference) for every interaction on every sheet, away from rest.
 template <class F> void on_every_sheet(F&& f) {
   for (const Named& sheet : irregular()) {
     for (const Spring& spring : all_springs(damping)) {
@@ -97,7 +97,7 @@ TEST(Interaction, gives_the_same_forces_unfolded) {
   }
 }
 
-// Σf and Σ x×f as shares of Σ|f| and Σ|x||f|.
+// Σf and Σ x×f relative to Σ|f| and Σ|x||f|.
 std::pair<double, double> resultants(const Body& body, const std::vector<Record>& forces) {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double all = 0, all_moments = 0;
@@ -167,7 +167,7 @@ TEST(Interaction, dissipates_by_its_damping) {
       const auto body = body_with(spring, sheet.mesh);
       if (!body) continue;
       for (unsigned seed = 0; seed < 5; ++seed) {
-        shake(*body, 0, seed); // at rest, so that damping is all there is
+        shake(*body, 0, seed); // at rest, so that only damping acts
         const std::vector<Record> f = forces_of(*body).folded;
         double power = 0;
         for (std::size_t v = 0; v < f.size(); ++v) power += f[v].vec().dot(velocities(*body)[v].vec());

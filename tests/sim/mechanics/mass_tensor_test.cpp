@@ -1,4 +1,4 @@
-// Mass-tensors against the stiffness of the linear element, and folded against unfolded.
+// Mass-tensors against the stiffness of the linear element, and folded against unfolded ones.
 #include "sim/mechanics/mass_tensor.h"
 
 #include "sim/elements.h"
@@ -56,7 +56,7 @@ std::size_t live(const Body& body, std::size_t n) {
 }
 
 TEST(MassTensor, has_one_tensor_for_each_pair_and_each_vertex_when_folded) {
-  // 2 × 2 × 2 hexahedra: 27 vertices, 54 edges, 36 faces, 8 volumes (fig. 5.24: 8 + 28 of each by itself)
+  // 2 × 2 × 2 hexahedra: 27 vertices, 54 edges, 36 faces, 8 volumes (fig. 5.24: 8 + 28 for a single one)
   CellMesh mesh = bar_cells({BarPattern::Hexahedra, 2, 2, 2, Vec3(2, 2, 2)});
   Noise noise(2);
   for (Vec3& x : mesh.points) x += 0.1 * noise.vector();

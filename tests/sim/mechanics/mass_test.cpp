@@ -13,7 +13,7 @@ namespace {
 
 using namespace meshes;
 
-double area_of(const PolygonMesh& mesh) { // flat ones
+double area_of(const PolygonMesh& mesh) { // of flat polygons
   double area = 0;
   for (std::size_t p = 0; p < mesh.polygons(); ++p) {
     Vec3 sum = Vec3::Zero();
@@ -89,7 +89,7 @@ TEST(Mass, of_flat_irregular_sheets_is_conserved_by_subdivision) {
   }
 }
 
-// Affine images keep faces flat: volumes then have a closed form.
+// Affine maps keep faces flat: volumes then have a closed form.
 CellMesh sheared(CellMesh mesh) {
   for (Vec3& x : mesh.points) x = Vec3(x.x() + 0.3 * x.y(), x.y() - 0.2 * x.z(), x.z() + 0.1 * x.x());
   return mesh;

@@ -1,4 +1,4 @@
-// Rotations against brute force and differences.
+// Rotations against brute force and finite differences.
 #include "sim/mechanics/rotation.h"
 
 #include "sim/elements.h"
@@ -28,7 +28,7 @@ TEST(ClosestRotation, is_a_rotation_and_no_other_is_closer) {
     const Matrix3d R = sheet ? closest_sheet_rotation(F) : closest_rotation(F);
     EXPECT_LT((R.transpose() * R - Matrix3d::Identity()).norm(), 1e-14);
     EXPECT_NEAR(R.determinant(), 1, 1e-14);
-    EXPECT_LT((closest_rotation(F) - R).norm(), 1e-10); // a sheet's is that of the matrix with a column of 0
+    EXPECT_LT((closest_rotation(F) - R).norm(), 1e-10); // for a sheet, that of the matrix with a zero column
     for (int m = 0; m < 50; ++m) {
       const Matrix3d Q = elements::random_rotation(noise);
       EXPECT_GE((R.transpose() * F).trace(), (Q.transpose() * F).trace() - 1e-12);

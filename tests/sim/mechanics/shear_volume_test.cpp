@@ -1,4 +1,4 @@
-// Springs in solids: what there is of each, where, and that folding changes no force.
+// Springs in solids: their number and places, and that folding does not change forces.
 #include "sim/mechanics/shear_volume.h"
 
 #include "sim/elements.h"
@@ -87,7 +87,7 @@ TEST(SolidSprings, of_volumes_are_the_diagonals_through_the_middle) {
     rows.for_each([&](std::size_t, std::size_t row) {
       const std::uint32_t i = rows.index(0)[row], j = rows.index(1)[row];
       const Vec3 apart = body->map->rest()[j].vec() - body->map->rest()[i].vec();
-      EXPECT_GT(apart.norm(), std::sqrt(3.0) - 0.5); // √2 + 0.35 at most across a face
+      EXPECT_GT(apart.norm(), std::sqrt(3.0) - 0.5); // at most √2 + 0.35 across a face
       EXPECT_GT(apart.cwiseAbs().minCoeff(), 0.7);   // one box along each axis
       EXPECT_NEAR(rows.value(2, row), apart.norm(), 1e-15);
       pairs.insert(std::minmax(i, j));
@@ -105,7 +105,8 @@ TEST(SolidSprings, give_the_same_forces_folded_or_not) {
   }
 }
 
-TEST(SolidSprings, of_one_sort_in_both_kinds_of_shear_pull_alike) { // one k: they differ in who carries it
+// the same k: they differ only in the element that owns them
+TEST(SolidSprings, of_one_sort_in_both_kinds_of_shear_pull_alike) {
   for (const char* where : {"face", "volume"}) {
     const auto one = solid_of_springs(BarPattern::Hexahedra, {{"shear", "isotropic", where}}, {.fold = true});
     const auto other =

@@ -51,7 +51,8 @@ TEST(Spring, damping_dissipates) {
     const Vec3 f = spring_force({0, 0.4, 0}, xi, xj, vi, vj);
     EXPECT_LE(f.dot(vi) - f.dot(vj), 0);
   }
-  EXPECT_EQ(spring_force({0, 2, 1}, zero, Vec3(1, 0, 0), zero, Vec3(3, 5, 0)), Vec3(6, 0, 0)); // along it alone
+  // only along the spring
+  EXPECT_EQ(spring_force({0, 2, 1}, zero, Vec3(1, 0, 0), zero, Vec3(3, 5, 0)), Vec3(6, 0, 0));
 }
 
 TEST(Spring, without_length_gives_no_force) {

@@ -18,7 +18,7 @@ using namespace meshes;
 constexpr double E = 1000, h = 0.01;
 
 // Membrane stiffness of a sheet of springs: the second derivatives of its energy per area under uniform strain
-// (εx, εy, γ), at rest. `depth` cells from the border inwards are left out, so that borders do not show.
+// (εx, εy, γ), at rest. `depth` cells from the border inwards are excluded, to avoid boundary effects.
 Eigen::Matrix3d membrane(const PolygonMesh& mesh, double nu, int depth) {
   const auto map = sheet_from(mesh);
   const SpringMaterial material{E, nu, h};
@@ -66,7 +66,7 @@ Eigen::Matrix3d membrane(const PolygonMesh& mesh, double nu, int depth) {
 struct Elastic {
   double young, poisson, shear;
 };
-Elastic constants(const Eigen::Matrix3d& membrane) { // of a sheet of thickness h, pulled along x
+Elastic constants(const Eigen::Matrix3d& membrane) { // for a sheet of thickness h, stretched along x
   const Eigen::Matrix3d compliance = (membrane / h).inverse();
   return {1 / compliance(0, 0), -compliance(1, 0) / compliance(0, 0), 1 / compliance(2, 2)};
 }
@@ -119,7 +119,7 @@ TEST(Young, of_right_isosceles_triangles_is_what_the_note_to_the_author_says) {
   EXPECT_NEAR(found.poisson, 0, 1e-12);
 }
 
-// The same from motion: a strip of one cell's material, pulled by forces, settles at the extension that E says.
+// The same from dynamics: a strip of cells, pulled by forces, settles at the extension that E predicts.
 TEST(Young, is_found_by_pulling_a_sheet_in_a_scene) {
   presets::Loaded scene =
       presets::load(R"(<scene name="pull"><body><sheet cells="8 8" size="1 1"/><mass total="1"/>
@@ -158,10 +158,10 @@ std::string refusal(const std::string& sheet, const std::string& springs) {
 TEST(Young, refuses_cells_that_would_be_pushed_apart) {
   const std::string springs =
       R"(<springs young="1000" poisson="0.3333333333333333" thickness="0.01"><stretch/></springs>)";
-  // A side may be at most w √(3ν + 2) = 1.732 w long.
+  // A side must not be longer than w √(3ν + 2) = 1.732 w.
   EXPECT_EQ(refusal(R"(<sheet cells="1 1" size="1.7 1"/>)", springs), "accepted");
   EXPECT_NE(refusal(R"(<sheet cells="1 1" size="1.8 1"/>)", springs).find("(0.9, 0, 0)"), std::string::npos);
-  // The long side of two triangles whose angles there are 120° and more.
+  // The long side of two triangles with angles of 120° and more.
   const std::string blunt = R"(<sheet pattern="crossed" cells="1 1" size="1.8 1"/>)";
   EXPECT_NE(refusal(blunt, springs).find("triangle"), std::string::npos);
 }

@@ -1,5 +1,6 @@
-// Files that are cut off, lie about counts, hold what is no number or what no map can hold: each is refused by
-// name and place, and none makes its reader crash, hang or take memory that its size does not account for.
+// Files that are truncated, state wrong counts, contain invalid numbers or cells that no map can represent:
+// each is refused with the file name and the place, and none makes its reader crash, hang or take memory out of
+// proportion to its size.
 #include "sim/mesh/moka.h"
 #include "sim/mesh/reader.h"
 
@@ -16,7 +17,7 @@ using files::Folder;
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// While it lives, the process cannot take more than 256 MB beyond what it has: more is std::bad_alloc.
+// While it exists, the process can allocate at most 256 MB more: beyond that, std::bad_alloc.
 class MemoryLimit {
 public:
   MemoryLimit() {
@@ -39,7 +40,7 @@ private:
 
 enum class Verdict { Taken, Refused };
 
-// Anything but a map or a UserError that names the file fails the test.
+// The test fails on anything but a map or a UserError that names the file.
 Verdict verdict(const std::string& name, const std::string& text, std::string* message = nullptr) {
   const MemoryLimit limit;
   try {
@@ -59,7 +60,7 @@ std::string refusal(const std::string& name, const std::string& text) {
   return message;
 }
 
-// Good files of every flavour.
+// Valid files of every format.
 const std::map<std::string, std::string>& good() {
   static const std::map<std::string, std::string> all = [] {
     std::map<std::string, std::string> made;
@@ -96,7 +97,7 @@ TEST(BadMesh, good_files_are_taken) {
 TEST(BadMesh, files_that_are_cut_off_are_refused) {
   int files = 0;
   for (const auto& [name, text] : good()) {
-    if (name == "sheet.obj") continue; // has no end: half of its polygons are a sheet too
+    if (name == "sheet.obj") continue; // has no end mark: half of its polygons are a sheet, too
     for (int part = 0; part < 12; ++part, ++files) {
       const std::size_t length = text.size() * static_cast<std::size_t>(part) / 12;
       EXPECT_EQ(verdict(name, text.substr(0, length)), Verdict::Refused) << name << " cut at " << length;
@@ -111,7 +112,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(at, what.size(), by);
 }
 
-// Replaces each whole number of the text in turn.
+// Replaces each integer in the text in turn.
 TEST(BadMesh, texts_with_a_number_that_is_none_are_refused) {
   int files = 0;
   for (const auto& [name, text] : good()) {
@@ -155,10 +156,10 @@ TEST(BadMesh, counts_that_lie_are_refused_before_anything_is_allocated) {
        {std::uint64_t{2}, std::uint64_t{1} << 33U, ~std::uint64_t{0}, ~std::uint64_t{0} / 8}) {
     for (const char* section : {"$Nodes\n", "$Elements\n"}) {
       const std::size_t at = good().at("bar-41b.msh").find(section) + std::string(section).size();
-      for (std::size_t field : {0, 1}) // blocks, all
+      for (std::size_t field : {0, 1}) // number of blocks, total number
         EXPECT_EQ(verdict("bar-41b.msh", binary("bar-41b.msh", at + 8 * field, count, 8)), Verdict::Refused);
       EXPECT_EQ(verdict("bar-41b.msh", binary("bar-41b.msh", at + 44, count, 8)),
-                Verdict::Refused); // of a block
+                Verdict::Refused); // number of a block
     }
     const std::string& text = good().at("bar-22b.msh");
     const std::size_t elements = text.find('\n', text.find("$Elements\n") + 10) + 1;
@@ -195,7 +196,7 @@ TEST(BadMesh, elements_that_no_map_holds_are_named) {
               HasSubstr("a.msh:7:1: node 10 is there twice"));
   EXPECT_THAT(refusal("a.msh", "solid"), HasSubstr("starts with $MeshFormat"));
   EXPECT_THAT(refusal("a.stl", "solid"), HasSubstr("'.stl' is no mesh format"));
-  // a triangle without area, in a sheet
+  // a degenerate triangle in a sheet
   EXPECT_THAT(refusal("a.msh", replaced(head, "30 0 1 0", "30 0.5 0 0") + "1\n1 2 0 10 20 30\n$EndElements\n"),
               HasSubstr("polygon 1 has no area"));
 }
@@ -234,7 +235,7 @@ TEST(BadMesh, binary_files_name_the_byte) {
   EXPECT_THAT(refusal("a.msh", text.substr(0, at + 100)), HasSubstr(fmt::format("a.msh: byte {}: ", at + 8)));
 }
 
-// Of 20 GB, of which nothing but the beginning is on the disk; while it is read nothing may take 256 MB.
+// A sparse file of 20 GB; reading it must not allocate 256 MB.
 TEST(BadMesh, a_file_with_a_hole_takes_no_memory) {
   const Folder folder;
   for (const auto& [name, text] : good()) {
@@ -253,7 +254,7 @@ TEST(BadMesh, a_file_with_a_hole_takes_no_memory) {
       fs::remove(path);
     }
   }
-  // Two binary ends around a hole, and one that ends within it.
+  // A binary file with a hole in the middle, and one that ends within the hole.
   const std::string& binary = good().at("bar-41b.msh");
   const fs::path path = folder.write("middle.msh", binary);
   fs::resize_file(path, std::uintmax_t{1} << 34U);
@@ -263,7 +264,7 @@ TEST(BadMesh, a_file_with_a_hole_takes_no_memory) {
   EXPECT_NO_THROW(read_mesh(folder.write("whole.msh", binary)));
 }
 
-// Tags of nodes may be any: no array is as long as the largest is high.
+// Node tags can be arbitrary: no array may be as long as the largest tag.
 TEST(BadMesh, tags_far_apart_take_no_memory) {
   const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n";
   const std::string tail = " 0 0 1\n$EndNodes\n$Elements\n1\n1 4 0 1 7 4000000000 ";
@@ -272,7 +273,7 @@ TEST(BadMesh, tags_far_apart_take_no_memory) {
             Verdict::Taken);
 }
 
-// tinyobjloader makes room for what a tag announces, and polygons may be in any number of groups.
+// tinyobjloader allocates what a tag announces, and polygons can be in any number of groups.
 TEST(BadMesh, obj_statements_that_announce_much_take_no_memory) {
   const std::string sheet = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   std::string tags = sheet + "f 1 2 3\n", groups = sheet + "g";
@@ -299,8 +300,8 @@ TEST(BadMesh, numbers_of_groups_are_of_32_bits_without_their_sign) {
     EXPECT_THAT(refusal("a.msh", msh(number, "1")), HasSubstr("a.msh:6:3: is too large for the number of a"));
     EXPECT_THAT(refusal("a.msh", msh("1", number)), HasSubstr("a.msh:17:7: is too large for the number of a"));
   }
-  EXPECT_THAT(refusal("a.msh", msh("1", "4294967297")), HasSubstr("too large")); // 1, in 32 bits
-  for (const char* used : {"2147483647", "-2147483647"})                         // reversed
+  EXPECT_THAT(refusal("a.msh", msh("1", "4294967297")), HasSubstr("too large")); // 1 in 32 bits
+  for (const char* used : {"2147483647", "-2147483647"})                         // reversed orientation
     EXPECT_EQ(groups("2147483647", used).count("all"), 1u) << used;
   const auto of_entity = [](const char* number) {
     return fmt::format("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 {} 0\n"
@@ -322,7 +323,7 @@ TEST(BadMesh, a_file_that_is_not_there_is_another_matter) {
   }
 }
 
-// Bytes changed, dropped, doubled at random: refused, or a valid map.
+// Bytes changed, dropped or doubled at random: the file is refused, or gives a valid map.
 TEST(BadMesh, random_damage_ends_in_a_map_or_a_refusal) {
   std::mt19937 random(5);
   std::size_t refused = 0;
@@ -352,7 +353,7 @@ TEST(BadMesh, random_damage_ends_in_a_map_or_a_refusal) {
   EXPECT_GE(refused, 60u);
 }
 
-// One point that a million faces share must not make sewing quadratic; nor a group for each byte.
+// A point shared by a million faces must not make sewing quadratic; nor a group for each byte.
 TEST(BadMesh, files_of_a_megabyte_that_are_made_to_be_slow_are_not) {
   std::string fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", groups = fan;
   while (fan.size() < 1000000) fan += "f 1 2 3\n";

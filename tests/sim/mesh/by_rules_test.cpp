@@ -1,5 +1,5 @@
-// Sheets that are built by rules, as in the thesis (3.4.2), against those of the generator, and what
-// subdivision does to a body that already carries masses and springs (thesis figs. 6.13 to 6.15).
+// Sheets built by rules, as in the thesis (3.4.2), against those of the generator, and the effect of
+// subdivision on a body that already has masses and springs (thesis figs. 6.13 to 6.15).
 #include "sim/mesh/sheet.h"
 #include "sim/rows/program.h"
 #include "sim/rules/rules.h"
@@ -26,7 +26,7 @@ Owned by_generator(SheetPattern pattern, int cells) {
   return sheet_from(sheet_polygons(shape));
 }
 
-// A square, subdivided: 2^times cells on a side.
+// A square, subdivided `times` times: 2^times cells on a side.
 Owned subdivided(int times) {
   auto map = std::make_unique<EmbeddedMap>(2);
   const Dart d = apply(create_quad, *map, {},
@@ -43,7 +43,7 @@ Vec3 centre_of(const EmbeddedMap& map, Dart d) {
   return sum / static_cast<double>(darts.size());
 }
 
-// Crosses the faces of a square of n × n cells that `chosen` says, given the place of their cell.
+// Triangulates those faces of a square of n × n cells that `chosen` selects by position.
 template <class F> void cross(EmbeddedMap& map, int n, F&& chosen) {
   std::vector<Dart> faces;
   for_each_face(map, [&](Dart d) { faces.push_back(d); });
@@ -61,7 +61,7 @@ Owned by_rules(SheetPattern pattern, int times) {
   return map;
 }
 
-// Squares halved along the diagonal from their first corner: triangles by the rule, sewn where they meet.
+// Squares split along the diagonal from their first corner: triangles built by the rule, then sewn.
 Owned halved_by_rules(int n) {
   auto map = std::make_unique<EmbeddedMap>(2);
   for (int y = 0; y < n; ++y)
@@ -74,7 +74,7 @@ Owned halved_by_rules(int n) {
   return map;
 }
 
-// The dart of b for each of a, points being the same; empty: they are not the same sheet.
+// The isomorphism from darts of a to darts of b with equal points; empty: the sheets differ.
 std::vector<Dart> images(const EmbeddedMap& a, const EmbeddedMap& b) {
   const auto image =
       isomorphism(a.map(), b.map(), [&](Dart d, Dart e) { return a.rest_of(d) == b.rest_of(e); });
@@ -98,7 +98,7 @@ std::vector<Pair> pairs() {
   return all;
 }
 
-// A map with masses, drags and interactions, and the program on them.
+// A map with masses, viscosities and interactions, and their program.
 struct Laden {
   EmbeddedMap& map;
   MassColumn& mass;
@@ -117,7 +117,7 @@ struct Laden {
   }
 };
 
-// The sum of all corner masses, with more digits than the sum itself would lose.
+// The sum of all corner masses in extended precision.
 double exact_mass(const Laden& body) {
   const CellIndex& corners = body.map.cells(VertexOfFace);
   long double sum = 0;
@@ -126,7 +126,7 @@ double exact_mass(const Laden& body) {
   return static_cast<double>(sum);
 }
 
-// Compares what two sheets carry, dart by dart, through the bijection.
+// Compares the embedded values of two sheets, dart by dart, through the isomorphism.
 void expect_same_load(const Laden& a, const Laden& b, const std::vector<Dart>& image, bool drag = true) {
   ASSERT_EQ(a.interactions.size(), b.interactions.size());
   a.map.map().for_each_dart([&](Dart d) {
@@ -138,7 +138,7 @@ void expect_same_load(const Laden& a, const Laden& b, const std::vector<Dart>& i
     for (std::size_t n = 0; n < a.interactions.size(); ++n) {
       const Interaction &one = *a.interactions[n], &other = *b.interactions[n];
       ASSERT_EQ(one.name, other.name);
-      if (one.name == "shear anisotropic") continue; // which corners carry it is told by the numbers of darts
+      if (one.name == "shear anisotropic") continue; // which corners own it depends on the numbers of darts
       for (std::size_t unit = 0; unit < one.pattern.units.size(); ++unit) {
         ASSERT_EQ(one.pattern.present(a.map.map(), d, unit), other.pattern.present(b.map.map(), e, unit));
         if (!one.pattern.present(a.map.map(), d, unit)) continue;
@@ -152,8 +152,8 @@ void expect_same_load(const Laden& a, const Laden& b, const std::vector<Dart>& i
   });
 }
 
-// The same state for both, told by rest positions, and the largest difference of the forces over the largest
-// force.
+// Sets the same state on both, by rest positions; returns the largest difference of forces relative to the
+// largest force.
 double difference_of_forces(Laden& a, Laden& b, const std::vector<Dart>& image) {
   const auto moved = [](const Vec3& x) {
     return Vec3(x +
@@ -202,7 +202,7 @@ TEST(SheetByRules, carries_what_the_generators_sheet_carries) {
   }
 }
 
-// Interactions that were there before each rule follow by their policies alone.
+// Interactions that existed before a rule are updated by their policies alone.
 TEST(SheetByRules, carries_the_same_where_the_load_was_there_before_the_rules) {
   for (const SheetPattern pattern : {SheetPattern::Quads, SheetPattern::Crossed, SheetPattern::Mixed}) {
     for (int times = 2; times <= 4; ++times) {
@@ -215,10 +215,10 @@ TEST(SheetByRules, carries_the_same_where_the_load_was_there_before_the_rules) {
         cross(*rules, 1 << times, [](int x, int y) { return (x + y) % 2 == 1; });
       const std::vector<Dart> image = images(*rules, *generator);
       ASSERT_FALSE(image.empty());
-      if (pattern == SheetPattern::Crossed) // the generator leaves out the shear that finds no quad
+      if (pattern == SheetPattern::Crossed) // the generator omits shear springs outside of quads
         std::erase_if(a.interactions, [](const auto& each) { return each->name.starts_with("shear"); });
-      // A corner's share of viscosity counts the corners that its vertex has when its face is made: one that
-      // gets more when a neighbour is crossed is not asked.
+      // A corner's share of viscosity depends on the number of corners at its vertex when its face is created;
+      // later neighbours do not change it.
       expect_same_load(a, b, image, pattern == SheetPattern::Quads);
       EXPECT_LT(difference_of_forces(a, b, image), 1e-13);
     }
@@ -238,7 +238,7 @@ TEST(Subdivision, quarters_corner_masses_keeps_stiffnesses_and_halves_rest_lengt
     EXPECT_EQ(static_cast<double>(count_cells(map->map()).faces), faces);
     EXPECT_NEAR(exact_mass(body), mass, 1e-14 * mass);
     const std::map<std::string, std::pair<double, double>> known{
-        // k and damping stay; rest
+        // k and damping stay; the rest length is that of the new edge
         {"stretch", {60, side}},
         {"shear isotropic", {43, std::sqrt(2.0) * side}},
         {"bend provot", {10, 2 * side}}};
@@ -267,7 +267,7 @@ TEST(Subdivision, brings_a_program_up_to_date) {
 
 TEST(Subdivision, keeps_the_mass_of_irregular_cells) {
   PolygonMesh mesh = meshes::warped(meshes::bricks(6, 4), 0.15, 5);
-  for (Vec3& x : mesh.points) x.z() = 0.5 * x.x(); // flat, on a slope
+  for (Vec3& x : mesh.points) x.z() = 0.5 * x.x(); // planar, but inclined
   const Owned map = sheet_from(mesh);
   Laden body(*map, meshes::all_springs());
   const double mass = exact_mass(body);
@@ -286,7 +286,7 @@ TEST(Subdivision, of_a_deformed_body_puts_points_in_the_middle_and_looks_at_the_
     map->velocity().values()[n] = Record(deformed(map->rest().values()[n].vec()) * 7);
   }
   for (EmbeddedMap* each : {map.get(), calm.get()}) ASSERT_TRUE(apply(subdivide, *each, Dart{0u}).ok);
-  map->map().for_each_dart([&](Dart d) { // affine maps keep means
+  map->map().for_each_dart([&](Dart d) { // affine maps preserve means
     EXPECT_NEAR((map->position_of(d) - deformed(map->rest_of(d))).norm(), 0, 1e-14);
     EXPECT_NEAR((map->velocity()[map->vertex(d)].vec() - 7 * deformed(map->rest_of(d))).norm(), 0, 1e-13);
   });

@@ -1,4 +1,4 @@
-// Solids from cells: each dart against its cell's list of corners, α3 against brute force, volumes against
+// Solids from cells: each dart against the list of corners of its cell, α3 against brute force, volumes against
 // closed forms.
 #include "sim/mesh/cells.h"
 
@@ -22,7 +22,7 @@ using testing::HasSubstr;
 constexpr std::array<CellKind, 4> all_kinds{CellKind::Tetrahedron, CellKind::Hexahedron, CellKind::Prism,
                                             CellKind::Pyramid};
 
-// One cell on the unit cube's corners, in Gmsh's order.
+// One cell with the corners of the unit cube, in Gmsh's order.
 CellMesh unit(CellKind kind) {
   CellMesh mesh;
   const auto point = [&](double x, double y, double z) { mesh.points.emplace_back(x, y, z); };
@@ -134,7 +134,7 @@ TEST(Cells, have_the_volume_of_the_closed_form_under_any_affine_map) {
       EXPECT_EQ(solid.turned, expected < 0 ? 1u : 0u);
       EXPECT_EQ(validate(*solid.map), std::nullopt);
       EXPECT_NEAR(rest_volume(*solid.map, Dart{0u}), std::abs(expected), 1e-14);
-      // turned or not, the first corners make a right-handed frame
+      // reversed or not, the first corners form a right-handed frame
       const auto at = [&](const char* word) {
         return solid.map->rest_of(solid.map->map().follow(Dart{0u}, std::string(word)));
       };
@@ -142,7 +142,7 @@ TEST(Cells, have_the_volume_of_the_closed_form_under_any_affine_map) {
     }
 }
 
-// Every way to write the corners of a cell down that only renumbers it makes the same cell.
+// Every permutation of corners that is a symmetry of the cell gives the same cell.
 TEST(Cells, that_are_inside_out_are_turned_and_still_match_their_neighbours) {
   for (const BarPattern pattern : all_patterns) {
     CellMesh mesh = bar(pattern, 3, 2, 2);
@@ -190,7 +190,7 @@ TEST(Cells, remember_the_point_of_each_vertex) {
     EXPECT_EQ(solid.map->rest()[v].vec(), mesh.points[solid.point[v]]);
 }
 
-TEST(Cells, take_few_bytes_a_dart) { // 64 are allowed, for map and embeddings
+TEST(Cells, take_few_bytes_a_dart) { // 64 is the limit, for map and embeddings
   for (const BarPattern pattern : all_patterns) {
     const auto map = solid_from(bar(pattern, 10, 10, 10));
     map->add(CornerMass{.density = 1}.on(*map));
@@ -219,7 +219,7 @@ TEST(Cells, that_meet_only_in_a_point_or_an_edge_have_vertices_of_their_own) {
 }
 
 TEST(Cells, are_refused_where_a_solid_cannot_hold_them) {
-  CellMesh mesh = unit(CellKind::Tetrahedron); // three tetrahedra on one triangle
+  CellMesh mesh = unit(CellKind::Tetrahedron); // three tetrahedra at one triangle
   mesh.points.emplace_back(0, 0, -1);
   mesh.points.emplace_back(0.1, 0.1, 2);
   mesh.add(CellKind::Tetrahedron, {0, 1, 2, 4});
@@ -235,12 +235,12 @@ TEST(Cells, are_refused_where_a_solid_cannot_hold_them) {
                                           "of 1 m"));
   flat.points[3].z() = 1e200;
   EXPECT_THAT(refusal_of(flat), HasSubstr("has too large a length or volume for a number of 64 bits"));
-  flat.points[3].z() = 1e-9; // thin, and legal
+  flat.points[3].z() = 1e-9; // thin, but valid
   EXPECT_THAT(refusal_of(flat), HasSubstr("not refused"));
   flat.points[3].z() = std::nan("");
   EXPECT_THAT(refusal_of(flat), HasSubstr("not finite"));
 
-  CellMesh again = unit(CellKind::Tetrahedron); // the same cell again, and one on the same side
+  CellMesh again = unit(CellKind::Tetrahedron); // a duplicate, and a cell on the same side of a face
   again.add(CellKind::Tetrahedron, {1, 0, 2, 3});
   EXPECT_THAT(refusal_of(again), HasSubstr("tetrahedron 1: overlaps tetrahedron 0"));
   again.points.emplace_back(0.1, 0.2, 3);
@@ -256,7 +256,7 @@ TEST(Cells, are_refused_where_a_solid_cannot_hold_them) {
 }
 
 TEST(Cells, are_refused_where_faces_lie_on_each_other_and_do_not_match) {
-  for (const bool other_diagonal : {false, true}) { // two tetrahedra on the top of a cube
+  for (const bool other_diagonal : {false, true}) { // two tetrahedra on top of a cube
     CellMesh mesh = unit(CellKind::Hexahedron);
     mesh.points.emplace_back(0.5, 0.5, 2);
     if (other_diagonal) {
@@ -269,8 +269,8 @@ TEST(Cells, are_refused_where_faces_lie_on_each_other_and_do_not_match) {
     EXPECT_THAT(refusal_of(mesh),
                 HasSubstr("hexahedron 0: has a face with the points 4 5 6 7, on which tetrahedron"));
   }
-  CellMesh crossed = unit(CellKind::Hexahedron); // a pyramid whose base runs through the cube's points across
-  crossed.points[5].z() = 1.5;                   // flat, it would have no volume
+  CellMesh crossed = unit(CellKind::Hexahedron); // a pyramid whose base connects the cube's points diagonally
+  crossed.points[5].z() = 1.5;                   // if it were flat, it would have no volume
   crossed.points.emplace_back(0.2, 0.6, 3);
   crossed.add(CellKind::Pyramid, {4, 6, 5, 7, 8});
   EXPECT_THAT(refusal_of(crossed), HasSubstr("they do not match"));
@@ -298,12 +298,13 @@ TEST(Bar, is_a_ball_of_the_right_volume_in_every_pattern) {
     for (std::size_t c = 0; c < mesh.cells(); ++c) volume += signed_volume(mesh, c);
     EXPECT_NEAR(volume, 1, 1e-14);
     const std::size_t quads =
-        2 * (5 * 4 + 5 * 3 + 4 * 3); // boxes' faces on the surface: nothing inside is open
+        2 * (5 * 4 + 5 * 3 + 4 * 3); // faces of boxes on the surface: no inner face is open
     const std::size_t open = open_faces(solid.map->map());
     const std::map<BarPattern, std::size_t> expected{{BarPattern::Hexahedra, quads},
                                                      {BarPattern::Tetrahedra, 2 * quads},
                                                      {BarPattern::Prisms, quads + 2 * 5 * 4},
-                                                     // ends of prisms; sides of the one slice that is cut up
+                                                     // ends of prisms; sides of the slice that is split into
+                                                     // tetrahedra
                                                      {BarPattern::Mixed, quads + 2 * (2 * 4 + 4 + 3)}};
     EXPECT_EQ(open, expected.at(pattern));
   }

@@ -22,7 +22,7 @@ std::vector<std::uint32_t> shuffled(std::size_t count) {
   return order;
 }
 
-// The mean over cells of how far the slots of their vertices lie apart.
+// The mean over cells of the range of their vertices' slots.
 double spread_of_slots(const EmbeddedMap& map) {
   double sum = 0;
   const CellIndex cells(map.map(), map.dimension() == 3 ? Volume : FaceOfVolume);
@@ -68,7 +68,7 @@ TEST(Locality, what_cannot_be_sewn_is_left_to_who_says_so) {
   EXPECT_TRUE(order_for_locality(mesh).empty());
 }
 
-// A cell that is there twice: whoever is told must find it in the file.
+// A duplicate cell: the message must use the number in the file.
 TEST(Locality, messages_name_cells_as_before) {
   CellMesh mesh = bar_cells({BarPattern::Hexahedra, 2, 1, 1, Vec3(2, 1, 1)});
   const auto corners = mesh.corners_of(1);
@@ -85,8 +85,8 @@ TEST(Locality, messages_name_cells_as_before) {
   }
 }
 
-// Slices of 6 x 7 points, one after the other along the longest side, wherever that is: a box touches two of
-// them, which the first boxes meet at once, and the one before may have had a part of them.
+// Slices of 6 x 7 points, one after another along the longest side: a box uses points of two of them, both of
+// which the first boxes visit at once, and the previous slice may have visited some of them.
 TEST(Locality, of_a_long_bar_goes_slice_by_slice) {
   for (const std::array<int, 3>& n : {std::array{300, 5, 6}, {5, 300, 6}, {6, 5, 300}}) {
     const CellMesh mesh = bar_cells({BarPattern::Hexahedra, n[0], n[1], n[2], Vec3(n[0], n[1], n[2])});

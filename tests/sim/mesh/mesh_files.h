@@ -1,4 +1,4 @@
-// Mesh files for tests: bodies of our own as text, and Gmsh to convert them.
+// Mesh files for tests: our own meshes as text, and Gmsh to convert them.
 #pragma once
 
 #include "sim/mesh/bar.h"
@@ -20,7 +20,7 @@ namespace rend::files {
 
 namespace fs = std::filesystem;
 
-// A folder that goes when the test ends.
+// A temporary folder, removed at the end of the test.
 class Folder {
 public:
   Folder() : path_(fs::temp_directory_path() / ("rend-mesh-" + std::to_string(std::random_device()()))) {
@@ -36,7 +36,7 @@ public:
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;
   }
-  // Runs Gmsh on files of this folder.
+  // Runs Gmsh in this folder.
   void gmsh(const std::string& arguments) const {
     const std::string command = "cd '" + path_.string() + "' && gmsh " + arguments + " -v 1 >gmsh.log 2>&1";
     if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: gmsh " + arguments);

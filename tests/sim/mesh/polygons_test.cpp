@@ -41,7 +41,7 @@ TEST(SheetFromPolygons, holds_every_polygon_with_its_points) {
     ASSERT_EQ(validate(*map), std::nullopt);
     EXPECT_EQ(count_cells(map->map(), FaceOfVolume), mesh.polygons());
     EXPECT_EQ(map->map().dart_count(), 2 * mesh.corners.size());
-    for (std::size_t p = 0; p < mesh.polygons(); ++p) { // darts go polygon after polygon, side after side
+    for (std::size_t p = 0; p < mesh.polygons(); ++p) { // darts are numbered polygon by polygon, side by side
       Dart d{2 * mesh.first[p]};
       EXPECT_EQ(sides_of_face(map->map(), d), static_cast<int>(mesh.first[p + 1] - mesh.first[p]));
       for (std::uint32_t corner = mesh.first[p]; corner < mesh.first[p + 1]; ++corner) {
@@ -133,7 +133,7 @@ TEST(SheetFromPolygons, numbers_vertices_as_polygons_meet_them) {
 }
 
 TEST(SheetFromPolygons, refuses_what_a_sheet_cannot_hold) {
-  PolygonMesh book = points_of(5); // three pages at one spine
+  PolygonMesh book = points_of(5); // three polygons at one edge
   book.add({0, 1, 2});
   book.add({0, 1, 3});
   book.add({1, 0, 4});
@@ -148,7 +148,7 @@ TEST(SheetFromPolygons, refuses_what_a_sheet_cannot_hold) {
   PolygonMesh flat = points_of(3);
   flat.add({0, 1});
   EXPECT_THAT(refusal_of(flat), HasSubstr("polygon 0: has fewer than three corners"));
-  PolygonMesh twice = points_of(3); // a polygon thrice
+  PolygonMesh twice = points_of(3); // a polygon three times
   for (int n = 0; n < 3; ++n) twice.add({0, 1, 2});
   EXPECT_THAT(refusal_of(twice), HasSubstr("polygon 2"));
 }

@@ -1,5 +1,5 @@
-// Files of every format and flavour, written by Gmsh, by rend and here, against the maps that they were made
-// from.
+// Files of every format and variant, written by Gmsh, by rend and by the test, against the maps that they were
+// made from.
 #include "sim/mesh/reader.h"
 
 #include "sim/mechanics/mass.h"
@@ -20,7 +20,7 @@ namespace {
 
 using files::Folder;
 
-// Same links and, to 1e-12, same places.
+// The same links, and the same positions to 1e-12.
 bool same(const EmbeddedMap& a, const EmbeddedMap& b) {
   if (a.dimension() != b.dimension()) return false;
   return isomorphism(a.map(), b.map(),
@@ -83,7 +83,7 @@ TEST(MeshFiles, that_gmsh_meshes_have_the_same_map_and_groups_in_every_flavour) 
     std::set<std::string> names;
     for (const auto& [name, slots] : body.groups) names.insert(name);
     EXPECT_EQ(names, (std::set<std::string>{"left part", "9", "all", "end", "edge", "corner"}));
-    const auto expect = [&](const std::string& name, auto&& inside) { // as a selector by place would select
+    const auto expect = [&](const std::string& name, auto&& inside) { // as a selector by position would select
       std::vector<Slot> slots;
       for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)
         if (inside(body.map->rest()[v].vec())) slots.push_back(v);
@@ -138,7 +138,7 @@ TEST(MeshFiles, of_moka_go_out_and_come_back_as_the_same_map) {
   bodies.push_back(files::mixed_sheet());
   bodies.push_back(assets::loop_of_quads(5, false));
   bodies.push_back(assets::row_of_cubes(1));
-  bodies[3]->edit([&](Edit& edit) { // a bar in pieces, with darts removed
+  bodies[3]->edit([&](Edit& edit) { // a bar in several pieces, with darts removed
     for (std::uint32_t d = 0; d < 300; d += 7) unsew(edit, 3, Dart{d});
     remove_orbit(edit, Volume, Dart{0u});
   });
@@ -149,7 +149,7 @@ TEST(MeshFiles, of_moka_go_out_and_come_back_as_the_same_map) {
     EXPECT_TRUE(same(*body, *back.map));
     EXPECT_EQ(back.map->cells(Vertex).count(), body->cells(Vertex).count());
   }
-  // darts of cells that are numbered as sew_cells does keep their numbers
+  // darts of cells that are numbered as by sew_cells() keep their numbers
   for (std::size_t n : {0, 1, 2, 4})
     EXPECT_EQ(moka_text(*bodies[n]), moka_text(*files::read("a.moka", moka_text(*bodies[n])).map));
 }
@@ -170,7 +170,7 @@ TEST(MeshFiles, of_moka_give_cells_the_order_of_darts_that_others_have) {
     text +=
         "0 0 0 0 1 " + std::to_string(x.x()) + " " + std::to_string(x.y()) + " " + std::to_string(x.z()) + "\n";
   }
-  // std::to_string rounds to 6 digits, so that only topology and orientation are looked at
+  // std::to_string rounds to 6 digits: only topology and orientation are compared
   const MeshBody back = files::read("a.moka", text);
   EXPECT_TRUE(isomorphism(bar->map(), back.map->map()).has_value());
   const CellIndex cells(back.map->map(), Volume);
@@ -198,7 +198,7 @@ TEST(MeshFiles, with_cells_inside_out_say_so) {
   std::string text = files::text_of(files::mixed_bar());
   const MeshBody whole = files::read("a.msh", text);
   EXPECT_TRUE(whole.notes.empty());
-  const std::size_t at = text.find(" 4 2 0 0 ") + 9; // the first tetrahedron: exchange two of its nodes
+  const std::size_t at = text.find(" 4 2 0 0 ") + 9; // swaps two nodes of the first tetrahedron
   const std::size_t second = text.find(' ', at), third = text.find(' ', second + 1);
   const std::string a = text.substr(at, second - at), b = text.substr(second + 1, third - second - 1);
   text.replace(at, third - at, fmt::format("{} {}", b, a));
@@ -208,7 +208,7 @@ TEST(MeshFiles, with_cells_inside_out_say_so) {
 }
 
 TEST(MeshFiles, may_have_tags_with_gaps) {
-  const std::string huge = "18446744073709551"; // sparse beyond any table
+  const std::string huge = "18446744073709551"; // too sparse for a table
   const MeshBody body =
       files::read("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n" + huge +
                                " 0 0 0\n7 1 0 0\n123456789 0 1 "

@@ -44,7 +44,7 @@ std::string name_of(const Case& c) {
          std::to_string(c.ny);
 }
 
-// How many closed lines the border of a sheet consists of.
+// The number of closed border lines of a sheet.
 int border_lines(const GMap& map) {
   std::vector<char> seen(map.capacity(), 0);
   int lines = 0;
@@ -62,7 +62,7 @@ int border_lines(const GMap& map) {
   return lines;
 }
 
-// Whether darts can be coloured so that every link changes the colour.
+// Whether darts have a 2-colouring in which every link changes the colour.
 bool orientable(const GMap& map) {
   std::vector<int> colour(map.capacity(), 0);
   std::vector<Dart> rest;
@@ -94,7 +94,7 @@ TEST(SheetGenerator, has_the_cells_of_its_pattern) {
     const auto map = sheet_from(sheet_polygons(shape_of(c)));
     ASSERT_EQ(validate(*map), std::nullopt);
     const std::size_t nx = static_cast<std::size_t>(c.nx), ny = static_cast<std::size_t>(c.ny), cells = nx * ny;
-    const std::size_t across = c.closure == None ? nx + 1 : nx; // lines of points across
+    const std::size_t across = c.closure == None ? nx + 1 : nx; // rows of points
     const std::size_t crossed = c.pattern == Crossed ? cells : c.pattern == Mixed ? cells / 2 : 0;
     const std::size_t cut = c.pattern == Triangles ? cells : 0;
     const CellCounts counts = count_cells(map->map());
@@ -118,7 +118,7 @@ TEST(SheetGenerator, a_disc_and_a_moebius_band_have_one_border_line_and_a_loop_h
 TEST(SheetGenerator, covers_the_rectangle) {
   for (SheetPattern pattern : {Quads, Triangles, Crossed, Mixed}) {
     const PolygonMesh mesh = sheet_polygons(shape_of({pattern, None, 6, 4}));
-    Vec3 area = Vec3::Zero(); // of all polygons, by their own windings
+    Vec3 area = Vec3::Zero(); // of all polygons, by their own orientation
     for (std::size_t p = 0; p < mesh.polygons(); ++p)
       for (std::uint32_t c = mesh.first[p]; c < mesh.first[p + 1]; ++c) {
         const std::uint32_t next = c + 1 < mesh.first[p + 1] ? c + 1 : mesh.first[p];
@@ -157,8 +157,8 @@ TEST(SheetGenerator, lays_a_loop_on_a_cylinder_of_its_circumference) {
   EXPECT_EQ(high, 0.25);
 }
 
-// The sides of the quads of a band: around it none is longer than on the strip's outer circle, and across it
-// all are as long as the width says. So the seam closes without a jump.
+// In a band, no side along it is longer than on the strip's outer circle, and sides across it have the length
+// that the width gives: the seam closes without a jump.
 TEST(SheetGenerator, closes_a_band_without_a_jump) {
   for (SheetClosure closure : {Loop, Twist}) {
     const int nx = 60, ny = 4;
@@ -178,7 +178,7 @@ TEST(SheetGenerator, closes_a_band_without_a_jump) {
 TEST(SheetGenerator, turns_a_moebius_band_by_half_a_turn_on_the_way_around) {
   const int nx = 90;
   const PolygonMesh mesh = sheet_polygons(shape_of({Quads, Twist, nx, 1}));
-  double turned = 0; // [degrees], of the direction across, about the middle line
+  double turned = 0; // [degrees], rotation of the transverse direction about the centre line
   for (int x = 0; x < nx; ++x) {
     const auto across = [&](int column) {
       const Vec3 low = mesh.points[static_cast<std::size_t>(column % nx)];
@@ -188,7 +188,7 @@ TEST(SheetGenerator, turns_a_moebius_band_by_half_a_turn_on_the_way_around) {
     const Vec3 a = across(x), b = across(x + 1);
     turned += std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * 180 / pi;
   }
-  EXPECT_GT(turned, 180); // it also goes around the circle
+  EXPECT_GT(turned, 180); // it also follows the circle
   EXPECT_LT(turned, 180 + 360);
   EXPECT_NEAR((mesh.points[0] - mesh.points[nx]).norm(), 0.5, 1e-15);
 }

@@ -1,4 +1,4 @@
-// Prescribed motions against their formulas, through the time loop of a scene.
+// Prescribed motions against their formulas, in the time loop of a scene.
 #include "sim/outside/constraint.h"
 
 #include "sim/base/math.h"
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A cloth of 4 × 4 quads in the xy plane, without gravity, and what is prescribed on it.
+// A cloth of 4 × 4 quads in the xy plane, without gravity, with the given constraints.
 presets::Loaded cloth(const std::string& prescribed, const std::string& integrator = "symplectic",
                       const std::string& world = R"(<world gravity="0 0 0"/>)") {
   return presets::load(R"(<scene><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/>
@@ -21,7 +21,7 @@ presets::Loaded cloth(const std::string& prescribed, const std::string& integrat
                        R"(" duration="1"/></scene>)");
 }
 
-// Slots of the vertices whose rest position passes.
+// Slots of the vertices whose rest position satisfies the condition.
 template <class F> std::vector<Slot> vertices_where(const Body& body, F&& passes) {
   std::vector<Slot> all;
   for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)
@@ -56,7 +56,7 @@ TEST(Drive, moves_with_its_velocity_then_holds) {
                     0, 1e-15);
         const bool moves = t > 0.0205 && t < 0.0995;
         const Vec3 speed = moves ? Vec3(0.3, -0.1, 0.2) : Vec3(0, 0, 0);
-        if (t < 0.0195 || moves || t > 0.1005) { // not asked at the ends themselves, which are rounded
+        if (t < 0.0195 || moves || t > 0.1005) { // the ends themselves are not tested, as they are rounded
           EXPECT_EQ(velocity(scene.body(), v), speed) << t;
         }
       }
@@ -124,7 +124,7 @@ TEST(Drive, turns_about_an_axis_through_its_centre) {
   }
 }
 
-// Differences of the closed form, in the middle of the motion.
+// Finite differences of the closed form, in the middle of the motion.
 TEST(Motion, has_the_derivatives_of_its_place) {
   Motion motion;
   motion.velocity = Vec3(0.1, 0.2, -0.3);

@@ -1,5 +1,5 @@
-// Loads against what was asked for: totals on irregular meshes and after separations, textbook shares, and
-// motions whose closed form is known.
+// Loads: totals on irregular meshes and after separations, distributions from textbooks, and motions with
+// closed forms.
 #include "sim/outside/load.h"
 
 #include "sim/base/math.h"
@@ -29,7 +29,7 @@ std::unique_ptr<EmbeddedMap> solid(BarPattern pattern, unsigned seed) {
   return solid_from(warped_bar(pattern, seed));
 }
 
-// Sheets and solids without a regular cell.
+// Sheets and solids without regular cells.
 std::vector<std::unique_ptr<EmbeddedMap>> bodies() {
   std::vector<std::unique_ptr<EmbeddedMap>> all;
   for (const meshes::Named& each : meshes::irregular()) all.push_back(sheet_from(each.mesh));
@@ -105,7 +105,7 @@ void separate_at_random(EmbeddedMap& map, unsigned seed) {
   });
 }
 
-// ∫ N_i x_ξ × x_η over the square, by the midpoints of many small squares.
+// ∫ N_i x_ξ × x_η over the square, by the midpoint rule on many small squares.
 TEST(CornerAreas, of_a_quad_are_the_integrals_of_its_shape_functions) {
   meshes::Noise noise(3);
   const std::array<Vec3, 4> square{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0)};
@@ -229,7 +229,8 @@ TEST(Load, on_a_flat_face_turns_with_it_though_it_has_no_depth) {
   EXPECT_NEAR((total(*map, pull).force - turn * Vec3(5, 0, 0)).norm(), 0, 1e-13);
 }
 
-// Linear over the section, as a bending stress: the force is in proportion to the distance from the middle.
+// Linear over the cross-section, as a bending stress: the force is proportional to the distance from the
+// middle.
 TEST(Load, as_a_moment_pulls_on_one_side_and_pushes_on_the_other) {
   const auto map = solid_from(bar_cells({BarPattern::Hexahedra, 1, 4, 1, Vec3(1, 2, 0.3)}));
   Loads turn = one(*map, moment(Vec3(0, 0, 3)), vertices_where(*map, [](const Vec3& x) { return x.x() == 1; }));
@@ -298,7 +299,7 @@ std::string scene_of(const std::string& in_body, const std::string& scheme) {
          R"("/></scene>)";
 }
 
-// Shares by the mass of each vertex would be rigid; on one triangle equal shares are.
+// Distribution by vertex mass would be rigid; on a single triangle equal shares are.
 TEST(Load, accelerates_a_body_as_its_mass_says) {
   for (const char* scheme : {"verlet", "rk4", "midpoint"}) {
     const auto scene = presets::load(
@@ -316,8 +317,8 @@ TEST(Load, accelerates_a_body_as_its_mass_says) {
   }
 }
 
-// Velocity under a ramp F t/T: F t²/(2 m T). Trapezes and better give it exactly, if they take the load of each
-// end.
+// Velocity under a ramp F t/T: F t²/(2 m T). The trapezoidal rule and better ones are exact, if they evaluate
+// the load at both ends.
 TEST(Load, that_grows_is_taken_at_the_time_of_each_stage) {
   for (const char* scheme : {"verlet", "rk4", "midpoint"}) {
     const auto scene = presets::load(scene_of(R"(<load all="yes" force="0 4 0" until="2"/>)", scheme));

@@ -1,5 +1,4 @@
-// Spheres and boxes: against plain geometry, against Coulomb's and Newton's laws, and by what must never
-// happen.
+// Spheres and boxes: against elementary geometry, Coulomb's and Newton's laws, and for what must never happen.
 #include "sim/outside/impact.h"
 #include "sim/outside/obstacle.h"
 
@@ -48,7 +47,7 @@ TEST(Obstacle, a_triangle_s_deepest_point_in_a_box_is_as_deep_as_any_of_many) {
     for (int i = 0; i <= 40; ++i)
       for (int j = 0; j <= 40 - i; ++j)
         least = std::min(least, distance({i / 40.0, j / 40.0, (40 - i - j) / 40.0}));
-    EXPECT_LE(found, least + 0.01); // of a triangle of size 3
+    EXPECT_LE(found, least + 0.01); // for a triangle of size 3
   }
 }
 
@@ -62,7 +61,7 @@ TEST(Obstacle, a_sphere_stops_what_comes_in_on_the_side_where_it_does) {
   EXPECT_FALSE(Sphere::stop({3, 0.99, 0}, {-3, 0.99, 0}, 1)) << "grazing";
   for (double aside : {0.1, 0.5, 0.6, 0.9, 0.97})
     for (double end : {-3.0, 0.0}) {
-      if (end == 0 && aside > 0.6) continue; // over the point, which is nearly the same
+      if (end == 0 && aside > 0.6) continue; // above the corner, where both are nearly the same
       const auto plane = Sphere::stop({3, aside, 0}, {end, aside, 0}, 1);
       ASSERT_TRUE(plane);
       EXPECT_LT((plane->normal - Vec3(std::sqrt(1 - aside * aside), aside, 0)).norm(), 1e-9)
@@ -81,7 +80,7 @@ TEST(Obstacle, a_box_stops_what_comes_in_through_the_side_where_it_does) {
   EXPECT_FALSE(box.stop({1.2, 0.5, 0.02}, {0.5, 1.2, 0.02}, 0)) << "above";
 }
 
-// A stiff block that stands on a box under a gravity that is tilted.
+// A stiff block on a box, under tilted gravity.
 presets::Loaded block(const std::string& gravity, const std::string& friction) {
   return presets::load(R"(<scene><body><bar cells="2 2 1" size="0.2 0.2 0.1"/><place translate="0 0 0.502"/>
       <mass total="1"/><elasticity model="corotational" young="2e4" poisson="0.3" damping-stiffness="0.01"/>
@@ -112,7 +111,7 @@ TEST(ObstacleContact, a_block_slides_if_the_tangent_is_above_friction_and_as_fas
   EXPECT_LT(mean_velocity(stays).norm(), 1e-4);
 }
 
-// The whole that a falling sphere and what it meets have.
+// The total momentum of a falling sphere and a free cloth.
 TEST(ObstacleContact, a_sphere_that_hits_a_free_cloth_shares_its_momentum_with_it) {
   const auto scene = presets::load(R"(<scene><body><sheet pattern="triangles" cells="12 12" size="1 1"/>
       <mass total="0.2"/><springs><stretch k="80"/></springs><contact thickness="0.01" friction="0.4"/></body>
@@ -125,13 +124,13 @@ TEST(ObstacleContact, a_sphere_that_hits_a_free_cloth_shares_its_momentum_with_i
     scene->step();
     EXPECT_LT((scene->momentum() - before).norm(), 1e-13 * (n + 1));
     EXPECT_LE(scene->kinetic_energy() + scene->elastic_energy(), 1.02 * energy)
-        << n; // symplectic Euler's waves
+        << n; // oscillations of symplectic Euler
   }
   EXPECT_LT(scene->world().spheres[0].velocity.norm(), 4.5);
   EXPECT_LT(total_momentum(*scene.body().map, *scene.body().mass).z(), -0.05);
 }
 
-// How deep cloth, vertices and faces, lies within what it must not enter [m], at most.
+// The largest penetration of vertices and faces of the cloth [m].
 double deepest(const presets::Loaded& scene) {
   double most = 0;
   const auto& x = scene.body().map->position();
@@ -165,7 +164,7 @@ TEST(ObstacleContact, cloth_over_sphere_and_box_shows_nothing_of_them) {
 
 TEST(ObstacleContact, a_fast_sphere_does_not_pass_through_a_cloth) {
   for (const char* speed : {"-5", "-10"}) {
-    for (const char* radius : {"0.03", "0.2"}) { // against cells of 0.1
+    for (const char* radius : {"0.03", "0.2"}) { // with cells of 0.1
       const auto scene = presets::load(
           std::string(R"(<scene><body><sheet cells="10 10" size="1 1"/><mass total="0.2"/>
           <springs><stretch k="80"/><shear k="40"/></springs><contact/></body><world gravity="0 0 0">
@@ -184,12 +183,12 @@ TEST(ObstacleContact, a_fast_sphere_does_not_pass_through_a_cloth) {
   }
 }
 
-// A small cloth aside of the middle of the way of a sphere that passes 70 and 700 mm in a step: both keep on
-// their sides of the tangent plane where they meet, and it takes all the speed along that.
+// A small cloth beside the centre of the path of a sphere that moves 70 or 700 mm a step: both stay on their
+// side of the tangent plane at the contact, and the relative normal velocity becomes 0.
 TEST(ObstacleContact, a_fast_sphere_does_not_pass_what_it_hits_aside) {
   for (const char* step : {"1e-3", "1e-2"}) {
     const double tolerance =
-        step == std::string("1e-3") ? 0.25 : 0.02; // a step's way is short: the plane over its end
+        step == std::string("1e-3") ? 0.25 : 0.02; // short distance per step: the plane at its end
     for (double aside : {0.14, 0.16, 0.2, 0.28}) {
       const auto scene = presets::load(
           R"(<scene><body><sheet cells="1 1" size="0.001 0.001"/><place translate=")" + std::to_string(aside) +
@@ -220,7 +219,7 @@ TEST(ObstacleContact, spheres_are_caught_by_a_held_cloth_a_box_and_the_floor) {
   const auto& spheres = scene->world().spheres;
   EXPECT_GT(spheres[0].centre.z(), 0.3);
   EXPECT_LT(spheres[0].velocity.norm(), 0.3) << "it swings";
-  const double fall = 9.81 * 5e-4 * 5e-4; // of a step
+  const double fall = 9.81 * 5e-4 * 5e-4; // per step
   EXPECT_NEAR(spheres[1].centre.z(), 0.6, fall);
   EXPECT_NEAR(spheres[2].centre.z(), 0.25, fall);
   EXPECT_LT(deepest(scene), 0.004);
@@ -261,7 +260,7 @@ double total_energy(const presets::Loaded& scene) {
   return scene->kinetic_energy() + scene->elastic_energy() + scene->gravity_energy();
 }
 
-// What is fixed along z alone gives way to a sphere from above no more than what is fixed altogether.
+// A sheet fixed along z only yields to a sphere from above no more than one that is fixed along all axes.
 TEST(ObstacleContact, a_sphere_rests_on_a_sheet_that_is_held_along_its_fall) {
   const auto scene = presets::load(R"(<scene><body><sheet pattern="triangles" cells="12 12" size="1 1"/>
       <place translate="0 0 0.5"/><mass total="0.2"/><springs><stretch k="200"/></springs>
@@ -279,7 +278,7 @@ TEST(ObstacleContact, a_sphere_rests_on_a_sheet_that_is_held_along_its_fall) {
   EXPECT_LT(scene->world().spheres[0].velocity.norm(), 0.02);
 }
 
-// Against the sum over the vertices of what holds them: none of the parts along x and y may be lost.
+// The sum over vertices of the reaction of constraints: components along x and y must not be lost.
 TEST(ObstacleContact, what_is_held_along_one_axis_yields_along_the_others) {
   const Vec3 u(0.3, -0.2, -2), n = Vec3(1, 2, 2) / 3;
   for (double friction : {0.0, 0.4, 100.0}) {
@@ -297,9 +296,9 @@ TEST(ObstacleContact, what_is_held_along_one_axis_yields_along_the_others) {
   }
 }
 
-// What is inside at the start is pushed out slowly. The elastic energy of a bar that is blown up around a
-// sphere is at most about Young's modulus times the sphere's volume; thrown out at once, a bar of 6 cells a
-// side got 1.5e5 J.
+// Initial overlap is resolved slowly. The elastic energy of a bar inflated around a sphere is at most about
+// Young's modulus times the sphere's volume; when overlap was resolved at once, a bar of 6 cells a side got
+// 1.5e5 J.
 TEST(ObstacleContact, a_bar_that_starts_around_a_sphere_or_box_is_not_thrown_about) {
   for (const char* obstacle :
        {R"(<sphere centre="0.5 0.5 0.5" radius="0.35"/>)", R"(<box low="0.3 0.3 0.3" high="0.7 0.7 0.7"/>)"}) {
@@ -315,8 +314,7 @@ TEST(ObstacleContact, a_bar_that_starts_around_a_sphere_or_box_is_not_thrown_abo
   }
 }
 
-// The faces beside the clamp touch it, and only one of their vertices can move: it must not be thrown about for
-// it.
+// The faces beside the clamp are in contact, with only one movable vertex each: it must not be thrown off.
 TEST(ObstacleContact, leaves_a_body_at_rest_that_is_held_where_it_touches) {
   const auto scene = presets::load(
       R"(<scene><body><bar cells="4 1 1" size="1.2 0.3 0.3"/><place translate="0 0 0.5"/><mass density="1000"/>

@@ -1,4 +1,4 @@
-// Wind against its formula, and the terminal speed of what falls through still air.
+// Wind against its formula, and the terminal velocity in still air.
 #include "sim/outside/wind.h"
 
 #include "sim/mesh/bar.h"
@@ -32,7 +32,7 @@ TEST(Wind, pushes_a_flat_plate_by_the_square_of_its_normal_speed) {
 
 TEST(Wind, blows_on_the_windward_faces_of_a_solid_alone) {
   const auto map = solid_from(bar_cells({BarPattern::Mixed, 4, 2, 2, Vec3(4, 1, 2)}));
-  const Vec3 expected = 0.5 * Vec3(9 * 2, -16 * 8, 0); // +x sees area 1 × 2, −y sees 4 × 2
+  const Vec3 expected = 0.5 * Vec3(9 * 2, -16 * 8, 0); // +x sees an area of 1 × 2, −y of 4 × 2
   EXPECT_NEAR((total(*map, {*map, {Vec3(3, -4, 0), 0.5}}) - expected).norm(), 0, 1e-12);
 }
 
@@ -42,7 +42,7 @@ TEST(Wind, has_no_force_on_what_moves_with_it) {
   EXPECT_NEAR(total(*map, {*map, {Vec3(5, 1, 3), 0.7}}).norm(), 0, 1e-13);
 }
 
-// m v' = m g − drag A v²: v = w tanh(g t/w), w = √(m g/(drag A)). On a sheet of one quad all corners fall
+// m v' = m g − drag A v²: v = w tanh(g t/w), w = √(m g/(drag A)). All corners of a sheet of one quad fall
 // alike.
 TEST(Wind, lets_a_sheet_fall_up_to_its_terminal_speed) {
   for (const char* scheme : {"rk4", "verlet", "midpoint"}) {
@@ -59,7 +59,7 @@ TEST(Wind, lets_a_sheet_fall_up_to_its_terminal_speed) {
   }
 }
 
-// A light sheet held in a gale: at rest in the wind its faces are damped by 2 drag w A/m = 2400/s.
+// A light sheet fixed in a strong wind: its faces are damped by 2 drag w A/m = 2400/s.
 TEST(Wind, is_seen_by_the_automatic_step) {
   const auto scene = presets::load(R"(<scene><body><sheet cells="2 2" size="1 1"/><mass total="0.02"/></body>
     <world gravity="0 0 0"><wind velocity="0 0 40"/></world>

@@ -41,7 +41,7 @@ TEST(Override, MakesAnElementThatMayStandOnce) {
   EXPECT_FALSE(springs.flag("cumulated"));
   EXPECT_NE(refused_set("body[right].tear.threshold=1").find("there is no <tear> in this <body>"),
             std::string::npos);
-  // What it makes must be complete as well.
+  // An element created by an override must be complete as well.
   EXPECT_EQ(refused_set("body[right].springs.stretch.damping=1", Exit::BadInput).substr(0, 79),
             "--set body[right].springs.stretch.damping=1: <stretch> needs k | k: stiffness; ");
 }

@@ -59,7 +59,7 @@ TEST(PresetReader, KnowsWhereElementsAndValuesStand) {
 }
 
 TEST(PresetReader, CountsColumnsInCharactersAndLinesOfAnySystem) {
-  // The é is two bytes; a byte order mark takes no column; lines end in three ways; '>' and "'" in values.
+  // The é is two bytes; a byte order mark has no column; three kinds of line ends; '>' and "'" in values.
   const auto root = read("\xEF\xBB\xBF<scene name='é>\"'  version = \n '1'>\r\n<body \r name=\"it's\"\n>"
                          "<sheet cells='1 1'/></body></scene>");
   EXPECT_EQ(root->place().text(), "p.xml:1:1");
@@ -210,8 +210,8 @@ TEST(PresetReader, IsQuickOnOneLongLine) {
   EXPECT_EQ(root->child("body")->all("tear").back()->place("threshold").column, 43 + 19'999 * 21 + 17);
 }
 
-// Byte flips, cuts and lines that stand twice: a preset is read, or refused as the user's; nothing else may
-// happen.
+// Flipped bytes, truncations and duplicated lines: a preset is read, or refused with a UserError, and nothing
+// else.
 std::string mutated(std::mt19937& random) {
   std::string text = preset;
   const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
@@ -244,7 +244,8 @@ std::string mutated(std::mt19937& random) {
 }
 
 TEST(PresetReader, ReadsOrRefusesWhateverItIsGiven) {
-  std::mt19937 random(20240229); // the same numbers everywhere, as below() needs no distribution
+  // the same numbers on every platform, since below() uses no distribution of the library
+  std::mt19937 random(20240229);
   int good = 0;
   for (int i = 0; i < 2000; ++i) {
     const std::string text = mutated(random);

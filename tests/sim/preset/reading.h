@@ -1,4 +1,4 @@
-// For tests of the preset reader: reads texts against the small table, and shows how they are refused.
+// For tests of the preset reader: reads texts with the small table, and returns the messages of errors.
 #pragma once
 
 #include "sim/preset/preset_reader.h"
@@ -21,7 +21,7 @@ inline std::string with_hint(const UserError& error) {
   return error.what() + (error.hint.empty() ? "" : " | " + error.hint);
 }
 
-// Runs `act`, which must be refused with `code`; returns the message with its place, and the hint behind it.
+// Runs `act`, which must throw a UserError with `code`; returns its place, message and hint.
 template <class Act> std::string refusal(Exit code, Act act) {
   try {
     act();

@@ -1,4 +1,4 @@
-// The assembled matrix against differences of forces, over separations and over threads.
+// The assembled matrix against finite differences of forces, after separations and for several threads.
 #include "sim/rows/assembly.h"
 
 #include "sim/random_meshes.h"
@@ -42,7 +42,7 @@ TEST(Assembly, is_the_derivative_of_the_forces) {
     made->add_stiffness(positions(*made), velocities(*made), Tangent::Exact, !by_velocity, by_velocity, matrix);
     const BlockPattern& p = *made->pattern();
     double worst = 0, largest_entry = 0;
-    std::vector<std::vector<Record>> columns; // −∂f/∂(3j + axis), to be symmetrised as the matrix is
+    std::vector<std::vector<Record>> columns; // −∂f/∂(3j + axis), to be symmetrized as the matrix is
     for (Slot j = 0; j < p.rows(); ++j)
       for (int axis = 0; axis < 3; ++axis) columns.push_back(difference_of_forces(*made, j, axis, by_velocity));
     const auto derivative = [&](std::size_t i, std::size_t j) { return (&columns[j][i / 3].x)[i % 3]; };

@@ -1,4 +1,4 @@
-// Incremental = from scratch: after every edit, all that is built upon the map equals what would be built anew.
+// Incremental = from scratch: after every edit, all that depends on the map equals what is built from scratch.
 #include "sim/boundary/surface.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
@@ -14,7 +14,7 @@ namespace {
 
 using namespace meshes;
 
-// Vertices that obey some motion, by looking at every one.
+// Vertices with a prescribed motion, by testing every one.
 std::vector<Slot> prescribed(const Body& body) {
   std::vector<Slot> found;
   for (const auto& column : body.map->columns()) {
@@ -79,7 +79,7 @@ TEST(Rebinding, equals_binding_from_scratch_after_every_step_that_tears) {
   }
 }
 
-// Random edits, most of them separations, with rules that reshape faces among them.
+// Random edits, mostly separations, with rules that change faces among them.
 class Storm {
 public:
   Storm(const PolygonMesh& mesh, const Recipe& recipe, unsigned seed)
@@ -92,7 +92,7 @@ public:
   std::size_t fewest_darts() const { return fewest_; }
 
   void blow() {
-    const std::size_t edits = 1 + (noise_.below(4) == 0); // sometimes two before anybody looks
+    const std::size_t edits = 1 + (noise_.below(4) == 0); // sometimes two edits before an update
     for (std::size_t n = 0; n < edits; ++n)
       body_->map->edit([&](Edit& edit) {
         const std::size_t changes = 1 + (noise_.below(3) == 0 ? noise_.below(4) : 0);
@@ -194,7 +194,7 @@ TEST(Rebinding, of_unfolded_rows_equals_binding_from_scratch) {
   expect_storm_survived(sheet(SheetPattern::Quads, 5, 5), recipe, 300, 40);
 }
 
-// No interaction of today reaches so far that its rows depend on links beyond its own faces; a binder must know
+// No present interaction has patterns that depend on links beyond its own faces; a binder must handle them
 // anyway.
 TEST(Rebinding, of_words_that_reach_over_several_faces_equals_binding_from_scratch) {
   const Pattern pattern{.owner = EdgeOfFace,

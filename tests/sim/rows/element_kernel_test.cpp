@@ -1,4 +1,4 @@
-// The kernels of elements and mass-tensors against their laws, and bodies of them against walking the map.
+// The kernels of elements and mass-tensors against their laws, and bodies with them against walking the map.
 #include "sim/elements.h"
 #include "sim/rows/kernels.h"
 #include "sim/rows/walk_forces.h"
@@ -27,7 +27,7 @@ const std::vector<Elastic>& recipes() {
   return all;
 }
 
-// Calls f(body, name) for every irregular mesh and model, away from rest: a little, or beyond recognition.
+// Calls f(body, name) for every irregular mesh and model, with small and with extreme deformations.
 template <class F> void for_each_body(F&& f) {
   for (const double amount : {0.2, 2.0}) {
     for (const Elastic& recipe : recipes()) {

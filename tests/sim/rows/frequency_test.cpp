@@ -12,8 +12,8 @@
 namespace rend {
 namespace {
 
-// Angular frequencies [rad/s] of the body at rest, increasing: the roots of the eigenvalues of
-// M^-1/2 K M^-1/2 over the coordinates that nothing holds.
+// Angular frequencies [rad/s] of the body at rest, increasing: the roots of the eigenvalues of M^-1/2 K M^-1/2
+// over the free coordinates.
 std::vector<double> frequencies(const std::string& in_body) {
   const auto s = presets::load("<scene><body>" + in_body +
                                R"(<fix side="-x"/></body><world gravity="0 0 0"/>)"
@@ -48,7 +48,8 @@ std::vector<double> frequencies(const std::string& in_body) {
   return found;
 }
 
-// c = √(E/ρ) = 10 m/s. A chain of n lumps, the last of them a half, has 2 n c/L sin((2i − 1) π/(4 n)), exactly.
+// c = √(E/ρ) = 10 m/s. A chain of n lumped masses, the last of them a half, has 2 n c/L sin((2i − 1) π/(4 n)),
+// exactly.
 TEST(Frequencies, of_a_bar_along_itself) {
   constexpr int n = 40;
   const auto found = frequencies(
@@ -62,8 +63,8 @@ TEST(Frequencies, of_a_bar_along_itself) {
   }
 }
 
-// ω = β² √(E I/(ρ A)). Cells of length a in a beam of height h cannot bend, and are stiffer by a²/(2 h²). What
-// is left grows with the mode: shear, and masses at the surface.
+// ω = β² √(E I/(ρ A)). Cells of length a in a beam of height h cannot bend (shear locking), and are stiffer by
+// a²/(2 h²). The remaining error grows with the mode: shear, and masses at the surface.
 TEST(Frequencies, of_a_beam_across) {
   struct Case {
     std::string body;

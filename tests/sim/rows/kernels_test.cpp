@@ -1,4 +1,4 @@
-// The kernels against the laws that they compute, row by row.
+// The kernels against the laws that they implement, row by row.
 #include "sim/rows/kernels.h"
 
 #include "sim/mechanics/hinge_law.h"
@@ -27,7 +27,7 @@ Springs random_springs(std::size_t count, std::uint32_t vertices, unsigned seed,
     s.x.push_back(Record(noise.vector()));
     s.v.push_back(Record(noise.vector()));
   }
-  s.x[3] = s.x[4]; // a spring without length
+  s.x[3] = s.x[4]; // a spring of length 0
   s.rows.resize(count);
   for (std::size_t n = 0; n < count; ++n) {
     const auto i = static_cast<std::uint32_t>(noise.below(vertices - 1));
@@ -82,7 +82,7 @@ TEST(SpringKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
   for (std::size_t n = 0; n < whole.size(); ++n) EXPECT_EQ(whole[n].vec(), parts[n].vec());
 }
 
-// Hinges between random vertices, some of them of triangles, some without length or area.
+// Hinges between random vertices, some of them of triangles, some degenerate.
 struct Hinges {
   PackedRows rows{16, 8, 4};
   std::vector<Record> x, v;
@@ -97,8 +97,7 @@ struct Hinges {
       v.push_back(Record(noise.vector()));
     }
     x[4] = x[3];
-    for (std::size_t n = 5; n < 8; ++n)
-      x[n] = Record(0.5 * static_cast<double>(n), 0, 0); // on a line, to the bit
+    for (std::size_t n = 5; n < 8; ++n) x[n] = Record(0.5 * static_cast<double>(n), 0, 0); // exactly collinear
     rows.resize(count);
     for (std::size_t n = 0; n < count; ++n) {
       std::array<std::uint32_t, 16> at{};
@@ -107,7 +106,7 @@ struct Hinges {
         at[p] = static_cast<std::uint32_t>((start + 3 * p) % vertices);
         at[8 + p] = static_cast<std::uint32_t>(8 * n + p);
       }
-      at[1] = static_cast<std::uint32_t>((start + 1) % vertices); // for 3, a hinge without length
+      at[1] = static_cast<std::uint32_t>((start + 1) % vertices); // for 3, a hinge of length 0
       if (n % 3 == 1) at[3] = at[2], at[7] = at[6];
       if (n == 2) at = {5, 6, 7, 7, 5, 6, 8, 9, 16, 17, 18, 19, 20, 21, 22, 23}; // a side without area
       at[4] = at[0];

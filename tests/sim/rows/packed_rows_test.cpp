@@ -72,7 +72,7 @@ TEST(PackedRows, know_the_least_and_largest_place_of_each_block) {
   Rows rows;
   for (int n = 0; n < 150; ++n) {
     const auto i = static_cast<std::uint32_t>(noise.below(1000));
-    rows[noise.below(400)] = {{i, i + 7, 5000}, {0, 0}}; // the third index is no place
+    rows[noise.below(400)] = {{i, i + 7, 5000}, {0, 0}}; // the third index is no vertex
   }
   const PackedRows all = packed(rows, 400);
   for (std::size_t block = 0; block < all.blocks(); ++block) {
@@ -95,7 +95,8 @@ TEST(PackedRows, are_padded_to_whole_lanes_with_rows_that_do_nothing) {
     EXPECT_EQ(all.padded_in(0) % PackedRows::lanes, 0u);
     EXPECT_LT(all.padded_in(0), count + PackedRows::lanes);
     for (std::size_t at = count; at < all.padded_in(0); ++at) {
-      EXPECT_EQ(all.index(0)[at], 10u); // of a row that lives: no one else's memory
+      // unused lanes repeat the index of a live row, so they access valid memory
+      EXPECT_EQ(all.index(0)[at], 10u);
       EXPECT_EQ(all.value(0, at), 0);
       EXPECT_EQ(all.value(1, at), 0);
     }
@@ -160,7 +161,7 @@ TEST(PackedRows, do_not_keep_a_column_that_is_unused) {
 }
 
 TEST(PackedRows, keep_what_the_next_rows_of_a_block_write_apart) {
-  // Rows are spread within a block so that neighbours by key, which share vertices, do not follow each other.
+  // Rows are spread within a block so that neighbours by key, which share vertices, are not adjacent.
   Rows rows;
   for (std::size_t n = 0; n < PackedRows::block_size; ++n) rows[n] = {{0, 0, 0}, {0, 0}};
   std::size_t last = 1000;

@@ -1,4 +1,4 @@
-// Flat = walk, one thread = many, and what a separation leaves alone.
+// Flat arrays = walking the map, one thread = many, and what a separation must not change.
 #include "sim/brute_force.h"
 #include "sim/presets.h"
 #include "sim/rows/walk_forces.h"
@@ -17,7 +17,7 @@ using namespace meshes;
 const std::string small_steps = R"(<time step="5e-4" integrator="verlet" duration="1"/>)";
 const std::string pull = R"(<fix side="+z"/><drive side="-z" velocity="0.3 0 -1"/>)";
 
-// Out of its plane, so that hinges have something to do.
+// Displaces vertices out of the plane, so that hinges are active.
 void crumple(Body& body, double amount) {
   Noise noise(1);
   for (Record& x : body.map->position().values()) x.y += amount * noise();
@@ -28,7 +28,7 @@ const std::string angular = R"(<bend kind="angular" k="0.01" damping="1e-5"/>)";
 const std::string global_law = R"(<tear criterion="global-border" threshold="0.02"/>)";
 const std::string atomic_law = R"(<tear criterion="atomic-border" threshold="0.03"/>)";
 
-// The largest difference of the program's forces from those of a walk, on the body's state.
+// The largest difference of the program's forces from those of a walk, for the body's state.
 double off_the_walk(const Body& body) {
   const std::size_t vertices = body.program->vertices(), corners = body.map->cells(VertexOfFace).slots();
   std::vector<Record> flat(vertices), walk(vertices), corner(corners), walk_corner(corners);
@@ -118,7 +118,7 @@ TEST(Program, runs_small_bodies_on_one_thread) {
             1);
 }
 
-// ---- what a separation leaves alone
+// ---- what a separation must not change
 
 struct Snapshot {
   double mass = 0;

@@ -1,4 +1,4 @@
-// Four rotations at once against the reference, one by one, and none of them may depend on its neighbours.
+// SIMD rotations of four matrices against the scalar reference; no lane may depend on the others.
 #include "sim/rows/rotation_lanes.h"
 
 #include "sim/random_meshes.h"
@@ -33,7 +33,7 @@ Matrix3d random_matrix(Noise& noise) {
   return F;
 }
 
-// With singular values `s`, turned at random on both sides.
+// A matrix with singular values `s`, rotated at random on both sides.
 Matrix3d stretched(Noise& noise, const Vec3& s) {
   return closest_rotation(random_matrix(noise)) * s.asDiagonal() * closest_rotation(random_matrix(noise));
 }

@@ -1,4 +1,4 @@
-// Costs of rows against what is counted by hand.
+// Costs of rows against counts by hand.
 #include "sim/rows/row_cost.h"
 
 #include "sim/mechanics/element_law.h"
@@ -17,8 +17,8 @@ const Binder& binder_of(const Body& body, const std::string& name) {
   throw std::runtime_error("no " + name);
 }
 
-// 4 × 4 cells: 25 vertices, 40 edges. A spring without damping carries k, rest length and two indices; of each
-// vertex 32 bytes of place are read, 32 of force read and written.
+// 4 × 4 cells: 25 vertices, 40 edges. A spring without damping reads k, rest length and two indices; for each
+// vertex, 32 bytes of position are read, and 32 of force read and written.
 TEST(RowCost, of_springs_counts_each_vertex_once) {
   const auto scene = presets::load(presets::cloth("quads", 4));
   const RowCost cost = cost_of(binder_of(scene.body(), "stretch"), false);

@@ -68,7 +68,7 @@ TEST(Rules, every_rule_over_every_asset_leaves_a_valid_map_or_says_why_not_and_c
   }
 }
 
-// A grid whose points have no round sums: another order of addition shows.
+// A grid whose coordinates are not exact sums: another order of addition shows.
 assets::Body uneven_grid() {
   auto body = assets::grid(3, 3);
   for (std::size_t v = 0; v < body->position().values().size(); ++v) {
@@ -108,7 +108,7 @@ TEST(Rules, ten_thousand_random_applications_keep_a_sheet_and_a_solid_valid) {
       const auto pick = [&] { return Dart{random() % body->map().capacity()}; };
       const Applied done = apply(rule, *body, hooks_of(rule, pick(), pick()), assets::some_arguments());
       applied += done.ok;
-      // Too much grew: take away what was met last.
+      // Too large: removes the last components.
       while (body->map().dart_count() > 1500)
         body->edit([&](Edit& edit) {
           Dart d = pick();
@@ -141,7 +141,7 @@ TEST(ExtrudeEdge, moves_position_and_rest_and_keeps_the_velocity) {
   EXPECT_EQ(body.position_of(far), Vec3(0, 0, 2));
   EXPECT_EQ(body.rest_of(far), Vec3(5, 0, 2));
   EXPECT_EQ(Vec3(body.velocity()[body.vertex(far)]), Vec3(1, 2, 3));
-  EXPECT_FALSE(apply(extrude_edge, body, d, {{}, {Vec3(0, 0, 2)}}).ok); // it has its face
+  EXPECT_FALSE(apply(extrude_edge, body, d, {{}, {Vec3(0, 0, 2)}}).ok); // it already has a face
 }
 
 TEST(CreatePolygon, is_what_the_constant_rules_make) {

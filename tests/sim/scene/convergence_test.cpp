@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-// Where the body's first probe goes at rest under its loads [m].
+// The displacement of the body's first probe in static equilibrium [m].
 Vec3 displacement(const std::string& in_body) {
   const auto s =
       presets::load("<scene><body>" + in_body + R"(<fix side="-x"/></body><world gravity="0 0 0"/>)" +
@@ -23,7 +23,7 @@ double order(double answer, double coarse, double fine) {
   return std::log2((answer - coarse) / (answer - fine));
 }
 
-// P L³/(3 E I) + P L/(κ G A), κ = 5/6, without lateral strain: smooth, so that the error falls with the square.
+// P L³/(3 E I) + P L/(κ G A), κ = 5/6, without lateral strain: smooth, so the order is two.
 TEST(Convergence, of_a_cantilever_is_of_order_two) {
   const auto tip = [](const char* pattern, int n) {
     return -displacement(fmt::format(R"(<bar pattern="{}" cells="{} 1 {}" size="1 0.05 0.1"/><mass total="1"/>
@@ -39,7 +39,8 @@ TEST(Convergence, of_a_cantilever_is_of_order_two) {
   }
 }
 
-// Cook's membrane is singular at its clamped corner: below two. Quads are closer than triangles throughout.
+// Cook's membrane is singular at its clamped corner: the order is below two. Quads are more exact than
+// triangles throughout.
 TEST(Convergence, of_cooks_membrane_is_from_below_and_quads_are_ahead) {
   const auto tip = [](const char* pattern, int n) {
     return displacement(

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> stored(Scene& scene) {
   return archive.bytes();
 }
 
-// What is said against it; empty: nothing.
+// The error message; empty: accepted.
 std::string refused(Scene& scene, const std::vector<std::uint8_t>& bytes) try {
   Archive archive{std::span<const std::uint8_t>(bytes)};
   scene.store(archive);
@@ -32,11 +32,11 @@ std::string refused(Scene& scene, const std::vector<std::uint8_t>& bytes) try {
   return error.what();
 }
 
-// Where the fields of a stored scene of one body begin, in the order of Scene::store and what it calls.
+// Offsets of the fields of a stored scene of one body, in the order of Scene::store and what it calls.
 struct Layout {
   std::size_t scene = 0, links = 0, free_darts = 0, body = 0, contacts = 0, guard = 0;
-  std::map<int, std::size_t> slots, first, free; // of orbits, by mask; slots: of the darts, in four bytes each
-  std::map<std::string, std::size_t> columns;    // their values
+  std::map<int, std::size_t> slots, first, free; // of orbits, by mask; slots: four bytes for each dart
+  std::map<std::string, std::size_t> columns;    // values of columns
 
   explicit Layout(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {
     mark("scene");
@@ -74,7 +74,7 @@ private:
     at_ += 8;
     return value;
   }
-  std::size_t list(std::size_t each) { // where its elements begin
+  std::size_t list(std::size_t each) { // offset of its elements
     const std::uint64_t count = number();
     const std::size_t begin = at_;
     at_ += count * each;
@@ -93,7 +93,7 @@ private:
   std::size_t at_ = 0;
 };
 
-// A scene of one body, gone to a moment, and others that read it.
+// A scene of one body, after some steps, and others that read its state.
 class Genuine {
 public:
   Genuine(std::string xml, long steps) : xml_(std::move(xml)), loaded_(presets::load(xml_)) {
@@ -110,7 +110,7 @@ public:
     return value;
   }
 
-  // What is said where this stands there instead.
+  // The error message when this value is stored at this offset.
   template <class T> std::string with(std::size_t at, T value) const {
     std::vector<std::uint8_t> forged = bytes_;
     std::memcpy(forged.data() + at, &value, sizeof value);
@@ -127,7 +127,7 @@ std::string scene_of(const std::string& body, const std::string& rest) {
   return R"(<scene name="forged"><body name="body">)" + body + "</body>" + rest + "</scene>";
 }
 
-// Springs that are deleted where they are pulled too far: elements go, borders open.
+// Springs that are deleted when they are stretched too far: elements are removed, borders open.
 Genuine torn() {
   return {scene_of(R"(<sheet cells="4 4" size="1 1"/><mass total="0.1"/>
                       <springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>
@@ -164,7 +164,7 @@ TEST(ForgedStore, links_are_those_of_the_scene_or_open) {
   EXPECT_THAT(genuine.with(link(2, sewn), sewn.value), HasSubstr("border is open"));
   EXPECT_THAT(genuine.with(link(3, sewn), sewn.value + 1), HasSubstr("α3-free"));
   const auto in_part = testing::AnyOf(HasSubstr("removed in part"), HasSubstr("there in part"),
-                                      HasSubstr("open on one side")); // which is met first
+                                      HasSubstr("open on one side")); // which is found first
   EXPECT_THAT(genuine.with(link(0, sewn), none), in_part);
   EXPECT_THAT(genuine.with(link(0, sewn), std::array{none, none, none, none}), in_part);
   EXPECT_THAT(genuine.with(genuine.layout().free_darts, sewn.value), HasSubstr("free dart"));
@@ -255,7 +255,7 @@ TEST(ForgedStore, the_guard_goes_back_to_a_start_that_there_is) {
   EXPECT_THAT(genuine.with(state, genuine.map().cells(Vertex).slots() + 1), HasSubstr("more vertices"));
 }
 
-// Two sheets of which one lies on the other, and a sphere.
+// Two sheets, one on top of the other, and a sphere.
 TEST(ForgedStore, contact_is_of_vertices_and_faces_that_there_are) {
   const std::string xml =
       scene_of(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
@@ -291,7 +291,7 @@ TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {
                                       <springs><stretch k="60"/></springs><fix side="-x"/>)",
                                    R"(<time step="5e-3" integrator=")" + scheme + R"(" duration="1"/>)"),
                           3);
-    std::size_t at = genuine.layout().body + 8 + 1 + 8 + 8; // no tears, not gone; evaluations, time
+    std::size_t at = genuine.layout().body + 8 + 1 + 8 + 8; // no tears, not removed; evaluations, time
     for (int n = 0; n < 2; ++n) at += 8 + 32 * genuine.there<std::uint64_t>(at);
     at += 1 + 32; // large, probe
     ASSERT_EQ(genuine.there<std::uint64_t>(at), scheme == "static" ? 6u : 4u);
@@ -300,7 +300,7 @@ TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {
       const std::size_t number = at + 8 + 8 * n;
       EXPECT_THAT(genuine.with(number, nan), HasSubstr("is none")) << scheme << n;
       EXPECT_THAT(genuine.with(number, -1.0), HasSubstr("hand on")) << scheme << n;
-      const char* real = scheme == "rk45" && n < 2 ? "" : "hand on"; // the length of a part, and its error
+      const char* real = scheme == "rk45" && n < 2 ? "" : "hand on"; // the length of a substep, and its error
       EXPECT_THAT(genuine.with(number, 1e300), HasSubstr(real)) << scheme << n;
       EXPECT_THAT(genuine.with(number, 0.0), HasSubstr(scheme == "rk45" && n < 2 ? "hand on" : ""))
           << "parts of no length never end";

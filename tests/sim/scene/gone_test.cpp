@@ -1,4 +1,4 @@
-// Scenes whose bodies lose their last element: everything that hangs on a body goes on with nothing.
+// Scenes whose bodies lose their last element: all that depends on a body must handle an empty one.
 #include "sim/body/measure.h"
 #include "sim/fracture/torn_bodies.h"
 #include "sim/presets.h"
@@ -19,7 +19,7 @@ std::string scene_of(const std::string& shape, const std::string& matter, const 
          time + "</scene>";
 }
 
-// Deletes elements by chance from the start.
+// Deletes random elements from the start.
 presets::Loaded loaded(const std::string& xml, const SceneOptions& options = {}) {
   presets::Loaded scene = presets::load(xml, options);
   Body& body = scene.body();

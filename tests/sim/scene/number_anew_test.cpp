@@ -1,6 +1,5 @@
-// What is bound to a map that is numbered anew (embedding/reorder.h), after elements were deleted and vertices
-// split: it is what would be built now, whatever stood in its place before; and a run goes on as if nothing had
-// happened.
+// Renumbering a map (embedding/reorder.h) after elements were deleted and vertices split: all that depends on
+// it equals what is built from scratch; and a run continues with the same results.
 #include "sim/contact/contact_faces.h"
 #include "sim/fracture/torn_bodies.h"
 #include "sim/fracture/torn_checks.h"
@@ -13,7 +12,7 @@ namespace {
 
 using namespace torn;
 
-const std::vector<By>& holes_and_splits() { // slots become free, and new ones are taken
+const std::vector<By>& holes_and_splits() { // slots become free, and new ones are allocated
   static const std::vector<By> all{{"delete-element", Cell::Elements}, {"split-vertex", Cell::Vertices}};
   return all;
 }
@@ -84,7 +83,7 @@ TEST(NumberAnew, binds_all_as_if_it_were_built_now_and_follows_changes_from_ther
   }
 }
 
-// Arrays of rows, as many as they may become.
+// The arrays of rows: their addresses must not change.
 std::vector<const double*> places_of_rows(const Body& body) {
   std::vector<const double*> places;
   for (const Binder& binder : body.program->rows()) places.push_back(binder.rows().lanes_at(0));
@@ -107,7 +106,7 @@ TEST(NumberAnew, leaves_room_for_all_separations_that_are_to_come) {
   EXPECT_EQ(places_of_rows(*body), before);
 }
 
-// ---- whole scenes: everything that can hang on a body
+// ---- whole scenes, with everything that a body can have
 
 const std::string sheet = R"(<sheet pattern="mixed" cells="9 8" size="1 1"/><mass total="0.1"/><springs>
   <stretch k="60" damping="0.02"/><shear kind="isotropic" k="43"/><bend kind="angular" k="1e-3"/></springs>
@@ -145,7 +144,7 @@ void expect_near(const ProbeReading& a, const ProbeReading& b) {
   }
 }
 
-// Sums run in another order: the last bits may differ, and no more.
+// Sums are made in another order: only the last bits may differ.
 void expect_same_course(Body& a, Body& b) {
   ASSERT_EQ(a.events.size(), b.events.size());
   for (std::size_t e = 0; e < a.events.size(); ++e) {

@@ -1,10 +1,10 @@
-// The same bytes of every preset of the house, whatever the number of threads, and whether what is built upon
-// the map is brought up to date after a change or built anew.
+// Every shipped preset gives the same bytes for any number of threads, and with incremental updates or rebuilds
+// from scratch after a change of the map.
 //
-// Small bodies, which run on one thread otherwise, are parted here as well. By default the first steps, and
-// those with laws to their first tears where that is cheap; with REND_WHOLE in the environment whole clips
-// (tests/run --all). Vector units: tests/render/commands/presets_test.cpp; builds and other processors:
-// tests/same-states.
+// Small bodies, which otherwise run on one thread, are split into parts as well. By default only the first
+// steps are run; presets with tearing laws up to their first tears if that is cheap; with REND_WHOLE in the
+// environment whole clips (tests/run --all). Vector units: tests/render/commands/presets_test.cpp; builds and
+// other processors: tests/same-states.
 #include "render/picture/scene_preset.h"
 #include "sim/build/build_scene.h"
 #include "sim/house_presets.h"
@@ -41,7 +41,7 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.elastic_energy(), b.elastic_energy());
 }
 
-// How far a run goes here.
+// The number of steps of a run.
 void play(Played& run) {
   constexpr long few = 8, after_tears = 5, more = 120; // steps
   constexpr long affordable = 60'000;                  // steps times vertices

@@ -1,4 +1,5 @@
-// Whole scenes: stable steps, energy, determinism, what happens when a step explodes, and what is left out.
+// Whole scenes: stable steps, energy, determinism, what happens when a step becomes unstable, and what is left
+// out.
 #include "sim/scene/scene.h"
 
 #include "sim/presets.h"
@@ -54,7 +55,8 @@ double total_energy(const Scene& scene) {
   return scene.kinetic_energy() + scene.elastic_energy() + scene.gravity_energy();
 }
 
-// Runs it and returns by how much the energy ever exceeded that of the start, as a share of m g times the size.
+// Runs the scene; returns the largest excess of the energy over the initial one, relative to m g times the
+// size.
 double largest_gain(const presets::Loaded& scene, int steps) {
   const double start = total_energy(*scene.scene), unit = 0.15 * 9.81;
   double most = 0;
@@ -95,7 +97,7 @@ TEST(AutomaticStep, is_close_to_where_the_scene_becomes_unstable) {
 
 TEST(AutomaticStep, is_refused_with_a_hint_where_no_step_is_stable) {
   for (const char* scheme : {"explicit", "midpoint"}) {
-    for (const bool damped : {false, true}) { // springs do not damp what turns as a whole
+    for (const bool damped : {false, true}) { // springs do not damp rigid rotation
       const std::string refusal =
           refusal_of(preset_of(cloths(damped).front(), std::string(R"(<time step="auto" integrator=")") +
                                                            scheme + R"(" duration="1"/>)"));
@@ -183,7 +185,7 @@ TEST(Energy, of_free_fall_is_kept_and_viscosity_takes_what_it_should) {
   const auto each = falling(R"(<viscosity value="0.025"/>)"); // 12 particles of 0.025 each: 0.3 in all
   for (int n = 0; n < 1000; ++n) each->step();
   EXPECT_LT(each->momentum().z(),
-            slowed->momentum().z() * 0.9); // but lighter ones along the border are slowed more
+            slowed->momentum().z() * 0.9); // but lighter ones along the border are decelerated more
   EXPECT_GT(each->momentum().z(), -0.15 * 9.81);
 }
 

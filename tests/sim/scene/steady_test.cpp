@@ -1,7 +1,7 @@
-// A steady step asks for no memory: 100 steps after as many to warm up, of every preset of the house and every
+// A steady step allocates no memory: 100 steps after as many to warm up, of every shipped preset and every
 // scheme.
 //
-// Steady: no law tries a change, the guard throws no step away, and contact does not look for its pairs anew.
+// Steady: no law attempts a change, the guard rejects no step, and contact does not search for new pairs.
 #include "render/picture/scene_preset.h"
 #include "sim/allocations.h"
 #include "sim/build/build_scene.h"
@@ -16,11 +16,12 @@ namespace rend {
 namespace {
 
 constexpr long steps = 100;
-constexpr int windows = 4; // of so many steps
+constexpr int windows = 4; // of that many steps
 
-// What makes a step another than the one before it.
+// Events after which a step is not steady.
 struct Events {
-  long tried, rejected, searches; // changes (made or not), steps of the guard, pairs for contact
+  // changes (made or not), rejected steps of the guard, searches for contact pairs
+  long tried, rejected, searches;
   bool operator==(const Events&) const = default;
   static Events of(const Scene& scene, long tried) {
     const FragmentContact* fragments = scene.contacts() ? scene.contacts()->fragments() : nullptr;
@@ -30,7 +31,7 @@ struct Events {
 
 const std::string none_steady = "no step was steady";
 
-// Who asks for memory in the steady ones among the next steps, and how often; empty: nobody.
+// The call stacks and numbers of allocations in steady steps among the next ones; empty: none.
 std::string askers(Scene& scene) {
   long asked = 0, steady = 0, tried = 0;
   for (const auto& body : scene.bodies()) body->witness = [&tried](WitnessAt) { ++tried; };
@@ -49,8 +50,7 @@ std::string askers(Scene& scene) {
   return asked == 0 ? "" : fmt::format("{} times, {}", asked, who);
 }
 
-// Where something is touched for the first time, scratch arrays double: so one window of a few has to do
-// without.
+// At first contacts scratch arrays grow: so only one of a few windows must be free of allocations.
 void expect_none(Scene& scene) {
   if (!allocations::counted) GTEST_SKIP() << "AddressSanitizer has its own allocator";
   for (long n = 0; n < steps; ++n) scene.step();
@@ -78,8 +78,8 @@ std::vector<std::string> schemes() {
 
 class SteadyScheme : public testing::TestWithParam<std::string> {};
 
-// Springs of every kind, a law that looks at all of them, a corner that is led, wind, and a floor below (which
-// the static solve knows not).
+// Springs of every kind, a law that measures all of them, a driven corner, wind, and a floor below (which the
+// static solve does not support).
 TEST_P(SteadyScheme, asks_for_no_memory) {
   const std::string contact = GetParam() == "static" ? "" : R"(<contact with="floor"/>)";
   const std::string time = R"(<time step="1e-4" integrator=")" + GetParam() + R"(" duration="1"/>)";

@@ -1,8 +1,7 @@
-// A scene that is stored, and made anew from what was stored, goes on to the bit: every preset of the house,
-// torn or not.
+// A scene that is stored and restored continues bit for bit: every shipped preset, torn or not.
 //
-// By default to its first tears and a little further; with REND_WHOLE in the environment each clip is stored
-// seven times on its way (tests/run --all).
+// By default up to its first tears and a little further; with REND_WHOLE in the environment each clip is stored
+// seven times (tests/run --all).
 #include "render/picture/scene_preset.h"
 #include "sim/base/archive.h"
 #include "sim/build/build_scene.h"
@@ -31,7 +30,7 @@ void restore(Scene& scene, const std::vector<std::uint8_t>& bytes) {
   archive.end();
 }
 
-// All but the seconds that steps took.
+// The stored bytes without measured run times.
 std::vector<std::uint8_t> timeless(const std::vector<std::uint8_t>& bytes) {
   const std::string mark = "seconds";
   const auto at = std::find_end(bytes.begin(), bytes.end(), mark.begin(), mark.end());
@@ -76,7 +75,7 @@ TEST_P(StoredPreset, goes_on_to_the_bit) {
     const long until = last * part / (whole ? 8 : 1) - 20;
     while (scene.steps_done() < until && (whole || scene.tears() == 0)) scene.step();
     const auto bytes = stored(scene);
-    restore(*other.scene, bytes); // over what it was before
+    restore(*other.scene, bytes); // into a scene with another state
     EXPECT_TRUE(stored(*other.scene) == bytes);
     for (std::size_t n = 0; n < scene.bodies().size(); ++n)
       EXPECT_TRUE(scene.bodies()[n]->program->same_as(*other.scene->bodies()[n]->program));
@@ -103,7 +102,7 @@ TEST(Store, a_scene_goes_on_from_any_step_with_every_scheme) {
         go(*other.scene, 1);
         expect_same(*one.scene, *other.scene);
       }
-    } catch (const Unstable&) { // static may not get along with a cloth that tears
+    } catch (const Unstable&) { // static may not converge on a cloth that tears
       EXPECT_EQ(scheme.name, "static");
     }
     EXPECT_GE(compared, scheme.name == "static" ? 1 : 12) << scheme.name;
@@ -117,7 +116,7 @@ bool slots_in_order_of_darts(const EmbeddedMap& map) {
   return true;
 }
 
-// Edges of a cloth that was shaken let go anywhere, until its vertices are numbered anew (embedding/reorder.h).
+// Random edges of a displaced cloth are separated, until its vertices are renumbered (embedding/reorder.h).
 TEST(Store, a_scene_goes_on_to_the_bit_across_the_step_that_numbers_vertices_anew) {
   const std::string xml =
       presets::cloth("quads", 91, R"(<tear criterion="global-border" threshold="1e-9" max-per-step="100"/>)",

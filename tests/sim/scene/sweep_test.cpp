@@ -1,6 +1,7 @@
-// Steps whose forces are found while vertices move on give the bytes of steps that find all forces first.
+// Fused sweeps, which compute forces while vertices are integrated, give the same bytes as steps that compute
+// all forces first.
 //
-// Small bodies in parts (SceneOptions) are never swept: they are what a sweep is compared with.
+// Small bodies split into parts (SceneOptions) never use sweeps: they are the reference.
 #include "render/picture/scene_preset.h"
 #include "sim/build/build_scene.h"
 #include "sim/house_presets.h"
@@ -67,7 +68,7 @@ TEST(SweptSteps, of_many_tiles_gives_the_same_bytes_on_any_number_of_threads) {
   }
 }
 
-// A step that is too long, which the guard makes in parts.
+// A step that is too long, which the guard divides into substeps.
 TEST(SweptSteps, under_the_guard_gives_the_same_bytes) {
   const auto run = [](bool in_parts) {
     presets::Loaded scene = presets::load(

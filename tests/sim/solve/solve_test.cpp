@@ -1,4 +1,4 @@
-// Direct and iterative solvers against each other, against dense matrices, and over threads.
+// Direct and iterative solvers against each other, against dense matrices, and for several numbers of threads.
 #include "sim/solve/linear_solver.h"
 #include "sim/solve/vertex_order.h"
 
@@ -11,8 +11,7 @@
 namespace rend {
 namespace {
 
-// A grid of n × n × n vertices, each joined to 26 others, with random symmetric blocks on a diagonal that rules
-// them.
+// A grid of n × n × n vertices, each coupled to 26 others by random symmetric blocks, with a dominant diagonal.
 struct Lattice {
   BlockMatrix matrix;
 
@@ -31,7 +30,8 @@ struct Lattice {
       for (std::size_t at = p.start[i]; at < p.diagonal[i]; ++at) {
         Eigen::Matrix3d b;
         for (int k = 0; k < 9; ++k) b(k) = any(random);
-        const Eigen::Matrix3d spring = b * b.transpose(); // as of a spring between i and j: positive in all
+        // as for a spring between i and j: positive semidefinite in total
+        const Eigen::Matrix3d spring = b * b.transpose();
         add(i, i, spring);
         add(p.column[at], p.column[at], spring);
         add(i, p.column[at], -spring);
@@ -110,7 +110,7 @@ TEST(BlockFactor, solves_as_a_dense_one) {
 
 TEST(BlockFactor, tells_what_kind_of_matrix_it_is) {
   BlockFactor factor;
-  Lattice free(3, 0); // as a whole, it moves along three axes
+  Lattice free(3, 0); // can translate along three axes
   factor.analyse(free.matrix.pattern());
   EXPECT_EQ(factor.factorise(free.matrix), Definiteness::Singular);
   free.matrix.add_diagonal(5, 1);
@@ -154,7 +154,7 @@ TEST(ConjugateGradient, agrees_with_the_direct_solver) {
 TEST(ConjugateGradient, gives_the_same_bytes_on_any_number_of_threads) {
   std::vector<Records> all;
   for (const int parts : {1, 2, 4}) {
-    const Lattice l(18, 0.1, parts); // more rows than a range of the preconditioner has
+    const Lattice l(18, 0.1, parts); // more rows than one range of the preconditioner
     const Records b = right_side(l.matrix.rows());
     Preconditioner preconditioner;
     ASSERT_TRUE(preconditioner.take(l.matrix, Precision::Double));
@@ -165,7 +165,7 @@ TEST(ConjugateGradient, gives_the_same_bytes_on_any_number_of_threads) {
 }
 
 TEST(Preconditioner, multiplies_with_the_matrix_between_its_halves) {
-  const Lattice l(17, 0.5); // more rows than a range has
+  const Lattice l(17, 0.5); // more rows than one range
   const std::size_t rows = l.matrix.rows();
   for (const Precision precision : {Precision::Double, Precision::Single}) {
     Preconditioner m;
@@ -191,7 +191,7 @@ TEST(Preconditioner, refuses_a_diagonal_that_is_not_positive) {
 }
 
 TEST(VertexOrder, is_a_permutation_that_brings_neighbours_together) {
-  // A path whose rows are scattered, and a row by itself.
+  // A path graph with shuffled rows, and an isolated row.
   const std::uint32_t n = 101;
   std::vector<std::vector<std::uint32_t>> beside(n + 1);
   const auto name = [&](std::uint32_t k) { return k * 37 % n; };

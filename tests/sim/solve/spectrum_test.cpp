@@ -10,7 +10,7 @@ namespace {
 
 constexpr double half_turn = 3.14159265358979323846;
 
-// A matrix over a chain of `count` vertices, each joined to its neighbours by a block.
+// A matrix on a chain of `count` vertices, each coupled to its neighbours by a block.
 BlockMatrix chain(std::size_t count) {
   std::vector<std::uint32_t> starts{0}, neighbours;
   for (std::size_t i = 0; i < count; ++i) {
@@ -31,7 +31,7 @@ void add_unit(BlockMatrix& m, std::uint32_t i, std::uint32_t j, const Eigen::Mat
   }
 }
 
-// N springs and N masses, one end held: ω_max = 2 √(k/m) sin((2N − 1)/(2N + 1) · π/2).
+// N springs and N masses, one end fixed: ω_max = 2 √(k/m) sin((2N − 1)/(2N + 1) · π/2).
 TEST(Spectrum, FindsTheHighestFrequencyOfAChain) {
   for (const std::size_t n : {1u, 2u, 7u, 40u}) {
     BlockMatrix m = chain(n + 1);
@@ -47,7 +47,7 @@ TEST(Spectrum, FindsTheHighestFrequencyOfAChain) {
   }
 }
 
-// Unequal masses, full blocks, coordinates held one by one, a free slot.
+// Different masses, full blocks, single fixed coordinates, a free slot.
 TEST(Spectrum, AgreesWithAllEigenvalues) {
   const std::size_t n = 20;
   std::uint64_t seed = 5;
@@ -77,7 +77,7 @@ TEST(Spectrum, AgreesWithAllEigenvalues) {
   const HighestMode mode = highest_mode(m, inverse.data(), held);
   EXPECT_NEAR(mode.omega_squared, known, 1e-9 * known);
 
-  // the shape is of unit mass, held coordinates and free slots do not move, and K φ = ω² M φ
+  // the mode has unit mass, fixed coordinates and free slots are 0, and K φ = ω² M φ
   Records image(n);
   m.multiply(mode.shape.data(), image.data());
   double mass = 0;

@@ -1,4 +1,4 @@
-// Error norms on states made by hand, and samples of real scenes.
+// Error norms on constructed states, and samples of real scenes.
 #include "sim/study/errors.h"
 #include "tests/sim/presets.h"
 #include "tests/sim/random_meshes.h"

@@ -1,4 +1,4 @@
-// Fitted orders, against data whose slope is known and tables of Student's distribution.
+// Fitted orders, against data of known slope and tables of Student's distribution.
 #include "sim/study/order_fit.h"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// 3 h^p times (1 + noise), at halved steps.
+// 3 h^p times (1 + noise), with step sizes halved.
 std::vector<OrderPoint> power_law(double p, int count, double noise, std::mt19937& random) {
   std::normal_distribution<double> normal(0, noise);
   std::vector<OrderPoint> points;

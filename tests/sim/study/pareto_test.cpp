@@ -17,7 +17,7 @@ bool beats(const Work& a, const Work& b) {
 TEST(ParetoFront, is_what_nothing_beats) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 300; ++trial) {
-    std::uniform_int_distribution<int> few(1, 9); // so that ties are common
+    std::uniform_int_distribution<int> few(1, 9); // small integers, so that ties are common
     std::vector<Work> runs(static_cast<std::size_t>(trial % 40));
     for (Work& run : runs) run = {static_cast<double>(few(random)), static_cast<double>(few(random))};
     std::vector<std::size_t> front = pareto_front(runs), expected;

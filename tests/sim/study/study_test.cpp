@@ -1,4 +1,4 @@
-// Whole studies of small scenes, against closed forms and against runs made by hand.
+// Whole studies of small scenes, against closed forms and against separate runs.
 #include "sim/study/study.h"
 #include "sim/study/sweep.h"
 #include "tests/sim/presets.h"
@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-// Scenes from a text with the holes {0} (integrator), {1} (step) and {2} (tolerance, or nothing).
+// Scenes from a format string with {0} (integrator), {1} (step) and {2} (tolerance, or empty).
 MakeScene maker(const std::string& xml) {
   return [xml](const Variant& v) -> std::shared_ptr<Scene> {
     const std::string text = fmt::format(fmt::runtime(xml), v.integrator.empty() ? "symplectic" : v.integrator,
@@ -22,7 +22,7 @@ MakeScene maker(const std::string& xml) {
   };
 }
 
-// A mass on a spring of w = 10/s, let go from rest under gravity: z = (g/w²)(cos wt − 1).
+// A mass on a spring with w = 10/s, released from rest under gravity: z = (g/w²)(cos wt − 1).
 const std::string oscillator = R"(<scene><body><sheet cells="1 1" size="1 1"/><place rotate="90 0 0"/>
   <mass total="0.4"/><springs><stretch k="10"/></springs><fix side="+z"/><probe name="mass" side="-z"/>
   <answer probe="mass" quantity="dz" at="1" value="-0.180512906" tolerance="1"/></body>

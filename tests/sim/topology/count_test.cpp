@@ -55,7 +55,8 @@ TEST(Counts, a_loop_and_a_moebius_strip_have_no_euler_characteristic) {
 
 TEST(Counts, a_loop_has_two_borders_and_a_moebius_strip_one) {
   const auto borders =
-      [](const EmbeddedMap& body) { // along the border: α0, or around the vertex to the next free dart
+      // next dart along the border: α0, or around the vertex to the next free dart
+      [](const EmbeddedMap& body) {
         const GMap& map = body.map();
         std::vector<char> met(map.capacity(), 0);
         int count = 0;

@@ -8,7 +8,7 @@
 namespace rend {
 namespace {
 
-// Few and many, near each other and over the whole range of 32 bits.
+// Few and many keys, dense and over the whole range of 32 bits.
 TEST(DartSort, sorts_as_a_comparing_sort_does) {
   std::mt19937 random(1);
   for (const std::size_t count : {0, 1, 2, 100, 255, 256, 5000}) {

@@ -36,7 +36,7 @@ TEST(MapEdit, refuses_what_would_break_a_link) {
   EXPECT_THROW(edit.link(0, a, c), InternalError);
   EXPECT_THROW(edit.unlink(0, c), InternalError);
   EXPECT_THROW(edit.remove_dart(a), InternalError);
-  EXPECT_THROW(edit.link(3, a, b), InternalError); // a sheet
+  EXPECT_THROW(edit.link(3, a, b), InternalError); // the map has dimension 2
 }
 
 TEST(MapEdit, the_journal_names_every_dart_whose_link_changed) {
@@ -95,10 +95,10 @@ TEST(Sew, refuses_and_changes_nothing_where_a_link_is_taken_or_the_orbits_differ
   const auto quad = polygon(edit, 4), triangle = polygon(edit, 3), other = polygon(edit, 4);
   ASSERT_TRUE(sew(edit, 2, quad[0], other[0]));
   const auto before = assets::links(map);
-  EXPECT_FALSE(sew(edit, 3, quad[0], triangle[0])); // four sides against three
+  EXPECT_FALSE(sew(edit, 3, quad[0], triangle[0])); // four sides and three
   EXPECT_FALSE(sew(edit, 2, quad[0], triangle[0])); // not free
   EXPECT_FALSE(sew(edit, 2, quad[2], quad[2]));     // a dart to itself
-  EXPECT_FALSE(sew(edit, 3, quad[0], quad[2]));     // a face to itself, shifted: no involution
+  EXPECT_FALSE(sew(edit, 3, quad[0], quad[2]));     // a face to itself, shifted: not an involution
   EXPECT_FALSE(unsew(edit, 3, quad[0]));
   EXPECT_EQ(assets::links(map), before);
   GMap sheet(2);

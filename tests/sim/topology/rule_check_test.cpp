@@ -9,7 +9,7 @@ namespace {
 
 using namespace grammar;
 
-// tests/sim/rules/illegal shows that each fault stops the compiler; here are their words.
+// tests/sim/rules/illegal shows that each fault is a compile error; here are the messages.
 std::string fault_of(const Rule& rule) {
   try {
     rule_check::all(rule);
@@ -29,7 +29,7 @@ TEST(RuleCheck, says_in_words_what_a_rule_breaks) {
 }
 
 TEST(RuleCheck, two_implicit_links_are_judged_by_the_hooks_names) {
-  // α0 and α3 of the hook commute; called α1 and α3 on a copy they still do.
+  // α0 and α3 of the hook commute; renamed to α1 and α3 on a copy they still do.
   const Rule fine{"copy", left{hook('a', {0, 3})},
                   right{node('a', {0, 3}), node('b', {1, 3}), loop('b', 0, 2), point('b', copy('a'))}};
   EXPECT_EQ(fault_of(fine), "");
@@ -39,7 +39,7 @@ TEST(RuleCheck, two_implicit_links_are_judged_by_the_hooks_names) {
 }
 
 TEST(RuleCheck, a_link_that_the_rule_leaves_alone_needs_no_square) {
-  // α0 of an edge end stays as it is although the rule does not speak of α2, α3.
+  // α0 of an edge end is unchanged although the rule does not mention α2, α3.
   const Rule fine{"fine", left{hook('a', {0}), loop('a', 1, 3)},
                   right{node('a', {0}), node('b', {0}), arc('a', 1, 'b'), loop('a', 3), loop('b', 2, 3)}};
   EXPECT_EQ(fault_of(fine), "");

@@ -22,7 +22,7 @@ TEST(Validate, names_the_cycle_that_a_half_sewn_edge_breaks) {
   edit.link(0, a, b);
   edit.link(0, c, d);
   EXPECT_FALSE(validate(map));
-  edit.link(2, a, c); // and b, d left as they are
+  edit.link(2, a, c); // and b, d unchanged
   const auto fault = validate(map);
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->dart, a);

@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-// The definition: all that the links lead to.
+// By definition: everything reachable by the links.
 std::set<Dart> naive(const GMap& map, Orbit orbit, Dart d) {
   std::set<Dart> found{d};
   std::vector<Dart> stack{d};
