@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ file with the texts of FILES (separated by commas) as raw strings: shader_source().
+# Writes OUTPUT, a C++ file with the contents of FILES (separated by commas) as raw strings: shader_source().
 # cmake -DFILES=a,b -DOUTPUT=... -P embed.cmake
 string(REPLACE "," ";" FILES "${FILES}")
 set(rows "")

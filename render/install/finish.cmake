@@ -1,4 +1,4 @@
-# Run by cpack on what is to be packed: the documents that Debian wants of each package.
+# Run by cpack on the staged files: adds the documents that Debian requires in each package.
 function(output result)
   execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE out OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   set(${result} "${out}" PARENT_SCOPE)
@@ -6,7 +6,7 @@ endfunction()
 output(date git -C ${CPACK_REND_SOURCE} log -1 --date=rfc2822 --format=%cd)
 output(contact git -C ${CPACK_REND_SOURCE} log -1 "--format=%cn <%ce>")
 
-# What the program holds of others: the font of its HUD, and the part of Dear ImGui that draws it.
+# Third-party parts within the program: the font of its HUD, and the part of Dear ImGui that draws it.
 set(copyright "rend, by the people whom its history names. They have stated no licence.\n")
 set(held "")
 if(CPACK_REND_HUD)

@@ -1,7 +1,7 @@
 # What cmake --install puts where, in two components:
 #   program      rend, its manual, completions, presets, the schema and the READMEs
 #   development  libraries, headers, the CMake package and pkg-config files
-# The manual and the completions are printed by the program itself, while it is installed: a build does not wait for them.
+# The program itself prints the manual and the completions at installation, so they do not delay a build.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -9,7 +9,7 @@ set(install_source ${CMAKE_CURRENT_LIST_DIR})
 set(install_made ${PROJECT_BINARY_DIR}/install)
 get_property(sim_libraries GLOBAL PROPERTY REND_SIM_LIBRARIES)
 get_property(render_libraries GLOBAL PROPERTY REND_RENDER_LIBRARIES)
-set(hud OFF) # which may be left out for want of a font
+set(hud OFF) # left out if the font is not installed
 if(TARGET rend_imgui)
   set(hud ON)
   list(PREPEND render_libraries rend_imgui)
@@ -27,7 +27,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets/ DESTINATION ${CMAKE_INSTALL_DAT
         FILES_MATCHING PATTERN "*.xml" PATTERN "*.xsd" PATTERN "*.msh" PATTERN "*.obj" PATTERN "*.off" PATTERN "*.moka"
         PATTERN gallery EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-foreach(folder presets sim render tests) # where its links lead
+foreach(folder presets sim render tests) # targets of its links
   install(FILES ${PROJECT_SOURCE_DIR}/${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
 endforeach()
 
@@ -64,8 +64,8 @@ write_basic_package_version_file(${install_made}/rend-config-version.cmake COMPA
 install(FILES ${install_made}/rend-config.cmake ${install_made}/rend-config-version.cmake DESTINATION ${package_dir}
         COMPONENT development)
 
-# pkg-config. A linker goes through static libraries once, from left to right: those that need others come first, as they
-# were made bottom to top. All are static, so that what they need is needed by everybody, and nothing is private.
+# pkg-config. A linker processes static libraries once, from left to right: dependents come before dependencies, the
+# reverse of the order of definition. All are static, so their dependencies are public, none is private.
 function(rend_pkg_config name)
   set(libraries "")
   foreach(library IN LISTS ARGN)
@@ -74,7 +74,7 @@ function(rend_pkg_config name)
       string(PREPEND libraries " -l${library}")
     endif()
   endforeach()
-  file(RELATIVE_PATH up /rend/${CMAKE_INSTALL_LIBDIR}/pkgconfig /rend) # from the file, so that what is installed can be moved
+  file(RELATIVE_PATH up /rend/${CMAKE_INSTALL_LIBDIR}/pkgconfig /rend) # relative to the file, so that the installation is relocatable
   configure_file(${install_source}/${name}.pc.in ${install_made}/${name}.pc @ONLY)
   install(FILES ${install_made}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endfunction()

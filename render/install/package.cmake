@@ -1,14 +1,14 @@
 # Debian packages, by `cpack` in the build folder: rend, and librend-dev with the libraries.
 #
-# What the program is linked with becomes its dependencies (dpkg-shlibdeps). Libraries are static: a program that is built
-# with them needs what they were built with.
+# The program's dependencies are found by dpkg-shlibdeps. rend's libraries are static: a program that links them needs
+# their dependencies, too.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME rend)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL program development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_PROJECT_CONFIG_FILE ${install_source}/version.cmake) # asks git, when packages are made
+set(CPACK_PROJECT_CONFIG_FILE ${install_source}/version.cmake) # reads the commit from git when packages are made
 set(CPACK_PRE_BUILD_SCRIPTS ${install_source}/finish.cmake)
 set(CPACK_REND_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_REND_HUD ${hud})

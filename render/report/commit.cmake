@@ -1,4 +1,4 @@
-# Writes OUTPUT, a header that says which commit of SOURCE is being built; touches it only where that changed.
+# Writes OUTPUT, a header with the current commit of SOURCE; rewrites it only when that has changed.
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND git -C ${SOURCE} describe --always --abbrev=12 --dirty --exclude=*
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE result)

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""Recomputes what `rend diff` says of pictures, with numpy, scipy and scikit-image and none of its code.
+"""Recomputes the metrics of `rend diff` independently, with numpy, scipy and scikit-image.
 
     recompute.py REND
 
-SSIM, RMSE and PSNR are scikit-image's (structural_similarity with its defaults). FLIP is written down here anew
-from the paper (Andersson et al. 2020), with two-dimensional filters and double precision; its own values for
-flat pictures are those of the authors' program, and are checked first. Pictures: noise, a gradient with a
-patch, something drawn; grey, palette, 16 bits, with alpha (on white).
+SSIM, RMSE and PSNR are scikit-image's (structural_similarity with its defaults). FLIP is
+implemented here from the paper (Andersson et al. 2020), with two-dimensional filters in double precision; this
+implementation is first checked against values of the authors' program for uniform pictures. Pictures: noise, a
+gradient with a patch, a drawing; grey, palette, 16 bits, with alpha (on white).
 
-Prints both values of each and the difference; exits 1 where they disagree by more than the tolerance stated.
+Prints both values of each metric and the difference; exits 1 if a difference exceeds its tolerance.
 """
 import json
 import struct
@@ -109,7 +109,7 @@ def check_flip():
 
 
 class Table:
-    """What was computed twice."""
+    """The values that were computed twice."""
 
     def __init__(self):
         self.agrees = True
@@ -123,7 +123,7 @@ class Table:
 
 
 def pictures():
-    """Names and pairs: what is written to the files, and the levels (0 to 255) that it stands for."""
+    """By name, pairs of what is written to the files and the levels (0 to 255) that this means."""
     random = np.random.default_rng(1)
     noise = random.integers(0, 256, (70, 90, 3), dtype=np.uint8)
     ramp = np.add.outer(2 * np.arange(80), np.arange(120)).astype(np.uint8)
@@ -168,7 +168,7 @@ def main():
             for file, (stored, _) in zip(files, pair):
                 if isinstance(stored, Image.Image):
                     stored.save(file)
-                elif isinstance(stored, dict): # what PIL does not write
+                elif isinstance(stored, dict): # a format that PIL cannot write
                     write_png(file, **stored)
                 else:
                     Image.fromarray(stored).save(file)
@@ -180,7 +180,7 @@ def main():
             table.add(f"{name}: SSIM", found["ssim"],
                       metrics.structural_similarity(a, b, channel_axis=-1, data_range=255),
                       1e-6)
-            if "alpha" not in name: # where alpha counts as a channel of its own
+            if "alpha" not in name: # there alpha counts as a channel of its own
                 rmse = np.sqrt(metrics.mean_squared_error(a, b))
                 psnr = metrics.peak_signal_noise_ratio(a, b, data_range=255)
                 table.add(f"{name}: RMSE", found["rmse"], rmse, 1e-6, scale=rmse) # relative: levels and dB
@@ -197,7 +197,7 @@ def main():
 
 
 def write_png(file, samples, bits, colour, interlaced):
-    """From its specification: bits 8 or 16, colour 0 (grey), 2 (RGB), 4 (grey and alpha) or 6 (RGBA)."""
+    """A PNG file by the specification: bits 8 or 16, colour 0 (grey), 2 (RGB), 4 (grey, alpha) or 6 (RGBA)."""
     height, width = samples.shape[:2]
     if interlaced: # Adam7: first column and row, and their steps
         passes = [(0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2),

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Clicks through the page of `rend batch` in a real browser (chromium, chromium-driver, python3-selenium).
+"""Tests the page of `rend batch` in a real browser (chromium, chromium-driver, python3-selenium).
 
-    batch.py REND [DIR]     DIR: screenshots are left there
+    batch.py REND [DIR]     DIR: where to keep screenshots
 
-Four jobs: two that are done, one that is unstable, one whose preset is bad. Tiles and states are read, each
-thumbnail is looked at as pixels, columns are sorted by a click, and a link is followed to the pictures. Exits 1
-with what is wrong.
+Four jobs: two that are done, one that is unstable, one whose preset is bad. It reads tiles and states, checks
+the pixels of each thumbnail, sorts columns by a click, and follows a link to the pictures. Prints errors and
+exits 1.
 """
 import json
 import subprocess
@@ -106,7 +106,7 @@ def main():
             states_and_pictures(driver, jobs)
             sorting(driver, jobs)
             said = [line["message"] for line in driver.get_log("browser")]
-            wrong = [message for message in said if "readback" not in message]  # ours
+            wrong = [message for message in said if "readback" not in message]  # the test's own
             check(f"the browser has nothing to say {wrong}", not wrong)
             links(driver, page)
             if len(sys.argv) == 3:

@@ -1,4 +1,4 @@
-"""What the tests of pages share: a browser (chromium, python3-selenium), checks, screenshots."""
+"""Shared by the tests of pages: a browser (chromium, python3-selenium), checks, screenshots."""
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Clicks through the page of `rend diff` in a real browser (chromium, chromium-driver, python3-selenium).
+"""Tests the page of `rend diff` in a real browser (chromium, chromium-driver, python3-selenium).
 
-    diff.py REND [DIR]     DIR: screenshots are left there
+    diff.py REND [DIR]     DIR: where to keep screenshots
 
-Three pictures differ, one of each other state; every way of looking is clicked, the slider moved, the worst
-place and another one enlarged, a table sorted. What is seen is read back from the screen, as pixels. Exits 1
-with what is wrong.
+Three pictures that differ, and one for each other state; it clicks every view, moves the slider, magnifies the
+worst place and another one, and sorts a table. Results are read back as pixels of screenshots. Prints errors
+and exits 1.
 """
 import io
 import subprocess
@@ -24,7 +24,7 @@ WIDTH, HEIGHT = 320, 180
 
 
 def pictures(folder):
-    """Blue is expected; a red square of 24 pixels is there now, in another place in each."""
+    """The expected pictures are blue; the current ones also have a red square of 24 pixels, each elsewhere."""
     for side in ("a", "b"):
         (folder / side / "in").mkdir(parents=True)
     blue = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
@@ -51,7 +51,7 @@ def shot(element):
 
 
 def at(image, x, y):
-    """The pixel of a stack's screenshot at x, y in pixels of the picture (it is enlarged)."""
+    """The pixel of a view's screenshot at x, y in pixels of the picture (which is shown enlarged)."""
     return image[int((y + 0.5) / HEIGHT * image.shape[0]), int((x + 0.5) / WIDTH * image.shape[1])]
 
 
@@ -63,7 +63,7 @@ BLUE, RED, BLACK = (30, 60, 200), (220, 40, 30), (0, 0, 0)
 
 
 def first_of_two(driver):
-    """Each way of looking at the picture `one`, whose square is at (200, 40)."""
+    """Tests each view of the picture `one`, whose square is at (200, 40)."""
     heading = next(h for h in driver.find_elements(By.TAG_NAME, "h3") if h.text == "one.png")
     box = heading.find_element(By.XPATH, "following-sibling::div[contains(@class, 'compare')]")
     stack = box.find_element(By.CLASS_NAME, "stack")
@@ -144,7 +144,7 @@ def main():
             zoom(driver, *first_of_two(driver))
             tables(driver)
             said = [line["message"] for line in driver.get_log("browser")]
-            wrong = [message for message in said if "readback" not in message]  # ours
+            wrong = [message for message in said if "readback" not in message]  # the test's own
             check(f"the browser has nothing to say {wrong}", not wrong)
             if len(sys.argv) == 3:
                 screenshots(driver, folder / "report/index.html", Path(sys.argv[2]))

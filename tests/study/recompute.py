@@ -1,19 +1,19 @@
 #!/usr/bin/python3
-"""Recomputes some of rend's findings from what it writes, with numpy and scipy and none of its code.
+"""Recomputes some of rend's results independently from its output files, with numpy and scipy.
 
     recompute.py REND
 
 1. Errors and an order. `rend study` of a cloth of springs writes errors into study.csv. The runs of one scheme
-   and the reference are made again with `rend run --export vtu`, and from places, velocities and masses in the
-   .vtu files come the errors (the root mean square over the mass, and over the samples), the scale that makes
-   them relative, and the order (the slope of log error over log step).
-2. A step limit. The stiffness of a bar of distorted hexahedra is assembled here, from the places at rest in a
+   and the reference are repeated with `rend run --export vtu`, and from the positions, velocities and masses
+   in the .vtu files it computes the errors (mass-weighted root mean square, and over the samples), their scale, and
+   the order (the slope of log error over log step).
+2. A step limit. The stiffness of a bar of distorted hexahedra is assembled here, from the rest positions in a
    .vtu file and the preset's E and nu, by textbook trilinear elements with 2 x 2 x 2 Gauss points (Zienkiewicz
-   & Taylor, The Finite Element Method, vol. 1); masses are the .vtu's. The highest frequency is an eigenvalue
-   (Lanczos, ARPACK); symplectic Euler is stable up to 2/omega. Bisection finds where rend's runs blow up, and
-   `rend info` says what it vouches for.
+   & Taylor, The Finite Element Method, vol. 1); masses are those of the .vtu file. The highest frequency is an
+   eigenvalue (Lanczos, ARPACK); symplectic Euler is stable up to 2/omega. It is compared with the step at which
+   rend's runs become unstable, by bisection, and with the limit that `rend info` reports.
 
-Prints both values of each and the difference; exits 1 where they disagree by more than the tolerance stated.
+Prints both values of each quantity and the difference; exits 1 if a difference exceeds its tolerance.
 """
 import base64
 import csv
@@ -55,7 +55,7 @@ class State:
                 r'<DataArray type="(\w+)" Name="([^"]+)"(?: NumberOfComponents="(\d+)")? '
                 r'format="binary">([^<]*)<', text):
             raw = base64.b64decode(content)
-            values = np.frombuffer(raw, TYPES[kind], offset=8)  # behind the number of bytes
+            values = np.frombuffer(raw, TYPES[kind], offset=8)  # after the byte count
             assert values.nbytes == int(np.frombuffer(raw, np.uint64, 1)[0])
             self.arrays[name] = values.reshape(-1, int(width)) if width else values
         self.x, self.rest, self.velocity = (self.arrays[n] for n in ("Points", "rest", "velocity"))
@@ -63,7 +63,7 @@ class State:
 
 
 class Table:
-    """What was computed twice."""
+    """The values that were computed twice."""
 
     def __init__(self):
         self.agrees = True
@@ -84,7 +84,7 @@ def call(rend, *words, codes=(0,)):
 
 
 def trajectory(rend, preset, folder, scheme, step, steps, samples, duration):
-    """The states after the start at `samples` equal parts of the run; and the one at the start."""
+    """The states at `samples` equidistant times after the start, and the initial one."""
     call(rend, "run", preset, "-q", "--export", "vtu", "-o", folder,
          "--set", f"time.integrator={scheme}", "--set", f"time.step={step!r}", "--steps", steps,
          "--fps", repr(samples / duration))
@@ -134,7 +134,7 @@ def errors_and_order(rend, folder, table):
 
 
 def distorted_bar(cells, size):
-    """A Gmsh file (2.2, ASCII) of hexahedra whose inner points stand off their places: no two are alike."""
+    """A Gmsh file (2.2, ASCII) of hexahedra with displaced inner points: no two are equal."""
     axes = [np.linspace(0, s, n + 1) for n, s in zip(cells, size)]
     points = np.array([(x, y, z) for z in axes[2] for y in axes[1] for x in axes[0]])
     inside = np.all((points > 0) & (points < size), axis=1)
@@ -151,7 +151,7 @@ def distorted_bar(cells, size):
 
 
 def stiffness_of_hexahedron(x):
-    """24 x 24 of the corners x (8 x 3) in VTK's order, as sum of B^T C B det J over the Gauss points."""
+    """24 x 24 stiffness for corners x (8 x 3) in VTK's order: sum of B^T C B det J over the Gauss points."""
     lame, shear = YOUNG * POISSON / ((1 + POISSON) * (1 - 2 * POISSON)), YOUNG / (2 * (1 + POISSON))
     c = np.diag([2 * shear] * 3 + [shear] * 3)
     c[:3, :3] += lame
@@ -173,7 +173,7 @@ def stiffness_of_hexahedron(x):
 
 
 def highest_frequency(state):
-    """[rad/s], with the prescribed vertices held."""
+    """The highest frequency [rad/s], with prescribed vertices fixed."""
     count = len(state.mass)
     cells = state.arrays["connectivity"].reshape(-1, 8)
     assert (state.arrays["types"] == 12).all()

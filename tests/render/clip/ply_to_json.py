@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Reads binary .ply files as their headers say, and prints what they hold: one JSON object per line.
+"""Reads binary .ply files by their headers, and prints their content: one JSON object per line.
 
-(meshio 5.3 takes the numbers of faces for arrays of their own behind all the lists, which the format does not.)
+(meshio 5.3 reads scalar properties of faces as if they were stored after all lists, which is not the format.)
 """
 import json
 import struct

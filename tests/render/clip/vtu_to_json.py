@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Reads .vtu files by meshio, which knows nothing of rend, and prints what they hold: one JSON object per line.
+"""Reads .vtu files with meshio, independently of rend, and prints their content: one JSON object per line.
 
-Corners of a wedge are given as Gmsh counts them (meshio's own order); polyhedra as lists of faces.
+Corners of a wedge are in Gmsh's order (which is meshio's); polyhedra are lists of faces.
 """
 import json
 import sys

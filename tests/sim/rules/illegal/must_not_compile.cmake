@@ -1,7 +1,7 @@
 # cmake -DCOMPILER=... -DROOT=... -DFILE=... -P must_not_compile.cmake
 #
-# Compiles FILE; its first line, "// fault: NAME", says which function the compiler must refuse to call in a
-# constant, or "none" for a file that must compile.
+# Compiles FILE; its first line, "// fault: NAME", is the function that the compiler must refuse to call in a
+# constant expression, or "none" for a file that must compile.
 file(STRINGS ${FILE} first LIMIT_COUNT 1)
 string(REGEX REPLACE "^// fault: " "" fault "${first}")
 execute_process(COMMAND ${COMPILER} -std=c++20 -fsyntax-only -I${ROOT} ${FILE}
