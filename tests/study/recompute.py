@@ -5,8 +5,8 @@
 
 1. Errors and an order. `rend study` of a cloth of springs writes errors into study.csv. The runs of one scheme
    and the reference are repeated with `rend run --export vtu`, and from the positions, velocities and masses
-   in the .vtu files it computes the errors (mass-weighted root mean square, and over the samples), their scale, and
-   the order (the slope of log error over log step).
+   in the .vtu files it computes the errors (mass-weighted root mean square, and over the samples), their scale,
+   and the order (the slope of log error over log step).
 2. A step limit. The stiffness of a bar of distorted hexahedra is assembled here, from the rest positions in a
    .vtu file and the preset's E and nu, by textbook trilinear elements with 2 x 2 x 2 Gauss points (Zienkiewicz
    & Taylor, The Finite Element Method, vol. 1); masses are those of the .vtu file. The highest frequency is an

@@ -1,5 +1,5 @@
 // fault: kept_node_gains_a_link
-// α2 of a kept dart is set without having been looked at.
+// α2 of a kept dart is set, but was not matched.
 #include "sim/topology/rule_check.h"
 
 namespace rend {

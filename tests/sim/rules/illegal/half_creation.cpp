@@ -1,5 +1,5 @@
 // fault: link_is_missing
-// The new dart does not say what its α3 is.
+// α3 of the new dart is not given.
 #include "sim/topology/rule_check.h"
 
 namespace rend {

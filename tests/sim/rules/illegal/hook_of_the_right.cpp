@@ -1,5 +1,5 @@
 // fault: hook_is_on_the_right
-// Only what is matched can be pointed at.
+// Only matched nodes can be hooks.
 #include "sim/topology/rule_check.h"
 
 namespace rend {

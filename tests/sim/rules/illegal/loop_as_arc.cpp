@@ -1,5 +1,5 @@
 // fault: arc_should_be_a_loop
-// A free link is written as a loop.
+// A free link must be written as a loop.
 #include "sim/topology/rule_check.h"
 
 namespace rend {

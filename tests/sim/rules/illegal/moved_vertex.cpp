@@ -1,5 +1,5 @@
 // fault: point_of_a_kept_vertex
-// b stands at the vertex of a, which has a point.
+// b belongs to the vertex of a, which has a point already.
 #include "sim/topology/rule_check.h"
 
 namespace rend {

@@ -1,5 +1,5 @@
 // fault: node_is_named_twice
-// Which a?
+// Two nodes are called a.
 #include "sim/topology/rule_check.h"
 
 namespace rend {

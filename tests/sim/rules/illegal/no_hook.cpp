@@ -1,5 +1,5 @@
 // fault: hook_is_missing
-// Nothing says where b lies.
+// Nothing determines which dart b is.
 #include "sim/topology/rule_check.h"
 
 namespace rend {

@@ -1,5 +1,5 @@
 // fault: new_vertex_without_point
-// The middle vertex is nowhere.
+// The new middle vertex has no point.
 #include "sim/topology/rule_check.h"
 
 namespace rend {

@@ -1,5 +1,5 @@
 // fault: node_is_unknown
-// The arc leads to a node that is not there.
+// The arc leads to a node that does not exist.
 #include "sim/topology/rule_check.h"
 
 namespace rend {
