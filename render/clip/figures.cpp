@@ -21,9 +21,9 @@ std::size_t elements_of(const Body& body) {
 }
 
 MemoryFigures bytes_of(const Scene& scene, const Costs& costs) {
-  std::vector<Holding> all = footprint_of(scene);
+  std::vector<MemoryEntry> all = footprint_of(scene);
   for (const auto& body : scene.bodies()) {
-    const std::vector<Holding> more = footprint_of(*body);
+    const std::vector<MemoryEntry> more = footprint_of(*body);
     all.insert(all.end(), more.begin(), more.end());
   }
   const auto of = [&](std::initializer_list<const char*> parts) {
@@ -129,7 +129,7 @@ SolverFigures adaptive_of(const Scene& scene) {
   SolverFigures sum;
   for (const auto& body : scene.bodies()) {
     const SolverFigures one = body->integrator->solver();
-    sum.parts += one.parts;
+    sum.parts += one.substeps;
     sum.rejected += one.rejected;
   }
   return sum;

@@ -53,8 +53,8 @@ Json json_of(const SphereFigures& sphere) {
 
 // Steps that were thrown away, and what was done in their place.
 Json json_of(const GuardFigures& g) {
-  return {{"rejected", g.rejected}, {"redone", g.redone},     {"parts", g.most_parts},
-          {"smallest", g.smallest}, {"accepted", g.accepted}, {"looks", g.looks}};
+  return {{"rejected", g.rejected}, {"redone", g.redone},     {"parts", g.most_substeps},
+          {"smallest", g.smallest}, {"accepted", g.accepted}, {"looks", g.energy_tests}};
 }
 
 Json json_of(const SolvingFigures& solver) {

@@ -24,7 +24,7 @@ void FramePlan::leave_out_whole(const std::filesystem::path& folder, const std::
   const std::size_t count = to_make_.size();
   const std::size_t most = std::clamp<std::size_t>(most_bytes / PngChecker::bytes(shape), 1, count);
   std::vector<char> is_there(count);
-  in_parts(std::min(threads, static_cast<int>(most)), count, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(std::min(threads, static_cast<int>(most)), count, [&](std::size_t begin, std::size_t end) {
     PngChecker checker(shape);
     for (std::size_t n = begin; n < end; ++n)
       is_there[n] = checker.is_whole(folder / png_name(to_make_[n]), png_mark(mark, to_make_[n])) ? 1 : 0;

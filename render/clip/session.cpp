@@ -85,11 +85,12 @@ Session::Session(const SessionOptions& options) : options_(options) {
   if (!options.allow_path) check_paths(*preset_);
   picture_ = picture_settings(*preset_);
   if (options.fps) picture_.image.fps = *options.fps;
-  scene_ = std::make_unique<Scene>(read_scene(*preset_), SceneOptions{.walk = options.kernels == "walk",
-                                                                      .threads = threads(),
-                                                                      .births = options.births,
-                                                                      .guard = options.guard,
-                                                                      .profile = options.profile});
+  scene_ =
+      std::make_unique<Scene>(read_scene(*preset_), SceneOptions{.walk = options.kernels == "walk",
+                                                                 .threads = threads(),
+                                                                 .count_fragments = options.count_fragments,
+                                                                 .guard = options.guard,
+                                                                 .profile = options.profile});
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
@@ -171,9 +172,9 @@ namespace {
 
 void say_what_is_gone(const Scene& scene) {
   for (const auto& body : scene.bodies())
-    if (body->gone)
+    if (body->deleted_at)
       print_note(fmt::format("body '{}' is gone: every element of it was deleted at {:.6g} s", body->name,
-                             *body->gone));
+                             *body->deleted_at));
 }
 
 void say_what_was_redone(const Scene& scene) {

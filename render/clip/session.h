@@ -27,10 +27,10 @@ struct SessionOptions {
   int threads = 0;               // 0: as many as the machine has
   std::string kernels = "flat";  // or walk
   bool quiet = false;
-  bool allow_path = false; // meshes may lie outside the preset's folder
-  bool guard = true;       // bad steps are rolled back and redone in substeps
-  bool births = false;     // events record how many fragments there are
-  bool profile = false;    // the time of each stage of the step is measured
+  bool allow_path = false;      // meshes may lie outside the preset's folder
+  bool guard = true;            // bad steps are rolled back and redone in substeps
+  bool count_fragments = false; // events record how many fragments there are
+  bool profile = false;         // the time of each stage of the step is measured
 };
 void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set
 void add_run_options(CLI::App& app, SessionOptions& options);    // those, and the options of the simulation

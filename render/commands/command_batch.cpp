@@ -131,7 +131,7 @@ Exit end_of(const BatchReport& report) {
   if (stop_signal() != 0) return exit_of_a_signal();
   const bool all = std::all_of(report.results.begin(), report.results.end(),
                                [](const BatchResult& result) { return result.done(); });
-  return all ? Exit::Done : Exit::No;
+  return all ? Exit::Done : Exit::CheckFailed;
 }
 
 Exit batch(const BatchOptions& options) {

@@ -217,7 +217,7 @@ Exit check(const CheckOptions& options) {
     sync_folder(options.folder);
   }
   print_result(options.json ? text_of(json, 2) + "\n" : summary_of(chapters, seconds, options.folder));
-  return count(chapters).failed > 0 ? Exit::No : Exit::Done;
+  return count(chapters).failed > 0 ? Exit::CheckFailed : Exit::Done;
 }
 
 std::function<Exit()> declare(CLI::App& app) {

@@ -202,7 +202,7 @@ Exit run(const DiffOptions& options) {
   } catch (const UserError& error) {
     if (error.code != Exit::BadInput && error.code != Exit::NoInput) throw;
     print_error(error.what(), error.hint);
-    return Exit::Trouble;
+    return Exit::DiffError;
   }
 }
 

@@ -67,14 +67,14 @@ Stopped simulate(Session& session, const RunOptions& options, ExportSeries* seri
   Session::Calls calls;
   Profile* const profile = &session.scene().profile();
   calls.frame = [&](long frame) {
-    const Within within(profile, Phase::Output);
+    const PhaseScope within(profile, Phase::Output);
     if (diagnostics) diagnostics->add(frame, session.scene());
     if (series) series->take(frame);
   };
   calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
   profile->restart();
   const Stopped stopped = session.run(session.clock().frames() - 1, calls);
-  const Within within(profile, Phase::Output);
+  const PhaseScope within(profile, Phase::Output);
   if (diagnostics && stopped == Stopped::Unstable)
     diagnostics->abandon();
   else if (diagnostics)
@@ -108,7 +108,7 @@ Exit run(const RunOptions& options) {
   check_export(options);
   NamedFiles files = files_of(options);
   SessionOptions wanted = options.session;
-  wanted.births = !options.events.empty();
+  wanted.count_fragments = !options.events.empty();
   Session session(wanted);
   files.reads_meshes(session.preset());
   const std::unique_ptr<ExportSeries> series = export_of(session, options);
@@ -123,7 +123,7 @@ Exit run(const RunOptions& options) {
   if (wanted.profile && session.scene().steps_done() > 0) profile = profile_of(session);
   print_figures(options, figures, profile);
   const Exit end = end_of(session, stopped);
-  return end == Exit::Done && !answers_hold(session.scene()) ? Exit::No : end;
+  return end == Exit::Done && !answers_hold(session.scene()) ? Exit::CheckFailed : end;
 }
 
 std::string export_formats_in_words() {

@@ -146,7 +146,7 @@ Exit lean(const StudyOptions& options) {
                             : table_of(rows) +
                                   fmt::format("The page is {}\n", printable((folder / "index.html").string())));
   const bool kept = std::all_of(rows.begin(), rows.end(), [](const LeanRow& row) { return row.as_promised(); });
-  return kept ? Exit::Done : Exit::No;
+  return kept ? Exit::Done : Exit::CheckFailed;
 }
 
 // Refuses options that exclude each other.

@@ -33,7 +33,7 @@ private:
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);
     if (std::find(above_.begin(), above_.end(), real) != above_.end())
-      throw UserError(Exit::Trouble, {folder.string()},
+      throw UserError(Exit::DiffError, {folder.string()},
                       "this link leads back to a folder that it is in, " + in_quotes(real.string()),
                       "links to other folders are followed; remove this one");
     above_.push_back(real);
@@ -41,7 +41,7 @@ private:
     fs::directory_iterator entry(folder, error), end;
     for (; !error && entry != end; entry.increment(error)) put(*entry, prefix);
     if (error)
-      throw UserError(Exit::Trouble, {folder.string()}, "the folder cannot be read: " + error.message());
+      throw UserError(Exit::DiffError, {folder.string()}, "the folder cannot be read: " + error.message());
     above_.pop_back();
   }
 
@@ -67,7 +67,7 @@ private:
 bool is_folder(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw UserError(Exit::Trouble, {path.string()}, "there is no such file or folder");
+  if (!fs::exists(status)) throw UserError(Exit::DiffError, {path.string()}, "there is no such file or folder");
   return fs::is_directory(status);
 }
 
@@ -77,7 +77,7 @@ Cases cases_of(const fs::path& a, const fs::path& b) {
   const bool folder = is_folder(a);
   if (folder != is_folder(b)) {
     const fs::path &of = folder ? a : b, &file = folder ? b : a;
-    throw UserError(Exit::Trouble, {}, "a folder cannot be compared with a file",
+    throw UserError(Exit::DiffError, {}, "a folder cannot be compared with a file",
                     "name the picture in the folder: " + in_quotes((of / file.filename()).string()));
   }
   Cases cases;
@@ -90,7 +90,7 @@ Cases cases_of(const fs::path& a, const fs::path& b) {
   Walk(b, &CasePaths::b, cases, found);
   for (auto& [name, one] : found) cases.all.push_back(std::move(one));
   if (cases.all.empty())
-    throw UserError(Exit::Trouble, {}, "there is no picture in either folder",
+    throw UserError(Exit::DiffError, {}, "there is no picture in either folder",
                     "pictures are files called .png, in the folders or below them");
   return cases;
 }

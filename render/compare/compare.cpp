@@ -49,7 +49,7 @@ void check_room(std::size_t bytes, const fs::path& path, const PngHead& head, co
     throw UserError(Exit::BadInput, place,
                     fmt::format("it says that it has {} x {} pixels, and its {} bytes cannot hold them",
                                 head.width, head.height, head.file_bytes));
-  throw UserError(Exit::Trouble, place,
+  throw UserError(Exit::DiffError, place,
                   fmt::format("it has {} x {} pixels in {} bytes: that would take {:.3g} GB of memory, and "
                               "there are {:.3g} GB for it",
                               head.width, head.height, head.file_bytes, static_cast<double>(bytes) / 1e9,
@@ -105,9 +105,10 @@ bool read_both(int threads, Sides& sides) {
   for (Side& side : sides) side.read();
   const bool equal = both_are_well(sides) && sides[0].bytes == sides[1].bytes;
   const std::size_t count = equal ? 1 : 2;
-  in_parts(std::min<int>(threads, static_cast<int>(count)), count, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) sides[n].decode();
-  });
+  parallel_ranges(std::min<int>(threads, static_cast<int>(count)), count,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t n = begin; n < end; ++n) sides[n].decode();
+                  });
   return equal;
 }
 

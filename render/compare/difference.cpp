@@ -48,7 +48,7 @@ Difference difference_of(const Picture& a, const Picture& b, const Mask& mask, i
   Difference out;
   out.largest.resize(a.pixels());
   std::vector<Row> rows(static_cast<std::size_t>(a.height));
-  in_parts(threads, rows.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(threads, rows.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y)
       rows[y] = row_of(a, b, mask, static_cast<int>(y), out.largest.data());
   });

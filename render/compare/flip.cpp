@@ -133,11 +133,11 @@ Levels flip_map(const Picture& a, const Picture& b, int threads) {
   CHECK(a.width == b.width && a.height == b.height && !a.alpha && !b.alpha);
   Flip flip(a, b);
   const auto height = static_cast<std::size_t>(a.height);
-  in_parts(threads, 2 * height, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(threads, 2 * height, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) flip.along_rows(n % 2, static_cast<int>(n / 2));
   });
   Levels map(a.pixels());
-  in_parts(threads, height, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(threads, height, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y)
       flip.along_columns(static_cast<int>(y), map.data() + y * static_cast<std::size_t>(a.width));
   });

@@ -80,7 +80,7 @@ double ssim_of(const Picture& a, const Picture& b, const Mask& mask, int threads
   CHECK(a.width == b.width && a.height == b.height && !a.alpha && !b.alpha);
   const Window window{std::min(side, a.width), std::min(side, a.height)};
   std::vector<Total> rows(static_cast<std::size_t>(a.height - window.down + 1));
-  in_parts(threads, rows.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(threads, rows.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y)
       for (std::size_t c = 0; c < 3; ++c) {
         const Total one = total_of(a.planes[c], b.planes[c], mask, a.width, static_cast<int>(y), window);

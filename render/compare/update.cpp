@@ -42,7 +42,7 @@ namespace {
 // Checks the source of one copy; all are checked before anything is written.
 void check_source(const Compared& one, MemoryBudget& memory) {
   if (one.paths.b.empty())
-    throw UserError(Exit::Trouble, {one.paths.a.string()},
+    throw UserError(Exit::DiffError, {one.paths.a.string()},
                     fmt::format("--update: there is no {} now", one.paths.name),
                     "if it is not expected any more, remove that file yourself; nothing was updated");
   check_picture(one.paths.b, memory);
@@ -68,7 +68,7 @@ public:
     { const OutputFile any(path); }     // tests whether it can be created
     const auto other = all_.find(path); // two names of one file, through a link
     if (other != all_.end() && file_bytes(other->second.from) != bytes)
-      throw UserError(Exit::Trouble, {to.string()},
+      throw UserError(Exit::DiffError, {to.string()},
                       fmt::format("--update: this file has two names, and would become both {} and {}",
                                   in_quotes(other->second.from.string()), in_quotes(from.string())),
                       "name one of them; nothing was updated");

@@ -98,7 +98,7 @@ BodyFacts cells_of(const Body& body) {
   return facts;
 }
 
-BytesByPart by_part(const std::vector<Holding>& arrays) {
+BytesByPart by_part(const std::vector<MemoryEntry>& arrays) {
   BytesByPart bytes;
   for (const std::string& part : footprint_parts()) {
     const std::size_t of_part = bytes_of_part(arrays, part);
@@ -137,7 +137,7 @@ Inventory inventory_of(Session& session) {
     inventory.first_step = error.what();
   }
   inventory.arrays = footprint_of(scene);
-  std::vector<Holding> all = inventory.arrays;
+  std::vector<MemoryEntry> all = inventory.arrays;
   for (std::size_t n = 0; n < inventory.bodies.size(); ++n) {
     BodyFacts& facts = inventory.bodies[n];
     add_built(scene, *scene.bodies()[n], facts);

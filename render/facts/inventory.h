@@ -68,7 +68,7 @@ struct BodyFacts {
   std::vector<EmbeddingFacts> embeddings;
   std::vector<InteractionFacts> interactions;
   std::vector<LawFacts> laws;
-  std::vector<Holding> arrays;
+  std::vector<MemoryEntry> arrays;
   BytesByPart bytes;
   std::vector<std::string> left_out, notes;
   std::optional<SolvingFigures> solver; // of the first step; none: the scheme does not solve
@@ -79,7 +79,7 @@ struct Inventory {
   std::optional<std::string> thesis; // where the scene stands in it
   TimeFacts time;
   std::optional<std::string> first_step; // why it could not be made; none: it was
-  std::vector<Holding> arrays;           // besides those of bodies
+  std::vector<MemoryEntry> arrays;       // besides those of bodies
   std::vector<BodyFacts> bodies;
   BytesByPart bytes; // of all
   std::vector<Pass> step;

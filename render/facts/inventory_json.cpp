@@ -44,7 +44,7 @@ Json json_of(const LawFacts& law) {
           {"unit", law.unit},           {"change", law.change}, {"bytes", law.bytes}};
 }
 
-Json json_of(const Holding& one) {
+Json json_of(const MemoryEntry& one) {
   return {{"part", one.part}, {"name", one.name}, {"per", one.per}, {"bytes", one.bytes}};
 }
 

@@ -89,9 +89,9 @@ std::string laws_in_words(const std::vector<LawFacts>& laws) {
 }
 
 // Those that no other table has.
-std::string arrays_in_words(const std::vector<Holding>& arrays) {
+std::string arrays_in_words(const std::vector<MemoryEntry>& arrays) {
   std::string out;
-  for (const Holding& one : arrays) {
+  for (const MemoryEntry& one : arrays) {
     const std::string &part = one.part, name = printable(one.name);
     if (part == "slots" || part == "embeddings" || part == "laws" || name.starts_with("rows of ")) continue;
     out += fmt::format("    {:<38}{:<34}{:>24}\n", name,

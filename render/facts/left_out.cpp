@@ -46,7 +46,7 @@ void add_laws(const Body& body, std::vector<std::string>& out) {
   else if (body.view().corner_room)
     out.push_back(
         "forces on element corners in every step: sums of sizes tell where none can exceed the threshold");
-  if (!body.births)
+  if (!body.fragment_counter)
     out.emplace_back("births of fragments at each change: asked for by rend run --events alone");
 }
 

@@ -53,9 +53,9 @@ double bytes_a_second(int threads) {
   Arrays arrays;
   for (auto* array : {&arrays.a, &arrays.b, &arrays.c}) array->assign(records, Record{});
   const double seconds = seconds_of([&] {
-    in_parts(threads, records, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(threads, records, [&](std::size_t begin, std::size_t end) {
       at_width<triad>(arrays, begin, end);
-      finish_streams();
+      fence_streams();
     });
   });
   return 3.0 * records * sizeof(Record) / seconds;
@@ -64,7 +64,7 @@ double bytes_a_second(int threads) {
 double operations_a_second(int threads) {
   std::vector<Record> out(static_cast<std::size_t>(threads) * 2); // per thread, on a cache line of its own
   const double seconds = seconds_of([&] {
-    in_parts(threads, static_cast<std::size_t>(threads), [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(threads, static_cast<std::size_t>(threads), [&](std::size_t begin, std::size_t end) {
       for (std::size_t thread = begin; thread < end; ++thread) at_width<multiply_add>(out[2 * thread]);
     });
   });

@@ -95,7 +95,7 @@ private:
   }
 
   void add_integration() {
-    const std::vector<Holding> all = footprint_of(*body_);
+    const std::vector<MemoryEntry> all = footprint_of(*body_);
     const std::size_t weights = body_->vertices() * sizeof(double) * (body_->drag_rate ? 2 : 1);
     const std::size_t loads = body_->load ? vertices_ : 0;
     if (const std::size_t bytes = bytes_of_part(all, "solver"))

@@ -94,9 +94,9 @@ std::string command_section(const CommandUsage& command, const std::string& name
 std::string exit_codes() {
   const std::pair<Exit, const char*> all[]{
       {Exit::Done, "Done."},
-      {Exit::No,
+      {Exit::CheckFailed,
        "The answer is no: pictures differ, an answer of the preset does not hold, a job or a check failed."},
-      {Exit::Trouble, "Of rend diff: something cannot be compared."},
+      {Exit::DiffError, "Of rend diff: something cannot be compared."},
       {Exit::Usage, "The command line is wrong."},
       {Exit::BadInput, "A preset, mesh or picture is wrong."},
       {Exit::NoInput, "There is no such file."},

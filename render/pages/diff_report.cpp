@@ -46,9 +46,9 @@ std::vector<std::size_t> failures_first(const DiffReport& report) {
 }
 
 Exit exit_of(const DiffReport& report) {
-  if (count(report, CaseState::Unreadable) > 0) return Exit::Trouble;
+  if (count(report, CaseState::Unreadable) > 0) return Exit::DiffError;
   for (std::size_t n = 0; n < report.cases.size(); ++n)
-    if (failed(report, n)) return Exit::No;
+    if (failed(report, n)) return Exit::CheckFailed;
   return Exit::Done;
 }
 

@@ -98,7 +98,7 @@ std::string failures(const StudyReport& report, std::size_t group) {
       if (!row.failed()) continue;
       ++failed;
       finest = &row;
-      below += !row.above_limit() && row.outcome != Outcome::Astray;
+      below += !row.above_limit() && row.outcome != Outcome::Inaccurate;
     }
     if (failed == 0) continue;
     parts.push_back(fmt::format("{} {} of {} ({} and more)", curve.integrator, failed, curve.rows.size(),

@@ -16,13 +16,13 @@
 namespace rend {
 namespace {
 
-static_assert(static_cast<int>(Side::Inner) == static_cast<int>(Line::None) &&
-              static_cast<int>(Side::Cell) == static_cast<int>(Line::Cell) &&
-              static_cast<int>(Side::Border) == static_cast<int>(Line::Border) &&
-              static_cast<int>(Side::Torn) == static_cast<int>(Line::Torn) &&
-              static_cast<int>(Side::Crease) == static_cast<int>(Line::Crease));
+static_assert(static_cast<int>(LineKind::Inner) == static_cast<int>(Line::None) &&
+              static_cast<int>(LineKind::Cell) == static_cast<int>(Line::Cell) &&
+              static_cast<int>(LineKind::Border) == static_cast<int>(Line::Border) &&
+              static_cast<int>(LineKind::Torn) == static_cast<int>(Line::Torn) &&
+              static_cast<int>(LineKind::Crease) == static_cast<int>(Line::Crease));
 
-Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const std::array<Side, 3>& side) {
+Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const std::array<LineKind, 3>& side) {
   const auto line = [&](std::size_t k) { return static_cast<std::uint8_t>(side[k]); };
   return {
       as_floats(x), as_floats(normal), {colour[0], colour[1], colour[2], 255}, {line(0), line(1), line(2), 0}};
@@ -150,7 +150,7 @@ void BodyPicture::draw_solid(FrameBody& out) {
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
   surface.for_each_triangle([&](const SolidSurface::Triangle& triangle) {
-    Colour colour = triangle.bare ? look_.inside : look_.colour;
+    Colour colour = triangle.exposed ? look_.inside : look_.colour;
     if (look_.by == ShownBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
     for (std::size_t k = 0; k < 3; ++k) {
       const Slot v = triangle.vertex[k];

@@ -61,7 +61,7 @@ LeanFeature scheme(const std::string& name) {
 
 std::vector<LeanFeature> all_features() {
   const std::string never = "<tear criterion=\"global-border\" threshold=\"1e30\"/>";
-  const LeanSide births{.element = never, .births = true}, walks{.walk = true}, bare{.bare = true};
+  const LeanSide births{.element = never, .count_fragments = true}, walks{.walk = true}, bare{.bare = true};
   return {
       {"all that is not asked for",
        "the loop of every scene, with its checks, against one that knows nothing but forces",

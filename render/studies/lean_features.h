@@ -16,8 +16,8 @@ struct LeanSide {
   std::string element = "";           // of the first body, as XML; empty: none
   std::vector<Setting> settings = {}; // as --set
   std::string surroundings = "";      // of the world, as XML
-  bool walk = false, births = false;
-  bool bare = false; // bare_loop.h instead of the scene's own loop
+  bool walk = false, count_fragments = false;
+  bool bare = false; // minimal_loop.h instead of the scene's own loop
 };
 
 enum class LeanSame {

@@ -4,7 +4,7 @@
 #include "render/studies/lean_picture.h"
 #include "sim/build/build_scene.h"
 #include "sim/scene/memory.h"
-#include "sim/study/bare_loop.h"
+#include "sim/study/minimal_loop.h"
 
 #include <fmt/format.h>
 
@@ -27,12 +27,13 @@ public:
     for (const Setting& setting : side.settings) overrides.push_back({setting.path, setting.value});
     preset_ = load_scene_text(with(with(scene.text, "body", side.element), "world", side.surroundings),
                               scene.file.empty() ? scene.name : scene.file, overrides);
-    scene_ = std::make_unique<Scene>(read_scene(*preset_),
-                                     SceneOptions{.walk = side.walk, .threads = 1, .births = side.births});
+    scene_ = std::make_unique<Scene>(
+        read_scene(*preset_),
+        SceneOptions{.walk = side.walk, .threads = 1, .count_fragments = side.count_fragments});
     if (!bare_) return;
-    if (const std::string more = more_than_bare(*scene_); !more.empty())
+    if (const std::string more = beyond_minimal(*scene_); !more.empty())
       throw UserError(Exit::BadInput, preset_->place(), "the scene has " + more);
-    loop_ = std::make_unique<BareLoop>(*scene_);
+    loop_ = std::make_unique<MinimalLoop>(*scene_);
   }
 
   void step() { loop_ ? loop_->step() : scene_->step(); }
@@ -43,9 +44,9 @@ public:
   // What the scene has of that which it was not asked for: against a loop that is bare.
   std::size_t bytes_not_asked_for() const {
     std::size_t sum = 0;
-    std::vector<Holding> all = footprint_of(*scene_);
+    std::vector<MemoryEntry> all = footprint_of(*scene_);
     for (const auto& body : scene_->bodies())
-      for (Holding& one : footprint_of(*body)) all.push_back(std::move(one));
+      for (MemoryEntry& one : footprint_of(*body)) all.push_back(std::move(one));
     for (const char* part : {"laws", "loads", "contact", "solver"}) sum += bytes_of_part(all, part);
     return sum;
   }
@@ -55,7 +56,7 @@ public:
 private:
   std::unique_ptr<PresetNode> preset_;
   std::unique_ptr<Scene> scene_; // refers to the preset
-  std::unique_ptr<BareLoop> loop_;
+  std::unique_ptr<MinimalLoop> loop_;
   bool bare_;
 };
 

@@ -136,19 +136,19 @@ private:
   template <class T> void one(T& value) {
     if constexpr (Plain<T>) {
       raw(&value, sizeof value);
-      look(std::span(&value, 1));
+      check_finite(std::span(&value, 1));
     } else {
       value.store(*this);
     }
   }
   // Checks numbers that were read.
-  template <class T> void look(std::span<T> list) const {
+  template <class T> void check_finite(std::span<T> list) const {
     if constexpr (IsReal<T>::value) {
       if (!reading()) return;
       if constexpr (std::is_same_v<T, Record> || std::is_floating_point_v<T>)
         refuse_unless_finite(std::span<const T>(list));
       else
-        for (const T& each : list) look(std::span(each.data(), static_cast<std::size_t>(each.size())));
+        for (const T& each : list) check_finite(std::span(each.data(), static_cast<std::size_t>(each.size())));
     }
   }
   void one_unbounded(double& value);
@@ -167,7 +167,7 @@ private:
     if constexpr (Plain<T>) {
       list.resize(number);
       raw(list.data(), list.size() * sizeof(T));
-      look(std::span(list));
+      check_finite(std::span(list));
     } else {
       if (reading()) list.clear();
       for (std::size_t n = 0; n < number; ++n) one(reading() ? list.emplace_back() : list[n]);

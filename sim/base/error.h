@@ -11,8 +11,8 @@ namespace rend {
 
 enum class Exit : int {
   Done = 0,
-  No = 1,            // the answer is no: pictures differ, a check failed
-  Trouble = 2,       // `diff` only
+  CheckFailed = 1,   // the answer is no: pictures differ, a check failed
+  DiffError = 2,     // `diff` only
   Usage = 64,        // the command line
   BadInput = 65,     // a preset or mesh
   NoInput = 66,      // no such file

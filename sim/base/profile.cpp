@@ -55,24 +55,24 @@ void Profile::end_step() {
 }
 
 bool Profile::enter(Phase phase, Phase& before) {
-  if (state_ == State::Off && always(phase)) {
-    state_ = State::AChange;
+  if (state_ == State::Off && always_timed(phase)) {
+    state_ = State::ChangeOnly;
     phase_ = Phase::Rest;
     since_ = Clock::now();
-  } else if (state_ == State::Off || (state_ == State::AChange && !always(phase))) {
+  } else if (state_ == State::Off || (state_ == State::ChangeOnly && !always_timed(phase))) {
     return false;
   }
   before = phase_;
-  turn_to(phase);
+  switch_to(phase);
   return true;
 }
 
 void Profile::leave(Phase before) {
-  turn_to(before);
-  if (state_ == State::AChange && before == Phase::Rest) state_ = State::Off;
+  switch_to(before);
+  if (state_ == State::ChangeOnly && before == Phase::Rest) state_ = State::Off;
 }
 
-void Profile::turn_to(Phase next) {
+void Profile::switch_to(Phase next) {
   const Clock::time_point now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - since_).count() - reading_;
   spent_[static_cast<std::size_t>(phase_)].seconds += std::max(seconds, 0.0);
@@ -83,7 +83,7 @@ void Profile::turn_to(Phase next) {
 
 double Profile::seconds(Phase phase) const {
   const double measured = spent(phase).seconds;
-  if (always(phase)) return measured;
+  if (always_timed(phase)) return measured;
   return timed_steps_ > 0 ? measured * static_cast<double>(steps_) / static_cast<double>(timed_steps_) : 0;
 }
 

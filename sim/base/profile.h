@@ -1,11 +1,11 @@
 // Where the time of a run goes, phase by phase.
 //
-// One phase is current at any moment. A Within enters another and returns to the former one when its scope
+// One phase is current at any moment. A PhaseScope enters another and returns to the former one when its scope
 // ends: each second belongs to the innermost phase alone. Reading the clock takes as long as the forces of a
 // small body, so only one step in `sampled` is timed and its seconds are scaled up; changes of topology are
 // rare and timed in every step. With a full profile (rend run --profile) every step is timed, and the phases
 // add up to the whole; the time that the clock itself takes is subtracted at each change of phase. In a step
-// that is not timed a Within only tests a flag. For the thread that makes the steps.
+// that is not timed a PhaseScope only tests a flag. For the thread that makes the steps.
 #pragma once
 
 #include <array>
@@ -58,14 +58,14 @@ public:
   void store(Archive& archive);
 
 private:
-  friend class Within;
+  friend class PhaseScope;
   using Clock = std::chrono::steady_clock;
-  // Off: the present step is not timed. AChange: only the change of topology that it is making is timed.
-  enum class State { Off, Timed, AChange };
-  static bool always(Phase phase) { return phase == Phase::Changes || phase == Phase::Rebinding; }
+  // Off: the present step is not timed. ChangeOnly: only the change of topology that it is making is timed.
+  enum class State { Off, Timed, ChangeOnly };
+  static bool always_timed(Phase phase) { return phase == Phase::Changes || phase == Phase::Rebinding; }
   bool enter(Phase phase, Phase& before); // false: not timed, the phase did not change
   void leave(Phase before);
-  void turn_to(Phase next);
+  void switch_to(Phase next);
 
   Extent extent_;
   State state_ = State::Off;
@@ -77,15 +77,15 @@ private:
 };
 
 // The current phase while the object lives.
-class Within {
+class PhaseScope {
 public:
-  Within(Profile* profile, Phase phase)
+  PhaseScope(Profile* profile, Phase phase)
       : profile_(profile && profile->enter(phase, before_) ? profile : nullptr) {}
-  ~Within() {
+  ~PhaseScope() {
     if (profile_) profile_->leave(before_);
   }
-  Within(const Within&) = delete;
-  Within& operator=(const Within&) = delete;
+  PhaseScope(const PhaseScope&) = delete;
+  PhaseScope& operator=(const PhaseScope&) = delete;
 
 private:
   Phase before_ = Phase::Rest;

@@ -36,7 +36,7 @@ REND_INLINE void stream(Record& r, Double4 v) {
 
 // Prefetches what a sequential loop reads `bytes_on` bytes further, maybe beyond the end of the array: hardware
 // prefetchers stop at page boundaries and do not look far enough ahead for many arrays at once.
-template <std::size_t bytes_on> REND_INLINE void expect(const void* here) {
+template <std::size_t bytes_on> REND_INLINE void prefetch(const void* here) {
   __builtin_prefetch(static_cast<const char*>(here) + bytes_on);
 }
 
@@ -56,7 +56,7 @@ REND_INLINE Double4 sums_of(Double4 a, Double4 b, Double4 c, Double4 d) {
 }
 
 // A fence: all non-temporal stores become visible to other threads.
-inline void finish_streams() {
+inline void fence_streams() {
 #ifdef __SSE2__
   _mm_sfence();
 #endif

@@ -85,7 +85,7 @@ bool threads_refused() {
   return most < std::numeric_limits<int>::max();
 }
 
-void in_parts(int parts, std::size_t count, PartWork work) {
+void parallel_ranges(int parts, std::size_t count, RangeFunction work) {
   if (parts <= 1) return work(0, count);
   const auto n = static_cast<std::size_t>(parts);
   const auto one = [&](std::size_t part) { work(count * part / n, count * (part + 1) / n); };

@@ -7,10 +7,10 @@ namespace rend {
 
 // A non-owning reference to the function that is run for each range. A std::function would allocate memory in
 // every step.
-class PartWork {
+class RangeFunction {
 public:
   template <class F>
-  PartWork(const F& work)
+  RangeFunction(const F& work)
       : work_(&work), call_([](const void* it, std::size_t begin, std::size_t end) {
           (*static_cast<const F*>(it))(begin, end);
         }) {}
@@ -23,7 +23,7 @@ private:
 
 // Splits [0, count) into `parts` ranges and calls work(begin, end) for each, on that many threads (oneTBB) or
 // as many as the machine has; one part runs on the calling thread. Returns when all are done.
-void in_parts(int parts, std::size_t count, PartWork work);
+void parallel_ranges(int parts, std::size_t count, RangeFunction work);
 
 int hardware_threads();
 

@@ -3,7 +3,7 @@
 #include "sim/base/archive.h"
 #include "sim/base/profile.h"
 #include "sim/embedding/reorder.h"
-#include "sim/integrate/footing.h"
+#include "sim/integrate/rigid_motions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,14 +33,14 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   options.elementary = elementary;
   options.fold = cumulated != Cumulated::No;
   options.walk = settings.walk;
-  sums_ = elementary && sums_fit(interactions, options) &&
+  sums_ = elementary && sums_available(interactions, options) &&
           std::all_of(tear_laws.begin(), tear_laws.end(), [](const TearLaw& law) {
             return !law.settings().elementary() || law.settings().by_sums();
           });
   options.folded = !elementary || scheme.evaluations > 1 || sums_;
   options.threads = settings.threads;
   options.timed = profile && profile->every_step();
-  options.small_in_parts = small_in_parts;
+  options.parallel_small_bodies = parallel_small_bodies;
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
   const double size = extent(map->rest().values(), program->inverse_mass());
@@ -69,26 +69,26 @@ void Body::reserve_for_separations() {
 
 void Body::forces(double time, const Record* position, const Record* velocity, Record* out) {
   {
-    const Within within(profile, Phase::Forces);
+    const PhaseScope within(profile, Phase::Forces);
     program->forces(position, velocity, out);
   }
   ++evaluations;
-  if (faulty.armed(StepStage::Forces)) faulty.spoil(program->inverse_mass(), vertices(), out);
-  outer(time, position, velocity);
+  if (faulty.armed(StepStage::Forces)) faulty.inject(program->inverse_mass(), vertices(), out);
+  update_loads(time, position, velocity);
 }
 
-void Body::forces_in_stretches(double time, const Record* position, const Record* velocity, Record* out,
-                               PartWork whole) {
-  outer(time, position, velocity);
-  program->forces_in_stretches(position, velocity, out, stretch, whole);
+void Body::forces_in_ranges(double time, const Record* position, const Record* velocity, Record* out,
+                            RangeFunction whole) {
+  update_loads(time, position, velocity);
+  program->forces_in_ranges(position, velocity, out, range_size, whole);
   ++evaluations;
 }
 
-void Body::outer(double time, const Record* position, const Record* velocity) {
-  const Within within(loads.empty() ? nullptr : profile, Phase::Loads);
+void Body::update_loads(double time, const Record* position, const Record* velocity) {
+  const PhaseScope within(loads.empty() ? nullptr : profile, Phase::Loads);
   load = loads.evaluate(*map, time, position, velocity);
   if (load && faulty.armed(StepStage::Loads))
-    load = faulty.spoil_copy(program->inverse_mass(), vertices(), load);
+    load = faulty.inject_copy(program->inverse_mass(), vertices(), load);
 }
 
 void Body::constrain(double time, Record* position, Record* velocity) {
@@ -97,35 +97,35 @@ void Body::constrain(double time, Record* position, Record* velocity) {
 
 void Body::add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
                          double by_velocity, BlockMatrix& out) {
-  const Within within(profile, Phase::Stiffness);
+  const PhaseScope within(profile, Phase::Stiffness);
   assembly->add(position, velocity, tangent, by_position, by_velocity, out);
 }
 
-void Body::hold(double time, std::uint8_t* axes) {
+void Body::mark_prescribed(double time, std::uint8_t* axes) {
   constraints.mark(time, axes);
 }
 
 // Not with a full profile, which separates forces from integration, nor in bodies that tear, whose criteria
 // need the forces.
 bool Body::may_defer_forces() const {
-  return integrator->sweeps() && !tears() && !(profile && profile->every_step()) && !program->options().walk &&
-         !small_in_parts && !faulty.armed(StepStage::Forces);
+  return integrator->has_fused_advance() && !tears() && !(profile && profile->every_step()) &&
+         !program->options().walk && !parallel_small_bodies && !faulty.armed(StepStage::Forces);
 }
 
-void Body::meet_program() {
+void Body::bind_program() {
   inverse_mass = program->inverse_mass(); // rebinding may have reallocated them
   drag_rate = program->drag_rate();
   force.resize(vertices());
 }
 
 void Body::defer_forces() {
-  meet_program();
+  bind_program();
   forces_deferred_ = true;
 }
 
 void Body::evaluate() {
-  const Within within(profile, Phase::Forces);
-  meet_program();
+  const PhaseScope within(profile, Phase::Forces);
+  bind_program();
   forces_deferred_ = false;
   const Record *x = map->position().values().data(), *v = map->velocity().values().data();
   if (sums_)
@@ -135,8 +135,8 @@ void Body::evaluate() {
   else
     program->corner_forces(x, v, corner_force.data(), force.data());
   ++evaluations;
-  if (faulty.armed(StepStage::Forces)) faulty.spoil(inverse_mass, vertices(), force.data());
-  outer(time_, x, v);
+  if (faulty.armed(StepStage::Forces)) faulty.inject(inverse_mass, vertices(), force.data());
+  update_loads(time_, x, v);
 }
 
 ForceView Body::view() const {
@@ -164,8 +164,8 @@ int Body::tear(double time, long number, const std::function<void()>& sound) {
   for (std::size_t n = 0; n < tear_laws.size(); ++n)
     if (tear_laws[n].active(time)) made += apply_law(n, time, number, sound);
   if (made == 0) return 0;
-  if (births) births->settle(map->map(), std::span(events).subspan(before));
-  if (map->map().dart_count() == 0 && !gone) gone = time;
+  if (fragment_counter) fragment_counter->settle(map->map(), std::span(events).subspan(before));
+  if (map->map().dart_count() == 0 && !deleted_at) deleted_at = time;
   return made;
 }
 
@@ -173,17 +173,17 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
   const ForceView now = view();
   if (tear_laws[number].find(now).empty()) return 0;
   sound();
-  if (witness) witness(WitnessAt::BeforeChanges);
+  if (change_observer) change_observer(WitnessAt::BeforeChanges);
   const int made = make_changes(number, now, time, step);
   if (made > 0) follow_changes();
-  if (witness) witness(WitnessAt::AfterChanges);
+  if (change_observer) change_observer(WitnessAt::AfterChanges);
   return made;
 }
 
 int Body::make_changes(std::size_t number, const ForceView& now, double time, long step) {
-  const Within within(profile, Phase::Changes);
+  const PhaseScope within(profile, Phase::Changes);
   const std::size_t before = events.size();
-  const int made = tear_laws[number].apply(*map, now, events, births.get());
+  const int made = tear_laws[number].apply(*map, now, events, fragment_counter.get());
   for (std::size_t e = before; e < events.size(); ++e) {
     events[e].time = time;
     events[e].step = step;
@@ -193,40 +193,40 @@ int Body::make_changes(std::size_t number, const ForceView& now, double time, lo
 }
 
 void Body::follow_changes() {
-  const Within within(profile, Phase::Rebinding);
-  if (slots_scattered(*map)) map->number_anew();
+  const PhaseScope within(profile, Phase::Rebinding);
+  if (slots_scattered(*map)) map->renumber();
   rebind();
   evaluate();
 }
 
 void Body::advance(double time, double step) {
-  const Within within(profile, Phase::Integration);
+  const PhaseScope within(profile, Phase::Integration);
   if (sums_) clear_sums();
   next.resize(vertices());
   next.probe = Double4{};
   next_time_ = time + step;
   const StateView now{map->position().values().data(), map->velocity().values().data()};
   if (forces_deferred_)
-    integrator->sweep(*this, time, step, now, force.data(), next);
+    integrator->advance_fused(*this, time, step, now, force.data(), next);
   else
     integrator->advance(*this, time, step, now, force.data(), next);
-  if (faulty.armed(StepStage::Integration)) spoil_next();
-  if (next.large) finish_streams(); // for schemes that write their state on this thread
+  if (faulty.armed(StepStage::Integration)) inject_into_next();
+  if (next.large) fence_streams(); // for schemes that write their state on this thread
   if (!floor_contact) return;
-  const Within contact_within(profile, Phase::Contact);
+  const PhaseScope contact_within(profile, Phase::Contact);
   floor_contact->apply(next, step);
   constrain(time + step, next.position.data(), next.velocity.data()); // prescribed vertices ignore the floor
 }
 
-void Body::go_back(const State& start, double time) {
+void Body::restore_state(const State& start, double time) {
   map->position().values() = start.position;
   map->velocity().values() = start.velocity;
   time_ = time;
 }
 
-void Body::spoil_next() {
-  faulty.spoil(program->inverse_mass(), vertices(), next.velocity.data());
-  next.look();
+void Body::inject_into_next() {
+  faulty.inject(program->inverse_mass(), vertices(), next.velocity.data());
+  next.probe_all();
 }
 
 void Body::rebind() {
@@ -249,19 +249,19 @@ void Body::store(Archive& archive, long done, double step) {
   map->store(archive);
   refuse_unless(!fixed || (open_darts(map->map()) == open && map->map().dart_count() == darts),
                 "a body is torn that nothing tears");
-  std::vector<double> numbers = integrator->carried();
+  std::vector<double> numbers = integrator->saved_state();
   archive.list(events, map->map().capacity(), "there are more tears than darts");
-  archive(gone, evaluations, time_);
+  archive(deleted_at, evaluations, time_);
   next.store(archive, map->cells(Vertex).slots());
   archive.same(numbers.size(), "numbers that its steps hand on");
   for (double& number : numbers) archive.unbounded(number);
   for (Answer& answer : answers) archive(answer.asked, answer.measured);
   if (!archive.reading()) return;
   check_read(done, step);
-  refuse_unless(integrator->carry(numbers), "what its steps hand on is nothing that they would");
+  refuse_unless(integrator->restore_state(numbers), "what its steps hand on is nothing that they would");
   rebind();
-  meet_program();
-  outer(time_, map->position().values().data(), map->velocity().values().data());
+  bind_program();
+  update_loads(time_, map->position().values().data(), map->velocity().values().data());
 }
 
 // Times of steps are products in floating point.
@@ -269,9 +269,10 @@ void Body::check_read(long done, double step) const {
   const double now = static_cast<double>(done) * step;
   refuse_unless(is_count(evaluations), "forces were evaluated less often than never");
   refuse_unless(std::abs(time_ - now) <= 1e-3 * step, "a body has another time than the scene");
-  refuse_unless(gone.has_value() == (map->map().dart_count() == 0),
+  refuse_unless(deleted_at.has_value() == (map->map().dart_count() == 0),
                 "a body is gone that is there, or the reverse");
-  refuse_unless(!gone || (*gone >= 0 && *gone <= now), "a body was gone before the start, or later than now");
+  refuse_unless(!deleted_at || (*deleted_at >= 0 && *deleted_at <= now),
+                "a body was gone before the start, or later than now");
   for (const TearEvent& event : events) {
     refuse_unless(event.dart.value < map->map().capacity(), "a tear is at a dart that is not there");
     refuse_unless(static_cast<std::size_t>(event.law) < tear_laws.size(),

@@ -56,9 +56,10 @@ struct Body final : System {
   State next;      // written by the integrator: the old state stays unchanged until the step is accepted
   Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
-  std::function<void(WitnessAt)> witness; // called before and after a law makes its changes; may be empty
-  std::unique_ptr<Births> births;         // null: nobody asks how many fragments each change left
-  std::optional<double> gone; // [s], when the last element was deleted; the body goes on with nothing
+  std::function<void(WitnessAt)>
+      change_observer; // called before and after a law makes its changes; may be empty
+  std::unique_ptr<FragmentCounter> fragment_counter; // null: nobody asks how many fragments each change left
+  std::optional<double> deleted_at; // [s], when the last element was deleted; the body goes on with nothing
 
   ~Body() override;
   bool tears() const { return !tear_laws.empty(); }
@@ -74,14 +75,14 @@ struct Body final : System {
   std::size_t vertices() const override { return program->vertices(); }
   int parts() const override { return program->parts(); }
   void forces(double time, const Record* position, const Record* velocity, Record* out) override;
-  void forces_in_stretches(double time, const Record* position, const Record* velocity, Record* out,
-                           PartWork whole) override;
-  void outer(double time, const Record* position, const Record* velocity) override;
+  void forces_in_ranges(double time, const Record* position, const Record* velocity, Record* out,
+                        RangeFunction whole) override;
+  void update_loads(double time, const Record* position, const Record* velocity) override;
   void constrain(double time, Record* position, Record* velocity) override;
   std::shared_ptr<const BlockPattern> pattern() override { return assembly->pattern(); }
   void add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
                      double by_velocity, BlockMatrix& out) override;
-  void hold(double time, std::uint8_t* axes) override;
+  void mark_prescribed(double time, std::uint8_t* axes) override;
 
   void evaluate();     // evaluates force and corner_force in the current state
   void defer_forces(); // leaves the evaluation to advance(): if they are not needed before
@@ -97,24 +98,24 @@ struct Body final : System {
   void rebind();                          // program, constraints, laws
   void commit();                          // `next` becomes the current state
   // [s]: rollback: start, of the same topology, becomes the current state
-  void go_back(const State& start, double time);
-  void spoil_next(); // fault injection, see `faulty`
+  void restore_state(const State& start, double time);
+  void inject_into_next(); // fault injection, see `faulty`
   // Between steps; `done` steps of `step` [s] each. Everything that later steps depend on.
   void store(Archive& archive, long done, double step);
 
   long evaluations = 0; // number of evaluations of the internal forces, without those for probes
-  FaultySpot faulty;
+  FaultInjector faulty;
 
   // To be set before prepare().
-  Profile* profile = nullptr;  // of the scene; null: none
-  bool small_in_parts = false; // see ProgramOptions
+  Profile* profile = nullptr;         // of the scene; null: none
+  bool parallel_small_bodies = false; // see ProgramOptions
 
 private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   int make_changes(std::size_t number, const ForceView& now, double time, long step);
   void follow_changes();
   void check_read(long done, double step) const; // throws ArchiveError
-  void meet_program();
+  void bind_program();
   void reserve_for_separations();
   void clear_sums();
   bool forces_deferred_ = false;

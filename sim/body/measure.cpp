@@ -36,7 +36,7 @@ std::vector<double> vertex_strain(const Body& body) {
   std::vector<double> out = largest_of_springs(
       body, [](double, double rest, double length) { return rest > 0 ? std::abs(length / rest - 1) : 0; });
   const Continuum continuum(*body.map, body.interactions);
-  continuum.each(positions(body), nullptr, [&](const Continuum::Part& part, const UnitNow& e) {
+  continuum.each(positions(body), nullptr, [&](const Continuum::Part& part, const CurrentUnit& e) {
     const double here = largest_principal(strain_of(part, e), Compression::Counts).value;
     for (std::size_t n = 0; n < static_cast<std::size_t>(e.particles); ++n)
       out[e.vertex[n]] = std::max(out[e.vertex[n]], here);
@@ -48,7 +48,7 @@ std::vector<double> vertex_force(const Body& body) {
   std::vector<double> out = largest_of_springs(
       body, [](double k, double rest, double length) { return k * std::abs(length - rest); });
   const Continuum continuum(*body.map, body.interactions);
-  continuum.each(positions(body), nullptr, [&](const Continuum::Part&, const UnitNow& e) {
+  continuum.each(positions(body), nullptr, [&](const Continuum::Part&, const CurrentUnit& e) {
     const auto force = e.forces();
     for (std::size_t n = 0; n < static_cast<std::size_t>(e.particles); ++n)
       out[e.vertex[n]] = std::max(out[e.vertex[n]], force[n].norm());

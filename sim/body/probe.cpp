@@ -80,7 +80,7 @@ Vec3 Probe::reaction(Body& body) const {
   const Record *x = map.position().values().data(), *v = map.velocity().values().data();
   std::vector<Record> force(body.vertices());
   body.program->forces(x, v, force.data());
-  body.outer(time, x, v);
+  body.update_loads(time, x, v);
   const double *inverse_mass = body.program->inverse_mass(), *drag_rate = body.program->drag_rate();
   Vec3 sum = Vec3::Zero();
   for (Slot s : vertices(map)) {
@@ -98,7 +98,7 @@ Vec3 Probe::reaction(Body& body) const {
     const double rate = body.uniform_drag + (drag_rate ? drag_rate[s] : 0);
     const double mass = inverse_mass[s] > 0 ? 1 / inverse_mass[s] : 0;
     Vec3 r = -mass * body.gravity.vec() - force[s].vec();
-    if (body.integrator->moves()) r += mass * (prescribed + rate * v[s].vec());
+    if (body.integrator->has_inertia()) r += mass * (prescribed + rate * v[s].vec());
     if (body.load) r -= body.load[s].vec();
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (held[axis]) sum[static_cast<int>(axis)] += r[static_cast<int>(axis)];
@@ -118,13 +118,15 @@ std::optional<Eigen::Matrix3d> Probe::stress(const Body& body) const {
   for (Slot v : vertices(map)) ours[v] = true;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   std::size_t count = 0;
-  continuum.each(map.position().values().data(), nullptr, [&](const Continuum::Part& part, const UnitNow& e) {
-    bool is = false;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(e.particles); ++n) is = is || ours[e.vertex[n]];
-    if (!is) return;
-    sum += stress_of(part, e);
-    ++count;
-  });
+  continuum.each(map.position().values().data(), nullptr,
+                 [&](const Continuum::Part& part, const CurrentUnit& e) {
+                   bool is = false;
+                   for (std::size_t n = 0; n < static_cast<std::size_t>(e.particles); ++n)
+                     is = is || ours[e.vertex[n]];
+                   if (!is) return;
+                   sum += stress_of(part, e);
+                   ++count;
+                 });
   if (count == 0) return {};
   return Eigen::Matrix3d(sum / static_cast<double>(count));
 }

@@ -39,14 +39,15 @@ SolidSurface& Boundary::solid() {
   return *solid_;
 }
 
-DrawnFaces::Face Boundary::face_of_sheet(Dart first, std::vector<Slot>& vertices) const {
+BoundaryFaces::Face Boundary::face_of_sheet(Dart first, std::vector<Slot>& vertices) const {
   vertices.clear();
   Dart at = first;
   do {
     vertices.push_back(map_.vertex(at));
     at = map_.map().follow(at, to_next_side);
   } while (at != first);
-  return {.first = first, .turned = false, .bare = false, .sides = static_cast<std::uint32_t>(vertices.size())};
+  return {
+      .first = first, .turned = false, .exposed = false, .sides = static_cast<std::uint32_t>(vertices.size())};
 }
 
 } // namespace rend

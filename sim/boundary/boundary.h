@@ -26,23 +26,24 @@ public:
   void update();                              // after edits; does nothing where there were none
   long revision() const { return revision_; } // grows with each update that had something to do
 
-  // Calls f(DrawnFaces::Face, std::span<const Slot> vertices), face after face by their smallest darts (of a
+  // Calls f(BoundaryFaces::Face, std::span<const Slot> vertices), face after face by their smallest darts (of a
   // sheet by their slots, which is the same until an edit makes new faces). Vertices come in the order in which
   // the face is walked, from that of its smallest dart on.
   template <class F> void for_each_face(F&& f) const {
     std::vector<Slot> vertices;
     if (solid_) {
-      solid_->for_each_face([&](const DrawnFaces::Face& face, std::span<const DrawnFaces::Corner> corners) {
-        vertices.clear();
-        for (const DrawnFaces::Corner& corner : corners) vertices.push_back(corner.vertex);
-        f(face, std::span<const Slot>(vertices));
-      });
+      solid_->for_each_face(
+          [&](const BoundaryFaces::Face& face, std::span<const BoundaryFaces::Corner> corners) {
+            vertices.clear();
+            for (const BoundaryFaces::Corner& corner : corners) vertices.push_back(corner.vertex);
+            f(face, std::span<const Slot>(vertices));
+          });
       return;
     }
     const CellIndex& faces = map_.cells(FaceOfVolume);
     for (Slot face = 0; face < faces.slots(); ++face) {
       if (!faces.alive(face)) continue;
-      const DrawnFaces::Face found = face_of_sheet(faces.first_dart(face), vertices);
+      const BoundaryFaces::Face found = face_of_sheet(faces.first_dart(face), vertices);
       f(found, std::span<const Slot>(vertices));
     }
   }
@@ -51,7 +52,7 @@ public:
   SolidSurface& solid(); // CHECK: of a solid
 
 private:
-  DrawnFaces::Face face_of_sheet(Dart first, std::vector<Slot>& vertices) const;
+  BoundaryFaces::Face face_of_sheet(Dart first, std::vector<Slot>& vertices) const;
 
   EmbeddedMap& map_;
   const BorderColumn* border_;

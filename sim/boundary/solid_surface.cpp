@@ -31,7 +31,7 @@ SolidSurface::~SolidSurface() {
 
 void SolidSurface::rebuild() {
   const GMap& map = map_.map();
-  drawn_.resize(map.capacity());
+  boundary_.resize(map.capacity());
   queued_.fit(map.capacity());
   map.for_each_dart([&](Dart d) { queue(d); });
   bind();
@@ -42,16 +42,16 @@ bool SolidSurface::update() {
   if (!changes_.any) return false;
   if (changes_.whole) {
     changes_.clear();
-    drawn_ = {};
+    boundary_ = {};
     rebuild();
     return true;
   }
   const GMap& map = map_.map();
-  drawn_.resize(map.capacity());
+  boundary_.resize(map.capacity());
   queued_.fit(map.capacity());
   in_volumes_.fit(map.capacity());
   for (const auto& touched : changes_.touched)
-    for (Dart d : touched) drawn_.erase(d); // in case it was a key: it may no longer be one
+    for (Dart d : touched) boundary_.erase(d); // in case it was a key: it may no longer be one
   for (std::size_t i = 0; i < 4; ++i)
     for (Dart d : changes_.touched[i]) {
       if (!map.alive(d)) continue;
@@ -69,8 +69,8 @@ bool SolidSurface::update() {
 
 void SolidSurface::empty_queue() {
   for (const Dart first : queue_)
-    walk_two(map_.map(), 0, 1, first, [&](Dart d) { queued_.take_around(d.value); });
-  for (const Dart d : volumes_) in_volumes_.take_around(d.value);
+    walk_two(map_.map(), 0, 1, first, [&](Dart d) { queued_.clear_word(d.value); });
+  for (const Dart d : volumes_) in_volumes_.clear_word(d.value);
   queue_.clear();
   volumes_.clear();
 }
@@ -107,10 +107,10 @@ void SolidSurface::bind() {
   const GMap& map = map_.map();
   for (Dart first : queue_) write_face(first);
   for (Dart first : queue_) {
-    const DrawnFaces::Found found = drawn_.find(first);
+    const BoundaryFaces::Found found = boundary_.find(first);
     if (!found.face) continue;
     Dart at = found.face->turned ? map.alpha(1, first) : first;
-    for (const DrawnFaces::Corner& corner : found.corners) {
+    for (const BoundaryFaces::Corner& corner : found.corners) {
       if (!corner.group) write_fan(at);
       at = map.follow(at, to_next_side);
     }
@@ -118,43 +118,43 @@ void SolidSurface::bind() {
   numbered_ = false;
 }
 
-bool SolidSurface::bare(Dart d) const {
+bool SolidSurface::exposed(Dart d) const {
   return border_ && (*border_)[map_.slot(FaceOfVolume, d)] == 0;
 }
 
 // d: where the side starts; area: of its face, walked from d.
-Side SolidSurface::side_of(Dart d, const Vec3& area) const {
+LineKind SolidSurface::line_kind_of(Dart d, const Vec3& area) const {
   const Dart other = across_hull_edge(map_.map(), d);
-  if (other == d || bare(d) != bare(other)) return Side::Crease;
-  return sharp(area, -rest_area_vector(map_, other)) ? Side::Crease : Side::Cell;
+  if (other == d || exposed(d) != exposed(other)) return LineKind::Crease;
+  return sharp(area, -rest_area_vector(map_, other)) ? LineKind::Crease : LineKind::Cell;
 }
 
 void SolidSurface::write_face(Dart first) {
-  thread_local std::vector<DrawnFaces::Corner> corners;
+  thread_local std::vector<BoundaryFaces::Corner> corners;
   corners.clear();
   const GMap& map = map_.map();
   bool closed = true;
   walk_two(map, 0, 1, first, [&](Dart d) {
-    if (d != first) drawn_.erase(d); // the key of a face that was merged into this one
+    if (d != first) boundary_.erase(d); // the key of a face that was merged into this one
     closed = closed && !map.is_free(0, d) && !map.is_free(1, d);
   });
-  const bool turned = closed && !winds_outward(map_, first), is_bare = bare(first);
+  const bool turned = closed && !winds_outward(map_, first), is_exposed = exposed(first);
   const Dart start = turned ? map.alpha(1, first) : first;
   const Vec3 area = rest_area_vector(map_, start);
   Dart at = start;
   do {
-    corners.push_back({map_.vertex(at), is_bare ? first : Dart{}, side_of(at, area)});
+    corners.push_back({map_.vertex(at), is_exposed ? first : Dart{}, line_kind_of(at, area)});
     at = map.follow(at, to_next_side);
   } while (at != start);
   if (!closed || corners.size() < 3) { // a face without area
-    drawn_.erase(first);
+    boundary_.erase(first);
     return;
   }
-  drawn_.set({first, turned, is_bare, static_cast<std::uint32_t>(corners.size())}, corners);
+  boundary_.set({first, turned, is_exposed, static_cast<std::uint32_t>(corners.size())}, corners);
 }
 
 SolidSurface::FanCorner SolidSurface::fan_corner(Dart even, Dart odd) const {
-  return {even, odd, rest_area_vector(map_, even), bare(even)};
+  return {even, odd, rest_area_vector(map_, even), exposed(even)};
 }
 
 // The corners around the vertex of d that are connected on the hull, in order; their areas have a consistent
@@ -185,7 +185,7 @@ void SolidSurface::write_fan(Dart d) {
   const std::size_t n = fan_.size();
   const auto breaks_after = [&](std::size_t k) {
     const FanCorner &a = fan_[k % n], &b = fan_[(k + 1) % n];
-    return a.bare || b.bare || sharp(a.area, b.area);
+    return a.exposed || b.exposed || sharp(a.area, b.area);
   };
   std::size_t begin = 0; // where a group begins
   if (fan_closed_)
@@ -201,12 +201,12 @@ void SolidSurface::write_fan(Dart d) {
 void SolidSurface::write_group(std::size_t begin, std::size_t end) {
   const GMap& map = map_.map();
   const auto at = [&](std::size_t k) -> const FanCorner& { return fan_[k % fan_.size()]; };
-  if (at(begin).bare) return; // a group of its own, named by its face
+  if (at(begin).exposed) return; // a group of its own, named by its face
   Dart group = at(begin).even;
   for (std::size_t k = begin; k < end; ++k) group = std::min({group, at(k).even, at(k).odd});
   for (std::size_t k = begin; k < end; ++k) {
     const Dart first = smallest_of_face(map, at(k).even);
-    const DrawnFaces::Found found = drawn_.find(first);
+    const BoundaryFaces::Found found = boundary_.find(first);
     if (!found.face) continue;
     Dart d = found.face->turned ? map.alpha(1, first) : first;
     std::size_t corner = 0;
@@ -220,9 +220,9 @@ void SolidSurface::number_groups() {
   thread_local IndexMap numbers;
   numbers.clear();
   numbers_.clear();
-  numbers_.reserve(drawn_.corner_count());
-  drawn_.for_each([&](const DrawnFaces::Face&, std::span<const DrawnFaces::Corner> corners) {
-    for (const DrawnFaces::Corner& corner : corners)
+  numbers_.reserve(boundary_.corner_count());
+  boundary_.for_each([&](const BoundaryFaces::Face&, std::span<const BoundaryFaces::Corner> corners) {
+    for (const BoundaryFaces::Corner& corner : corners)
       numbers_.push_back(numbers.insert(corner.group.value, static_cast<std::uint32_t>(numbers.size())));
   });
   groups_ = numbers.size();
@@ -234,7 +234,7 @@ void SolidSurface::normals(std::vector<Vec3>& out) {
   const auto& x = map_.position().values();
   sums_.assign(groups_, Vec3::Zero());
   std::size_t c = 0;
-  drawn_.for_each([&](const DrawnFaces::Face& face, std::span<const DrawnFaces::Corner> corners) {
+  boundary_.for_each([&](const BoundaryFaces::Face& face, std::span<const BoundaryFaces::Corner> corners) {
     for (std::uint32_t k = 0; k < face.sides; ++k, ++c) {
       const Slot next = corners[k + 1 < face.sides ? k + 1 : 0].vertex;
       const Slot last = corners[k > 0 ? k - 1 : face.sides - 1].vertex;

@@ -2,8 +2,8 @@
 // normals.
 //
 // Faces are bound one by one, rebuilt only where the map changed, with a result equal to a full rebuild
-// (drawn_faces.h). They are oriented counter-clockwise as seen from outside, which follows from the rest state
-// and not from how the map was built; so back faces need not be drawn.
+// (boundary_faces.h). They are oriented counter-clockwise as seen from outside, which follows from the rest
+// state and not from how the map was built; so back faces need not be drawn.
 //
 // Corners around a vertex share a normal unless a crease separates them, so that a coarse mesh of a smooth
 // shape looks smooth: the fan of corners around a vertex (hull.h) is divided into groups by creases, edges
@@ -17,8 +17,8 @@
 // is stored for inner faces.
 #pragma once
 
-#include "sim/boundary/born_border.h"
-#include "sim/boundary/drawn_faces.h"
+#include "sim/boundary/boundary_faces.h"
+#include "sim/boundary/initial_border.h"
 #include "sim/topology/marks.h"
 
 namespace rend {
@@ -36,28 +36,28 @@ public:
   struct Triangle {
     std::array<Slot, 3> vertex;          // counter-clockwise as seen from outside, at rest
     std::array<std::uint32_t, 3> corner; // index into normals
-    std::array<Side, 3> side;            // opposite to vertex k
+    std::array<LineKind, 3> side;        // opposite to vertex k
     Dart first;                          // the smallest dart of its face
-    bool bare;                           // exposed by fracture
+    bool exposed;                        // exposed by fracture
   };
-  std::size_t faces() const { return drawn_.count(); }
-  std::size_t triangles() const { return drawn_.corner_count() - 2 * drawn_.count(); }
+  std::size_t faces() const { return boundary_.count(); }
+  std::size_t triangles() const { return boundary_.corner_count() - 2 * boundary_.count(); }
 
-  // Calls f(DrawnFaces::Face, std::span<const DrawnFaces::Corner>) by smallest darts.
-  template <class F> void for_each_face(F&& f) const { drawn_.for_each(std::forward<F>(f)); }
+  // Calls f(BoundaryFaces::Face, std::span<const BoundaryFaces::Corner>) by smallest darts.
+  template <class F> void for_each_face(F&& f) const { boundary_.for_each(std::forward<F>(f)); }
 
   // Calls f(Triangle), face after face by their smallest darts. A face becomes a fan around its first corner.
   template <class F> void for_each_triangle(F&& f) const {
     std::uint32_t base = 0;
-    drawn_.for_each([&](const DrawnFaces::Face& face, std::span<const DrawnFaces::Corner> corner) {
+    boundary_.for_each([&](const BoundaryFaces::Face& face, std::span<const BoundaryFaces::Corner> corner) {
       for (std::uint32_t k = 1; k + 1 < face.sides; ++k) {
-        const Side last = k + 2 == face.sides ? corner[k + 1].side : Side::Inner;
-        const Side lead = k == 1 ? corner[0].side : Side::Inner;
+        const LineKind last = k + 2 == face.sides ? corner[k + 1].side : LineKind::Inner;
+        const LineKind lead = k == 1 ? corner[0].side : LineKind::Inner;
         f(Triangle{{corner[0].vertex, corner[k].vertex, corner[k + 1].vertex},
                    {base, base + k, base + k + 1},
                    {corner[k].side, last, lead},
                    face.first,
-                   face.bare});
+                   face.exposed});
       }
       base += face.sides;
     });
@@ -66,14 +66,14 @@ public:
   // Normals of the current state, unit and outward, or 0 if undefined; one per corner of a boundary face.
   void normals(std::vector<Vec3>& out);
 
-  std::size_t bytes() const { return drawn_.bytes() + numbers_.size() * sizeof(std::uint32_t); }
-  bool same_as(const SolidSurface& other) const { return drawn_ == other.drawn_; }
+  std::size_t bytes() const { return boundary_.bytes() + numbers_.size() * sizeof(std::uint32_t); }
+  bool same_as(const SolidSurface& other) const { return boundary_ == other.boundary_; }
 
 private:
   struct FanCorner {
     Dart even, odd; // its two darts
     Vec3 area;      // of its face at rest
-    bool bare;
+    bool exposed;
   };
 
   void rebuild();
@@ -86,18 +86,18 @@ private:
   void write_fan(Dart d);
   void collect_fan(Dart d);
   void write_group(std::size_t begin, std::size_t end); // of the fan, indices modulo its size
-  bool bare(Dart d) const;
-  Side side_of(Dart d, const Vec3& area) const;
+  bool exposed(Dart d) const;
+  LineKind line_kind_of(Dart d, const Vec3& area) const;
   FanCorner fan_corner(Dart even, Dart odd) const;
   void number_groups();
 
   EmbeddedMap& map_;
   const BorderColumn* border_;
-  DrawnFaces drawn_;
+  BoundaryFaces boundary_;
   Changes changes_;
   std::vector<std::uint32_t> numbers_; // of its group, one per corner of a boundary face
   std::size_t groups_ = 0;
-  bool numbered_ = false;  // whether numbers_ belong to the current drawn_
+  bool numbered_ = false;  // whether numbers_ belong to the current boundary_
   std::vector<Vec3> sums_; // one per group
 
   // Scratch of update().

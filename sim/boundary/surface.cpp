@@ -43,11 +43,11 @@ void Surface::rebuild() {
   corners_.seal();
 }
 
-Side Surface::side_of(Dart d) const {
+LineKind Surface::line_kind_of(Dart d) const {
   const EmbeddedMap& map = map_;
-  if (!map.map().is_free(2, d)) return Side::Cell;
+  if (!map.map().is_free(2, d)) return LineKind::Cell;
   const bool torn = border_ && (*border_)[map.slot(EdgeOfFace, d)] == 0;
-  return torn ? Side::Torn : Side::Border;
+  return torn ? LineKind::Torn : LineKind::Border;
 }
 
 void Surface::write_face(Slot face) {
@@ -67,9 +67,9 @@ void Surface::write_face(Slot face) {
       continue;
     }
     const Dart next = map.map().alpha(1, map.map().alpha(0, at));
-    const Side opposite = side_of(at);
-    const Side last = static_cast<int>(n) + 3 == sides ? side_of(next) : Side::Inner;
-    const Side lead = n == 0 ? side_of(first) : Side::Inner;
+    const LineKind opposite = line_kind_of(at);
+    const LineKind last = static_cast<int>(n) + 3 == sides ? line_kind_of(next) : LineKind::Inner;
+    const LineKind lead = n == 0 ? line_kind_of(first) : LineKind::Inner;
     const std::array<std::uint32_t, 5> row{map.vertex(first), map.vertex(at), map.vertex(next),
                                            static_cast<std::uint32_t>(opposite) |
                                                static_cast<std::uint32_t>(last) << 2 |

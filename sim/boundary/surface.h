@@ -11,8 +11,8 @@
 // oriented consistently without an orientation of the whole, on a Möbius band as well.
 #pragma once
 
-#include "sim/boundary/born_border.h"
-#include "sim/boundary/side.h"
+#include "sim/boundary/initial_border.h"
+#include "sim/boundary/line_kind.h"
 #include "sim/rows/packed_rows.h"
 
 namespace rend {
@@ -28,8 +28,8 @@ public:
 
   struct Triangle {
     std::array<Slot, 3> vertex;
-    std::array<Side, 3> side; // opposite to vertex k
-    Slot face;                // slot of <0,1>
+    std::array<LineKind, 3> side; // opposite to vertex k
+    Slot face;                    // slot of <0,1>
   };
   std::size_t triangles() const { return triangles_.live_count(); }
 
@@ -37,10 +37,10 @@ public:
   template <class F> void for_each_triangle(F&& f) const {
     triangles_.for_each([&](std::size_t, std::size_t row) {
       const std::uint32_t sides = triangles_.index(3)[row];
-      f(Triangle{
-          {triangles_.index(0)[row], triangles_.index(1)[row], triangles_.index(2)[row]},
-          {static_cast<Side>(sides & 3), static_cast<Side>(sides >> 2 & 3), static_cast<Side>(sides >> 4 & 3)},
-          triangles_.index(4)[row]});
+      f(Triangle{{triangles_.index(0)[row], triangles_.index(1)[row], triangles_.index(2)[row]},
+                 {static_cast<LineKind>(sides & 3), static_cast<LineKind>(sides >> 2 & 3),
+                  static_cast<LineKind>(sides >> 4 & 3)},
+                 triangles_.index(4)[row]});
     });
   }
 
@@ -57,7 +57,7 @@ private:
   void rebuild();
   void write_face(Slot face);
   void write_corners(Slot vertex);
-  Side side_of(Dart d) const;
+  LineKind line_kind_of(Dart d) const;
   std::size_t most_sides() const;
 
   EmbeddedMap& map_;

@@ -69,7 +69,7 @@ void build_laws(Body& body, const BodySettings& settings) {
     body.notes.push_back(
         "tearing: every vertex is fixed, so that nothing moves and a law sees the same forces in "
         "every step");
-  body.border = &body.map->add(BornBorder(body.map->dimension()));
+  body.border = &body.map->add(InitialBorder(body.map->dimension()));
   for (const LawSettings& asked : settings.tears) {
     const LawSettings law = completed(asked, body);
     body.tear_laws.emplace_back(body.request_for(law), law);

@@ -12,12 +12,12 @@ Linearised::Linearised(const Body& body, double time) {
   const Record* x = body.map->position().values().data();
   const Records still(body.program->vertices());
   stiffness_.reset(assembly.pattern());
-  assembly.add(x, still.data(), Tangent::Definite, 1, 0, stiffness_);
+  assembly.add(x, still.data(), Tangent::SemiDefinite, 1, 0, stiffness_);
   const bool damped = std::any_of(body.interactions.begin(), body.interactions.end(),
                                   [](const auto& interaction) { return interaction->damped; });
   if (damped) {
     damping_.reset(assembly.pattern());
-    assembly.add(x, still.data(), Tangent::Definite, 0, 1, damping_);
+    assembly.add(x, still.data(), Tangent::SemiDefinite, 0, 1, damping_);
   }
   held_.assign(still.size(), 0);
   body.constraints.mark(time, held_.data());

@@ -38,14 +38,14 @@ Vec3 ContactPoint::inverse_mass() const {
 }
 
 double ContactPoint::leverage(const Vec3& normal) const {
-  const double whole = yield_along(normal, inverse_mass());
+  const double whole = inverse_mass_along(normal, inverse_mass());
   double most = 0;
   for (std::size_t k = 0; k < 3; ++k)
     most = std::max(most, weight[k] * body->inverse_mass(vertex[k]).cwiseProduct(normal).norm());
   return whole > 0 ? most / whole : std::numeric_limits<double>::infinity();
 }
 
-void ContactPoint::push(const Vec3& impulse, double step) const {
+void ContactPoint::apply_impulse(const Vec3& impulse, double step) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 change = weight[k] * body->inverse_mass(vertex[k]).cwiseProduct(impulse);
     Record &x = body->position(vertex[k]), &v = body->velocity(vertex[k]);
@@ -54,7 +54,7 @@ void ContactPoint::push(const Vec3& impulse, double step) const {
   }
 }
 
-void ContactPoint::shift(const Vec3& by) const {
+void ContactPoint::displace(const Vec3& by) const {
   for (std::size_t k = 0; k < 3; ++k) {
     Record& x = body->position(vertex[k]);
     x = Record(x.vec() + weight[k] * body->inverse_mass(vertex[k]).cwiseProduct(by));

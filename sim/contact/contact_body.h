@@ -59,8 +59,9 @@ struct ContactPoint {
   double leverage(const Vec3& normal) const;
   // Whether it is constrained along the normal, or so nearly that corrections would be too large.
   bool held(const Vec3& normal) const { return leverage(normal) > 4; }
-  void push(const Vec3& impulse, double step) const; // [N·s]: changes velocities, and positions by step × that
-  void shift(const Vec3& by) const; // [kg·m]: changes positions only, each vertex by b_i/m_i of it
+  void apply_impulse(const Vec3& impulse,
+                     double step) const; // [N·s]: changes velocities, and positions by step × that
+  void displace(const Vec3& by) const;   // [kg·m]: changes positions only, each vertex by b_i/m_i of it
 };
 
 } // namespace rend

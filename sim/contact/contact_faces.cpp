@@ -18,7 +18,7 @@ bool ContactFaces::update() {
 void ContactFaces::list() {
   revision_ = boundary_.revision();
   triangles_.clear();
-  boundary_.for_each_face([&](const DrawnFaces::Face& face, std::span<const Slot> ring) {
+  boundary_.for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot> ring) {
     const Slot slot = map_.slot(FaceOfVolume, face.first);
     const std::size_t n = ring.size(), start = face.turned ? 1 : 0;
     for (std::size_t k = 1; k + 1 < n; ++k)

@@ -123,7 +123,7 @@ private:
   Tree fragments_;
 };
 
-void ContactPairs::list(const ContactBody& body, Of& of) const {
+void ContactPairs::list(const ContactBody& body, BodyEntry& of) const {
   const EmbeddedMap& map = *body.body->map;
   const std::vector<std::uint32_t> label = label_fragments(map.map());
   of.vertices.clear();
@@ -172,7 +172,7 @@ bool ContactPairs::stale(const Bodies& bodies) const {
   Vec3 mean = Vec3::Zero();
   std::size_t count = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Of& of = of_[b];
+    const BodyEntry& of = of_[b];
     if (of.there.size() != of.vertices.size()) return true;
     for (std::size_t n = 0; n < of.vertices.size(); ++n)
       mean += bodies[b]->position(of.vertices[n]).vec() - of.there[n];
@@ -208,7 +208,7 @@ void ContactPairs::search(const Bodies& bodies) {
 }
 
 void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach) {
-  Of& of = of_[b];
+  BodyEntry& of = of_[b];
   of.there.clear();
   for (std::size_t n = 0; n < of.vertices.size(); ++n) {
     const Slot v = of.vertices[n];
@@ -232,7 +232,7 @@ void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const FaceT
 }
 
 bool ContactPairs::same_fragment(std::size_t entry, const ContactPair& pair) const {
-  const Of& of = of_[pair.body];
+  const BodyEntry& of = of_[pair.body];
   return pair.body == pair.face_body && of.vertex_fragment[entry] == of.face_fragment[pair.triangle];
 }
 
@@ -255,7 +255,7 @@ void ContactPair::store(Archive& archive) {
   archive(body, vertex, face_body, triangle, neighbours);
 }
 
-void ContactPairs::Of::store(Archive& archive, std::size_t most) {
+void ContactPairs::BodyEntry::store(Archive& archive, std::size_t most) {
   constexpr const char* what = "contact is of more vertices or faces than the body has";
   archive.list(vertices, most, what);
   archive.list(vertex_fragment, most, what);
@@ -264,7 +264,7 @@ void ContactPairs::Of::store(Archive& archive, std::size_t most) {
   archive(several);
 }
 
-bool ContactPairs::Of::same_lists(const Of& other) const {
+bool ContactPairs::BodyEntry::same_lists(const BodyEntry& other) const {
   return vertices == other.vertices && vertex_fragment == other.vertex_fragment &&
          face_fragment == other.face_fragment && several == other.several;
 }
@@ -277,7 +277,7 @@ void ContactPairs::store(Archive& archive, const Bodies& bodies) {
   for (std::size_t b = 0; b < of_.size(); ++b) {
     of_[b].store(archive, bodies[b]->body->map->map().capacity());
     if (!archive.reading()) continue;
-    Of now; // from the current map
+    BodyEntry now; // from the current map
     if (bodies[b]->settings().fragments) list(*bodies[b], now);
     refuse_unless(of_[b].same_lists(now), "contact is of other vertices or faces than the body has");
   }
@@ -310,7 +310,7 @@ void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
 
 std::size_t ContactPairs::bytes() const {
   std::size_t sum = bytes_of(pairs_);
-  for (const Of& of : of_)
+  for (const BodyEntry& of : of_)
     sum +=
         bytes_of(of.vertices) + bytes_of(of.vertex_fragment) + bytes_of(of.face_fragment) + bytes_of(of.there);
   return sum;

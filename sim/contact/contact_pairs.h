@@ -46,7 +46,7 @@ public:
 
 private:
   class FaceTrees;
-  struct Of {                                   // per body
+  struct BodyEntry {                            // per body
     std::vector<Slot> vertices;                 // of its faces, increasing
     std::vector<std::uint32_t> vertex_fragment; // one per entry of `vertices`
     std::vector<std::uint32_t> face_fragment;   // one per triangle
@@ -54,10 +54,10 @@ private:
     bool several = false;    // more than one fragment
 
     void store(Archive& archive, std::size_t most); // `most`: bound of the number of vertices or triangles
-    bool same_lists(const Of& other) const;         // without the positions
+    bool same_lists(const BodyEntry& other) const;  // without the positions
   };
   void check_pair(const Bodies& bodies, std::size_t number) const; // throws ArchiveError
-  void list(const ContactBody& body, Of& of) const;
+  void list(const ContactBody& body, BodyEntry& of) const;
   bool anything(const Bodies& bodies) const;
   bool stale(const Bodies& bodies) const;
   void search(const Bodies& bodies);
@@ -68,7 +68,7 @@ private:
   bool allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const;
   bool joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const;
 
-  std::vector<Of> of_;             // one per body
+  std::vector<BodyEntry> of_;      // one per body
   std::vector<ContactPair> pairs_; // of the last search, sorted
   double skin_ = 0;                // [m]
   bool listed_ = false;

@@ -85,24 +85,24 @@ std::optional<FragmentContact::Touch> FragmentContact::touch(const ContactPairs:
 }
 
 void FragmentContact::meet(const Touch& touch, double step) {
-  Vec3 yields = Vec3::Zero();
-  if (!touch.vertex_held) yields += touch.vertex.inverse_mass();
-  if (!touch.face_held) yields += touch.face.inverse_mass();
-  const double w = yield_along(touch.normal, yields);
+  Vec3 inverse_masses = Vec3::Zero();
+  if (!touch.vertex_held) inverse_masses += touch.vertex.inverse_mass();
+  if (!touch.face_held) inverse_masses += touch.face.inverse_mass();
+  const double w = inverse_mass_along(touch.normal, inverse_masses);
   const double left = touch.gap - touch.normal.dot(touch.vertex.position() - touch.face.position());
   if (left <= 0 || w == 0) return;
   const Vec3 u = touch.vertex.velocity() - touch.face.velocity();
-  const Impulse impulse = impact(u, touch.normal, touch.friction, yields);
+  const Impulse impulse = impact(u, touch.normal, touch.friction, inverse_masses);
   const Vec3 dragged = step * impulse.friction;
-  const double after = left - touch.normal.dot(yields.cwiseProduct(dragged));
+  const double after = left - touch.normal.dot(inverse_masses.cwiseProduct(dragged));
   const Vec3 by = dragged + std::max(0.0, after) / w * touch.normal;
   if (!touch.vertex_held) {
-    touch.vertex.push(impulse.whole(), 0);
-    touch.vertex.shift(by);
+    touch.vertex.apply_impulse(impulse.whole(), 0);
+    touch.vertex.displace(by);
   }
   if (!touch.face_held) {
-    touch.face.push(-impulse.whole(), 0);
-    touch.face.shift(-by);
+    touch.face.apply_impulse(-impulse.whole(), 0);
+    touch.face.displace(-by);
   }
 }
 

@@ -97,14 +97,14 @@ void for_each_face(const Shape& shape, const ContactBody& body, const std::vecto
 }
 
 // The allowed penetration [m] at the end of a step of a point that was `before` deep at its start.
-double still_deep(double before, double step) {
+double allowed_depth(double before, double step) {
   return before > 0 ? before - std::min(before * std::min(1.0, step / relaxation), fastest * step) : 0;
 }
 
 // On positions only, leaving the penetration `kept` [m].
-void put_out(const ContactPoint& point, const Plane& plane, double kept) {
+void move_out(const ContactPoint& point, const Plane& plane, double kept) {
   const double gap = plane.normal.dot(point.position()) - plane.offset + kept;
-  if (gap < 0) point.shift(-gap / yield_along(plane.normal, point.inverse_mass()) * plane.normal);
+  if (gap < 0) point.displace(-gap / inverse_mass_along(plane.normal, point.inverse_mass()) * plane.normal);
 }
 
 // Moves a point out of an obstacle with infinite mass.
@@ -112,9 +112,9 @@ void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacl
               double step) {
   if (plane.normal.dot(point.position()) >= plane.offset || point.held(plane.normal)) return;
   const Impulse impulse = impact(point.velocity() - obstacle, plane.normal, friction, point.inverse_mass());
-  point.push(impulse.whole(), 0);
-  point.shift(step * impulse.friction);
-  put_out(point, plane, kept);
+  point.apply_impulse(impulse.whole(), 0);
+  point.displace(step * impulse.friction);
+  move_out(point, plane, kept);
 }
 
 // Of an obstacle that falls, the momentum was traded with the bodies before.
@@ -125,9 +125,9 @@ void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outs
                    double step, Momentum momentum) {
   const Vec3 velocity = shape.velocity();
   const auto act = [&](const ContactPoint& point, const Plane& plane, double before) {
-    const double kept = still_deep(before, step);
+    const double kept = allowed_depth(before, step);
     if (momentum == Momentum::Taken) return keep_out(point, plane, velocity, friction, kept, step);
-    if (!point.held(plane.normal)) put_out(point, plane, kept);
+    if (!point.held(plane.normal)) move_out(point, plane, kept);
   };
   for_each_vertex(shape, body, codes, act);
   for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, codes, act);
@@ -157,7 +157,7 @@ void stop(Sphere& sphere, const Vec3& normal, double friction) {
 void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& bodies, double time,
                               double step) {
   for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity);
-  trade(bodies, step);
+  exchange_momentum(bodies, step);
   for (const auto& body : bodies) {
     if (!body->settings().obstacles) continue;
     const double own = body->settings().friction;
@@ -169,7 +169,7 @@ void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& b
   }
 }
 
-void ObstacleContact::trade(const std::vector<std::unique_ptr<ContactBody>>& bodies, double step) {
+void ObstacleContact::exchange_momentum(const std::vector<std::unique_ptr<ContactBody>>& bodies, double step) {
   touches_.clear();
   bool falls = false;
   for (std::size_t s = 0; s < world_.spheres.size(); ++s) {
@@ -204,10 +204,12 @@ void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) 
 void ObstacleContact::meet(Touch& touch, double step) {
   Sphere& sphere = world_.spheres[touch.sphere];
   const double W = sphere.inverse_mass();
-  const Vec3 yields = Vec3::Constant(W) + (touch.held ? Vec3(Vec3::Zero()) : touch.point.inverse_mass());
+  const Vec3 inverse_masses =
+      Vec3::Constant(W) + (touch.held ? Vec3(Vec3::Zero()) : touch.point.inverse_mass());
   const Vec3 impulse =
-      impact(touch.point.velocity() - sphere.next_velocity, touch.normal, touch.friction, yields).whole();
-  if (!touch.held) touch.point.push(impulse, step);
+      impact(touch.point.velocity() - sphere.next_velocity, touch.normal, touch.friction, inverse_masses)
+          .whole();
+  if (!touch.held) touch.point.apply_impulse(impulse, step);
   sphere.next_velocity -= W * impulse;
 }
 

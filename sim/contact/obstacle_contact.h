@@ -44,7 +44,7 @@ private:
     double friction;
     bool held; // it is constrained along the normal, or nearly
   };
-  void trade(const std::vector<std::unique_ptr<ContactBody>>& bodies, double step);
+  void exchange_momentum(const std::vector<std::unique_ptr<ContactBody>>& bodies, double step);
   void find_touches(std::size_t sphere, const ContactBody& body);
   void meet(Touch& touch, double step);
   void support(Sphere& sphere);

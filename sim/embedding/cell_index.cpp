@@ -61,7 +61,7 @@ bool CellIndex::in_order() const {
   return free_.empty() && std::is_sorted(first_dart_.begin(), first_dart_.end());
 }
 
-void CellIndex::number_anew(const GMap& map, std::vector<Slot>& from) {
+void CellIndex::renumber(const GMap& map, std::vector<Slot>& from) {
   std::vector<std::uint64_t> order; // smallest dart, and slot
   order.reserve(count());
   for (Slot s = 0; s < slots(); ++s)
@@ -185,8 +185,8 @@ void CellIndex::update(const GMap& map, const Journal& journal, SlotEvents& even
   for (const std::uint64_t key : scratch.order) settle(fragments[key & 0xffffffffu], events);
   bury(events);
 
-  for (const Dart d : scratch.darts) scratch.reached.take_around(d.value);
-  for (const Slot slot : events.settled) scratch.claimed.take_around(slot);
+  for (const Dart d : scratch.darts) scratch.reached.clear_word(d.value);
+  for (const Slot slot : events.settled) scratch.claimed.clear_word(slot);
 }
 
 void CellIndex::find_fragments(const GMap& map, const Journal& journal, std::vector<Fragment>& fragments) {
@@ -256,7 +256,7 @@ Slot CellIndex::slot_for(const Fragment& fragment, SlotEvents& events) {
     if (!oldest || d < oldest) oldest = d;
     if (scratch.met.insert(old)) old_slots.push_back(old);
   }
-  for (const Slot old : old_slots) scratch.met.take_around(old);
+  for (const Slot old : old_slots) scratch.met.clear_word(old);
   scratch.affected.insert(scratch.affected.end(), old_slots.begin(), old_slots.end());
 
   Slot slot = no_slot;

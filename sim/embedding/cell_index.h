@@ -54,7 +54,7 @@ public:
 
   // Renumbers them so. `from`: the slot that each had before. Uses the stored smallest darts: no orbit is
   // walked.
-  void number_anew(const GMap& map, std::vector<Slot>& from);
+  void renumber(const GMap& map, std::vector<Slot>& from);
 
   // Writes or reads everything (base/archive.h). ArchiveError: not the slots of this map.
   void store(Archive& archive, const GMap& map);

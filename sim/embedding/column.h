@@ -43,7 +43,7 @@ public:
   virtual void resize(std::size_t slots) = 0;
   virtual void reserve(std::size_t slots) = 0;
   virtual void apply(const EmbeddedMap& map, const CellIndex& cells, const SlotEvents& events) = 0;
-  virtual void bear(const EmbeddedMap& map, const CellIndex& cells, Slot slot) = 0;
+  virtual void initialise(const EmbeddedMap& map, const CellIndex& cells, Slot slot) = 0;
   // slot s takes the value of from[s]; resizes to from.size()
   virtual void gather(std::span<const Slot> from) = 0;
 };
@@ -79,13 +79,13 @@ public:
       if constexpr (requires { embedding_.merge(values_[kept], values_[absorbed]); })
         values_[kept] = embedding_.merge(values_[kept], values_[absorbed]);
       else
-        bear(map, cells, kept);
+        initialise(map, cells, kept);
     }
     for (Slot slot : events.deaths) values_[slot] = Value{};
-    for (Slot slot : events.births) bear(map, cells, slot);
+    for (Slot slot : events.births) initialise(map, cells, slot);
   }
 
-  void bear(const EmbeddedMap& map, const CellIndex& cells, Slot slot) override {
+  void initialise(const EmbeddedMap& map, const CellIndex& cells, Slot slot) override {
     values_[slot] = embedding_.birth(map, cells.first_dart(slot));
   }
 

@@ -50,18 +50,18 @@ void EmbeddedMap::adopt(std::unique_ptr<ColumnBase> column) {
   const CellIndex& index = use(column->orbit());
   column->resize(index.slots());
   for (Slot slot = 0; slot < index.slots(); ++slot)
-    if (index.alive(slot)) column->bear(*this, index, slot);
+    if (index.alive(slot)) column->initialise(*this, index, slot);
   columns_.push_back(std::move(column));
 }
 
 void EmbeddedMap::edit(const std::function<void(Edit&)>& change) {
-  CHECK_NOTE(whole_, "an earlier edit was left by an exception");
+  CHECK_NOTE(consistent_, "an earlier edit was left by an exception");
   journal_.clear();
   Edit edit(map_, journal_, *this);
-  whole_ = false;
+  consistent_ = false;
   change(edit);
   if (!journal_.empty()) close(edit);
-  whole_ = true;
+  consistent_ = true;
 #ifdef REND_VALIDATE
   if (const auto fault = validate(*this)) CHECK_NOTE(!fault, *fault);
 #endif
@@ -69,7 +69,7 @@ void EmbeddedMap::edit(const std::function<void(Edit&)>& change) {
 
 void EmbeddedMap::close(const Edit& edit) {
   for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
-    born_[mask].clear();
+    initialised_[mask].clear();
     if (cells_[mask]) cells_[mask]->update(map_, journal_, events_[mask]);
   }
   for (auto& column : columns_) {
@@ -77,7 +77,7 @@ void EmbeddedMap::close(const Edit& edit) {
     column->apply(*this, *cells_[mask], events_[mask]);
     // position and rest come before: the columns that follow depend on rest positions
     if (column.get() == velocity_) give_points(edit);
-    bear_reshaped(*column);
+    initialise_reshaped(*column);
   }
   publish();
 }
@@ -102,7 +102,7 @@ void EmbeddedMap::give_points(const Edit& edit) {
   }
 }
 
-void EmbeddedMap::bear_reshaped(ColumnBase& column) {
+void EmbeddedMap::initialise_reshaped(ColumnBase& column) {
   thread_local std::vector<Dart> darts;
   thread_local IndexSet seen, done;
   const Orbit support = column.support();
@@ -120,8 +120,8 @@ void EmbeddedMap::bear_reshaped(ColumnBase& column) {
         seen.insert(d.value);
         const Slot slot = index.slot(d);
         if (!done.insert(slot)) continue;
-        column.bear(*this, index, slot);
-        born_[column.orbit().mask].push_back(slot);
+        column.initialise(*this, index, slot);
+        initialised_[column.orbit().mask].push_back(slot);
       }
     }
   }
@@ -139,7 +139,7 @@ void EmbeddedMap::publish() {
       auto& slots = changes->slots[mask];
       append(slots, events.settled);
       append(slots, events.deaths);
-      append(slots, born_[mask]);
+      append(slots, initialised_[mask]);
     }
   }
 }
@@ -151,12 +151,12 @@ void EmbeddedMap::publish_whole() {
   }
 }
 
-void EmbeddedMap::number_anew() {
-  CHECK_NOTE(whole_, "an edit is open, or was left by an exception");
+void EmbeddedMap::renumber() {
+  CHECK_NOTE(consistent_, "an edit is open, or was left by an exception");
   std::vector<Slot> from;
   for (auto& index : cells_) {
     if (!index || index->in_order()) continue;
-    index->number_anew(map_, from);
+    index->renumber(map_, from);
     for (auto& column : columns_)
       if (column->orbit() == index->orbit()) column->gather(from);
   }

@@ -107,7 +107,7 @@ public:
 
   // Renumbers the slots of all orbits as if the map had just been built, without free ones. Values move along,
   // and subscribers see the whole map changed. Only orbits out of order are touched. CHECK: no edit is open.
-  void number_anew();
+  void renumber();
 
   std::size_t bytes() const; // of slots and columns; without the map itself
 
@@ -121,7 +121,7 @@ private:
   void adopt(std::unique_ptr<ColumnBase> column);
   void close(const Edit& edit);
   void give_points(const Edit& edit);
-  void bear_reshaped(ColumnBase& column);
+  void initialise_reshaped(ColumnBase& column);
   void publish();
   void publish_whole();
   void store(Archive& archive, ColumnBase& column, const CellIndex* was);
@@ -131,12 +131,12 @@ private:
   std::array<std::unique_ptr<CellIndex>, orbit_kinds> cells_;
   std::array<SlotEvents, orbit_kinds> events_; // of the edit that is being closed
   // slots whose values were initialised again, of the edit that is being closed
-  std::array<std::vector<Slot>, orbit_kinds> born_;
+  std::array<std::vector<Slot>, orbit_kinds> initialised_;
   std::vector<std::unique_ptr<ColumnBase>> columns_;
   VertexColumn *position_ = nullptr, *rest_ = nullptr, *velocity_ = nullptr;
   std::vector<Changes*> readers_;
   Journal journal_;
-  bool whole_ = true; // no edit is open, and none was ended by an exception
+  bool consistent_ = true; // no edit is open, and none was ended by an exception
 };
 
 // An open edit.

@@ -13,10 +13,11 @@ std::vector<Eigen::Matrix3d> stress_of_elements(const Body& body, std::span<cons
   const Record* position = body.map->position().values().data();
   for (std::size_t n = 0; n < elements.size(); ++n) {
     int count = 0;
-    continuum.each_of(elements[n], position, nullptr, [&](const Continuum::Part& part, const UnitNow& element) {
-      all[n] += stress_of(part, element);
-      ++count;
-    });
+    continuum.each_of(elements[n], position, nullptr,
+                      [&](const Continuum::Part& part, const CurrentUnit& element) {
+                        all[n] += stress_of(part, element);
+                        ++count;
+                      });
     if (count > 0) all[n] /= count;
     if (!all[n].allFinite()) all[n].setZero();
   }

@@ -57,7 +57,7 @@ std::vector<Column> face_columns(const Skin& skin) {
   add_column(all, {"body"}, skin.body_of_face);
   add_column(all, {"fragment"}, skin.fragment);
   add_column(all, {"element"}, skin.element);
-  add_column(all, {"bare"}, skin.bare);
+  add_column(all, {"bare"}, skin.exposed);
   add_column(all, {"von_mises"}, skin.equivalent);
   return all;
 }

@@ -17,7 +17,7 @@ struct SkinFace {
   Dart start;             // where it is walked from, by to_next_side
   Dart element;           // the smallest dart of its cell
   std::uint32_t fragment; // in the body
-  bool bare;              // laid bare by fracture
+  bool exposed;           // laid bare by fracture
 };
 
 // Appends one body to the skin.
@@ -35,7 +35,7 @@ private:
   void add_points();
   void add_faces(std::int32_t fragments);
   void add_stress();
-  void add_bare();
+  void add_exposed();
 
   Body& body_;
   const EmbeddedMap& map_;
@@ -53,7 +53,7 @@ void BodySkin::add(const SkinMaker::Arrays& wanted, std::int32_t& fragments) {
   add_points();
   add_faces(fragments);
   if (wanted.stress) add_stress();
-  if (wanted.bare) add_bare();
+  if (wanted.exposed) add_exposed();
   fragments += static_cast<std::int32_t>(fragments_);
   skin_.bodies.push_back({body_.name, body_.tears(), skin_.points.size() / 3, skin_.ends.size()});
 }
@@ -71,11 +71,11 @@ void BodySkin::collect_faces() {
     for (const Dart e : darts) element[e.value] = smallest;
     return smallest;
   };
-  body_.boundary().for_each_face([&](const DrawnFaces::Face& face, std::span<const Slot>) {
+  body_.boundary().for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot>) {
     const Dart first = face.first;
     const bool along = sheet ? sides_.of_dart[first.value] == 1 : !face.turned;
     const std::uint32_t label = labels[first.value];
-    faces_.push_back({first, along ? first : links_.alpha(1, first), element_of(first), label, face.bare});
+    faces_.push_back({first, along ? first : links_.alpha(1, first), element_of(first), label, face.exposed});
     fragments_ = std::max(fragments_, label + 1);
   });
   std::sort(faces_.begin(), faces_.end(), [](const SkinFace& a, const SkinFace& b) {
@@ -127,8 +127,8 @@ void BodySkin::add_stress() {
     if (point_[v] >= 0) skin_.largest_stress.push_back(largest[v]);
 }
 
-void BodySkin::add_bare() {
-  for (const SkinFace& face : faces_) skin_.bare.push_back(face.bare ? 1 : 0);
+void BodySkin::add_exposed() {
+  for (const SkinFace& face : faces_) skin_.exposed.push_back(face.exposed ? 1 : 0);
 }
 
 } // namespace
@@ -138,7 +138,7 @@ SkinMaker::SkinMaker(const Scene& scene) : scene_(&scene) {
     const bool sheet = body->map->dimension() == 2;
     sides_.push_back(sheet ? sides_of(body->map->map()) : Sides{});
     arrays_.stress = arrays_.stress || has_stress(*body);
-    arrays_.bare = arrays_.bare || (!sheet && body->border);
+    arrays_.exposed = arrays_.exposed || (!sheet && body->border);
   }
 }
 

@@ -43,7 +43,7 @@ struct Skin {
   std::vector<std::int32_t> fragment; // one per face, numbered over all bodies by their smallest darts
   std::vector<std::uint32_t> element; // one per face: the smallest dart of its cell
   // one per face, 1: exposed by fracture; empty: no body can tear, or none is a solid
-  std::vector<std::uint8_t> bare;
+  std::vector<std::uint8_t> exposed;
   // [Pa], one per face: von Mises stress of its cell; empty: no body has elements
   std::vector<double> equivalent;
 };
@@ -56,7 +56,7 @@ public:
 
   // Which of those that a skin may lack it has.
   struct Arrays {
-    bool stress = false, bare = false;
+    bool stress = false, exposed = false;
   };
 
 private:

@@ -15,10 +15,10 @@ public:
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     const Record* corner = view.corner;
-    if (view.corner_room) {
+    if (view.corner_buffer) {
       if (!mark_suspects(view, threshold)) return;
-      view.program.corner_forces_at(mark_, view.position, view.velocity, view.corner_room);
-      corner = view.corner_room;
+      view.program.corner_forces_at(mark_, view.position, view.velocity, view.corner_buffer);
+      corner = view.corner_buffer;
     }
     borders_.rows().for_each([&](std::size_t key, std::size_t row) {
       if (corner != view.corner && !suspect(view, key, row, threshold)) return;

@@ -11,7 +11,7 @@ CriterionType atomic_element() {
           .cell = [](const CriterionRequest&) { return Cell::Elements; },
           .lacking = [](const CriterionRequest& request) { return lacking_for_stress(request); },
           .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
-            return largest_of_elements(request, ElementScan::Of::Stress);
+            return largest_of_elements(request, ElementScan::Quantity::Stress);
           },
           .takes_compression = true};
 }

@@ -15,7 +15,7 @@ public:
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     const std::size_t first = candidates.size();
-    springs_.each_above(view, threshold, [&](const UnitNow& spring) {
+    springs_.each_above(view, threshold, [&](const CurrentUnit& spring) {
       const double value = force_of(spring);
       if (value > threshold) candidates.push_back({value, cell_of(view.map, cell_, spring)});
     });

@@ -27,7 +27,7 @@ public:
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     largest_.clear();
-    const auto look = [&](const UnitNow& unit) {
+    const auto look = [&](const CurrentUnit& unit) {
       auto force = unit.forces();
       gather_at_corners(view, unit, force);
       for (std::size_t n = 0; n < static_cast<std::size_t>(unit.particles); ++n) {
@@ -38,7 +38,7 @@ public:
     springs_.each_above(view, threshold, look);
     for (std::size_t n = 0; n < rows_.size(); ++n)
       each_above(view, n, threshold, [&](Dart d) {
-        continuum_.each_of(d, view.position, view.velocity, [&](const auto& part, const UnitNow& element) {
+        continuum_.each_of(d, view.position, view.velocity, [&](const auto& part, const CurrentUnit& element) {
           if (&part == &continuum_.parts()[n]) look(element);
         });
       });
@@ -58,7 +58,7 @@ public:
 
 private:
   // On a triangle, a hinge acts twice on the same outer vertex.
-  static void gather_at_corners(const ForceView& view, const UnitNow& unit,
+  static void gather_at_corners(const ForceView& view, const CurrentUnit& unit,
                                 std::array<Vec3, most_particles>& force) {
     const CellIndex& corners = view.map.cells(view.mass.orbit());
     for (std::size_t n = 1; n < static_cast<std::size_t>(unit.particles); ++n) {

@@ -35,7 +35,7 @@ struct ForceView {
   const Record* corner;
   // Not null: instead of `corner`, the fourth lane of `force` holds Program::forces_with_sums(), and this is a
   // buffer for Program::corner_forces_at(), for the vertices where the sums do not rule out a candidate.
-  Record* corner_room = nullptr;
+  Record* corner_buffer = nullptr;
 };
 
 class Criterion {
@@ -65,7 +65,7 @@ struct CriterionType {
   // Why the criterion cannot be made for this body and these settings, as a sentence; empty: it can.
   std::string (*lacking)(const CriterionRequest&);
   std::unique_ptr<Criterion> (*make)(const CriterionRequest&);
-  bool by_sums = false;                               // elementary, but works with ForceView::corner_room
+  bool by_sums = false;                               // elementary, but works with ForceView::corner_buffer
   bool takes_kind = false, takes_compression = false; // which settings of the request it uses
   std::string (*unit_there)(const CriterionRequest&) = nullptr; // null: `unit` for every body
 };

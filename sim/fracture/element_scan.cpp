@@ -135,28 +135,28 @@ void run_kind(ElementKind kind, const Scan& scan) {
 
 } // namespace
 
-ElementScan::ElementScan(const CriterionRequest& request, Of quantity)
+ElementScan::ElementScan(const CriterionRequest& request, Quantity quantity)
     : continuum_(request.map, request.interactions), quantity_(quantity), compression_(request.compression) {
   request.map.use(element_orbit(request.map.dimension()));
   for (const Continuum::Part& part : continuum_.parts()) {
-    std::optional<Binder>& binder = again_.emplace_back();
-    if (part.index != Continuum::made_again) continue;
+    std::optional<Binder>& binder = recreated_.emplace_back();
+    if (part.index != Continuum::recreated) continue;
     binder.emplace(Binder::of(request.map, *part.interaction, Folding::Off, {}));
     binder->bind();
   }
 }
 
 void ElementScan::rebind(const Changes& changes) {
-  for (auto& binder : again_)
+  for (auto& binder : recreated_)
     if (binder) binder->rebind(changes);
 }
 void ElementScan::reserve_for_separations() {
-  for (auto& binder : again_)
+  for (auto& binder : recreated_)
     if (binder) binder->reserve_for_separations();
 }
 std::size_t ElementScan::bytes() const {
   std::size_t sum = keys_.capacity() * sizeof(std::size_t);
-  for (const auto& binder : again_)
+  for (const auto& binder : recreated_)
     if (binder) sum += binder->rows().bytes();
   return sum;
 }
@@ -165,7 +165,7 @@ void ElementScan::scan(const Continuum::Part& part, const PackedRows& rows, cons
                        double threshold) {
   const ElasticMaterial& m = part.law->material();
   Bound bound{0, 1, threshold, compression_};
-  if (quantity_ == Of::Stress) bound = {m.lambda, 2 * m.mu, threshold, compression_};
+  if (quantity_ == Quantity::Stress) bound = {m.lambda, 2 * m.mu, threshold, compression_};
   // Margins for rounding: relative, and absolute of E.
   bound.limit -= 1e-9 * threshold + 1e-12 * (3 * bound.first + bound.second);
   const bool closest =
@@ -178,15 +178,15 @@ namespace {
 
 class LargestOfElements final : public Criterion {
 public:
-  LargestOfElements(const CriterionRequest& request, ElementScan::Of quantity)
+  LargestOfElements(const CriterionRequest& request, ElementScan::Quantity quantity)
       : scan_(request, quantity),
-        tensor_of_(quantity == ElementScan::Of::Stress ? &stress_of : &strain_of), compression_{
-                                                                                       request.compression} {}
+        tensor_of_(quantity == ElementScan::Quantity::Stress ? &stress_of : &strain_of),
+        compression_{request.compression} {}
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     scan_.each_above(view, threshold, [&](Dart d) {
       scan_.continuum().each_of(
-          d, view.position, nullptr, [&](const Continuum::Part& part, const UnitNow& now) {
+          d, view.position, nullptr, [&](const Continuum::Part& part, const CurrentUnit& now) {
             const double value = largest_principal(tensor_of_(part, now), compression_).value;
             if (value > threshold) candidates.push_back({value, d});
           });
@@ -199,13 +199,14 @@ public:
 
 private:
   ElementScan scan_;
-  Eigen::Matrix3d (*tensor_of_)(const Continuum::Part&, const UnitNow&); // σ [Pa] or ε, in world space
+  Eigen::Matrix3d (*tensor_of_)(const Continuum::Part&, const CurrentUnit&); // σ [Pa] or ε, in world space
   Compression compression_;
 };
 
 } // namespace
 
-std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request, ElementScan::Of quantity) {
+std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request,
+                                               ElementScan::Quantity quantity) {
   return std::make_unique<LargestOfElements>(request, quantity);
 }
 

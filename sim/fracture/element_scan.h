@@ -23,8 +23,8 @@ namespace rend {
 
 class ElementScan {
 public:
-  enum class Of { Stress, Strain };
-  ElementScan(const CriterionRequest& request, Of quantity);
+  enum class Quantity { Stress, Strain };
+  ElementScan(const CriterionRequest& request, Quantity quantity);
 
   const Continuum& continuum() const { return continuum_; }
 
@@ -46,19 +46,19 @@ public:
 private:
   const Binder& rows_of(const ForceView& view, std::size_t part) const {
     const std::size_t index = continuum_.parts()[part].index;
-    return index == Continuum::made_again ? *again_[part] : view.program.rows()[index];
+    return index == Continuum::recreated ? *recreated_[part] : view.program.rows()[index];
   }
   void scan(const Continuum::Part& part, const PackedRows& rows, const Record* position, double threshold);
 
   Continuum continuum_;
-  Of quantity_;
+  Quantity quantity_;
   bool compression_;
-  std::vector<std::optional<Binder>> again_; // rows of parts that the program has no rows for
-  std::vector<std::size_t> keys_;            // scratch: keys of rows that may exceed the threshold
+  std::vector<std::optional<Binder>> recreated_; // rows of parts that the program has no rows for
+  std::vector<std::size_t> keys_;                // scratch: keys of rows that may exceed the threshold
 };
 
 // The criterion on elements: their largest principal value.
-std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request, ElementScan::Of quantity);
+std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request, ElementScan::Quantity quantity);
 
 // Why the elements of a body have no stress, as a sentence; empty: they have.
 std::string lacking_for_stress(const CriterionRequest& request);

@@ -49,12 +49,12 @@ double SingleSprings::elongation(const ForceView& view, const PackedRows& rows, 
   return rest > 0 ? ends_of(view, rows, row).apart.norm() / rest - 1 : 0;
 }
 
-double force_of(const UnitNow& spring) {
+double force_of(const CurrentUnit& spring) {
   if (!is_hinge(*spring.interaction)) return spring.forces()[0].norm();
   return std::abs(hinge_moment(HingeParameters::of(spring.values), spring.position, spring.velocity));
 }
 
-double elongation_of(const UnitNow& spring) {
+double elongation_of(const CurrentUnit& spring) {
   const double rest = UnitParameters::of(spring.values).rest;
   return rest > 0 ? (spring.position[1] - spring.position[0]).norm() / rest - 1 : 0;
 }
@@ -63,7 +63,7 @@ Cell cell_of_kind(const std::string& kind) {
   return kind == "stretch" ? Cell::Edges : kind == "shear" ? Cell::Elements : Cell::Borders;
 }
 
-Dart cell_of(const EmbeddedMap& map, Cell cell, const UnitNow& spring) {
+Dart cell_of(const EmbeddedMap& map, Cell cell, const CurrentUnit& spring) {
   return smallest_dart(map.map(), orbit_of(cell, map.dimension()), spring.owner);
 }
 

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "sim/fracture/criterion.h"
-#include "sim/rows/unit_now.h"
+#include "sim/rows/current_unit.h"
 
 namespace rend {
 
@@ -48,9 +48,9 @@ private:
     thread_local std::vector<std::size_t> keys;
     binder.units_of_row(key, keys);
     for (std::size_t k : keys)
-      f(UnitNow(view.map, *binder.interaction(),
-                view.map.cells(binder.pattern().owner).first_dart(binder.owner_of(k)),
-                k % static_cast<std::size_t>(binder.units()), view.position, view.velocity));
+      f(CurrentUnit(view.map, *binder.interaction(),
+                    view.map.cells(binder.pattern().owner).first_dart(binder.owner_of(k)),
+                    k % static_cast<std::size_t>(binder.units()), view.position, view.velocity));
   }
   static double bound(const ForceView& view, const PackedRows& rows, std::size_t row); // [N]
   static double elongation(const ForceView& view, const PackedRows& rows, std::size_t row);
@@ -59,14 +59,14 @@ private:
 };
 
 // Magnitude of the force [N], of a hinge that of its moment [N.m].
-double force_of(const UnitNow& spring);
+double force_of(const CurrentUnit& spring);
 
 // l/l0 − 1 of a spring.
-double elongation_of(const UnitNow& spring);
+double elongation_of(const CurrentUnit& spring);
 
 // The kind of cell for springs of this kind, and the cell of a single one, by its smallest dart.
 Cell cell_of_kind(const std::string& kind);
-Dart cell_of(const EmbeddedMap& map, Cell cell, const UnitNow& spring);
+Dart cell_of(const EmbeddedMap& map, Cell cell, const CurrentUnit& spring);
 
 // Why the requested `kind` is not possible, as a sentence; empty: it is.
 std::string lacking_for_springs(const CriterionRequest& request);

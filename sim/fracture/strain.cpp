@@ -16,7 +16,7 @@ public:
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     const std::size_t first = candidates.size();
-    springs_.each_longer(view, threshold, [&](const UnitNow& spring) {
+    springs_.each_longer(view, threshold, [&](const CurrentUnit& spring) {
       const double ratio = elongation_of(spring), value = compression_ ? std::abs(ratio) : ratio;
       if (value > threshold) candidates.push_back({value, cell_of(view.map, cell_, spring)});
     });
@@ -54,7 +54,7 @@ CriterionType strain() {
               },
           .lacking = &lacking,
           .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
-            if (request.kind.empty()) return largest_of_elements(request, ElementScan::Of::Strain);
+            if (request.kind.empty()) return largest_of_elements(request, ElementScan::Quantity::Strain);
             return std::make_unique<SpringStrain>(request);
           },
           .takes_kind = true,

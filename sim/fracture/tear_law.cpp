@@ -51,11 +51,12 @@ const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   return candidates_;
 }
 
-int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events, Births* births) {
+int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,
+                   FragmentCounter* fragment_counter) {
   note_cells(map.map());
   int made = 0;
   map.edit([&](Edit& edit) {
-    if (births) births->begin();
+    if (fragment_counter) fragment_counter->begin();
     for (std::size_t n = 0; n < candidates_.size(); ++n) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
       const std::span<const Dart> cell(darts_.data() + begin_[n], begin_[n + 1] - begin_[n]);
@@ -67,7 +68,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
       events.push_back({.value = candidates_[n].value,
                         .dart = candidates_[n].dart,
                         .place = middle_of(map, view.position, cell)});
-      if (births) births->note(*edit.journal());
+      if (fragment_counter) fragment_counter->note(*edit.journal());
       ++made;
     }
   });

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "sim/base/settings.h"
-#include "sim/fracture/births.h"
 #include "sim/fracture/change.h"
 #include "sim/fracture/criterion.h"
+#include "sim/fracture/fragment_counter.h"
 
 #include <limits>
 
@@ -44,8 +44,9 @@ public:
   const std::vector<Candidate>& find(const ForceView& view);
 
   // Makes the changes at the candidates of find(). Returns how many were made; appends an event for each, and
-  // notes it in `births` if given.
-  int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events, Births* births = nullptr);
+  // notes it in `fragment_counter` if given.
+  int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,
+            FragmentCounter* fragment_counter = nullptr);
 
   void rebind(const Changes& changes) { criterion_->rebind(changes); }
   void reserve_for_separations() { criterion_->reserve_for_separations(); }

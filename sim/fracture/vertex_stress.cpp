@@ -11,7 +11,7 @@ namespace {
 class VertexStressCriterion final : public Criterion {
 public:
   explicit VertexStressCriterion(const CriterionRequest& request)
-      : scan_(request, ElementScan::Of::Stress), compression_{request.compression},
+      : scan_(request, ElementScan::Quantity::Stress), compression_{request.compression},
         stress_(request.map, scan_.continuum(), request.mass) {}
 
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
@@ -19,7 +19,7 @@ public:
     seen_.clear();
     const CellIndex& vertices = view.map.cells(Vertex);
     scan_.each_above(view, threshold, [&](Dart element) {
-      scan_.continuum().each_of(element, view.position, nullptr, [&](const auto&, const UnitNow& now) {
+      scan_.continuum().each_of(element, view.position, nullptr, [&](const auto&, const CurrentUnit& now) {
         for (std::size_t n = 0; n < static_cast<std::size_t>(now.particles); ++n) {
           if (!seen_.insert(now.vertex[n])) continue;
           const auto [value, direction] =

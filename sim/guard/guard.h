@@ -1,9 +1,9 @@
 // The guard: detects steps that were too large for what happened in them, and redoes them with substeps
 // (rollback).
 //
-// Every `period` steps, and at each change of topology, it saves the state: a new stretch begins (rewind.h). In
-// each step it tests S = Σ |v|², which the integration accumulates (State::put): S is not finite if a number of
-// the state is not, and only if S exceeds a threshold, about four times its recent values, the energy is
+// Every `period` steps, and at each change of topology, it saves the state: a new stretch begins (rollback.h).
+// In each step it tests S = Σ |v|², which the integration accumulates (State::put): S is not finite if a number
+// of the state is not, and only if S exceeds a threshold, about four times its recent values, the energy is
 // tested. A body may have
 //
 //   K + U ≤ factor · ( B + work done on it since the start of the stretch + headroom )
@@ -30,8 +30,8 @@
 
 #include "sim/base/profile.h"
 #include "sim/guard/resolved.h"
-#include "sim/guard/rewind.h"
-#include "sim/guard/trouble.h"
+#include "sim/guard/rollback.h"
+#include "sim/guard/step_failure.h"
 
 #include <optional>
 
@@ -39,61 +39,61 @@ namespace rend {
 
 class Guard {
 public:
-  Guard(World& world, const Rewind::Bodies& bodies, const Scheme& scheme, double step, bool on,
+  Guard(World& world, const Rollback::Bodies& bodies, const Scheme& scheme, double step, bool on,
         Profile* profile = nullptr);
   const GuardFigures& figures() const { return figures_; }
-  std::size_t bytes() const { return rewind_ ? rewind_->bytes() : 0; }
-  bool on() const { return rewind_.has_value(); }
+  std::size_t bytes() const { return rollback_ ? rollback_->bytes() : 0; }
+  bool on() const { return rollback_.has_value(); }
 
   // The calls of a step, in this order; `step`: steps done before it.
-  int parts(long step) const;       // number of substeps
-  bool asks_for_forces() const;     // whether it needs those of the current state: a stretch begins
-  void before_laws(long step);      // with the forces of that state
-  Trouble before_change(long step); // of topology; may be called more than once
+  int substeps(long step) const;        // number of substeps
+  bool needs_forces() const;            // whether it needs those of the current state: a stretch begins
+  void before_laws(long step);          // with the forces of that state
+  StepFailure before_change(long step); // of topology; may be called more than once
   void after_laws(long step);
-  void after_part() {
-    if (!rewind_) return;
-    const Within within(profile_, Phase::Guard);
-    rewind_->keep();
+  void after_substep() {
+    if (!rollback_) return;
+    const PhaseScope within(profile_, Phase::Guard);
+    rollback_->save_start();
   }
-  Trouble after_step(long done); // steps done including this one
+  StepFailure after_step(long done); // steps done including this one
 
   // After one of these, or the state itself, reported trouble at `done` steps: restores the start of the
   // stretch, to be repeated up to the same step. Returns the steps done there; nullopt: no smaller substeps are
   // left, and nothing changed.
-  std::optional<long> again(Trouble trouble, long done);
+  std::optional<long> roll_back(StepFailure failure, long done);
   bool redoing() const { return redoing_; }
   // rollback to the start of the stretch, to continue with nominal steps; returns the steps done there
-  long go_back();
+  long restore_start();
   // whether steps were made since that start
-  bool has_gone(long done) const { return rewind_ && rewind_->first() < done; }
-  void forget(); // everything before the current state
+  bool has_advanced(long done) const { return rollback_ && rollback_->first() < done; }
+  void discard_start(); // everything before the current state
   // Between steps, `done` of which were made; after the bodies.
   void store(Archive& archive, long done);
 
 private:
-  struct Held {
-    double energy = 0, limit = 0, given = 0; // [J]
+  struct EnergyTest {
+    double energy = 0, limit = 0, work = 0; // [J]
   };
   void check_read(long done) const; // throws ArchiveError
-  int usual(long step) const { return step < hold_until_ ? hold_parts_ : 1; }
+  int planned_substeps(long step) const { return step < hold_until_ ? hold_substeps_ : 1; }
   // Exactly: the elastic energy is found, however little the kinetic one is.
   enum class Look { AsNeeded, Exactly };
-  Trouble settle(long step, Look look);
-  Trouble judge(const Rewind::Account& account, Look look);
-  double allowed(const Rewind::Account& account) const; // [J]
-  Held held(const Rewind::Account& account);
-  bool passing(int parts) const;
-  bool may_pass() const;
-  Trouble end_redo(long done);
+  StepFailure update_budget(long step, Look look);
+  StepFailure judge(const Rollback::Account& account, Look look);
+  double allowed(const Rollback::Account& account) const; // [J]
+  EnergyTest test_energy(const Rollback::Account& account);
+  bool pass_through(int substeps) const;
+  bool may_pass_through() const;
+  StepFailure end_redo(long done);
   enum class Finer { Helps, DoesNot };
-  void go_on(long done, double budget, Finer finer);
+  void end_rollback(long done, double budget, Finer finer);
 
-  const Rewind::Bodies& bodies_;
-  Profile* profile_;             // null: no profile
-  double step_;                  // [s]
-  bool energy_ = false;          // whether energy is tested
-  std::optional<Rewind> rewind_; // none: off
+  const Rollback::Bodies& bodies_;
+  Profile* profile_;                 // null: no profile
+  double step_;                      // [s]
+  bool energy_ = false;              // whether energy is tested
+  std::optional<Rollback> rollback_; // none: off
   GuardFigures figures_;
 
   double budget_ = -1;                    // [J], B; < 0: not computed yet
@@ -106,11 +106,11 @@ private:
   long settled_ = -1, exactly_ = 0;       // steps done when B was last updated, and when with U
   bool redoing_ = false;                  // the stretch is being repeated ...
   long from_ = 0, goal_ = 0;              // ... from from_ to goal_ ...
-  int parts_ = 1;                         // ... with this number of substeps per step
+  int substeps_ = 1;                      // ... with this number of substeps per step
   std::optional<double> start_;           // [J], K + U at its start, if computed
   std::optional<double> growth_;          // [J], energy growth of the last attempt, without the work done
   long hold_until_ = 0, hold_length_ = 0; // the substeps are kept until this step, for this many steps
-  int hold_parts_ = 1;
+  int hold_substeps_ = 1;
 };
 
 } // namespace rend

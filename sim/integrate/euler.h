@@ -17,7 +17,7 @@ REND_INLINE void euler_move(std::size_t begin, std::size_t end, const System& sy
   const Double4 h = splat(step);
   Double4 seen = probe;
   for (std::size_t i = begin; i < end; ++i) {
-    expect<2048>(now.velocity + i);
+    prefetch<2048>(now.velocity + i);
     const Double4 v = load(now.velocity[i]);
     const Double4 w = v + h * system.acceleration(i, load(force[i]), v);
     next.write(i, load(now.position[i]) + h * (by == MovesBy::OldVelocity ? v : w), w, seen);
@@ -28,15 +28,15 @@ REND_INLINE void euler_move(std::size_t begin, std::size_t end, const System& sy
 template <MovesBy by> class Euler final : public Integrator {
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {
-    put_vertices<euler_move<by>>(system, next, step, now, force);
+    write_vertices<euler_move<by>>(system, next, step, now, force);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
-  void sweep(System& system, double time, double step, const StateView& now, Record* force,
-             State& next) override {
+  void advance_fused(System& system, double time, double step, const StateView& now, Record* force,
+                     State& next) override {
     sweep_vertices<euler_move<by>>(system, time, next, step, now, force);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
-  bool sweeps() const override { return true; }
+  bool has_fused_advance() const override { return true; }
 };
 
 } // namespace rend

@@ -12,7 +12,7 @@
 // are those of kinetic energy, |R|² = Σ |R_i|²/m_i. Converged when |R| is at most 1e-5 of the sum of its terms,
 // or round-off; each linear system is solved to 1e-2, and the matrix is reused as long as |R| falls to a tenth.
 // A step that has not converged after 50 iterations (buckling cloth, gusts of wind) is divided into two
-// substeps of half the size, these again ... down to 1/1024, below which it fails (Unsolved).
+// substeps of half the size, these again ... down to 1/1024, below which it fails (NotConverged).
 //
 // Loads that depend on the state (pressure, wind, follower loads) contribute h² ∂load/∂x + h ∂load/∂v to the
 // tangent (load_tangent.h).
@@ -38,8 +38,8 @@ constexpr double accepted = 1e-4;     // relative to the terms, if no update red
 constexpr double keeps_tangent = 0.1; // the tangent is reused if |R| falls below this share
 
 constexpr int most_iterations = 50, most_halvings = 12; // of Newton iterations, of the line search
-constexpr int most_parted = 10;                         // halvings of the step
-constexpr double least_part = 1.0 / (1 << most_parted);
+constexpr int most_step_halvings = 10;                  // halvings of the step
+constexpr double least_part = 1.0 / (1 << most_step_halvings);
 
 // |R| and the sum of its terms, in the norm of kinetic energy [√J].
 struct Residual {
@@ -67,7 +67,7 @@ private:
   double round_off(const Step& step) const;
   bool search(const Step& step, Residual& residual);
   void solve(const Step& step);
-  void keep(const System& system);
+  void accept_substep(const System& system);
 
   // One per vertex slot.
   Records position_, velocity_, trial_;         // [m], [m/s]: x', v', and a trial v' of the line search
@@ -113,14 +113,14 @@ void ImplicitEuler::linearise(const Step& step) {
   System& system = step.system;
   const double h = step.size;
   matrix_.reset(system.pattern());
-  system.add_stiffness(position_.data(), velocity_.data(), Tangent::Definite, h * h, h, matrix_);
+  system.add_stiffness(position_.data(), velocity_.data(), Tangent::SemiDefinite, h * h, h, matrix_);
   for (std::size_t i = 0; i < system.vertices(); ++i) {
     const double inverse = system.inverse_mass[i];
     const double rate = system.uniform_drag + (system.drag_rate ? system.drag_rate[i] : 0);
     matrix_.add_diagonal(i, inverse == 0 ? 1 : (1 + h * rate) / inverse);
   }
-  matrix_.hold(held_.data());
-  linear_.take(matrix_);
+  matrix_.constrain(held_.data());
+  linear_.set_matrix(matrix_);
 }
 
 // The part of R due to rounding of positions [√J].
@@ -157,16 +157,16 @@ bool ImplicitEuler::search(const Step& step, Residual& residual) {
 }
 
 // The tolerance of the linear system: 1e-2, or less strict if that already reaches the final tolerance.
-double digits_for(const Residual& residual) {
+double linear_tolerance(const Residual& residual) {
   return std::clamp(0.3 * wanted * residual.terms / residual.norm, linear_digits, 0.1);
 }
 
 [[noreturn]] void give_up(const Residual& residual, int iterations) {
-  throw Unsolved(residual.finite()
-                     ? fmt::format("Newton's method left {:.2g} of the forces after {} iterations",
-                                   residual.norm / residual.terms, iterations)
-                     : "forces are not finite",
-                 "a smaller step changes less at once");
+  throw NotConverged(residual.finite()
+                         ? fmt::format("Newton's method left {:.2g} of the forces after {} iterations",
+                                       residual.norm / residual.terms, iterations)
+                         : "forces are not finite",
+                     "a smaller step changes less at once");
 }
 
 void ImplicitEuler::solve(const Step& step) {
@@ -180,8 +180,9 @@ void ImplicitEuler::solve(const Step& step) {
     here = here || !linear;
     ++newton_;
     load_tangent_.at(step.system, step.end, position_, velocity_, held_, {step.size, 1, step.size});
-    if (!load_tangent_.solve(linear_, before_, update_, digits_for(residual)))
-      throw Unsolved("the linear system of the step could not be solved", "a smaller step is easier to solve");
+    if (!load_tangent_.solve(linear_, before_, update_, linear_tolerance(residual)))
+      throw NotConverged("the linear system of the step could not be solved",
+                         "a smaller step is easier to solve");
     const Residual last = residual;
     const bool moved = search(step, residual);
     if (!moved) {
@@ -196,7 +197,7 @@ void ImplicitEuler::solve(const Step& step) {
 }
 
 // Accepts a substep: velocity_ and its position become the start of the next.
-void ImplicitEuler::keep(const System& system) {
+void ImplicitEuler::accept_substep(const System& system) {
   for (std::size_t i = 0; i < position_.size(); ++i) {
     if (system.inverse_mass[i] == 0) continue;
     reached_position_[i] = position_[i];
@@ -218,14 +219,15 @@ void ImplicitEuler::advance(System& system, double time, double size, const Stat
     velocity_ = reached_velocity_;
     try {
       solve(step);
-    } catch (const Unsolved& unsolved) {
+    } catch (const NotConverged& unsolved) {
       part *= 0.5;
       if (part < least_part)
-        throw Unsolved(fmt::format("{}, and after {} halvings of the step", unsolved.what(), most_parted),
-                       unsolved.hint);
+        throw NotConverged(
+            fmt::format("{}, and after {} halvings of the step", unsolved.what(), most_step_halvings),
+            unsolved.hint);
       continue;
     }
-    keep(system);
+    accept_substep(system);
     gone += part;
     while (gone < 1 && std::fmod(gone, 2 * part) == 0) part *= 2;
   }

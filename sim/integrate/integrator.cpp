@@ -6,8 +6,8 @@
 
 namespace rend {
 
-void Integrator::sweep(System& system, double time, double step, const StateView& now, Record* force,
-                       State& next) {
+void Integrator::advance_fused(System& system, double time, double step, const StateView& now, Record* force,
+                               State& next) {
   system.forces(time, now.position, now.velocity, force);
   advance(system, time, step, now, force, next);
 }

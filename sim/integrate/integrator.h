@@ -18,13 +18,13 @@ struct SolverFigures {
   long cg = 0;             // iterations of conjugate gradients
   long factorisations = 0; // of the direct solver
   std::size_t bytes = 0;   // of matrix, factors and preconditioner
-  long parts = 0;          // substeps of an adaptive scheme
+  long substeps = 0;       // substeps of an adaptive scheme
   long rejected = 0;       // substeps rejected by their error and repeated with a shorter size
 };
 
 // A step that could not be solved. The state before it is unchanged.
-struct Unsolved : std::runtime_error {
-  Unsolved(const std::string& what, std::string hint_) : std::runtime_error(what), hint(std::move(hint_)) {}
+struct NotConverged : std::runtime_error {
+  NotConverged(const std::string& what, std::string hint_) : std::runtime_error(what), hint(std::move(hint_)) {}
   std::string hint;
 };
 
@@ -39,22 +39,22 @@ public:
 
   // The same if the forces of `now` are not evaluated yet: the scheme evaluates them into `force` and updates
   // each vertex while its force is still in the caches. The default evaluates all forces and calls advance().
-  virtual void sweep(System& system, double time, double step, const StateView& now, Record* force,
-                     State& next);
-  virtual bool sweeps() const { return false; } // whether sweep() is faster
+  virtual void advance_fused(System& system, double time, double step, const StateView& now, Record* force,
+                             State& next);
+  virtual bool has_fused_advance() const { return false; } // whether advance_fused() is faster
 
   virtual SolverFigures solver() const { return {}; }
   virtual std::size_t bytes() const { return 0; } // arrays kept between steps, without the solver's
 
   // The internal state of a scheme besides that of the body, for checkpoints: a new scheme that is given these
-  // numbers continues identically to the bit, counters included. `carry` takes as many numbers as `carried`
-  // returns. False: invalid numbers; nothing changed.
-  virtual std::vector<double> carried() const { return {}; }
-  virtual bool carry(std::span<const double>) { return true; }
+  // numbers continues identically to the bit, counters included. `restore_state` takes as many numbers as
+  // `saved_state` returns. False: invalid numbers; nothing changed.
+  virtual std::vector<double> saved_state() const { return {}; }
+  virtual bool restore_state(std::span<const double>) { return true; }
 
   // Whether bodies have inertia: if each step is an equilibrium, prescribed motions have neither inertia nor
   // viscosity.
-  virtual bool moves() const { return true; }
+  virtual bool has_inertia() const { return true; }
 };
 
 // Bounds of ω² and of damping rates over all modes; see frequency_bounds().

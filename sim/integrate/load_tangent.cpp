@@ -46,12 +46,12 @@ void LoadTangent::move(double epsilon, const Records& along) {
 }
 
 // Forces at moved_.
-void LoadTangent::take(Records& out) {
+void LoadTangent::evaluate_forces(Records& out) {
   out.resize(moved_.size());
   if (matrix_)
     system_->forces(time_, moved_.data(), moved_velocity_.data(), out.data());
   else
-    system_->outer(time_, moved_.data(), moved_velocity_.data());
+    system_->update_loads(time_, moved_.data(), moved_velocity_.data());
   if (!system_->load) return;
   if (matrix_)
     for (std::size_t i = 0; i < out.size(); ++i) store(out[i], load(out[i]) + load(system_->load[i]));
@@ -64,9 +64,9 @@ bool LoadTangent::multiply(const Records& along, Records& out) {
   if (most == 0 || size_ == 0) return false;
   const double epsilon = small_motion * size_ / (most * scales_.by_position);
   move(epsilon, along);
-  take(force_[0]);
+  evaluate_forces(force_[0]);
   move(-epsilon, along);
-  take(force_[1]);
+  evaluate_forces(force_[1]);
   out.assign(along.size(), Record{});
   if (matrix_) matrix_->multiply(along.data(), out.data());
   const Double4 share = splat(0.5 * scales_.share / epsilon);

@@ -54,7 +54,7 @@ public:
 
 private:
   void move(double epsilon, const Records& along);
-  void take(Records& out);
+  void evaluate_forces(Records& out);
   bool add_direction(LinearSolver& linear, std::size_t n, double digits);
   double rotate(std::size_t n);
   void combine(std::size_t count, Records& update);

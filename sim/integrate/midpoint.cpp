@@ -48,7 +48,7 @@ class Midpoint final : public Integrator {
     over_vertices<halfway>(system, step, now, force, middle_);
     system.constrain(time + 0.5 * step, middle_.position.data(), middle_.velocity.data());
     system.forces(time + 0.5 * step, middle_.position.data(), middle_.velocity.data(), force_.data());
-    put_vertices<across>(system, next, step, now, force_.data(), middle_);
+    write_vertices<across>(system, next, step, now, force_.data(), middle_);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

@@ -18,11 +18,11 @@ public:
             .factorisations = linear_.factorisations(),
             .bytes = matrix_.bytes() + linear_.bytes()};
   }
-  std::vector<double> carried() const override; // `carried_numbers`
-  bool carry(std::span<const double> numbers) override;
+  std::vector<double> saved_state() const override; // `saved_numbers`
+  bool restore_state(std::span<const double> numbers) override;
 
 protected:
-  static constexpr std::size_t carried_numbers = 4;
+  static constexpr std::size_t saved_numbers = 4;
 
   // Marks the coordinates that are prescribed at `time` [s] in `axes`, one per vertex slot.
   static void hold(System& system, double time, std::vector<std::uint8_t>& axes);

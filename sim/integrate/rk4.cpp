@@ -79,7 +79,7 @@ class RungeKutta4 final : public Integrator {
     evaluate(system, time + 0.5 * step);
     over_vertices<collect_middle>(system, force_.data(), now, step, sums_, stage_);
     evaluate(system, time + step);
-    put_vertices<finish>(system, next, force_.data(), now, step, sums_, stage_);
+    write_vertices<finish>(system, next, force_.data(), now, step, sums_, stage_);
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 

@@ -28,7 +28,7 @@
 // which also takes the growth of errors into account (II.4, "PI step size control"): stiff bodies keep substeps
 // at the limit of stability, where otherwise every third would be rejected. Both factors are limited to between
 // 1/5 and 5, and to 1 after a repeated substep. The size and the last error are passed on to the next step
-// (carried). A substep below 2^-20 of the step fails (Unsolved).
+// (saved_state). A substep below 2^-20 of the step fails (NotConverged).
 #include "sim/integrate/integrator.h"
 #include "sim/solve/vectors.h"
 
@@ -168,7 +168,7 @@ public:
                State& next) override;
   SolverFigures solver() const override {
     SolverFigures figures;
-    figures.parts = parts_;
+    figures.substeps = substeps_;
     figures.rejected = rejected_;
     return figures;
   }
@@ -177,37 +177,37 @@ public:
     for (const Records& one : acceleration_) sum += bytes_of(one);
     return sum;
   }
-  std::vector<double> carried() const override {
-    return {pace_, error_, static_cast<double>(parts_), static_cast<double>(rejected_)};
+  std::vector<double> saved_state() const override {
+    return {next_size_, error_, static_cast<double>(substeps_), static_cast<double>(rejected_)};
   }
-  bool carry(std::span<const double> numbers) override {
+  bool restore_state(std::span<const double> numbers) override {
     const bool goes_on = numbers[0] > 0 && numbers[1] >= least_error && std::isfinite(numbers[1]);
     if (!goes_on || !is_whole_count(numbers[2]) || !is_whole_count(numbers[3])) return false;
-    pace_ = numbers[0];
+    next_size_ = numbers[0];
     error_ = numbers[1];
-    parts_ = static_cast<long>(numbers[2]);
+    substeps_ = static_cast<long>(numbers[2]);
     rejected_ = static_cast<long>(numbers[3]);
     return true;
   }
 
 private:
-  struct Part {
+  struct Substep {
     double start, size, end; // [s]
     StateView from;
   };
   void derive(System& system, double time, const Record* force, const Record* velocity, std::size_t stage);
-  void cross(System& system, const Part& part);
-  void go_on(System& system, Part& part, double left, double end, double step);
-  double error_of(const System& system, const Part& part, double step) const;
+  void integrate_substep(System& system, const Substep& part);
+  void make_substep(System& system, Substep& part, double left, double end, double step);
+  double error_of(const System& system, const Substep& part, double step) const;
   Stages accelerations() const;
 
   SchemeSettings settings_;
-  double pace_ = std::numeric_limits<double>::infinity(); // [s], maximal size of the next substep
+  double next_size_ = std::numeric_limits<double>::infinity(); // [s], maximal size of the next substep
   double error_ = least_error;               // of the last accepted substep, relative to the tolerance
   State reached_, stage_;                    // at the start of a substep after the first, and within it
   std::array<Records, stages> acceleration_; // [m/s²], one per vertex slot
   std::vector<std::uint8_t> held_;           // constrained axes, one per vertex slot
-  long parts_ = 0, rejected_ = 0;
+  long substeps_ = 0, rejected_ = 0;
 };
 
 Stages RungeKutta45::accelerations() const {
@@ -219,12 +219,12 @@ Stages RungeKutta45::accelerations() const {
 void RungeKutta45::derive(System& system, double time, const Record* force, const Record* velocity,
                           std::size_t stage) {
   std::fill(held_.begin(), held_.end(), std::uint8_t{0});
-  system.hold(time, held_.data());
+  system.mark_prescribed(time, held_.data());
   at_width<accelerate>(system, held_.size(), force, velocity, held_.data(), acceleration_[stage].data());
 }
 
 // Computes a substep into stage_, from the first acceleration.
-void RungeKutta45::cross(System& system, const Part& part) {
+void RungeKutta45::integrate_substep(System& system, const Substep& part) {
   for (std::size_t n = 1; n < stages; ++n) {
     const double time = nodes[n] == 1 ? part.end : part.start + nodes[n] * part.size;
     Record* force = acceleration_[n].data();
@@ -236,7 +236,7 @@ void RungeKutta45::cross(System& system, const Part& part) {
   }
 }
 
-double RungeKutta45::error_of(const System& system, const Part& part, double step) const {
+double RungeKutta45::error_of(const System& system, const Substep& part, double step) const {
   ErrorSums sums;
   at_width<sum_errors>(system.inverse_mass, system.vertices(), part.size, accelerations(), sums);
   if (sums.mass == 0) return 0; // nothing is left of the body
@@ -244,28 +244,28 @@ double RungeKutta45::error_of(const System& system, const Part& part, double ste
   return std::sqrt(square) / (settings_.tolerance * settings_.size);
 }
 
-// Makes one substep, as long as pace_ allows, repeated with smaller sizes until its error is small enough.
-void RungeKutta45::go_on(System& system, Part& part, double left, double end, double step) {
+// Makes one substep, as long as next_size_ allows, repeated with smaller sizes until its error is small enough.
+void RungeKutta45::make_substep(System& system, Substep& part, double left, double end, double step) {
   for (bool again = false;; again = true) {
-    const bool last = pace_ >= left;
-    part.size = last ? left : std::min(pace_, 0.5 * left); // avoids a tiny last substep
+    const bool last = next_size_ >= left;
+    part.size = last ? left : std::min(next_size_, 0.5 * left); // avoids a tiny last substep
     part.end = last ? end : part.start + part.size;
-    cross(system, part);
+    integrate_substep(system, part);
     const double error = error_of(system, part, step);
     const double proposed = part.size * std::min(factor_for(error, error_), again ? 1.0 : most_factor);
     if (error <= 1) { // a substep cut short by the end of the step says nothing about longer ones
-      pace_ = std::min(step, part.size < pace_ ? std::max(pace_, proposed) : proposed);
+      next_size_ = std::min(step, part.size < next_size_ ? std::max(next_size_, proposed) : proposed);
       error_ = std::max(error, least_error);
-      ++parts_;
+      ++substeps_;
       return;
     }
     ++rejected_;
-    pace_ = proposed;
-    if (pace_ < shortest * step)
-      throw Unsolved(std::isfinite(error)
-                         ? "the error is above the tolerance in parts of a millionth of the step"
-                         : "forces are not finite",
-                     "a shorter step of the preset, a larger tolerance, or implicit for what is very stiff");
+    next_size_ = proposed;
+    if (next_size_ < shortest * step)
+      throw NotConverged(
+          std::isfinite(error) ? "the error is above the tolerance in parts of a millionth of the step"
+                               : "forces are not finite",
+          "a shorter step of the preset, a larger tolerance, or implicit for what is very stiff");
   }
 }
 
@@ -275,12 +275,12 @@ void RungeKutta45::advance(System& system, double time, double step, const State
   for (Records& each : acceleration_) each.resize(count);
   held_.resize(count);
   derive(system, time, force, now.velocity, 0);
-  pace_ = std::min(pace_, step);
-  Part part{time, 0, 0, now};
+  next_size_ = std::min(next_size_, step);
+  Substep part{time, 0, 0, now};
   double gone = 0; // [s]
   while (gone < step) {
     stage_.resize(count);
-    go_on(system, part, step - gone, time + step, step);
+    make_substep(system, part, step - gone, time + step, step);
     std::swap(reached_, stage_);
     std::swap(acceleration_.front(), acceleration_.back());
     gone = part.end == time + step ? step : gone + part.size;

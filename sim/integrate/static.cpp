@@ -19,14 +19,14 @@
 // origin that could exceed all forces: it is limited to 1e-6 of them, or to its value within the range of
 // positions of the step under the initial stiffness (a body without forces has no other scale). Newton's method
 // must also find the tangent positive definite, or, if it is not symmetric, without negative eigenvalue
-// (least_resistance.h): a straight strut beyond its buckling load is not accepted. (Not tested with follower
+// (lowest_eigenvalue.h): a straight strut beyond its buckling load is not accepted. (Not tested with follower
 // loads, as for a strip bent to a circle by a moment.) Relaxation decreases the potential, and stays at a
 // saddle point only by symmetry. A component with a free translation is refused, and so is one with a free
 // rotation in a linear model, whose f is not rotation invariant. Once an equilibrium has been found, components
 // that come off are no error: they take their rest shape in place, without loads.
-#include "sim/integrate/footing.h"
-#include "sim/integrate/least_resistance.h"
+#include "sim/integrate/lowest_eigenvalue.h"
 #include "sim/integrate/newton_scheme.h"
+#include "sim/integrate/rigid_motions.h"
 
 #include <fmt/format.h>
 
@@ -56,22 +56,22 @@ public:
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override;
   std::size_t bytes() const override {
-    std::size_t sum = bytes_of(footing_.held) + bytes_of(footing_.loose) + bytes_of(stiff_);
-    for (const Records& one : footing_.room) sum += bytes_of(one);
-    return sum + bytes_with({&position_, &trial_, &start_, &still_, &goal_, &force_, &sum_, &first_sum_, &lead_,
-                             &right_, &update_});
+    std::size_t sum = bytes_of(supports_.held) + bytes_of(supports_.detached) + bytes_of(stiff_);
+    for (const Records& one : supports_.room) sum += bytes_of(one);
+    return sum + bytes_with({&position_, &trial_, &start_, &zeros_, &target_, &force_, &sum_, &first_sum_,
+                             &imposed_, &right_, &update_});
   }
-  bool moves() const override { return false; }
-  std::vector<double> carried() const override {
-    std::vector<double> numbers = NewtonScheme::carried();
-    numbers.push_back(footing_.stood);
-    numbers.push_back(footing_.keeps_turned);
+  bool has_inertia() const override { return false; }
+  std::vector<double> saved_state() const override {
+    std::vector<double> numbers = NewtonScheme::saved_state();
+    numbers.push_back(supports_.found_equilibrium);
+    numbers.push_back(supports_.constrains_rotations);
     return numbers;
   }
-  bool carry(std::span<const double> numbers) override {
-    if (!NewtonScheme::carry(numbers)) return false;
-    footing_.stood = numbers[carried_numbers] != 0;
-    footing_.keeps_turned = numbers[carried_numbers + 1] != 0;
+  bool restore_state(std::span<const double> numbers) override {
+    if (!NewtonScheme::restore_state(numbers)) return false;
+    supports_.found_equilibrium = numbers[saved_numbers] != 0;
+    supports_.constrains_rotations = numbers[saved_numbers + 1] != 0;
     return true;
   }
 
@@ -83,27 +83,27 @@ private:
     return std::isfinite(norm_) && std::isfinite(terms_) && norm_ <= wanted * terms_ + noise_;
   }
   void linearise(const Records& x, Tangent tangent);
-  void aim(double part);
+  void set_right_side(double part);
   double digits(int n, double before) const;
   Found newton(double part);
-  bool stands(bool whole);
+  bool is_stable(bool whole);
   bool in_parts_of_the_way();
   bool loads_first();
   bool direction(Tangent tangent, double sigma, double part);
   bool relax(double part);
-  bool without_turns(const StateView& now);
+  bool without_rotations(const StateView& now);
   [[noreturn]] void give_up() const;
 
   System* system_ = nullptr;
   double end_ = 0; // [s]
 
   // One per vertex slot.
-  Records position_, trial_, start_, still_; // [m]; still_: velocities of 0 [m/s]
-  Records goal_;                             // [m]: prescribed coordinates at the end of the step
+  Records position_, trial_, start_, zeros_; // [m]; zeros_: velocities of 0 [m/s]
+  Records target_;                           // [m]: prescribed coordinates at the end of the step
   Records force_, sum_;                      // [N]: internal; F, 0 at prescribed coordinates
   Records first_sum_;                        // [N]: F at start_
-  Records lead_, right_, update_;            // [m], [N], [m]: u, the right-hand side, δ
-  Footing footing_;                          // constrained coordinates
+  Records imposed_, right_, update_;         // [m], [N], [m]: u, the right-hand side, δ
+  SupportState supports_;                    // constrained coordinates
   double norm_ = 0, terms_ = 0, noise_ = 0;  // [N]: of F, of its terms, and round-off
   std::vector<double> stiff_;                // [N/m]: the largest of each diagonal block; 0: not known yet
   double noise_of_start_ = -1;               // [N]: at most, within reach_ of the origin; < 0: not known yet
@@ -119,19 +119,19 @@ double root_of_sum(Double4 v) {
 void StaticSolve::prepare(System& system, const StateView& now) {
   system_ = &system;
   const std::size_t count = system.vertices();
-  for (Records* each : {&trial_, &force_, &sum_, &lead_, &right_, &update_}) each->resize(count);
-  still_.assign(count, Record{});
+  for (Records* each : {&trial_, &force_, &sum_, &imposed_, &right_, &update_}) each->resize(count);
+  zeros_.assign(count, Record{});
   start_.assign(now.position, now.position + count);
   position_ = start_;
   size_ = extent(start_, system.inverse_mass);
   stiff_.assign(count, 0);
   noise_of_start_ = -1;
-  hold(system, end_, footing_.held);
-  goal_ = start_;
-  trial_ = still_;
-  system.constrain(end_, goal_.data(), trial_.data());
-  reach_ = std::max({largest_coordinate(start_), largest_coordinate(goal_), size_});
-  footing_.check(system, end_, start_, size_, matrix_);
+  hold(system, end_, supports_.held);
+  target_ = start_;
+  trial_ = zeros_;
+  system.constrain(end_, target_.data(), trial_.data());
+  reach_ = std::max({largest_coordinate(start_), largest_coordinate(target_), size_});
+  supports_.check(system, end_, start_, size_, matrix_);
 }
 
 // The round-off of F due to rounding positions at x, with the stiffness last assembled [N].
@@ -147,7 +147,7 @@ double StaticSolve::noise(const Records& x) const {
 // F at x.
 void StaticSolve::evaluate(const Records& x) {
   System& system = *system_;
-  system.forces(end_, x.data(), still_.data(), force_.data());
+  system.forces(end_, x.data(), zeros_.data(), force_.data());
   Double4 left{}, internal{}, outer{};
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double inverse = system.inverse_mass[i];
@@ -155,9 +155,9 @@ void StaticSolve::evaluate(const Records& x) {
     Double4 whole = f;
     if (inverse == 0)
       whole = Double4{};
-    else if (!footing_.loose[i])
+    else if (!supports_.detached[i])
       whole = system.acceleration(i, f, Double4{}) * splat(1 / inverse);
-    const Double4 free_part = free_axes(footing_.held[i]) * whole;
+    const Double4 free_part = free_axes(supports_.held[i]) * whole;
     store(sum_[i], free_part);
     left += free_part * free_part;
     internal += f * f;
@@ -171,7 +171,7 @@ void StaticSolve::evaluate(const Records& x) {
 // Assembles the tangent at x without constraints, and the stiffness used by noise().
 void StaticSolve::linearise(const Records& x, Tangent tangent) {
   matrix_.reset(system_->pattern());
-  system_->add_stiffness(x.data(), still_.data(), tangent, 1, 0, matrix_);
+  system_->add_stiffness(x.data(), zeros_.data(), tangent, 1, 0, matrix_);
   double squares = 0; // [N²/m²]
   for (std::size_t i = 0; i < x.size(); ++i) {
     stiff_[i] = stiffness_of(matrix_.diagonal(i));
@@ -182,25 +182,25 @@ void StaticSolve::linearise(const Records& x, Tangent tangent) {
 }
 
 // Computes the right-hand side F − K u of this load step; then constrains the matrix.
-void StaticSolve::aim(double part) {
+void StaticSolve::set_right_side(double part) {
   const Double4 rest = splat(1 - part);
   bool leads = false;
-  load_tangent_.at(*system_, end_, trial_, still_, footing_.held, {});
+  load_tangent_.at(*system_, end_, trial_, zeros_, supports_.held, {});
   for (std::size_t i = 0; i < position_.size(); ++i) {
-    const Double4 target = load(start_[i]) + splat(part) * (load(goal_[i]) - load(start_[i]));
-    const Double4 u = (Double4{1, 1, 1, 0} - free_axes(footing_.held[i])) * (target - load(trial_[i]));
-    store(lead_[i], u);
+    const Double4 target = load(start_[i]) + splat(part) * (load(target_[i]) - load(start_[i]));
+    const Double4 u = (Double4{1, 1, 1, 0} - free_axes(supports_.held[i])) * (target - load(trial_[i]));
+    store(imposed_[i], u);
     leads = leads || u[0] != 0 || u[1] != 0 || u[2] != 0;
     store(right_[i], load(sum_[i]) - rest * load(first_sum_[i]));
   }
   if (leads) {
-    matrix_.multiply(lead_.data(), update_.data());
+    matrix_.multiply(imposed_.data(), update_.data());
     for (std::size_t i = 0; i < position_.size(); ++i)
-      store(right_[i], free_axes(footing_.held[i]) * (load(right_[i]) - load(update_[i])));
-    if (load_tangent_.multiply(lead_, update_)) add_scaled(1, 1, update_, right_);
+      store(right_[i], free_axes(supports_.held[i]) * (load(right_[i]) - load(update_[i])));
+    if (load_tangent_.multiply(imposed_, update_)) add_scaled(1, 1, update_, right_);
   }
-  matrix_.hold(footing_.held.data());
-  linear_.take(matrix_);
+  matrix_.constrain(supports_.held.data());
+  linear_.set_matrix(matrix_);
 }
 
 // The tolerance of iteration n for an iterative solver: no stricter than quadratic convergence can use.
@@ -211,10 +211,10 @@ double StaticSolve::digits(int n, double before) const {
 }
 
 // Whether the equilibrium at trial_ is stable, if that is tested.
-bool StaticSolve::stands(bool whole) {
+bool StaticSolve::is_stable(bool whole) {
   if (linear_.factorise() == Definiteness::Positive || load_tangent_.counted()) return true;
-  return whole &&
-         least_resistance({*system_, end_, trial_, still_, footing_.held}, matrix_, linear_, load_tangent_) > 0;
+  return whole && lowest_eigenvalue({*system_, end_, trial_, zeros_, supports_.held}, matrix_, linear_,
+                                    load_tangent_) > 0;
 }
 
 // From position_ to the equilibrium of this load step; position_ is unchanged if there is none.
@@ -232,13 +232,13 @@ Found StaticSolve::newton(double part) {
     norm_ = root_of_sum(left);
     if (!std::isfinite(norm_)) return Found::Nothing;
     if (n > 0 && settled()) {
-      if (!stands(whole)) return Found::Unstable;
+      if (!is_stable(whole)) return Found::Unstable;
       position_ = trial_;
       return Found::Equilibrium;
     }
     if (n >= most_newton && norm_ > 0.5 * before[1]) break;
     linearise(trial_, Tangent::Exact);
-    aim(part);
+    set_right_side(part);
     ++newton_;
     whole = whole || (n >= most_symmetric && norm_ > 0.1 * before[0]);
     if (whole) load_tangent_.with_forces(matrix_);
@@ -246,7 +246,7 @@ Found StaticSolve::newton(double part) {
       return n == 0 ? Found::Singular : Found::Nothing;
     if (n == 0 && largest_coordinate(update_) > most_reach * size_ * part) return Found::Singular;
     for (std::size_t i = 0; i < trial_.size(); ++i)
-      store(trial_[i], load(trial_[i]) + load(update_[i]) + load(lead_[i]));
+      store(trial_[i], load(trial_[i]) + load(update_[i]) + load(imposed_[i]));
     before[1] = std::exchange(before[0], norm_);
   }
   return Found::Nothing;
@@ -274,12 +274,12 @@ bool StaticSolve::direction(Tangent tangent, double sigma, double part) {
   for (std::size_t i = 0; i < position_.size(); ++i)
     if (system_->inverse_mass[i] != 0) matrix_.add_diagonal(i, sigma / system_->inverse_mass[i]);
   trial_ = position_;
-  aim(part);
+  set_right_side(part);
   ++newton_;
   if (!linear_.solve(right_, update_, norm_ > near * terms_ ? far_digits : near_digits)) return false;
   if (linear_.definiteness() != Definiteness::Positive) return false;
   for (std::size_t i = 0; i < trial_.size(); ++i)
-    store(trial_[i], load(position_[i]) + load(update_[i]) + load(lead_[i]));
+    store(trial_[i], load(position_[i]) + load(update_[i]) + load(imposed_[i]));
   return true;
 }
 
@@ -287,7 +287,7 @@ bool StaticSolve::direction(Tangent tangent, double sigma, double part) {
 bool StaticSolve::relax(double part) {
   first_sum_.assign(position_.size(), Record{});
   evaluate(position_);
-  linearise(position_, Tangent::Definite);
+  linearise(position_, Tangent::SemiDefinite);
   const double mean = mean_stiffness(matrix_, system_->inverse_mass, position_.size());
   double far = first_sigma * mean,
          close = 1e-6 * mean; // σ of the semi-definite tangent, and of the exact one [1/s²]
@@ -306,7 +306,7 @@ bool StaticSolve::relax(double part) {
       close *= 10;
       exact = false;
     }
-    if (!exact && !direction(Tangent::Definite, far, part)) return false;
+    if (!exact && !direction(Tangent::SemiDefinite, far, part)) return false;
     const double slope = dot(1, right_, update_);
     evaluate(trial_);
     const bool falls = n == 0 || slope + dot(1, sum_, update_) > 0 || norm_ < before; // by the trapezoidal rule
@@ -337,11 +337,11 @@ bool StaticSolve::loads_first() {
 
 // A part that hangs by a hinge after tearing may have no equilibrium, if an average rotation leaves spurious
 // moments: from then on it is treated as torn off.
-bool StaticSolve::without_turns(const StateView& now) {
-  if (!footing_.stood || footing_.keeps_turned ||
-      !can_turn(*system_->pattern(), system_->inverse_mass, footing_.held, start_.data()))
+bool StaticSolve::without_rotations(const StateView& now) {
+  if (!supports_.found_equilibrium || supports_.constrains_rotations ||
+      !can_rotate(*system_->pattern(), system_->inverse_mass, supports_.held, start_.data()))
     return false;
-  footing_.keeps_turned = true;
+  supports_.constrains_rotations = true;
   last_ += most_solved;
   prepare(*system_, now);
   evaluate(start_);
@@ -350,13 +350,13 @@ bool StaticSolve::without_turns(const StateView& now) {
 }
 
 void StaticSolve::give_up() const {
-  const bool turns = can_turn(*system_->pattern(), system_->inverse_mass, footing_.held, start_.data());
+  const bool turns = can_rotate(*system_->pattern(), system_->inverse_mass, supports_.held, start_.data());
   const std::string left =
       fmt::format("no equilibrium was found: {:.2g} of the forces are left after {} iterations", norm_ / terms_,
                   newton_ - (last_ - most_solved));
-  throw Unsolved(turns ? left + ", and what is held lets the body turn as a whole" : left,
-                 turns ? "fix more than a point or a line"
-                       : "let loads and drives grow over more steps, or use implicit with viscosity");
+  throw NotConverged(turns ? left + ", and what is held lets the body turn as a whole" : left,
+                     turns ? "fix more than a point or a line"
+                           : "let loads and drives grow over more steps, or use implicit with viscosity");
 }
 
 void StaticSolve::advance(System& system, double time, double step, const StateView& now, const Record*,
@@ -366,13 +366,13 @@ void StaticSolve::advance(System& system, double time, double step, const StateV
   prepare(system, now);
   evaluate(start_);
   if (!std::isfinite(terms_))
-    throw Unsolved("the forces are larger than numbers go",
-                   "look for a mass, load or stiffness that is too large");
+    throw NotConverged("the forces are larger than numbers go",
+                       "look for a mass, load or stiffness that is too large");
   first_sum_ = sum_;
-  if (!in_parts_of_the_way() && !loads_first() && !relax(1) && !without_turns(now)) give_up();
+  if (!in_parts_of_the_way() && !loads_first() && !relax(1) && !without_rotations(now)) give_up();
   system.constrain(end_, position_.data(), trial_.data()); // exact to the last bit
   for (std::size_t i = 0; i < position_.size(); ++i) next.put(i, load(position_[i]), Double4{});
-  footing_.stood = true;
+  supports_.found_equilibrium = true;
 }
 
 } // namespace

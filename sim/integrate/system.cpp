@@ -5,7 +5,7 @@
 
 namespace rend {
 
-void State::look() {
+void State::probe_all() {
   probe = Double4{};
   for (std::size_t i = 0; i < position.size(); ++i) {
     const Double4 v = load(velocity[i]);
@@ -31,14 +31,14 @@ void System::add_stiffness(const Record*, const Record*, Tangent, double, double
   CHECK_NOTE(false, "a system without stiffness was given to a scheme that solves");
 }
 
-void System::forces_in_stretches(double time, const Record* position, const Record* velocity, Record* force,
-                                 PartWork whole) {
+void System::forces_in_ranges(double time, const Record* position, const Record* velocity, Record* force,
+                              RangeFunction whole) {
   forces(time, position, velocity, force);
   whole(0, vertices());
 }
 
-void System::outer(double, const Record*, const Record*) {}
+void System::update_loads(double, const Record*, const Record*) {}
 
-void System::hold(double, std::uint8_t*) {}
+void System::mark_prescribed(double, std::uint8_t*) {}
 
 } // namespace rend

@@ -42,7 +42,7 @@ struct State {
   // Σ |v|² over all vertex slots written by put() [m²/s²]; not finite if any number of the state is not.
   double motion() const { return probe[0] + probe[1] + probe[2]; }
   bool finite() const { return std::isfinite(motion()); }
-  void look(); // computes it for a state written without put()
+  void probe_all(); // computes it for a state written without put()
   std::size_t bytes() const { return bytes_of(position) + bytes_of(velocity); }
   void store(Archive& archive, std::size_t most); // of at most `most` vertices
   Double4 probe{};
@@ -67,12 +67,12 @@ public:
   // The same for a scheme that updates each vertex as soon as its force is complete: calls whole(begin, end)
   // for ranges of vertex slots that cover all, each once and increasing within a thread; no two threads get
   // slots of the same `stretch`. The default calls it once, for all.
-  virtual void forces_in_stretches(double time, const Record* position, const Record* velocity, Record* force,
-                                   PartWork whole);
-  static constexpr std::size_t stretch = 512; // vertex slots
+  virtual void forces_in_ranges(double time, const Record* position, const Record* velocity, Record* force,
+                                RangeFunction whole);
+  static constexpr std::size_t range_size = 512; // vertex slots
 
   // Updates `load` (external forces) only. By default loads do not depend on the state.
-  virtual void outer(double time, const Record* position, const Record* velocity);
+  virtual void update_loads(double time, const Record* position, const Record* velocity);
 
   // Sets prescribed vertices to their positions and velocities at `time`.
   virtual void constrain(double time, Record* position, Record* velocity) = 0;
@@ -88,7 +88,7 @@ public:
 
   // Which coordinates are prescribed at `time`: bits 0, 1, 2 for x, y, z, one per vertex slot; cleared by the
   // caller.
-  virtual void hold(double time, std::uint8_t* axes);
+  virtual void mark_prescribed(double time, std::uint8_t* axes);
 
   // dv/dt [m/s²] of a free vertex under the internal force f.
   REND_INLINE Double4 acceleration(std::size_t vertex, Double4 f, Double4 v) const {

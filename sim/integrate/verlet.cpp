@@ -43,7 +43,7 @@ class VelocityVerlet final : public Integrator {
     over_vertices<predict>(system, step, now, force, next);
     system.constrain(time + step, next.position.data(), next.velocity.data());
     system.forces(time + step, next.position.data(), next.velocity.data(), force_.data());
-    put_vertices<correct>(system, next, step, now, force_.data());
+    write_vertices<correct>(system, next, step, now, force_.data());
     system.constrain(time + step, next.position.data(), next.velocity.data());
   }
 };

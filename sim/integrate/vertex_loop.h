@@ -13,11 +13,11 @@
 namespace rend {
 
 template <auto loop, class... A> void over_vertices(const System& system, A&&... a) {
-  in_parts(system.parts(), system.vertices(),
-           [&](std::size_t begin, std::size_t end) { at_width<loop>(begin, end, system, a...); });
+  parallel_ranges(system.parts(), system.vertices(),
+                  [&](std::size_t begin, std::size_t end) { at_width<loop>(begin, end, system, a...); });
 }
 
-constexpr std::size_t probed_vertices = System::stretch;
+constexpr std::size_t probed_vertices = System::range_size;
 
 // The probes for so many vertices, all 0; thread-local.
 inline std::vector<Record>& probes_of(std::size_t vertices) {
@@ -27,21 +27,21 @@ inline std::vector<Record>& probes_of(std::size_t vertices) {
 }
 
 // A loop over the vertices of one block or a part of it.
-template <auto loop, class... A> void put_stretch(std::size_t begin, std::size_t end, Record& seen, A&... a) {
+template <auto loop, class... A> void write_range(std::size_t begin, std::size_t end, Record& seen, A&... a) {
   Double4 probe = load(seen);
   at_width<loop>(begin, end, a..., probe);
   store(seen, probe);
 }
 
-template <auto loop, class... A> void put_vertices(const System& system, State& next, A&&... a) {
+template <auto loop, class... A> void write_vertices(const System& system, State& next, A&&... a) {
   const std::size_t count = system.vertices();
   std::vector<Record>& probes = probes_of(count);
   Record* const seen = probes.data(); // a thread_local name would mean another object in another thread
-  in_parts(system.parts(), probes.size(), [&](std::size_t first, std::size_t last) {
+  parallel_ranges(system.parts(), probes.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n)
-      put_stretch<loop>(n * probed_vertices, std::min(count, (n + 1) * probed_vertices), seen[n], system, a...,
+      write_range<loop>(n * probed_vertices, std::min(count, (n + 1) * probed_vertices), seen[n], system, a...,
                         next);
-    if (next.large) finish_streams(); // other threads read them next
+    if (next.large) fence_streams(); // other threads read them next
   });
   for (const Record& one : probes) next.probe += load(one);
 }
@@ -52,12 +52,12 @@ void sweep_vertices(System& system, double time, State& next, double step, const
                     Record* force) {
   std::vector<Record>& probes = probes_of(system.vertices());
   Record* const seen = probes.data();
-  system.forces_in_stretches(time, now.position, now.velocity, force, [&](std::size_t begin, std::size_t end) {
+  system.forces_in_ranges(time, now.position, now.velocity, force, [&](std::size_t begin, std::size_t end) {
     for (std::size_t to = begin; begin < end; begin = to) {
       to = std::min(end, (begin / probed_vertices + 1) * probed_vertices);
-      put_stretch<loop>(begin, to, seen[begin / probed_vertices], system, step, now, force, next);
+      write_range<loop>(begin, to, seen[begin / probed_vertices], system, step, now, force, next);
     }
-    if (next.large) finish_streams();
+    if (next.large) fence_streams();
   });
   for (const Record& one : probes) next.probe += load(one);
 }

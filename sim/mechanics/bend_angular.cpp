@@ -1,7 +1,7 @@
 #include "sim/mechanics/bend_angular.h"
 
 #include "sim/mechanics/hinge_law.h"
-#include "sim/mechanics/young.h"
+#include "sim/mechanics/spring_stiffness.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ struct HingeEmbedding {
     const std::vector<Vec3> rest = rest_positions(body, d, hinge);
     HingePoints x;
     std::copy(rest.begin(), rest.end(), x.begin());
-    return {k(body, d), damping, hinge_angle(x), hinge_least(x)};
+    return {k(body, d), damping, hinge_angle(x), hinge_fade_threshold(x)};
   }
   Value split(const Value& whole) const { return whole; }
 };

@@ -1,7 +1,7 @@
 #include "sim/mechanics/bend_provot.h"
 
 #include "sim/mechanics/spring_law.h"
-#include "sim/mechanics/young.h"
+#include "sim/mechanics/spring_stiffness.h"
 
 namespace rend {
 namespace {

@@ -121,7 +121,7 @@ Census count_elements(const EmbeddedMap& map) {
 }
 
 // See linear_elements().
-struct MadeWhenAsked final : Interaction {
+struct OnDemandUnits final : Interaction {
   const EmbeddedMap* map = nullptr;
   double thickness = 0;
   mutable std::vector<double> values;
@@ -185,7 +185,7 @@ std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map
   for (std::size_t n = 0; n < census.of_kind.size(); ++n) {
     if (census.of_kind[n] == 0) continue;
     const auto kind = static_cast<ElementKind>(n);
-    auto made = std::make_unique<MadeWhenAsked>();
+    auto made = std::make_unique<OnDemandUnits>();
     made->law = element_law(kind, ElasticModel::Linear, Rotation::Polar, request.material);
     made->name = made->law->name();
     made->pattern = pattern_of(shape_of(kind));

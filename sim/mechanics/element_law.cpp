@@ -75,7 +75,7 @@ public:
       D = material().damping * K;
     else
       D.setZero();
-    if (tangent == Tangent::Exact && model() == ElasticModel::Corotational) K += by_turning(at);
+    if (tangent == Tangent::Exact && model() == ElasticModel::Corotational) K += rotation_stiffness(at);
   }
 
   void bound(const double* unit, const Vec3*, const double* mass, double* stiffness,
@@ -101,7 +101,7 @@ private:
   using Corners = Eigen::Matrix<double, 3, N>;
   using Turns = Eigen::Matrix<double, 3 * N, 3>;
 
-  static constexpr bool by_point = turns_by_point(Dim, Points);
+  static constexpr bool by_point = rotates_per_point(Dim, Points);
 
   struct State {
     Decoded<N, Dim, Points> element;
@@ -197,25 +197,25 @@ private:
 
   // −∂f/∂R : ∂R/∂x. If R rotates by ω, −f_n changes by Z_n ω; a displacement of corner m rotates R by L(Ḡ_m)
   // Rᵀ.
-  Whole by_turning(const State& at) const {
+  Whole rotation_stiffness(const State& at) const {
     Turns Z = Turns::Zero();
     if constexpr (by_point) {
       Whole sum = Whole::Zero();
       for (std::size_t g = 0; g < at.element.points.size(); ++g) {
         Z.setZero();
         const Corners& gradient = at.element.points[g].gradient;
-        add_turning(at, g, Z);
-        sum += Z.lazyProduct(turns_of(at.R_at[g], at.x * gradient.transpose(), gradient));
+        add_rotation_stiffness(at, g, Z);
+        sum += Z.lazyProduct(rotation_derivatives(at.R_at[g], at.x * gradient.transpose(), gradient));
       }
       return sum;
     }
-    for (std::size_t g = 0; g < at.element.points.size(); ++g) add_turning(at, g, Z);
-    return Z.lazyProduct(
-        turns_of(at.R, at.mean, at.gradient)); // a plain loop: Eigen's blocked product is for larger matrices
+    for (std::size_t g = 0; g < at.element.points.size(); ++g) add_rotation_stiffness(at, g, Z);
+    return Z.lazyProduct(rotation_derivatives(
+        at.R, at.mean, at.gradient)); // a plain loop: Eigen's blocked product is for larger matrices
   }
 
   // The contribution of one point to Z.
-  void add_turning(const State& at, std::size_t g, Turns& Z) const {
+  void add_rotation_stiffness(const State& at, std::size_t g, Turns& Z) const {
     const auto& point = at.element.points[g];
     const Matrix3d& R = at.frame(g);
     const Matrix3d U = R.transpose() * (at.moving * point.gradient.transpose());
@@ -228,10 +228,10 @@ private:
   }
 
   // L(G_m) Rᵀ for every corner.
-  Eigen::Matrix<double, 3, 3 * N> turns_of(const Matrix3d& R, const Matrix3d& F,
-                                           const Corners& gradient) const {
+  Eigen::Matrix<double, 3, 3 * N> rotation_derivatives(const Matrix3d& R, const Matrix3d& F,
+                                                       const Corners& gradient) const {
     Eigen::Matrix<double, 3, 3 * N> W;
-    const Spin spin(rotation(), R, F);
+    const RotationDerivative spin(rotation(), R, F);
     for (int m = 0; m < N; ++m) W.template block<3, 3>(0, 3 * m) = spin.of(gradient.col(m)) * R.transpose();
     return W;
   }
@@ -289,7 +289,7 @@ bool ElementLaw::write_unit(const Vec3* rest, double thickness, double* unit) co
       shape_->dimension == 2 || (model_ == ElasticModel::Corotational && rotation_ == Rotation::Qr);
   const Eigen::Matrix3d frame = own_axes ? rest_frame(*shape_, rest) : Eigen::Matrix3d::Identity();
   for (int n = 0; n < first_point(); ++n) unit[n] = frame(n % 3, n / 3);
-  const bool by_point = turns_by_point(shape_->dimension, static_cast<int>(shape_->points.size()));
+  const bool by_point = rotates_per_point(shape_->dimension, static_cast<int>(shape_->points.size()));
   if (model_ == ElasticModel::Corotational && by_point && write_element(*shape_, rest, frame, thickness, unit))
     return write_in_tangent_planes(*shape_, rest, frame, thickness, unit);
   return write_element(*shape_, rest, frame, thickness, unit + first_point());

@@ -26,7 +26,7 @@ namespace rend {
 enum class ElasticModel { Linear, Corotational };
 
 // Whether each integration point has its own R instead of that of the average F.
-constexpr bool turns_by_point(int dimension, int points) {
+constexpr bool rotates_per_point(int dimension, int points) {
   return dimension == 2 && points > 1;
 }
 

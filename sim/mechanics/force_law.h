@@ -30,7 +30,7 @@ using UnitMatrix =
 // Which tangent of the force is wanted: the exact one, or a positive semi-definite approximation (without the
 // negative part of the geometric stiffness under compression, and without the derivative of a co-rotational
 // frame), for solvers that need it.
-enum class Tangent { Exact, Definite };
+enum class Tangent { Exact, SemiDefinite };
 
 class ForceLaw {
 public:

@@ -76,7 +76,7 @@ double moment_of(const HingeParameters& p, const HingePoints& x, const HingePoin
 
 } // namespace
 
-double hinge_least(const HingePoints& rest) {
+double hinge_fade_threshold(const HingePoints& rest) {
   const double one = square_of_side(rest, 0), two = square_of_side(rest, 4), smaller = std::min(one, two);
   return crushed * crushed * (smaller > 0 ? smaller : std::max(one, two));
 }
@@ -129,7 +129,7 @@ public:
     const double fade = fade_of(p, x);
     by_position = fade * p.k * gradient * gradient.transpose();
     by_velocity = fade * fade * p.damping * gradient * gradient.transpose();
-    if (tangent == Tangent::Definite) return;
+    if (tangent == Tangent::SemiDefinite) return;
     const double h = 1e-6 * (x[1] - x[0]).norm();
     if (!(h > 0)) return;
     const HingePoints v = points_of(s.velocity);

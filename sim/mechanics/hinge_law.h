@@ -50,7 +50,7 @@ struct HingeParameters {
 };
 static_assert(sizeof(HingeParameters) == 4 * sizeof(double));
 
-double hinge_least(const HingePoints& rest); // the `least` of the parameters, from rest positions
+double hinge_fade_threshold(const HingePoints& rest); // the `least` of the parameters, from rest positions
 
 // θ in (−π, π]. 0 for a side without area or a hinge without length.
 double hinge_angle(const HingePoints& x);

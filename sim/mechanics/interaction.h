@@ -122,10 +122,11 @@ template <int Units> struct UnitEmbedding {
   using Value = std::array<UnitParameters, Units>;
   std::string name;
   Orbit orbit, support;
-  std::function<UnitParameters(const EmbeddedMap&, Dart, int unit)> bear;
+  std::function<UnitParameters(const EmbeddedMap&, Dart, int unit)> parameters_of;
   Value birth(const EmbeddedMap& map, Dart d) const {
     Value value;
-    for (int unit = 0; unit < Units; ++unit) value[static_cast<std::size_t>(unit)] = bear(map, d, unit);
+    for (int unit = 0; unit < Units; ++unit)
+      value[static_cast<std::size_t>(unit)] = parameters_of(map, d, unit);
     return value;
   }
   Value split(const Value& whole) const { return whole; }
@@ -135,13 +136,13 @@ template <int Units> struct UnitEmbedding {
 template <int Units>
 std::unique_ptr<Interaction>
 make_interaction(EmbeddedMap& map, std::string name, std::shared_ptr<const ForceLaw> law, Pattern pattern,
-                 double damping, std::function<UnitParameters(const EmbeddedMap&, Dart, int)> bear) {
+                 double damping, std::function<UnitParameters(const EmbeddedMap&, Dart, int)> parameters_of) {
   struct Carried final : Interaction {
     const Column<UnitEmbedding<Units>>* column = nullptr;
     const double* unit(Slot owner, std::size_t unit) const override { return &(*column)[owner][unit].k; }
   };
   auto made = std::make_unique<Carried>();
-  made->column = &map.add(UnitEmbedding<Units>{name, pattern.owner, pattern.support, std::move(bear)});
+  made->column = &map.add(UnitEmbedding<Units>{name, pattern.owner, pattern.support, std::move(parameters_of)});
   made->name = std::move(name);
   made->law = std::move(law);
   made->pattern = std::move(pattern);

@@ -89,7 +89,8 @@ Matrix3d gram_schmidt(const Matrix3d& F, int dimension) {
   return R;
 }
 
-Spin::Spin(Rotation rotation, const Matrix3d& R, const Matrix3d& F) : rotation_(rotation) {
+RotationDerivative::RotationDerivative(Rotation rotation, const Matrix3d& R, const Matrix3d& F)
+    : rotation_(rotation) {
   const Matrix3d U = R.transpose() * F;
   const double size = U.norm();
   if (rotation == Rotation::Qr) {
@@ -103,7 +104,7 @@ Spin::Spin(Rotation rotation, const Matrix3d& R, const Matrix3d& F) : rotation_(
   if (turns_) matrix_ = H.inverse();
 }
 
-Matrix3d Spin::of(const Vec3& b) const {
+Matrix3d RotationDerivative::of(const Vec3& b) const {
   Matrix3d L = Matrix3d::Zero();
   if (!turns_) return L;
   if (rotation_ == Rotation::Polar) {

@@ -27,9 +27,9 @@ Eigen::Matrix3d gram_schmidt(const Eigen::Matrix3d& F, int dimension); // the sa
 
 // The derivative of R by F. It is taken as 0 where it does not exist (F is rank-deficient, or R is about to
 // flip).
-class Spin {
+class RotationDerivative {
 public:
-  Spin(Rotation rotation, const Eigen::Matrix3d& R, const Eigen::Matrix3d& F);
+  RotationDerivative(Rotation rotation, const Eigen::Matrix3d& R, const Eigen::Matrix3d& F);
   Eigen::Matrix3d of(const Vec3& b) const; // L(b)
 
 private:

@@ -1,7 +1,7 @@
 #include "sim/mechanics/shear_face.h"
 
 #include "sim/mechanics/spring_law.h"
-#include "sim/mechanics/young.h"
+#include "sim/mechanics/spring_stiffness.h"
 #include "sim/topology/walk.h"
 
 namespace rend {

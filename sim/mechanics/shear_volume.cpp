@@ -2,7 +2,7 @@
 
 #include "sim/mechanics/element.h"
 #include "sim/mechanics/spring_law.h"
-#include "sim/mechanics/young.h"
+#include "sim/mechanics/spring_stiffness.h"
 #include "sim/topology/walk.h"
 
 namespace rend {

@@ -1,5 +1,5 @@
 // The springs and hinges of a body, and the material that gives them their stiffness where they have none of
-// their own (thesis 2.20 to 2.22; young.h).
+// their own (thesis 2.20 to 2.22; spring_stiffness.h).
 #pragma once
 
 #include "sim/mechanics/interaction.h"

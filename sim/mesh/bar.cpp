@@ -93,7 +93,7 @@ CellMesh bar_cells(const BarShape& shape) {
   const auto at = [&](int x, int y, int z) {
     return static_cast<std::uint32_t>((z * (shape.ny + 1) + y) * (shape.nx + 1) + x);
   };
-  const bool many = mesh.points.size() >= points_of_few;
+  const bool many = mesh.points.size() >= small_mesh_points;
   for_each_box({shape.nx, shape.ny, shape.nz}, many, [&](int x, int y, int z) {
     add_box(mesh, shape.pattern, x,
             {at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z), at(x, y, z + 1),

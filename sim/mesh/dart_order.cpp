@@ -6,7 +6,7 @@
 
 namespace rend {
 
-std::vector<Dart> laid_out(const GMap& map, const CellShape& shape, Dart d) {
+std::vector<Dart> darts_in_shape_order(const GMap& map, const CellShape& shape, Dart d) {
   std::vector<Dart> image(static_cast<std::size_t>(shape.darts));
   std::vector<std::size_t> reached{0};
   image[0] = d;
@@ -44,7 +44,7 @@ void order_cell(const MapMesh& mesh, std::vector<Dart>& darts) {
     if (static_cast<std::size_t>(shape.darts) != darts.size()) continue;
     for (const Dart d : darts) {
       if (!right_handed(mesh, d)) continue;
-      std::vector<Dart> image = laid_out(mesh.map, shape, d);
+      std::vector<Dart> image = darts_in_shape_order(mesh.map, shape, d);
       if (image.empty()) continue;
       darts = std::move(image);
       return;

@@ -10,7 +10,7 @@ namespace rend {
 
 // The darts of the cell in the order of its shape's table, with d as number 0; empty: the cell of d does not
 // have that shape.
-std::vector<Dart> laid_out(const GMap& map, const CellShape& shape, Dart d);
+std::vector<Dart> darts_in_shape_order(const GMap& map, const CellShape& shape, Dart d);
 
 // order[n]: the dart that gets number n. A cell of another shape keeps the order of its darts.
 std::vector<Dart> cell_order(const MapMesh& mesh);

@@ -94,7 +94,7 @@ std::uint64_t spread(const Elements& elements, const std::vector<std::uint32_t>&
 }
 
 std::vector<std::uint32_t> order_of(const Elements& elements) {
-  if (elements.points.size() < points_of_few || elements.count() == 0 || !fit_to_sew(elements)) return {};
+  if (elements.points.size() < small_mesh_points || elements.count() == 0 || !fit_to_sew(elements)) return {};
   std::vector<std::uint32_t> present(elements.count());
   std::iota(present.begin(), present.end(), 0U);
   std::vector<std::uint32_t> better = along_curve(elements);

@@ -12,7 +12,7 @@
 
 namespace rend {
 
-constexpr std::size_t points_of_few = 8192; // their state fits into a cache, whatever the order
+constexpr std::size_t small_mesh_points = 8192; // their state fits into a cache, whatever the order
 
 // order[n]: the element that becomes number n; empty: the order is good, or the elements are so few that it
 // makes no difference, or they cannot be sewn.

@@ -33,7 +33,7 @@ Element element_of(const EmbeddedMap& body, Dart d, const std::string& name) {
   for (const MshType& type : msh_types) {
     if (type.dimension != 3) continue;
     const CellShape& shape = shape_of(type.kind);
-    const std::vector<Dart> darts = laid_out(map, shape, d);
+    const std::vector<Dart> darts = darts_in_shape_order(map, shape, d);
     if (darts.empty()) continue;
     Element cell{type.number, std::vector<Dart>(static_cast<std::size_t>(shape.corners))};
     for (std::size_t n = 0; n < darts.size(); ++n) cell.corners[shape.corner[n]] = darts[n];

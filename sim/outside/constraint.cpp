@@ -146,29 +146,29 @@ Vec3 Motion::acceleration_at(const Vec3& rest, double time) const {
 
 void Constraints::add(EmbeddedMap& map, const Motion& motion, const std::vector<Slot>& vertices) {
   CHECK(motions_.size() < 64);
-  if (!obedience_) obedience_ = &map.add(Obedience{});
-  for (Slot v : vertices) (*obedience_)[v] |= std::uint64_t{1} << motions_.size();
+  if (!motion_mask_) motion_mask_ = &map.add(MotionMask{});
+  for (Slot v : vertices) (*motion_mask_)[v] |= std::uint64_t{1} << motions_.size();
   motions_.push_back(motion);
   list(map);
 }
 
 void Constraints::list(const EmbeddedMap& map) {
   vertices_.clear();
-  if (!obedience_) return;
+  if (!motion_mask_) return;
   const CellIndex& cells = map.cells(Vertex);
   for (Slot v = 0; v < cells.slots(); ++v)
-    if (cells.alive(v) && (*obedience_)[v] != 0) vertices_.push_back(v);
+    if (cells.alive(v) && (*motion_mask_)[v] != 0) vertices_.push_back(v);
 }
 
 void Constraints::rebind(const EmbeddedMap& map, const Changes& changes) {
-  if (!obedience_ || !changes.any) return;
+  if (!motion_mask_ || !changes.any) return;
   if (changes.whole) return list(map);
   for (Slot v : changes.slots[Vertex.mask]) {
     const auto at = std::lower_bound(vertices_.begin(), vertices_.end(), v);
     const bool listed = at != vertices_.end() && *at == v;
-    const bool obeys = map.cells(Vertex).alive(v) && (*obedience_)[v] != 0;
-    if (obeys && !listed) vertices_.insert(at, v);
-    if (!obeys && listed) vertices_.erase(at);
+    const bool prescribed = map.cells(Vertex).alive(v) && (*motion_mask_)[v] != 0;
+    if (prescribed && !listed) vertices_.insert(at, v);
+    if (!prescribed && listed) vertices_.erase(at);
   }
 }
 
@@ -176,9 +176,9 @@ void Constraints::apply(const EmbeddedMap& map, double time, Record* position, R
   for (Slot vertex : vertices_) {
     const Vec3 rest = map.rest()[vertex];
     Vec3 x = position[vertex], v = velocity[vertex];
-    std::uint64_t obeys = (*obedience_)[vertex];
-    for (std::size_t k = 0; obeys; ++k, obeys >>= 1) {
-      if ((obeys & 1) == 0 || !motions_[k].acts(time)) continue;
+    std::uint64_t mask = (*motion_mask_)[vertex];
+    for (std::size_t k = 0; mask; ++k, mask >>= 1) {
+      if ((mask & 1) == 0 || !motions_[k].acts(time)) continue;
       const Vec3 offset = motions_[k].offset(rest, time), speed = motions_[k].velocity_at(rest, time);
       for (int axis = 0; axis < 3; ++axis) {
         if (!motions_[k].axes[static_cast<std::size_t>(axis)]) continue;
@@ -193,9 +193,9 @@ void Constraints::apply(const EmbeddedMap& map, double time, Record* position, R
 
 void Constraints::mark(double time, std::uint8_t* axes) const {
   for (Slot vertex : vertices_) {
-    std::uint64_t obeys = (*obedience_)[vertex];
-    for (std::size_t k = 0; obeys; ++k, obeys >>= 1) {
-      if ((obeys & 1) == 0 || !motions_[k].acts(time)) continue;
+    std::uint64_t mask = (*motion_mask_)[vertex];
+    for (std::size_t k = 0; mask; ++k, mask >>= 1) {
+      if ((mask & 1) == 0 || !motions_[k].acts(time)) continue;
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (motions_[k].axes[axis]) axes[vertex] |= static_cast<std::uint8_t>(1u << axis);
     }

@@ -75,8 +75,8 @@ Motion motion_of(const FixSettings& settings);
 // UserError: settings that do not fit together.
 Motion motion_of(const DriveSettings& settings);
 
-// The motions a vertex obeys: bit k is motion k.
-struct Obedience {
+// The motions a vertex mask: bit k is motion k.
+struct MotionMask {
   using Value = std::uint64_t;
   std::string name = "prescribed motions";
   Orbit orbit = Vertex;
@@ -102,10 +102,10 @@ public:
   const std::vector<Motion>& motions() const { return motions_; }
   // Calls f(motion) for each motion of the vertex, in the order in which they are applied.
   template <class F> void for_each_motion(Slot vertex, F&& f) const {
-    if (!obedience_) return;
-    std::uint64_t obeys = (*obedience_)[vertex];
-    for (std::size_t k = 0; obeys; ++k, obeys >>= 1)
-      if (obeys & 1) f(motions_[k]);
+    if (!motion_mask_) return;
+    std::uint64_t mask = (*motion_mask_)[vertex];
+    for (std::size_t k = 0; mask; ++k, mask >>= 1)
+      if (mask & 1) f(motions_[k]);
   }
   bool drives() const;                                                           // some motion moves
   std::size_t bytes() const { return bytes_of(motions_) + bytes_of(vertices_); } // without the embedding
@@ -113,8 +113,8 @@ public:
 private:
   void list(const EmbeddedMap& map);
   std::vector<Motion> motions_;
-  Column<Obedience>* obedience_ = nullptr; // null: nothing is prescribed
-  std::vector<Slot> vertices_;             // with some motion
+  Column<MotionMask>* motion_mask_ = nullptr; // null: nothing is prescribed
+  std::vector<Slot> vertices_;                // with some motion
 };
 
 } // namespace rend

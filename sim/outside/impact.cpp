@@ -5,14 +5,14 @@
 
 namespace rend {
 
-Impulse impact(const Vec3& u, const Vec3& normal, double friction, const Vec3& yields) {
+Impulse impact(const Vec3& u, const Vec3& normal, double friction, const Vec3& inverse_masses) {
   Impulse out;
-  const double lost = std::max(0.0, -u.dot(normal)), along = yield_along(normal, yields);
+  const double lost = std::max(0.0, -u.dot(normal)), along = inverse_mass_along(normal, inverse_masses);
   if (lost == 0 || along == 0) return out;
   out.normal = lost / along * normal;
-  const Vec3 after = u + yields.cwiseProduct(out.normal);
+  const Vec3 after = u + inverse_masses.cwiseProduct(out.normal);
   const Vec3 sliding = after - after.dot(normal) * normal;
-  const double square = sliding.squaredNorm(), across = sliding.dot(yields.cwiseProduct(sliding));
+  const double square = sliding.squaredNorm(), across = sliding.dot(inverse_masses.cwiseProduct(sliding));
   if (across > 0)
     out.friction = -std::min(square / across, friction * lost / (along * std::sqrt(square))) * sliding;
   return out;

@@ -19,12 +19,13 @@ struct Impulse {
   Vec3 whole() const { return normal + friction; }
 };
 
-// `u` [m/s], unit `normal`; `yields`: the diagonal of K [1/kg], of both bodies together. 0 if n·K n is 0.
-Impulse impact(const Vec3& u, const Vec3& normal, double friction, const Vec3& yields);
+// `u` [m/s], unit `normal`; `inverse_masses`: the diagonal of K [1/kg], of both bodies together. 0 if n·K n is
+// 0.
+Impulse impact(const Vec3& u, const Vec3& normal, double friction, const Vec3& inverse_masses);
 
 // n·K n: the inverse effective mass along n [1/kg].
-inline double yield_along(const Vec3& normal, const Vec3& yields) {
-  return normal.dot(yields.cwiseProduct(normal));
+inline double inverse_mass_along(const Vec3& normal, const Vec3& inverse_masses) {
+  return normal.dot(inverse_masses.cwiseProduct(normal));
 }
 
 } // namespace rend

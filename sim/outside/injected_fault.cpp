@@ -11,7 +11,7 @@ const char* name_of(StepStage stage) {
   return words[stage];
 }
 
-void FaultySpot::spoil(const double* inverse_mass, std::size_t count, Record* values) {
+void FaultInjector::inject(const double* inverse_mass, std::size_t count, Record* values) {
   std::size_t first = 0;
   while (first < count && inverse_mass[first] == 0) ++first;
   if (first == count) return;
@@ -19,9 +19,9 @@ void FaultySpot::spoil(const double* inverse_mass, std::size_t count, Record* va
   if (!armed_->lasting) disarm();
 }
 
-const Record* FaultySpot::spoil_copy(const double* inverse_mass, std::size_t count, const Record* values) {
+const Record* FaultInjector::inject_copy(const double* inverse_mass, std::size_t count, const Record* values) {
   copy_.assign(values, values + count);
-  spoil(inverse_mass, count, copy_.data());
+  inject(inverse_mass, count, copy_.data());
   return copy_.data();
 }
 

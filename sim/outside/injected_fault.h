@@ -25,7 +25,7 @@ struct Fault {
 };
 
 // The fault state of a body, tested after each of its stages.
-class FaultySpot {
+class FaultInjector {
 public:
   void arm(const Fault& fault) { armed_ = fault; }
   void disarm() { armed_.reset(); }
@@ -33,10 +33,10 @@ public:
 
   // Puts a NaN into the first live record, and is disarmed unless lasting. `inverse_mass` [1/kg], `values`: one
   // per vertex slot.
-  void spoil(const double* inverse_mass, std::size_t count, Record* values);
+  void inject(const double* inverse_mass, std::size_t count, Record* values);
 
   // For loads [N], which are owned by others: returns a copy with the NaN.
-  const Record* spoil_copy(const double* inverse_mass, std::size_t count, const Record* values);
+  const Record* inject_copy(const double* inverse_mass, std::size_t count, const Record* values);
 
 private:
   std::optional<Fault> armed_;

@@ -94,7 +94,7 @@ void Load::share_out(const EmbeddedMap& map) {
   for (double& part : part_) part /= whole_;
   frame_.clear();
   if (!settings_.with_body()) return;
-  if (patch_.of() == Patch::Of::Faces) {
+  if (patch_.of() == Patch::Kind::Faces) {
     frame_ = vertices();
     return;
   }

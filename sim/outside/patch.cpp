@@ -76,7 +76,7 @@ std::vector<bool> chosen(const EmbeddedMap& map, const std::vector<Slot>& vertic
 Patch Patch::of_cells(EmbeddedMap& map, const std::string& name, Orbit orbit, const Found& found) {
   ShareColumn& shares = map.add(Share{name, orbit});
   for (auto [slot, share] : found) shares[slot] = share;
-  return {orbit == FaceOfVolume ? Of::Faces : Of::Edges, shares, map};
+  return {orbit == FaceOfVolume ? Kind::Faces : Kind::Edges, shares, map};
 }
 
 Patch::Found Patch::find_faces(EmbeddedMap& map, const std::vector<Slot>& vertices) {
@@ -119,7 +119,7 @@ Patch Patch::boundary(EmbeddedMap& map, const std::string& name, const std::vect
   const bool sheet = map.dimension() == 2;
   const Found found = sheet ? find_edges(map, vertices) : find_faces(map, vertices);
   if (!found.empty()) return of_cells(map, name, sheet ? EdgeOfFace : FaceOfVolume, found);
-  return {Of::Corners, share_equally(map, name, vertices), map};
+  return {Kind::Corners, share_equally(map, name, vertices), map};
 }
 
 void Patch::rebind(const EmbeddedMap& map) {
@@ -130,9 +130,9 @@ void Patch::rebind(const EmbeddedMap& map) {
   for (Slot s = 0; s < index.slots(); ++s) {
     if (!index.alive(s) || (*shares_)[s] == 0) continue;
     const Dart d = index.first_dart(s);
-    if (of_ == Of::Faces)
+    if (of_ == Kind::Faces)
       vertices_of_face(map, d, (*shares_)[s] < 0, vertices);
-    else if (of_ == Of::Edges)
+    else if (of_ == Kind::Edges)
       vertices = {map.vertex(d), map.vertex(map.map().alpha(0, d))};
     else
       vertices = {map.vertex(d)};
@@ -147,9 +147,9 @@ std::vector<double> Patch::measures(const EmbeddedMap& map) const {
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     x.clear();
     for (Slot v : cells_[c]) x.push_back(map.rest()[v].vec());
-    if (of_ == Of::Corners) {
+    if (of_ == Kind::Corners) {
       out.push_back((*shares_)[map.slot(shares_->orbit(), darts_[c])]);
-    } else if (of_ == Of::Edges) {
+    } else if (of_ == Kind::Edges) {
       out.insert(out.end(), 2, 0.5 * (x[1] - x[0]).norm());
     } else {
       area.resize(x.size());

@@ -47,7 +47,7 @@ void vertices_of_face(const EmbeddedMap& map, Dart d, bool turned, std::vector<S
 
 class Patch {
 public:
-  enum class Of { Faces, Edges, Corners };
+  enum class Kind { Faces, Edges, Corners };
 
   // For a solid the α3-free faces, for a sheet the α2-free edges, all of whose vertices are given. If there are
   // none, the corners of those vertices, with equal shares.
@@ -60,7 +60,7 @@ public:
 
   void rebind(const EmbeddedMap& map); // after edits
 
-  Of of() const { return of_; }
+  Kind of() const { return of_; }
   const CellList& cells() const { return cells_; }
   const std::vector<Dart>& darts() const { return darts_; }               // one dart of each cell
   std::size_t bytes() const { return cells_.bytes() + bytes_of(darts_); } // without the embedding
@@ -74,8 +74,8 @@ private:
   static Found find_edges(EmbeddedMap& map, const std::vector<Slot>& vertices);
   static Patch of_cells(EmbeddedMap& map, const std::string& name, Orbit orbit, const Found& found);
 
-  Patch(Of of, ShareColumn& shares, const EmbeddedMap& map) : of_(of), shares_(&shares) { rebind(map); }
-  Of of_;
+  Patch(Kind of, ShareColumn& shares, const EmbeddedMap& map) : of_(of), shares_(&shares) { rebind(map); }
+  Kind of_;
   ShareColumn* shares_; // 0: not in the patch; faces: −1: reversed orientation
   CellList cells_;
   std::vector<Dart> darts_;

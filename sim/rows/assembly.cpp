@@ -2,7 +2,7 @@
 
 #include "sim/base/check.h"
 #include "sim/base/threads.h"
-#include "sim/rows/gathered.h"
+#include "sim/rows/gathered_row.h"
 
 namespace rend {
 
@@ -83,7 +83,7 @@ void Assembly::add_rows(std::size_t binder, const Record* x, const Record* v, Ta
   const ForceLaw& law = *interaction.law;
   const int particles = law.particles();
   const Record* rest = map_->rest().values().data();
-  thread_local Gathered g;
+  thread_local GatheredRow g;
   thread_local UnitMatrix by_position, by_velocity;
   for (std::size_t block = 0; block < rows.blocks(); ++block) {
     const PackedRows::Range range = rows.range(block);
@@ -116,7 +116,7 @@ void Assembly::add_rows(std::size_t binder, const Record* x, const Record* v, Ta
 void Assembly::add(const Record* position, const Record* velocity, Tangent tangent, double by_position,
                    double by_velocity, BlockMatrix& out) const {
   CHECK(out.pattern() == pattern_);
-  in_parts(program_->parts(), pattern_->rows(), [&](std::size_t low, std::size_t high) {
+  parallel_ranges(program_->parts(), pattern_->rows(), [&](std::size_t low, std::size_t high) {
     for (std::size_t n = 0; n < place_.size(); ++n)
       add_rows(n, position, velocity, tangent, {by_position, by_velocity}, low, high, out);
   });

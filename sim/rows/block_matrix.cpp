@@ -91,13 +91,13 @@ REND_INLINE void multiply_rows(const BlockPattern& p, const Block3* value, std::
 } // namespace
 
 void BlockMatrix::multiply(const Record* x, Record* y) const {
-  in_parts(pattern_->parts, rows(), [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(pattern_->parts, rows(), [&](std::size_t begin, std::size_t end) {
     at_width<multiply_rows>(*pattern_, value_.data(), begin, end, x, y);
   });
 }
 
-void BlockMatrix::hold(const std::uint8_t* axes) {
-  in_parts(pattern_->parts, rows(), [&](std::size_t begin, std::size_t end) {
+void BlockMatrix::constrain(const std::uint8_t* axes) {
+  parallel_ranges(pattern_->parts, rows(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t n = pattern_->start[i]; n < pattern_->start[i + 1]; ++n) {
         const std::uint8_t rows_held = axes[i], columns_held = axes[pattern_->column[n]];

@@ -70,7 +70,7 @@ public:
   // Replaces rows and columns of constrained coordinates by those of the identity. `axes`: bits 0, 1, 2 for x,
   // y, z, one per row. With a right-hand side of 0 there, the solution is that of the free coordinates, and 0
   // at the constrained ones.
-  void hold(const std::uint8_t* axes);
+  void constrain(const std::uint8_t* axes);
 
   std::size_t bytes() const { return value_.size() * sizeof(Block3); }
 

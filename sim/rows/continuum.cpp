@@ -20,8 +20,8 @@ Continuum::Continuum(const EmbeddedMap& map, const std::vector<std::unique_ptr<I
     const auto* tensors = dynamic_cast<const MassTensorLaw*>(law);
     if (!tensors || tensors->particles() != 1) continue; // the tensors of pairs belong to the same elements
     for (auto& made : linear_elements(map, tensors->request())) {
-      parts_.push_back({made.get(), static_cast<const ElementLaw*>(made->law.get()), made_again});
-      again_.push_back(std::move(made));
+      parts_.push_back({made.get(), static_cast<const ElementLaw*>(made->law.get()), recreated});
+      recreated_.push_back(std::move(made));
     }
   }
 }
@@ -32,7 +32,7 @@ const VertexStress::Sum& VertexStress::of_element(Slot element, const Record* x)
   if (place != next) return sums_[place];
   Sum sum{Eigen::Matrix3d::Zero(), 0, 0};
   const Dart d = map_->cells(element_orbit(map_->dimension())).first_dart(element);
-  continuum_->each_of(d, x, nullptr, [&](const Continuum::Part& part, const UnitNow& now) {
+  continuum_->each_of(d, x, nullptr, [&](const Continuum::Part& part, const CurrentUnit& now) {
     sum.stress += stress_of(part, now);
     ++sum.count;
     sum.corners = now.particles;

@@ -11,7 +11,7 @@
 
 #include "sim/mechanics/element_law.h"
 #include "sim/mechanics/mass.h"
-#include "sim/rows/unit_now.h"
+#include "sim/rows/current_unit.h"
 
 namespace rend {
 
@@ -20,9 +20,9 @@ public:
   struct Part {
     const Interaction* interaction;
     const ElementLaw* law;
-    std::size_t index; // among the body's interactions; `made_again`: recreated for mass-tensors
+    std::size_t index; // among the body's interactions; `recreated`: recreated for mass-tensors
   };
-  static constexpr std::size_t made_again = ~std::size_t{0};
+  static constexpr std::size_t recreated = ~std::size_t{0};
 
   Continuum(const EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction>>& interactions);
 
@@ -48,20 +48,20 @@ private:
     const Pattern& pattern = part.interaction->pattern;
     for (std::size_t unit = 0; unit < pattern.units.size(); ++unit) {
       if (!pattern.present(map_->map(), d, unit)) continue;
-      const UnitNow now(*map_, *part.interaction, d, unit, x, v);
+      const CurrentUnit now(*map_, *part.interaction, d, unit, x, v);
       if (now.acts()) f(part, now);
     }
   }
 
   const EmbeddedMap* map_;
-  std::vector<Part> parts_;                         // one per kind of element, in the order of the interactions
-  std::vector<std::unique_ptr<Interaction>> again_; // recreated for mass-tensors
+  std::vector<Part> parts_; // one per kind of element, in the order of the interactions
+  std::vector<std::unique_ptr<Interaction>> recreated_; // recreated for mass-tensors
 };
 
-inline Eigen::Matrix3d stress_of(const Continuum::Part& part, const UnitNow& element) { // σ [Pa]
+inline Eigen::Matrix3d stress_of(const Continuum::Part& part, const CurrentUnit& element) { // σ [Pa]
   return part.law->stress(element.values, element.state());
 }
-inline Eigen::Matrix3d strain_of(const Continuum::Part& part, const UnitNow& element) { // ε
+inline Eigen::Matrix3d strain_of(const Continuum::Part& part, const CurrentUnit& element) { // ε
   return part.law->strain(element.values, element.state());
 }
 

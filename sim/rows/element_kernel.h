@@ -13,7 +13,7 @@
 
 namespace rend::lanes {
 
-enum class Turning { None, Qr, Polar };
+enum class FrameRotation { None, Qr, Polar };
 
 // J⁻¹ of a point: F's column c is Σ_r D_r A[r][c].
 template <int Dim> struct Inverse {
@@ -39,8 +39,8 @@ REND_INLINE Matrix<Dim> gradient_at(int g, const Vector* D, const Inverse<Dim>& 
 
 // w R σ with σ of the strain sym(RᵀF) − I.
 template <int Dim>
-REND_INLINE Matrix<Dim> turned_stress(const Matrix<Dim>& R, const Matrix<Dim>& F, const Double4& weight,
-                                      double lambda, double mu) {
+REND_INLINE Matrix<Dim> rotated_stress(const Matrix<Dim>& R, const Matrix<Dim>& F, const Double4& weight,
+                                       double lambda, double mu) {
   Double4 U[Dim][Dim]; // RᵀF
   for (int r = 0; r < Dim; ++r)
     for (int c = 0; c < Dim; ++c) U[r][c] = dot(R.column[r], F.column[c]);
@@ -86,19 +86,20 @@ REND_INLINE Matrix<Dim> stretched_stress(const Matrix<Dim>& R, const Matrix<Dim>
 // otherwise generate a kernel for each case.
 enum class Damping { No, Yes, Asked };
 
-template <class Shape, Turning turning, Damping damping> struct ElementLanes {
+template <class Shape, FrameRotation turning, Damping damping> struct ElementLanes {
   static constexpr int N = Shape::N, Dim = Shape::dim;
-  static constexpr bool flat = turning == Turning::None && Dim == 2; // a linear sheet stores its rest axes
-  static constexpr bool turned = turning != Turning::None;
-  static constexpr Rotation rotation = turning == Turning::Qr ? Rotation::Qr : Rotation::Polar;
-  static constexpr int frames = turned && turns_by_point(Dim, Shape::points) ? Shape::points : 1;
+  static constexpr bool flat =
+      turning == FrameRotation::None && Dim == 2; // a linear sheet stores its rest axes
+  static constexpr bool turned = turning != FrameRotation::None;
+  static constexpr Rotation rotation = turning == FrameRotation::Qr ? Rotation::Qr : Rotation::Polar;
+  static constexpr int frames = turned && rotates_per_point(Dim, Shape::points) ? Shape::points : 1;
 
   // Forces on the corners of the rows at .. at + 3.
   static REND_INLINE void forces(const KernelArguments& a, const ElasticMaterial& m, std::size_t at,
                                  Vector* f) {
     const double* values = a.rows.lanes_at(at);
     if constexpr (Shape::points == 1) // longer data are prefetched well by the processor
-      for (std::size_t n = 0; n < Inverse<Dim>::stride; n += 8) expect<3072>(values + n);
+      for (std::size_t n = 0; n < Inverse<Dim>::stride; n += 8) prefetch<3072>(values + n);
     Matrix<Dim> R[frames];
     if constexpr (flat) {
       for (int c = 0; c < 2; ++c, values += 12)
@@ -114,7 +115,7 @@ template <class Shape, Turning turning, Damping damping> struct ElementLanes {
       mean_gradient(values, D, F, mean, volume);
     }
     if constexpr (turned)
-      for (int g = 0; g < frames; ++g) turn<rotation, Dim>(frames == 1 ? mean : F[g], volume, R[g]);
+      for (int g = 0; g < frames; ++g) rotations_of<rotation, Dim>(frames == 1 ? mean : F[g], volume, R[g]);
     if (damped) {
       Vector v[N];
       from_first_corner(a.velocity, a, at, v);
@@ -128,10 +129,10 @@ template <class Shape, Turning turning, Damping damping> struct ElementLanes {
       Matrix<Dim> P;
       if constexpr (Dim == 3 && !turned)
         P = stress(F[g], inverse.weight, m.lambda, m.mu);
-      else if constexpr (Shape::points == 1 && turning == Turning::Polar && damping == Damping::No)
+      else if constexpr (Shape::points == 1 && turning == FrameRotation::Polar && damping == Damping::No)
         P = stretched_stress<Dim>(R[0], F[0], inverse.weight, m.lambda, m.mu);
       else
-        P = turned_stress<Dim>(R[frames == 1 ? 0 : g], F[g], inverse.weight, m.lambda, m.mu);
+        P = rotated_stress<Dim>(R[frames == 1 ? 0 : g], F[g], inverse.weight, m.lambda, m.mu);
       for (int r = 0; r < Dim; ++r) {
         Vector& sum = H[Shape::column(g, r)];
         for (int c = 0; c < Dim; ++c) sum = sum + inverse.A[r][c] * P.column[c];
@@ -194,7 +195,7 @@ REND_INLINE void run_blocks(const KernelArguments& a, const ElasticMaterial& m) 
   }
 }
 
-template <class Shape, Turning turning, bool corners>
+template <class Shape, FrameRotation turning, bool corners>
 REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMaterial& m) {
   if constexpr (Shape::points > 1)
     run_blocks<ElementLanes<Shape, turning, Damping::Asked>, corners>(a, m);
@@ -208,11 +209,11 @@ REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMateri
 template <class Shape, bool corners> REND_INLINE void run_elements(const KernelArguments& a) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
   if (law.model() == ElasticModel::Linear)
-    run_damped_or_not<Shape, Turning::None, corners>(a, law.material());
+    run_damped_or_not<Shape, FrameRotation::None, corners>(a, law.material());
   else if (law.rotation() == Rotation::Qr)
-    run_damped_or_not<Shape, Turning::Qr, corners>(a, law.material());
+    run_damped_or_not<Shape, FrameRotation::Qr, corners>(a, law.material());
   else
-    run_damped_or_not<Shape, Turning::Polar, corners>(a, law.material());
+    run_damped_or_not<Shape, FrameRotation::Polar, corners>(a, law.material());
 }
 
 // In one file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`:

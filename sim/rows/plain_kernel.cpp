@@ -1,4 +1,4 @@
-#include "sim/rows/gathered.h"
+#include "sim/rows/gathered_row.h"
 #include "sim/rows/kernels.h"
 
 #include <array>
@@ -10,7 +10,7 @@ namespace {
 template <class F> void each_unit(const KernelArguments& a, std::size_t block, F&& f) {
   const std::size_t begin = a.rows.begin(block), end = begin + a.rows.rows_in(block);
   std::array<Vec3, most_particles> force;
-  thread_local Gathered g;
+  thread_local GatheredRow g;
   for (std::size_t at = begin; at < end; ++at) {
     g.take(a.law, a.rows, at, a.position, a.velocity, a.rest);
     a.law.forces(g.unit(), g.state(), force.data());

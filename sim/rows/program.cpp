@@ -4,7 +4,7 @@
 #include "sim/base/simd.h"
 #include "sim/base/threads.h"
 #include "sim/mechanics/spring_law.h"
-#include "sim/rows/gathered.h"
+#include "sim/rows/gathered_row.h"
 #include "sim/rows/row_times.h"
 #include "sim/rows/spring_sums.h"
 #include "sim/rows/walk_forces.h"
@@ -27,7 +27,7 @@ Program::Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction
   for (Binder& binder : elementary_) binder.bind();
   if (options.timed && !folded_.empty()) folded_times_ = std::make_unique<RowTimes>(folded_.size());
   if (options.timed && !elementary_.empty()) elementary_times_ = std::make_unique<RowTimes>(elementary_.size());
-  weigh_again();
+  recompute_masses();
   map.subscribe(changes_);
 }
 
@@ -36,7 +36,7 @@ Program::~Program() {
 }
 
 int Program::parts() const {
-  return vertices() < 4096 && !options_.small_in_parts ? 1 : options_.threads;
+  return vertices() < 4096 && !options_.parallel_small_bodies ? 1 : options_.threads;
 }
 
 void Program::weigh(Slot vertex) {
@@ -79,16 +79,16 @@ void Program::rebind() {
   tiles_.clear();
   for (Binder& binder : folded_) binder.rebind(changes_);
   for (Binder& binder : elementary_) binder.rebind(changes_);
-  changes_.whole ? weigh_again() : weigh_changed();
+  changes_.whole ? recompute_masses() : update_masses();
   changes_.clear();
 }
 
-void Program::weigh_again() {
+void Program::recompute_masses() {
   weigh_all();
   if (options_.elementary) place_corners();
 }
 
-void Program::weigh_changed() {
+void Program::update_masses() {
   inverse_mass_.resize(map_->cells(Vertex).slots(), 0);
   if (drag_) drag_rate_.resize(inverse_mass_.size(), 0);
   for (Slot v : changes_.slots[Vertex.mask]) weigh(v);
@@ -132,27 +132,28 @@ void Program::forces(const Record* position, const Record* velocity, Record* for
   run({.sums = false, .position = position, .velocity = velocity, .force = force}, 1, nullptr);
 }
 
-bool sums_fit(const std::vector<std::unique_ptr<Interaction>>& interactions, const ProgramOptions& options) {
+bool sums_available(const std::vector<std::unique_ptr<Interaction>>& interactions,
+                    const ProgramOptions& options) {
   return !options.walk && std::all_of(interactions.begin(), interactions.end(),
                                       [](const auto& interaction) { return interaction->law == spring_law(); });
 }
 
 void Program::forces_with_sums(const Record* position, const Record* velocity, Record* force) const {
-  CHECK(sums_fit(*interactions_, options_));
+  CHECK(sums_available(*interactions_, options_));
   run({.sums = true, .position = position, .velocity = velocity, .force = force}, 1, nullptr);
 }
 
-void Program::forces_in_stretches(const Record* position, const Record* velocity, Record* force,
-                                  std::size_t unit, PartWork whole) const {
+void Program::forces_in_ranges(const Record* position, const Record* velocity, Record* force, std::size_t unit,
+                               RangeFunction whole) const {
   CHECK(!options_.walk);
   run({.sums = false, .position = position, .velocity = velocity, .force = force}, unit, &whole);
 }
 
-void Program::run(const Evaluation& what, std::size_t unit, const PartWork* whole) const {
+void Program::run(const Evaluation& what, std::size_t unit, const RangeFunction* whole) const {
   if (tiles_.empty()) find_tiles();
   if (RowTimes* const times = folded_.empty() ? elementary_times_.get() : folded_times_.get()) times->count();
   const std::size_t count = vertices();
-  in_parts(parts(), (count + unit - 1) / unit, [&](std::size_t first, std::size_t last) {
+  parallel_ranges(parts(), (count + unit - 1) / unit, [&](std::size_t first, std::size_t last) {
     run_part(what, first * unit, std::min(count, last * unit), whole);
   });
 }
@@ -177,7 +178,7 @@ void Program::find_tiles() const {
 
 // For vertex slots [begin, end). Forces are set to 0 just before the first tile that adds to them.
 void Program::run_part(const Evaluation& what, std::size_t begin, std::size_t end,
-                       const PartWork* whole) const {
+                       const RangeFunction* whole) const {
   const std::vector<Binder>& binders = rows();
   RowTimes::Laps laps(folded_.empty() ? elementary_times_.get() : folded_times_.get());
   std::size_t cleared = begin, told = begin;
@@ -257,7 +258,7 @@ void Program::corner_forces_at(const std::vector<std::uint8_t>& mark, const Reco
 
 double Program::elastic_energy(const Record* x) const {
   double sum = 0;
-  thread_local Gathered g; // keeps its capacity, since the guard calls this during a run
+  thread_local GatheredRow g; // keeps its capacity, since the guard calls this during a run
   for (const Binder& binder : rows()) {
     const ForceLaw& law = *binder.interaction()->law;
     binder.rows().for_each([&](std::size_t, std::size_t row) {

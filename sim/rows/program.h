@@ -27,8 +27,8 @@ struct ProgramOptions {
   bool fold = true;  // in the folded set: false (cumulated="no") gives every unit a row of its own
   bool walk = false; // evaluate by walking the map, as the thesis did: the slow reference
   int threads = 1;
-  bool timed = false;          // measures the time of the rows of each interaction
-  bool small_in_parts = false; // as many parts as threads even for small bodies: for tests
+  bool timed = false;                 // measures the time of the rows of each interaction
+  bool parallel_small_bodies = false; // as many parts as threads even for small bodies: for tests
 };
 
 class Program {
@@ -44,15 +44,15 @@ public:
 
   // The same, and calls whole(begin, end) for ranges of vertex slots as soon as their forces are complete: the
   // ranges cover all slots, each once. The ranges of threads are multiples of `unit` slots.
-  void forces_in_stretches(const Record* position, const Record* velocity, Record* force, std::size_t unit,
-                           PartWork whole) const;
+  void forces_in_ranges(const Record* position, const Record* velocity, Record* force, std::size_t unit,
+                        RangeFunction whole) const;
 
   // The same from the elementary rows, and the contribution of each element corner as well: one record per
   // corner slot.
   void corner_forces(const Record* position, const Record* velocity, Record* corner, Record* force) const;
 
-  // If sums_fit(): forces() with the same bits, and in each record's fourth lane the sum of the magnitudes of
-  // all single forces on the vertex. The lane must be cleared before others read the forces.
+  // If sums_available(): forces() with the same bits, and in each record's fourth lane the sum of the
+  // magnitudes of all single forces on the vertex. The lane must be cleared before others read the forces.
   void forces_with_sums(const Record* position, const Record* velocity, Record* force) const;
 
   // As corner_forces(), but only at corners of marked vertices; the other records are undefined.
@@ -87,11 +87,11 @@ private:
     const Record *position, *velocity;
     Record* force;
   };
-  void run(const Evaluation& what, std::size_t unit, const PartWork* whole) const;
-  void run_part(const Evaluation& what, std::size_t begin, std::size_t end, const PartWork* whole) const;
+  void run(const Evaluation& what, std::size_t unit, const RangeFunction* whole) const;
+  void run_part(const Evaluation& what, std::size_t begin, std::size_t end, const RangeFunction* whole) const;
   void find_tiles() const;
-  void weigh_again(); // all masses, and the vertices of corners
-  void weigh_changed();
+  void recompute_masses(); // all masses, and the vertices of corners
+  void update_masses();
   void weigh_all();
   void weigh(Slot vertex);
   void place_corners();
@@ -117,6 +117,7 @@ private:
 };
 
 // Whether forces_with_sums() is available: only with springs alone, and not when walking the map.
-bool sums_fit(const std::vector<std::unique_ptr<Interaction>>& interactions, const ProgramOptions& options);
+bool sums_available(const std::vector<std::unique_ptr<Interaction>>& interactions,
+                    const ProgramOptions& options);
 
 } // namespace rend

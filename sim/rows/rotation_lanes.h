@@ -27,8 +27,8 @@ template <int Columns> Eigen::Matrix3d read_lane(const Matrix<Columns>& F, int l
 
 // Computes one lane by the reference; 0 for padding.
 template <Rotation rotation, int Columns>
-[[gnu::noinline]] void turn_lane(Matrix<Columns>& R, const Matrix<Columns>& F, const Double4& weight,
-                                 int lane) {
+[[gnu::noinline]] void rotation_of_lane(Matrix<Columns>& R, const Matrix<Columns>& F, const Double4& weight,
+                                        int lane) {
   const Eigen::Matrix3d f = read_lane(F, lane);
   if (weight[lane] == 0)
     write_lane(R, lane, Eigen::Matrix3d::Zero());
@@ -129,11 +129,11 @@ REND_INLINE Long4 closest_lanes(const Matrix<2>& F, Matrix<2>& R) {
 }
 
 template <Rotation rotation, int Columns>
-REND_INLINE void turn(const Matrix<Columns>& F, const Double4& weight, Matrix<Columns>& R) {
+REND_INLINE void rotations_of(const Matrix<Columns>& F, const Double4& weight, Matrix<Columns>& R) {
   const Long4 done = rotation == Rotation::Qr ? gram_schmidt_lanes(F, R) : closest_lanes(F, R);
   if (all(done)) return;
   for (int lane = 0; lane < 4; ++lane)
-    if (!done[lane]) turn_lane<rotation, Columns>(R, F, weight, lane);
+    if (!done[lane]) rotation_of_lane<rotation, Columns>(R, F, weight, lane);
 }
 
 } // namespace rend::lanes

@@ -74,7 +74,7 @@ double element_operations(const ElementLaw& law, bool damped) {
   const ElementShape& shape = law.shape();
   const double d = shape.dimension, points = static_cast<double>(shape.points.size()), n = shape.corners;
   const bool turned = law.model() == ElasticModel::Corotational;
-  const double frames = !turned ? 0 : turns_by_point(shape.dimension, static_cast<int>(points)) ? points : 1;
+  const double frames = !turned ? 0 : rotates_per_point(shape.dimension, static_cast<int>(points)) ? points : 1;
   const Derivatives derivatives = derivatives_of(shape);
   const double gradient = points * d * (d * scale + (d - 1) * add);
   const double mean = turned && points > 1 ? points * (1 + d * (scale + add)) + 1 + d * scale : 0;

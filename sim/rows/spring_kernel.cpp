@@ -40,9 +40,9 @@ REND_INLINE void run_rows(const KernelArguments& a, std::size_t begin, std::size
   const std::uint32_t *i = a.rows.index(0) + begin, *j = a.rows.index(1) + begin, *last = i + (end - begin);
   const double* values = a.rows.lanes_at(begin);
   for (; i != last; i += 4, j += 4, values += damped ? 12 : 8) {
-    expect<1024>(i);
-    expect<1024>(j);
-    expect<2048>(values);
+    prefetch<1024>(i);
+    prefetch<1024>(j);
+    prefetch<2048>(values);
     Double4 d[4];
     for (int r = 0; r < 4; ++r) d[r] = load(x[j[r]]) - load(x[i[r]]);
     Double4 sum;

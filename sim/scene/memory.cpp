@@ -9,7 +9,7 @@ public:
   void add(const char* part, std::string name, std::string per, std::size_t bytes) {
     if (bytes > 0) all.push_back({part, std::move(name), std::move(per), bytes});
   }
-  std::vector<Holding> all;
+  std::vector<MemoryEntry> all;
 };
 
 void add_map(const EmbeddedMap& map, Gathering& to) {
@@ -51,7 +51,7 @@ const std::vector<std::string>& footprint_parts() {
   return all;
 }
 
-std::vector<Holding> footprint_of(const Body& body) {
+std::vector<MemoryEntry> footprint_of(const Body& body) {
   Gathering to;
   add_map(*body.map, to);
   add_program(*body.program, to);
@@ -67,25 +67,25 @@ std::vector<Holding> footprint_of(const Body& body) {
   return std::move(to.all);
 }
 
-std::vector<Holding> footprint_of(const Scene& scene) {
+std::vector<MemoryEntry> footprint_of(const Scene& scene) {
   Gathering to;
   if (scene.contacts()) to.add("contact", "faces, pairs and touches", "", scene.contacts()->bytes());
   to.add("guard", "a state to go back to", "vertex", scene.guard_bytes());
   return std::move(to.all);
 }
 
-std::size_t bytes_of_part(const std::vector<Holding>& all, const std::string& part) {
+std::size_t bytes_of_part(const std::vector<MemoryEntry>& all, const std::string& part) {
   std::size_t sum = 0;
-  for (const Holding& one : all)
+  for (const MemoryEntry& one : all)
     if (one.part == part) sum += one.bytes;
   return sum;
 }
 
 std::size_t bytes_of_all(const Scene& scene) {
   std::size_t sum = 0;
-  for (const Holding& one : footprint_of(scene)) sum += one.bytes;
+  for (const MemoryEntry& one : footprint_of(scene)) sum += one.bytes;
   for (const auto& body : scene.bodies())
-    for (const Holding& one : footprint_of(*body)) sum += one.bytes;
+    for (const MemoryEntry& one : footprint_of(*body)) sum += one.bytes;
   return sum;
 }
 

@@ -12,7 +12,7 @@
 
 namespace rend {
 
-struct Holding {
+struct MemoryEntry {
   std::string part; // one of footprint_parts()
   std::string name; // of the array, in plain language
   std::string per;  // what it has one entry for ("vertex"); empty: a list of its own length
@@ -23,10 +23,10 @@ struct Holding {
 const std::vector<std::string>& footprint_parts();
 
 // Without empty arrays. Of a body, and of what the bodies of a scene share.
-std::vector<Holding> footprint_of(const Body& body);
-std::vector<Holding> footprint_of(const Scene& scene);
+std::vector<MemoryEntry> footprint_of(const Body& body);
+std::vector<MemoryEntry> footprint_of(const Scene& scene);
 
-std::size_t bytes_of_part(const std::vector<Holding>& all, const std::string& part);
+std::size_t bytes_of_part(const std::vector<MemoryEntry>& all, const std::string& part);
 std::size_t bytes_of_all(const Scene& scene);
 
 } // namespace rend

@@ -25,8 +25,8 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   build_seconds_ = definition.build_seconds;
   for (auto& body : bodies_) {
     body->profile = profile_.get();
-    body->small_in_parts = options.small_in_parts;
-    if (options.births) body->births = std::make_unique<Births>();
+    body->parallel_small_bodies = options.parallel_small_bodies;
+    if (options.count_fragments) body->fragment_counter = std::make_unique<FragmentCounter>();
   }
   check_contact();
   contacts_ = Contacts::of(world_, bodies_);
@@ -252,10 +252,10 @@ void Scene::store(Archive& archive) {
   double step = step_;
   archive(step, steps_done_);
   archive.unbounded(next_answer_);
-  archive(looked_);
+  archive(laws_applied_at_);
   refuse_unless(step == step_, "its steps have another length");
   if (archive.reading())
-    refuse_unless(is_count(steps_done_) && looked_ == steps_done_ - 1, "it is not between two steps");
+    refuse_unless(is_count(steps_done_) && laws_applied_at_ == steps_done_ - 1, "it is not between two steps");
   archive.same(bodies_.size(), "number of bodies");
   for (auto& body : bodies_) body->store(archive, steps_done_, step_);
   archive.same(world_.spheres.size(), "number of spheres");

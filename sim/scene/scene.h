@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/contact/contacts.h"
-#include "sim/guard/trouble.h"
+#include "sim/guard/step_failure.h"
 #include "sim/scene/definition.h"
 
 #include <optional>
@@ -12,11 +12,11 @@ namespace rend {
 struct SceneOptions {
   bool walk = false; // --kernels walk
   int threads = 1;
-  bool births = false; // events count fragments
-  bool guard = true;   // false: failed steps are not redone; a state that is not finite still stops the run
+  bool count_fragments = false; // events count fragments
+  bool guard = true; // false: failed steps are not redone; a state that is not finite still stops the run
   std::optional<Fault> fault = {};
-  bool profile = false;        // every step is timed (base/profile.h)
-  bool small_in_parts = false; // ProgramOptions
+  bool profile = false;               // every step is timed (base/profile.h)
+  bool parallel_small_bodies = false; // ProgramOptions
 };
 
 // Wall clock [s]; those of step() from the scene's profile: `forces` includes loads, `integrate` the solver,
@@ -98,22 +98,22 @@ private:
   double stability_limit() const; // [s]
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
-  Trouble try_step();
-  Trouble nominal_step();
-  Trouble substep(double time, double step); // [s]
+  StepFailure try_step();
+  StepFailure nominal_step();
+  StepFailure substep(double time, double step); // [s]
   void evaluate_forces();
-  Trouble apply_laws();
-  Trouble integrate(double time, double step);        // [s]
-  Trouble resolve_contacts(double time, double step); // [s]
-  void act_by_contacts(double time, double step);
+  StepFailure apply_laws();
+  StepFailure integrate(double time, double step);        // [s]
+  StepFailure resolve_contacts(double time, double step); // [s]
+  void apply_contacts(double time, double step);
   void commit();
   bool finite() const;
-  void redo(Trouble trouble, long entry);
-  bool was_set();
-  void go_back(long step);
+  void redo(StepFailure failure, long entry);
+  bool state_was_set();
+  void return_to(long step);
   void arm_fault();
-  [[noreturn]] void give_up(Trouble trouble, long entry);
-  std::string whose_number(const Body*& body);
+  [[noreturn]] void fail_step(StepFailure failure, long entry);
+  std::string find_non_finite(const Body*& body);
 
   std::string name_;
   World world_;
@@ -130,9 +130,9 @@ private:
   double build_seconds_ = 0, bind_seconds_ = 0;
   std::unique_ptr<Guard> guard_;
   // why the last attempt of the step failed; nullopt: it did not, or it is not finite
-  std::optional<Unsolved> unsolved_;
-  long looked_ = -1;         // steps_done() when the laws were last applied
-  std::vector<State> there_; // scratch, one per body
+  std::optional<NotConverged> not_converged_;
+  long laws_applied_at_ = -1;  // steps_done() when the laws were last applied
+  std::vector<State> current_; // scratch, one per body
   std::optional<Fault> fault_;
 };
 

@@ -15,8 +15,8 @@ bool equal_bytes(const std::vector<Record>& a, const std::vector<Record>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
 }
 
-struct Distrust { // thrown if the state about to be torn is not sound
-  Trouble trouble;
+struct UnsoundState { // thrown if the state about to be torn is not sound
+  StepFailure failure;
 };
 
 } // namespace
@@ -24,48 +24,49 @@ struct Distrust { // thrown if the state about to be torn is not sound
 void Scene::step() {
   const long entry = steps_done_;
   while (steps_done_ <= entry) {
-    const Trouble trouble = try_step();
-    if (trouble != Trouble::None)
-      redo(trouble, entry);
+    const StepFailure failure = try_step();
+    if (failure != StepFailure::None)
+      redo(failure, entry);
     else if (time() >= next_answer_)
       measure_answers();
   }
 }
 
-Trouble Scene::try_step() {
+StepFailure Scene::try_step() {
   if (fault_ && fault_->step <= steps_done_) arm_fault();
   profile_->begin_step(steps_done_);
-  const Trouble trouble = nominal_step();
+  const StepFailure failure = nominal_step();
   profile_->end_step();
-  return trouble;
+  return failure;
 }
 
 // With the number of substeps that the guard asks for. On failure, steps_done() counts the steps completed.
-Trouble Scene::nominal_step() {
-  const int substeps = guard_->parts(steps_done_);
+StepFailure Scene::nominal_step() {
+  const int substeps = guard_->substeps(steps_done_);
   const double step = step_ / substeps;
   for (int n = 0; n < substeps; ++n)
-    if (const Trouble trouble = substep(time() + n * step, step); trouble != Trouble::None) return trouble;
+    if (const StepFailure failure = substep(time() + n * step, step); failure != StepFailure::None)
+      return failure;
   ++steps_done_;
-  unsolved_.reset();
+  not_converged_.reset();
   return guard_->after_step(steps_done_);
 }
 
-Trouble Scene::substep(double time, double step) {
+StepFailure Scene::substep(double time, double step) {
   evaluate_forces();
-  Trouble trouble = apply_laws();
-  if (trouble == Trouble::None) trouble = integrate(time, step);
-  if (trouble == Trouble::None) trouble = resolve_contacts(time, step);
-  if (trouble != Trouble::None) return trouble;
+  StepFailure failure = apply_laws();
+  if (failure == StepFailure::None) failure = integrate(time, step);
+  if (failure == StepFailure::None) failure = resolve_contacts(time, step);
+  if (failure != StepFailure::None) return failure;
   commit();
-  guard_->after_part();
-  return Trouble::None;
+  guard_->after_substep();
+  return StepFailure::None;
 }
 
 // Of the current state; if nobody needs them beforehand, the integrator evaluates them. A timed step separates
 // forces from integration.
 void Scene::evaluate_forces() {
-  const bool wanted = profile_->timed() || guard_->asks_for_forces();
+  const bool wanted = profile_->timed() || guard_->needs_forces();
   for (auto& body : bodies_) {
     if (wanted || !body->may_defer_forces())
       body->evaluate();
@@ -76,49 +77,49 @@ void Scene::evaluate_forces() {
 
 // Laws are applied once per step, however often it is redone. (The guard never rolls back beyond a step that
 // tore.)
-Trouble Scene::apply_laws() {
-  if (steps_done_ == looked_) return Trouble::None;
-  const Within within(profile_.get(), Phase::Criteria);
+StepFailure Scene::apply_laws() {
+  if (steps_done_ == laws_applied_at_) return StepFailure::None;
+  const PhaseScope within(profile_.get(), Phase::Criteria);
   guard_->before_laws(steps_done_);
   const auto sound = [&] {
-    if (const Trouble trouble = guard_->before_change(steps_done_); trouble != Trouble::None)
-      throw Distrust{trouble};
+    if (const StepFailure failure = guard_->before_change(steps_done_); failure != StepFailure::None)
+      throw UnsoundState{failure};
   };
   try {
     for (auto& body : bodies_) body->tear(time(), steps_done_, sound);
-  } catch (const Distrust& distrust) {
-    return distrust.trouble;
+  } catch (const UnsoundState& unsound) {
+    return unsound.failure;
   }
-  looked_ = steps_done_;
+  laws_applied_at_ = steps_done_;
   guard_->after_laws(steps_done_);
-  return Trouble::None;
+  return StepFailure::None;
 }
 
-Trouble Scene::integrate(double time, double step) {
+StepFailure Scene::integrate(double time, double step) {
   for (auto& body : bodies_) {
     try {
       body->advance(time, step);
-    } catch (const Unsolved& error) {
+    } catch (const NotConverged& error) {
       if (!guard_->redoing() && (scheme().solves || !guard_->on())) stop(*body, error.what(), error.hint);
-      unsolved_ = error; // an implicit scheme has already tried substeps
-      return Trouble::NotFinite;
+      not_converged_ = error; // an implicit scheme has already tried substeps
+      return StepFailure::NotFinite;
     }
   }
-  return Trouble::None;
+  return StepFailure::None;
 }
 
 // All bodies are checked before one of them is committed.
-Trouble Scene::resolve_contacts(double time, double step) {
-  act_by_contacts(time, step);
-  return finite() ? Trouble::None : Trouble::NotFinite;
+StepFailure Scene::resolve_contacts(double time, double step) {
+  apply_contacts(time, step);
+  return finite() ? StepFailure::None : StepFailure::NotFinite;
 }
 
-void Scene::act_by_contacts(double time, double step) {
-  const Within within(contacts_ ? profile_.get() : nullptr, Phase::Contact);
+void Scene::apply_contacts(double time, double step) {
+  const PhaseScope within(contacts_ ? profile_.get() : nullptr, Phase::Contact);
   if (contacts_) contacts_->advance(time, step);
   for (auto& body : bodies_) {
-    if (body->faulty.armed(StepStage::Contact)) body->spoil_next();
-    if (body->contact && body->contact->faces()) body->next.look(); // its values after contact
+    if (body->faulty.armed(StepStage::Contact)) body->inject_into_next();
+    if (body->contact && body->contact->faces()) body->next.probe_all(); // its values after contact
   }
 }
 
@@ -149,48 +150,48 @@ bool Scene::finite() const {
 
 // Whether the current state is not the result of the steps since the start of the stretch, because it was set
 // in between: then it is kept, and the saved start is discarded.
-bool Scene::was_set() {
+bool Scene::state_was_set() {
   const long done = steps_done_;
   const double time = bodies_.front()->time();
-  there_.resize(bodies_.size());
+  current_.resize(bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    there_[b].position = bodies_[b]->map->position().values();
-    there_[b].velocity = bodies_[b]->map->velocity().values();
+    current_[b].position = bodies_[b]->map->position().values();
+    current_[b].velocity = bodies_[b]->map->velocity().values();
   }
   const std::vector<Sphere> spheres = world_.spheres;
-  go_back(guard_->go_back());
-  while (steps_done_ < done && try_step() == Trouble::None) continue;
+  return_to(guard_->restore_start());
+  while (steps_done_ < done && try_step() == StepFailure::None) continue;
   bool same = steps_done_ == done;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const EmbeddedMap& map = *bodies_[b]->map;
-    same = same && equal_bytes(map.position().values(), there_[b].position) &&
-           equal_bytes(map.velocity().values(), there_[b].velocity);
+    same = same && equal_bytes(map.position().values(), current_[b].position) &&
+           equal_bytes(map.velocity().values(), current_[b].velocity);
   }
   if (same) return false;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->go_back(there_[b], time);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->restore_state(current_[b], time);
   world_.spheres = spheres;
-  go_back(done);
-  looked_ = done - 1; // nothing tore in between
-  guard_->forget();
+  return_to(done);
+  laws_applied_at_ = done - 1; // nothing tore in between
+  guard_->discard_start();
   return true;
 }
 
-void Scene::redo(Trouble trouble, long entry) {
-  if (!guard_->redoing() && guard_->on() && guard_->has_gone(steps_done_) && was_set()) return;
-  if (const auto step = guard_->again(trouble, steps_done_))
-    go_back(*step);
+void Scene::redo(StepFailure failure, long entry) {
+  if (!guard_->redoing() && guard_->on() && guard_->has_advanced(steps_done_) && state_was_set()) return;
+  if (const auto step = guard_->roll_back(failure, steps_done_))
+    return_to(*step);
   else
-    give_up(trouble, entry);
+    fail_step(failure, entry);
 }
 
-void Scene::go_back(long step) {
-  steps_done_ = looked_ = step;
+void Scene::return_to(long step) {
+  steps_done_ = laws_applied_at_ = step;
   for (auto& body : bodies_) body->faulty.disarm();
   forget_answers();
 }
 
 // Restores the state before the step: from the start of the stretch, repeating its steps.
-void Scene::give_up(Trouble trouble, long entry) {
+void Scene::fail_step(StepFailure failure, long entry) {
   const Body* body = bodies_.front().get();
   std::string what;
   double most = -1;
@@ -204,20 +205,21 @@ void Scene::give_up(Trouble trouble, long entry) {
                        pair->a, pair->b, pair->joined, at.x(), at.y(), at.z());
   }
   if (guard_->on()) {
-    go_back(guard_->go_back());
-    while (steps_done_ < entry && try_step() == Trouble::None) continue;
+    return_to(guard_->restore_start());
+    while (steps_done_ < entry && try_step() == StepFailure::None) continue;
   }
   const std::string parts = guard_->on() ? ", in 1024 parts of the step as well" : "";
-  if (trouble == Trouble::NotFinite && unsolved_) stop(*body, unsolved_->what() + parts, unsolved_->hint);
-  if (trouble == Trouble::NotFinite) what = whose_number(body) + parts;
-  if (trouble == Trouble::Energy)
+  if (failure == StepFailure::NotFinite && not_converged_)
+    stop(*body, not_converged_->what() + parts, not_converged_->hint);
+  if (failure == StepFailure::NotFinite) what = find_non_finite(body) + parts;
+  if (failure == StepFailure::Energy)
     what = "its energy grows beyond what gravity, loads and drives give it" + parts + what;
-  if (trouble == Trouble::Passing) what = "neighbours pass each other within a step" + parts + what;
+  if (failure == StepFailure::PassThrough) what = "neighbours pass each other within a step" + parts + what;
   stop(*body, what);
 }
 
 // Found by making the step once more, stage by stage.
-std::string Scene::whose_number(const Body*& whose) {
+std::string Scene::find_non_finite(const Body*& whose) {
   std::string found;
   const auto look = [&](const Body& body, StepStage stage, const Record* x, const Record* y) {
     for (std::size_t i = 0; i < body.vertices() && found.empty(); ++i) {
@@ -237,8 +239,8 @@ std::string Scene::whose_number(const Body*& whose) {
   const auto look_at_next = [&](StepStage stage) {
     for (auto& body : bodies_) look(*body, stage, body->next.position.data(), body->next.velocity.data());
   };
-  if (found.empty() && integrate(time(), step_) == Trouble::None) look_at_next(StepStage::Integration);
-  if (found.empty()) act_by_contacts(time(), step_);
+  if (found.empty() && integrate(time(), step_) == StepFailure::None) look_at_next(StepStage::Integration);
+  if (found.empty()) apply_contacts(time(), step_);
   if (found.empty()) look_at_next(StepStage::Contact);
   return found.empty() ? "a number of its state is not finite" : found;
 }

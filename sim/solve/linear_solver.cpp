@@ -12,23 +12,23 @@ constexpr int least_iterations = 100, most_iterations = 20'000;
 
 } // namespace
 
-void LinearSolver::take(const BlockMatrix& matrix) {
+void LinearSolver::set_matrix(const BlockMatrix& matrix) {
   matrix_ = &matrix;
   factor_.analyse(matrix.pattern());
   factored_ = preconditioned_ = false;
-  if (hard_ > 0) --hard_;
+  if (direct_left_ > 0) --direct_left_;
 }
 
 bool LinearSolver::factor_fits() const {
   return factor_.blocks() <= most_blocks;
 }
 
-double LinearSolver::worth() const {
+double LinearSolver::factorisation_cost() const {
   return factor_.products() / static_cast<double>(matrix_->pattern()->blocks());
 }
 
 bool LinearSolver::direct() const {
-  return factored_ || ((worth() <= direct_below || hard_ > 0) && factor_fits());
+  return factored_ || ((factorisation_cost() <= direct_below || direct_left_ > 0) && factor_fits());
 }
 
 Definiteness LinearSolver::factorise() {
@@ -44,11 +44,12 @@ Definiteness LinearSolver::factorise() {
 bool LinearSolver::iterate(const Records& b, Records& x, double tolerance) {
   const Precision precision = tolerance < single_from ? Precision::Double : Precision::Single;
   if (!preconditioned_ || (precision == Precision::Double && precision_ == Precision::Single))
-    preconditioned_ = preconditioner_.take(*matrix_, precision_ = precision);
+    preconditioned_ = preconditioner_.set_matrix(*matrix_, precision_ = precision);
   if (!preconditioned_) return false;
-  const int most = !factor_fits()
-                       ? most_iterations
-                       : static_cast<int>(std::clamp<double>(worth(), least_iterations, most_iterations));
+  const int most =
+      !factor_fits()
+          ? most_iterations
+          : static_cast<int>(std::clamp<double>(factorisation_cost(), least_iterations, most_iterations));
   const auto result = gradient_.solve(preconditioner_, matrix_->pattern()->parts, b, x, tolerance, most);
   iterations_ += result.iterations;
   return result.converged;
@@ -57,7 +58,7 @@ bool LinearSolver::iterate(const Records& b, Records& x, double tolerance) {
 bool LinearSolver::solve(const Records& b, Records& x, double tolerance) {
   const bool at_once = direct();
   if (!at_once && iterate(b, x, tolerance)) return true;
-  if (!at_once) hard_ = most_hard;
+  if (!at_once) direct_left_ = direct_streak;
   if (!factor_fits() || factorise() == Definiteness::Singular) return false;
   x.resize(b.size());
   factor_.solve(b.data(), x.data());

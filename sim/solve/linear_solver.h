@@ -18,7 +18,7 @@ namespace rend {
 class LinearSolver {
 public:
   // Sets the matrix, or new values of it; it must not change while it is in use.
-  void take(const BlockMatrix& matrix);
+  void set_matrix(const BlockMatrix& matrix);
 
   // Solves to |b − A x| ≤ tolerance · |b|, if iterative in the norm of conjugate_gradient.h. False: not solved,
   // x is unusable.
@@ -32,15 +32,15 @@ public:
   Definiteness definiteness() const { return factored_ ? definiteness_ : Definiteness::Positive; }
 
   // The state that one solution passes on to the next: which solver is used, and counters (see
-  // Integrator::carried).
-  static constexpr int most_hard = 10; // matrices in a row solved directly after an iteration failed
-  struct Carried {
-    int hard = 0; // at most most_hard
+  // Integrator::saved_state).
+  static constexpr int direct_streak = 10; // matrices in a row solved directly after an iteration failed
+  struct SavedState {
+    int hard = 0; // at most direct_streak
     long iterations = 0, factorisations = 0;
   };
-  Carried carried() const { return {hard_, iterations_, factorisations_}; }
-  void carry(const Carried& from) {
-    hard_ = from.hard;
+  SavedState saved_state() const { return {direct_left_, iterations_, factorisations_}; }
+  void restore_state(const SavedState& from) {
+    direct_left_ = from.hard;
     iterations_ = from.iterations;
     factorisations_ = from.factorisations;
   }
@@ -51,7 +51,7 @@ public:
 
 private:
   bool factor_fits() const;
-  double worth() const; // the cost of a factorisation in iterations
+  double factorisation_cost() const; // the cost of a factorisation in iterations
   bool iterate(const Records& b, Records& x, double tolerance);
 
   const BlockMatrix* matrix_ = nullptr;
@@ -62,7 +62,7 @@ private:
   bool factored_ = false, preconditioned_ = false;
   Precision precision_ = Precision::Double; // of the preconditioner
   Definiteness definiteness_ = Definiteness::Positive;
-  int hard_ = 0; // number of matrices that will still be solved directly
+  int direct_left_ = 0; // number of matrices that will still be solved directly
   long iterations_ = 0, factorisations_ = 0;
 };
 

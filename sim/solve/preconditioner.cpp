@@ -16,7 +16,7 @@ constexpr double least_left = 0.6;  // the share of A_ii that D_i must keep
 
 // Calls f(begin, end) for every range of rows.
 template <class F> void each_range(int parts, std::size_t rows, F&& f) {
-  in_parts(parts, (rows + range - 1) / range, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(parts, (rows + range - 1) / range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) f(n * range, std::min(rows, (n + 1) * range));
   });
 }
@@ -42,7 +42,7 @@ void Preconditioner::shape() {
   order_ = vertex_order(p);
   std::vector<std::uint32_t> place(p.rows());
   for (std::uint32_t k = 0; k < order_.size(); ++k) place[order_[k]] = k;
-  for (Part* part : {&lower_, &upper_, &across_}) *part = Part{{0}, {}, {}, {}, {}};
+  for (Part* part : {&lower_, &upper_, &coupling_}) *part = Part{{0}, {}, {}, {}, {}};
   std::vector<std::pair<std::uint32_t, std::uint32_t>> row; // column, source
   for (std::size_t k = 0; k < p.rows(); ++k) {
     row.clear();
@@ -51,11 +51,11 @@ void Preconditioner::shape() {
     std::sort(row.begin(), row.end());
     for (const auto& [column, source] : row) {
       if (column == k) continue;
-      Part& part = column / range != k / range ? across_ : column < k ? lower_ : upper_;
+      Part& part = column / range != k / range ? coupling_ : column < k ? lower_ : upper_;
       part.column.push_back(column);
       part.source.push_back(source);
     }
-    for (Part* part : {&lower_, &upper_, &across_})
+    for (Part* part : {&lower_, &upper_, &coupling_})
       part->start.push_back(static_cast<std::uint32_t>(part->column.size()));
   }
 }
@@ -71,13 +71,13 @@ void Preconditioner::Part::copy(const BlockMatrix& matrix, std::size_t row, Prec
   }
 }
 
-bool Preconditioner::take(const BlockMatrix& matrix, Precision precision) {
+bool Preconditioner::set_matrix(const BlockMatrix& matrix, Precision precision) {
   if (pattern_ != matrix.pattern()) {
     pattern_ = matrix.pattern();
     shape();
   }
   precision_ = precision;
-  for (Part* part : {&lower_, &upper_, &across_}) {
+  for (Part* part : {&lower_, &upper_, &coupling_}) {
     part->wide.resize(precision == Precision::Double ? part->column.size() : 0);
     part->narrow.resize(precision == Precision::Single ? part->column.size() : 0);
   }
@@ -107,7 +107,7 @@ bool Preconditioner::choose_pivot(std::size_t i, const Block3& own, const Block3
 
 bool Preconditioner::factorise(const BlockMatrix& matrix, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
-    for (Part* part : {&lower_, &upper_, &across_}) part->copy(matrix, i, precision_);
+    for (Part* part : {&lower_, &upper_, &coupling_}) part->copy(matrix, i, precision_);
     const Block3& own = matrix.diagonal(order_[i]);
     Block3 sum{}; // −Σ A_ij D_j⁻¹ A_ji
     for (std::size_t at = lower_.start[i]; at < lower_.start[i + 1]; ++at) {
@@ -209,10 +209,10 @@ void Preconditioner::backward(std::size_t begin, std::size_t end, const Record* 
 void Preconditioner::finish(std::size_t begin, std::size_t end, const Record* t, Record* y,
                             Record* image) const {
   if (precision_ == Precision::Single)
-    at_width<down_and_add<Narrow>>(lower_, lower_.narrow.data(), across_, across_.narrow.data(),
+    at_width<down_and_add<Narrow>>(lower_, lower_.narrow.data(), coupling_, coupling_.narrow.data(),
                                    inverse_pivot_.data(), begin, end, t, y, image);
   else
-    at_width<down_and_add<Block3>>(lower_, lower_.wide.data(), across_, across_.wide.data(),
+    at_width<down_and_add<Block3>>(lower_, lower_.wide.data(), coupling_, coupling_.wide.data(),
                                    inverse_pivot_.data(), begin, end, t, y, image);
 }
 
@@ -237,7 +237,7 @@ std::size_t Preconditioner::Part::bytes() const {
 }
 
 std::size_t Preconditioner::bytes() const {
-  return lower_.bytes() + upper_.bytes() + across_.bytes() + 3 * pivot_.size() * sizeof(Block3) +
+  return lower_.bytes() + upper_.bytes() + coupling_.bytes() + 3 * pivot_.size() * sizeof(Block3) +
          order_.size() * sizeof(std::uint32_t) + work_.size() * sizeof(Record);
 }
 

@@ -39,7 +39,7 @@ class Preconditioner {
 public:
   // Factorises a new matrix. False: some diagonal block is not positive definite, and there is no
   // preconditioner.
-  bool take(const BlockMatrix& matrix, Precision precision);
+  bool set_matrix(const BlockMatrix& matrix, Precision precision);
 
   // Row of the matrix at each position of the vectors below.
   const std::vector<std::uint32_t>& order() const { return order_; }
@@ -72,7 +72,7 @@ private:
   std::shared_ptr<const BlockPattern> pattern_;
   Precision precision_ = Precision::Double;
   std::vector<std::uint32_t> order_;                // row of the matrix at each position
-  Part lower_, upper_, across_;                     // L, Lᵀ, C
+  Part lower_, upper_, coupling_;                   // L, Lᵀ, C
   std::vector<Block3> pivot_, inverse_pivot_, gap_; // D, D⁻¹, diag A − 2D, one per row
   Records work_;                                    // of product()
 };

@@ -8,7 +8,7 @@
 namespace rend {
 namespace {
 
-constexpr std::size_t stretch = 1024; // records
+constexpr std::size_t block = 1024; // records
 
 REND_INLINE double sum_products(const Record* a, const Record* b, std::size_t begin, std::size_t end) {
   Double4 even{}, odd{};
@@ -44,13 +44,13 @@ double largest_coordinate(const Records& x) {
 }
 
 double dot(int parts, const Records& a, const Records& b) {
-  const std::size_t stretches = (a.size() + stretch - 1) / stretch;
+  const std::size_t blocks = (a.size() + block - 1) / block;
   thread_local std::vector<double> partial;
-  partial.assign(stretches, 0);
+  partial.assign(blocks, 0);
   double* const sums = partial.data();
-  in_parts(parts, stretches, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(parts, blocks, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      sums[n] = at_width<sum_products>(a.data(), b.data(), n * stretch, std::min(a.size(), (n + 1) * stretch));
+      sums[n] = at_width<sum_products>(a.data(), b.data(), n * block, std::min(a.size(), (n + 1) * block));
   });
   double sum = 0;
   for (double part : partial) sum += part;
@@ -58,13 +58,13 @@ double dot(int parts, const Records& a, const Records& b) {
 }
 
 void add_scaled(int parts, double s, const Records& x, Records& y) {
-  in_parts(parts, x.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(parts, x.size(), [&](std::size_t begin, std::size_t end) {
     at_width<add_scaled_range>(s, x.data(), y.data(), begin, end);
   });
 }
 
 void scale_and_add(int parts, double s, const Records& x, Records& y) {
-  in_parts(parts, x.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(parts, x.size(), [&](std::size_t begin, std::size_t end) {
     at_width<scale_and_add_range>(s, x.data(), y.data(), begin, end);
   });
 }

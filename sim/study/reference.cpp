@@ -81,7 +81,7 @@ Reference make_reference(const MakeScene& make, const StudyGroup& group, double 
   if (second.run.outcome != Outcome::Done) fail(second);
   figures.second = fmt::format("rk45, tolerance {:g}", tightest);
   figures.second_step =
-      duration / static_cast<double>(std::max(second.run.counts.parts, second.run.steps_done));
+      duration / static_cast<double>(std::max(second.run.counts.substeps, second.run.steps_done));
   figures.second_first_tear = second.run.trajectory.first_tear;
   figures.scheme = "rk4";
   figures.bar = std::numeric_limits<double>::infinity();

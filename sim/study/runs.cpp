@@ -23,7 +23,7 @@ RunCounts counts_of(const Scene& scene) {
     counts.newton += solver.newton;
     counts.cg += solver.cg;
     counts.factorisations += solver.factorisations;
-    counts.parts += solver.parts;
+    counts.substeps += solver.substeps;
     counts.rejected += solver.rejected;
   }
   counts.evaluations = scene.evaluations();
@@ -64,7 +64,7 @@ SampledRun sampled_run(Scene& scene, long steps, const std::function<bool()>& go
       sampler.take(scene);
     }
   } catch (const Unstable& error) {
-    run.outcome = scene.scheme().solves ? Outcome::Unsolved : Outcome::Unstable;
+    run.outcome = scene.scheme().solves ? Outcome::NotConverged : Outcome::Unstable;
     run.reason = short_reason(error.what());
   }
   run.seconds = thread_seconds() - start;

@@ -137,7 +137,7 @@ private:
       if (const auto total = compare(run.trajectory, first_, until))
         row.total_error = total->position.over_time / report_.references.front().scales.length;
     if (row.error <= hopeless) return;
-    row.outcome = Outcome::Astray;
+    row.outcome = Outcome::Inaccurate;
     row.reason = fmt::format("its error is {:.2g} times the motion", row.error);
   }
 
@@ -167,7 +167,7 @@ const char* name_of(Outcome outcome) {
 }
 
 double StudyRow::mean_step() const {
-  const long parts = counts.parts > 0 ? counts.parts : steps;
+  const long parts = counts.substeps > 0 ? counts.substeps : steps;
   return step * static_cast<double>(steps) / static_cast<double>(parts);
 }
 

@@ -46,7 +46,7 @@ struct StudyPlan {
 };
 
 // Astray: it completed, but its error is as large as that of a body that never moved.
-enum class Outcome { Done, Unstable, Unsolved, Astray, Refused };
+enum class Outcome { Done, Unstable, NotConverged, Inaccurate, Refused };
 const char* name_of(Outcome outcome); // "done", "unstable" ...
 
 // Seconds of the time loop alone, in CPU time of its thread.
@@ -60,7 +60,7 @@ struct RunTime {
 struct RunCounts {
   long evaluations = 0; // of the forces
   long newton = 0, cg = 0, factorisations = 0;
-  long parts = 0, rejected = 0; // of adaptive schemes
+  long substeps = 0, rejected = 0; // of adaptive schemes
 };
 
 struct StudyRow {

@@ -87,7 +87,7 @@ bool sew(MapEdit& edit, int i, Dart d, Dart e) {
   const GMap& map = edit.map();
   if (i == 3 && map.dimension() == 2) return false;
   thread_local Pairs pairs;
-  if (!pair_orbits(map, parallel_to(i), d, e, pairs)) return false;
+  if (!pair_orbits(map, sewing_orbit(i), d, e, pairs)) return false;
   for (const auto& [a, b] : pairs.list) {
     if (!map.is_free(i, a) || !map.is_free(i, b) || a == b) return false;
     // If the two orbits coincide (an edge sewn to itself), a pair and its mirror image must agree.
@@ -112,7 +112,7 @@ bool unsew(MapEdit& edit, int i, Dart d) {
     edit.note(i, pairs);
     count = 0;
   };
-  switch (i) { // parallel_to(i), none of whose links is αi
+  switch (i) { // sewing_orbit(i), none of whose links is αi
   case 0:
     walk_two(map, 2, 3, d, open);
     break;

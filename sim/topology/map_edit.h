@@ -84,7 +84,7 @@ bool sew(MapEdit& edit, int i, Dart d, Dart e);
 bool unsew(MapEdit& edit, int i, Dart d);
 
 // The orbit along which αi is sewn: <0..i-2, i+2..3>.
-constexpr Orbit parallel_to(int i) {
+constexpr Orbit sewing_orbit(int i) {
   Orbit orbit;
   for (int j = 0; j < 4; ++j)
     if (j <= i - 2 || j >= i + 2) orbit.mask = static_cast<std::uint8_t>(orbit.mask | 1 << j);

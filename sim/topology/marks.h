@@ -26,7 +26,7 @@ public:
     return true;
   }
   // Where all marks are cleared one after another, the whole word may be cleared at once.
-  void take_around(std::uint32_t index) { words_[index / 64] = 0; }
+  void clear_word(std::uint32_t index) { words_[index / 64] = 0; }
 
 private:
   std::vector<std::uint64_t> words_;

@@ -10,7 +10,7 @@ void collect(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out) {
   marks.fit(map.capacity());
   const std::size_t begin = out.size();
   if (!append_orbit(map, orbit, d, out, marks)) return;
-  for (std::size_t n = begin; n < out.size(); ++n) marks.take_around(out[n].value);
+  for (std::size_t n = begin; n < out.size(); ++n) marks.clear_word(out[n].value);
 }
 
 void collect_marked(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out, Marks& marks) {

@@ -64,7 +64,7 @@ struct System4 {
     Body& body = scene.body();
     matrix.reset(body.pattern());
     body.add_stiffness(body.map->position().values().data(), body.map->velocity().values().data(),
-                       Tangent::Definite, 1e-4, 1e-2, matrix);
+                       Tangent::SemiDefinite, 1e-4, 1e-2, matrix);
     for (std::size_t i = 0; i < body.vertices(); ++i) matrix.add_diagonal(i, 1 / body.inverse_mass[i]);
     right.assign(body.vertices(), Record(0, 0, -9.81));
   }
@@ -75,7 +75,7 @@ void solve_by_iterations(benchmark::State& state) {
   Preconditioner preconditioner;
   ConjugateGradient gradient;
   for (auto _ : state) {
-    preconditioner.take(s.matrix, Precision::Double);
+    preconditioner.set_matrix(s.matrix, Precision::Double);
     state.counters["cg"] = gradient.solve(preconditioner, 1, s.right, s.solution, 1e-4, 10000).iterations;
   }
 }

@@ -75,7 +75,7 @@ BENCHMARK_CAPTURE(unsew_faces, single, false)->Name("figure/unsew3_one_face")->U
 // none).
 void bytes_of_tetrahedra(benchmark::State& state, std::size_t n) {
   const std::unique_ptr<Body> body = elements::elastic_body(block(true), {});
-  body->border = &body->map->add(BornBorder(3));
+  body->border = &body->map->add(InitialBorder(3));
   const std::vector<Dart> inner = inner_faces(body->map->map());
   for (auto _ : state)
     body->map->edit([&](Edit& edit) {

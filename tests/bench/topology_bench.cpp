@@ -141,7 +141,7 @@ struct TornCube {
   std::vector<Dart> cracks; // faces normal to x, plane after plane, row by row: as a crack grows
 
   explicit TornCube(int n) : body(elements::elastic_body(cube(n), {})) {
-    body->border = &body->map->add(BornBorder(3));
+    body->border = &body->map->add(InitialBorder(3));
     body->map->subscribe(body->changes);
     body->map->reserve_for_separations();
     body->program->reserve_for_separations();
@@ -227,7 +227,7 @@ void number_anew(benchmark::State& state) {
     map.store(again);
     cube.follow();
     state.ResumeTiming();
-    map.number_anew();
+    map.renumber();
     if (state.range(1) != 0) cube.follow();
   }
   state.counters["vertices"] = static_cast<double>(map.cells(Vertex).count());

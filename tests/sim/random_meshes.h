@@ -155,7 +155,7 @@ inline std::unique_ptr<Body> body(const PolygonMesh& mesh, const Recipe& recipe 
   }
   if (recipe.fixed) made->constraints.add(*made->map, Motion{}, {made->map->vertex(Dart{0u})});
   made->cumulated = recipe.cumulated;
-  if (!recipe.criteria.empty()) made->border = &made->map->add(BornBorder{});
+  if (!recipe.criteria.empty()) made->border = &made->map->add(InitialBorder{});
   for (const std::string& name : recipe.criteria) {
     const LawSettings settings = law(name, recipe.threshold);
     made->tear_laws.emplace_back(made->request_for(settings), settings);

@@ -157,7 +157,7 @@ struct ShownBar {
                                  look + R"(</body><time step="1e-3" duration="1"/></scene>)",
                              "bar.xml");
     scene = std::make_unique<Scene>(read_scene(*preset), SceneOptions{});
-    body().border = &body().map->add(BornBorder(3));
+    body().border = &body().map->add(InitialBorder(3));
     maker = std::make_unique<PictureMaker>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
   }
   Body& body() { return *scene->bodies()[0]; }

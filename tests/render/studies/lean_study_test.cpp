@@ -3,7 +3,7 @@
 #include "render/picture/scene_preset.h"
 #include "render/studies/lean_study.h"
 #include "sim/build/build_scene.h"
-#include "sim/study/bare_loop.h"
+#include "sim/study/minimal_loop.h"
 #include "tests/render/commands/program_run.h"
 
 #include <gmock/gmock.h>
@@ -63,13 +63,13 @@ TEST(LeanStudy, what_is_not_asked_for_takes_no_bytes) {
   EXPECT_EQ(scenes, 2);
 }
 
-TEST(BareLoop, goes_as_the_scene_does) {
+TEST(MinimalLoop, goes_as_the_scene_does) {
   for (const char* integrator : {"symplectic", "verlet", "rk4"}) {
     const auto preset =
         load_scene_text(lean_scenes()[0].text, "p",
                         std::vector<Override>{{"body.sheet.cells", "8 8"}, {"time.integrator", integrator}});
     Scene scene(read_scene(*preset), {}), same(read_scene(*preset), {});
-    BareLoop bare(same);
+    MinimalLoop bare(same);
     for (int n = 0; n < 100; ++n) {
       scene.step();
       bare.step();

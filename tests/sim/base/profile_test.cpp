@@ -24,11 +24,11 @@ TEST(Profile, gives_each_second_to_the_innermost_phase) {
   Profile profile(Profile::Extent::EveryStep);
   double inside = 0;
   {
-    const Within integration(&profile, Phase::Integration);
+    const PhaseScope integration(&profile, Phase::Integration);
     const auto start = Clock::now();
     std::this_thread::sleep_for(5ms);
     {
-      const Within forces(&profile, Phase::Forces);
+      const PhaseScope forces(&profile, Phase::Forces);
       std::this_thread::sleep_for(20ms);
     }
     std::this_thread::sleep_for(5ms);
@@ -50,12 +50,12 @@ TEST(Profile, gives_each_second_to_the_innermost_phase) {
 TEST(Profile, forgets_what_was_before) {
   Profile profile(Profile::Extent::EveryStep);
   {
-    const Within guard(&profile, Phase::Guard);
+    const PhaseScope guard(&profile, Phase::Guard);
     std::this_thread::sleep_for(2ms);
   }
   profile.restart();
   EXPECT_EQ(profile.total(), 0);
-  const Within forces(&profile, Phase::Forces);
+  const PhaseScope forces(&profile, Phase::Forces);
   EXPECT_EQ(profile.spent(Phase::Forces).turns, 1);
   EXPECT_EQ(profile.spent(Phase::Guard).turns, 0);
 }
@@ -67,14 +67,14 @@ TEST(Profile, takes_the_reading_of_the_clock_off) {
   double least = 1;
   for (int tries = 0; tries < 50; ++tries) {
     profile.restart();
-    for (int n = 0; n < 2000; ++n) const Within forces(&profile, Phase::Forces);
+    for (int n = 0; n < 2000; ++n) const PhaseScope forces(&profile, Phase::Forces);
     least = std::min(least, profile.spent(Phase::Forces).seconds);
   }
   EXPECT_LT(least, 2000 * profile.reading()); // almost nothing was done
 }
 
 TEST(Profile, that_nobody_asks_for_is_no_profile) {
-  const Within nothing(nullptr, Phase::Forces);
+  const PhaseScope nothing(nullptr, Phase::Forces);
 }
 
 TEST(Profile, times_one_step_in_sixteen_and_changes_of_topology_in_all) {
@@ -82,9 +82,10 @@ TEST(Profile, times_one_step_in_sixteen_and_changes_of_topology_in_all) {
   for (long step = 0; step < 32; ++step) {
     profile.begin_step(step);
     {
-      const Within forces(&profile, Phase::Forces);
-      const Within changes(&profile, Phase::Changes);
-      const Within inside(&profile, Phase::Forces); // nested: no time of its own in steps that are not sampled
+      const PhaseScope forces(&profile, Phase::Forces);
+      const PhaseScope changes(&profile, Phase::Changes);
+      const PhaseScope inside(&profile,
+                              Phase::Forces); // nested: no time of its own in steps that are not sampled
     }
     profile.end_step();
   }

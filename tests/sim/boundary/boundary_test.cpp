@@ -13,16 +13,16 @@ namespace {
 
 struct SeenFace {
   Dart first;
-  bool turned, bare;
+  bool turned, exposed;
   std::vector<Slot> vertices;
   bool operator==(const SeenFace&) const = default;
 };
 
 std::vector<SeenFace> faces_of(const Boundary& boundary) {
   std::vector<SeenFace> all;
-  boundary.for_each_face([&](const DrawnFaces::Face& face, std::span<const Slot> vertices) {
+  boundary.for_each_face([&](const BoundaryFaces::Face& face, std::span<const Slot> vertices) {
     EXPECT_EQ(face.sides, vertices.size());
-    all.push_back({face.first, face.turned, face.bare, {vertices.begin(), vertices.end()}});
+    all.push_back({face.first, face.turned, face.exposed, {vertices.begin(), vertices.end()}});
   });
   return all;
 }
@@ -54,7 +54,7 @@ TEST(Boundary, has_the_faces_that_a_walk_over_the_map_finds_whatever_tears) {
     for (int n = 0; n < 8; ++n) {
       body->evaluate();
       body->tear(n, n, [] {});
-      if (n % 3 == 2) body->map->number_anew();
+      if (n % 3 == 2) body->map->renumber();
       body->rebind();
       EXPECT_EQ(faces_of(body->boundary()), walked(*body)) << n;
     }

@@ -1,7 +1,7 @@
 #include "sim/boundary/hull.h"
 
 #include "sim/assets.h"
-#include "sim/boundary/drawn_faces.h"
+#include "sim/boundary/boundary_faces.h"
 #include "sim/boundary/solids.h"
 #include "sim/mechanics/interaction.h"
 #include "sim/topology/walk.h"
@@ -82,15 +82,15 @@ TEST(Hull, ends_at_the_rim_of_an_open_volume) {
       [&](Dart d) { EXPECT_TRUE(!map.is_free(3, d) || across_hull_edge(map, across_hull_edge(map, d)) == d); });
 }
 
-TEST(DrawnFaces, are_the_same_in_whatever_order_they_came) {
+TEST(BoundaryFaces, are_the_same_in_whatever_order_they_came) {
   const auto face = [](std::uint32_t key, std::uint32_t sides) {
-    return DrawnFaces::Face{Dart{key}, false, false, sides};
+    return BoundaryFaces::Face{Dart{key}, false, false, sides};
   };
   const auto corners = [](std::uint32_t key, std::uint32_t sides) {
-    return std::vector<DrawnFaces::Corner>(sides, {key, Dart{key}, Side::Cell});
+    return std::vector<BoundaryFaces::Corner>(sides, {key, Dart{key}, LineKind::Cell});
   };
   std::map<std::uint32_t, std::uint32_t> expected; // key → sides
-  DrawnFaces drawn;
+  BoundaryFaces drawn;
   drawn.resize(1000);
   std::mt19937 random(4);
   for (int n = 0; n < 3000; ++n) {
@@ -102,13 +102,13 @@ TEST(DrawnFaces, are_the_same_in_whatever_order_they_came) {
     drawn.set(face(key, sides), corners(key, sides));
     expected[key] = sides;
   }
-  DrawnFaces anew;
+  BoundaryFaces anew;
   anew.resize(1000);
   for (const auto& [key, sides] : expected) anew.set(face(key, sides), corners(key, sides));
   EXPECT_TRUE(drawn == anew);
   EXPECT_EQ(drawn.count(), expected.size());
   auto at = expected.begin();
-  drawn.for_each([&](const DrawnFaces::Face& f, std::span<const DrawnFaces::Corner> c) {
+  drawn.for_each([&](const BoundaryFaces::Face& f, std::span<const BoundaryFaces::Corner> c) {
     EXPECT_EQ(f.first.value, at->first);
     EXPECT_EQ(c.size(), at->second);
     for (const auto& corner : c) EXPECT_EQ(corner.vertex, at->first);

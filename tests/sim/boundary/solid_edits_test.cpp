@@ -26,13 +26,13 @@ public:
     });
     for (Dart first : faces_) {
       for (Dart d : darts_of(map_, FaceOfVolume, first)) parent_[d] = smallest_dart(map_, VertexOfFace, d);
-      bare_[first] = !born_free.contains(first);
+      exposed_[first] = !born_free.contains(first);
     }
     for (const auto& each : std::map(parent_)) join_across(each.first);
   }
 
   const std::vector<Dart>& faces() const { return faces_; }
-  bool bare(Dart first) const { return bare_.at(first); }
+  bool exposed(Dart first) const { return exposed_.at(first); }
 
   // Twice the area vector at rest or now, pointing away from the cell's centre.
   Vec3 outward(Dart d, bool rest) const {
@@ -71,16 +71,16 @@ public:
 
   Dart group(Dart d) {
     const Dart first = smallest_dart(map_, FaceOfVolume, d);
-    if (bare_.at(first)) return first;
+    if (exposed_.at(first)) return first;
     Dart at = parent_.at(d);
     while (parent_.at(at) != at) at = parent_.at(at);
     return at;
   }
 
-  Side side(Dart d) const {
+  LineKind side(Dart d) const {
     const Dart other = neighbour(d);
     const Dart f = smallest_dart(map_, FaceOfVolume, d), g = smallest_dart(map_, FaceOfVolume, other);
-    return bare_.at(f) != bare_.at(g) || angle(d, other) > 40 ? Side::Crease : Side::Cell;
+    return exposed_.at(f) != exposed_.at(g) || angle(d, other) > 40 ? LineKind::Crease : LineKind::Cell;
   }
 
 private:
@@ -118,7 +118,7 @@ private:
   void join_across(Dart d) {
     const Dart other = neighbour(d);
     const Dart f = smallest_dart(map_, FaceOfVolume, d), g = smallest_dart(map_, FaceOfVolume, other);
-    if (other == d || bare_.at(f) || bare_.at(g) || angle(d, other) > 40) return;
+    if (other == d || exposed_.at(f) || exposed_.at(g) || angle(d, other) > 40) return;
     const Dart a = group(d), b = group(other);
     parent_.at(std::max(a, b)) = std::min(a, b);
   }
@@ -126,7 +126,7 @@ private:
   const Body& body_;
   const GMap& map_;
   std::vector<Dart> faces_;
-  std::map<Dart, bool> bare_;
+  std::map<Dart, bool> exposed_;
   std::map<Dart, Dart> parent_;
 };
 
@@ -148,14 +148,14 @@ void expect_equal(SolidSurface& surface, const Body& body, BruteForce&& brute) {
   for (Dart first : brute.faces()) {
     ASSERT_TRUE(faces.contains(first));
     Vec3 area = Vec3::Zero();
-    std::map<std::pair<Slot, Slot>, Side> sides;
+    std::map<std::pair<Slot, Slot>, LineKind> sides;
     std::map<Slot, Vec3> drawn;
     for (const Triangle& t : faces[first]) {
-      EXPECT_EQ(t.bare, brute.bare(first));
+      EXPECT_EQ(t.exposed, brute.exposed(first));
       area += 2 * area_vector(body, t);
       for (std::size_t k = 0; k < 3; ++k) {
         drawn[t.vertex[k]] = normals[t.corner[k]];
-        if (t.side[k] != Side::Inner)
+        if (t.side[k] != LineKind::Inner)
           sides[std::minmax(t.vertex[(k + 1) % 3], t.vertex[(k + 2) % 3])] = t.side[k];
       }
     }

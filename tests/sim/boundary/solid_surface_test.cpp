@@ -112,12 +112,12 @@ TEST(SolidSurface, of_a_bar_has_sharp_edges_between_flat_sides) {
       EXPECT_NEAR(flat.cwiseAbs().maxCoeff(), 1, 1e-12); // along an axis
       for (std::uint32_t c : t.corner) EXPECT_NEAR((normals[c] - flat).norm(), 0, 1e-12);
       for (std::size_t k = 0; k < 3; ++k) {
-        if (t.side[k] == Side::Inner) continue;
+        if (t.side[k] == LineKind::Inner) continue;
         const Vec3 x = place(*body, t.vertex[(k + 1) % 3]), y = place(*body, t.vertex[(k + 2) % 3]);
         int planes = 0; // sides of the bar that contain the edge
         for (int axis = 0; axis < 3; ++axis)
           planes += x[axis] == y[axis] && (x[axis] == 0 || x[axis] == (axis == 0 ? 4 : 2));
-        EXPECT_EQ(t.side[k], planes == 2 ? Side::Crease : Side::Cell);
+        EXPECT_EQ(t.side[k], planes == 2 ? LineKind::Crease : LineKind::Cell);
       }
     }
   }
@@ -132,7 +132,7 @@ TEST(SolidSurface, of_a_ball_is_smooth) {
     for (const Triangle& t : triangles_of(surface))
       for (std::size_t k = 0; k < 3; ++k) {
         worst = std::min(worst, normals[t.corner[k]].dot(place(*body, t.vertex[k]).normalized()));
-        EXPECT_NE(t.side[k], Side::Crease);
+        EXPECT_NE(t.side[k], LineKind::Crease);
       }
     EXPECT_GT(worst, std::cos(0.07)) << static_cast<int>(pattern); // 4°
   }
@@ -178,13 +178,13 @@ TEST(SolidSurface, marks_what_is_laid_bare_around_a_cell_cut_free_and_keeps_it_f
   EXPECT_TRUE(open_sides(surface).empty());
   EXPECT_NEAR(volume_of(*body, surface), 27, 1e-12);
   const auto normals = normals_of(surface);
-  std::set<Dart> bare;
+  std::set<Dart> exposed;
   for (const Triangle& t : triangles_of(surface)) {
-    if (t.bare) bare.insert(t.first);
+    if (t.exposed) exposed.insert(t.first);
     for (std::uint32_t c : t.corner)
       EXPECT_NEAR((normals[c] - area_vector(*body, t).normalized()).norm(), 0, 1e-12);
   }
-  EXPECT_EQ(bare.size(), 12u);
+  EXPECT_EQ(exposed.size(), 12u);
   body->map->edit([&](Edit& edit) { remove_element(edit, middle); });
   surface.update();
   EXPECT_EQ(surface.faces(), 54u + 6);
@@ -205,16 +205,16 @@ TEST(SolidSurface, keeps_the_hull_smooth_and_the_bare_faces_flat_on_a_warped_sol
   });
   surface.update();
   const auto normals = normals_of(surface);
-  std::size_t bare = 0;
+  std::size_t exposed = 0;
   for (const Triangle& t : triangles_of(surface))
     for (std::size_t k = 0; k < 3; ++k) {
-      bare += t.bare;
+      exposed += t.exposed;
       const Vec3 expected =
-          t.bare ? area_vector(*body, t).normalized() : place(*body, t.vertex[k]).normalized();
+          t.exposed ? area_vector(*body, t).normalized() : place(*body, t.vertex[k]).normalized();
       // At a cut, a corner averages over its own side only, which is tilted like a chord.
-      EXPECT_GT(normals[t.corner[k]].dot(expected), t.bare ? 1 - 1e-12 : std::cos(0.25));
+      EXPECT_GT(normals[t.corner[k]].dot(expected), t.exposed ? 1 - 1e-12 : std::cos(0.25));
     }
-  EXPECT_EQ(bare, 2u * 36 * 2 * 3);
+  EXPECT_EQ(exposed, 2u * 36 * 2 * 3);
 }
 
 TEST(SolidSurface, marks_nothing_bare_where_nothing_may_tear) {
@@ -225,7 +225,7 @@ TEST(SolidSurface, marks_nothing_bare_where_nothing_may_tear) {
   });
   surface.update();
   EXPECT_TRUE(surface.same_as(SolidSurface(*body->map, body->border)));
-  for (const Triangle& t : triangles_of(surface)) EXPECT_FALSE(t.bare);
+  for (const Triangle& t : triangles_of(surface)) EXPECT_FALSE(t.exposed);
   EXPECT_FALSE(body->map->uses(FaceOfVolume)); // no slots for faces are allocated either
 }
 

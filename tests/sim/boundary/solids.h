@@ -49,7 +49,7 @@ inline std::vector<Named> all() {
 inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, bool tears = true) {
   auto made = std::make_unique<Body>();
   made->map = std::move(map);
-  if (tears) made->border = &made->map->add(BornBorder(3));
+  if (tears) made->border = &made->map->add(InitialBorder(3));
   return made;
 }
 inline std::unique_ptr<Body> body(const CellMesh& mesh, bool tears = true) {

@@ -39,9 +39,9 @@ TEST(SurfaceOfARun, keeps_its_triangles_and_shows_two_torn_sides_a_tear) {
   surface.update();
   std::size_t torn = 0, border = 0;
   surface.for_each_triangle([&](const Surface::Triangle& t) {
-    for (Side side : t.side) {
-      torn += side == Side::Torn;
-      border += side == Side::Border;
+    for (LineKind side : t.side) {
+      torn += side == LineKind::Torn;
+      border += side == LineKind::Border;
     }
   });
   EXPECT_EQ(surface.triangles(), triangles);

@@ -28,11 +28,11 @@ std::unique_ptr<Body> tearing(const PolygonMesh& mesh) {
 
 // The sides that are drawn as lines, with their kind, by the pair of their end points. Slots are those of
 // vertices.
-std::multimap<std::pair<Slot, Slot>, Side> lines_of(const Surface& surface) {
-  std::multimap<std::pair<Slot, Slot>, Side> lines;
+std::multimap<std::pair<Slot, Slot>, LineKind> lines_of(const Surface& surface) {
+  std::multimap<std::pair<Slot, Slot>, LineKind> lines;
   for (const Surface::Triangle& t : triangles_of(surface))
     for (std::size_t k = 0; k < 3; ++k)
-      if (t.side[k] != Side::Inner)
+      if (t.side[k] != LineKind::Inner)
         lines.insert({std::minmax(t.vertex[(k + 1) % 3], t.vertex[(k + 2) % 3]), t.side[k]});
   return lines;
 }
@@ -84,7 +84,7 @@ TEST(Surface, draws_every_side_of_every_polygon_and_no_diagonal) {
       EXPECT_EQ(lines.count(ends), static_cast<std::size_t>(count));
       const auto [begin, end] = lines.equal_range(ends);
       for (auto line = begin; line != end; ++line)
-        EXPECT_EQ(line->second, count == 2 ? Side::Cell : Side::Border);
+        EXPECT_EQ(line->second, count == 2 ? LineKind::Cell : LineKind::Border);
     }
   }
 }
@@ -95,8 +95,8 @@ TEST(Surface, shows_a_quad_with_four_sides_and_an_inner_diagonal) {
   const auto triangles = triangles_of(surface);
   ASSERT_EQ(triangles.size(), 2u);
   for (const Surface::Triangle& t : triangles) {
-    EXPECT_EQ(std::count(t.side.begin(), t.side.end(), Side::Inner), 1);
-    EXPECT_EQ(std::count(t.side.begin(), t.side.end(), Side::Border), 2);
+    EXPECT_EQ(std::count(t.side.begin(), t.side.end(), LineKind::Inner), 1);
+    EXPECT_EQ(std::count(t.side.begin(), t.side.end(), LineKind::Border), 2);
   }
 }
 
@@ -105,13 +105,13 @@ TEST(Surface, marks_both_lips_of_a_tear_and_no_border) {
     SCOPED_TRACE(sheet.name);
     const auto body = tearing(sheet.mesh);
     Surface surface(*body->map, body->border);
-    const auto count = [&](Side side) {
+    const auto count = [&](LineKind side) {
       std::size_t n = 0;
       for (const auto& line : lines_of(surface)) n += line.second == side;
       return n;
     };
-    const std::size_t border = count(Side::Border), cells = count(Side::Cell);
-    EXPECT_EQ(count(Side::Torn), 0u);
+    const std::size_t border = count(LineKind::Border), cells = count(LineKind::Cell);
+    EXPECT_EQ(count(LineKind::Torn), 0u);
     Noise noise(3);
     std::size_t torn = 0;
     for (int n = 0; n < 20; ++n) {
@@ -120,9 +120,9 @@ TEST(Surface, marks_both_lips_of_a_tear_and_no_border) {
         torn += unsew(edit, 2, d);
       });
       surface.update();
-      EXPECT_EQ(count(Side::Torn), 2 * torn);
-      EXPECT_EQ(count(Side::Cell), cells - 2 * torn);
-      EXPECT_EQ(count(Side::Border), border);
+      EXPECT_EQ(count(LineKind::Torn), 2 * torn);
+      EXPECT_EQ(count(LineKind::Cell), cells - 2 * torn);
+      EXPECT_EQ(count(LineKind::Border), border);
     }
     EXPECT_GT(torn, 8u);
     const Surface anew(*body->map, body->border); // what is torn is recorded in the body, not in the surface
@@ -135,11 +135,11 @@ TEST(Surface, marks_what_a_removed_element_leaves_as_torn) {
   Surface surface(*body->map, body->border);
   body->map->edit([](Edit& edit) { remove_element(edit, Dart{8u * 4u}); }); // the middle one
   surface.update();
-  std::map<Side, int> count;
+  std::map<LineKind, int> count;
   for (const auto& line : lines_of(surface)) ++count[line.second];
   EXPECT_EQ(surface.triangles(), 16u);
-  EXPECT_EQ(count[Side::Torn], 4);
-  EXPECT_EQ(count[Side::Border], 12);
+  EXPECT_EQ(count[LineKind::Torn], 4);
+  EXPECT_EQ(count[LineKind::Border], 12);
 }
 
 TEST(Surface, marks_no_tear_where_nothing_may_tear) {
@@ -148,7 +148,7 @@ TEST(Surface, marks_no_tear_where_nothing_may_tear) {
   const auto body = meshes::body(sheet(SheetPattern::Mixed, 3, 3), recipe);
   EXPECT_EQ(body->border, nullptr);
   const Surface surface(*body->map, body->border);
-  for (const auto& line : lines_of(surface)) EXPECT_NE(line.second, Side::Torn);
+  for (const auto& line : lines_of(surface)) EXPECT_NE(line.second, LineKind::Torn);
 }
 
 TEST(Surface, normals_of_a_flat_sheet_are_across_it) {

@@ -73,7 +73,7 @@ TEST(Reorder, gives_the_slots_of_a_map_built_now_and_every_dart_keeps_its_values
     names.push_back(carried[body->slot(VertexOfFace, d)]);
   });
   reader.clear();
-  body->number_anew();
+  body->renumber();
   expect_numbered_as_if_built_now(*body);
   EXPECT_TRUE(reader.any && reader.whole);
   std::size_t n = 0;
@@ -86,7 +86,7 @@ TEST(Reorder, gives_the_slots_of_a_map_built_now_and_every_dart_keeps_its_values
 
 TEST(Reorder, leaves_a_map_that_takes_further_edits) {
   const auto body = crumbled(3, 0.3);
-  body->number_anew();
+  body->renumber();
   for (const Dart d : inner_faces(body->map())) body->edit([&](Edit& edit) { unsew(edit, 3, d); });
   EXPECT_EQ(validate(*body), std::nullopt);
   EXPECT_EQ(body->cells(Vertex).count(), 4u * body->cells(Volume).count());
@@ -98,7 +98,7 @@ TEST(Reorder, is_worth_while_where_most_vertices_are_new_and_lie_anywhere) {
   const auto body = crumbled(6, 0.7);
   EXPECT_TRUE(slots_scattered(*body, 1));
   EXPECT_FALSE(slots_scattered(*body)) << "it is small";
-  body->number_anew();
+  body->renumber();
   EXPECT_FALSE(slots_scattered(*body, 1)) << "it is in order now";
 }
 

@@ -110,7 +110,7 @@ TEST(Skin, of_a_torn_sheet_is_open_where_the_map_is) {
     EXPECT_EQ(skin.ends.size(), counts.faces);
     EXPECT_EQ(std::set<std::int32_t>(skin.fragment.begin(), skin.fragment.end()).size(), counts.fragments);
     EXPECT_EQ(fans_of(skin), drawn(Surface(*scene.body().map, scene.body().border)));
-    EXPECT_TRUE(skin.bare.empty());
+    EXPECT_TRUE(skin.exposed.empty());
     EXPECT_TRUE(skin.equivalent.empty());
   }
 }
@@ -138,21 +138,22 @@ TEST(Skin, of_a_solid_that_breaks_is_closed_around_every_part_and_knows_what_is_
     const auto scene = presets::load(bar(
         pattern, R"(<drive side="+x" velocity="2 0 0"/><tear criterion="vertex-stress" threshold="4e4"/>)"));
     const SkinMaker maker(*scene.scene);
-    const std::vector<std::uint8_t> none = maker.skin().bare;
+    const std::vector<std::uint8_t> none = maker.skin().exposed;
     EXPECT_EQ(std::count(none.begin(), none.end(), 1), 0);
     while (scene->time() < 0.5) scene->step();
     const Skin skin = maker.skin();
     expect_positions_of(skin, *scene.scene);
-    std::size_t bare = 0, triangles = 0;
+    std::size_t exposed = 0, triangles = 0;
     const SolidSurface surface(*scene.body().map, scene.body().border);
     surface.for_each_triangle([&](const SolidSurface::Triangle& t) {
-      bare += t.bare;
+      exposed += t.exposed;
       ++triangles;
     });
-    EXPECT_GT(bare, 0u) << pattern;
+    EXPECT_GT(exposed, 0u) << pattern;
     std::size_t marked = 0;
-    for (std::size_t f = 0; f < skin.bare.size(); ++f) marked += skin.bare[f] * (ring_of(skin, f).size() - 2);
-    EXPECT_EQ(marked, bare);
+    for (std::size_t f = 0; f < skin.exposed.size(); ++f)
+      marked += skin.exposed[f] * (ring_of(skin, f).size() - 2);
+    EXPECT_EQ(marked, exposed);
     EXPECT_EQ(fans_of(skin), drawn(surface));
     const CellCounts counts = count_cells(scene.body().map->map());
     EXPECT_GT(counts.fragments, 1u) << pattern;

@@ -48,7 +48,7 @@ std::unique_ptr<Body> made_of(std::unique_ptr<EmbeddedMap> map, const Matter& ma
     for (const meshes::Spring& spring : solid_springs)
       if (auto added = meshes::interaction(*made->map, spring)) made->interactions.push_back(std::move(added));
   }
-  made->border = &made->map->add(BornBorder(made->map->dimension()));
+  made->border = &made->map->add(InitialBorder(made->map->dimension()));
   return made;
 }
 

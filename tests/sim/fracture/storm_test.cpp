@@ -71,7 +71,7 @@ TEST(Storm, on_sheets_of_many_sides_and_without_sides_leaves_a_valid_map) {
   }
 }
 
-TEST(Births, are_those_of_making_one_change_after_the_other_and_counting) {
+TEST(FragmentCounter, are_those_of_making_one_change_after_the_other_and_counting) {
   for (const By& way : every_way()) {
     // The ends of an edge are identified by slots from before all changes: changes made one by one have other
     // slots then.
@@ -128,13 +128,13 @@ TEST(Body, that_loses_its_last_element_goes_on_with_nothing) {
       Chance<Cell::Elements>::most = 20;
       Seen seen(*body);
       int step = 0;
-      for (; !body->gone && step < 400; ++step) {
+      for (; !body->deleted_at && step < 400; ++step) {
         body->evaluate();
         body->tear(step * 1e-3, step, [] {});
       }
       Chance<Cell::Elements>::most = 4;
-      ASSERT_TRUE(body->gone);
-      EXPECT_EQ(*body->gone, (step - 1) * 1e-3);
+      ASSERT_TRUE(body->deleted_at);
+      EXPECT_EQ(*body->deleted_at, (step - 1) * 1e-3);
       EXPECT_EQ(body->events.back().fragments, 0);
       EXPECT_EQ(body->map->map().dart_count(), 0u);
       EXPECT_EQ(total_mass(*body->map, *body->mass), 0);

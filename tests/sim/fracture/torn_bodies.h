@@ -111,8 +111,8 @@ inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::v
   elements::add_elasticity(*made, {});
   made->interactions.push_back(meshes::interaction(*made->map, {"stretch", "", 60, 0.3}));
   made->constraints.add(*made->map, Motion{}, {made->map->vertex(Dart{0u})});
-  made->border = &made->map->add(BornBorder(made->map->dimension()));
-  made->births = std::make_unique<Births>();
+  made->border = &made->map->add(InitialBorder(made->map->dimension()));
+  made->fragment_counter = std::make_unique<FragmentCounter>();
   for (const By& by : laws) {
     LawSettings law;
     law.criterion = &chance_on(by.cell);

@@ -47,7 +47,7 @@ inline void expect_nothing_moved(const Body& body, const Snapshot& before, bool 
 inline std::vector<Slot> prescribed(const Body& body) {
   std::vector<Slot> found;
   for (const auto& column : body.map->columns())
-    if (const auto* obedience = dynamic_cast<const Column<Obedience>*>(column.get()))
+    if (const auto* obedience = dynamic_cast<const Column<MotionMask>*>(column.get()))
       for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)
         if (body.map->cells(Vertex).alive(v) && (*obedience)[v] != 0) found.push_back(v);
   return found;

@@ -63,7 +63,7 @@ void expect_walk_agrees(const Body& body) {
 class Watch {
 public:
   explicit Watch(Body& body) : body_(body), seen_(body) {
-    body.witness = [this](WitnessAt when) { when == WitnessAt::AfterChanges ? after() : before(); };
+    body.change_observer = [this](WitnessAt when) { when == WitnessAt::AfterChanges ? after() : before(); };
   }
   int looks = 0;
 

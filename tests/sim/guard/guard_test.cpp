@@ -134,7 +134,7 @@ TEST(Guard, stops_where_it_lasts_and_names_stage_step_and_vertex) {
       }
       EXPECT_EQ(faulty->hash(), before);
       EXPECT_EQ(faulty->steps_done(), 70);
-      EXPECT_EQ(faulty->guard().most_parts, 1);
+      EXPECT_EQ(faulty->guard().most_substeps, 1);
     }
   }
 }
@@ -172,7 +172,7 @@ TEST(Guard, rejects_no_step_of_what_is_given_energy) {
       }
       EXPECT_EQ(scene->guard().rejected, 0);
       EXPECT_EQ(scene->hash(), free->hash());
-      EXPECT_LT(scene->guard().looks, 20);
+      EXPECT_LT(scene->guard().energy_tests, 20);
     }
   }
 }

@@ -80,7 +80,7 @@ TEST(RungeKutta45, is_of_order_five_in_whole_steps) {
   const auto error = [&](int steps) {
     Particle p = pendulum();
     p.go(rk45(), whole_steps, 1, steps);
-    EXPECT_EQ(p.figures.parts, steps);
+    EXPECT_EQ(p.figures.substeps, steps);
     EXPECT_EQ(p.figures.rejected, 0);
     return std::hypot(20 * (p.now.position[0].vec() - fine.now.position[0].vec()).norm(),
                       (p.now.velocity[0].vec() - fine.now.velocity[0].vec()).norm());
@@ -118,7 +118,8 @@ TEST(RungeKutta45, errs_in_proportion_to_the_tolerance) {
     Particle p = pendulum();
     errors.push_back((p.go(rk45(), {tolerance, 1}, 2, 10) - exact).norm());
     EXPECT_LT(errors.back(), 1e3 * tolerance);
-    RecordProperty(fmt::format("{}", tolerance), fmt::format("{}, {} parts", errors.back(), p.figures.parts));
+    RecordProperty(fmt::format("{}", tolerance),
+                   fmt::format("{}, {} parts", errors.back(), p.figures.substeps));
   }
   EXPECT_NEAR(std::log10(errors.front() / errors.back()) / 5, 1, 0.1);
 }
@@ -144,7 +145,7 @@ TEST(RungeKutta45, goes_on_from_what_it_carries) {
   auto second = rk45().make({1e-8, 1});
   for (int n = 0; n < 10; ++n) {
     auto made = rk45().make({1e-8, 1});
-    made->carry(second->carried());
+    made->restore_state(second->saved_state());
     second = std::move(made);
     for (const auto& [p, integrator] : {std::pair(&one, first.get()), std::pair(&two, second.get())}) {
       std::vector<Record> force(1);
@@ -160,7 +161,7 @@ TEST(RungeKutta45, goes_on_from_what_it_carries) {
 
 TEST(RungeKutta45, gives_up_where_forces_are_no_numbers) {
   Particle p([](const Vec3& x) { return Vec3(std::nan(""), x.x(), 0); });
-  EXPECT_THROW(p.go(rk45(), {}, 1, 1), Unsolved);
+  EXPECT_THROW(p.go(rk45(), {}, 1, 1), NotConverged);
 }
 
 std::string time_of(const std::string& scheme, double step, const std::string& more = "") {
@@ -264,7 +265,7 @@ TEST(RungeKutta45, holds_what_is_stiff_in_many_parts) {
   const auto s = presets::load(stiff(1e8, 1e-2));
   const double start = s->gravity_energy();
   run(*s.scene, 0.03);
-  EXPECT_GT(s.body().integrator->solver().parts, 1000);
+  EXPECT_GT(s.body().integrator->solver().substeps, 1000);
   EXPECT_GT(s->kinetic_energy(), 1e-3);
   EXPECT_NEAR(s->kinetic_energy() + s->elastic_energy() + s->gravity_energy(), start,
               0.02 * s->kinetic_energy());

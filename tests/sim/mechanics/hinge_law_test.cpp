@@ -179,7 +179,7 @@ double largest_of(const HingePoints& f) {
 
 TEST(Hinge, force_is_bounded_however_flat_a_side_is_crushed) {
   const HingePoints v = velocities_of(8);
-  const HingeParameters p{2, 0.3, 0.1, hinge_least(folded(0))}, damped{0, 0.3, 0.1, p.least};
+  const HingeParameters p{2, 0.3, 0.1, hinge_fade_threshold(folded(0))}, damped{0, 0.3, 0.1, p.least};
   const double at_rest = largest_of(hinge_forces(p, crushed_to(1), still));
   const double rate_at_rest = largest_of(hinge_forces(damped, crushed_to(1), v));
   for (double height = 1; height > 1e-170; height *= 0.7) {
@@ -191,7 +191,7 @@ TEST(Hinge, force_is_bounded_however_flat_a_side_is_crushed) {
 }
 
 TEST(Hinge, force_is_what_it_was_to_the_bit_where_nothing_is_crushed) {
-  const double least = hinge_least(folded(0));
+  const double least = hinge_fade_threshold(folded(0));
   const HingePoints v = velocities_of(9);
   for (const double height : {10.0, 1.0, 0.2, 0.112}) {
     const HingePoints x = crushed_to(height), f = hinge_forces({2, 0.3, 0.1, least}, x, v),

@@ -57,7 +57,7 @@ TEST(ClosestRotation, is_finite_for_what_has_lost_its_directions) {
   }
 }
 
-TEST(Spin, is_how_the_rotation_turns) {
+TEST(RotationDerivative, is_how_the_rotation_turns) {
   Noise noise(3);
   for (const Rotation rotation : {Rotation::Polar, Rotation::Qr}) {
     for (int n = 0; n < 40; ++n) {
@@ -73,7 +73,7 @@ TEST(Spin, is_how_the_rotation_turns) {
       const double h = 1e-6;
       const Matrix3d ahead = turned(F + h * a * b.transpose()), behind = turned(F - h * a * b.transpose());
       const Matrix3d R = turned(F), rate = R.transpose() * (ahead - behind) / (2 * h);
-      const Vec3 spin = Spin(rotation, R, F).of(b) * (R.transpose() * a);
+      const Vec3 spin = RotationDerivative(rotation, R, F).of(b) * (R.transpose() * a);
       EXPECT_LT((Vec3(rate(2, 1), rate(0, 2), rate(1, 0)) - spin).norm(), 1e-7 * (1 + spin.norm()));
     }
   }

@@ -282,15 +282,15 @@ TEST(ObstacleContact, a_sphere_rests_on_a_sheet_that_is_held_along_its_fall) {
 TEST(ObstacleContact, what_is_held_along_one_axis_yields_along_the_others) {
   const Vec3 u(0.3, -0.2, -2), n = Vec3(1, 2, 2) / 3;
   for (double friction : {0.0, 0.4, 100.0}) {
-    for (const Vec3& yields : {Vec3(2, 2, 2), Vec3(2, 2, 0.5), Vec3(3, 0, 0), Vec3(0, 0, 0)}) {
-      const Impulse impulse = impact(u, n, friction, yields);
-      const Vec3 after = u + yields.cwiseProduct(impulse.whole());
-      const Vec3 pushed = u + yields.cwiseProduct(impulse.normal);
+    for (const Vec3& inverse_masses : {Vec3(2, 2, 2), Vec3(2, 2, 0.5), Vec3(3, 0, 0), Vec3(0, 0, 0)}) {
+      const Impulse impulse = impact(u, n, friction, inverse_masses);
+      const Vec3 after = u + inverse_masses.cwiseProduct(impulse.whole());
+      const Vec3 pushed = u + inverse_masses.cwiseProduct(impulse.normal);
       EXPECT_LE(impulse.whole().dot(u + after), 1e-12) << "its work";
       EXPECT_LE(impulse.friction.norm(), friction * impulse.normal.norm() + 1e-12);
-      if (yields.isZero()) continue;
+      if (inverse_masses.isZero()) continue;
       EXPECT_NEAR(pushed.dot(n), 0, 1e-12);
-      const bool sticks = friction == 100 && yields.x() == yields.z();
+      const bool sticks = friction == 100 && inverse_masses.x() == inverse_masses.z();
       EXPECT_LT(after.norm(), sticks ? 1e-12 : 1e300);
     }
   }

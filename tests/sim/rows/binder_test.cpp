@@ -18,7 +18,7 @@ using namespace meshes;
 std::vector<Slot> prescribed(const Body& body) {
   std::vector<Slot> found;
   for (const auto& column : body.map->columns()) {
-    const auto* obedience = dynamic_cast<const Column<Obedience>*>(column.get());
+    const auto* obedience = dynamic_cast<const Column<MotionMask>*>(column.get());
     if (!obedience) continue;
     const CellIndex& vertices = body.map->cells(Vertex);
     for (Slot v = 0; v < vertices.slots(); ++v)

@@ -20,7 +20,7 @@ std::vector<double> frequencies(const std::string& in_body) {
                                R"(<time step="1" integrator="static" duration="1"/></scene>)");
   Body& body = s.body();
   std::vector<std::uint8_t> held(body.vertices(), 0);
-  body.hold(0, held.data());
+  body.mark_prescribed(0, held.data());
   BlockMatrix stiffness;
   stiffness.reset(body.pattern());
   body.add_stiffness(meshes::positions(body), meshes::velocities(body), Tangent::Exact, 1, 0, stiffness);

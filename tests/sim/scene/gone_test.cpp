@@ -45,14 +45,14 @@ TEST(Gone, a_body_without_elements_is_held_loaded_blown_at_and_measured_all_the_
     for (const char* scheme : {"symplectic", "verlet", "rk4", "implicit"}) {
       SCOPED_TRACE(shape + scheme);
       const std::string time = std::string(R"(<time step="1e-3" duration="1" integrator=")") + scheme + "\"/>";
-      presets::Loaded scene = loaded(scene_of(shape, matter, time), {.births = true});
+      presets::Loaded scene = loaded(scene_of(shape, matter, time), {.count_fragments = true});
       Body& body = scene.body();
       const double other = total_mass(*scene.body(1).map, *scene.body(1).mass);
-      for (int n = 0; n < 300 && !body.gone; ++n) scene->step();
-      ASSERT_TRUE(body.gone);
+      for (int n = 0; n < 300 && !body.deleted_at; ++n) scene->step();
+      ASSERT_TRUE(body.deleted_at);
       for (int n = 0; n < 40; ++n) scene->step();
       scene->check_sound();
-      EXPECT_NEAR(*body.gone, body.events.back().time, 0);
+      EXPECT_NEAR(*body.deleted_at, body.events.back().time, 0);
       EXPECT_EQ(body.events.back().fragments, 0);
       EXPECT_EQ(scene->mass(), other);
       EXPECT_TRUE(std::isfinite(scene->kinetic_energy() + scene->elastic_energy() + scene->gravity_energy()));
@@ -68,8 +68,8 @@ TEST(Gone, walking_the_map_of_an_emptied_body_finds_no_forces) {
   for (const auto& [shape, matter] : bodies()) {
     presets::Loaded scene =
         loaded(scene_of(shape, matter, R"(<time step="1e-3" duration="1"/>)"), {.walk = true});
-    for (int n = 0; n < 300 && !scene.body().gone; ++n) scene->step();
-    ASSERT_TRUE(scene.body().gone);
+    for (int n = 0; n < 300 && !scene.body().deleted_at; ++n) scene->step();
+    ASSERT_TRUE(scene.body().deleted_at);
     scene->step();
     for (const Record& f : scene.body().force) EXPECT_EQ(f.vec().norm(), 0);
   }

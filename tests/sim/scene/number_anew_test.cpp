@@ -66,7 +66,7 @@ TEST(NumberAnew, binds_all_as_if_it_were_built_now_and_follows_changes_from_ther
         body->tear(n, n, [] {});
         free = free || has_free_slots(*body->map, Vertex) || has_free_slots(*body->map, body->mass->orbit());
         if (n % 3 == 2) {
-          body->map->number_anew();
+          body->map->renumber();
           body->rebind();
           expect_blocks_without_gaps(body->program->rows());
         }
@@ -97,7 +97,7 @@ TEST(NumberAnew, leaves_room_for_all_separations_that_are_to_come) {
   Chance<Cell::Borders>::most = 40;
   for (int n = 0; n < 4; ++n) body->tear(n, n, [] {});
   Chance<Cell::Borders>::most = 4;
-  body->map->number_anew();
+  body->map->renumber();
   body->rebind();
   const auto before = places_of_rows(*body);
   body->map->edit([](Edit& edit) { edit.map().for_each_dart([&](Dart d) { unsew(edit, 3, d); }); });
@@ -172,16 +172,17 @@ TEST(NumberAnew, at_every_change_leaves_the_course_of_a_scene_as_it_is) {
     for (const char* integrator : {"symplectic", "rk4", "implicit"}) {
       SCOPED_TRACE(body + integrator);
       const std::string xml = scene_of(body, integrator);
-      const auto one = presets::load(xml, {.births = true}), other = presets::load(xml, {.births = true});
+      const auto one = presets::load(xml, {.count_fragments = true}),
+                 other = presets::load(xml, {.count_fragments = true});
       Body& renumbered = one.body();
       Seen seen(renumbered);
       bool free = false;
       int times = 0;
-      renumbered.witness = [&](WitnessAt when) {
+      renumbered.change_observer = [&](WitnessAt when) {
         if (when == WitnessAt::BeforeChanges) return;
         ++times;
         free = free || has_free_slots(*renumbered.map, renumbered.mass->orbit());
-        renumbered.map->number_anew();
+        renumbered.map->renumber();
         renumbered.rebind();
         seen.update();
         expect_as_built_anew(renumbered, seen);

@@ -23,7 +23,7 @@ struct Played {
   Scene scene;
   Played(const std::string& name, int threads)
       : preset(load_scene(house::path_of(name))),
-        scene(read_scene(*preset), SceneOptions{.threads = threads, .small_in_parts = true}) {}
+        scene(read_scene(*preset), SceneOptions{.threads = threads, .parallel_small_bodies = true}) {}
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
   void go_to(long step) {
     while (scene.steps_done() < step) scene.step();
@@ -80,7 +80,7 @@ TEST_P(SameBytes, on_any_number_of_threads_and_with_everything_built_anew_at_eac
   if (one.scene.tears() == 0) return;
   Played anew(GetParam(), 1);
   for (const auto& body : anew.scene.bodies())
-    body->witness = [&body = *body](WitnessAt when) {
+    body->change_observer = [&body = *body](WitnessAt when) {
       if (when == WitnessAt::AfterChanges) build_anew(body);
     };
   anew.go_to(one.scene.steps_done());

@@ -34,7 +34,7 @@ const std::string none_steady = "no step was steady";
 // The call stacks and numbers of allocations in steady steps among the next ones; empty: none.
 std::string askers(Scene& scene) {
   long asked = 0, steady = 0, tried = 0;
-  for (const auto& body : scene.bodies()) body->witness = [&tried](WitnessAt) { ++tried; };
+  for (const auto& body : scene.bodies()) body->change_observer = [&tried](WitnessAt) { ++tried; };
   std::string who;
   for (long n = 0; n < steps; ++n) {
     const Events before = Events::of(scene, tried);
@@ -45,7 +45,7 @@ std::string askers(Scene& scene) {
     if (asked == 0) who = fmt::format("in step {}, {}", scene.steps_done(), allocations::who());
     asked += here;
   }
-  for (const auto& body : scene.bodies()) body->witness = nullptr;
+  for (const auto& body : scene.bodies()) body->change_observer = nullptr;
   if (steady == 0) return none_steady;
   return asked == 0 ? "" : fmt::format("{} times, {}", asked, who);
 }

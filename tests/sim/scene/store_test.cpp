@@ -42,7 +42,8 @@ struct Played {
   std::unique_ptr<Scene> scene;
   explicit Played(const std::string& name)
       : preset(load_scene(house::path_of(name))),
-        scene(std::make_unique<Scene>(read_scene(*preset), SceneOptions{.threads = 2, .births = true})) {}
+        scene(std::make_unique<Scene>(read_scene(*preset),
+                                      SceneOptions{.threads = 2, .count_fragments = true})) {}
 };
 
 void expect_same(Scene& a, Scene& b) {

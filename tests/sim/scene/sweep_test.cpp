@@ -42,7 +42,7 @@ TEST(SweptSteps, of_every_preset_gives_the_bytes_of_forces_first) {
     if (!sweeps(one)) continue;
     ++swept;
     const auto again = load_scene(house::path_of(name));
-    Scene other(read_scene(*again), SceneOptions{.threads = 1, .small_in_parts = true});
+    Scene other(read_scene(*again), SceneOptions{.threads = 1, .parallel_small_bodies = true});
     EXPECT_FALSE(sweeps(other));
     for (int n = 0; n < 40; ++n) {
       one.step();
@@ -57,7 +57,7 @@ TEST(SweptSteps, of_every_preset_gives_the_bytes_of_forces_first) {
 TEST(SweptSteps, of_many_tiles_gives_the_same_bytes_on_any_number_of_threads) {
   const std::string xml =
       presets::cloth("crossed", 200, "", R"(<time step="1e-5" integrator="symplectic" duration="1"/>)");
-  presets::Loaded asked = presets::load(xml, {.threads = 1, .small_in_parts = true});
+  presets::Loaded asked = presets::load(xml, {.threads = 1, .parallel_small_bodies = true});
   for (int n = 0; n < 20; ++n) asked->step();
   for (const int threads : {1, 2, 3}) {
     SCOPED_TRACE(threads);
@@ -70,10 +70,10 @@ TEST(SweptSteps, of_many_tiles_gives_the_same_bytes_on_any_number_of_threads) {
 
 // A step that is too long, which the guard divides into substeps.
 TEST(SweptSteps, under_the_guard_gives_the_same_bytes) {
-  const auto run = [](bool in_parts) {
+  const auto run = [](bool parallel_ranges) {
     presets::Loaded scene = presets::load(
         presets::cloth("quads", 12, "", R"(<time step="4e-3" integrator="symplectic" duration="10"/>)"),
-        {.threads = 1, .small_in_parts = in_parts});
+        {.threads = 1, .parallel_small_bodies = parallel_ranges});
     for (int n = 0; n < 150; ++n) scene->step();
     return scene;
   };
@@ -95,7 +95,7 @@ TEST(SweptSteps, tells_of_each_vertex_once_when_its_force_is_whole) {
   std::mutex mutex;
   std::size_t calls = 0;
   body.program->forces(x, v, all.data());
-  body.program->forces_in_stretches(x, v, force.data(), unit, [&](std::size_t begin, std::size_t end) {
+  body.program->forces_in_ranges(x, v, force.data(), unit, [&](std::size_t begin, std::size_t end) {
     const std::lock_guard lock(mutex);
     ++calls;
     for (std::size_t i = begin; i < end; ++i) {

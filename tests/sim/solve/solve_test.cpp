@@ -125,7 +125,7 @@ TEST(BlockMatrix, holds_coordinates) {
   std::vector<std::uint8_t> axes(27, 0);
   axes[4] = 7;
   axes[9] = 2;
-  l.matrix.hold(axes.data());
+  l.matrix.constrain(axes.data());
   const Eigen::MatrixXd held = dense(l.matrix);
   for (int r = 0; r < 81; ++r)
     for (int c = 0; c < 81; ++c) {
@@ -143,7 +143,7 @@ TEST(ConjugateGradient, agrees_with_the_direct_solver) {
   ASSERT_EQ(factor.factorise(l.matrix), Definiteness::Positive);
   factor.solve(b.data(), direct.data());
   Preconditioner preconditioner;
-  ASSERT_TRUE(preconditioner.take(l.matrix, Precision::Double));
+  ASSERT_TRUE(preconditioner.set_matrix(l.matrix, Precision::Double));
   ConjugateGradient gradient;
   const auto result = gradient.solve(preconditioner, 1, b, iterated, 1e-12, 2000);
   EXPECT_TRUE(result.converged);
@@ -157,7 +157,7 @@ TEST(ConjugateGradient, gives_the_same_bytes_on_any_number_of_threads) {
     const Lattice l(18, 0.1, parts); // more rows than one range of the preconditioner
     const Records b = right_side(l.matrix.rows());
     Preconditioner preconditioner;
-    ASSERT_TRUE(preconditioner.take(l.matrix, Precision::Double));
+    ASSERT_TRUE(preconditioner.set_matrix(l.matrix, Precision::Double));
     all.emplace_back();
     ConjugateGradient().solve(preconditioner, parts, b, all.back(), 1e-8, 500);
   }
@@ -217,7 +217,7 @@ TEST(LinearSolver, iterates_or_not_by_a_rule) {
   const Lattice small(3), large(14, 10);
   for (const Lattice* l : {&small, &large}) {
     LinearSolver solver;
-    solver.take(l->matrix);
+    solver.set_matrix(l->matrix);
     const Records b = right_side(l->matrix.rows());
     Records x, y(b.size());
     ASSERT_TRUE(solver.solve(b, x, 1e-8));
@@ -231,7 +231,7 @@ TEST(LinearSolver, iterates_or_not_by_a_rule) {
 TEST(LinearSolver, says_that_a_singular_matrix_is_not_solved) {
   const Lattice l(3, 0);
   LinearSolver solver;
-  solver.take(l.matrix);
+  solver.set_matrix(l.matrix);
   Records x;
   EXPECT_FALSE(solver.solve(right_side(27), x, 1e-8));
 }

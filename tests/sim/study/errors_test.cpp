@@ -131,7 +131,7 @@ TEST(Sampler, finds_its_points_again_where_elements_are_gone_and_slots_were_numb
   });
   body.rebind();
   sampler.take(*s.scene);
-  body.map->number_anew();
+  body.map->renumber();
   body.rebind();
   sampler.take(*s.scene);
   const Trajectory t = sampler.finish(*s.scene);

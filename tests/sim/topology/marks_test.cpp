@@ -14,7 +14,7 @@ TEST(Marks, are_there_until_they_are_taken_away) {
   marks.set(0);
   EXPECT_TRUE(marks.has(999) && marks.has(0));
   EXPECT_FALSE(marks.has(998) || marks.has(1));
-  marks.take_around(999);
+  marks.clear_word(999);
   EXPECT_FALSE(marks.has(999));
   EXPECT_TRUE(marks.has(0));
 }

@@ -1,4 +1,4 @@
-#include "sim/mechanics/young.h"
+#include "sim/mechanics/spring_stiffness.h"
 
 #include "sim/topology/walk.h"
 

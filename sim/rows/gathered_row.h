@@ -13,7 +13,7 @@
 
 namespace rend {
 
-class Gathered {
+class GatheredRow {
 public:
   // Positions [m], velocities [m/s] (null: at rest) and rest positions [m], one per vertex slot.
   void take(const ForceLaw& law, const PackedRows& rows, std::size_t row, const Record* position,

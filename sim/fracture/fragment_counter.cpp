@@ -1,4 +1,4 @@
-#include "sim/fracture/births.h"
+#include "sim/fracture/fragment_counter.h"
 
 #include "sim/base/archive.h"
 #include "sim/base/check.h"
@@ -17,12 +17,12 @@ void TearEvent::store(Archive& archive) {
   refuse_unless(step >= 0 && law >= 0 && fragments >= -1, "a tear has no step, no law, or no fragments");
 }
 
-void Births::begin() {
+void FragmentCounter::begin() {
   touched_.fill(0);
   removed_read_ = 0;
 }
 
-void Births::note(const Journal& journal) {
+void FragmentCounter::note(const Journal& journal) {
   CHECK_NOTE(journal.created.empty(), "a change of a law creates no darts");
   for (std::size_t i = 0; i < 4; ++i) {
     const std::vector<Dart>& touched = journal.touched[i];
@@ -36,13 +36,13 @@ void Births::note(const Journal& journal) {
   changes_.push_back({pairs_.size(), removed_.size()});
 }
 
-std::uint32_t Births::piece_of(std::uint32_t piece) {
+std::uint32_t FragmentCounter::piece_of(std::uint32_t piece) {
   while (parent_[piece] != piece) piece = parent_[piece] = parent_[parent_[piece]];
   return piece;
 }
 
 // Returns the number of components before the change minus that after it.
-long Births::undo(std::size_t change) {
+long FragmentCounter::undo(std::size_t change) {
   const Undoing begin = change > 0 ? changes_[change - 1] : Undoing{0, 0}, end = changes_[change];
   long more = 0;
   for (std::size_t n = begin.removed; n < end.removed; ++n, ++more) {
@@ -59,7 +59,7 @@ long Births::undo(std::size_t change) {
   return more;
 }
 
-void Births::settle(const GMap& map, std::span<TearEvent> events) {
+void FragmentCounter::settle(const GMap& map, std::span<TearEvent> events) {
   CHECK(events.size() == changes_.size());
   if (events.empty()) return;
   piece_of_dart_ = label_fragments(map);

@@ -1,6 +1,6 @@
 // The smallest eigenvalue of a non-symmetric tangent, against all eigenvalues of a dense matrix from
 // differences of forces.
-#include "sim/integrate/least_resistance.h"
+#include "sim/integrate/lowest_eigenvalue.h"
 
 #include "sim/presets.h"
 
@@ -11,7 +11,7 @@ namespace rend {
 namespace {
 
 // −M⁻¹ ∂f/∂x at the free coordinates, by central differences.
-Eigen::MatrixXd dense(const Standing& at) {
+Eigen::MatrixXd dense(const Equilibrium& at) {
   std::vector<std::pair<std::size_t, int>> free;
   for (std::size_t i = 0; i < at.position.size(); ++i)
     for (int axis = 0; axis < 3; ++axis)
@@ -57,9 +57,9 @@ TEST(LeastResistance, is_the_least_of_all_eigenvalues) {
                    0.1 + radius * std::cos(angle) - 0.5 * bent * r.x * r.x);
       }
       std::vector<std::uint8_t> held(x.size(), 0);
-      body.hold(1, held.data());
+      body.mark_prescribed(1, held.data());
       body.constrain(1, x.data(), still.data());
-      const Standing at{body, 1, x, still, held};
+      const Equilibrium at{body, 1, x, still, held};
       const Eigen::VectorXcd all = dense(at).eigenvalues();
       Eigen::Index least = 0;
       all.real().minCoeff(&least);
@@ -67,7 +67,7 @@ TEST(LeastResistance, is_the_least_of_all_eigenvalues) {
       BlockMatrix matrix;
       LinearSolver linear;
       LoadTangent tangent;
-      const double found = least_resistance(at, matrix, linear, tangent), should = all[least].real();
+      const double found = lowest_eigenvalue(at, matrix, linear, tangent), should = all[least].real();
       EXPECT_NEAR(found, should, 0.02 * std::abs(should)) << bent << " " << pressed;
       (should < 0 ? below : above) += 1;
     }

@@ -1,4 +1,4 @@
-#include "sim/integrate/footing.h"
+#include "sim/integrate/rigid_motions.h"
 
 #include "sim/base/wording.h"
 
@@ -68,8 +68,8 @@ struct RigidMotions {
 
 } // namespace
 
-std::optional<std::string> drift_of(const BlockPattern& pattern, const double* inverse_mass,
-                                    const std::vector<std::uint8_t>& held) {
+std::optional<std::string> free_translation_of(const BlockPattern& pattern, const double* inverse_mass,
+                                               const std::vector<std::uint8_t>& held) {
   std::optional<std::string> drift;
   any_piece(pattern, inverse_mass, [&](const Piece& piece) {
     unsigned axes = 0;
@@ -85,22 +85,22 @@ std::optional<std::string> drift_of(const BlockPattern& pattern, const double* i
   return drift;
 }
 
-bool can_turn(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
-              const Record* position) {
+bool can_rotate(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
+                const Record* position) {
   return any_piece(pattern, inverse_mass, [&](const Piece& piece) {
     const RigidMotions motions(piece, held, position);
     return motions.size > 0 && motions.rank(1e-9) < 6;
   });
 }
 
-void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Record* position, bool turns,
-               std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& loose) {
+void constrain_detached(const BlockPattern& pattern, const double* inverse_mass, const Record* position,
+                        bool turns, std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& detached) {
   any_piece(pattern, inverse_mass, [&](Piece& piece) {
     RigidMotions motions(piece, held, position);
     unsigned axes = 0;
     for (std::uint32_t v : piece) axes |= held[v];
     if (axes == 7 && (turns || motions.size == 0 || motions.rank(1e-9) == 6)) return false;
-    for (std::uint32_t v : piece) loose[v] = 1;
+    for (std::uint32_t v : piece) detached[v] = 1;
     std::stable_sort(piece.begin(), piece.end(), [&](std::uint32_t a, std::uint32_t b) {
       return motions.arm(a).squaredNorm() > motions.arm(b).squaredNorm();
     });
@@ -132,14 +132,14 @@ double extent(const Records& x, const double* inverse_mass) {
   return (high - low).maxCoeff();
 }
 
-bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix,
-                     TurningRoom& room) {
+bool is_rotation_invariant(System& system, double time, const Records& position, double size,
+                           BlockMatrix& matrix, RotationScratch& room) {
   auto& [still, turned_position, force, after] = room;
   for (Records* each : {&turned_position, &force, &after}) each->resize(position.size());
   still.assign(position.size(), Record{});
   system.forces(time, position.data(), still.data(), force.data());
   matrix.reset(system.pattern());
-  system.add_stiffness(position.data(), still.data(), Tangent::Definite, 1, 0, matrix);
+  system.add_stiffness(position.data(), still.data(), Tangent::SemiDefinite, 1, 0, matrix);
   for (const bool about_z : {true, false}) {
     const auto turned = [about_z](Double4 v) {
       return about_z ? Double4{-v[1], v[0], v[2], 0} : Double4{v[0], -v[2], v[1], 0};
@@ -171,21 +171,23 @@ double mean_stiffness(const BlockMatrix& matrix, const double* inverse_mass, std
 }
 
 // A component that was supported in the first equilibrium and is no longer was torn off or released.
-void Footing::check(System& system, double time, const Records& position, double size, BlockMatrix& matrix) {
+void SupportState::check(System& system, double time, const Records& position, double size,
+                         BlockMatrix& matrix) {
   const BlockPattern& pattern = *system.pattern();
-  loose.assign(position.size(), 0);
-  const auto drift = drift_of(pattern, system.inverse_mass, held);
-  const bool stiff_to_turns = can_turn(pattern, system.inverse_mass, held, position.data()) &&
-                              (keeps_turned || !turns_with_body(system, time, position, size, matrix, room));
-  if (stood && (drift || stiff_to_turns)) {
-    pin_loose(pattern, system.inverse_mass, position.data(), !stiff_to_turns, held, loose);
+  detached.assign(position.size(), 0);
+  const auto drift = free_translation_of(pattern, system.inverse_mass, held);
+  const bool stiff_to_turns =
+      can_rotate(pattern, system.inverse_mass, held, position.data()) &&
+      (constrains_rotations || !is_rotation_invariant(system, time, position, size, matrix, room));
+  if (found_equilibrium && (drift || stiff_to_turns)) {
+    constrain_detached(pattern, system.inverse_mass, position.data(), !stiff_to_turns, held, detached);
     return;
   }
   if (drift)
-    throw Unsolved(*drift + ", and a static solve needs that",
-                   "add <fix>, or use implicit, which needs no hold");
+    throw NotConverged(*drift + ", and a static solve needs that",
+                       "add <fix>, or use implicit, which needs no hold");
   if (stiff_to_turns)
-    throw Unsolved(
+    throw NotConverged(
         "what is held lets the body turn as a whole, and a model of small displacements resists no turn",
         "fix more than a point or a line, or use a co-rotational model");
 }

@@ -1,5 +1,6 @@
-// Stiffness from Young's modulus: by formula, and by pulling the sheet (thesis eq. 2.20 to 2.22; young.h).
-#include "sim/mechanics/young.h"
+// Stiffness from Young's modulus: by formula, and by pulling the sheet (thesis eq. 2.20 to 2.22;
+// spring_stiffness.h).
+#include "sim/mechanics/spring_stiffness.h"
 
 #include "sim/presets.h"
 #include "sim/random_meshes.h"

@@ -7,7 +7,7 @@
 
 namespace rend {
 
-struct UnitNow {
+struct CurrentUnit {
   const Interaction* interaction = nullptr;
   Dart owner;                                      // the first dart of its orbit
   const double* values = nullptr;                  // ForceLaw::values() of them
@@ -19,8 +19,8 @@ struct UnitNow {
 
   // The unit whose words start at d, the first dart of its owner. Positions [m] and velocities [m/s]: one
   // record per vertex slot; null velocities: 0.
-  UnitNow(const EmbeddedMap& map, const Interaction& interaction_, Dart d, std::size_t unit, const Record* x,
-          const Record* v)
+  CurrentUnit(const EmbeddedMap& map, const Interaction& interaction_, Dart d, std::size_t unit,
+              const Record* x, const Record* v)
       : interaction(&interaction_), owner(d),
         values(interaction_.unit(map.slot(interaction_.pattern.owner, d), unit)),
         particles(interaction_.law->particles()) {

@@ -5,7 +5,7 @@
 
 namespace rend {
 
-enum class Side : std::uint8_t {
+enum class LineKind : std::uint8_t {
   Inner = 0,  // a diagonal of a face: no line
   Cell = 1,   // an edge between two cells
   Border = 2, // of a sheet: on the initial boundary

@@ -7,7 +7,7 @@
 // however it was reached.
 #pragma once
 
-#include "sim/boundary/side.h"
+#include "sim/boundary/line_kind.h"
 #include "sim/embedding/cell_index.h"
 
 #include <span>
@@ -15,19 +15,19 @@
 
 namespace rend {
 
-class DrawnFaces {
+class BoundaryFaces {
 public:
   struct Corner {
     Slot vertex;
     // corners of one group share a normal; the group's smallest dart (on an exposed face: the face's)
     Dart group;
-    Side side; // along the edge to the next corner
+    LineKind side; // along the edge to the next corner
     bool operator==(const Corner&) const = default;
   };
   struct Face {
     Dart first;  // its smallest dart; its corner is corner 0
     bool turned; // corners are listed from α1(first) on, not from first: counter-clockwise as seen from outside
-    bool bare;   // exposed by fracture
+    bool exposed; // exposed by fracture
     std::uint32_t sides;
     bool operator==(const Face&) const = default;
   };
@@ -56,7 +56,7 @@ public:
   }
 
   std::size_t bytes() const;
-  bool operator==(const DrawnFaces&) const = default;
+  bool operator==(const BoundaryFaces&) const = default;
 
 private:
   static constexpr std::size_t block_size = 128; // [darts]

@@ -10,9 +10,9 @@ namespace rend {
 
 // Whether a side of an element (an edge of a face in a sheet, a face of a volume in a solid) was on the
 // boundary when its element was created: a side that is on the boundary now and was not then has been torn.
-struct BornBorder {
+struct InitialBorder {
   using Value = std::uint8_t;
-  explicit BornBorder(int dimension = 2) : orbit(dimension == 2 ? EdgeOfFace : FaceOfVolume) {}
+  explicit InitialBorder(int dimension = 2) : orbit(dimension == 2 ? EdgeOfFace : FaceOfVolume) {}
   std::string name = "born border";
   Orbit orbit;
   Orbit support = SingleDart;
@@ -20,6 +20,6 @@ struct BornBorder {
   Value split(const Value& whole) const { return whole; }
   Value merge(const Value& kept, const Value&) const { return kept; }
 };
-using BorderColumn = Column<BornBorder>;
+using BorderColumn = Column<InitialBorder>;
 
 } // namespace rend

@@ -17,37 +17,37 @@ namespace rend {
 
 // The free translations of the first component that has some ("along x and z ..."); nullopt: none. `held`: as
 // in System::hold; `inverse_mass` 0: free slot.
-std::optional<std::string> drift_of(const BlockPattern& pattern, const double* inverse_mass,
-                                    const std::vector<std::uint8_t>& held);
+std::optional<std::string> free_translation_of(const BlockPattern& pattern, const double* inverse_mass,
+                                               const std::vector<std::uint8_t>& held);
 
 // Whether some component can rotate as a rigid body, from the current positions.
-bool can_turn(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
-              const Record* position);
+bool can_rotate(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
+                const Record* position);
 
 // For components that were torn off: constrains as many coordinates of each component that can translate (or
 // rotate, unless its forces are invariant under rotation, `turns`) as make its rigid motions determinate
 // without restricting its shape, and marks its vertices. Without loads the reactions there are 0. `loose`: one
 // per vertex slot.
-void pin_loose(const BlockPattern& pattern, const double* inverse_mass, const Record* position, bool turns,
-               std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& loose);
+void constrain_detached(const BlockPattern& pattern, const double* inverse_mass, const Record* position,
+                        bool turns, std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& detached);
 
 // Whether the internal forces are rotation invariant, measured at quarter turns about z and x, which are exact
 // in floating point. `size`: extent() of the body [m]; the matrix and `room` are overwritten.
-using TurningRoom = std::array<Records, 4>; // one record per vertex slot each
-bool turns_with_body(System& system, double time, const Records& position, double size, BlockMatrix& matrix,
-                     TurningRoom& room);
+using RotationScratch = std::array<Records, 4>; // one record per vertex slot each
+bool is_rotation_invariant(System& system, double time, const Records& position, double size,
+                           BlockMatrix& matrix, RotationScratch& room);
 
 // The boundary conditions of a static solve.
-struct Footing {
-  std::vector<std::uint8_t> held;  // constrained axes, one per vertex slot
-  std::vector<std::uint8_t> loose; // 1: of a component that was torn off, without loads; one per vertex slot
-  bool stood = false;              // an equilibrium has been found before
-  bool keeps_turned = false;       // components that can rotate are treated as torn off
-  TurningRoom room;                // scratch; empty until a component can rotate
+struct SupportState {
+  std::vector<std::uint8_t> held;     // constrained axes, one per vertex slot
+  std::vector<std::uint8_t> detached; // 1: of a component that was torn off, without loads; one per vertex slot
+  bool found_equilibrium = false;     // an equilibrium has been found before
+  bool constrains_rotations = false;  // components that can rotate are treated as torn off
+  RotationScratch room;               // scratch; empty until a component can rotate
 
   // With `held` as set by the system: constrains and marks the components that were torn off since the last
-  // equilibrium, and refuses (Unsolved) a body that can translate or rotate without resistance. Position and
-  // size as above; the matrix is overwritten.
+  // equilibrium, and refuses (NotConverged) a body that can translate or rotate without resistance. Position
+  // and size as above; the matrix is overwritten.
   void check(System& system, double time, const Records& position, double size, BlockMatrix& matrix);
 };
 

@@ -1,4 +1,4 @@
-#include "sim/guard/rewind.h"
+#include "sim/guard/rollback.h"
 
 #include "sim/base/archive.h"
 #include "sim/rows/frequency.h"
@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace rend {
-Rewind::Rewind(World& world, const Bodies& bodies, double step)
+Rollback::Rollback(World& world, const Bodies& bodies, double step)
     : world_(world), bodies_(bodies), step_(step), starts_(bodies.size()), spheres_(world.spheres.size()) {
   for (const Sphere& sphere : world.spheres)
     if (!sphere.falls()) push_ = std::max(push_, sphere.velocity.norm());
@@ -20,11 +20,11 @@ Rewind::Rewind(World& world, const Bodies& bodies, double step)
   }
 }
 
-bool Rewind::pushed(const Body& body) const {
+bool Rollback::pushed(const Body& body) const {
   return push_ > 0 && body.contact && body.contact->obstacles;
 }
 
-void Rewind::reserve_for_separations() {
+void Rollback::reserve_for_separations() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = *bodies_[b];
     if (!body.tears()) continue;
@@ -35,7 +35,7 @@ void Rewind::reserve_for_separations() {
   }
 }
 
-void Rewind::begin(long step) {
+void Rollback::begin(long step) {
   first_ = step;
   aside_ = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -54,7 +54,7 @@ void Rewind::begin(long step) {
     spheres_[s] = {world_.spheres[s].centre, world_.spheres[s].velocity};
 }
 
-void Rewind::keep() {
+void Rollback::save_start() {
   if (aside_) return;
   aside_ = true;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -63,22 +63,22 @@ void Rewind::keep() {
   }
 }
 
-bool Rewind::fits() const {
+bool Rollback::fits() const {
   for (std::size_t b = 0; aside_ && b < bodies_.size(); ++b)
     if (starts_[b].state.position.size() != bodies_[b]->vertices()) return false;
   return true;
 }
 
-void Rewind::restore() {
+void Rollback::restore() {
   if (!aside_) return;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->go_back(starts_[b].state, starts_[b].time);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->restore_state(starts_[b].state, starts_[b].time);
   for (std::size_t s = 0; s < spheres_.size(); ++s) {
     world_.spheres[s].centre = spheres_[s].centre;
     world_.spheres[s].velocity = spheres_[s].velocity;
   }
 }
 
-Rewind::Account Rewind::account() {
+Rollback::Account Rollback::account() {
   Account sum;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     add(*bodies_[b], starts_[b], sum);
@@ -90,23 +90,23 @@ Rewind::Account Rewind::account() {
     const Sphere& sphere = world_.spheres[s];
     if (!sphere.falls()) continue;
     sum.kinetic += 0.5 * sphere.mass * sphere.velocity.squaredNorm();
-    sum.given += sphere.mass * world_.gravity.dot(sphere.centre - spheres_[s].centre);
+    sum.work += sphere.mass * world_.gravity.dot(sphere.centre - spheres_[s].centre);
     sum.headroom += 2 * sphere.mass * (step_ * world_.gravity).squaredNorm();
   }
   return sum;
 }
 
-double Rewind::elastic_energy() const {
+double Rollback::elastic_energy() const {
   double sum = 0;
   for (const auto& body : bodies_) sum += body->program->elastic_energy(body->map->position().values().data());
   return sum;
 }
 
-const Record* Rewind::from(const Body& body, const Start& start) const {
+const Record* Rollback::from(const Body& body, const Start& start) const {
   return aside_ ? start.state.position.data() : body.map->position().values().data();
 }
 
-void Rewind::add(const Body& body, const Start& start, Account& sum) const {
+void Rollback::add(const Body& body, const Start& start, Account& sum) const {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   const Record* x0 = from(body, start);
   const double* inverse = body.program->inverse_mass();
@@ -125,14 +125,14 @@ void Rewind::add(const Body& body, const Start& start, Account& sum) const {
   }
   sum.kinetic += 0.5 * sum3(motion);
   sum.squared_speeds += sum3(speeds);
-  sum.given += sum3(fall);
+  sum.work += sum3(fall);
   sum.heaviest = heaviest;
   sum.mass += mass;
   sum.headroom += 2 * mass * (step_ * world_.gravity).squaredNorm();
 }
 
 // The loads at the start, and as they would be there at the current time.
-void Rewind::add_loads(Body& body, const Start& start, Account& sum) const {
+void Rollback::add_loads(Body& body, const Start& start, Account& sum) const {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   const Record* x0 = from(body, start);
   const Record* v0 = aside_ ? start.state.velocity.data() : v;
@@ -143,36 +143,36 @@ void Rewind::add_loads(Body& body, const Start& start, Account& sum) const {
     const Vec3 f = start.load[i], dx = x[i].vec() - x0[i].vec();
     const double most = std::max(f.norm(), later[i].vec().norm());
     if (most == 0) continue;
-    sum.given += dead && f == later[i].vec() ? f.dot(dx) : most * dx.norm();
+    sum.work += dead && f == later[i].vec() ? f.dot(dx) : most * dx.norm();
     sum.headroom += 2 * inverse[i] * most * most * step_ * step_;
   }
-  body.outer(body.time(), x, v); // restores the loads of the current step
+  body.update_loads(body.time(), x, v); // restores the loads of the current step
 }
 
-void Rewind::add_drives(const Body& body, const Start& start, Account& sum) const {
+void Rollback::add_drives(const Body& body, const Start& start, Account& sum) const {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   const Record* x0 = from(body, start);
   const double* inverse = body.program->inverse_mass();
   const std::vector<Slot>& held = body.constraints.vertices();
   for (std::size_t n = 0; n < held.size(); ++n) {
     const double m = 1 / inverse[held[n]], way = (x[held[n]].vec() - x0[held[n]].vec()).norm();
-    sum.given += (start.force[n].vec().norm() + m * world_.gravity.norm()) * way;
-    sum.given += 0.5 * m * start.omega_squared * way * way;
+    sum.work += (start.force[n].vec().norm() + m * world_.gravity.norm()) * way;
+    sum.work += 0.5 * m * start.omega_squared * way * way;
     sum.headroom += 0.5 * m * v[held[n]].vec().squaredNorm();
   }
 }
 
-void Rewind::add_pushes(const Body& body, const Start& start, Account& sum) const {
+void Rollback::add_pushes(const Body& body, const Start& start, Account& sum) const {
   const double way = push_ * (body.time() - start.time);
   double mass = 0;
   for (std::size_t i = 0; i < body.vertices(); ++i)
     if (const double w = body.program->inverse_mass()[i]; w > 0) mass += 1 / w;
-  sum.given += (start.forces + mass * world_.gravity.norm()) * way;
-  sum.given += 0.5 * mass * start.omega_squared * way * way;
+  sum.work += (start.forces + mass * world_.gravity.norm()) * way;
+  sum.work += 0.5 * mass * start.omega_squared * way * way;
   sum.headroom += 2 * mass * push_ * push_;
 }
 
-void Rewind::Start::store(Archive& archive, const Body& body) {
+void Rollback::Start::store(Archive& archive, const Body& body) {
   state.store(archive, body.vertices());
   archive(time);
   archive.list(load, body.vertices(), "loads are of more vertices than the body has");
@@ -183,11 +183,11 @@ void Rewind::Start::store(Archive& archive, const Body& body) {
   refuse_unless(omega == omega_squared, "a body's frequencies are others");
 }
 
-void Rewind::SphereStart::store(Archive& archive) {
+void Rollback::SphereStart::store(Archive& archive) {
   archive(centre, velocity);
 }
 
-void Rewind::store(Archive& archive, long done) {
+void Rollback::store(Archive& archive, long done) {
   archive(first_, aside_);
   archive.same(starts_.size(), "number of bodies");
   for (std::size_t b = 0; b < starts_.size(); ++b) starts_[b].store(archive, *bodies_[b]);
@@ -196,7 +196,7 @@ void Rewind::store(Archive& archive, long done) {
 }
 
 // After each step a start with the current topology is put aside. Before the first step there is none.
-void Rewind::check_read(long done) const {
+void Rollback::check_read(long done) const {
   refuse_unless(aside_ == (done > 0), "a stretch of steps has no start");
   refuse_unless(first_ >= 0 && first_ <= done && done - first_ <= longest,
                 "a stretch of steps starts elsewhere");
@@ -213,7 +213,7 @@ void Rewind::check_read(long done) const {
   }
 }
 
-std::size_t Rewind::bytes() const {
+std::size_t Rollback::bytes() const {
   std::size_t records = 0;
   for (const Start& start : starts_)
     records +=

@@ -1,6 +1,6 @@
-#include "sim/integrate/least_resistance.h"
+#include "sim/integrate/lowest_eigenvalue.h"
 
-#include "sim/integrate/footing.h"
+#include "sim/integrate/rigid_motions.h"
 
 #include <cmath>
 #include <limits>
@@ -14,7 +14,7 @@ constexpr double steady = 1e-4, digits = 1e-8; // tolerances of λ + s, and of a
 
 // Sets the matrix to A + s M with constraints, with the smallest s that makes it positive definite [1/s²]; 0:
 // none did.
-double shifted(const Standing& at, BlockMatrix& matrix, LinearSolver& linear) {
+double shifted(const Equilibrium& at, BlockMatrix& matrix, LinearSolver& linear) {
   const std::size_t count = at.position.size();
   const double* inverse_mass = at.system.inverse_mass;
   for (double share = first_shift; share <= most_shift; share *= shift_grows) {
@@ -23,15 +23,15 @@ double shifted(const Standing& at, BlockMatrix& matrix, LinearSolver& linear) {
     const double shift = share * mean_stiffness(matrix, inverse_mass, count);
     for (std::size_t i = 0; i < count; ++i)
       matrix.add_diagonal(i, inverse_mass[i] != 0 ? shift / inverse_mass[i] : 1);
-    matrix.hold(at.held.data());
-    linear.take(matrix);
+    matrix.constrain(at.held.data());
+    linear.set_matrix(matrix);
     if (linear.factorise() == Definiteness::Positive) return shift;
   }
   return 0;
 }
 
 // A start vector without symmetries, the same on every machine; 0 at constrained coordinates and free slots.
-Records start_of(const Standing& at) {
+Records start_of(const Equilibrium& at) {
   Records out(at.position.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (at.system.inverse_mass[i] == 0) continue;
@@ -52,7 +52,8 @@ void weigh(const System& system, const Records& x, Records& out) {
 
 } // namespace
 
-double least_resistance(const Standing& at, BlockMatrix& matrix, LinearSolver& linear, LoadTangent& tangent) {
+double lowest_eigenvalue(const Equilibrium& at, BlockMatrix& matrix, LinearSolver& linear,
+                         LoadTangent& tangent) {
   constexpr double unknown = -std::numeric_limits<double>::infinity();
   const double shift = shifted(at, matrix, linear);
   if (shift == 0) return unknown;

@@ -1,20 +1,20 @@
-#include "sim/boundary/drawn_faces.h"
+#include "sim/boundary/boundary_faces.h"
 
 namespace rend {
 
-void DrawnFaces::resize(std::size_t darts) {
+void BoundaryFaces::resize(std::size_t darts) {
   const std::size_t blocks = (darts + block_size - 1) / block_size;
   if (blocks > blocks_.size()) blocks_.resize(blocks);
 }
 
-DrawnFaces::Place DrawnFaces::place_of(const Block& block, Dart first) const {
+BoundaryFaces::Place BoundaryFaces::place_of(const Block& block, Dart first) const {
   Place place{0, 0};
   while (place.face < block.faces.size() && block.faces[place.face].first < first)
     place.corner += block.faces[place.face++].sides;
   return place;
 }
 
-void DrawnFaces::set(const Face& face, std::span<const Corner> corners) {
+void BoundaryFaces::set(const Face& face, std::span<const Corner> corners) {
   erase(face.first);
   Block& block = blocks_[face.first.value / block_size];
   const Place place = place_of(block, face.first);
@@ -25,7 +25,7 @@ void DrawnFaces::set(const Face& face, std::span<const Corner> corners) {
   corners_ += corners.size();
 }
 
-bool DrawnFaces::erase(Dart first) {
+bool BoundaryFaces::erase(Dart first) {
   if (first.value / block_size >= blocks_.size()) return false;
   Block& block = blocks_[first.value / block_size];
   const Place place = place_of(block, first);
@@ -39,7 +39,7 @@ bool DrawnFaces::erase(Dart first) {
   return true;
 }
 
-DrawnFaces::Found DrawnFaces::find(Dart first) {
+BoundaryFaces::Found BoundaryFaces::find(Dart first) {
   Block& block = blocks_[first.value / block_size];
   const Place place = place_of(block, first);
   if (place.face == block.faces.size() || block.faces[place.face].first != first) return {};
@@ -47,7 +47,7 @@ DrawnFaces::Found DrawnFaces::find(Dart first) {
   return {&face, {block.corners.data() + place.corner, face.sides}};
 }
 
-std::size_t DrawnFaces::bytes() const {
+std::size_t BoundaryFaces::bytes() const {
   std::size_t total = blocks_.size() * sizeof(Block);
   for (const Block& block : blocks_)
     total += block.faces.size() * sizeof(Face) + block.corners.size() * sizeof(Corner);

@@ -34,7 +34,7 @@ struct TearEvent {
   void store(Archive& archive); // the caller checks that its law and its dart exist
 };
 
-class Births {
+class FragmentCounter {
 public:
   void begin();                      // before an edit
   void note(const Journal& journal); // after a change: reads the new entries of the journal

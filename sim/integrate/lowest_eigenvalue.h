@@ -17,7 +17,7 @@
 namespace rend {
 
 // An equilibrium: positions [m], velocities of 0 [m/s], constrained axes; one entry per vertex slot.
-struct Standing {
+struct Equilibrium {
   System& system;
   double time; // [s]
   const Records &position, &still;
@@ -26,6 +26,7 @@ struct Standing {
 
 // λ [1/s²], to a hundredth of its distance from −s; −∞ if it was not found. The last three arguments are
 // overwritten.
-double least_resistance(const Standing& at, BlockMatrix& matrix, LinearSolver& linear, LoadTangent& tangent);
+double lowest_eigenvalue(const Equilibrium& at, BlockMatrix& matrix, LinearSolver& linear,
+                         LoadTangent& tangent);
 
 } // namespace rend

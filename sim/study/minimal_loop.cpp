@@ -1,17 +1,17 @@
-#include "sim/study/bare_loop.h"
+#include "sim/study/minimal_loop.h"
 
 #include "sim/base/check.h"
 
 namespace rend {
 
 // A body for a time scheme.
-struct BareLoop::Bare final : System {
+struct MinimalLoop::MinimalBody final : System {
   Body* body;
   std::unique_ptr<Integrator> integrator;
   std::vector<Record> force; // [N], one per vertex slot
   State next;
 
-  Bare(Body& of, const Scheme& scheme) : body(&of), integrator(scheme.make({})) {
+  MinimalBody(Body& of, const Scheme& scheme) : body(&of), integrator(scheme.make({})) {
     const Program& program = *of.program;
     inverse_mass = program.inverse_mass();
     drag_rate = program.drag_rate();
@@ -39,7 +39,7 @@ struct BareLoop::Bare final : System {
   }
 };
 
-std::string more_than_bare(const Scene& scene) {
+std::string beyond_minimal(const Scene& scene) {
   if (scene.scheme().solves) return "a scheme that solves";
   if (scene.scheme().adaptive) return "an adaptive scheme";
   if (scene.contacts()) return "contact";
@@ -52,14 +52,15 @@ std::string more_than_bare(const Scene& scene) {
   return {};
 }
 
-BareLoop::BareLoop(Scene& scene) : scene_(&scene), steps_(scene.steps_done()) {
-  CHECK(more_than_bare(scene).empty());
-  for (const auto& body : scene.bodies()) bodies_.push_back(std::make_unique<Bare>(*body, scene.scheme()));
+MinimalLoop::MinimalLoop(Scene& scene) : scene_(&scene), steps_(scene.steps_done()) {
+  CHECK(beyond_minimal(scene).empty());
+  for (const auto& body : scene.bodies())
+    bodies_.push_back(std::make_unique<MinimalBody>(*body, scene.scheme()));
 }
 
-BareLoop::~BareLoop() = default;
+MinimalLoop::~MinimalLoop() = default;
 
-void BareLoop::step() {
+void MinimalLoop::step() {
   const double size = scene_->step_size(), time = static_cast<double>(steps_) * size;
   for (auto& body : bodies_) body->step(time, size);
   ++steps_;

@@ -6,22 +6,22 @@
 
 namespace rend {
 
-class BareLoop {
+class MinimalLoop {
 public:
   // Continues from the scene's state, which it changes; the scene must make no steps meanwhile. CHECK:
-  // more_than_bare() is empty.
-  explicit BareLoop(Scene& scene);
-  ~BareLoop();
+  // beyond_minimal() is empty.
+  explicit MinimalLoop(Scene& scene);
+  ~MinimalLoop();
   void step();
 
 private:
-  struct Bare;
+  struct MinimalBody;
   Scene* scene_;
-  std::vector<std::unique_ptr<Bare>> bodies_;
+  std::vector<std::unique_ptr<MinimalBody>> bodies_;
   long steps_ = 0;
 };
 
 // A feature of the scene that this loop does not have; empty: none.
-std::string more_than_bare(const Scene& scene);
+std::string beyond_minimal(const Scene& scene);
 
 } // namespace rend

@@ -27,22 +27,22 @@
 
 namespace rend {
 
-class Rewind {
+class Rollback {
 public:
   using Bodies = std::vector<std::unique_ptr<Body>>;
-  static constexpr long longest = 64;                      // maximal number of steps of a stretch
-  Rewind(World& world, const Bodies& bodies, double step); // step [s]
+  static constexpr long longest = 64;                        // maximal number of steps of a stretch
+  Rollback(World& world, const Bodies& bodies, double step); // step [s]
   void reserve_for_separations();
 
   long first() const { return first_; } // steps done at its start
   void begin(long step);                // at the current state, whose forces and loads are evaluated
-  void keep();                          // after each commit: puts the start aside, unless done
+  void save_start();                    // after each commit: puts the start aside, unless done
   bool fits() const;                    // false: the topology was changed since, other than by laws
   void restore();                       // the start: bodies and spheres
 
   struct Account {
     double kinetic = 0;            // [J], of the current state
-    double given = 0;              // [J], work done since the start, of either sign
+    double work = 0;               // [J], work done since the start, of either sign
     double headroom = 0;           // [J], in addition
     double mass = 0, heaviest = 0; // [kg], of all vertices
     double squared_speeds = 0;     // [m²/s²], of live vertices
