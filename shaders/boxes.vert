@@ -1,4 +1,4 @@
-// Rectangles of a picture (render/draw/boxes.h).
+// Rectangles of a picture (render/draw/rect_painter.h).
 layout(location = 0) in vec2 at; // corners of the picture at -1 and 1
 out vec2 place;
 void main() {

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds pause_between(10); // between two polls
 BatchQueue::BatchQueue(const std::vector<BatchJob>& jobs, const BatchLimits& limits, CommandOf command,
                        Done done)
     : jobs_(jobs), limits_(limits), command_(std::move(command)), done_(std::move(done)), results_(jobs.size()),
-      again_(jobs.size()) {
+      resumes_(jobs.size()) {
   for (std::size_t n = 0; n < jobs.size(); ++n) waiting_.push_back(n);
 }
 
@@ -32,7 +32,7 @@ std::size_t BatchQueue::expected(const std::string& preset) const {
   return peaks_.empty() ? unknown : sum / peaks_.size();
 }
 
-std::size_t BatchQueue::taken() const {
+std::size_t BatchQueue::memory_in_use() const {
   std::size_t sum = 0;
   for (const Running& one : running_) sum += std::max(one.most, expected(jobs_[one.job].preset));
   return sum;
@@ -42,10 +42,10 @@ bool BatchQueue::room_for_next() const {
   if (waiting_.empty()) return false;
   if (running_.empty()) return true;
   return static_cast<int>(running_.size()) < limits_.jobs &&
-         taken() + expected(jobs_[waiting_.front()].preset) <= limits_.memory;
+         memory_in_use() + expected(jobs_[waiting_.front()].preset) <= limits_.memory;
 }
 
-void BatchQueue::begin_next() {
+void BatchQueue::start_next() {
   const std::size_t job = waiting_.front();
   waiting_.pop_front();
   // llvmpipe draws the same with any number of threads; with several jobs, more than one thread each would only
@@ -53,12 +53,12 @@ void BatchQueue::begin_next() {
   std::vector<std::pair<std::string, std::string>> variables;
   if (limits_.jobs > 1) variables.emplace_back("LP_NUM_THREADS", "1");
   try {
-    running_.push_back({job, Child(command_(jobs_[job], again_[job]), variables), wall_clock()});
+    running_.push_back({job, Child(command_(jobs_[job], resumes_[job]), variables), wall_clock()});
   } catch (const UserError& error) {
     if (error.code != Exit::OutOfBudget || running_.empty()) throw;
     waiting_.push_front(job);
     limits_.jobs = static_cast<int>(running_.size());
-    fewer_jobs_ = true;
+    processes_were_refused_ = true;
   }
 }
 
@@ -68,13 +68,13 @@ void BatchQueue::finish(Running& one) {
   result.peak = std::max(result.peak, one.child.peak());
   const std::string& preset = jobs_[one.job].preset;
   peaks_[preset] = std::max(peaks_[preset], result.peak);
-  const bool stopped = is_of_a_signal(one.child.code());
+  const bool stopped = is_exit_code_of_signal(one.child.code());
   ++result.tries;
   // A job that was stopped to free memory resumes once there is room, from its checkpoint if it wrote one. It
   // did if it printed its figures; it did not if it was still building its scene (a checkpoint found then is of
   // an earlier batch).
   if (stopped && one.stopped && stop_signal() == 0) {
-    again_[one.job] = again_[one.job] || !one.child.out().empty();
+    resumes_[one.job] = resumes_[one.job] || !one.child.out().empty();
     waiting_.push_back(one.job);
     return;
   }
@@ -121,7 +121,7 @@ std::vector<BatchResult> BatchQueue::run() {
       stop_all(signal);
       break;
     }
-    while (room_for_next()) begin_next();
+    while (room_for_next()) start_next();
     collect();
     watch_memory();
     std::this_thread::sleep_for(pause_between);

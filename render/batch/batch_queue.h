@@ -34,7 +34,7 @@ public:
   // Until all jobs have run or a signal came: then running jobs are stopped and waited for.
   std::vector<BatchResult> run();
   // the system refused to start as many processes as were asked for
-  bool has_fewer_jobs() const { return fewer_jobs_; }
+  bool processes_were_refused() const { return processes_were_refused_; }
 
 private:
   struct Running {
@@ -45,9 +45,9 @@ private:
     bool stopped = false; // to free memory
   };
   std::size_t expected(const std::string& preset) const;
-  std::size_t taken() const; // [bytes] by running jobs, now or as estimated
+  std::size_t memory_in_use() const; // [bytes] by running jobs, now or as estimated
   bool room_for_next() const;
-  void begin_next();
+  void start_next();
   void collect();
   void watch_memory();
   void stop_all(int signal);
@@ -60,8 +60,8 @@ private:
   std::deque<std::size_t> waiting_;
   std::list<Running> running_; // in the order of their start
   std::vector<BatchResult> results_;
-  std::vector<bool> again_; // one per job: it resumes from a checkpoint
-  bool fewer_jobs_ = false;
+  std::vector<bool> resumes_; // one per job: it resumes from a checkpoint
+  bool processes_were_refused_ = false;
   std::map<std::string, std::size_t> peaks_; // [bytes], by preset
 };
 

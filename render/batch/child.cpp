@@ -42,10 +42,10 @@ constexpr const char* itself = "/proc/self/exe";
 
 // In the child process, up to exec(): by the path that other processes see, or through /proc/self/exe if that
 // file has been moved or removed. Where both fail, exit code 127 as in a shell.
-[[noreturn]] void become(const char* program, const std::vector<char*>& words, int parent, int out, int err,
-                         const SignalsHeld& held) {
+[[noreturn]] void exec_program(const char* program, const std::vector<char*>& words, int parent, int out,
+                               int err, const BlockedSignals& held) {
   ::setpgid(0, 0);
-  held.let_in();
+  held.unblock_in_child();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(127); // the parent has ended already
   ::dup2(out, STDOUT_FILENO);
@@ -69,9 +69,9 @@ Child::Child(const std::vector<std::string>& arguments,
   std::error_code error;
   const std::string program = std::filesystem::read_symlink(itself, error).string();
   const int parent = ::getpid();
-  const SignalsHeld held;
+  const BlockedSignals held;
   process_ = ::fork();
-  if (process_ == 0) become(program.c_str(), words, parent, out_, err_, held);
+  if (process_ == 0) exec_program(program.c_str(), words, parent, out_, err_, held);
   if (process_ < 0)
     throw UserError(
         Exit::OutOfBudget, {}, fmt::format("a job could not be started: {}", std::strerror(errno)),

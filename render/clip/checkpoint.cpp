@@ -1,6 +1,6 @@
 #include "render/clip/checkpoint.h"
 
-#include "render/clip/film.h"
+#include "render/clip/frame_output.h"
 #include "render/clip/session.h"
 #include "render/clip/shard.h"
 #include "render/draw/hud.h"
@@ -104,14 +104,14 @@ private:
 };
 
 // None: not a checkpoint of this format.
-std::optional<CheckpointHead> head_in(std::span<const std::uint8_t> bytes) {
+std::optional<CheckpointHeader> head_in(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < head_size || !std::equal(first_line.begin(), first_line.end(), bytes.begin())) return {};
   HeadNumbers fields;
   std::memcpy(fields.data(), bytes.data() + first_line.size(), sizeof fields);
-  return CheckpointHead{fields[0], static_cast<long>(fields[1])};
+  return CheckpointHeader{fields[0], static_cast<long>(fields[1])};
 }
 
-CheckpointHead head_of(const fs::path& path, std::span<const std::uint8_t> bytes) {
+CheckpointHeader head_of(const fs::path& path, std::span<const std::uint8_t> bytes) {
   const auto head = head_in(bytes);
   if (!head) refuse(path, "this is no checkpoint that this rend can read");
   return *head;
@@ -140,9 +140,9 @@ private:
   std::uint64_t sum_;
 };
 
-void store(Archive& archive, Session& session, Film& film) {
+void store(Archive& archive, Session& session, FrameOutput& output) {
   session.scene().store(archive);
-  film.store(archive);
+  output.store(archive);
 }
 
 } // namespace
@@ -163,7 +163,8 @@ std::string checkpoint_key(const std::string& picture_key) {
   return fmt::format("{:016x}", sum);
 }
 
-void write_checkpoint(const fs::path& path, const std::string& key, long next, Session& session, Film& film) {
+void write_checkpoint(const fs::path& path, const std::string& key, long next, Session& session,
+                      FrameOutput& output) {
   const HeadNumbers fields{number_of(key), static_cast<std::uint64_t>(next)};
   std::vector<std::uint8_t> head(first_line.begin(), first_line.end());
   head.insert(head.end(), bytes_of(fields).begin(), bytes_of(fields).end());
@@ -175,16 +176,16 @@ void write_checkpoint(const fs::path& path, const std::string& key, long next, S
     sum[0] = sum_with(sum[0], piece);
     file.write(piece);
   });
-  store(archive, session, film);
+  store(archive, session, output);
   archive.end();
   file.write(bytes_of(sum));
   file.commit();
 }
 
-std::optional<CheckpointHead> read_checkpoint_head(const fs::path& path, const std::string& key) {
+std::optional<CheckpointHeader> read_checkpoint_header(const fs::path& path, const std::string& key) {
   Source source(path);
   if (!source.is_open()) return {};
-  const CheckpointHead head = head_of(path, source.next(head_size));
+  const CheckpointHeader head = head_of(path, source.next(head_size));
   if (head.key != number_of(key))
     refuse(path, "the checkpoint is of another preset, of other settings, or of another rend");
   return head;
@@ -193,17 +194,17 @@ std::optional<CheckpointHead> read_checkpoint_head(const fs::path& path, const s
 // The checksum is known only when everything has been read. Accidental damage is mostly found earlier, by
 // values that are out of range; a forged file can have a checksum that is right, so each value is validated
 // anyway.
-std::optional<CheckpointHead> read_checkpoint(const fs::path& path, const std::string& key, long first,
-                                              Session& session, Film& film) {
+std::optional<CheckpointHeader> read_checkpoint(const fs::path& path, const std::string& key, long first,
+                                                Session& session, FrameOutput& output) {
   Source source(path);
   if (!source.is_open()) return {};
   const std::span<const std::uint8_t> start = source.next(head_size);
-  const CheckpointHead head = head_of(path, start);
+  const CheckpointHeader head = head_of(path, start);
   StoredState state(source, start);
   const bool wanted = head.key == number_of(key) && head.next <= first;
   try {
     Archive archive([&] { return state.next(); }, state.size());
-    if (wanted) store(archive, session, film);
+    if (wanted) store(archive, session, output);
     if (wanted) archive.end();
   } catch (const ArchiveError& fault) {
     refuse(path, fmt::format("the checkpoint is damaged, or of another scene: {}", fault.what()));
@@ -240,7 +241,7 @@ bool is_checkpoint_of(const std::string& name, const std::string& file) {
 }
 
 // None: not a checkpoint, or not readable.
-std::optional<CheckpointHead> head_of_another(const fs::path& path) try {
+std::optional<CheckpointHeader> head_of_another(const fs::path& path) try {
   Source source(path);
   return source.is_open() ? head_in(source.next(head_size)) : std::nullopt;
 } catch (const UserError&) {
@@ -263,7 +264,7 @@ std::vector<FoundCheckpoint> find_checkpoints(const fs::path& folder, const std:
   std::sort(all.begin(), all.end(), [](const FoundCheckpoint& a, const FoundCheckpoint& b) {
     return a.head.next != b.head.next ? a.head.next > b.head.next : a.path < b.path;
   });
-  const auto head = read_checkpoint_head(own, key);
+  const auto head = read_checkpoint_header(own, key);
   if (head && head->next <= first) all.insert(all.begin(), {own, *head});
   return all;
 }

@@ -24,12 +24,12 @@
 
 namespace rend {
 
-class Film;
+class FrameOutput;
 class Session;
 struct Shard;
 
 // The header of a checkpoint.
-struct CheckpointHead {
+struct CheckpointHeader {
   std::uint64_t key = 0; // checkpoint_key()
   long next = 0;         // frame
 };
@@ -43,31 +43,32 @@ std::string picture_key(const Session& session, int width, int height, int sampl
 std::string checkpoint_key(const std::string& picture_key);
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& key, long next, Session& session,
-                      Film& film); // UserError (CannotCreate, ReadWrite)
+                      FrameOutput& output); // UserError (CannotCreate, ReadWrite)
 
 // None: no such file. UserError (BadInput): not a regular file, not a checkpoint, or of another key;
 // (ReadWrite): it cannot be read.
-std::optional<CheckpointHead> read_checkpoint_head(const std::filesystem::path& path, const std::string& key);
+std::optional<CheckpointHeader> read_checkpoint_header(const std::filesystem::path& path,
+                                                       const std::string& key);
 
-// Restores the state into a session and film of the same key, and returns the header from the same read: by now
-// another process may have replaced the file of another shard. None, and nothing was restored: the file is
+// Restores the state into a session and output of the same key, and returns the header from the same read: by
+// now another process may have replaced the file of another shard. None, and nothing was restored: the file is
 // gone, or now has another key or a next frame after `first`. UserError (BadInput): not a regular file, not a
 // checkpoint, damaged, or a state that no run of this session can reach; (ReadWrite): it cannot be read. After
-// an error session and film are unusable.
-std::optional<CheckpointHead> read_checkpoint(const std::filesystem::path& path, const std::string& key,
-                                              long first, Session& session, Film& film);
+// an error session and output are unusable.
+std::optional<CheckpointHeader> read_checkpoint(const std::filesystem::path& path, const std::string& key,
+                                                long first, Session& session, FrameOutput& output);
 
 // The path of a run's checkpoint: NAME.checkpoint, or NAME.2-of-7.checkpoint.
 std::filesystem::path checkpoint_path(const std::filesystem::path& folder, const std::string& name,
                                       const Shard& shard);
 
 // Checkpoints to resume from, the best first, all with this key and a next frame not after `first`: the run's
-// own, which alone records the frames that it wrote early (film.h); then those of other shards of the same clip
-// and of the unsharded clip, the latest first. Other files are ignored. Throws as read_checkpoint_head() for
-// the run's own; others with errors are skipped.
+// own, which alone records the frames that it wrote early (frame_output.h); then those of other shards of the
+// same clip and of the unsharded clip, the latest first. Other files are ignored. Throws as
+// read_checkpoint_header() for the run's own; others with errors are skipped.
 struct FoundCheckpoint {
   std::filesystem::path path;
-  CheckpointHead head;
+  CheckpointHeader head;
 };
 std::vector<FoundCheckpoint> find_checkpoints(const std::filesystem::path& folder, const std::string& name,
                                               const Shard& shard, const std::string& key, long first);

@@ -41,7 +41,7 @@ void ExportSeries::release() {
 
 void ExportSeries::write(const std::string& name, const std::string& bytes) {
   folder_.make();
-  write_whole(folder_.path() / name, bytes);
+  write_atomically(folder_.path() / name, bytes);
   bytes_ += bytes.size();
 }
 

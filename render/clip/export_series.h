@@ -1,8 +1,9 @@
 // Writes the states of a run to files, one a frame, numbered as pictures are.
 //
 // A state is held back until the simulation has advanced beyond it or has ended normally, as pictures are
-// (film.h). A state that several frames show is written once, under the number of the first, unless the readers
-// of the format go by file numbers alone. The index file is written last, and lists the files that exist.
+// (frame_output.h). A state that several frames show is written once, under the number of the first, unless the
+// readers of the format go by file numbers alone. The index file is written last, and lists the files that
+// exist.
 #pragma once
 
 #include "render/clip/figures.h"

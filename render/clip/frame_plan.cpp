@@ -17,8 +17,8 @@ FramePlan::FramePlan(const FrameChoice& choice, const FrameClock& clock, const S
   to_make_ = all_;
 }
 
-void FramePlan::leave_out_whole(const std::filesystem::path& folder, const std::string& mark,
-                                const PngShape& shape, int threads) {
+void FramePlan::skip_existing(const std::filesystem::path& folder, const std::string& mark,
+                              const PngShape& shape, int threads) {
   if (to_make_.empty()) return;
   constexpr std::size_t most_bytes = std::size_t{1} << 30;
   const std::size_t count = to_make_.size();
@@ -39,7 +39,7 @@ bool FramePlan::has(long frame) const {
   return std::binary_search(to_make_.begin(), to_make_.end(), frame);
 }
 
-bool FramePlan::keeps(long frame) const {
+bool FramePlan::has_existing(long frame) const {
   return std::binary_search(all_.begin(), all_.end(), frame) && !has(frame);
 }
 

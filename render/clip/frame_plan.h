@@ -24,11 +24,11 @@ public:
 
   // Removes the frames whose pictures exist in `folder`, of that shape and marked with `mark`. Checks as many
   // files at once as there are threads, within 1 GiB of memory.
-  void leave_out_whole(const std::filesystem::path& folder, const std::string& mark, const PngShape& shape,
-                       int threads);
+  void skip_existing(const std::filesystem::path& folder, const std::string& mark, const PngShape& shape,
+                     int threads);
 
   bool has(long frame) const;                                   // has to be made
-  bool keeps(long frame) const;                                 // belongs to this run, and exists already
+  bool has_existing(long frame) const;                          // belongs to this run, and exists already
   const std::vector<long>& to_make() const { return to_make_; } // increasing
   const std::vector<long>& all() const { return all_; }         // including those that exist; increasing
   long last() const { return to_make_.empty() ? -1 : to_make_.back(); }

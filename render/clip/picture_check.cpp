@@ -27,20 +27,20 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 // The bodies' surfaces at the start; built on first use, since most cameras are far from all bodies.
-class StartSkin {
+class InitialSurfaces {
 public:
-  explicit StartSkin(const Scene& scene) : scene_(scene) {}
+  explicit InitialSurfaces(const Scene& scene) : scene_(scene) {}
 
   // Calls f(corners of a face, one after another) for the faces of a body.
   template <class F> void each_face(std::size_t body, F&& f) {
-    if (!skin_) skin_ = SkinMaker(scene_).skin();
+    if (!surfaces_) surfaces_ = SkinMaker(scene_).skin();
     std::vector<Vec3> ring;
-    for (std::size_t face = body == 0 ? 0 : skin_->bodies[body - 1].faces_end;
-         face < skin_->bodies[body].faces_end; ++face) {
+    for (std::size_t face = body == 0 ? 0 : surfaces_->bodies[body - 1].faces_end;
+         face < surfaces_->bodies[body].faces_end; ++face) {
       ring.clear();
-      for (auto c = static_cast<std::size_t>(face == 0 ? 0 : skin_->ends[face - 1]);
-           c < static_cast<std::size_t>(skin_->ends[face]); ++c)
-        ring.emplace_back(skin_->points.data() + 3 * static_cast<std::size_t>(skin_->corners[c]));
+      for (auto c = static_cast<std::size_t>(face == 0 ? 0 : surfaces_->ends[face - 1]);
+           c < static_cast<std::size_t>(surfaces_->ends[face]); ++c)
+        ring.emplace_back(surfaces_->points.data() + 3 * static_cast<std::size_t>(surfaces_->corners[c]));
       f(ring);
     }
   }
@@ -57,7 +57,7 @@ public:
 
 private:
   const Scene& scene_;
-  std::optional<Skin> skin_;
+  std::optional<Skin> surfaces_;
 };
 
 // Outcode of a point: 1, 2, 4, 8 for the sides of the view volume that it lies beyond, and 16 behind the eye.
@@ -71,7 +71,7 @@ class Check {
 public:
   Check(const PictureSettings& picture, const Scene& scene, double aspect, const FrameClock& clock)
       : scene_(scene), picture_(picture), viewpoint_(picture.camera, scene, aspect, clock.duration()),
-        clock_(clock), aspect_(aspect), skin_(scene) {
+        clock_(clock), aspect_(aspect), surfaces_(scene) {
     if (has_eye())
       for (const auto& body : scene.bodies()) bounds_.push_back(bounds_of(*body));
   }
@@ -83,9 +83,9 @@ public:
   std::vector<std::string> notes() {
     if (has_eye()) {
       look_from_first();
-      follow_the_way();
+      check_camera_path();
     }
-    look_at_colours();
+    check_fragment_colours();
     return std::move(notes_);
   }
 
@@ -95,7 +95,7 @@ private:
   // The first solid that encloses the eye.
   std::optional<std::size_t> around(const Vec3& eye) {
     for (std::size_t n = 0; n < bounds_.size(); ++n)
-      if (scene_.bodies()[n]->map->dimension() == 3 && bounds_[n].contains(eye) && skin_.surrounds(n, eye))
+      if (scene_.bodies()[n]->map->dimension() == 3 && bounds_[n].contains(eye) && surfaces_.surrounds(n, eye))
         return n;
     return {};
   }
@@ -122,7 +122,7 @@ private:
     for (Slot v = 0; v < cells.slots(); ++v)
       if (cells.alive(v) && beyond(view, map.position()[v].vec()) == 0) return true;
     bool seen = false;
-    skin_.each_face(n, [&](const std::vector<Vec3>& ring) {
+    surfaces_.each_face(n, [&](const std::vector<Vec3>& ring) {
       unsigned all = ~0u; // outcode bits shared by all corners of the face
       for (const Vec3& x : ring) all &= beyond(view, x);
       seen = seen || all == 0;
@@ -144,7 +144,7 @@ private:
                     in_words(camera.eye), in_words(camera.target), where));
   }
 
-  void follow_the_way() {
+  void check_camera_path() {
     constexpr long most = 1000; // camera positions tested along its path
     const long stride = std::max(1L, clock_.frames() / most);
     for (long frame = stride; frame < clock_.frames(); frame += stride) {
@@ -159,7 +159,7 @@ private:
     }
   }
 
-  void look_at_colours() {
+  void check_fragment_colours() {
     for (std::size_t n = 0; n < picture_.looks.size(); ++n) {
       const auto& body = scene_.bodies()[n];
       if (picture_.looks[n].by != ShownBy::Fragment || body->tears()) continue;
@@ -174,7 +174,7 @@ private:
   Viewpoint viewpoint_;
   const FrameClock& clock_;
   double aspect_; // width / height
-  StartSkin skin_;
+  InitialSurfaces surfaces_;
   std::vector<Bounds> bounds_; // of each body
   std::vector<std::string> notes_;
 };

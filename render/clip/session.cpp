@@ -129,17 +129,17 @@ void Session::check_counts() const {
       fmt::format("{:g} s at {:g} pictures a second are more than {:.0f} frames", duration, image().fps, most));
 }
 
-Stopped Session::run(long last_frame, const Calls& calls, long first_frame) {
+Stopped Session::run(long last_frame, const Callbacks& calls, long first_frame) {
   const double start = wall_clock();
-  double away = 0; // [s] spent in the calls at frames
+  double callback_seconds = 0; // [s] spent in the calls at frames
   Stopped stopped = Stopped::No;
   try {
-    stopped = loop(first_frame, last_frame, calls, away);
+    stopped = loop(first_frame, last_frame, calls, callback_seconds);
   } catch (const Unstable& error) {
     failure_ = error;
     stopped = Stopped::Unstable;
   }
-  step_seconds_ = wall_clock() - start - away;
+  step_seconds_ = wall_clock() - start - callback_seconds;
   return stopped;
 }
 
@@ -148,7 +148,7 @@ long Session::last_step(long last_frame) const {
   return to_the_end ? clock_->steps() : clock_->step_of(last_frame);
 }
 
-Stopped Session::loop(long first_frame, long last_frame, const Calls& calls, double& away) {
+Stopped Session::loop(long first_frame, long last_frame, const Callbacks& calls, double& callback_seconds) {
   constexpr long never = std::numeric_limits<long>::max();
   const long last_step = this->last_step(last_frame);
   long frame = first_frame;                                        // the next
@@ -159,7 +159,7 @@ Stopped Session::loop(long first_frame, long last_frame, const Calls& calls, dou
       const double since = wall_clock();
       for (; frame <= last_frame && clock_->step_of(frame) <= scene_->steps_done(); ++frame) calls.frame(frame);
       due = frame <= last_frame ? clock_->step_of(frame) : never;
-      away += wall_clock() - since;
+      callback_seconds += wall_clock() - since;
     }
     if (scene_->steps_done() >= last_step) return Stopped::No;
     if (stop_signal() != 0) return Stopped::Interrupted;
@@ -170,14 +170,14 @@ Stopped Session::loop(long first_frame, long last_frame, const Calls& calls, dou
 
 namespace {
 
-void say_what_is_gone(const Scene& scene) {
+void note_removed_bodies(const Scene& scene) {
   for (const auto& body : scene.bodies())
     if (body->deleted_at)
       print_note(fmt::format("body '{}' is gone: every element of it was deleted at {:.6g} s", body->name,
                              *body->deleted_at));
 }
 
-void say_what_was_redone(const Scene& scene) {
+void note_substeps(const Scene& scene) {
   const GuardFigures& guard = scene.guard();
   if (guard.rejected == 0 || guard.redone == 0) return;
   print_note(fmt::format(
@@ -193,10 +193,10 @@ const char* name_of(Stopped stopped) {
   return words[stopped];
 }
 
-Exit end_of(const Session& session, Stopped stopped) {
+Exit exit_code_of(const Session& session, Stopped stopped) {
   if (!session.quiet()) {
-    say_what_is_gone(session.scene());
-    say_what_was_redone(session.scene());
+    note_removed_bodies(session.scene());
+    note_substeps(session.scene());
   }
   if (stopped == Stopped::No) return Exit::Done;
   if (stopped == Stopped::Unstable) {
@@ -205,7 +205,7 @@ Exit end_of(const Session& session, Stopped stopped) {
   }
   print_error(fmt::format("stopped by a signal at {:.6g} s (step {} of {})", session.scene().time(),
                           session.scene().steps_done(), session.clock().steps()));
-  return exit_of_a_signal();
+  return exit_code_of_signal();
 }
 
 } // namespace rend

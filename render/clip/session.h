@@ -58,7 +58,7 @@ public:
   bool quiet() const { return options_.quiet; }
 
   // Callbacks of the time loop.
-  struct Calls {
+  struct Callbacks {
     std::function<void(long frame)> frame; // at the state of each frame, from frame 0 on
     std::function<void()> step;            // after each step; may be empty
   };
@@ -67,13 +67,13 @@ public:
   // Steps until frame `last_frame` (or the end of the clip, if it is the last frame), a signal, or an
   // instability, which failure() then describes. To resume, restore first a state stored when `first_frame` was
   // the next frame.
-  Stopped run(long last_frame, const Calls& calls, long first_frame = 0);
+  Stopped run(long last_frame, const Callbacks& calls, long first_frame = 0);
 
   const std::optional<Unstable>& failure() const { return failure_; }
   double step_seconds() const { return step_seconds_; } // in the time loop, without the calls at frames
 
 private:
-  Stopped loop(long first_frame, long last_frame, const Calls& calls, double& away);
+  Stopped loop(long first_frame, long last_frame, const Callbacks& calls, double& callback_seconds);
   void check_counts() const;
 
   SessionOptions options_;
@@ -87,6 +87,6 @@ private:
 };
 
 // The exit code of a run; prints what went wrong, if anything, and which bodies have been removed.
-Exit end_of(const Session& session, Stopped stopped);
+Exit exit_code_of(const Session& session, Stopped stopped);
 
 } // namespace rend

@@ -127,8 +127,8 @@ std::string closing_words(const BatchReport& report, const fs::path& page) {
   return out;
 }
 
-Exit end_of(const BatchReport& report) {
-  if (stop_signal() != 0) return exit_of_a_signal();
+Exit exit_code_of(const BatchReport& report) {
+  if (stop_signal() != 0) return exit_code_of_signal();
   const bool all = std::all_of(report.results.begin(), report.results.end(),
                                [](const BatchResult& result) { return result.done(); });
   return all ? Exit::Done : Exit::CheckFailed;
@@ -153,7 +153,7 @@ Exit batch(const BatchOptions& options) {
   files.writes("the page", page);
   for (const BatchJob& job : report.jobs) files.reads("the preset", job.preset);
   const OutputFolder folder(options.folder);
-  const Keeping keeping;
+  const GracefulStop graceful_stop;
   folder.make();
   std::size_t finished = 0;
   BatchQueue queue(
@@ -170,13 +170,13 @@ Exit batch(const BatchOptions& options) {
                                      printable(report.jobs[n].name)));
       });
   report.results = queue.run();
-  if (queue.has_fewer_jobs() && !options.quiet)
+  if (queue.processes_were_refused() && !options.quiet)
     print_note("fewer jobs ran at once than were wanted: the system started no more");
   report.seconds = wall_clock() - start;
-  write_whole(page, batch_page(report));
+  write_atomically(page, batch_page(report));
   folder.sync();
   if (!options.json) print_result(closing_words(report, page));
-  return end_of(report);
+  return exit_code_of(report);
 }
 
 void declare_passed_on(CLI::App& app, BatchOptions& options) {

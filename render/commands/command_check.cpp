@@ -49,8 +49,8 @@ public:
                       "no folder can be made in " + in_quotes(fs::temp_directory_path().string()),
                       "give one with -o");
     path_ = name;
-    temporary_.is(path_.c_str());
-    temporary_.holds_files();
+    temporary_.register_path(path_.c_str());
+    temporary_.remove_contents();
   }
   ~TemporaryFolder() {
     std::error_code error;
@@ -199,7 +199,7 @@ Exit check(const CheckOptions& options) {
   }
   check_files(options);
   const double start = wall_clock();
-  const Keeping keeping;
+  const GracefulStop graceful_stop;
   std::unique_ptr<TemporaryFolder> temporary;
   if (options.folder.empty()) temporary = std::make_unique<TemporaryFolder>();
   const fs::path cases = temporary ? temporary->path() : fs::path(options.folder) / "cases";
@@ -207,13 +207,13 @@ Exit check(const CheckOptions& options) {
   run_all(chapters, cases, options);
   if (chapters.front().results.empty()) {
     print_error("stopped by a signal: nothing is reported");
-    return exit_of_a_signal();
+    return exit_code_of_signal();
   }
   const double seconds = wall_clock() - start;
   const nlohmann::ordered_json json = check_json(chapters, seconds);
   if (!options.folder.empty()) {
-    write_whole(fs::path(options.folder) / "check.json", text_of(json, 2) + "\n");
-    write_whole(fs::path(options.folder) / "index.html", check_page(chapters, seconds));
+    write_atomically(fs::path(options.folder) / "check.json", text_of(json, 2) + "\n");
+    write_atomically(fs::path(options.folder) / "index.html", check_page(chapters, seconds));
     sync_folder(options.folder);
   }
   print_result(options.json ? text_of(json, 2) + "\n" : summary_of(chapters, seconds, options.folder));

@@ -49,11 +49,11 @@ Tolerances tolerances_of(const DiffOptions& options) {
 
 // Prints each case as soon as all cases before it are done, so that the order of lines does not depend on
 // threads.
-class InOrder {
+class OrderedPrinter {
 public:
-  InOrder(std::vector<std::optional<Compared>>& results, bool json_lines)
+  OrderedPrinter(std::vector<std::optional<CaseResult>>& results, bool json_lines)
       : results_(results), say_(json_lines) {}
-  void put(std::size_t n, Compared&& one) {
+  void put(std::size_t n, CaseResult&& one) {
     const std::lock_guard lock(mutex_);
     results_[n] = std::move(one);
     for (; next_ < results_.size() && results_[next_]; ++next_)
@@ -61,19 +61,19 @@ public:
   }
 
 private:
-  std::vector<std::optional<Compared>>& results_;
+  std::vector<std::optional<CaseResult>>& results_;
   bool say_;
   std::size_t next_ = 0;
   std::mutex mutex_;
 };
 
 // With few cases, one after another on all threads; with many, in parallel. Empty after a signal.
-std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tolerances& tolerances,
-                                  const DiffOptions& options, MemoryBudget& memory) {
+std::vector<CaseResult> compare_all(const std::vector<CasePaths>& cases, const Tolerances& tolerances,
+                                    const DiffOptions& options, MemoryBudget& memory) {
   const int threads = options.threads > 0 ? options.threads : hardware_threads();
   const int jobs = cases.size() >= 2 * static_cast<std::size_t>(threads) ? std::min(threads, 8) : 1;
-  std::vector<std::optional<Compared>> results(cases.size());
-  InOrder in_order(results, options.json_lines && options.update.empty());
+  std::vector<std::optional<CaseResult>> results(cases.size());
+  OrderedPrinter in_order(results, options.json_lines && options.update.empty());
   std::atomic<std::size_t> next = 0;
   std::vector<std::exception_ptr> errors(static_cast<std::size_t>(jobs));
   const auto work = [&](std::size_t job) {
@@ -100,7 +100,7 @@ std::vector<Compared> compare_all(const std::vector<CasePaths>& cases, const Tol
   }
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
-  std::vector<Compared> out;
+  std::vector<CaseResult> out;
   for (auto& result : results)
     if (result) out.push_back(std::move(*result));
   if (out.size() < cases.size()) out.clear();
@@ -136,7 +136,7 @@ void check_files(const DiffOptions& options, const Cases& cases) {
   NamedFiles files;
   for (const char* file : {"index.html", "diff.json"})
     if (!options.folder.empty()) files.writes("the report", fs::path(options.folder) / file);
-  if (!options.junit.empty()) files.writes("--junit", followed(options.junit));
+  if (!options.junit.empty()) files.writes("--junit", resolve_link(options.junit));
   if (!options.tolerances.empty()) files.reads("the file of tolerances", options.tolerances);
   if (!options.mask.empty()) files.reads("the mask", options.mask);
   for (const CasePaths& one : cases.all)
@@ -171,7 +171,7 @@ Exit diff(const DiffOptions& options) {
   const std::set<std::size_t> chosen = named_cases(options.update, cases.all);
   check_files(options, cases);
   if (!options.folder.empty()) check_folder(options.folder, cases);
-  const Keeping keeping;
+  const GracefulStop graceful_stop;
   DiffReport report;
   report.a = options.a;
   report.b = options.b;
@@ -181,7 +181,7 @@ Exit diff(const DiffOptions& options) {
   report.cases = compare_all(cases.all, tolerances, options, memory);
   if (report.cases.empty()) {
     print_error("stopped by a signal: nothing is reported");
-    return exit_of_a_signal();
+    return exit_code_of_signal();
   }
   report.updated.assign(report.cases.size(), false);
   for (const std::size_t n : chosen) report.updated[n] = true;

@@ -56,7 +56,7 @@ std::string completion(const CLI::App& root, const std::string& name) {
     throw UserError(Exit::Usage, {},
                     name.empty() ? "no shell is named" : "there is no completion for " + in_quotes(name),
                     suggestion(name, shell_names(), "there is for"));
-  CompletionSource source{usage_of(root), set_usages(scene_type()), element_names(scene_type())};
+  CompletionSource source{usage_of(root), settable_attributes(scene_type()), element_names(scene_type())};
   for (const std::string& one : shell_names()) source.elements.push_back(one);
   return shell->script(source);
 }
@@ -77,7 +77,7 @@ std::string page(const CLI::App& root, const HelpOptions& options) {
 
 Exit help(const CLI::App& root, const HelpOptions& options) {
   check_words(options);
-  print_page(page(root, options));
+  print_trusted_result(page(root, options));
   return Exit::Done;
 }
 

@@ -37,7 +37,7 @@ Exit convert(const MeshOptions& options) {
   if (!moka && out.extension() != ".msh")
     throw UserError(Exit::Usage, {}, fmt::format("{} is no format that can be written", in_quotes(options.out)),
                     "a name that ends in .moka or .msh tells the format");
-  const std::filesystem::path file = followed(out);
+  const std::filesystem::path file = resolve_link(out);
   NamedFiles files;
   files.reads("the mesh", options.in);
   files.writes("the new one", file);
@@ -45,8 +45,8 @@ Exit convert(const MeshOptions& options) {
   for (const std::string& note : body.notes) print_note(note);
   if (moka && !body.groups.empty()) print_note("groups are left out: .moka has none");
   const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
-  const Keeping keeping;
-  write_whole(file, text);
+  const GracefulStop graceful_stop;
+  write_atomically(file, text);
   sync_folder(file.parent_path());
   return Exit::Done;
 }

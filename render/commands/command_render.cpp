@@ -1,10 +1,10 @@
 // rend render: pictures, and a video beside them.
+#include "render/clip/clip_run.h"
 #include "render/clip/figures.h"
-#include "render/clip/film.h"
+#include "render/clip/frame_output.h"
 #include "render/clip/named_files.h"
 #include "render/clip/session.h"
 #include "render/clip/shard.h"
-#include "render/clip/shoot.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"
 #include "render/console/json_text.h"
@@ -31,7 +31,7 @@ struct RenderOptions {
   SessionOptions session;
   std::string folder, frames, size, video; // empty: not given
   std::string shard;                       // i/n; empty: not given
-  double checkpoint_every = ShootOptions{}.checkpoint_every;
+  double checkpoint_every = ClipRunOptions{}.checkpoint_every;
   bool no_png = false, json = false, resume = false;
 };
 
@@ -59,14 +59,14 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   return out;
 }
 
-std::string closing_words(const Shoot& shoot, const PipelineOptions& files, double seconds) {
-  if (shoot.made() + shoot.kept() == 0) return "no frame was written\n";
-  std::string out = fmt::format("{} frame{}", shoot.made(), shoot.made() == 1 ? "" : "s");
+std::string closing_words(const ClipRun& clip_run, const PipelineOptions& files, double seconds) {
+  if (clip_run.frames_made() + clip_run.frames_kept() == 0) return "no frame was written\n";
+  std::string out = fmt::format("{} frame{}", clip_run.frames_made(), clip_run.frames_made() == 1 ? "" : "s");
   if (files.png) out += " in " + printable(files.folder.string());
   if (files.video)
     out +=
         (files.png ? ", and " : " in ") + printable((files.folder / (files.name + files.extension)).string());
-  if (shoot.kept() > 0) out += fmt::format("; {} were there already", shoot.kept());
+  if (clip_run.frames_kept() > 0) out += fmt::format("; {} were there already", clip_run.frames_kept());
   return out + fmt::format(", in {}\n", seconds_in_words(seconds));
 }
 
@@ -84,8 +84,8 @@ void check_output(const RenderOptions& options) {
                         options.video + " makes the video of what they made");
 }
 
-ShootOptions shoot_options(const RenderOptions& options, const Session& session) {
-  ShootOptions out;
+ClipRunOptions clip_run_options(const RenderOptions& options, const Session& session) {
+  ClipRunOptions out;
   out.files = pipeline_options(options, session);
   if (!options.frames.empty()) out.choice = FrameChoice(options.frames);
   out.shard = shard_for(options.shard);
@@ -98,7 +98,7 @@ ShootOptions shoot_options(const RenderOptions& options, const Session& session)
 }
 
 // No input may be overwritten.
-void check_files(const Session& session, const ShootOptions& options) {
+void check_files(const Session& session, const ClipRunOptions& options) {
   const PipelineOptions& out = options.files;
   NamedFiles files;
   files.reads("the preset", session.preset_path());
@@ -111,17 +111,17 @@ void check_files(const Session& session, const ShootOptions& options) {
   });
 }
 
-void print_figures(const RenderOptions& options, const Session& session, const Shoot& shoot, Stopped stopped,
-                   const PipelineOptions& files, double total) {
+void print_figures(const RenderOptions& options, const Session& session, const ClipRun& clip_run,
+                   Stopped stopped, const PipelineOptions& files, double total) {
   if (options.json) {
-    const Film& film = shoot.film();
-    Figures figures =
-        figures_of(session, stopped, {total, film.picture_seconds(), film.seconds(), film.surface_bytes()});
-    figures.simulated = shoot.simulates();
-    figures.pictures = PictureFigures{.made = shoot.made(), .kept = shoot.kept()};
+    const FrameOutput& output = clip_run.output();
+    Figures figures = figures_of(session, stopped,
+                                 {total, output.picture_seconds(), output.seconds(), output.surface_bytes()});
+    figures.simulated = clip_run.simulates();
+    figures.pictures = PictureFigures{.made = clip_run.frames_made(), .kept = clip_run.frames_kept()};
     print_result(text_of(json_of(figures), 2) + "\n");
   } else if (!session.quiet()) {
-    print_result(closing_words(shoot, files, total));
+    print_result(closing_words(clip_run, files, total));
   }
 }
 
@@ -129,14 +129,14 @@ Exit render(const RenderOptions& options) {
   const double start = wall_clock();
   check_output(options);
   Session session(options.session);
-  const ShootOptions wanted = shoot_options(options, session);
+  const ClipRunOptions wanted = clip_run_options(options, session);
   check_files(session, wanted);
-  Shoot shoot(session, wanted);
-  const Keeping keeping;
-  const Stopped stopped = shoot.run();
-  print_figures(options, session, shoot, stopped, wanted.files, wall_clock() - start);
-  const Exit end = end_of(session, stopped);
-  if (shoot.left_checkpoint() && !session.quiet())
+  ClipRun clip_run(session, wanted);
+  const GracefulStop graceful_stop;
+  const Stopped stopped = clip_run.run();
+  print_figures(options, session, clip_run, stopped, wanted.files, wall_clock() - start);
+  const Exit end = exit_code_of(session, stopped);
+  if (clip_run.left_checkpoint() && !session.quiet())
     print_note("the same command with --resume goes on from here");
   return end;
 }

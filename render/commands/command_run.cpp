@@ -2,7 +2,7 @@
 #include "render/clip/export_series.h"
 #include "render/clip/figures.h"
 #include "render/clip/named_files.h"
-#include "render/clip/records.h"
+#include "render/clip/run_logs.h"
 #include "render/clip/session.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"
@@ -45,8 +45,8 @@ void check_export(const RunOptions& options) {
 NamedFiles files_of(const RunOptions& options) {
   NamedFiles files;
   files.reads("the preset", options.session.preset);
-  if (!options.diagnostics.empty()) files.writes("--diagnostics", followed(options.diagnostics));
-  if (!options.events.empty()) files.writes("--events", followed(options.events));
+  if (!options.diagnostics.empty()) files.writes("--diagnostics", resolve_link(options.diagnostics));
+  if (!options.events.empty()) files.writes("--events", resolve_link(options.events));
   return files;
 }
 
@@ -61,10 +61,10 @@ std::unique_ptr<ExportSeries> export_of(const Session& session, const RunOptions
 Stopped simulate(Session& session, const RunOptions& options, ExportSeries* series) {
   std::optional<Diagnostics> diagnostics;
   std::optional<EventFile> events;
-  if (!options.diagnostics.empty()) diagnostics.emplace(followed(options.diagnostics));
-  if (!options.events.empty()) events.emplace(followed(options.events));
+  if (!options.diagnostics.empty()) diagnostics.emplace(resolve_link(options.diagnostics));
+  if (!options.events.empty()) events.emplace(resolve_link(options.events));
   Progress progress(session.quiet(), session.clock().steps(), session.clock().duration(), 0);
-  Session::Calls calls;
+  Session::Callbacks calls;
   Profile* const profile = &session.scene().profile();
   calls.frame = [&](long frame) {
     const PhaseScope within(profile, Phase::Output);
@@ -113,7 +113,7 @@ Exit run(const RunOptions& options) {
   files.reads_meshes(session.preset());
   const std::unique_ptr<ExportSeries> series = export_of(session, options);
   if (series) series->name_files(files);
-  const Keeping keeping;
+  const GracefulStop graceful_stop;
   const Stopped stopped = simulate(session, options, series.get());
   Costs costs;
   costs.total = wall_clock() - start;
@@ -122,7 +122,7 @@ Exit run(const RunOptions& options) {
   std::optional<ProfileFigures> profile;
   if (wanted.profile && session.scene().steps_done() > 0) profile = profile_of(session);
   print_figures(options, figures, profile);
-  const Exit end = end_of(session, stopped);
+  const Exit end = exit_code_of(session, stopped);
   return end == Exit::Done && !answers_hold(session.scene()) ? Exit::CheckFailed : end;
 }
 

@@ -7,7 +7,7 @@
 #include "render/console/progress.h"
 #include "render/console/signals.h"
 #include "render/draw/device.h"
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 #include "render/files/output.h"
 #include "render/files/png.h"
 #include "render/picture/scene_picture.h"
@@ -57,19 +57,19 @@ private:
 };
 
 Exit run(Session& session, double aspect, Row& row) {
-  PictureMaker maker(session.picture(), session.scene(), aspect, session.clock().duration(),
+  FrameBuilder maker(session.picture(), session.scene(), aspect, session.clock().duration(),
                      session.clock().frames());
   const long last = session.clock().frames() - 1;
-  const Keeping keeping; // a signal only ends the time loop; it is handled afterwards
+  const GracefulStop graceful_stop; // a signal only ends the time loop; it is handled afterwards
   Progress progress(session.quiet(), session.last_step(last), session.clock().duration(), 0);
-  Session::Calls calls;
+  Session::Callbacks calls;
   calls.frame = [&](long frame) {
     maker.observe();
     if (row.wants(frame, session.scene().tears() > 0))
       row.put(frame, maker.draw(frame, session.clock().time_of(frame)));
   };
   calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
-  return end_of(session, session.run(last, calls));
+  return exit_code_of(session, session.run(last, calls));
 }
 
 // Copies `tile` into `sheet` with its upper left corner at (x, y).
@@ -84,7 +84,7 @@ Exit make_sheet(const SheetOptions& options) {
     throw UserError(Exit::Usage, {}, fmt::format("-o {}: a contact sheet is a PNG", in_quotes(options.file)),
                     "a name that ends in .png");
   const PictureSize size = parse_size(options.size);
-  const std::filesystem::path file = followed(options.file);
+  const std::filesystem::path file = resolve_link(options.file);
   NamedFiles files;
   files.writes("the contact sheet", file);
   for (const std::string& preset : options.presets) {
@@ -102,15 +102,15 @@ Exit make_sheet(const SheetOptions& options) {
     const Exit end = run(session, static_cast<double>(size.width) / size.height, row);
     if (end != Exit::Done) return end;
     const auto device = make_device();
-    Stage stage(size.width, size.height, session.image().samples);
+    Renderer renderer(size.width, size.height, session.image().samples);
     for (int k = 0; k < columns; ++k) {
       Frame frame = row.frames()[static_cast<std::size_t>(k)];
       frame.transparent = false; // the sheet itself is opaque
-      stage.draw(frame);
-      paste(stage.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
+      renderer.draw(frame);
+      paste(renderer.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
     }
   }
-  const Keeping keeping;
+  const GracefulStop graceful_stop;
   write_png(file, sheet);
   sync_folder(file.parent_path());
   if (!options.session.quiet)

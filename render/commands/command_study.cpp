@@ -56,10 +56,10 @@ fs::path make_folder(const StudyOptions& options, const std::string& name, const
 }
 
 // Progress: a line that is overwritten on a terminal; elsewhere one every few seconds.
-class Teller {
+class ProgressLine {
 public:
-  explicit Teller(bool quiet) : quiet_(quiet), terminal_(is_terminal(stderr)) {}
-  ~Teller() { clear(); }
+  explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(is_terminal(stderr)) {}
+  ~ProgressLine() { clear(); }
   void tell(const std::string& what, double share) {
     const double now = wall_clock();
     if (quiet_ || now < next_) return;
@@ -86,17 +86,17 @@ std::vector<DrawnPlot> write_plots(const StudyReport& report, const std::string&
       print_note("gnuplot is not installed (Debian: gnuplot-nox): the study has its numbers and no plots");
       return {};
     }
-    write_whole(folder / (plot.file + ".svg"), *svg);
-    write_whole(folder / (plot.file + ".png"), *draw(plot.plot, PlotFormat::Png));
+    write_atomically(folder / (plot.file + ".svg"), *svg);
+    write_atomically(folder / (plot.file + ".png"), *draw(plot.plot, PlotFormat::Png));
     drawn.push_back({*svg, plot.caption});
   }
   return drawn;
 }
 
-Exit stopped(Teller& teller) {
-  teller.clear();
+Exit stopped(ProgressLine& progress_line) {
+  progress_line.clear();
   print_error("the study was stopped by a signal: nothing was written");
-  return exit_of_a_signal();
+  return exit_code_of_signal();
 }
 
 // The text of the preset's file.
@@ -124,28 +124,28 @@ LeanPlan lean_plan(const StudyOptions& options) {
 
 Exit lean(const StudyOptions& options) {
   const LeanPlan plan = lean_plan(options);
-  const Keeping keeping;
+  const GracefulStop graceful_stop;
   const fs::path folder = make_folder(options, "lean", "lean");
-  Teller teller(options.session.quiet);
-  const StudyCalls calls{[&](const std::string& what, double share) { teller.tell(what, share); },
+  ProgressLine progress_line(options.session.quiet);
+  const StudyCalls calls{[&](const std::string& what, double share) { progress_line.tell(what, share); },
                          [] { return stop_signal() == 0; }};
   std::vector<LeanRow> rows;
   try {
     rows = run_lean(plan, calls);
   } catch (const Interrupted&) {
-    return stopped(teller);
+    return stopped(progress_line);
   }
-  teller.clear();
+  progress_line.clear();
   const Provenance provenance = provenance_of_build();
   const nlohmann::ordered_json json{{"rows", json_of(rows)}, {"provenance", json_of(provenance)}};
-  write_whole(folder / "lean.csv", csv_of(rows));
-  write_whole(folder / "lean.json", text_of(json, 2) + "\n");
-  write_whole(folder / "index.html", page_of(rows, provenance));
+  write_atomically(folder / "lean.csv", csv_of(rows));
+  write_atomically(folder / "lean.json", text_of(json, 2) + "\n");
+  write_atomically(folder / "index.html", page_of(rows, provenance));
   sync_folder(folder);
   print_result(options.json ? text_of(json, 2) + "\n"
                             : table_of(rows) +
                                   fmt::format("The page is {}\n", printable((folder / "index.html").string())));
-  const bool kept = std::all_of(rows.begin(), rows.end(), [](const LeanRow& row) { return row.as_promised(); });
+  const bool kept = std::all_of(rows.begin(), rows.end(), [](const LeanRow& row) { return row.as_required(); });
   return kept ? Exit::Done : Exit::CheckFailed;
 }
 
@@ -161,28 +161,28 @@ Exit study(const StudyOptions& options) {
   check_options(options);
   if (options.lean) return lean(options);
   const StudyTask task = study_task(options);
-  const Keeping keeping;
+  const GracefulStop graceful_stop;
   const fs::path folder = make_folder(options, task.name, "study");
-  Teller teller(options.session.quiet);
+  ProgressLine progress_line(options.session.quiet);
   StudyCalls calls;
-  calls.progress = [&](const std::string& what, double share) { teller.tell(what, share); };
+  calls.progress = [&](const std::string& what, double share) { progress_line.tell(what, share); };
   calls.going = [] { return stop_signal() == 0; };
   StudyReport report;
   try {
     report = run_study(task.plan, task.make, calls);
   } catch (const Interrupted&) {
-    return stopped(teller);
+    return stopped(progress_line);
   }
-  teller.clear();
+  progress_line.clear();
   const Provenance provenance = provenance_of(options.session.preset, task.text);
   nlohmann::ordered_json json = json_of(report);
   json["name"] = task.name;
   json["findings"] = findings_of(report);
   json["provenance"] = json_of(provenance);
-  write_whole(folder / "study.csv", csv_of(report));
-  write_whole(folder / "study.json", text_of(json, 2) + "\n");
-  write_whole(folder / "index.html",
-              page_of(report, task.name, write_plots(report, task.name, folder), provenance));
+  write_atomically(folder / "study.csv", csv_of(report));
+  write_atomically(folder / "study.json", text_of(json, 2) + "\n");
+  write_atomically(folder / "index.html",
+                   page_of(report, task.name, write_plots(report, task.name, folder), provenance));
   sync_folder(folder);
   if (options.json) {
     print_result(text_of(json, 2) + "\n");

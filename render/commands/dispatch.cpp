@@ -1,7 +1,7 @@
 #include "render/commands/command.h"
 #include "render/commands/version.h"
 #include "render/console/console.h"
-#include "render/console/last_resort.h"
+#include "render/console/fatal_errors.h"
 #include "render/console/signals.h"
 #include "sim/base/check.h"
 #include "sim/base/simd_width.h"
@@ -89,14 +89,14 @@ Exit run_command_line(int count, const char* const* arguments) {
 int run_program(int count, const char* const* arguments) {
   keep_standard_streams();
   catch_signals();
-  arm_last_resort();
+  install_fatal_error_handlers();
   const auto end = [](Exit code) { return static_cast<int>(code); };
   try {
     return end(run_command_line(count, arguments));
   } catch (const UserError& error) {
     print_error(error.what(), error.hint);
     return end(error.code);
-  } catch (const NobodyReads&) {
+  } catch (const BrokenPipe&) {
     return 128 + SIGPIPE;           // as if SIGPIPE had ended it
   } catch (const std::bad_alloc&) { // of allocations without operator new
     end_without_memory();

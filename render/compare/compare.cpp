@@ -30,22 +30,22 @@ const char* name_of(CaseState state) {
 
 namespace {
 
-bool same_size(const PngHead& a, const PngHead& b) {
+bool same_size(const PngInfo& a, const PngInfo& b) {
   return a.width == b.width && a.height == b.height;
 }
 
 // [bytes], upper bound
-std::size_t comparing_bytes(const PngHead& a, const PngHead& b, const PngHead& mask) {
+std::size_t comparing_bytes(const PngInfo& a, const PngInfo& b, const PngInfo& mask) {
   const std::size_t decoding = a.decoding_bytes() + b.decoding_bytes();
   if (!same_size(a, b)) return decoding;
   const std::size_t pixels = static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height);
   return std::max(decoding, a.file_bytes + b.file_bytes + mask.file_bytes + compared_bytes_a_pixel * pixels);
 }
 
-void check_room(std::size_t bytes, const fs::path& path, const PngHead& head, const MemoryBudget& memory) {
+void check_room(std::size_t bytes, const fs::path& path, const PngInfo& head, const MemoryBudget& memory) {
   if (bytes <= memory.whole()) return;
   const Place place{path.string()};
-  if (!head.can_be_true())
+  if (!head.is_plausible())
     throw UserError(Exit::BadInput, place,
                     fmt::format("it says that it has {} x {} pixels, and its {} bytes cannot hold them",
                                 head.width, head.height, head.file_bytes));
@@ -59,26 +59,26 @@ void check_room(std::size_t bytes, const fs::path& path, const PngHead& head, co
 // One side of a case. An error on it ends the comparison.
 struct Side {
   fs::path path;
-  PngHead head;
+  PngInfo head;
   std::vector<std::uint8_t> bytes;
-  DeepImage image;
+  HighDepthImage image;
   std::string trouble; // the error; empty: it was read
 
   void look() {
-    attempt([&] { head = png_head(path); });
+    attempt([&] { head = png_info(path); });
   }
   void read() {
     attempt([&] { bytes = bytes_of(path, head); });
   }
   void decode() {
-    attempt([&] { image = read_deep_png(bytes, path.string()); });
+    attempt([&] { image = read_high_depth_png(bytes, path.string()); });
     bytes = std::vector<std::uint8_t>(); // assigning {} would keep the capacity
   }
 
   // The memory budget was taken by the size that `head` states.
-  static std::vector<std::uint8_t> bytes_of(const fs::path& path, const PngHead& head) {
+  static std::vector<std::uint8_t> bytes_of(const fs::path& path, const PngInfo& head) {
     std::vector<std::uint8_t> bytes = file_bytes(path);
-    if (png_head(bytes, path.string()) != head)
+    if (png_info(bytes, path.string()) != head)
       throw UserError(Exit::BadInput, {path.string()}, "it changes while it is read");
     return bytes;
   }
@@ -112,16 +112,16 @@ bool read_both(int threads, Sides& sides) {
   return equal;
 }
 
-void note_kinds(const DeepImage& a, const DeepImage& b, Compared& out) {
+void note_kinds(const HighDepthImage& a, const HighDepthImage& b, CaseResult& out) {
   if (a.kind != b.kind) out.notes.push_back(fmt::format("expected: {}; now: {}", a.kind, b.kind));
   if (a.bits != b.bits)
     out.notes.emplace_back("one has 16 bits a channel, the other fewer: all bits are compared");
   if (a.channels != b.channels) out.notes.emplace_back("one has no alpha: it is taken as opaque");
 }
 
-PngHead head_of_mask(const fs::path& path, const PngHead& picture) {
+PngInfo head_of_mask(const fs::path& path, const PngInfo& picture) {
   if (path.empty()) return {};
-  const PngHead head = png_head(path);
+  const PngInfo head = png_info(path);
   if (!same_size(head, picture))
     throw UserError(Exit::BadInput, {path.string()},
                     fmt::format("the mask has {} x {} pixels, and the pictures have {} x {}", head.width,
@@ -129,18 +129,18 @@ PngHead head_of_mask(const fs::path& path, const PngHead& picture) {
   return head;
 }
 
-Mask read_mask(const fs::path& path, const PngHead& head) {
+Mask read_mask(const fs::path& path, const PngInfo& head) {
   if (path.empty()) return {};
-  return mask_of(picture_of(read_deep_png(Side::bytes_of(path, head), path.string())));
+  return mask_of(picture_of(read_high_depth_png(Side::bytes_of(path, head), path.string())));
 }
 
-Picture taken(DeepImage& image) {
+Picture taken(HighDepthImage& image) {
   Picture picture = picture_of(image);
   image.samples = std::vector<std::uint16_t>();
   return picture;
 }
 
-void judge(Sides& sides, bool equal, const PngHead& mask_head, const CompareOptions& options, Compared& out) {
+void judge(Sides& sides, bool equal, const PngInfo& mask_head, const CompareOptions& options, CaseResult& out) {
   const Mask mask = read_mask(options.mask, mask_head);
   Picture a = taken(sides[0].image);
   Picture b = equal ? a : taken(sides[1].image);
@@ -157,20 +157,20 @@ void judge(Sides& sides, bool equal, const PngHead& mask_head, const CompareOpti
 }
 
 // Only one side exists: tests whether it is a valid picture at all.
-void look_at_one(const fs::path& path, MemoryBudget& memory, Compared& out) {
-  const PngHead head = check_picture(path, memory);
+void look_at_one(const fs::path& path, MemoryBudget& memory, CaseResult& out) {
+  const PngInfo head = check_picture(path, memory);
   out.width = head.width;
   out.height = head.height;
 }
 
-void compare_both(const CompareOptions& options, MemoryBudget& memory, Compared& out) {
+void compare_both(const CompareOptions& options, MemoryBudget& memory, CaseResult& out) {
   Sides sides;
   sides[0].path = out.paths.a;
   sides[1].path = out.paths.b;
   for (Side& side : sides) side.look();
-  const PngHead &a = sides[0].head, &b = sides[1].head;
+  const PngInfo &a = sides[0].head, &b = sides[1].head;
   const bool same = both_are_well(sides) && same_size(a, b);
-  const PngHead mask = same ? head_of_mask(options.mask, a) : PngHead{};
+  const PngInfo mask = same ? head_of_mask(options.mask, a) : PngInfo{};
   const std::size_t bytes = comparing_bytes(a, b, mask);
   const bool of_a = a.decoding_bytes() >= b.decoding_bytes();
   check_room(bytes, sides[of_a ? 0 : 1].path, of_a ? a : b, memory);
@@ -194,7 +194,7 @@ void compare_both(const CompareOptions& options, MemoryBudget& memory, Compared&
   judge(sides, equal, mask, options, out);
 }
 
-void compare_or_throw(const CompareOptions& options, MemoryBudget& memory, Compared& out) {
+void compare_or_throw(const CompareOptions& options, MemoryBudget& memory, CaseResult& out) {
   if (!out.paths.a.empty() && !out.paths.b.empty()) return compare_both(options, memory, out);
   const bool is_new = out.paths.a.empty();
   out.state = is_new ? CaseState::New : CaseState::Missing;
@@ -204,8 +204,8 @@ void compare_or_throw(const CompareOptions& options, MemoryBudget& memory, Compa
 
 } // namespace
 
-PngHead check_picture(const fs::path& path, MemoryBudget& memory) {
-  const PngHead head = png_head(path);
+PngInfo check_picture(const fs::path& path, MemoryBudget& memory) {
+  const PngInfo head = png_info(path);
   check_room(head.checking_bytes(), path, head, memory);
   const MemoryBudget::Share share = memory.take(head.checking_bytes());
   check_png(Side::bytes_of(path, head), path.string());
@@ -213,9 +213,9 @@ PngHead check_picture(const fs::path& path, MemoryBudget& memory) {
 }
 
 // An error with one pair must not end the others: one bad file must not cost a page of a thousand.
-Compared compare_case(const CasePaths& paths, const CompareOptions& options, MemoryBudget& memory) {
+CaseResult compare_case(const CasePaths& paths, const CompareOptions& options, MemoryBudget& memory) {
   const auto trouble = [&](const std::string& what) {
-    Compared out;
+    CaseResult out;
     out.paths = paths;
     out.tolerance = options.tolerance;
     out.state = CaseState::Unreadable;
@@ -223,7 +223,7 @@ Compared compare_case(const CasePaths& paths, const CompareOptions& options, Mem
     return out;
   };
   try {
-    Compared out;
+    CaseResult out;
     out.paths = paths;
     out.tolerance = options.tolerance;
     compare_or_throw(options, memory, out);

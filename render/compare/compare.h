@@ -22,7 +22,7 @@ enum class CaseState {
 const char* name_of(CaseState state); // "match", "differ", ...
 const std::vector<CaseState>& all_states();
 
-struct Compared {
+struct CaseResult {
   CasePaths paths;
   CaseState state = CaseState::Match;
   std::vector<std::string> why;   // sentences or metrics: why it does not match
@@ -42,10 +42,10 @@ struct CompareOptions {
 
 // Every error of one pair (in its pictures, its mask, or the memory that it needs) gives the state Unreadable,
 // with a sentence in `why`.
-Compared compare_case(const CasePaths& paths, const CompareOptions& options, MemoryBudget& memory);
+CaseResult compare_case(const CasePaths& paths, const CompareOptions& options, MemoryBudget& memory);
 
-// Validates a picture that has no counterpart, without keeping it. Throws UserError as png_head() and
+// Validates a picture that has no counterpart, without keeping it. Throws UserError as png_info() and
 // check_png() do; Trouble if it needs more than the whole memory budget.
-PngHead check_picture(const std::filesystem::path& path, MemoryBudget& memory);
+PngInfo check_picture(const std::filesystem::path& path, MemoryBudget& memory);
 
 } // namespace rend

@@ -9,7 +9,7 @@
 //   one   = the files, and 96 bytes a pixel of two pictures of one size
 //
 // Two pictures of 89 million pixels fit, such as 9400 x 9400. For two pictures of different sizes the bound is
-// that of decoding them; for a single one, its file and a few rows (PngHead, png_reader.h).
+// that of decoding them; for a single one, its file and a few rows (PngInfo, png_reader.h).
 #pragma once
 
 #include <condition_variable>

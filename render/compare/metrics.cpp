@@ -34,10 +34,10 @@ FlipFigures flip_figures(const Levels& map, const Mask& mask) {
 Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& options) {
   CHECK(a.width == b.width && a.height == b.height);
   if (a.alpha || b.alpha) {
-    make_alpha(a);
-    make_alpha(b);
+    add_alpha(a);
+    add_alpha(b);
   }
-  leave_out(mask, a, b);
+  mask_out(mask, a, b);
   Metrics out;
   out.difference = difference_of(a, b, mask, options.threads);
   out.over = over_threshold(out.difference, a.width, a.height, options.threshold, options.window_side);

@@ -6,7 +6,7 @@
 
 namespace rend {
 
-Picture picture_of(const DeepImage& image) {
+Picture picture_of(const HighDepthImage& image) {
   Picture out;
   out.width = image.width;
   out.height = image.height;
@@ -41,7 +41,7 @@ Mask mask_of(const Picture& picture) {
   return mask;
 }
 
-void leave_out(const Mask& mask, const Picture& a, Picture& b) {
+void mask_out(const Mask& mask, const Picture& a, Picture& b) {
   CHECK(a.alpha == b.alpha && a.pixels() == b.pixels());
   if (mask.counts.empty()) return;
   CHECK(mask.counts.size() == a.pixels());
@@ -50,7 +50,7 @@ void leave_out(const Mask& mask, const Picture& a, Picture& b) {
       if (mask.counts[n] == 0) b.planes[c][n] = a.planes[c][n];
 }
 
-void make_alpha(Picture& picture) {
+void add_alpha(Picture& picture) {
   if (picture.alpha) return;
   picture.planes[3].assign(picture.pixels(), 255.f);
   picture.alpha = true;

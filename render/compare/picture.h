@@ -23,7 +23,7 @@ struct Picture {
   std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
 };
 
-Picture picture_of(const DeepImage& image);
+Picture picture_of(const HighDepthImage& image);
 
 // The picture composited over white, without alpha. Perceptual metrics (SSIM, FLIP) compare this.
 Picture over_white(Picture picture);
@@ -40,9 +40,9 @@ Mask mask_of(const Picture& picture);
 
 // Sets masked pixels of `b` to those of `a`, so that they cannot influence their neighbours through the filters
 // of SSIM and FLIP. All of one size; both with alpha or neither (CHECK).
-void leave_out(const Mask& mask, const Picture& a, Picture& b);
+void mask_out(const Mask& mask, const Picture& a, Picture& b);
 
 // Adds an alpha plane to an opaque picture.
-void make_alpha(Picture& picture);
+void add_alpha(Picture& picture);
 
 } // namespace rend

@@ -68,8 +68,8 @@ void check_mask(const PresetNode& node, const std::filesystem::path& folder) {
 
 // Whether a node sets `setting` ("threshold", ...) without effect: no picture that the node applies to has one
 // of `limits`.
-bool idle(const Tolerances& all, const PresetNode& node, const char* setting,
-          std::initializer_list<const char*> limits, const std::vector<std::string>& names) {
+bool has_no_effect(const Tolerances& all, const PresetNode& node, const char* setting,
+                   std::initializer_list<const char*> limits, const std::vector<std::string>& names) {
   if (!node.given(setting)) return false;
   bool fits_one = false;
   for (const std::string& name : names) {
@@ -140,9 +140,9 @@ std::vector<std::string> Tolerances::remarks(const std::vector<std::string>& nam
   for (const std::string& pattern : unused(names))
     out.emplace_back("the tolerances name " + in_quotes(pattern) + ", and no picture is called so");
   const auto look_at = [&](const PresetNode& node, const std::string& where) {
-    if (idle(*this, node, "threshold", {"share", "window"}, names))
+    if (has_no_effect(*this, node, "threshold", {"share", "window"}, names))
       out.push_back(where + " gives a threshold, which changes nothing without a limit on share or window");
-    if (idle(*this, node, "window-size", {"window"}, names))
+    if (has_no_effect(*this, node, "window-size", {"window"}, names))
       out.push_back(where + " gives a window-size, which changes nothing without a limit on window");
   };
   if (file_)

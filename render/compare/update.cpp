@@ -40,7 +40,7 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
 namespace {
 
 // Checks the source of one copy; all are checked before anything is written.
-void check_source(const Compared& one, MemoryBudget& memory) {
+void check_source(const CaseResult& one, MemoryBudget& memory) {
   if (one.paths.b.empty())
     throw UserError(Exit::DiffError, {one.paths.a.string()},
                     fmt::format("--update: there is no {} now", one.paths.name),
@@ -50,21 +50,21 @@ void check_source(const Compared& one, MemoryBudget& memory) {
 
 // Temporary copies beside the files that they will replace; removed if not committed. Their descriptors are
 // closed, so that there can be any number.
-class Parts {
+class PendingCopies {
 public:
-  Parts() = default;
-  ~Parts() {
+  PendingCopies() = default;
+  ~PendingCopies() {
     std::error_code error;
     for (const auto& [path, one] : all_) fs::remove(one.part, error);
   }
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
+  PendingCopies(const PendingCopies&) = delete;
+  PendingCopies& operator=(const PendingCopies&) = delete;
 
   void add(const fs::path& to, const fs::path& from) {
     const std::vector<std::uint8_t> bytes = file_bytes(from);
     std::error_code error;
     fs::create_directories(to.parent_path(), error);
-    const fs::path path = fs::weakly_canonical(followed(to));
+    const fs::path path = fs::weakly_canonical(resolve_link(to));
     { const OutputFile any(path); }     // tests whether it can be created
     const auto other = all_.find(path); // two names of one file, through a link
     if (other != all_.end() && file_bytes(other->second.from) != bytes)
@@ -102,10 +102,10 @@ private:
 
 } // namespace
 
-void update_expected(const std::vector<Compared>& results, const std::set<std::size_t>& which,
+void update_expected(const std::vector<CaseResult>& results, const std::set<std::size_t>& which,
                      const fs::path& expected, MemoryBudget& memory) {
   for (const std::size_t n : which) check_source(results[n], memory);
-  Parts parts;
+  PendingCopies parts;
   for (const std::size_t n : which) {
     const CasePaths& paths = results[n].paths;
     parts.add(paths.a.empty() ? expected / paths.name : paths.a, paths.b);

@@ -18,7 +18,7 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
 // files are on the disk before the first rename: if one cannot be read or written, nothing is changed.
 // `expected`: the folder (or picture) of expected pictures. Throws UserError: DiffError where there is nothing
 // to copy (missing, unreadable); CannotCreate, ReadWrite.
-void update_expected(const std::vector<Compared>& results, const std::set<std::size_t>& which,
+void update_expected(const std::vector<CaseResult>& results, const std::set<std::size_t>& which,
                      const std::filesystem::path& expected, MemoryBudget& memory);
 
 } // namespace rend

@@ -32,14 +32,14 @@ bool wants_colour(std::FILE* stream) {
 }
 
 void print_result(std::string_view text) {
-  print_page(printable_lines(text));
+  print_trusted_result(printable_lines(text));
 }
 
-void print_page(std::string_view text) {
+void print_trusted_result(std::string_view text) {
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
   if (stop_signal() == SIGHUP) return; // the terminal has closed: nobody reads any more
-  if (errno == EPIPE) throw NobodyReads();
+  if (errno == EPIPE) throw BrokenPipe();
   throw UserError(Exit::ReadWrite, {},
                   fmt::format("writing to standard output failed: {}", std::strerror(errno)));
 }

@@ -22,11 +22,11 @@ bool wants_colour(std::FILE* stream); // a terminal that knows colours, and NO_C
 
 // Thrown when the reader of the results has closed the pipe (rend help preset | head -1): the program ends
 // silently.
-struct NobodyReads {};
+struct BrokenPipe {};
 
-// Writes to stdout and flushes. Throws where that fails: NobodyReads, or UserError (ReadWrite) for a full disk.
+// Writes to stdout and flushes. Throws where that fails: BrokenPipe, or UserError (ReadWrite) for a full disk.
 void print_result(std::string_view text);
-void print_page(std::string_view text); // the same for rend's own text, which may contain colour codes
+void print_trusted_result(std::string_view text); // rend's own text, with its colour codes
 
 // "rend: error: ..." and below it "  hint: ...", each on one line.
 void print_error(const std::string& what, const std::string& hint = {});

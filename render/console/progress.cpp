@@ -25,7 +25,7 @@ Progress::Progress(bool quiet, long steps, double duration, long frames)
       frames_(frames), duration_(duration) {
   const double now = coarse_now();
   next_ = now + (terminal_ ? bar_every : line_every);
-  trail_.push_back({now, 0, 0});
+  recent_.push_back({now, 0, 0});
 }
 
 Progress::~Progress() {
@@ -46,8 +46,8 @@ void Progress::update(long step, double time, long frame) {
   const std::string text = line(sample, time);
   print_progress(terminal_ ? "\r" + text + "\033[K" : text + "\n");
   shown_ = terminal_;
-  trail_.push_back(sample);
-  while (trail_.size() > 2 && now - trail_.front().at > window) trail_.pop_front();
+  recent_.push_back(sample);
+  while (recent_.size() > 2 && now - recent_.front().at > window) recent_.pop_front();
 }
 
 std::string Progress::line(const Sample& now, double time) const {
@@ -62,7 +62,7 @@ std::string Progress::line(const Sample& now, double time) const {
   }
   text += fmt::format("{:3.0f}%  {:.2f} of {:.2f} s", 100 * share, time, duration_);
   if (frames_ > 0) text += fmt::format("  frame {} of {}", now.frame, frames_);
-  const Sample& then = trail_.front();
+  const Sample& then = recent_.front();
   const double wall = now.at - then.at;
   if (frames_ > 0 && now.frame > then.frame)
     text += fmt::format("  {:.0f} ms/frame", 1e3 * wall / static_cast<double>(now.frame - then.frame));

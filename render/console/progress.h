@@ -28,9 +28,9 @@ private:
   bool quiet_, terminal_, colour_;
   long steps_, frames_;
   double duration_;
-  double next_ = 0;          // [s], when to print next
-  bool shown_ = false;       // a bar is on the screen
-  std::deque<Sample> trail_; // the last seconds, for the current speed instead of the average
+  double next_ = 0;           // [s], when to print next
+  bool shown_ = false;        // a bar is on the screen
+  std::deque<Sample> recent_; // the last seconds, for the current speed instead of the average
 };
 
 } // namespace rend

@@ -13,13 +13,13 @@ namespace {
 constexpr std::array all{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
 
 // Shared with the handler, which can run in two threads at once.
-std::atomic<int> caught = 0, keeping = 0;
+std::atomic<int> caught = 0, graceful_stop = 0;
 std::atomic<double> first_at = 0; // [s], of the first signal
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
 
 // [s]. A signal within this time of the first counts as the same request: it was sent to the whole process
 // group, or by several senders.
-constexpr double same = 0.3;
+constexpr double same_request = 0.3;
 
 double now() {
   timespec t{};
@@ -34,12 +34,12 @@ bool is_repeated(const siginfo_t& how) {
 }
 
 void on_signal(int signal, siginfo_t* how, void* /*context*/) {
-  if (keeping == 0) _exit(128 + signal);
+  if (graceful_stop == 0) _exit(128 + signal);
   double none = 0;
   const double at = now();
   if (first_at.compare_exchange_strong(none, at))
     caught = signal;
-  else if (at - first_at > same && !is_repeated(*how))
+  else if (at - first_at > same_request && !is_repeated(*how))
     _exit(128 + signal);
 }
 
@@ -64,39 +64,39 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-SignalsHeld::SignalsHeld() {
+BlockedSignals::BlockedSignals() {
   sigset_t held;
   sigemptyset(&held);
   for (const int signal : all) sigaddset(&held, signal);
   pthread_sigmask(SIG_BLOCK, &held, &before_);
 }
 
-SignalsHeld::~SignalsHeld() {
+BlockedSignals::~BlockedSignals() {
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-void SignalsHeld::let_in() const {
+void BlockedSignals::unblock_in_child() const {
   for (const int signal : all)
     if (!is_ignored(signal)) std::signal(signal, SIG_DFL);
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-Keeping::Keeping() {
-  ++keeping;
+GracefulStop::GracefulStop() {
+  ++graceful_stop;
 }
-Keeping::~Keeping() {
-  --keeping;
+GracefulStop::~GracefulStop() {
+  --graceful_stop;
 }
 
 int stop_signal() {
   return caught;
 }
 
-Exit exit_of_a_signal() {
+Exit exit_code_of_signal() {
   return Exit{128 + stop_signal()};
 }
 
-bool is_of_a_signal(int code) {
+bool is_exit_code_of_signal(int code) {
   return std::find(all.begin(), all.end(), code - 128) != all.end();
 }
 

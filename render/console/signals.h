@@ -13,20 +13,20 @@ namespace rend {
 // a full disk does.
 void catch_signals();
 
-int stop_signal();             // the first stop signal received, or 0
-Exit exit_of_a_signal();       // the exit code after a stop: 128 plus the signal's number
-bool is_of_a_signal(int code); // whether an exit code is one of these
+int stop_signal();                     // the first stop signal received, or 0
+Exit exit_code_of_signal();            // the exit code after a stop: 128 plus the signal's number
+bool is_exit_code_of_signal(int code); // whether an exit code is one of these
 
 // Blocks signals between fork() and exec(). In the child, a signal in that time would run the parent's handler
-// and be lost by exec(). Construct it before fork(); the child calls let_in().
-class SignalsHeld {
+// and be lost by exec(). Construct it before fork(); the child calls unblock_in_child().
+class BlockedSignals {
 public:
-  SignalsHeld();
-  ~SignalsHeld(); // unblocks signals in the parent
-  SignalsHeld(const SignalsHeld&) = delete;
-  SignalsHeld& operator=(const SignalsHeld&) = delete;
+  BlockedSignals();
+  ~BlockedSignals(); // unblocks signals in the parent
+  BlockedSignals(const BlockedSignals&) = delete;
+  BlockedSignals& operator=(const BlockedSignals&) = delete;
   // restores default handlers and unblocks: a pending signal then ends the process, as it would after exec()
-  void let_in() const;
+  void unblock_in_child() const;
 
 private:
   sigset_t before_{};
@@ -35,12 +35,12 @@ private:
 // While an object of this class exists, a signal only sets stop_signal(). Otherwise there is nothing to save (a
 // preset is read or a scene is built, which may take very long), and a signal ends the program at once with 128
 // plus its number as exit code.
-class Keeping {
+class GracefulStop {
 public:
-  Keeping();
-  ~Keeping();
-  Keeping(const Keeping&) = delete;
-  Keeping& operator=(const Keeping&) = delete;
+  GracefulStop();
+  ~GracefulStop();
+  GracefulStop(const GracefulStop&) = delete;
+  GracefulStop& operator=(const GracefulStop&) = delete;
 };
 
 } // namespace rend

@@ -63,7 +63,7 @@ View view_of(const FrameCamera& camera, const Eigen::AlignedBox3d& bounds, doubl
   return view;
 }
 
-FrameCamera frame_auto(const Eigen::AlignedBox3d& bounds, double fov, double aspect,
+FrameCamera fit_camera(const Eigen::AlignedBox3d& bounds, double fov, double aspect,
                        const Eigen::Vector3d& direction) {
   CHECK(!bounds.isEmpty() && direction.allFinite() && direction.norm() > 0);
   CHECK(fov > 0 && fov < 180 && aspect > 0);

@@ -23,7 +23,7 @@ View view_of(const FrameCamera& camera, const Eigen::AlignedBox3d& bounds, doubl
 
 // A camera that looks at the centre of `bounds` from `direction` (from the box towards the eye, any length), as
 // near as possible with the whole box and a margin in view. fov: vertical angle [degrees].
-FrameCamera frame_auto(const Eigen::AlignedBox3d& bounds, double fov, double aspect,
+FrameCamera fit_camera(const Eigen::AlignedBox3d& bounds, double fov, double aspect,
                        const Eigen::Vector3d& direction);
 
 } // namespace rend

@@ -67,7 +67,8 @@ void set_shade(const GlProgram& program, const FloorView& floor, GLuint shade) {
 }
 
 // Whether a shadow may reach a block of pixels.
-bool in_shadow(const FloorView& floor, const Footprint& reached, const PixelBox& block, int width, int height) {
+bool in_shadow(const FloorView& floor, const CoverageGrid& reached, const PixelRect& block, int width,
+               int height) {
   Eigen::AlignedBox2d seen; // in squares of `reached`
   int hits = 0;
   for (int corner = 0; corner < 4; ++corner) {
@@ -83,7 +84,7 @@ bool in_shadow(const FloorView& floor, const Footprint& reached, const PixelBox&
                      f(seen.max().y() + margin));
 }
 
-void set_bodies(const GlProgram& program, const BodiesPicture& bodies) {
+void set_bodies(const GlProgram& program, const BodyTargets& bodies) {
   program.set("colours", 1);
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(bodies.kind(), bodies.colours);
@@ -91,13 +92,15 @@ void set_bodies(const GlProgram& program, const BodiesPicture& bodies) {
 
 } // namespace
 
-void Composite::draw(const Frame& frame, const View& view, const BodiesPicture& bodies, const Footprint& blocks,
-                     const FloorShadow& shadow, const Occlusion* occlusion) {
+void Composite::draw(const Frame& frame, const View& view, const BodyTargets& bodies,
+                     const CoverageGrid& blocks, const FloorShadow& shadow, const Occlusion* occlusion) {
   const bool seen =
       frame.floor && !frame.transparent && view.eye.z() > frame.floor->z; // the floor is invisible from below
   const std::optional<FloorView> floor = seen ? std::optional(FloorView(frame, view, shadow)) : std::nullopt;
-  const Behind bare = frame.transparent ? Behind::Nothing : floor ? Behind::Floor : Behind::Backdrop;
-  const Behind shaded = floor ? Behind::FloorInShadow : bare;
+  const Background bare = frame.transparent ? Background::Nothing
+                          : floor           ? Background::Floor
+                                            : Background::Backdrop;
+  const Background shaded = floor ? Background::FloorInShadow : bare;
   glViewport(0, 0, width_, height_);
   glDisable(GL_DEPTH_TEST);
   glClearColor(0, 0, 0, 0);
@@ -105,34 +108,35 @@ void Composite::draw(const Frame& frame, const View& view, const BodiesPicture& 
 
   const auto kind = [&](int column, int row) {
     if (blocks.at(column, row)) return 0;
-    const PixelBox block = box_of({column, row, 1, 1}, width_, height_);
+    const PixelRect block = pixels_of({column, row, 1, 1}, width_, height_);
     return floor && in_shadow(*floor, shadow.reached(), block, width_, height_) ? 1 : 2;
   };
-  const auto draw_blocks = [&](const Kind& what, std::vector<PixelBox> boxes) {
+  const auto draw_blocks = [&](const Kind& what, std::vector<PixelRect> boxes) {
     if (boxes.empty()) return;
     const GlProgram& used = program(what, bodies);
     used.use();
-    if (what.behind >= Behind::Backdrop) used.set("background", Eigen::Vector3f(frame.background.data()));
-    if (what.behind >= Behind::Floor) set_floor(used, *floor);
-    if (what.behind >= Behind::FloorInShadow) set_shade(used, *floor, shadow.shade());
+    if (what.background >= Background::Backdrop)
+      used.set("background", Eigen::Vector3f(frame.background.data()));
+    if (what.background >= Background::Floor) set_floor(used, *floor);
+    if (what.background >= Background::FloorInShadow) set_shade(used, *floor, shadow.shade());
     if (what.bodies) set_bodies(used, bodies);
     if (what.occluded) occlusion->set(used, view, bodies, 2);
-    for (PixelBox& box : boxes) box = box_of(box, width_, height_);
-    boxes_.draw(boxes, width_, height_);
+    for (PixelRect& box : boxes) box = pixels_of(box, width_, height_);
+    rect_painter_.draw(boxes, width_, height_);
   };
   const auto boxes = runs(blocks.columns(), blocks.rows(), 3, kind);
-  draw_blocks({.bodies = true, .occluded = occlusion != nullptr, .behind = shaded}, boxes[0]);
+  draw_blocks({.bodies = true, .occluded = occlusion != nullptr, .background = shaded}, boxes[0]);
   if (frame.transparent) return;
-  draw_blocks({.bodies = false, .occluded = false, .behind = shaded}, boxes[1]);
-  draw_blocks({.bodies = false, .occluded = false, .behind = bare}, boxes[2]);
+  draw_blocks({.bodies = false, .occluded = false, .background = shaded}, boxes[1]);
+  draw_blocks({.bodies = false, .occluded = false, .background = bare}, boxes[2]);
 }
 
-const GlProgram& Composite::program(const Kind& kind, const BodiesPicture& bodies) {
+const GlProgram& Composite::program(const Kind& kind, const BodyTargets& bodies) {
   const auto found = programs_.find(kind);
   if (found != programs_.end()) return found->second;
   const std::string definitions = fmt::format("#define BODIES {:d}\n#define OCCLUDED {:d}\n#define BEHIND {}\n",
-                                              kind.bodies, kind.occluded, static_cast<int>(kind.behind)) +
-                                  Occlusion::definitions(bodies.samples, bodies.fine);
+                                              kind.bodies, kind.occluded, static_cast<int>(kind.background)) +
+                                  Occlusion::definitions(bodies.samples, bodies.supersampling);
   return programs_.try_emplace(kind, "composite.vert", "composite.frag", definitions).first->second;
 }
 

@@ -8,11 +8,11 @@
 // A Device must be current, from construction to destruction.
 #pragma once
 
-#include "render/draw/bodies_picture.h"
-#include "render/draw/boxes.h"
+#include "render/draw/body_targets.h"
+#include "render/draw/coverage_grid.h"
 #include "render/draw/floor_shadow.h"
 #include "render/draw/occlusion.h"
-#include "render/draw/pixel_footprint.h"
+#include "render/draw/rect_painter.h"
 
 #include <map>
 
@@ -24,22 +24,22 @@ public:
 
   // Into the bound framebuffer, which has that size. bodies: always with the same number of samples; shadow: of
   // the frame's floor, if it has one; occlusion: of these bodies, or null. blocks: those that bodies cover.
-  void draw(const Frame& frame, const View& view, const BodiesPicture& bodies, const Footprint& blocks,
+  void draw(const Frame& frame, const View& view, const BodyTargets& bodies, const CoverageGrid& blocks,
             const FloorShadow& shadow, const Occlusion* occlusion);
 
 private:
-  enum class Behind { Nothing = 0, Backdrop = 1, Floor = 2, FloorInShadow = 3 };
+  enum class Background { Nothing = 0, Backdrop = 1, Floor = 2, FloorInShadow = 3 };
   struct Kind { // a variant of the program
     bool bodies, occluded;
-    Behind behind;
+    Background background;
     auto operator<=>(const Kind&) const = default;
   };
 
-  const GlProgram& program(const Kind& kind, const BodiesPicture& bodies);
+  const GlProgram& program(const Kind& kind, const BodyTargets& bodies);
 
   int width_, height_;
   std::map<Kind, GlProgram> programs_; // compiled on first use
-  Boxes boxes_;
+  RectPainter rect_painter_;
 };
 
 } // namespace rend

@@ -100,7 +100,7 @@ public:
   void release() override { OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
 
   const std::string& renderer() const override { return renderer_; }
-  bool has_fewer_threads() const override { return fewer_threads_; }
+  bool threads_were_refused() const override { return fewer_threads_; }
 
 private:
   struct Destroy {

@@ -16,7 +16,8 @@ public:
   virtual void make_current() = 0;                 // in the calling thread
   virtual void release() = 0;                      // the calling thread no longer draws
   virtual const std::string& renderer() const = 0; // "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 ..."
-  virtual bool has_fewer_threads() const = 0; // the system refused to start as many threads as llvmpipe wanted
+  // the system refused to start as many threads as llvmpipe wanted
+  virtual bool threads_were_refused() const = 0;
 };
 
 // Creates an off-screen context, current in the calling thread. Throws UserError: CannotCreate where the

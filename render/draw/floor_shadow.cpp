@@ -64,7 +64,7 @@ Eigen::Matrix<double, 2, 3> texture_of_floor(const LightView& view, double floor
 
 } // namespace
 
-Pyramid::Pyramid(int side, int levels) : side_(side), levels_(static_cast<std::size_t>(levels)) {
+MipPyramid::MipPyramid(int side, int levels) : side_(side), levels_(static_cast<std::size_t>(levels)) {
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   for (int level = 0; level < levels; ++level)
     glTexImage2D(GL_TEXTURE_2D, level, GL_RG16, side >> level, side >> level, 0, GL_RG, GL_UNSIGNED_SHORT,
@@ -78,8 +78,8 @@ Pyramid::Pyramid(int side, int levels) : side_(side), levels_(static_cast<std::s
   }
 }
 
-void Pyramid::build(const GlProgram& halve, const Eigen::AlignedBox2f& drawn,
-                    const std::function<void()>& draw) {
+void MipPyramid::build(const GlProgram& halve, const Eigen::AlignedBox2f& drawn,
+                       const std::function<void()>& draw) {
   begin_with_empty_rim(levels_[0], side_);
   if (!drawn.isEmpty()) draw();
 
@@ -151,8 +151,8 @@ void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& tow
   contact_.build(halve_, contact_drawn_, occluders(above, contact, 2));
   glDisable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
-  choose_blur(penumbra);
-  settle(contact_level, texture_of_floor(above, floor_z));
+  render_blur_levels(penumbra);
+  render_shade(contact_level, texture_of_floor(above, floor_z));
 }
 
 // Marks the squares that the blurred shadow of any triangle can reach on the floor.
@@ -185,30 +185,30 @@ void FloorShadow::find_reached(const Views& views, const std::vector<std::span<c
     }
 }
 
-void FloorShadow::choose_blur(double penumbra) {
+void FloorShadow::render_blur_levels(double penumbra) {
   begin_with_empty_rim(blur_target_, blur_side);
   glDisable(GL_SCISSOR_TEST);
-  choose_.use();
-  choose_.set("penumbra", static_cast<float>(penumbra));
-  choose_.set("occluders", 0);
+  blur_level_program_.use();
+  blur_level_program_.set("penumbra", static_cast<float>(penumbra));
+  blur_level_program_.set("occluders", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, key_.texture());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void FloorShadow::settle(double contact_level, const Eigen::Matrix<double, 2, 3>& contact_of_floor) {
+void FloorShadow::render_shade(double contact_level, const Eigen::Matrix<double, 2, 3>& contact_of_floor) {
   // shade = A floor + a, contact = C floor + c: contact = C A⁻¹ shade + (c - C A⁻¹ a)
   const Eigen::Matrix2d turn = contact_of_floor.leftCols<2>() * shade_of_floor_.leftCols<2>().inverse();
   const Eigen::Vector2d origin = contact_of_floor.col(2) - turn * shade_of_floor_.col(2);
   begin_with_empty_rim(shade_target_, shade_side);
-  settle_.use();
-  settle_.set("contact_level", static_cast<float>(contact_level));
-  settle_.set("contact_origin", Eigen::Vector2f(origin.cast<float>()));
-  settle_.set("contact_x", Eigen::Vector2f(turn.col(0).cast<float>()));
-  settle_.set("contact_y", Eigen::Vector2f(turn.col(1).cast<float>()));
-  settle_.set("occluders", 0);
-  settle_.set("contact", 1);
-  settle_.set("blur", 2);
+  shade_program_.use();
+  shade_program_.set("contact_level", static_cast<float>(contact_level));
+  shade_program_.set("contact_origin", Eigen::Vector2f(origin.cast<float>()));
+  shade_program_.set("contact_x", Eigen::Vector2f(turn.col(0).cast<float>()));
+  shade_program_.set("contact_y", Eigen::Vector2f(turn.col(1).cast<float>()));
+  shade_program_.set("occluders", 0);
+  shade_program_.set("contact", 1);
+  shade_program_.set("blur", 2);
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, blur_.name());
   glActiveTexture(GL_TEXTURE1);
@@ -216,7 +216,8 @@ void FloorShadow::settle(double contact_level, const Eigen::Matrix<double, 2, 3>
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, key_.texture());
   const auto marked = [&](int column, int row) { return reached_.at(column, row) ? 1 : 0; };
-  boxes_.draw(runs(reached_.columns(), reached_.rows(), 2, marked)[1], reached_.columns(), reached_.rows());
+  rect_painter_.draw(runs(reached_.columns(), reached_.rows(), 2, marked)[1], reached_.columns(),
+                     reached_.rows());
   glDisable(GL_SCISSOR_TEST);
 }
 

@@ -8,10 +8,10 @@
 // pixel.
 #pragma once
 
-#include "render/draw/boxes.h"
+#include "render/draw/coverage_grid.h"
 #include "render/draw/gl.h"
 #include "render/draw/light.h"
-#include "render/draw/pixel_footprint.h"
+#include "render/draw/rect_painter.h"
 
 #include <functional>
 #include <span>
@@ -20,9 +20,9 @@
 namespace rend {
 
 // A texture of two channels (16 bits each) with halved and blurred levels.
-class Pyramid {
+class MipPyramid {
 public:
-  Pyramid(int side, int levels); // [texels] of level 0; levels includes level 0
+  MipPyramid(int side, int levels); // [texels] of level 0; levels includes level 0
   // Renders level 0 by `draw` (bound and cleared, its outermost texels left empty), then each level from the
   // one before. drawn: the bounds of what it draws, in texture coordinates; the rest is not processed. Empty:
   // all levels are cleared.
@@ -48,7 +48,7 @@ public:
   // seen along the key light.
   GLuint shade() const { return shade_.name(); }
   // The squares of that texture that any shadow can reach.
-  const Footprint& reached() const { return reached_; }
+  const CoverageGrid& reached() const { return reached_; }
   // From (x, y, 1) on the floor [m] to shade's texture coordinates.
   const Eigen::Matrix<double, 2, 3>& shade_of_floor() const { return shade_of_floor_; }
 
@@ -60,20 +60,20 @@ private:
     Eigen::Vector2f key_blur, contact_blur; // extents of either pyramid's blur, in key's texture coordinates
   };
   void find_reached(const Views& views, const std::vector<std::span<const Corner>>& triangles);
-  void choose_blur(double penumbra);
-  void settle(double contact_level, const Eigen::Matrix<double, 2, 3>& contact_of_floor);
+  void render_blur_levels(double penumbra);
+  void render_shade(double contact_level, const Eigen::Matrix<double, 2, 3>& contact_of_floor);
 
   GlProgram occluder_{"occluder.vert", "occluder.frag"};
   GlProgram halve_{"screen.vert", "halve.frag"};
-  GlProgram settle_{"boxes.vert", "settle.frag"};
-  Pyramid key_{512, 5}, contact_{256, 5};
-  GlProgram choose_{"screen.vert", "blur.frag"};
+  GlProgram shade_program_{"boxes.vert", "settle.frag"};
+  MipPyramid key_{512, 5}, contact_{256, 5};
+  GlProgram blur_level_program_{"screen.vert", "blur.frag"};
   GlTexture blur_, shade_; // one channel: the level of key_ to use; two channels: see shade()
   GlFramebuffer blur_target_, shade_target_;
   Eigen::Matrix<double, 2, 3> shade_of_floor_;
-  Footprint reached_{32, 32};
+  CoverageGrid reached_{32, 32};
   Eigen::AlignedBox2f key_drawn_, contact_drawn_; // of the pyramids' level 0, in texture coordinates
-  Boxes boxes_;
+  RectPainter rect_painter_;
 };
 
 } // namespace rend

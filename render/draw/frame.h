@@ -45,7 +45,8 @@ struct FrameBody {
   bool edges = true;           // draw lines of cells and creases (torn and border lines are drawn in any case)
   // a sheet; false: a solid, whose triangles are counter-clockwise seen from outside, with back faces culled
   bool two_sided = true;
-  bool sides = true; // the back of a sheet is drawn a shade darker; false: front and back alike (a Möbius band)
+  // the back of a sheet is drawn a shade darker; false: front and back alike (a Möbius band)
+  bool shades_back = true;
   std::optional<std::array<std::uint8_t, 3>> back; // sRGB, of a sheet's back; none: as the front
   Finish finish = finishes().front();
   bool filled = true; // false: lines only (a wire frame)

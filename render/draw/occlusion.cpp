@@ -34,7 +34,7 @@ void bind(int unit, GLenum kind, GLuint texture) {
   glBindTexture(kind, texture);
 }
 
-void draw_over(const PixelBox& box) {
+void draw_over(const PixelRect& box) {
   glScissor(box.x, box.y, box.width, box.height);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -57,38 +57,38 @@ Eigen::Vector2f to_nearness(const View& view) {
 
 } // namespace
 
-std::string Occlusion::definitions(int samples, int fine) {
-  return fmt::format("#define SAMPLES {}\n#define FINE {}\n#define PART {}\n", samples, fine, part);
+std::string Occlusion::definitions(int samples, int supersampling) {
+  return fmt::format("#define SAMPLES {}\n#define FINE {}\n#define PART {}\n", samples, supersampling, part);
 }
 
-Occlusion::Occlusion(int width, int height, int samples, int fine)
+Occlusion::Occlusion(int width, int height, int samples, int supersampling)
     : width_(width), height_(height), small_width_((width + part - 1) / part),
       small_height_((height + part - 1) / part),
-      depths_program_("occlusion.vert", "occlusion_depth.frag", definitions(samples, fine)) {
+      depths_program_("occlusion.vert", "occlusion_depth.frag", definitions(samples, supersampling)) {
   make_target(depths_, depths_target_, GL_R32F, GL_RED, small_width_, small_height_);
-  make_target(kept_, kept_target_, GL_RG32F, GL_RG, small_width_, small_height_);
+  make_target(occlusion_texture_, occlusion_target_, GL_RG32F, GL_RG, small_width_, small_height_);
   make_target(blurred_, blurred_target_, GL_RG32F, GL_RG, small_width_, small_height_);
 }
 
-void Occlusion::find(const BodiesPicture& bodies, const View& view, std::optional<double> floor_z) {
-  const PixelBox& covered = bodies.covered;
+void Occlusion::find(const BodyTargets& bodies, const View& view, std::optional<double> floor_z) {
+  const PixelRect& covered = bodies.covered;
   const auto longest = static_cast<int>(longest_share * small_height_);
   const auto grown = [&](int margin) { // `covered` in texels of the small picture, enlarged by a margin
     const int x = std::max(covered.x / part - margin, 0), y = std::max(covered.y / part - margin, 0);
-    return PixelBox{x, y, std::min((covered.x + covered.width) / part + 1 + margin, small_width_) - x,
-                    std::min((covered.y + covered.height) / part + 1 + margin, small_height_) - y};
+    return PixelRect{x, y, std::min((covered.x + covered.width) / part + 1 + margin, small_width_) - x,
+                     std::min((covered.y + covered.height) / part + 1 + margin, small_height_) - y};
   };
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
   glViewport(0, 0, small_width_, small_height_);
   read_depths(bodies, view, grown(longest + 5), floor_z);
-  find_kept(view, grown(3));
+  compute_occlusion(view, grown(3));
   blur(view, grown(1));
   glDisable(GL_SCISSOR_TEST);
 }
 
-void Occlusion::set(const GlProgram& program, const View& view, const BodiesPicture& bodies, int unit) const {
+void Occlusion::set(const GlProgram& program, const View& view, const BodyTargets& bodies, int unit) const {
   program.set("depth", unit);
   program.set("kept", unit + 1);
   program.set("texel", texel());
@@ -98,7 +98,7 @@ void Occlusion::set(const GlProgram& program, const View& view, const BodiesPict
   bind(unit + 1, GL_TEXTURE_2D, blurred_.name());
 }
 
-void Occlusion::read_depths(const BodiesPicture& bodies, const View& view, const PixelBox& box,
+void Occlusion::read_depths(const BodyTargets& bodies, const View& view, const PixelRect& box,
                             std::optional<double> floor_z) {
   Eigen::Vector3d floor = Eigen::Vector3d::Zero(); // 1 / depth of the floor, linear over the small picture
   if (floor_z) {
@@ -112,34 +112,35 @@ void Occlusion::read_depths(const BodiesPicture& bodies, const View& view, const
   depths_program_.use();
   depths_program_.set("floor_plane", Eigen::Vector3f(floor.cast<float>()));
   depths_program_.set("depth", 0);
-  depths_program_.set("end", Eigen::Vector2i(width_ * bodies.fine - 1, height_ * bodies.fine - 1));
+  depths_program_.set("end",
+                      Eigen::Vector2i(width_ * bodies.supersampling - 1, height_ * bodies.supersampling - 1));
   depths_program_.set("to_nearness", to_nearness(view));
   bind(0, bodies.kind(), bodies.depth);
   draw_over(box);
 }
 
-void Occlusion::find_kept(const View& view, const PixelBox& box) {
+void Occlusion::compute_occlusion(const View& view, const PixelRect& box) {
   const double across = 1 / view.eye_to_clip(0, 0), up = 1 / view.eye_to_clip(1, 1);
   const Eigen::Vector4d ray(-across, -up, 2.0 * part / width_ * across, 2.0 * part / height_ * up);
-  glBindFramebuffer(GL_FRAMEBUFFER, kept_target_.name());
-  kept_program_.use();
-  kept_program_.set("depths", 0);
-  kept_program_.set("texel", texel());
-  kept_program_.set("ray", Eigen::Vector4f(ray.cast<float>()));
-  kept_program_.set("reach", static_cast<float>(reach(view)));
-  kept_program_.set("pixels", static_cast<float>(1 / ray.w()));
-  kept_program_.set("longest", static_cast<float>(longest_share * small_height_));
+  glBindFramebuffer(GL_FRAMEBUFFER, occlusion_target_.name());
+  occlusion_program_.use();
+  occlusion_program_.set("depths", 0);
+  occlusion_program_.set("texel", texel());
+  occlusion_program_.set("ray", Eigen::Vector4f(ray.cast<float>()));
+  occlusion_program_.set("reach", static_cast<float>(reach(view)));
+  occlusion_program_.set("pixels", static_cast<float>(1 / ray.w()));
+  occlusion_program_.set("longest", static_cast<float>(longest_share * small_height_));
   bind(0, GL_TEXTURE_2D, depths_.name());
   draw_over(box);
 }
 
-void Occlusion::blur(const View& view, const PixelBox& box) {
+void Occlusion::blur(const View& view, const PixelRect& box) {
   glBindFramebuffer(GL_FRAMEBUFFER, blurred_target_.name());
   blur_program_.use();
   blur_program_.set("kept", 0);
   blur_program_.set("texel", texel());
   blur_program_.set("tolerance", tolerance(view));
-  bind(0, GL_TEXTURE_2D, kept_.name());
+  bind(0, GL_TEXTURE_2D, occlusion_texture_.name());
   draw_over(box);
 }
 

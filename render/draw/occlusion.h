@@ -24,7 +24,7 @@
 // A Device must be current, from construction to destruction.
 #pragma once
 
-#include "render/draw/bodies_picture.h"
+#include "render/draw/body_targets.h"
 #include "render/draw/camera.h"
 
 #include <optional>
@@ -34,31 +34,32 @@ namespace rend {
 
 class Occlusion {
 public:
-  // width, height [pixels] of the picture; samples, fine: as in the BodiesPicture given to find().
-  Occlusion(int width, int height, int samples, int fine);
+  // width, height [pixels] of the picture; samples, supersampling: as in the BodyTargets given to find().
+  Occlusion(int width, int height, int samples, int supersampling);
 
   // Computes the occlusion. floor_z: height of the floor if it is visible [m].
-  void find(const BodiesPicture& bodies, const View& view, std::optional<double> floor_z);
+  void find(const BodyTargets& bodies, const View& view, std::optional<double> floor_z);
   // Binds textures, from a texture unit on, and sets uniforms of the program in use, which multiplies the
   // occlusion into the picture (composite.frag).
-  void set(const GlProgram& program, const View& view, const BodiesPicture& bodies, int unit) const;
-  static std::string definitions(int samples, int fine); // #defines for shaders that read samples
+  void set(const GlProgram& program, const View& view, const BodyTargets& bodies, int unit) const;
+  static std::string definitions(int samples, int supersampling); // #defines for shaders that read samples
 
 private:
-  void read_depths(const BodiesPicture& bodies, const View& view, const PixelBox& box,
+  void read_depths(const BodyTargets& bodies, const View& view, const PixelRect& box,
                    std::optional<double> floor_z);
-  void find_kept(const View& view, const PixelBox& box);
-  void blur(const View& view, const PixelBox& box);
+  void compute_occlusion(const View& view, const PixelRect& box);
+  void blur(const View& view, const PixelRect& box);
   Eigen::Vector2f texel() const {
     return {1.0f / static_cast<float>(small_width_), 1.0f / static_cast<float>(small_height_)};
   }
 
   int width_, height_, small_width_, small_height_; // [pixels]
   GlProgram depths_program_;
-  GlProgram kept_program_{"screen.vert", "occlusion.frag"};
+  GlProgram occlusion_program_{"screen.vert", "occlusion.frag"};
   GlProgram blur_program_{"screen.vert", "occlusion_blur.frag"};
-  GlTexture depths_, kept_, blurred_; // small textures: depth [m]; the other two: occlusion, depth [m]
-  GlFramebuffer depths_target_, kept_target_, blurred_target_;
+  // small textures: depth [m]; the other two: occlusion, depth [m]
+  GlTexture depths_, occlusion_texture_, blurred_;
+  GlFramebuffer depths_target_, occlusion_target_, blurred_target_;
 };
 
 } // namespace rend

@@ -11,7 +11,7 @@ using Eigen::Vector3f;
 using ConstMap = Eigen::Map<const Vector3f>;
 
 // Prepares the three corners of a triangle; wound: their order defines the front.
-void wind(Corner* corner, bool wound) {
+void orient(Corner* corner, bool keeps_order) {
   const ConstMap a(corner[0].position.data()), b(corner[1].position.data()), c(corner[2].position.data());
   const Vector3f across = (b - a).cross(c - a); // twice the area times the normal, counter-clockwise
   // The sum is finite if each number is; it could overflow only for coordinates that no frame has.
@@ -24,7 +24,7 @@ void wind(Corner* corner, bool wound) {
     const float length = across.norm();
     if (!(length > 0)) return;
     for (int k = 0; k < 3; ++k) Eigen::Map<Vector3f>(corner[k].normal.data()) = across / length;
-  } else if (!wound && normals.dot(across) < 0) {
+  } else if (!keeps_order && normals.dot(across) < 0) {
     std::swap(corner[1], corner[2]);
     for (int k = 0; k < 3; ++k) std::swap(corner[k].line[1], corner[k].line[2]);
   }
@@ -42,7 +42,7 @@ void pack(const FrameBody& body, std::vector<Corner>& packed) {
   CHECK(body.corners.size() % 3 == 0);
   const std::size_t first = packed.size();
   packed.insert(packed.end(), body.corners.begin(), body.corners.end());
-  for (std::size_t i = first; i < packed.size(); i += 3) wind(&packed[i], !body.two_sided);
+  for (std::size_t i = first; i < packed.size(); i += 3) orient(&packed[i], !body.two_sided);
 }
 
 } // namespace rend

@@ -5,7 +5,7 @@
 
 namespace rend {
 
-void must_av(int result, const std::filesystem::path& file, const char* doing) {
+void check_av(int result, const std::filesystem::path& file, const char* doing) {
   if (result >= 0) return;
   // Encoders and filters below libav return these codes when they get no memory or no threads; their arguments
   // are known to be valid here.

@@ -34,10 +34,10 @@ template <class T> using Owned = std::unique_ptr<T, FreeOfLibav>;
 
 // Throws UserError about the file if a result of libav is negative: ReadWrite, or OutOfBudget for lack of
 // memory or threads.
-void must_av(int result, const std::filesystem::path& file, const char* doing);
+void check_av(int result, const std::filesystem::path& file, const char* doing);
 
 // Allocation functions of libav return null when out of memory: throws std::bad_alloc then.
-template <class T> T* must_be_made(T* made) {
+template <class T> T* check_allocated(T* made) {
   if (made == nullptr) throw std::bad_alloc();
   return made;
 }

@@ -101,19 +101,19 @@ void check_what_is_there(const fs::path& path, const fs::file_status& there) {
 OutputFile::OutputFile(const std::filesystem::path& path) : OutputFile(path, {}) {}
 
 OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& temporary)
-    : path_(path), wanted_(temporary.empty() ? path.string() + ".part"
-                                             : (path.parent_path() / temporary.filename()).string()) {
+    : path_(path), base_temporary_(temporary.empty() ? path.string() + ".part"
+                                                     : (path.parent_path() / temporary.filename()).string()) {
   if (path_ == "-")
     throw UserError(Exit::Usage, {}, "'-' is no file, and what is written there appears whole or not at all",
                     "name a file; ./- is one of that name");
   std::error_code error;
   const fs::file_status there = fs::symlink_status(path_, error);
   if (!fs::is_symlink(there)) check_what_is_there(path_, there);
-  file_ = make_temporary(wanted_, temporary_);
+  file_ = make_temporary(base_temporary_, temporary_);
   if (file_ < 0)
     throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",
                     "Check that the folder is there and may be written to.");
-  part_.is(temporary_.c_str());
+  part_.register_path(temporary_.c_str());
 }
 
 OutputFile::~OutputFile() {
@@ -145,26 +145,26 @@ void OutputFile::commit() {
       is_called(file_, temporary_) && ::fsync(file_) == 0 && ::rename(temporary_.c_str(), path_.c_str()) == 0;
   const std::string why = kept ? "" : reason();
   if (!kept && is_called(file_, temporary_)) ::unlink(temporary_.c_str());
-  part_.is_gone();
+  part_.unregister();
   ::close(file_);
   file_ = -1;
   if (!kept)
     throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why + ".",
                     "Check that the folder is still there and has room.");
-  remove_leftovers(wanted_);
+  remove_leftovers(base_temporary_);
 }
 
 void remove_leftover(const fs::path& path) {
   remove_leftovers(path.string() + ".part");
 }
 
-void write_whole(const std::filesystem::path& path, const std::string& bytes) {
+void write_atomically(const std::filesystem::path& path, const std::string& bytes) {
   OutputFile file(path);
   file.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
   file.commit();
 }
 
-fs::path followed(const fs::path& path) {
+fs::path resolve_link(const fs::path& path) {
   constexpr int most = 40; // symbolic links, the limit of Linux
   std::error_code error;
   check_what_is_there(path, fs::status(path, error)); // what /dev/stdout points to may have no path

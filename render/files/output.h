@@ -40,20 +40,21 @@ public:
   void commit();                                      // fsync and rename; throws UserError (ReadWrite)
 
 private:
-  std::filesystem::path path_, wanted_, temporary_; // wanted_: the temporary name without a number
-  TemporaryPath part_;                              // registers temporary_ while the file exists
-  int file_ = -1;                                   // descriptor; -1 once closed
+  // base_temporary_: the temporary name without a number
+  std::filesystem::path path_, base_temporary_, temporary_;
+  TemporaryPath part_; // registers temporary_ while the file exists
+  int file_ = -1;      // descriptor; -1 once closed
 };
 
 // Removes temporary files of killed runs; one that is being written is kept.
 void remove_leftover(const std::filesystem::path& path);
 
 // Writes a whole file at once. Throws as OutputFile does.
-void write_whole(const std::filesystem::path& path, const std::string& bytes);
+void write_atomically(const std::filesystem::path& path, const std::string& bytes);
 
 // The file that a user's path stands for: a symbolic link in the path that the user named is followed, even if
 // its target does not exist yet. Throws UserError (CannotCreate) where links form a cycle.
-std::filesystem::path followed(const std::filesystem::path& path);
+std::filesystem::path resolve_link(const std::filesystem::path& path);
 
 // Flushes a folder's entries to the disk: only then does a renamed file survive a crash of the system. Too slow
 // to do for every picture. "" is the current folder. Throws UserError (ReadWrite).

@@ -37,7 +37,7 @@ struct Workspace {
   Bytes rows, deflated;
 
   // Frees large buffers after a huge picture; allocating them again is negligible beside its encoding.
-  void let_go_of_much() {
+  void release_large_buffers() {
     constexpr std::size_t much = 64 << 20; // bytes
     for (Bytes* bytes : {&rows, &deflated})
       if (bytes->capacity() > much) *bytes = Bytes();
@@ -96,7 +96,7 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngText& text) {
   out.reserve(out.size() + rows.size() + 64);
   append_chunk(out, "IDAT", rows);
   append_chunk(out, "IEND", {});
-  work.let_go_of_much();
+  work.release_large_buffers();
   return out;
 }
 

@@ -58,7 +58,7 @@ std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
   return first_bytes(path, std::numeric_limits<std::size_t>::max());
 }
 
-bool PngHead::can_be_true() const {
+bool PngInfo::is_plausible() const {
   return rows_bytes <= most_inflated * file_bytes;
 }
 
@@ -66,18 +66,18 @@ namespace {
 
 constexpr std::size_t sample = sizeof(std::uint16_t), channels = 4;
 
-std::size_t row_bytes(const PngHead& head) {
+std::size_t row_bytes(const PngInfo& head) {
   return static_cast<std::size_t>(head.width) * channels * sample;
 }
 
 } // namespace
 
 // Besides the file: libpng keeps two rows.
-std::size_t PngHead::checking_bytes() const {
+std::size_t PngInfo::checking_bytes() const {
   return file_bytes + 3 * row_bytes(*this);
 }
 
-std::size_t PngHead::decoding_bytes() const {
+std::size_t PngInfo::decoding_bytes() const {
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   return checking_bytes() + pixels * channels * (static_cast<std::size_t>(bits) / 8 + sample);
 }
@@ -301,10 +301,10 @@ UserError no_memory(const std::string& name) {
 
 } // namespace
 
-PngHead png_head(std::span<const std::uint8_t> bytes, const std::string& name) {
+PngInfo png_info(std::span<const std::uint8_t> bytes, const std::string& name) {
   const Place place{name};
   check_signature(bytes, place);
-  PngHead head;
+  PngInfo head;
   head.file_bytes = bytes.size();
   const auto header = png_header(bytes);
   if (!header || header->width == 0 || header->height == 0) return head; // the reader will report what is wrong
@@ -316,13 +316,13 @@ PngHead png_head(std::span<const std::uint8_t> bytes, const std::string& name) {
   return head;
 }
 
-PngHead png_head(const std::filesystem::path& path) {
-  PngHead head = png_head(first_bytes(path, png_header_bytes), path.string());
+PngInfo png_info(const std::filesystem::path& path) {
+  PngInfo head = png_info(first_bytes(path, png_header_bytes), path.string());
   head.file_bytes = size_of(path);
   return head;
 }
 
-DeepImage read_deep_png(std::span<const std::uint8_t> bytes, const std::string& name) {
+HighDepthImage read_high_depth_png(std::span<const std::uint8_t> bytes, const std::string& name) {
   try {
     const Decoded from = decode(bytes, name, Want::Deep);
     return {from.width, from.height, from.channels, from.bits, samples_of(from), from.kind};
@@ -359,15 +359,15 @@ Image read_png(const std::filesystem::path& path) {
 
 namespace rend {
 
-PngHead png_head(const std::filesystem::path&) {
+PngInfo png_info(const std::filesystem::path&) {
   require_png();
   return {};
 }
-PngHead png_head(std::span<const std::uint8_t>, const std::string&) {
+PngInfo png_info(std::span<const std::uint8_t>, const std::string&) {
   require_png();
   return {};
 }
-DeepImage read_deep_png(std::span<const std::uint8_t>, const std::string&) {
+HighDepthImage read_high_depth_png(std::span<const std::uint8_t>, const std::string&) {
   require_png();
   return {};
 }

@@ -9,7 +9,7 @@
 // The header of a small file can state any number of pixels. More than max_png_pixels are refused, and so are
 // more than its compressed data can hold; otherwise memory grows as rows are read (for an interlaced picture,
 // it is allocated at once). A small valid file can still decode to gigabytes: for untrusted files, call
-// png_head() first.
+// png_info() first.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@
 
 namespace rend {
 
-struct DeepImage {
+struct HighDepthImage {
   int width = 0, height = 0;          // [pixels]
   int channels = 3;                   // 3: RGB, 4: RGBA
   int bits = 8;                       // 8 or 16
@@ -32,28 +32,29 @@ struct DeepImage {
 constexpr long max_png_pixels = 1L << 28;
 
 // What is known of a PNG before it is decoded.
-struct PngHead {
+struct PngInfo {
   int width = 0, height = 0;  // [pixels]; 0 where the header is damaged
-  int bits = 8;               // as in DeepImage
+  int bits = 8;               // as in HighDepthImage
   std::size_t file_bytes = 0; // of the whole file
   std::size_t rows_bytes = 0; // inflated, by the header
 
-  bool can_be_true() const;           // whether a file of this length can hold so many pixels
-  std::size_t decoding_bytes() const; // upper bound of the memory of file_bytes() and read_deep_png() together
+  bool is_plausible() const; // whether a file of this length can hold so many pixels
+  // upper bound of the memory of file_bytes() and read_high_depth_png() together
+  std::size_t decoding_bytes() const;
   std::size_t checking_bytes() const; // the same for check_png()
-  bool operator==(const PngHead&) const = default;
+  bool operator==(const PngInfo&) const = default;
 };
 
 // From the first bytes of a file, or from a whole file in memory. Throws as the two functions below do, for
 // what can be detected this early.
-PngHead png_head(const std::filesystem::path& path);
-PngHead png_head(std::span<const std::uint8_t> bytes, const std::string& name);
+PngInfo png_info(const std::filesystem::path& path);
+PngInfo png_info(std::span<const std::uint8_t> bytes, const std::string& name);
 
 // `bytes`: a whole file. Throws UserError (BadInput, at `name`) if it is not a PNG, truncated or damaged: the
 // message says what is wrong, and for other known file types which; OutOfBudget if there is not enough memory.
-DeepImage read_deep_png(std::span<const std::uint8_t> bytes, const std::string& name);
+HighDepthImage read_high_depth_png(std::span<const std::uint8_t> bytes, const std::string& name);
 
-// Validates without keeping pixels: throws what read_deep_png() would. Holds a row at a time.
+// Validates without keeping pixels: throws what read_high_depth_png() would. Holds a row at a time.
 void check_png(std::span<const std::uint8_t> bytes, const std::string& name);
 
 // The content of a file. Throws UserError: NoInput if it cannot be opened or is not a regular file; ReadWrite.

@@ -15,9 +15,9 @@ namespace rend {
 namespace {
 
 TemporaryPath* newest = nullptr;
-std::atomic_flag taken;         // spin lock of the list: a signal handler must not lock a mutex
-std::atomic<int> opening = 0;   // files that are being created and not in the list yet
-std::atomic<bool> over = false; // all are removed, or are being removed
+std::atomic_flag list_lock;             // spin lock of the list: a signal handler must not lock a mutex
+std::atomic<int> opening = 0;           // files that are being created and not in the list yet
+std::atomic<bool> program_ends = false; // all are removed, or are being removed
 
 constexpr int most_waits = 100; // of one millisecond each: a file system may hang
 
@@ -26,18 +26,18 @@ void wait_a_moment() {
   ::nanosleep(&moment, nullptr);
 }
 
-class Taken {
+class ListLock {
 public:
-  Taken() {
-    while (taken.test_and_set()) ::sched_yield();
+  ListLock() {
+    while (list_lock.test_and_set()) ::sched_yield();
   }
-  ~Taken() { taken.clear(); }
-  Taken(const Taken&) = delete;
-  Taken& operator=(const Taken&) = delete;
+  ~ListLock() { list_lock.clear(); }
+  ListLock(const ListLock&) = delete;
+  ListLock& operator=(const ListLock&) = delete;
 };
 
-void wait_for_the_end() {
-  while (over) ::pause();
+void block_until_exit() {
+  while (program_ends) ::pause();
 }
 
 // By getdents64, since readdir() allocates memory.
@@ -61,23 +61,23 @@ void remove_files_in(const char* path) {
 
 TemporaryPath::TemporaryPath() {
   ++opening;
-  if (!over) return;
+  if (!program_ends) return;
   --opening;
-  wait_for_the_end();
+  block_until_exit();
 }
 
 TemporaryPath::TemporaryPath(const char* path) : TemporaryPath() {
-  is(path);
+  register_path(path);
 }
 
 TemporaryPath::~TemporaryPath() {
-  is_gone();
+  unregister();
 }
 
-void TemporaryPath::is(const char* path) {
+void TemporaryPath::register_path(const char* path) {
   path_ = path;
   {
-    const Taken list;
+    const ListLock list;
     before_ = newest;
     if (newest != nullptr) newest->after_ = this;
     newest = this;
@@ -86,15 +86,15 @@ void TemporaryPath::is(const char* path) {
   opening_ = false;
 }
 
-void TemporaryPath::holds_files() {
+void TemporaryPath::remove_contents() {
   with_files_ = true;
 }
 
-void TemporaryPath::is_gone() {
+void TemporaryPath::unregister() {
   if (opening_) --opening;
   opening_ = false;
   if (path_ == nullptr) return;
-  const Taken list;
+  const ListLock list;
   (after_ != nullptr ? after_->before_ : newest) = before_;
   if (before_ != nullptr) before_->after_ = after_;
   before_ = after_ = nullptr;
@@ -107,9 +107,9 @@ void TemporaryPath::remove() const noexcept {
 }
 
 void remove_temporaries() noexcept {
-  over = true;
+  program_ends = true;
   for (int n = 0; n < most_waits && opening > 0; ++n) wait_a_moment();
-  for (int n = 0; n < most_waits && taken.test_and_set(); ++n) wait_a_moment();
+  for (int n = 0; n < most_waits && list_lock.test_and_set(); ++n) wait_a_moment();
   for (const TemporaryPath* one = newest; one != nullptr; one = one->before_) one->remove();
 }
 

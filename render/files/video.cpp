@@ -28,7 +28,7 @@ int even(int side) {
   return side + (side & 1);
 }
 
-std::filesystem::path part_of(const std::filesystem::path& path) {
+std::filesystem::path partial_path(const std::filesystem::path& path) {
   return path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
 }
 
@@ -58,7 +58,7 @@ private:
   void send(const AVFrame* frame); // null: flush
 
   const VideoFormat& kind_;
-  int width_, height_, wide_, high_; // [pixels], of the input, and padded
+  int width_, height_, padded_width_, padded_height_; // [pixels], of the input, and padded
   VideoSink sink_;
   VideoFilter filter_;
   Owned<AVCodecContext> codec_;
@@ -69,9 +69,9 @@ private:
 
 VideoWriter::Encoder::Encoder(const std::filesystem::path& path, const VideoFormat& format, int width,
                               int height, double fps)
-    : kind_(format), width_(width), height_(height), wide_(format.even ? even(width) : width),
-      high_(format.even ? even(height) : height), sink_(path, part_of(path), format.muxer),
-      filter_(format.chain, wide_, high_, av_d2q(fps, 100000), path) {
+    : kind_(format), width_(width), height_(height), padded_width_(format.even ? even(width) : width),
+      padded_height_(format.even ? even(height) : height), sink_(path, partial_path(path), format.muxer),
+      filter_(format.chain, padded_width_, padded_height_, av_d2q(fps, 100000), path) {
   open_codec(av_d2q(fps, 100000));
   sink_.begin(format.writing);
 }
@@ -79,7 +79,7 @@ VideoWriter::Encoder::Encoder(const std::filesystem::path& path, const VideoForm
 void VideoWriter::Encoder::open_codec(AVRational rate) {
   require_encoder(kind_);
   const AVCodec* codec = avcodec_find_encoder_by_name(kind_.encoder.c_str());
-  codec_.reset(must_be_made(avcodec_alloc_context3(codec)));
+  codec_.reset(check_allocated(avcodec_alloc_context3(codec)));
   codec_->width = filter_.width();
   codec_->height = filter_.height();
   codec_->pix_fmt = filter_.pixels();
@@ -97,14 +97,14 @@ void VideoWriter::Encoder::open_codec(AVRational rate) {
   const long refused = refused_thread_starts();
   const int result = avcodec_open2(codec_.get(), codec, quality.get());
   if (result < 0 && refused_thread_starts() > refused) refuse_without_thread("the encoder");
-  sink_.must(result, "starting the encoder");
+  sink_.check(result, "starting the encoder");
   CHECK(av_dict_count(*quality.get()) == 0); // none is unknown
 
-  stream_ = must_be_made(avformat_new_stream(sink_.container(), nullptr));
-  sink_.must(avcodec_parameters_from_context(stream_->codecpar, codec_.get()), "describing the video");
+  stream_ = check_allocated(avformat_new_stream(sink_.container(), nullptr));
+  sink_.check(avcodec_parameters_from_context(stream_->codecpar, codec_.get()), "describing the video");
   stream_->time_base = codec_->time_base;
   stream_->avg_frame_rate = rate;
-  packet_.reset(must_be_made(av_packet_alloc()));
+  packet_.reset(check_allocated(av_packet_alloc()));
 }
 
 void VideoWriter::Encoder::set_colours() {
@@ -123,17 +123,17 @@ void VideoWriter::Encoder::set_colours() {
 
 void VideoWriter::Encoder::add(const Image& image) {
   CHECK(image.width == width_ && image.height == height_);
-  const bool fits = image.channels == 3 && wide_ == width_ && high_ == height_;
-  const Image copy = fits ? Image() : padded(image, wide_, high_);
+  const bool fits = image.channels == 3 && padded_width_ == width_ && padded_height_ == height_;
+  const Image copy = fits ? Image() : padded(image, padded_width_, padded_height_);
   filter_.push(fits ? &image : &copy, [this](const AVFrame* frame) { send(frame); });
 }
 
 void VideoWriter::Encoder::send(const AVFrame* frame) {
-  sink_.must(avcodec_send_frame(codec_.get(), frame), "encoding");
+  sink_.check(avcodec_send_frame(codec_.get(), frame), "encoding");
   while (true) {
     const int result = avcodec_receive_packet(codec_.get(), packet_.get());
     if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
-    sink_.must(result, "encoding");
+    sink_.check(result, "encoding");
     packet_->duration = 1;
     av_packet_rescale_ts(packet_.get(), codec_->time_base, stream_->time_base);
     packet_->stream_index = stream_->index;

@@ -16,19 +16,19 @@ namespace rend {
 
 VideoFilter::VideoFilter(const std::string& chain, int width, int height, AVRational rate,
                          const std::filesystem::path& file)
-    : file_(file), graph_(must_be_made(avfilter_graph_alloc())), in_(must_be_made(av_frame_alloc())),
-      out_(must_be_made(av_frame_alloc())) {
+    : file_(file), graph_(check_allocated(avfilter_graph_alloc())), in_(check_allocated(av_frame_alloc())),
+      out_(check_allocated(av_frame_alloc())) {
   graph_->nb_threads = 1;
   const std::string source =
       fmt::format("buffer=video_size={}x{}:pix_fmt={}:time_base={}/{}:frame_rate={}/{}:pixel_aspect=1/1", width,
                   height, static_cast<int>(AV_PIX_FMT_RGB24), rate.den, rate.num, rate.num, rate.den);
   const std::string text = source + "," + chain + ",buffersink";
   AVFilterInOut *inputs = nullptr, *outputs = nullptr;
-  must_av(avfilter_graph_parse2(graph_.get(), text.c_str(), &inputs, &outputs), file_,
-          "preparing the video's pictures");
+  check_av(avfilter_graph_parse2(graph_.get(), text.c_str(), &inputs, &outputs), file_,
+           "preparing the video's pictures");
   avfilter_inout_free(&inputs);
   avfilter_inout_free(&outputs);
-  must_av(avfilter_graph_config(graph_.get(), nullptr), file_, "preparing the video's pictures");
+  check_av(avfilter_graph_config(graph_.get(), nullptr), file_, "preparing the video's pictures");
   for (unsigned n = 0; n < graph_->nb_filters; ++n) {
     AVFilterContext* filter = graph_->filters[n];
     if (std::strcmp(filter->filter->name, "buffer") == 0) source_ = filter;
@@ -40,8 +40,8 @@ VideoFilter::VideoFilter(const std::string& chain, int width, int height, AVRati
   in_->height = height;
   constexpr int aligned = 64; // [bytes], row alignment that libav prefers
   stride_ = (3 * width + aligned - 1) / aligned * aligned;
-  rooms_.reset(
-      must_be_made(av_buffer_pool_init(static_cast<std::size_t>(stride_) * height + aligned, nullptr)));
+  frame_pool_.reset(
+      check_allocated(av_buffer_pool_init(static_cast<std::size_t>(stride_) * height + aligned, nullptr)));
 }
 
 int VideoFilter::width() const {
@@ -60,29 +60,29 @@ AVRational VideoFilter::time_base() const {
 void VideoFilter::push(const Image* image, const std::function<void(const AVFrame*)>& take) {
   if (image != nullptr) {
     CHECK(image->channels == 3 && image->width == in_->width && image->height == in_->height);
-    const Owned<AVFrame> copy(must_be_made(av_frame_alloc())); // the filter graph may keep a reference
+    const Owned<AVFrame> copy(check_allocated(av_frame_alloc())); // the filter graph may keep a reference
     copy->format = in_->format;
     copy->width = in_->width;
     copy->height = in_->height;
     copy->color_range = AVCOL_RANGE_JPEG;
     copy->sample_aspect_ratio = {1, 1};
-    copy->buf[0] = av_buffer_pool_get(rooms_.get());
-    must_av(copy->buf[0] != nullptr ? 0 : AVERROR(ENOMEM), file_, "making room for a picture");
+    copy->buf[0] = av_buffer_pool_get(frame_pool_.get());
+    check_av(copy->buf[0] != nullptr ? 0 : AVERROR(ENOMEM), file_, "making room for a picture");
     copy->data[0] = copy->buf[0]->data;
     copy->linesize[0] = stride_;
     for (int y = 0; y < image->height; ++y)
       std::memcpy(copy->data[0] + static_cast<std::ptrdiff_t>(y) * copy->linesize[0], image->row(y),
                   image->stride());
     copy->pts = count_++;
-    must_av(av_buffersrc_add_frame(source_, copy.get()), file_, "preparing a picture");
+    check_av(av_buffersrc_add_frame(source_, copy.get()), file_, "preparing a picture");
   } else {
     // the end time: the last picture has a duration, too
-    must_av(av_buffersrc_close(source_, count_, 0), file_, "preparing a picture");
+    check_av(av_buffersrc_close(source_, count_, 0), file_, "preparing a picture");
   }
   while (true) {
     const int result = av_buffersink_get_frame(sink_, out_.get());
     if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
-    must_av(result, file_, "preparing a picture");
+    check_av(result, file_, "preparing a picture");
     take(out_.get());
     av_frame_unref(out_.get());
   }

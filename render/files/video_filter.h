@@ -29,7 +29,7 @@ private:
   AVFilterContext *source_ = nullptr, *sink_ = nullptr; // owned by graph_
   Owned<AVFrame> in_, out_;
   // reused frame buffers: allocating them each time costs as much as copying the pictures
-  Owned<AVBufferPool> rooms_;
+  Owned<AVBufferPool> frame_pool_;
   int stride_ = 0;         // [bytes] per row
   std::int64_t count_ = 0; // pictures so far
 };

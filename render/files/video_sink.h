@@ -24,7 +24,7 @@ public:
 
   // Throws a UserError for an error of libav; if writing to the file failed, the error of that instead, which
   // says more.
-  void must(int result, const char* doing) const;
+  void check(int result, const char* doing) const;
 
 private:
   static int write_bytes(void* self, std::uint8_t* data, int count);

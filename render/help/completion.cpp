@@ -16,8 +16,8 @@ std::vector<std::string> split(std::string_view text, char at) {
 
 } // namespace
 
-Offer offer_of(const OptionUsage& option, const CommandUsage& program) {
-  using enum Offer::Kind;
+Candidates candidates_for(const OptionUsage& option, const CommandUsage& program) {
+  using enum Candidates::Kind;
   std::string value = option.value;
   const bool list = value.ends_with(",...");
   if (list) value.erase(value.size() - 4);
@@ -36,13 +36,13 @@ Offer offer_of(const OptionUsage& option, const CommandUsage& program) {
   return {value == "FILE" || !option.names.front().starts_with('-') ? Files : Nothing};
 }
 
-std::string in_a_row(const std::vector<std::string>& words) {
+std::string joined_by_blanks(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : " ") + word;
   return out;
 }
 
-std::string cut_short(const std::string& what) {
+std::string first_phrase(const std::string& what) {
   return what.substr(0, std::min({what.find(": "), what.find("; "), what.find(" ("), what.size()}));
 }
 

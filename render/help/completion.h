@@ -11,18 +11,18 @@
 namespace rend {
 
 // What can be completed after an option or at a position.
-struct Offer {
+struct Candidates {
   enum class Kind { Nothing, Words, List, Files, Folders, Attributes, Elements };
   Kind kind = Kind::Nothing;
   std::vector<std::string> words = {}; // Words: one of them; List: several, separated by commas
   std::string extension = {};          // Files: "xml"; empty: any. Folders are always offered.
 };
-Offer offer_of(const OptionUsage& option, const CommandUsage& program);
+Candidates candidates_for(const OptionUsage& option, const CommandUsage& program);
 
 struct CompletionSource {
   CommandUsage program;
-  std::vector<SetUsage> sets;        // after --set
-  std::vector<std::string> elements; // arguments of `rend help preset`
+  std::vector<SettableAttribute> sets; // after --set
+  std::vector<std::string> elements;   // arguments of `rend help preset`
 };
 
 struct Shell {
@@ -33,8 +33,8 @@ const std::vector<Shell>& all_shells();
 const Shell* find_shell(const std::string& name); // null: there is none
 std::vector<std::string> shell_names();
 
-std::string in_a_row(const std::vector<std::string>& words); // separated by blanks
-std::string cut_short(const std::string& what);              // only its first part, for a list
+std::string joined_by_blanks(const std::vector<std::string>& words); // separated by blanks
+std::string first_phrase(const std::string& what);                   // only its first part, for a list
 
 Shell bash_shell();
 Shell zsh_shell();

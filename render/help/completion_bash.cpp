@@ -11,12 +11,12 @@
 namespace rend {
 namespace {
 
-std::string coded(const Offer& offer) {
-  using enum Offer::Kind;
+std::string coded(const Candidates& offer) {
+  using enum Candidates::Kind;
   static constexpr EnumWords<Elements> kinds{"nothing", "words",      "list",    "files",
                                              "folders", "attributes", "elements"};
   const std::string kind = kinds[offer.kind];
-  if (offer.kind == Words || offer.kind == List) return kind + " " + in_a_row(offer.words);
+  if (offer.kind == Words || offer.kind == List) return kind + " " + joined_by_blanks(offer.words);
   return offer.extension.empty() ? kind : kind + " " + offer.extension;
 }
 
@@ -34,24 +34,25 @@ void add_command(const CommandUsage& command, const std::string& path, const Com
       patterns += fmt::format("{}'{} {}'", patterns.empty() ? "" : " | ", path, name);
     }
     if (!option.value.empty())
-      tables.takes += fmt::format("  {}) takes='{}' ;;\n", patterns, coded(offer_of(option, program)));
+      tables.takes += fmt::format("  {}) takes='{}' ;;\n", patterns, coded(candidates_for(option, program)));
   }
   for (std::size_t n = 0; n < command.positionals.size(); ++n) {
     const std::string number = command.positionals[n].repeated ? "'*" : fmt::format("{}'", n + 1);
     tables.takes += fmt::format("  '{} {}) takes='{}' ;;\n", path, number,
-                                coded(offer_of(command.positionals[n], program)));
+                                coded(candidates_for(command.positionals[n], program)));
   }
   for (const CommandUsage& part : command.commands) parts.push_back(part.name);
-  tables.options +=
-      fmt::format("  '{}') options='{}' commands='{}' ;;\n", path, in_a_row(options), in_a_row(parts));
+  tables.options += fmt::format("  '{}') options='{}' commands='{}' ;;\n", path, joined_by_blanks(options),
+                                joined_by_blanks(parts));
   for (const CommandUsage& part : command.commands)
     add_command(part, path.empty() ? part.name : path + " " + part.name, program, tables);
 }
 
-std::string values_of(const std::vector<SetUsage>& sets) {
+std::string values_of(const std::vector<SettableAttribute>& sets) {
   std::string out;
-  for (const SetUsage& set : sets)
-    if (!set.values.empty()) out += fmt::format("  {}) values='{}' ;;\n", set.path, in_a_row(set.values));
+  for (const SettableAttribute& set : sets)
+    if (!set.values.empty())
+      out += fmt::format("  {}) values='{}' ;;\n", set.path, joined_by_blanks(set.values));
   return out;
 }
 
@@ -162,7 +163,7 @@ std::string script(const CompletionSource& source) {
   Tables tables;
   add_command(source.program, "", source.program, tables);
   std::vector<std::string> paths;
-  for (const SetUsage& set : source.sets) paths.push_back(set.path);
+  for (const SettableAttribute& set : source.sets) paths.push_back(set.path);
   return fmt::format("# Completion of rend for bash, as `rend help completion bash` prints it.\n"
                      "# shellcheck shell=bash disable=SC2207,SC2034,SC2154,SC2178\n"
                      "_rend_paths='{}'\n_rend_elements='{}'\n\n"
@@ -170,8 +171,8 @@ std::string script(const CompletionSource& source) {
                      "_rend_options() {{ # COMMAND: into options and commands\n  case $1 in\n{}  esac\n}}\n\n"
                      "_rend_takes() {{ # COMMAND, OPTION or number of the word: into takes\n"
                      "  case \"$1 $2\" in\n{}  esac\n}}\n{}",
-                     in_a_row(paths), in_a_row(source.elements), values_of(source.sets), tables.options,
-                     tables.takes, functions);
+                     joined_by_blanks(paths), joined_by_blanks(source.elements), values_of(source.sets),
+                     tables.options, tables.takes, functions);
 }
 
 } // namespace

@@ -16,22 +16,22 @@ std::string quoted(const std::string& text) {
 }
 
 // The argument of -x -a, or its replacement.
-std::string arguments(const Offer& offer) {
+std::string arguments(const Candidates& offer) {
   switch (offer.kind) {
-  case Offer::Kind::Nothing:
+  case Candidates::Kind::Nothing:
     return " -x";
-  case Offer::Kind::Words:
-    return fmt::format(" -x -a {}", quoted(in_a_row(offer.words)));
-  case Offer::Kind::List:
-    return fmt::format(" -x -a \"(__fish_complete_list , '__rend_lines {}')\"", in_a_row(offer.words));
-  case Offer::Kind::Files:
+  case Candidates::Kind::Words:
+    return fmt::format(" -x -a {}", quoted(joined_by_blanks(offer.words)));
+  case Candidates::Kind::List:
+    return fmt::format(" -x -a \"(__fish_complete_list , '__rend_lines {}')\"", joined_by_blanks(offer.words));
+  case Candidates::Kind::Files:
     if (offer.extension.empty()) return " -r -F";
     return fmt::format(" -k -x -a '(__fish_complete_suffix .{})'", offer.extension);
-  case Offer::Kind::Folders:
+  case Candidates::Kind::Folders:
     return " -x -a '(__fish_complete_directories)'";
-  case Offer::Kind::Attributes:
+  case Candidates::Kind::Attributes:
     return " -x -a '(__rend_attributes)'";
-  case Offer::Kind::Elements:
+  case Candidates::Kind::Elements:
     return " -x -a '(__rend_elements)'";
   }
   return "";
@@ -42,8 +42,8 @@ std::string option_line(const OptionUsage& option, const std::string& start, con
   for (const std::string& name : option.names)
     out +=
         name.starts_with("--") ? fmt::format(" -l {}", name.substr(2)) : fmt::format(" -s {}", name.substr(1));
-  if (!option.value.empty()) out += arguments(offer_of(option, program));
-  return fmt::format("{} -d {}\n", out, quoted(cut_short(option.what)));
+  if (!option.value.empty()) out += arguments(candidates_for(option, program));
+  return fmt::format("{} -d {}\n", out, quoted(first_phrase(option.what)));
 }
 
 void add_command(const CommandUsage& command, const std::string& path, const CommandUsage& program,
@@ -54,7 +54,7 @@ void add_command(const CommandUsage& command, const std::string& path, const Com
     out += fmt::format("complete -c rend -n '__rend_only{}' -a {} -d {}\n", path, part.name, quoted(part.what));
   for (const OptionUsage& option : command.options) out += option_line(option, start, program);
   for (const OptionUsage& positional : command.positionals)
-    out += fmt::format("{}{}\n", start, arguments(offer_of(positional, program)));
+    out += fmt::format("{}{}\n", start, arguments(candidates_for(positional, program)));
   for (const CommandUsage& part : command.commands)
     add_command(part, fmt::format("{} {}", path, part.name), program, out);
 }
@@ -82,12 +82,12 @@ std::string script(const CompletionSource& source) {
   std::string out = "# Completion of rend for fish, as `rend help completion fish` prints it.\n";
   out += functions;
   out += "\nfunction __rend_attributes\n  __rend_lines";
-  for (const SetUsage& set : source.sets) {
+  for (const SettableAttribute& set : source.sets) {
     if (set.values.empty()) out += fmt::format(" {}=", set.path);
     for (const std::string& value : set.values) out += fmt::format(" {}={}", set.path, value);
   }
-  out +=
-      fmt::format("\nend\n\nfunction __rend_elements\n  __rend_lines {}\nend\n\n", in_a_row(source.elements));
+  out += fmt::format("\nend\n\nfunction __rend_elements\n  __rend_lines {}\nend\n\n",
+                     joined_by_blanks(source.elements));
   add_command(source.program, "", source.program, out);
   return out;
 }

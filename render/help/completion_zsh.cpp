@@ -18,21 +18,21 @@ std::string escaped(const std::string& text, const char* special) {
   return out;
 }
 
-std::string action(const Offer& offer) {
+std::string action(const Candidates& offer) {
   switch (offer.kind) {
-  case Offer::Kind::Nothing:
+  case Candidates::Kind::Nothing:
     return " ";
-  case Offer::Kind::Words:
-    return fmt::format("({})", in_a_row(offer.words));
-  case Offer::Kind::List:
-    return fmt::format("_values -s , word {}", in_a_row(offer.words));
-  case Offer::Kind::Files:
+  case Candidates::Kind::Words:
+    return fmt::format("({})", joined_by_blanks(offer.words));
+  case Candidates::Kind::List:
+    return fmt::format("_values -s , word {}", joined_by_blanks(offer.words));
+  case Candidates::Kind::Files:
     return offer.extension.empty() ? "_files" : fmt::format("_files -g \"*.{}\"", offer.extension);
-  case Offer::Kind::Folders:
+  case Candidates::Kind::Folders:
     return "_files -/";
-  case Offer::Kind::Attributes:
+  case Candidates::Kind::Attributes:
     return "_rend_attributes";
-  case Offer::Kind::Elements:
+  case Candidates::Kind::Elements:
     return "_rend_elements";
   }
   return " ";
@@ -47,16 +47,17 @@ std::string option_words(const OptionUsage& option, const CommandUsage& program)
     names += fmt::format("{}{}{}", names.empty() ? "" : ",", name, tail);
   }
   if (option.names.size() > 1) names = fmt::format("{{{}}}", names);
-  const std::string before = option.repeated ? "*" : fmt::format("({})", in_a_row(option.names));
+  const std::string before = option.repeated ? "*" : fmt::format("({})", joined_by_blanks(option.names));
   std::string takes;
   if (!option.value.empty())
-    takes = fmt::format(":{}:{}", escaped(option.value, ":\\"), escaped(action(offer_of(option, program)), ""));
-  return fmt::format("'{}'{}'[{}]{}'", before, names, escaped(cut_short(option.what), "[]:\\"), takes);
+    takes = fmt::format(":{}:{}", escaped(option.value, ":\\"),
+                        escaped(action(candidates_for(option, program)), ""));
+  return fmt::format("'{}'{}'[{}]{}'", before, names, escaped(first_phrase(option.what), "[]:\\"), takes);
 }
 
 std::string positional_words(const OptionUsage& option, std::size_t number, const CommandUsage& program) {
   return fmt::format("'{}:{}:{}'", option.repeated ? "*" : std::to_string(number), escaped(option.value, ":\\"),
-                     escaped(action(offer_of(option, program)), ""));
+                     escaped(action(candidates_for(option, program)), ""));
 }
 
 void add_command(const CommandUsage& command, const std::string& function, const CommandUsage& program,
@@ -83,22 +84,23 @@ void add_command(const CommandUsage& command, const std::string& function, const
   out += "\n}\n\n";
 }
 
-std::string attributes(const std::vector<SetUsage>& sets) {
+std::string attributes(const std::vector<SettableAttribute>& sets) {
   std::string out = "_rend_attributes() {\n  local -a paths=(\n";
-  for (const SetUsage& set : sets) out += fmt::format("    {}\n", set.path);
+  for (const SettableAttribute& set : sets) out += fmt::format("    {}\n", set.path);
   out += "  )\n"
          "  local attribute=${${PREFIX%%=*}#scene.}\n"
          "  if ! compset -P '*='; then\n    compadd -q -S = -a paths\n    return\n  fi\n"
          "  case $attribute in\n";
-  for (const SetUsage& set : sets)
-    if (!set.values.empty()) out += fmt::format("  {}) compadd {} ;;\n", set.path, in_a_row(set.values));
+  for (const SettableAttribute& set : sets)
+    if (!set.values.empty())
+      out += fmt::format("  {}) compadd {} ;;\n", set.path, joined_by_blanks(set.values));
   return out + "  esac\n}\n\n";
 }
 
 std::string script(const CompletionSource& source) {
   std::string out = "#compdef rend\n# Completion of rend for zsh, as `rend help completion zsh` prints it.\n\n";
   out += attributes(source.sets);
-  out += fmt::format("_rend_elements() {{ compadd {} }}\n\n", in_a_row(source.elements));
+  out += fmt::format("_rend_elements() {{ compadd {} }}\n\n", joined_by_blanks(source.elements));
   add_command(source.program, "_rend", source.program, out);
   return out + "_rend \"$@\"\n";
 }

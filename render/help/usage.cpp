@@ -51,8 +51,8 @@ std::string choices(const std::vector<std::string>& names) {
   return out;
 }
 
-std::vector<SetUsage> set_usages(const ElementType& root) {
-  std::map<std::string, SetUsage> sorted;
+std::vector<SettableAttribute> settable_attributes(const ElementType& root) {
+  std::map<std::string, SettableAttribute> sorted;
   visit(root, "", [&](const ElementType& type, const std::string& path) {
     for (const AttributeType& attribute : type.attributes) {
       const std::string whole = path.empty() ? attribute.name : path + "." + attribute.name;
@@ -60,7 +60,7 @@ std::vector<SetUsage> set_usages(const ElementType& root) {
       sorted[whole] = {whole, attribute.kind == AttributeKind::Flag ? flag : attribute.words};
     }
   });
-  std::vector<SetUsage> out;
+  std::vector<SettableAttribute> out;
   for (const auto& [path, set] : sorted) out.push_back(set);
   return out;
 }

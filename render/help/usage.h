@@ -37,12 +37,13 @@ CommandUsage usage_of(const CLI::App& app);
 std::string choices(const std::vector<std::string>& names);
 
 // An attribute that can be given to --set.
-struct SetUsage {
+struct SettableAttribute {
   std::string path;                // "body.sheet.cells"
   std::vector<std::string> values; // of a keyword or a flag; empty: numbers or text
 };
 
-std::vector<SetUsage> set_usages(const ElementType& root); // of all elements at each of their positions; sorted
+// of all elements at each of their positions; sorted
+std::vector<SettableAttribute> settable_attributes(const ElementType& root);
 std::vector<std::string> element_names(const ElementType& root); // as `rend help preset` takes them; sorted
 
 } // namespace rend

@@ -67,7 +67,7 @@ const std::vector<html::Column> columns{{"picture"},
                                         number_column("share"),
                                         number_column("window")};
 
-std::vector<html::Cell> row_of(const Compared& one, const Html& name, const Html& state) {
+std::vector<html::Cell> row_of(const CaseResult& one, const Html& name, const Html& state) {
   std::vector<html::Cell> row{{name, one.paths.name}, {state, {}}};
   if (!one.metrics) {
     for (std::size_t n = row.size(); n < columns.size(); ++n) row.push_back({muted("-"), {}});
@@ -90,7 +90,7 @@ Html state_of(const DiffReport& report, std::size_t n) {
   return report.updated[n] ? badge(Tone::Note, "updated") : badge(tone_of(state), name_of(state));
 }
 
-Html figures_of(const Compared& one) {
+Html figures_of(const CaseResult& one) {
   const Metrics& m = *one.metrics;
   const auto& d = m.difference;
   return facts(
@@ -113,13 +113,13 @@ public:
   Html chapter(std::size_t n);
 
 private:
-  Html pictures(const Compared& one);
+  Html pictures(const CaseResult& one);
 
   const DiffReport& report_;
   std::size_t bytes_ = 0; // of the pictures embedded so far
 };
 
-Html Chapters::pictures(const Compared& one) {
+Html Chapters::pictures(const CaseResult& one) {
   if (bytes_ + size_of(one.paths.a) + size_of(one.paths.b) + one.heat.size() > most_bytes)
     return paragraph(
         muted("The pictures are left out here, for this page has 100 MB of them; compare this one alone "
@@ -127,7 +127,7 @@ Html Chapters::pictures(const Compared& one) {
   const std::vector<std::uint8_t> a = bytes_of(one.paths.a), b = bytes_of(one.paths.b);
   if (a.empty() && b.empty()) return {};
   bytes_ += a.size() + b.size() + one.heat.size();
-  Compare all;
+  ComparisonView all;
   all.name = one.paths.name;
   all.a = view(a);
   all.b = view(b);
@@ -143,7 +143,7 @@ Html Chapters::pictures(const Compared& one) {
 }
 
 Html Chapters::chapter(std::size_t n) {
-  const Compared& one = report_.cases[n];
+  const CaseResult& one = report_.cases[n];
   Html out = heading(3, one.paths.name, mark_of(n));
   Html line = state_of(report_, n);
   for (const std::string& why : one.why)
@@ -178,7 +178,7 @@ std::string diff_page(const DiffReport& report) {
   Html pictures;
   Chapters chapters(report);
   for (const std::size_t n : failures_first(report)) {
-    const Compared& one = report.cases[n];
+    const CaseResult& one = report.cases[n];
     const bool shown = one.state != CaseState::Match;
     const Html name = shown ? link(fmt::format("#{}", mark_of(n)), one.paths.name) : escaped(one.paths.name);
     (failed(report, n) ? failures : rest).rows.push_back(row_of(one, name, state_of(report, n)));
@@ -204,12 +204,12 @@ DiffFiles::DiffFiles(const std::string& folder, const std::string& junit) {
     json_.emplace(folder_->path() / "diff.json");
     page_.emplace(folder_->path() / "index.html");
   }
-  if (!junit.empty()) junit_.emplace(followed(junit));
+  if (!junit.empty()) junit_.emplace(resolve_link(junit));
 }
 
 void DiffFiles::write_maps(const DiffReport& report) const {
   std::set<fs::path> folders;
-  for (const Compared& one : report.cases) {
+  for (const CaseResult& one : report.cases) {
     if (one.heat.empty()) continue;
     const fs::path path = maps_->path() / one.paths.name;
     const OutputFolder into(path.parent_path());

@@ -107,7 +107,7 @@ std::string figures_text(const Metrics& m) {
 }
 
 std::string line_of(const DiffReport& report, std::size_t n) {
-  const Compared& one = report.cases[n];
+  const CaseResult& one = report.cases[n];
   std::string line =
       fmt::format("{:<11} {}", report.updated[n] ? "updated" : name_of(one.state), one.paths.name);
   if (!one.why.empty() && !report.updated[n]) line += ": " + joined(one.why);
@@ -116,7 +116,7 @@ std::string line_of(const DiffReport& report, std::size_t n) {
 
 } // namespace
 
-Json case_json(const Compared& one, Expectation expectation) {
+Json case_json(const CaseResult& one, Expectation expectation) {
   Json out{{"name", one.paths.name},
            {"state", name_of(one.state)},
            {"updated", expectation == Expectation::Updated}};
@@ -147,7 +147,7 @@ std::string diff_text(const DiffReport& report) {
   for (const std::size_t n : failures_first(report))
     if (failed(report, n) || report.updated[n] || report.cases.size() == 1) out += line_of(report, n);
   if (report.cases.size() == 1) {
-    const Compared& one = report.cases.front();
+    const CaseResult& one = report.cases.front();
     for (const std::string& note : one.notes) out += "  " + printable(note) + "\n";
     return one.metrics ? out + figures_text(*one.metrics) : out;
   }
@@ -167,7 +167,7 @@ std::string diff_junit(const DiffReport& report) {
   std::size_t failures = 0;
   std::string cases;
   for (std::size_t n = 0; n < report.cases.size(); ++n) {
-    const Compared& one = report.cases[n];
+    const CaseResult& one = report.cases[n];
     const std::size_t slash = one.paths.name.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : one.paths.name.substr(0, slash);
     cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\"",

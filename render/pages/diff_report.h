@@ -17,7 +17,7 @@ enum class Expectation { Kept, Updated };
 
 struct DiffReport {
   std::string a, b;                 // as on the command line
-  std::vector<Compared> cases;      // by name
+  std::vector<CaseResult> cases;    // by name
   std::vector<bool> updated;        // one per case: what is expected has been replaced
   std::vector<std::string> remarks; // on the whole, such as patterns that fit nothing
 
@@ -36,7 +36,7 @@ bool failed(const DiffReport& report, std::size_t n);
 Exit exit_of(const DiffReport& report);
 
 // Name, state, figures, reasons. psnr is null where the pictures are equal (it would be infinite).
-nlohmann::ordered_json case_json(const Compared& one, Expectation expectation);
+nlohmann::ordered_json case_json(const CaseResult& one, Expectation expectation);
 nlohmann::ordered_json diff_json(const DiffReport& report);
 
 // A line per failure, then a summary; for a single pair, its metrics.

@@ -26,7 +26,7 @@ std::string bytes_more(const LeanRow& row) {
 
 std::string sameness(const LeanRow& row) {
   if (row.same == LeanSame::Free) return row.same_state ? "same state" : "another motion";
-  if (!row.as_promised()) return row.same_pixels ? "OTHER STATE" : "OTHER PIXELS";
+  if (!row.as_required()) return row.same_pixels ? "OTHER STATE" : "OTHER PIXELS";
   return row.same_state ? "same bits" : "same pixels";
 }
 
@@ -67,7 +67,7 @@ NamedValues values_of(const LeanRow& row) {
           {"must_be_same", same[row.same]},
           {"same_state", measured(row.same_state)},
           {"same_pixels", measured(row.same_pixels)},
-          {"as_promised", row.as_promised()}};
+          {"as_promised", row.as_required()}};
 }
 
 } // namespace
@@ -130,7 +130,7 @@ std::string page_of(const std::vector<LeanRow>& rows, const Provenance& p) {
          {row.time.differs() ? strong(percent(row.time.ratio)) : escaped(percent(row.time.ratio)),
           fmt::format("{}", row.time.ratio)},
          {escaped(fmt::format("± {:.1f} %", 100 * row.time.noise)), fmt::format("{}", row.time.noise)},
-         {badge(!row.as_promised()           ? Tone::Bad
+         {badge(!row.as_required()           ? Tone::Bad
                 : row.same == LeanSame::Free ? Tone::Plain
                                              : Tone::Good,
                 sameness(row))}});

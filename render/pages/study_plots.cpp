@@ -52,7 +52,7 @@ std::optional<double> torn_overlap(const StudyReport&, const StudyRow& row) {
 PlotSeries series_of(const StudyReport& report, const StudyCurve& curve, const Axes& axes) {
   PlotSeries series;
   series.name = curve.integrator;
-  series.look = look_of(curve.integrator);
+  series.style_number = look_of(curve.integrator);
   for (std::size_t n : curve.rows) {
     const StudyRow& row = report.rows[n];
     const double x = axes.x(row);
@@ -175,7 +175,7 @@ NamedPlot all_groups(const StudyReport& report) {
   for (const StudyCurve& curve : report.curves) {
     PlotSeries series = series_of(report, curve, {.x = seconds, .y = total_error});
     series.name = curve.integrator + ", " + report.groups[curve.group].name;
-    series.look = static_cast<int>(plot.series.size());
+    series.style_number = static_cast<int>(plot.series.size());
     series.out.clear();
     if (!series.points.empty()) plot.series.push_back(series);
   }

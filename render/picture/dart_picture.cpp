@@ -88,7 +88,7 @@ void draw_darts(const Body& body, FrameBody& out) {
   CHECK(body.map->map().dart_count() <= most_drawn_darts);
   out.edges = false;
   out.two_sided = false;
-  out.sides = false;
+  out.shades_back = false;
   Darts darts(body, out);
   body.map->map().for_each_dart([&](Dart d) { darts.add(d); });
 }

@@ -34,7 +34,7 @@ BodyPicture::BodyPicture(Body& body, LookSettings look)
     : body_(&body), look_(std::move(look)), solid_(body.map->dimension() == 3),
       orientable_(solid_ || is_orientable(body.map->map())), scale_(look_.most.value_or(0)) {
   if (!solid_) body.boundary().sheet(); // that of a solid is there
-  if (look_.as == DrawnAs::Darts && body.map->map().dart_count() > most_drawn_darts)
+  if (look_.as == DrawStyle::Darts && body.map->map().dart_count() > most_drawn_darts)
     look_.source.fail("as",
                       fmt::format("the body has {} darts, and a picture of more than {} tells nothing",
                                   body.map->map().dart_count(), most_drawn_darts),
@@ -44,29 +44,29 @@ BodyPicture::BodyPicture(Body& body, LookSettings look)
 constexpr double at_rest = 1e-9; // strain
 
 void BodyPicture::observe(std::size_t& fragments_seen) {
-  if (look_.by == ShownBy::Fragment) label_fragments(fragments_seen);
-  if (look_.by == ShownBy::Plain || look_.by == ShownBy::Fragment) return;
-  values_ = look_.by == ShownBy::Strain   ? vertex_strain(*body_)
-            : look_.by == ShownBy::Stress ? vertex_stress(*body_)
-                                          : vertex_force(*body_);
+  if (look_.by == ColourBy::Fragment) label_fragments(fragments_seen);
+  if (look_.by == ColourBy::Plain || look_.by == ColourBy::Fragment) return;
+  values_ = look_.by == ColourBy::Strain   ? vertex_strain(*body_)
+            : look_.by == ColourBy::Stress ? vertex_stress(*body_)
+                                           : vertex_force(*body_);
   if (look_.most) return;
   double most = 0;
   for (double value : values_) most = std::max(most, value);
-  if (look_.by != ShownBy::Strain && most > 0 && scale_ == 0) { // at rest all is round-off, and no colour
+  if (look_.by != ColourBy::Strain && most > 0 && scale_ == 0) { // at rest all is round-off, and no colour
     const std::vector<double> strain = vertex_strain(*body_);
     if (*std::max_element(strain.begin(), strain.end()) < at_rest) most = 0;
   }
-  if (look_.by == ShownBy::Strain && most < at_rest) most = 0;
+  if (look_.by == ColourBy::Strain && most < at_rest) most = 0;
   scale_ = std::max(scale_, rounded_up(most));
 }
 
 std::optional<HudLegend> BodyPicture::legend() const {
-  if (look_.by == ShownBy::Plain || look_.by == ShownBy::Fragment || scale_ == 0) return {};
+  if (look_.by == ColourBy::Plain || look_.by == ColourBy::Fragment || scale_ == 0) return {};
   HudLegend legend;
-  legend.title = std::string(look_.by == ShownBy::Strain   ? "largest strain"
-                             : look_.by == ShownBy::Stress ? "largest principal stress"
-                                                           : "largest force");
-  const char* unit = look_.by == ShownBy::Strain ? "" : look_.by == ShownBy::Stress ? "Pa" : "N";
+  legend.title = std::string(look_.by == ColourBy::Strain   ? "largest strain"
+                             : look_.by == ColourBy::Stress ? "largest principal stress"
+                                                            : "largest force");
+  const char* unit = look_.by == ColourBy::Strain ? "" : look_.by == ColourBy::Stress ? "Pa" : "N";
   legend.low = in_units(0, "");
   legend.high = in_units(scale_, unit);
   for (int n = 0; n < 64; ++n) legend.colours.push_back(colour_of_share(n / 63.0));
@@ -79,7 +79,7 @@ void BodyPicture::label_fragments(std::size_t& fragments_seen) {
   // darts come in increasing order, so the first of a label is its smallest
   body_->map->map().for_each_dart([&](Dart d) {
     if (labels_[d.value] != fragment_colours_.size()) return;
-    const auto [at, added] = numbers_.try_emplace(d.value, fragments_seen);
+    const auto [at, added] = colour_numbers_.try_emplace(d.value, fragments_seen);
     if (added) ++fragments_seen;
     fragment_colours_.push_back(colour_of_number(at->second));
   });
@@ -95,17 +95,17 @@ void BodyPicture::colour_vertices() {
 }
 
 FrameBody BodyPicture::draw() {
-  if (look_.by != ShownBy::Plain && look_.by != ShownBy::Fragment) colour_vertices();
+  if (look_.by != ColourBy::Plain && look_.by != ColourBy::Fragment) colour_vertices();
   FrameBody out;
   out.edges = look_.edges;
   out.two_sided = !solid_;
-  out.sides = orientable_;
+  out.shades_back = orientable_;
   out.back = look_.back;
   out.finish = look_.finish;
-  out.filled = look_.as != DrawnAs::Wires;
-  if (look_.as == DrawnAs::Darts)
+  out.filled = look_.as != DrawStyle::Wires;
+  if (look_.as == DrawStyle::Darts)
     draw_darts(*body_, out);
-  else if (look_.as == DrawnAs::Exploded)
+  else if (look_.as == DrawStyle::Exploded)
     draw_exploded(
         *body_, look_.apart, [this](const CellCorner& at) { return colour_at(at); }, out);
   else
@@ -114,7 +114,7 @@ FrameBody BodyPicture::draw() {
 }
 
 Colour BodyPicture::colour_at(const CellCorner& at) const {
-  if (look_.by == ShownBy::Fragment) return fragment_colours_[labels_[at.dart.value]];
+  if (look_.by == ColourBy::Fragment) return fragment_colours_[labels_[at.dart.value]];
   if (!vertex_colours_.empty()) return vertex_colours_[at.vertex];
   return at.inner ? look_.inside : look_.colour;
 }
@@ -129,7 +129,7 @@ void BodyPicture::draw_sheet(FrameBody& out) {
     const auto [a, b, c] = triangle.vertex;
     const Vec3 flat = (x[b].vec() - x[a].vec()).cross(x[c].vec() - x[a].vec());
     Colour colour = look_.colour;
-    if (look_.by == ShownBy::Fragment)
+    if (look_.by == ColourBy::Fragment)
       colour = fragment_colours_[labels_[body_->map->cells(FaceOfVolume).first_dart(triangle.face).value]];
     for (Slot v : triangle.vertex) {
       // A vertex normal has an arbitrary sign: within a triangle all are turned to the triangle's side.
@@ -151,7 +151,7 @@ void BodyPicture::draw_solid(FrameBody& out) {
   const auto& x = body_->map->position().values();
   surface.for_each_triangle([&](const SolidSurface::Triangle& triangle) {
     Colour colour = triangle.exposed ? look_.inside : look_.colour;
-    if (look_.by == ShownBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
+    if (look_.by == ColourBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
     for (std::size_t k = 0; k < 3; ++k) {
       const Slot v = triangle.vertex[k];
       if (by_vertex) colour = vertex_colours_[v];
@@ -165,7 +165,7 @@ std::size_t BodyPicture::bytes() const {
   return solid_ ? boundary.solid().bytes() : boundary.sheet().bytes();
 }
 
-PictureMaker::PictureMaker(const PictureSettings& settings, Scene& scene, double aspect, double duration,
+FrameBuilder::FrameBuilder(const PictureSettings& settings, Scene& scene, double aspect, double duration,
                            long frames)
     : scene_(scene), viewpoint_(settings.camera, scene, aspect, duration), image_(settings.image),
       spheres_(settings.spheres), boxes_(settings.boxes) {
@@ -180,7 +180,7 @@ PictureMaker::PictureMaker(const PictureSettings& settings, Scene& scene, double
   seconds_ = wall_clock() - start;
 }
 
-void PictureMaker::observe() {
+void FrameBuilder::observe() {
   const double start = wall_clock();
   for (auto& body : bodies_) body->observe(fragments_seen_);
   if (hud_) hud_->observe();
@@ -188,7 +188,7 @@ void PictureMaker::observe() {
   seconds_ += wall_clock() - start;
 }
 
-Frame PictureMaker::draw(long number, double time) {
+Frame FrameBuilder::draw(long number, double time) {
   const double start = wall_clock();
   Frame frame;
   frame.time = scene_.time();
@@ -211,7 +211,7 @@ Frame PictureMaker::draw(long number, double time) {
 }
 
 // Each scale once, even if several bodies share it.
-std::vector<HudLegend> PictureMaker::legends() const {
+std::vector<HudLegend> FrameBuilder::legends() const {
   std::vector<HudLegend> all;
   if (!hud_->wants_legends()) return all;
   for (const auto& body : bodies_)
@@ -226,14 +226,14 @@ void BodyPicture::store(Archive& archive) {
   const double given = scale_;
   const std::size_t darts = body_->map->map().capacity();
   archive(scale_);
-  archive.table(numbers_, darts, "more fragments have a colour than there are darts");
+  archive.table(colour_numbers_, darts, "more fragments have a colour than there are darts");
   if (!archive.reading()) return;
   refuse_unless(look_.most ? scale_ == given : scale_ >= 0, "the scale of colours is another, or below 0");
-  refuse_unless(numbers_.empty() || numbers_.rbegin()->first < darts,
+  refuse_unless(colour_numbers_.empty() || colour_numbers_.rbegin()->first < darts,
                 "a fragment is of a dart that is not there");
 }
 
-void PictureMaker::store(Archive& archive) {
+void FrameBuilder::store(Archive& archive) {
   archive.mark("pictures");
   archive.same(hud_ ? 1 : 0, "whether something is written over the pictures");
   for (auto& body : bodies_) body->store(archive);
@@ -246,7 +246,7 @@ void PictureMaker::store(Archive& archive) {
   refuse_unless(seen == fragments_seen_, "not as many fragments were seen as have a colour");
 }
 
-std::size_t PictureMaker::bytes() const {
+std::size_t FrameBuilder::bytes() const {
   std::size_t total = 0;
   for (const auto& body : bodies_) total += body->bytes();
   return total;

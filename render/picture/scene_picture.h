@@ -28,8 +28,8 @@ public:
   FrameBody draw();                          // of the state that was observed
   std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
   std::size_t bytes() const;               // of its surface
-  std::size_t fragments_seen() const { return numbers_.size(); } // of this body
-  void store(Archive& archive);                                  // scale and colours so far; checkpoint
+  std::size_t fragments_seen() const { return colour_numbers_.size(); } // of this body
+  void store(Archive& archive);                                         // scale and colours so far; checkpoint
 
 private:
   void draw_sheet(FrameBody& out);
@@ -44,16 +44,16 @@ private:
   double scale_ = 0;           // the quantity at the end of the colours; what look_.most says, or seen so far
   std::vector<Vec3> normals_;  // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)
   std::vector<double> values_; // of strain or force, one per vertex slot
-  std::vector<Colour> vertex_colours_;           // one per vertex slot; empty unless by strain or force
-  std::vector<std::uint32_t> labels_;            // fragment of each dart; empty unless by fragment
-  std::vector<Colour> fragment_colours_;         // one per label
-  std::map<std::uint32_t, std::size_t> numbers_; // smallest dart of a fragment → number of its colour
+  std::vector<Colour> vertex_colours_;                  // one per vertex slot; empty unless by strain or force
+  std::vector<std::uint32_t> labels_;                   // fragment of each dart; empty unless by fragment
+  std::vector<Colour> fragment_colours_;                // one per label
+  std::map<std::uint32_t, std::size_t> colour_numbers_; // smallest dart of a fragment → number of its colour
 };
 
-class PictureMaker {
+class FrameBuilder {
 public:
   // aspect: width / height; duration [s] and frames of the clip. UserError where the camera looks at nothing.
-  PictureMaker(const PictureSettings& settings, Scene& scene, double aspect, double duration, long frames);
+  FrameBuilder(const PictureSettings& settings, Scene& scene, double aspect, double duration, long frames);
 
   void observe(); // call with the state of each frame
   Frame draw(long number,

@@ -2,7 +2,7 @@
 
 #include "render/draw/device.h"
 #include "render/draw/hud.h"
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 #include "render/picture/scene_picture.h"
 
 #include <cmath>
@@ -24,9 +24,9 @@ struct StillPictures::Studio {
 
   Scene& scene;
   std::unique_ptr<Device> device = make_device(); // before what lives in it
-  Stage stage;
+  Renderer stage;
   std::optional<Hud> hud; // made for the first picture that has one
-  PictureMaker maker;
+  FrameBuilder maker;
   long taken = 0;
 };
 

@@ -4,7 +4,7 @@
 //   while (scene.time() < scene.duration()) scene.step();
 //   write_png("torn.png", pictures.take()); // render/files/png.h
 //
-// One is a Device, a Stage and a PictureMaker, which a program may also use one by one: to draw many sizes, or
+// One is a Device, a Stage and a FrameBuilder, which a program may also use one by one: to draw many sizes, or
 // to hand frames to a Pipeline, which draws and writes while the simulation goes on
 // (render/pipeline/pipeline.h).
 #pragma once

@@ -28,7 +28,7 @@ bool held_all_around(const Body& body, const Bounds& box, int vertical) {
   return true;
 }
 
-Bounds room_of(const Body& body, double duration) {
+Bounds bounds_to_frame(const Body& body, double duration) {
   const Bounds box = bounds_of(body);
   Bounds room = box;
   for (const Motion& motion : body.constraints.motions())
@@ -59,7 +59,7 @@ Bounds bounds_of(const Sphere& sphere) {
 
 // What the camera should show of a moving sphere: its start, and its path as far as it lies in the bodies' box;
 // all of it would make the bodies small.
-Bounds room_of(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, double duration) {
+Bounds bounds_to_frame(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, double duration) {
   const Bounds start = bounds_of(sphere);
   Vec3 way = duration * sphere.velocity;
   if (sphere.falls()) way += 0.5 * duration * duration * gravity;
@@ -77,16 +77,17 @@ Bounds bounds_of(const Body& body) {
   return box;
 }
 
-Bounds room_of(const Scene& scene, double duration) {
+Bounds bounds_to_frame(const Scene& scene, double duration) {
   Bounds start, room;
   for (const auto& body : scene.bodies()) {
     start.extend(bounds_of(*body));
-    room.extend(room_of(*body, duration));
+    room.extend(bounds_to_frame(*body, duration));
   }
   const World& world = scene.world();
   for (const Box& box : world.boxes) room.extend(box.low).extend(box.high);
   const Bounds bodies = room;
-  for (const Sphere& sphere : world.spheres) room.extend(room_of(sphere, bodies, world.gravity, duration));
+  for (const Sphere& sphere : world.spheres)
+    room.extend(bounds_to_frame(sphere, bodies, world.gravity, duration));
   if (world.floor) room.min().z() = std::max(room.min().z(), std::min(world.floor->z, start.min().z()));
   return room;
 }
@@ -113,7 +114,7 @@ Viewpoint::Viewpoint(const CameraSettings& camera, const Scene& scene, double as
   start_middle_ = start.center();
   reach_ = 3 * start.sizes().norm();
   if (frame == Framing::Given) return;
-  const FrameCamera fitted = frame_auto(room_of(scene, duration), start_.fov, aspect, direction);
+  const FrameCamera fitted = fit_camera(bounds_to_frame(scene, duration), start_.fov, aspect, direction);
   start_.eye = fitted.eye;
   start_.target = fitted.target;
 }
@@ -168,11 +169,11 @@ void Viewpoint::observe(const Scene& scene) {
   const double passed = last_ < 0 ? 0 : scene.time() - last_, share = passed / (passed + lag);
   last_ = scene.time();
   const double distance = (start_.eye - start_.target).norm();
-  const FrameCamera wanted = frame_auto(box, start_.fov, aspect_, direction_);
+  const FrameCamera wanted = fit_camera(box, start_.fov, aspect_, direction_);
   start_.target += share * (wanted.target - start_.target);
   Bounds around = box; // with its mirror image, so that the target is its centre
   around.extend(2 * start_.target - box.min()).extend(2 * start_.target - box.max());
-  const FrameCamera needed = frame_auto(around, start_.fov, aspect_, direction_);
+  const FrameCamera needed = fit_camera(around, start_.fov, aspect_, direction_);
   const double near = (needed.eye - needed.target).norm(), far = (wanted.eye - wanted.target).norm();
   start_.eye = start_.target + direction_.normalized() * std::max(distance + share * (far - distance), near);
 }

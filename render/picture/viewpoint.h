@@ -21,7 +21,7 @@ Eigen::AlignedBox3d bounds_of(const Body& body);
 // room below to hang or fall (as deep as the bodies are wide unless they are held on all sides, but not below
 // the floor). Of a moving sphere, only the part of its path counts that is between the start and the end of the
 // bodies' box.
-Eigen::AlignedBox3d room_of(const Scene& scene, double duration);
+Eigen::AlignedBox3d bounds_to_frame(const Scene& scene, double duration);
 
 class Viewpoint {
 public:

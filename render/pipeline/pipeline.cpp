@@ -2,7 +2,7 @@
 
 #include "render/draw/device.h"
 #include "render/draw/hud.h"
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 #include "render/files/png.h"
 #include "render/files/video.h"
 #include "render/pipeline/queue.h"
@@ -26,18 +26,18 @@ struct Picture {
 };
 using SharedPicture = std::shared_ptr<const Picture>; // shared by both writers
 
-constexpr std::size_t waiting = 3; // capacity of each queue: enough to smooth over an uneven stage
+constexpr std::size_t queue_capacity = 3; // capacity of each queue: enough to smooth over an uneven stage
 
 } // namespace
 
 void check_pipeline(const PipelineOptions& options) {
   // picture size that every OpenGL 3.3 supports: OpenGL is started in advance only for larger ones
-  constexpr int surely = 4096;
+  constexpr int guaranteed_size = 4096;
   if (options.video) require_video(options.extension);
-  const int fine = options.samples == 16 ? 2 : 1;
-  if (fine * std::max(options.width, options.height) <= surely) return;
+  const int supersampling = options.samples == 16 ? 2 : 1;
+  if (supersampling * std::max(options.width, options.height) <= guaranteed_size) return;
   const std::unique_ptr<Device> device = make_device();
-  const Stage stage(options.width, options.height, options.samples);
+  const Renderer renderer(options.width, options.height, options.samples);
 }
 
 std::string png_name(long number) {
@@ -57,7 +57,7 @@ struct Pipeline::Stages {
   void drain();
   void finish();
   PipelineSeconds seconds() const;
-  bool has_fewer_threads() const { return fewer_threads_; }
+  bool threads_were_refused() const { return fewer_threads_; }
 
 private:
   void draw();
@@ -68,14 +68,14 @@ private:
   void fail(std::exception_ptr error);
   void note_done();
   void rethrow() const;
-  void spent(double PipelineSeconds::*stage, double since);
+  void spent(double PipelineSeconds::*renderer, double since);
 
   PipelineOptions options_;
-  std::unique_ptr<Device> device_; // current in the drawing thread
-  std::unique_ptr<Stage> stage_;   // of that thread too
+  std::unique_ptr<Device> device_;     // current in the drawing thread
+  std::unique_ptr<Renderer> renderer_; // of that thread too
   VideoWriter video_;
-  BoundedQueue<Frame> frames_{waiting};
-  BoundedQueue<SharedPicture> for_png_{waiting}, for_video_{waiting};
+  BoundedQueue<Frame> frames_{queue_capacity};
+  BoundedQueue<SharedPicture> for_png_{queue_capacity}, for_video_{queue_capacity};
   mutable std::mutex mutex_; // guards the next two
   std::exception_ptr error_; // the first one of any thread
   PipelineSeconds seconds_;
@@ -95,7 +95,7 @@ Pipeline::Stages::Stages(const PipelineOptions& options) : options_(options) {
     throw UserError(Exit::CannotCreate, {options.folder.string()},
                     "the folder cannot be made: " + error.message() + ".", "Choose another one with -o.");
   device_ = make_device();
-  stage_ = std::make_unique<Stage>(options.width, options.height, options.samples);
+  renderer_ = std::make_unique<Renderer>(options.width, options.height, options.samples);
   device_->release();
   if (options.video)
     video_.open(options.folder / (options.name + options.extension), options.width, options.height,
@@ -107,7 +107,7 @@ void Pipeline::Stages::start() {
   if (options_.video) must_start([this] { write_video(); }, "the video");
   if (options_.png) must_start([this] { write_png_files(); }, "writing PNG files");
   const bool second = options_.png && options_.png_writers == 2;
-  fewer_threads_ = device_->has_fewer_threads();
+  fewer_threads_ = device_->threads_were_refused();
   if (second && !start([this] { write_png_files(); })) fewer_threads_ = true;
 }
 
@@ -161,24 +161,24 @@ void Pipeline::Stages::rethrow() const {
   if (error_) std::rethrow_exception(error_);
 }
 
-void Pipeline::Stages::spent(double PipelineSeconds::*stage, double since) {
+void Pipeline::Stages::spent(double PipelineSeconds::*renderer, double since) {
   const std::lock_guard lock(mutex_);
-  seconds_.*stage += wall_clock() - since;
+  seconds_.*renderer += wall_clock() - since;
 }
 
 void Pipeline::Stages::draw() {
   device_->make_current();
   // frees its OpenGL objects in this thread, where they are current
-  const std::unique_ptr<Stage> stage = std::move(stage_);
+  const std::unique_ptr<Renderer> renderer = std::move(renderer_);
   std::unique_ptr<Hud> hud; // created for the first frame that has one
   while (auto frame = frames_.pop()) {
     const double start = wall_clock();
     auto picture = std::make_shared<Picture>();
     picture->number = frame->number;
-    stage->draw(*frame);
+    renderer->draw(*frame);
     if (!frame->hud.empty() && !hud) hud = std::make_unique<Hud>(options_.width, options_.height);
     if (!frame->hud.empty()) hud->draw(frame->hud);
-    picture->image = stage->read();
+    picture->image = renderer->read();
     spent(&PipelineSeconds::draw, start);
     if (!options_.png) note_done();
     const double drawn = wall_clock();
@@ -251,8 +251,8 @@ void Pipeline::finish() {
 PipelineSeconds Pipeline::seconds() const {
   return stages_->seconds();
 }
-bool Pipeline::has_fewer_threads() const {
-  return stages_->has_fewer_threads();
+bool Pipeline::threads_were_refused() const {
+  return stages_->threads_were_refused();
 }
 
 } // namespace rend

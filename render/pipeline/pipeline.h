@@ -63,7 +63,7 @@ public:
   void finish();
 
   PipelineSeconds seconds() const;
-  bool has_fewer_threads() const; // the system refused to start as many threads as were wanted
+  bool threads_were_refused() const; // the system refused to start as many threads as were wanted
 
 private:
   struct Stages;

@@ -16,11 +16,11 @@ public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
   // Blocks until there is room. False: the queue was abandoned or closed, and the item is dropped.
-  bool push(T thing) {
+  bool push(T item) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return closed_ || things_.size() < capacity_; });
+    changed_.wait(lock, [&] { return closed_ || items_.size() < capacity_; });
     if (closed_) return false;
-    things_.push_back(std::move(thing));
+    items_.push_back(std::move(item));
     changed_.notify_all();
     return true;
   }
@@ -28,12 +28,12 @@ public:
   // Blocks until there is an item. None: the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return closed_ || !things_.empty(); });
-    if (things_.empty()) return std::nullopt;
-    std::optional<T> thing(std::move(things_.front()));
-    things_.pop_front();
+    changed_.wait(lock, [&] { return closed_ || !items_.empty(); });
+    if (items_.empty()) return std::nullopt;
+    std::optional<T> item(std::move(items_.front()));
+    items_.pop_front();
     changed_.notify_all();
-    return thing;
+    return item;
   }
 
   // No more pushes; remaining items can still be popped.
@@ -47,14 +47,14 @@ public:
   void abandon() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
-    things_.clear();
+    items_.clear();
     changed_.notify_all();
   }
 
 private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<T> things_;
+  std::deque<T> items_;
   std::size_t capacity_;
   bool closed_ = false;
 };

@@ -19,7 +19,7 @@ std::string image(const char* role, std::string_view bytes, const std::string& w
                      data_address(PictureFormat::Png, bytes));
 }
 
-std::string pictures(const Compare& all) {
+std::string pictures(const ComparisonView& all) {
   return image("a", all.a, "expected: " + all.name) + image("b", all.b, "now: " + all.name) +
          image("heat", all.heat, "where they differ: " + all.name);
 }
@@ -53,7 +53,7 @@ std::string zooms(bool heat) {
 
 } // namespace
 
-Html compare(const Compare& all) {
+Html compare(const ComparisonView& all) {
   const bool alone = all.a.empty() || all.b.empty();
   const char* size = all.width < small ? " small" : "";
   if (alone || !all.same_size)

@@ -12,14 +12,14 @@
 
 namespace rend::html {
 
-struct Compare {
+struct ComparisonView {
   std::string name;            // of the case; for alternative texts
   std::string_view a, b, heat; // PNG files: expected, current, heat map of errors; an empty one is omitted
   int width = 0, height = 0;   // [pixels] of all three, or of `a` if b has another size
   bool same_size = true;       // false: only shown side by side
   int x = 0, y = 0;            // [pixels] centre of the worst place
 };
-Html compare(const Compare& all);
+Html compare(const ComparisonView& all);
 
 // Arguments for page().
 extern const std::string_view compare_style, compare_script;

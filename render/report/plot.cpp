@@ -29,7 +29,7 @@ constexpr std::array<Look, 8> looks{{{"#0072b2", 7, 6, "solid"},
                                      {"#8c6d31", 5, 4, "(6,6)"}}};
 
 const Look& look_of(const PlotSeries& series) {
-  return looks[static_cast<std::size_t>(series.look) % looks.size()];
+  return looks[static_cast<std::size_t>(series.style_number) % looks.size()];
 }
 
 // A gnuplot string. Within single quotes only the quote itself is special (doubling it is not supported

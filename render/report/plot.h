@@ -29,7 +29,7 @@ struct PlotSeries {
   std::string name; // in the legend; empty: not there
   std::vector<PlotPoint> points = {};
   Style style = Style::Curve;
-  int look = 0;                 // which colour, mark and dash; the same number looks the same in every plot
+  int style_number = 0;         // which colour, mark and dash; the same number looks the same in every plot
   std::vector<double> out = {}; // x of what has no y: crosses at the upper edge
 };
 

@@ -28,8 +28,8 @@ std::string file_name(const std::string& case_name) {
 void write_cases(const fs::path& folder, const std::vector<CheckCase>& cases) {
   for (const CheckCase& each : cases) {
     if (each.preset.empty()) continue;
-    write_whole(folder / (file_name(each.name) + ".xml"), each.preset);
-    for (const auto& [name, content] : each.files) write_whole(folder / name, content);
+    write_atomically(folder / (file_name(each.name) + ".xml"), each.preset);
+    for (const auto& [name, content] : each.files) write_atomically(folder / name, content);
   }
 }
 

@@ -44,9 +44,9 @@ LeanFeature contact(const std::string& with, const std::string& name, const std:
   const std::string element = "<contact with=\"" + with + "\" thickness=\"0.0001\"/>";
   return {.name = "contact with " + name,
           .what = what,
-          .off = {.element = "", .surroundings = world},
-          .on = {.element = element, .surroundings = world},
-          .acts_elsewhere = true};
+          .off = {.element = "", .world_element = world},
+          .on = {.element = element, .world_element = world},
+          .may_change_other_scenes = true};
 }
 
 // At a time step that is stable for either.

@@ -15,7 +15,7 @@ namespace rend {
 struct LeanSide {
   std::string element = "";           // of the first body, as XML; empty: none
   std::vector<Setting> settings = {}; // as --set
-  std::string surroundings = "";      // of the world, as XML
+  std::string world_element = "";     // of the world, as XML
   bool walk = false, count_fragments = false;
   bool bare = false; // minimal_loop.h instead of the scene's own loop
 };
@@ -30,8 +30,8 @@ struct LeanFeature {
   std::string name, what;
   LeanSide off, on;
   LeanSame same = LeanSame::State;
-  bool acts_elsewhere = false; // may change the motion of scenes that are not built in
-  std::string needs = "";      // an element that the preset must have, such as "springs"
+  bool may_change_other_scenes = false; // may change the motion of scenes that are not built in
+  std::string needs = "";               // an element that the preset must have, such as "springs"
 };
 
 const std::vector<LeanFeature>& lean_features();

@@ -25,7 +25,7 @@ class Built {
 public:
   Built(const LeanScene& scene, const LeanSide& side, std::vector<Override> overrides) : bare_(side.bare) {
     for (const Setting& setting : side.settings) overrides.push_back({setting.path, setting.value});
-    preset_ = load_scene_text(with(with(scene.text, "body", side.element), "world", side.surroundings),
+    preset_ = load_scene_text(with(with(scene.text, "body", side.element), "world", side.world_element),
                               scene.file.empty() ? scene.name : scene.file, overrides);
     scene_ = std::make_unique<Scene>(
         read_scene(*preset_),
@@ -82,7 +82,7 @@ LeanRow measure(const LeanFeature& feature, const LeanScene& scene, const LeanPl
               .refused = "",
               .same = feature.same,
               .time = {}};
-  if (feature.acts_elsewhere && !scene.file.empty()) row.same = LeanSame::Free;
+  if (feature.may_change_other_scenes && !scene.file.empty()) row.same = LeanSame::Free;
   try {
     if (!feature.needs.empty() && scene.text.find("<" + feature.needs) == std::string::npos)
       throw UserError(Exit::BadInput, {}, "the scene has no <" + feature.needs + ">");
@@ -106,7 +106,7 @@ LeanRow measure(const LeanFeature& feature, const LeanScene& scene, const LeanPl
 
 } // namespace
 
-bool LeanRow::as_promised() const {
+bool LeanRow::as_required() const {
   if (!measured() || same == LeanSame::Free) return true;
   return same_pixels && (same_state || same == LeanSame::Pixels);
 }

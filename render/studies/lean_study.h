@@ -17,7 +17,7 @@ struct LeanRow {
   bool same_state = false, same_pixels = false;
 
   bool measured() const { return refused.empty(); }
-  bool as_promised() const; // states or pixels are equal where they must be
+  bool as_required() const; // states or pixels are equal where they must be
 };
 
 struct LeanPlan {

@@ -7,7 +7,7 @@
 #include "render/draw/camera.h"
 #include "render/draw/device.h"
 #include "render/draw/hud.h"
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 #include "render/files/png.h"
 #include "render/files/video.h"
 #include "render/pipeline/pipeline.h"
@@ -90,7 +90,7 @@ const std::vector<Frame>& frames(int triangles) {
   for (int number = 0; number < phases; ++number) {
     Frame frame;
     const Eigen::AlignedBox3d room(Eigen::Vector3d(-1, -1, 0.25), Eigen::Vector3d(1, 1, 1.15));
-    frame.camera = frame_auto(room, 35, static_cast<double>(width) / height, {0.6, -2.4, 2.5});
+    frame.camera = fit_camera(room, 35, static_cast<double>(width) / height, {0.6, -2.4, 2.5});
     frame.floor = FrameFloor{0};
     frame.bodies.push_back(cloth(across, along, 2 * M_PI * number / phases));
     frame.hud = figures(number);
@@ -156,15 +156,15 @@ void in_a_row(benchmark::State& state, int triangles) {
     state.PauseTiming();
     const test::Folder folder;
     const std::unique_ptr<Device> device = make_device();
-    Stage stage(width, height, 4);
+    Renderer renderer(width, height, 4);
     Hud hud(width, height);
     VideoWriter video;
     video.open(folder / "clip.mp4", width, height, 30);
     const auto make = [&](int number) {
       const Frame frame = numbered(clip, number, false);
-      stage.draw(frame);
+      renderer.draw(frame);
       hud.draw(frame.hud);
-      const Image image = stage.read();
+      const Image image = renderer.read();
       write_png(folder / png_name(number), image);
       video.add(image);
     };
@@ -187,19 +187,19 @@ BENCHMARK_CAPTURE(overlapped, many, 200'000, false)->Name("figure/frame_200000")
 // Drawing only, with the named feature removed, or occlusion added.
 void draw(benchmark::State& state, const std::string& without) {
   const std::unique_ptr<Device> device = make_device();
-  Stage stage(width, height, without == "samples" ? 1 : 4);
+  Renderer renderer(width, height, without == "samples" ? 1 : 4);
   std::vector<Frame> clip = frames(static_cast<int>(state.range(0)));
   for (Frame& frame : clip) {
     if (without == "floor") frame.floor.reset();
     if (without == "bodies") frame.bodies.clear();
     frame.occlusion = without == "nothing";
   }
-  stage.draw(clip.front()); // compiles the shaders
-  stage.read();
+  renderer.draw(clip.front()); // compiles the shaders
+  renderer.read();
   std::size_t number = 0;
   for (auto _ : state) {
-    stage.draw(clip[number++ % phases]);
-    benchmark::DoNotOptimize(stage.read());
+    renderer.draw(clip[number++ % phases]);
+    benchmark::DoNotOptimize(renderer.read());
   }
 }
 BENCHMARK_CAPTURE(draw, all, "")->Apply(small_and_large);
@@ -210,26 +210,26 @@ BENCHMARK_CAPTURE(draw, without_bodies, "bodies")->Apply(small);
 
 void hud(benchmark::State& state) {
   const std::unique_ptr<Device> device = make_device();
-  Stage stage(width, height, 4);
-  stage.draw(frames(5'000).front());
+  Renderer renderer(width, height, 4);
+  renderer.draw(frames(5'000).front());
   Hud hud(width, height);
   int number = 0;
   for (auto _ : state) {
     hud.draw(figures(number++));
-    benchmark::DoNotOptimize(stage.read());
+    benchmark::DoNotOptimize(renderer.read());
   }
 }
 BENCHMARK(hud)->Apply(in_processor_time);
 
 std::vector<Image> pictures() {
   const std::unique_ptr<Device> device = make_device();
-  Stage stage(width, height, 4);
+  Renderer renderer(width, height, 4);
   Hud hud(width, height);
   std::vector<Image> out;
   for (const Frame& frame : frames(5'000)) {
-    stage.draw(frame);
+    renderer.draw(frame);
     hud.draw(frame.hud);
-    out.push_back(stage.read());
+    out.push_back(renderer.read());
   }
   return out;
 }

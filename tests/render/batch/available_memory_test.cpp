@@ -29,7 +29,7 @@ protected:
   static constexpr const char* mount_2 =
       "30 23 0:26 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw,nsdelegate\n";
   static constexpr std::size_t machine = 8000 * 1024;
-  const program::Place place;
+  const program::TestFolder place;
 };
 
 TEST_F(AvailableMemory, is_the_machines_where_there_are_no_groups) {

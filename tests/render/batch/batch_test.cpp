@@ -19,7 +19,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -47,7 +47,7 @@ protected:
     return all;
   }
 
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(Batch, crosses_sweeps_and_names_each_job) {

@@ -29,7 +29,7 @@ TEST(Child, is_ended_by_a_signal_however_early_it_comes) {
   const pid_t other = ::fork(); // which has signal handlers installed
   if (other == 0) {
     catch_signals();
-    const Keeping keeping;
+    const GracefulStop graceful_stop;
     std::vector<Child> children;
     for (int n = 0; n < 60; ++n) {
       children.push_back(Child({"--gtest_filter=Child.waits_when_it_is_one"}, {{variable, "1"}}));

@@ -13,7 +13,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -30,7 +30,7 @@ protected:
     place.write("falling.xml", falling(answers));
     return place.rend("run falling.xml --quiet " + options);
   }
-  const Place place;
+  const TestFolder place;
   const std::string right =
       R"(<answer probe="free" quantity="dz" value="-4.905" tolerance="1e-9" source="g/2"/>)";
   const std::string wrong = R"(<answer probe="free" quantity="dz" value="-4.5" tolerance="0.05"/>)";
@@ -124,7 +124,7 @@ TEST(Verify, every_preset_holds) {
       {"verify/swelling", 5},
       {"verify/wind", 2},
   };
-  const Place place;
+  const TestFolder place;
   for (const auto& [name, count] : presets) {
     const fs::path path = fs::path(REND_ROOT) / "presets" / (name + ".xml");
     const Outcome outcome = place.rend("run '" + path.string() + "' --json --quiet");
@@ -140,7 +140,7 @@ TEST(Verify, every_preset_holds) {
 
 // Presets outside of the list would not be tested.
 TEST(Verify, no_preset_is_without_an_answer) {
-  const Place place;
+  const TestFolder place;
   for (const auto& entry : fs::directory_iterator(fs::path(REND_ROOT) / "presets/verify")) {
     if (entry.path().extension() != ".xml") continue;
     EXPECT_THAT(content(entry.path()), HasSubstr("<answer ")) << entry.path();

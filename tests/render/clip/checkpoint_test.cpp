@@ -1,7 +1,7 @@
 // Checkpoints: which ones a run resumes from, what they contain, and which are left alone.
 #include "render/clip/checkpoint.h"
 
-#include "render/clip/film.h"
+#include "render/clip/frame_output.h"
 #include "render/clip/session.h"
 #include "sim/base/error.h"
 #include "tests/render/clip/stopped_clip.h"
@@ -15,7 +15,7 @@ namespace {
 using program::content;
 using program::Files;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -24,7 +24,7 @@ class Checkpoint : public program::StoppedClip {};
 TEST_F(Checkpoint, a_checkpoint_of_something_else_is_refused_and_nothing_is_lost) {
   NEEDS_PNG;
   alone();
-  stop_on_the_way("c");
+  stop_midway("c");
   const Files before = in("c");
   for (const char* other : {"--set body[cloth].mass.total=0.2", "--size 80x60", "--kernels walk", "--fps 50"}) {
     const Outcome outcome = place.rend(std::string("render clip.xml -q --resume -o c ") + other);
@@ -53,7 +53,7 @@ TEST_F(Checkpoint, another_build_of_the_same_commit_keeps_pictures_and_no_state)
   EXPECT_EQ(whole.json()["kept"], all.size());
   expect_same(in("alone"), all, "");
 
-  stop_on_the_way("stopped");
+  stop_midway("stopped");
   const Files before = in("stopped");
   const Outcome refused = place.shell("./other render clip.xml -q --resume -o stopped");
   EXPECT_EQ(refused.code, 65);
@@ -64,7 +64,7 @@ TEST_F(Checkpoint, another_build_of_the_same_commit_keeps_pictures_and_no_state)
 TEST_F(Checkpoint, fewer_frames_leave_the_checkpoint_of_a_later_one_alone) {
   NEEDS_PNG;
   const Files all = alone();
-  stop_on_the_way("c");
+  stop_midway("c");
   const Files before = in("c");
   const std::string line = "render clip.xml --resume -o c --frames 0";
   const Outcome there = place.rend(line + " --json");
@@ -81,20 +81,20 @@ TEST_F(Checkpoint, fewer_frames_leave_the_checkpoint_of_a_later_one_alone) {
 }
 
 // A run in this process that writes no pictures.
-struct Made {
+struct LocalRun {
   Session session;
-  Film film;
+  FrameOutput output;
   std::string key;
-  explicit Made(const Place& place)
-      : session(quietly(place)), film(session, files_in(place), FramePlan{}),
+  explicit LocalRun(const TestFolder& place)
+      : session(quietly(place)), output(session, files_in(place), FramePlan{}),
         key(picture_key(session, 64, 48, 1)) {}
-  static SessionOptions quietly(const Place& place) {
+  static SessionOptions quietly(const TestFolder& place) {
     SessionOptions options;
     options.preset = (place.path() / "clip.xml").string();
     options.quiet = true;
     return options;
   }
-  static PipelineOptions files_in(const Place& place) {
+  static PipelineOptions files_in(const TestFolder& place) {
     PipelineOptions files;
     files.folder = place.path() / "c";
     files.width = 64;
@@ -106,15 +106,15 @@ struct Made {
 
 TEST_F(Checkpoint, a_checkpoint_s_next_frame_and_state_are_of_the_same_bytes) {
   const fs::path path = place.path() / "one.checkpoint";
-  Made from(place), to(place);
+  LocalRun from(place), to(place);
   from.session.run(5, {[](long) {}, {}});
-  write_checkpoint(path, from.key, 6, from.session, from.film);
+  write_checkpoint(path, from.key, 6, from.session, from.output);
   const std::uint64_t fresh = to.session.scene().hash();
-  EXPECT_FALSE(read_checkpoint(path, to.key, 5, to.session, to.film)) << "rewritten since it was found";
-  EXPECT_FALSE(read_checkpoint(path, "1", 30, to.session, to.film));
-  EXPECT_FALSE(read_checkpoint(place.path() / "gone.checkpoint", to.key, 30, to.session, to.film));
+  EXPECT_FALSE(read_checkpoint(path, to.key, 5, to.session, to.output)) << "rewritten since it was found";
+  EXPECT_FALSE(read_checkpoint(path, "1", 30, to.session, to.output));
+  EXPECT_FALSE(read_checkpoint(place.path() / "gone.checkpoint", to.key, 30, to.session, to.output));
   EXPECT_EQ(to.session.scene().hash(), fresh);
-  const auto head = read_checkpoint(path, to.key, 30, to.session, to.film);
+  const auto head = read_checkpoint(path, to.key, 30, to.session, to.output);
   ASSERT_TRUE(head);
   EXPECT_EQ(head->next, 6);
   EXPECT_EQ(to.session.scene().hash(), from.session.scene().hash());
@@ -124,17 +124,17 @@ TEST_F(Checkpoint, a_checkpoint_s_next_frame_and_state_are_of_the_same_bytes) {
     std::string other = bytes;
     other[n] = static_cast<char>(other[n] ^ 1);
     place.write("one.checkpoint", other);
-    EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.film), UserError) << "byte " << n;
+    EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.output), UserError) << "byte " << n;
   }
-  write_checkpoint(path, from.key, 7, from.session, from.film); // a state before frame 6
-  EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.film), UserError);
+  write_checkpoint(path, from.key, 7, from.session, from.output); // a state before frame 6
+  EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.output), UserError);
 }
 
 TEST_F(Checkpoint, the_best_checkpoint_is_the_run_s_own_then_the_latest_of_the_others) {
-  Made run(place);
+  LocalRun run(place);
   fs::create_directories(place.path() / "c");
   const auto write = [&](const char* name, long next) {
-    write_checkpoint(place.path() / "c" / name, run.key, next, run.session, run.film);
+    write_checkpoint(place.path() / "c" / name, run.key, next, run.session, run.output);
   };
   const auto found = [&](long first, const Shard& shard) {
     std::vector<std::string> names;
@@ -155,7 +155,7 @@ TEST_F(Checkpoint, the_best_checkpoint_is_the_run_s_own_then_the_latest_of_the_o
 }
 
 TEST_F(Checkpoint, only_files_that_a_run_of_this_name_writes_are_looked_at) {
-  Made run(place);
+  LocalRun run(place);
   fs::create_directories(place.path() / "c");
   for (const char* name :
        {"other.checkpoint", "clip", "clipped.checkpoint", "clip.1-of-2.checkpoint.part",
@@ -163,20 +163,20 @@ TEST_F(Checkpoint, only_files_that_a_run_of_this_name_writes_are_looked_at) {
         "clip.+1-of-2.checkpoint", "clip.1-of-.checkpoint", "clip.1of2.checkpoint",
         "clip.1-of-2.extra.checkpoint", "clip.-1-of-2.checkpoint", "clip.99999999999999999999-of-2.checkpoint",
         ".checkpoint", "clip.1-of-2.checkpoin", "clip.1-of-1.checkpoint"})
-    write_checkpoint(place.path() / "c" / name, run.key, 3, run.session, run.film);
+    write_checkpoint(place.path() / "c" / name, run.key, 3, run.session, run.output);
   const auto found = [&] { return find_checkpoints(place.path() / "c", "clip", {2, 9}, run.key, 30); };
   EXPECT_TRUE(found().empty()) << found().front().path;
-  write_checkpoint(place.path() / "c/clip.checkpoint", run.key, 3, run.session, run.film);
-  write_checkpoint(place.path() / "c/clip.1-of-2.checkpoint", run.key, 3, run.session, run.film);
+  write_checkpoint(place.path() / "c/clip.checkpoint", run.key, 3, run.session, run.output);
+  write_checkpoint(place.path() / "c/clip.1-of-2.checkpoint", run.key, 3, run.session, run.output);
   EXPECT_EQ(found().size(), 2u);
 }
 
 // A FIFO is not waited for, and a link is not followed.
 TEST_F(Checkpoint, what_is_no_regular_file_is_refused_and_of_others_left_out) {
-  Made run(place);
+  LocalRun run(place);
   fs::create_directories(place.path() / "c");
   const fs::path own = place.path() / "c/clip.checkpoint", genuine = place.path() / "genuine";
-  write_checkpoint(genuine, run.key, 3, run.session, run.film);
+  write_checkpoint(genuine, run.key, 3, run.session, run.output);
   const std::map<std::string, std::string> kinds{
       {"a pipe", "mkfifo {}"}, {"a folder", "mkdir {}"}, {"a symbolic link", "ln -s ../genuine {}"}};
   for (const auto& [kind, command] : kinds) {
@@ -191,8 +191,8 @@ TEST_F(Checkpoint, what_is_no_regular_file_is_refused_and_of_others_left_out) {
       return "nothing";
     };
     const std::string why = "a checkpoint is a regular file, and this is " + kind;
-    EXPECT_THAT(said([&] { read_checkpoint_head(own, run.key); }), HasSubstr(why));
-    EXPECT_THAT(said([&] { read_checkpoint(own, run.key, 30, run.session, run.film); }), HasSubstr(why));
+    EXPECT_THAT(said([&] { read_checkpoint_header(own, run.key); }), HasSubstr(why));
+    EXPECT_THAT(said([&] { read_checkpoint(own, run.key, 30, run.session, run.output); }), HasSubstr(why));
     EXPECT_THAT(said([&] { find_checkpoints(place.path() / "c", "clip", {}, run.key, 30); }), HasSubstr(why));
     EXPECT_TRUE(find_checkpoints(place.path() / "c", "clip", {1, 2}, run.key, 30).empty()) << kind;
     const Outcome outcome = place.rend("render clip.xml -q --resume -o c");
@@ -205,15 +205,15 @@ TEST_F(Checkpoint, what_is_no_regular_file_is_refused_and_of_others_left_out) {
 
 // A sparse file of a terabyte.
 TEST_F(Checkpoint, a_file_that_is_nearly_all_holes_takes_neither_time_nor_memory) {
-  Made from(place), to(place);
+  LocalRun from(place), to(place);
   const fs::path path = place.path() / "one.checkpoint";
   from.session.run(5, {[](long) {}, {}});
-  write_checkpoint(path, from.key, 6, from.session, from.film);
+  write_checkpoint(path, from.key, 6, from.session, from.output);
   const std::string bytes = content(path);
   for (const std::size_t kept : {bytes.size(), bytes.size() / 2, std::size_t{50}}) {
     place.write("one.checkpoint", bytes.substr(0, kept));
     fs::resize_file(path, std::uintmax_t{1} << 40U);
-    EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.film), UserError) << kept;
+    EXPECT_THROW(read_checkpoint(path, to.key, 30, to.session, to.output), UserError) << kept;
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 using Json = nlohmann::json;
 using V = std::array<double, 3>;
@@ -116,7 +116,7 @@ protected:
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return File(outcome.json());
   }
-  const Place place;
+  const TestFolder place;
 };
 
 // Counts, mass, momentum and energy, computed from the file only.

@@ -6,7 +6,7 @@
 // environment thousands (tests/run --all).
 #include "render/clip/checkpoint.h"
 
-#include "render/clip/film.h"
+#include "render/clip/frame_output.h"
 #include "render/clip/session.h"
 #include "sim/base/archive.h"
 #include "sim/base/hash.h"
@@ -29,7 +29,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 namespace fs = std::filesystem;
 
 bool whole() {
@@ -114,14 +114,14 @@ std::vector<Clip> clips() {
 }
 
 // A run in this process; of its pictures only the last is drawn, and none written.
-struct Made {
+struct LocalRun {
   Session session;
-  Film film;
+  FrameOutput output;
   std::string key;
-  Made(const Place& place, const Clip& clip)
-      : session(options_in(place, clip)), film(session, files(), last_frame(session)),
+  LocalRun(const TestFolder& place, const Clip& clip)
+      : session(options_in(place, clip)), output(session, files(), last_frame(session)),
         key(picture_key(session, 64, 48, 1)) {}
-  static SessionOptions options_in(const Place& place, const Clip& clip) {
+  static SessionOptions options_in(const TestFolder& place, const Clip& clip) {
     SessionOptions options;
     options.preset = (place.path() / "clip.xml").string();
     options.quiet = true;
@@ -140,18 +140,18 @@ struct Made {
     return {FrameChoice(std::to_string(session.clock().frames() - 1)), session.clock(), {}};
   }
   Stopped run(long first, long last) {
-    return session.run(last, {[&](long frame) { film.take(frame); }, {}}, first);
+    return session.run(last, {[&](long frame) { output.take(frame); }, {}}, first);
   }
 };
 
 // A genuine checkpoint: a few steps beyond the frame before `next`.
-std::string genuine(const Place& place, const Clip& clip, long next) {
-  Made run(place, clip);
+std::string genuine(const TestFolder& place, const Clip& clip, long next) {
+  LocalRun run(place, clip);
   EXPECT_EQ(run.run(0, next - 1), Stopped::No);
   for (int n = 0; n < 3 && run.session.scene().steps_done() < run.session.clock().step_of(next); ++n)
     run.session.scene().step();
   const fs::path path = place.path() / "genuine.checkpoint";
-  write_checkpoint(path, run.key, next, run.session, run.film);
+  write_checkpoint(path, run.key, next, run.session, run.output);
   return content(path);
 }
 
@@ -274,9 +274,9 @@ void limit() {
 }
 
 // The exit code that the program would have: 65, 76, or 0 after some frames.
-int go_on_from(const fs::path& path, Made& run) try {
+int go_on_from(const fs::path& path, LocalRun& run) try {
   const long frames = run.session.clock().frames();
-  const auto head = read_checkpoint(path, run.key, frames, run.session, run.film);
+  const auto head = read_checkpoint(path, run.key, frames, run.session, run.output);
   if (!head) return 65; // its key or next frame does not fit
   if (run.run(head->next, frames - 1) == Stopped::Unstable) return 76;
   for (const auto& body : run.session.scene().bodies())
@@ -293,7 +293,7 @@ int go_on_from(const fs::path& path, Made& run) try {
   return 70;
 }
 
-int in_a_process_of_its_own(const fs::path& path, Made& run) {
+int in_a_process_of_its_own(const fs::path& path, LocalRun& run) {
   const pid_t child = fork();
   if (child == 0) {
     limit();
@@ -306,7 +306,7 @@ int in_a_process_of_its_own(const fs::path& path, Made& run) {
 
 class Forged : public testing::TestWithParam<Clip> {
 protected:
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_P(Forged, is_refused_in_words_or_goes_on) {
@@ -314,7 +314,7 @@ TEST_P(Forged, is_refused_in_words_or_goes_on) {
   place.write("clip.xml", clip.xml);
   const std::string bytes = genuine(place, clip, clip.next), later = genuine(place, clip, clip.next + 2);
   const fs::path path = place.path() / "forged.checkpoint";
-  Made run(place, clip); // forked processes get it as it was built
+  LocalRun run(place, clip); // forked processes get it as it was built
   place.write("forged.checkpoint", mended(bytes));
   ASSERT_EQ(in_a_process_of_its_own(path, run), 0) << "as it was";
   Forger forger(bytes, later, 17);
@@ -341,7 +341,7 @@ class ForgedClip : public program::StoppedClip {};
 TEST_F(ForgedClip, ends_a_run_that_goes_on_from_it_in_words_or_not_at_all) {
   NEEDS_PNG;
   alone();
-  stop_on_the_way("c");
+  stop_midway("c");
   const std::string bytes = in("c").at("clip.checkpoint");
   Forger forger(bytes, bytes, 23);
   for (int n = 0; n < (whole() ? 100 : 4); ++n) {

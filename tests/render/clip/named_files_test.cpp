@@ -48,7 +48,7 @@ protected:
     EXPECT_THAT(outcome.err, HasSubstr(why)) << line;
     EXPECT_EQ(all(), before) << line;
   }
-  const program::Place place;
+  const program::TestFolder place;
 };
 
 TEST_F(NamedFiles, no_file_is_written_twice) {

@@ -63,7 +63,7 @@ TEST_F(Resume, a_signal_leaves_a_checkpoint_and_going_on_equals_never_having_sto
     }
     expect_same(in(folder), all, note);
   }
-  stop_on_the_way("surely");
+  stop_midway("surely");
   expect_part_of(in("surely"), all, "");
   const Outcome last = place.rend("render clip.xml --resume -o surely");
   EXPECT_THAT(last.err, HasSubstr("goes on at"));
@@ -92,7 +92,7 @@ TEST_F(Resume, a_run_that_is_stopped_before_it_goes_wrong_keeps_no_more_than_one
   EXPECT_EQ(place.rend(line + " -o alone").code, 76);
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_TRUE(in("alone").empty());
-  stop_on_the_way("c", line);
+  stop_midway("c", line);
   ASSERT_TRUE(in("c").contains("00000.png"));
   const Outcome last = place.rend(line + " --resume -o c");
   EXPECT_EQ(last.code, 76) << last.err;
@@ -123,7 +123,7 @@ TEST_F(Resume, a_video_is_that_of_a_run_that_was_never_stopped) {
   NEEDS_PNG;
   NEEDS_VIDEO;
   const Files all = alone("--video mkv");
-  stop_on_the_way("stopped");
+  stop_midway("stopped");
   EXPECT_EQ(place.rend("render clip.xml -q --resume -o stopped --video mkv").code, 0);
   expect_same(in("stopped"), all, "");
 }

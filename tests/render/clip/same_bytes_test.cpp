@@ -28,7 +28,7 @@ TEST(RepeatedRenders, give_the_same_bytes_on_any_number_of_threads) {
   NEEDS_PNG;
   NEEDS_VIDEO;
   const bool whole = std::getenv("REND_WHOLE") != nullptr;
-  const program::Place place;
+  const program::TestFolder place;
   const auto rendered = [&](const std::string& renderer, const std::string& simulation) {
     const auto outcome = place.shell("rm -rf out; LP_NUM_THREADS=" + renderer + " " + REND_PROGRAM +
                                      " render '" + (root / "presets/tear/cloth-global-border.xml").string() +

@@ -67,7 +67,7 @@ protected:
   }
 
   // Starts and stops runs into a folder, bisecting the moment, until one leaves its checkpoint there.
-  void stop_on_the_way(const std::string& folder, const std::string& line = "render clip.xml -q") const {
+  void stop_midway(const std::string& folder, const std::string& line = "render clip.xml -q") const {
     double early = 0, late = 1.2 * seconds;
     for (int n = 0; n < 20 && !in(folder).contains("clip.checkpoint"); ++n) {
       fs::remove_all(place.path() / folder);
@@ -94,7 +94,7 @@ protected:
     for (const auto& [name, bytes] : some) EXPECT_TRUE(all.contains(name)) << name << " is left over" << note;
   }
 
-  const Place place;
+  const TestFolder place;
   double seconds = 0;
   std::mt19937 random{7};
 };

@@ -14,7 +14,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using Json = nlohmann::json;
@@ -48,7 +48,7 @@ protected:
     EXPECT_EQ(reader.Warning(), "");
     return reader;
   }
-  const Place place;
+  const TestFolder place;
 };
 
 // The faces of all shapes, as lists of points.

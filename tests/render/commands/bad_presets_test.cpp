@@ -10,7 +10,7 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 namespace fs = std::filesystem;
 
 std::vector<fs::path> bad_presets() {
@@ -28,7 +28,7 @@ TEST_P(BadPreset, IsRefusedAsItsFirstLineSays) {
   std::smatch expected;
   ASSERT_TRUE(std::regex_match(first, expected, std::regex("<!-- expect (\\d+) at (\\d+:\\d+): (.*) -->")))
       << first;
-  const Place place;
+  const TestFolder place;
   place.write("bad.xml", text);
   std::vector<std::string> commands{"run bad.xml --diagnostics d.csv --events e.jsonl"};
   if (png_available()) commands.push_back("render bad.xml -o frames");

@@ -9,7 +9,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -17,7 +17,7 @@ using testing::StartsWith;
 class Program : public testing::Test {
 protected:
   Program() { place.write("pulled.xml", program::pulled); }
-  const Place place;
+  const TestFolder place;
 
   void expect_nothing_left() const { EXPECT_EQ(place.files(), std::vector<std::string>{"pulled.xml"}); }
 };
@@ -337,7 +337,7 @@ TEST_F(Program, RunsSoManySteps) {
 }
 
 // Starts `rend ARGUMENTS` on an endless clip, and stops it as soon as `file` exists.
-Outcome stopped_once_there_is(const std::string& file, const std::string& arguments, const Place& place) {
+Outcome stopped_once_there_is(const std::string& file, const std::string& arguments, const TestFolder& place) {
   const std::string endless = " --set time.duration=1e5 --set body.drive.until=0.1 & ";
   return place.shell(std::string(REND_PROGRAM) + " " + arguments + endless + "while [ ! -e " + file +
                      " ] && kill -0 $!; do sleep 0.02; done; kill -TERM $!; wait $!");

@@ -12,7 +12,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -59,7 +59,7 @@ protected:
     place.write("b/torn.png", content(place.path() / "a/torn.png").substr(0, 90));
   }
 
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(Diff, tells_every_state_from_the_others) {

@@ -11,7 +11,7 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -36,7 +36,7 @@ protected:
     return place.rend("diff a b -t t/t.xml " + options);
   }
 
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(DiffMask, lies_in_the_folder_of_the_tolerances_or_below) {

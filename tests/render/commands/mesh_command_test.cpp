@@ -7,7 +7,7 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -26,7 +26,7 @@ std::string preset(const std::string& file, const std::string& more = "") {
 }
 
 TEST(MeshCommand, tells_what_a_mesh_holds) {
-  const Place place;
+  const TestFolder place;
   const Outcome outcome = place.rend("mesh info " + organ.string() + " --json");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto facts = outcome.json();
@@ -40,7 +40,7 @@ TEST(MeshCommand, tells_what_a_mesh_holds) {
 }
 
 TEST(MeshCommand, converts_to_moka_and_back_without_loss) {
-  const Place place;
+  const TestFolder place;
   ASSERT_EQ(place.rend("mesh convert " + organ.string() + " a.msh").code, 0);
   ASSERT_EQ(place.rend("mesh convert a.msh a.moka").code, 0);
   ASSERT_EQ(place.rend("mesh convert a.moka b.moka").code, 0);
@@ -52,7 +52,7 @@ TEST(MeshCommand, converts_to_moka_and_back_without_loss) {
 }
 
 TEST(MeshCommand, refuses_by_the_table_of_exit_codes) {
-  const Place place;
+  const TestFolder place;
   place.write("bad.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 x 0\n");
   EXPECT_EQ(place.rend("mesh").code, 64);
   EXPECT_EQ(place.rend("mesh info none.msh").code, 66);
@@ -65,7 +65,7 @@ TEST(MeshCommand, refuses_by_the_table_of_exit_codes) {
 }
 
 TEST(MeshOfAPreset, lies_in_its_folder_or_below) {
-  const Place place;
+  const TestFolder place;
   fs::create_directories(place.path() / "scenes/meshes");
   fs::create_directories(place.path() / "elsewhere");
   place.write("scenes/meshes/t.msh", tetrahedron);
@@ -97,7 +97,7 @@ TEST(MeshOfAPreset, lies_in_its_folder_or_below) {
 }
 
 TEST(MeshOfAPreset, has_groups_that_select) {
-  const Place place;
+  const TestFolder place;
   place.write("t.msh", tetrahedron);
   place.write("s.xml", preset("t.msh", "<fix group=\"top\"/>"));
   const Outcome outcome = place.rend("run s.xml --json");
@@ -108,7 +108,7 @@ TEST(MeshOfAPreset, has_groups_that_select) {
 }
 
 TEST(MeshOfAPreset, of_hexagons_is_told_where_it_does_not_bend) {
-  const Place place;
+  const TestFolder place;
   const std::string bend = R"(<springs><stretch k="1"/><bend kind="angular" k="1"/></springs>)";
   place.write("two.off", "OFF\n9 2 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n0 2 0\n1 2 0\n2 2 0\n"
                          "6 0 1 2 5 4 3\n6 3 4 5 8 7 6\n");

@@ -15,7 +15,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -54,7 +54,7 @@ protected:
     return text.replace(text.find("\"cloth\""), 7, "\"" + body + "\"");
   }
 
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(Names, stand_in_errors_as_escapes) {

@@ -16,7 +16,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 namespace fs = std::filesystem;
 
 const fs::path root = REND_ROOT;
@@ -43,7 +43,7 @@ std::vector<std::string> presets_with_laws() {
 class EveryPreset : public testing::TestWithParam<std::string> {
 protected:
   const fs::path path = root / "presets" / (GetParam() + ".xml");
-  const Place place;
+  const TestFolder place;
 
   // `environment`: variables before the command.
   nlohmann::json run(const std::string& options, const std::string& environment = "") const {
@@ -125,7 +125,7 @@ TEST(Presets, are_some) {
 }
 
 TEST(Schema, beside_the_presets_is_what_the_program_prints) {
-  const Place place;
+  const TestFolder place;
   const Outcome printed = place.rend("help schema");
   EXPECT_EQ(printed.code, 0);
   EXPECT_EQ(printed.out, content(root / "presets/scene.xsd")) << "rend help schema > presets/scene.xsd";
@@ -134,7 +134,7 @@ TEST(Schema, beside_the_presets_is_what_the_program_prints) {
 // Frame 0, one in fast motion, and the last.
 TEST(Pictures, of_the_torn_cloth_are_the_same_bytes_twice_and_show_something) {
   NEEDS_PNG;
-  const Place place;
+  const TestFolder place;
   const std::string render =
       "render '" + (root / "presets/tear/cloth-global-border.xml").string() + "' --size 160x90 --quiet";
   for (const char* frame : {"0", "15", "119"}) {

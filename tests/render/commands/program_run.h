@@ -28,17 +28,17 @@ struct Outcome {
 };
 
 // A temporary folder, removed at the end of the test, in which commands are run.
-class Place {
+class TestFolder {
 public:
-  Place() : path_(fs::temp_directory_path() / ("rend-program-" + std::to_string(std::random_device()()))) {
+  TestFolder() : path_(fs::temp_directory_path() / ("rend-program-" + std::to_string(std::random_device()()))) {
     fs::create_directories(path_ / "here");
   }
-  ~Place() {
+  ~TestFolder() {
     std::error_code error;
     fs::remove_all(path_, error);
   }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
 
   // Runs `rend ARGUMENTS` through the shell.
   Outcome rend(const std::string& arguments) const {

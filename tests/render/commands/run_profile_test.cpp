@@ -8,13 +8,13 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 
 class ProfileOfARun : public testing::Test {
 protected:
   ProfileOfARun() { place.write("pulled.xml", program::pulled); }
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(ProfileOfARun, parts_the_time_loop_into_stages) {

@@ -12,7 +12,7 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 
 Image part(const Image& sheet, int column, int row, int width, int height) {
   Image out(width, height);
@@ -23,7 +23,7 @@ Image part(const Image& sheet, int column, int row, int width, int height) {
 
 TEST(Sheet, shows_the_start_the_tear_and_the_end_as_render_draws_them) {
   NEEDS_PNG;
-  const Place place;
+  const TestFolder place;
   place.write("pulled.xml", program::pulled);
   const Outcome made = place.rend("sheet pulled.xml pulled.xml -o sheet.png --size 96x54 -q");
   ASSERT_EQ(made.code, 0) << made.err;
@@ -54,7 +54,7 @@ TEST(Sheet, shows_the_start_the_tear_and_the_end_as_render_draws_them) {
 
 TEST(Sheet, leaves_nothing_where_a_preset_is_bad) {
   NEEDS_PNG;
-  const Place place;
+  const TestFolder place;
   place.write("pulled.xml", program::pulled);
   const Outcome made = place.rend("sheet pulled.xml missing.xml -o sheet.png --size 96x54");
   EXPECT_EQ(made.code, 66);

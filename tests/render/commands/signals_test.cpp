@@ -28,9 +28,9 @@ namespace fs = std::filesystem;
 constexpr std::array signals{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
 
 // A child process that catches signals and runs an action; what it writes to `tell` is read here.
-class Other {
+class ChildWithHandlers {
 public:
-  explicit Other(const std::function<void(int tell)>& what) {
+  explicit ChildWithHandlers(const std::function<void(int tell)>& what) {
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);
     process_ = ::fork();
@@ -44,15 +44,15 @@ public:
     ::close(ends[1]);
     told_ = ends[0];
   }
-  ~Other() {
+  ~ChildWithHandlers() {
     if (process_ > 0) {
       ::kill(process_, SIGKILL);
       ::waitpid(process_, nullptr, 0);
     }
     ::close(told_);
   }
-  Other(const Other&) = delete;
-  Other& operator=(const Other&) = delete;
+  ChildWithHandlers(const ChildWithHandlers&) = delete;
+  ChildWithHandlers& operator=(const ChildWithHandlers&) = delete;
 
   void send(int signal) const { ::kill(process_, signal); }
   char next_word() const { // 0: it has ended
@@ -96,13 +96,13 @@ public:
   }
 
 private:
-  program::Place place_;
+  program::TestFolder place_;
 };
 
 TEST(Signals, end_a_program_at_once_that_has_nothing_to_keep) {
   const Pipe pipe;
   for (const int signal : signals) {
-    Other other([&](int where) {
+    ChildWithHandlers other([&](int where) {
       catch_signals();
       pipe.wait_for_ever(where);
     });
@@ -115,9 +115,9 @@ TEST(Signals, end_a_program_at_once_that_has_nothing_to_keep) {
 TEST(Signals, end_a_program_that_waits_for_ever_the_second_time) {
   const Pipe pipe;
   for (const int signal : signals) {
-    Other other([&](int where) {
+    ChildWithHandlers other([&](int where) {
       catch_signals();
-      const Keeping keeping;
+      const GracefulStop graceful_stop;
       pipe.wait_for_ever(where);
     });
     ASSERT_EQ(other.next_word(), 'r');
@@ -126,9 +126,9 @@ TEST(Signals, end_a_program_that_waits_for_ever_the_second_time) {
 }
 
 TEST(Signals, sent_at_once_are_one_and_the_next_ends_the_program) {
-  Other other([&](int where) {
+  ChildWithHandlers other([&](int where) {
     catch_signals();
-    const Keeping keeping;
+    const GracefulStop graceful_stop;
     tell(where, 'r');
     while (stop_signal() == 0) std::this_thread::yield();
     tell(where, 's');
@@ -145,9 +145,9 @@ TEST(Signals, sent_at_once_are_one_and_the_next_ends_the_program) {
 
 // The kernel sends SIGXCPU every second once the limit is reached; a user sends it with another si_code.
 TEST(Signals, a_limit_of_processor_time_is_no_second_signal) {
-  Other other([&](int where) {
+  ChildWithHandlers other([&](int where) {
     catch_signals();
-    const Keeping keeping;
+    const GracefulStop graceful_stop;
     siginfo_t how{};
     how.si_signo = SIGXCPU;
     how.si_code = SI_KERNEL;
@@ -163,7 +163,7 @@ TEST(Signals, a_limit_of_processor_time_is_no_second_signal) {
 }
 
 TEST(Signals, that_were_ignored_from_the_start_stay_so) {
-  Other other([&](int where) {
+  ChildWithHandlers other([&](int where) {
     std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGINT, SIG_IGN);
     catch_signals();

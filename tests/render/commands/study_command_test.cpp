@@ -11,7 +11,7 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -44,7 +44,7 @@ std::vector<std::vector<std::string>> read_csv(const std::string& text) {
 }
 
 TEST(StudyCommand, writes_a_page_tables_and_plots_that_agree) {
-  const Place place;
+  const TestFolder place;
   place.write("hanging.xml", hanging);
   const Outcome made =
       place.rend("study hanging.xml --quick --integrators symplectic,verlet,rk4 -o here -q --json");
@@ -80,7 +80,7 @@ TEST(StudyCommand, writes_a_page_tables_and_plots_that_agree) {
 }
 
 TEST(StudyCommand, does_without_gnuplot_and_says_so) {
-  const Place place;
+  const TestFolder place;
   place.write("hanging.xml", hanging);
   const Outcome made =
       place.shell("PATH=/nowhere " + std::string(REND_PROGRAM) +
@@ -92,7 +92,7 @@ TEST(StudyCommand, does_without_gnuplot_and_says_so) {
 }
 
 TEST(StudyCommand, sweeps_meshes_and_attributes_against_the_first) {
-  const Place place;
+  const TestFolder place;
   place.write("hanging.xml", hanging);
   const Outcome made =
       place.rend("study hanging.xml --quick --steps 3 --integrators verlet --duration 0.05 -q --json "
@@ -108,7 +108,7 @@ TEST(StudyCommand, sweeps_meshes_and_attributes_against_the_first) {
 }
 
 TEST(StudyCommand, refuses_before_it_runs) {
-  const Place place;
+  const TestFolder place;
   place.write("hanging.xml", hanging);
   const auto refused = [&](const std::string& arguments, int code, const std::string& words) {
     const Outcome made = place.rend("study hanging.xml " + arguments);

@@ -11,7 +11,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 
 constexpr const char* fewer = "note: not all threads could be started";
@@ -42,7 +42,7 @@ protected:
     return outcome.code == 0;
   }
 
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(ThreadStarts, any_one_may_be_refused_for_a_moment) {

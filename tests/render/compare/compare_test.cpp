@@ -3,7 +3,7 @@
 
 #include "render/files/png.h"
 #include "tests/render/needs.h"
-#include "tests/render/peak.h"
+#include "tests/render/peak_memory.h"
 #include "tests/render/pictures.h"
 #include "tests/render/png_files.h"
 
@@ -29,7 +29,7 @@ protected:
     std::ofstream(folder / name, std::ios::binary) << bytes;
   }
   void write(const std::string& name, const Image& image) const { write_png(folder / name, image); }
-  Compared compare(std::size_t whole = plenty, const std::string& mask = "", bool heat = false) const {
+  CaseResult compare(std::size_t whole = plenty, const std::string& mask = "", bool heat = false) const {
     MemoryBudget memory(whole);
     CompareOptions options;
     options.heat = heat;
@@ -43,7 +43,7 @@ protected:
 TEST_F(CompareCase, wants_no_more_memory_than_it_is_given) {
   write("a.png", pattern(200, 100));
   write("b.png", pattern(200, 100, 3, 1));
-  const Compared small = compare(1'000'000);
+  const CaseResult small = compare(1'000'000);
   EXPECT_EQ(small.state, CaseState::Unreadable);
   EXPECT_THAT(small.why, ElementsAre(HasSubstr("200 x 100 pixels in")));
   EXPECT_THAT(small.why[0], HasSubstr("GB of memory, and there are 0.001 GB for it"));
@@ -54,7 +54,7 @@ TEST_F(CompareCase, wants_no_more_memory_than_it_is_given) {
 TEST_F(CompareCase, gives_back_the_memory_of_its_maps) {
   write("a.png", pattern(200, 100));
   write("b.png", pattern(200, 100, 3, 1));
-  const Compared out = compare();
+  const CaseResult out = compare();
   ASSERT_TRUE(out.metrics);
   EXPECT_EQ(out.metrics->flip_map.capacity(), 0u);
   EXPECT_EQ(out.metrics->difference.largest.capacity(), 0u);
@@ -92,7 +92,7 @@ TEST_F(CompareCase, takes_what_the_header_of_the_budget_says) {
 }
 
 // Enough to read both pictures (at most 162 MB), but not for their planes (216 MB).
-TEST_F(CompareCase, memory_that_is_gone_is_the_trouble_of_that_pair) {
+TEST_F(CompareCase, running_out_of_memory_fails_that_pair_only) {
   write("a.png", pattern(3000, 3000));
   write("b.png", pattern(3000, 3000, 3, 1));
   long pages = 0;
@@ -102,7 +102,7 @@ TEST_F(CompareCase, memory_that_is_gone_is_the_trouble_of_that_pair) {
   const auto compare_within = [&](long bytes) {
     const rlimit tight{static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE) + bytes), before.rlim_max};
     setrlimit(RLIMIT_AS, &tight);
-    const Compared out = compare();
+    const CaseResult out = compare();
     setrlimit(RLIMIT_AS, &before);
     EXPECT_EQ(out.state, CaseState::Unreadable);
     return out.why;

@@ -4,7 +4,7 @@
 #include "render/clip/session.h"
 #include "render/compare/tolerances.h"
 #include "render/draw/device.h"
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 #include "render/picture/scene_picture.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
@@ -28,10 +28,10 @@ std::vector<Frame> frames_of(const std::string& preset, long last, const std::ve
   options.sets = sets;
   options.quiet = true;
   Session session(options);
-  PictureMaker maker(session.picture(), session.scene(), static_cast<double>(width) / height,
+  FrameBuilder maker(session.picture(), session.scene(), static_cast<double>(width) / height,
                      session.clock().duration(), session.clock().frames());
   std::vector<Frame> frames;
-  Session::Calls calls;
+  Session::Callbacks calls;
   calls.frame = [&](long frame) {
     maker.observe();
     frames.push_back(maker.draw(frame, session.clock().time_of(frame)));
@@ -48,23 +48,23 @@ class Defects : public testing::Test {
 protected:
   static void SetUpTestSuite() {
     device_ = make_device();
-    stage_ = std::make_unique<Stage>(width, height, 4);
+    renderer_ = std::make_unique<Renderer>(width, height, 4);
     frames_ = frames_of(cloth, cloth_frame);
     solid_ = frames_of(bar, bar_frame);
   }
   static void TearDownTestSuite() {
     frames_.clear();
     solid_.clear();
-    stage_.reset();
+    renderer_.reset();
     device_.reset();
   }
 
   static Image drawn(const Frame& frame) {
-    stage_->draw(frame);
-    return stage_->read();
+    renderer_->draw(frame);
+    return renderer_->read();
   }
   static Picture picture(const Image& image) {
-    DeepImage deep;
+    HighDepthImage deep;
     deep.width = image.width;
     deep.height = image.height;
     deep.channels = image.channels;
@@ -100,12 +100,12 @@ protected:
   }
 
   static std::unique_ptr<Device> device_;
-  static std::unique_ptr<Stage> stage_;
+  static std::unique_ptr<Renderer> renderer_;
   static std::vector<Frame> frames_, solid_;
   int count_ = 0;
 };
 std::unique_ptr<Device> Defects::device_;
-std::unique_ptr<Stage> Defects::stage_;
+std::unique_ptr<Renderer> Defects::renderer_;
 std::vector<Frame> Defects::frames_, Defects::solid_;
 
 void each_level(Image& image, const std::function<double(double)>& curve) {
@@ -230,7 +230,7 @@ TEST_F(Defects, of_what_is_around_bodies_are_caught) {
   caught("another background", [](Frame& f) { f.background[2] -= 0.02f; });
   caught("light from elsewhere", [](Frame& f) { f.light = Eigen::Vector3d(-1, 0, 1); });
   EXPECT_EQ(count_, 6);
-  Stage coarse(width, height, 1);
+  Renderer coarse(width, height, 1);
   coarse.draw(torn());
   EXPECT_FALSE(passes(drawn(torn()), coarse.read())) << "edges that are not smoothed";
 }
@@ -255,7 +255,7 @@ TEST_F(Defects, are_not_seen_where_there_is_none) {
 // environment.
 TEST(RepeatedRenders, raise_no_false_alarm) {
   NEEDS_PNG;
-  const program::Place place;
+  const program::TestFolder place;
   const std::string render =
       "render '" + (root / "presets" / cloth).string() + "' --frames 15 --size 240x135 -q -o ";
   ASSERT_EQ(place.rend(render + "first").code, 0);

@@ -121,15 +121,15 @@ TEST(Mask, leaves_out_pixels_and_what_they_would_do_to_others) {
 
 TEST(Transparency, counts_as_far_as_it_is_seen) {
   Picture clear = flat(8, 8, 0), other = flat(8, 8, 0); // transparent black, and transparent red
-  DeepImage red;
+  HighDepthImage red;
   red.width = red.height = 8;
   red.channels = 4;
   for (int n = 0; n < 64; ++n) red.samples.insert(red.samples.end(), {255, 0, 0, 0});
-  make_alpha(clear);
+  add_alpha(clear);
   clear.planes[3].assign(64, 0);
   EXPECT_EQ(measure(clear, picture_of(red), {}, {}).difference.max, 0);
   // Opaque black without an alpha channel equals opaque black with one, but not transparent black.
-  make_alpha(other);
+  add_alpha(other);
   EXPECT_EQ(measure(flat(8, 8, 0), other, {}, {}).difference.max, 0);
   EXPECT_EQ(measure(flat(8, 8, 0), clear, {}, {}).difference.max, 255);
   // black against the white background

@@ -8,13 +8,13 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST(NumberOption, takes_decimal_and_finite_numbers_alone) {
-  const Place place;
+  const TestFolder place;
   place.write("pulled.xml", program::pulled);
   const std::vector<std::string> bad{"nan", "inf", "-inf", "-1", "1e400", "'1 2'", "' 7'", "0x10", "7s", "''"};
   for (const std::string option : {"run pulled.xml --steps",

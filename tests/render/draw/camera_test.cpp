@@ -64,7 +64,7 @@ TEST(FrameAuto, KeepsTheBoxInSightFromAnyDirectionAndFillsMostOfThePicture) {
   for (const Vector3d& direction :
        {Vector3d(0, -1, 0), Vector3d(1, 1, 1), Vector3d(0, 0, 1), Vector3d(-3, 0.1, -1)})
     for (const double aspect : {0.5, 1.0, 1.7778}) {
-      const View view = view_of(frame_auto(box, 35, aspect, direction), box, aspect);
+      const View view = view_of(fit_camera(box, 35, aspect, direction), box, aspect);
       double reach = 0;
       for (int i = 0; i < 8; ++i)
         reach = std::max(
@@ -75,7 +75,7 @@ TEST(FrameAuto, KeepsTheBoxInSightFromAnyDirectionAndFillsMostOfThePicture) {
 }
 
 TEST(FrameAuto, LooksAtASinglePoint) {
-  const FrameCamera camera = frame_auto(Eigen::AlignedBox3d(Vector3d(1, 2, 3)), 35, 1, {0, -1, 0});
+  const FrameCamera camera = fit_camera(Eigen::AlignedBox3d(Vector3d(1, 2, 3)), 35, 1, {0, -1, 0});
   EXPECT_EQ(camera.target, Vector3d(1, 2, 3));
   EXPECT_GT((camera.eye - camera.target).norm(), 0);
 }

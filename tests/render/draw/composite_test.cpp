@@ -27,8 +27,9 @@ Vector2d place_of(int x, int y) { // normalized device coordinates
 class KnownBodies {
 public:
   // Size of the textures [pixels of the picture], from the picture's corner. seed 0: all samples are empty.
-  KnownBodies(int across, int up, int samples, int fine, unsigned seed)
-      : across_(across * fine), up_(up * fine), samples_(samples), fine_(fine) {
+  KnownBodies(int across, int up, int samples, int supersampling, unsigned seed)
+      : across_(across * supersampling), up_(up * supersampling), samples_(samples),
+        supersampling_(supersampling) {
     std::mt19937 random(seed);
     const auto up_to = [&](int most) {
       return static_cast<std::uint8_t>(std::uniform_int_distribution(0, most)(random));
@@ -45,18 +46,18 @@ public:
     samples == 1 ? upload(colours_, layers_[0]) : draw_samples();
   }
 
-  BodiesPicture picture() const { return {colours_.name(), 0, samples_, fine_, {0, 0, width, height}}; }
+  BodyTargets picture() const { return {colours_.name(), 0, samples_, supersampling_, {0, 0, width, height}}; }
 
   // Of one pixel of the picture [0 to 255].
   Eigen::Vector4d mean(int x, int y) const {
     Eigen::Vector4d sum = Eigen::Vector4d::Zero();
     for (const Pixels& all : layers_)
-      for (int j = fine_ * y; j < fine_ * (y + 1); ++j)
-        for (int i = fine_ * x; i < fine_ * (x + 1); ++i) {
+      for (int j = supersampling_ * y; j < supersampling_ * (y + 1); ++j)
+        for (int i = supersampling_ * x; i < supersampling_ * (x + 1); ++i) {
           const Pixel& pixel = all[static_cast<std::size_t>(j * across_ + i)];
           sum += Eigen::Vector4d(pixel[0], pixel[1], pixel[2], pixel[3]);
         }
-    return sum / (samples_ * fine_ * fine_);
+    return sum / (samples_ * supersampling_ * supersampling_);
   }
 
 private:
@@ -82,7 +83,7 @@ private:
                                "void main() { pixel = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }");
     copy.use();
     glActiveTexture(GL_TEXTURE0);
-    Boxes boxes;
+    RectPainter boxes;
     for (int k = 0; k < samples_; ++k) {
       const GlTexture source;
       upload(source, layers_[static_cast<std::size_t>(k)]);
@@ -92,8 +93,8 @@ private:
     glDisable(GL_SAMPLE_MASK);
   }
 
-  int across_, up_, samples_, fine_; // [texels]
-  std::vector<Pixels> layers_;       // one per sample
+  int across_, up_, samples_, supersampling_; // [texels]
+  std::vector<Pixels> layers_;                // one per sample
   GlTexture colours_;
 };
 
@@ -144,7 +145,7 @@ protected:
     glDisable(GL_DEPTH_CLAMP);
   }
 
-  static Pixels drawn(const Frame& frame, const KnownBodies& bodies, const Footprint& blocks) {
+  static Pixels drawn(const Frame& frame, const KnownBodies& bodies, const CoverageGrid& blocks) {
     FloorShadow shadow;
     cast(shadow, frame);
     const Canvas canvas(width, height, garbage);
@@ -154,8 +155,8 @@ protected:
     return canvas.read();
   }
 
-  static Footprint all_blocks() {
-    Footprint blocks = blocks_of(width, height);
+  static CoverageGrid all_blocks() {
+    CoverageGrid blocks = blocks_of(width, height);
     blocks.mark_all();
     return blocks;
   }
@@ -207,11 +208,11 @@ TEST_F(CompositeTest, WhereNoBodyIsTheStudioIsSeen) {
 
 // The textures cover only the blocks that bodies may cover: two of four columns, two of three rows.
 TEST_F(CompositeTest, APixelIsTheMeanOfItsSamplesOverWhatIsBehind) {
-  Footprint blocks = blocks_of(width, height);
+  CoverageGrid blocks = blocks_of(width, height);
   blocks.mark(0, 0, 1.5f, 0.5f);
   blocks.mark(0, 1, 0.5f, 1.5f);
-  for (const auto& [samples, fine] : {std::pair(1, 1), {1, 2}, {4, 1}, {4, 2}}) {
-    const KnownBodies bodies(64, 64, samples, fine, 5);
+  for (const auto& [samples, supersampling] : {std::pair(1, 1), {1, 2}, {4, 1}, {4, 2}}) {
+    const KnownBodies bodies(64, 64, samples, supersampling, 5);
     for (const Frame& frame : frames()) {
       const Pixels found = drawn(frame, bodies, blocks);
       for (int y = 0; y < height; ++y)
@@ -220,14 +221,14 @@ TEST_F(CompositeTest, APixelIsTheMeanOfItsSamplesOverWhatIsBehind) {
           const Eigen::Vector4d own = covered ? bodies.mean(x, y) : Eigen::Vector4d::Zero();
           const Vector3d colour = own.head<3>() + (1 - own.w() / 255) * studio(frame, view(frame), x, y);
           ASSERT_LE(apart(found[static_cast<std::size_t>(y * width + x)], colour), 1)
-              << x << " " << y << ", " << samples << " samples of " << fine;
+              << x << " " << y << ", " << samples << " samples of " << supersampling;
         }
     }
   }
 }
 
 TEST_F(CompositeTest, ATransparentPictureHasNothingBehind) {
-  Footprint blocks = blocks_of(width, height);
+  CoverageGrid blocks = blocks_of(width, height);
   blocks.mark(1.2f, 0.2f, 2.8f, 1.5f);
   for (const int samples : {1, 4}) {
     const KnownBodies bodies(width, height, samples, 1, 9);
@@ -253,7 +254,7 @@ TEST_F(CompositeTest, ATransparentPictureHasNothingBehind) {
 // of them with bodies and shadow.
 TEST_F(CompositeTest, BlocksOfEveryKindComeOutAsByTheMostGeneralProgram) {
   const KnownBodies none(width, height, 4, 1, 0);
-  Footprint some = blocks_of(width, height);
+  CoverageGrid some = blocks_of(width, height);
   some.mark(1, 1, 1.5f, 1.5f);
   for (Frame frame : frames()) {
     const Pixels bare = drawn(frame, none, all_blocks());

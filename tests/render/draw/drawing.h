@@ -1,4 +1,4 @@
-// A framebuffer, and programs with their own fragment shaders: for tests that draw without a Stage. A Device
+// A framebuffer, and programs with their own fragment shaders: for tests that draw without a Renderer. A Device
 // must be current.
 #pragma once
 

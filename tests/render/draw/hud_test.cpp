@@ -1,7 +1,7 @@
 #include "render/draw/hud.h"
 
 #include "render/draw/device.h"
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 #include "tests/render/pictures.h"
 
 #include <array>
@@ -42,13 +42,13 @@ protected:
   static Image picture(int width, int height, const HudContent* content) {
     Frame frame = front_view();
     frame.bodies.push_back(screen(0, 0.5, green));
-    Stage stage(width, height, 1);
-    stage.draw(frame);
+    Renderer renderer(width, height, 1);
+    renderer.draw(frame);
     if (content != nullptr) {
       Hud hud(width, height);
       hud.draw(*content);
     }
-    return stage.read();
+    return renderer.read();
   }
 
   // The bounding box of the pixels that differ: left, top, right, bottom, as fractions of the picture.

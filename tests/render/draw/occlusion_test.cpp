@@ -1,7 +1,7 @@
 #include "render/draw/occlusion.h"
 
 #include "render/draw/device.h"
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 #include "tests/render/pictures.h"
 
 #include <cmath>
@@ -23,9 +23,9 @@ protected:
 
   static Image picture(Frame frame, bool occlusion, int samples = 4) {
     frame.occlusion = occlusion;
-    Stage stage(width, height, samples);
-    stage.draw(frame);
-    return stage.read();
+    Renderer renderer(width, height, samples);
+    renderer.draw(frame);
+    return renderer.read();
   }
 
   static int difference(const Frame& frame, int samples = 4) {

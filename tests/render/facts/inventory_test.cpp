@@ -82,7 +82,7 @@ std::size_t listed(const Json& arrays) {
 
 TEST(Inventory, sums_up_what_it_lists_in_every_preset) {
   namespace fs = std::filesystem;
-  const program::Place place;
+  const program::TestFolder place;
   for (const char* folder : {"tear", "contact", "elastic"}) {
     for (const auto& entry : fs::directory_iterator(fs::path(REND_ROOT) / "presets" / folder)) {
       if (entry.path().extension() != ".xml") continue;
@@ -102,7 +102,7 @@ TEST(Inventory, sums_up_what_it_lists_in_every_preset) {
 }
 
 TEST(Inventory, of_a_step_has_each_interaction_as_often_as_the_scheme_evaluates) {
-  const program::Place place;
+  const program::TestFolder place;
   place.write("pulled.xml", program::pulled); // rk4
   const Json info = Json::parse(place.rend("info pulled.xml --json").out);
   std::map<std::string, double> evaluations;
@@ -113,7 +113,7 @@ TEST(Inventory, of_a_step_has_each_interaction_as_often_as_the_scheme_evaluates)
 }
 
 TEST(Inventory, says_why_something_is_not_there) {
-  const program::Place place;
+  const program::TestFolder place;
   place.write("pulled.xml", program::pulled);
   const Json body = Json::parse(place.rend("info pulled.xml --json").out)["bodies"][0];
   for (const char* why : {"'rk4' does not solve", "no law compares the forces of single elements", "births",

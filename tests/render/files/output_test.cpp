@@ -104,7 +104,7 @@ TEST(OutputFile, LeavesTheTemporaryFileOfAnotherUserAlone) {
   put(folder / "x", "theirs too");
   for (const char* name : {"x.part", "x"}) ASSERT_EQ(::chown((folder / name).c_str(), 1, 1), 0);
   remove_leftover(folder / "x");
-  write_whole(folder / "x", "ours");
+  write_atomically(folder / "x", "ours");
   EXPECT_EQ(content(folder / "x.part"), "theirs");
   EXPECT_EQ(content(folder / "x"), "ours") << "a final file may be replaced";
 }
@@ -115,7 +115,7 @@ TEST(OutputFile, ReplacesALinkAndNotWhatItLeadsTo) {
   fs::create_symlink("mine", folder / "soft");
   fs::create_hard_link(folder / "mine", folder / "hard");
   for (const char* name : {"soft", "hard"}) {
-    write_whole(folder / name, name);
+    write_atomically(folder / name, name);
     EXPECT_EQ(content(folder / name), name);
     EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / name)));
   }
@@ -128,20 +128,20 @@ TEST(OutputFile, FollowsALinkThatTheUserNames) {
   put(folder / "other/file", "old");
   fs::create_symlink("other/link", folder / "x");
   fs::create_symlink("file", folder / "other/link");
-  write_whole(followed(folder / "x"), "new");
+  write_atomically(resolve_link(folder / "x"), "new");
   EXPECT_EQ(content(folder / "other/file"), "new");
   EXPECT_TRUE(fs::is_symlink(folder / "x"));
 
   fs::create_symlink(folder / "other/later", folder / "y"); // a dangling link
-  write_whole(followed(folder / "y"), "new");
+  write_atomically(resolve_link(folder / "y"), "new");
   EXPECT_EQ(content(folder / "other/later"), "new");
   EXPECT_TRUE(fs::is_symlink(folder / "y"));
 
   fs::create_symlink("z", folder / "z");
-  EXPECT_EQ(code_of([&] { followed(folder / "z"); }), Exit::CannotCreate);
+  EXPECT_EQ(code_of([&] { resolve_link(folder / "z"); }), Exit::CannotCreate);
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0666), 0);
   fs::create_symlink("pipe", folder / "p");
-  EXPECT_EQ(code_of([&] { followed(folder / "p"); }), Exit::CannotCreate);
+  EXPECT_EQ(code_of([&] { resolve_link(folder / "p"); }), Exit::CannotCreate);
 }
 
 TEST(OutputFile, SaysWhenItsTemporaryFileBecameAnothers) {
@@ -201,7 +201,7 @@ TEST(OutputFile, TwoThatWriteTheSameFileAtOnceDoNotDisturbEachOther) {
 
 TEST(OutputFile, ALeftoverGoes) {
   const test::Folder folder;
-  write_whole(folder / "x.part", "of a killed run");
+  write_atomically(folder / "x.part", "of a killed run");
   remove_leftover(folder / "x");
   EXPECT_EQ(folder.files(), 0);
 }
@@ -209,17 +209,17 @@ TEST(OutputFile, ALeftoverGoes) {
 TEST(OutputFile, LeftoversOfSecondProgramsGo) {
   const test::Folder folder;
   const auto leave = [&] {
-    for (const char* name : {"x.2.part", "x.3.part"}) write_whole(folder / name, "of a killed run");
+    for (const char* name : {"x.2.part", "x.3.part"}) write_atomically(folder / name, "of a killed run");
   };
   leave();
   remove_leftover(folder / "x");
   EXPECT_EQ(folder.files(), 0);
   leave();
-  write_whole(folder / "x", "whole");
+  write_atomically(folder / "x", "whole");
   EXPECT_EQ(folder.files(), 1);
 
   OutputFile first(folder / "x"), second(folder / "x");
-  write_whole(folder / "x.3.part", "of a killed run");
+  write_atomically(folder / "x.3.part", "of a killed run");
   first.commit();
   EXPECT_FALSE(std::filesystem::exists(folder / "x.3.part"));
   EXPECT_TRUE(std::filesystem::exists(second.temporary())) << "it is being written";

@@ -18,9 +18,9 @@ TEST(Temporaries, go_where_the_program_ends_at_once) {
   const test::Folder folder;
   const std::string empty = folder / "empty", full = folder / "full", cases = folder / "cases";
   for (const std::string& one : {empty, full, cases}) fs::create_directory(one);
-  write_whole(full + "/stays", "whole");
-  write_whole(cases + "/a", "goes");
-  write_whole(cases + "/b", "goes");
+  write_atomically(full + "/stays", "whole");
+  write_atomically(cases + "/a", "goes");
+  write_atomically(cases + "/b", "goes");
   EXPECT_EXIT(
       {
         const TemporaryPath first(empty.c_str());
@@ -29,7 +29,7 @@ TEST(Temporaries, go_where_the_program_ends_at_once) {
         OutputFile kept(folder / "z");
         kept.commit();
         TemporaryPath with_files(cases.c_str());
-        with_files.holds_files();
+        with_files.remove_contents();
         remove_temporaries();
         _exit(0);
       },
@@ -47,9 +47,9 @@ TEST(Temporaries, those_that_are_kept_stay) {
   const std::string name = folder / "x";
   EXPECT_EXIT(
       {
-        write_whole(name, "whole");
+        write_atomically(name, "whole");
         TemporaryPath path(name.c_str());
-        path.is_gone();
+        path.unregister();
         remove_temporaries();
         _exit(0);
       },
@@ -69,7 +69,7 @@ TEST(Temporaries, one_that_is_being_created_is_waited_for) {
           remove_temporaries();
           _exit(0);
         });
-        path.is(name.c_str());
+        path.register_path(name.c_str());
         ending.join();
         ::close(file);
       },

@@ -11,7 +11,7 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 
 // Runs the real shells: each loads the script that the program prints, and completes with it.
 class Completion : public testing::Test {
@@ -42,7 +42,7 @@ protected:
     EXPECT_EQ(outcome.err, "");
     return outcome.out.substr(0, outcome.out.find_last_not_of(' ') + 1);
   }
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(Completion, of_bash_offers_commands_options_choices_files_and_attributes) {

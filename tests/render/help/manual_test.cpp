@@ -11,7 +11,7 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 
 const CommandUsage small{"tear",
                          "tear: tears things",
@@ -48,7 +48,7 @@ TEST(Manual, of_presets_has_every_element) {
 
 // By two independent troff programs.
 TEST(Manual, is_read_without_warnings) {
-  const Place place;
+  const TestFolder place;
   ASSERT_EQ(place.rend("help man > rend.1").code, 0);
   ASSERT_EQ(place.rend("help man preset > rend-preset.5").code, 0);
   const bool has_man = place.shell("command -v man").code == 0,
@@ -65,7 +65,7 @@ TEST(Manual, is_read_without_warnings) {
 }
 
 TEST(Version, tells_commit_and_libraries) {
-  const Place place;
+  const TestFolder place;
   const Outcome outcome = place.rend("--version");
   EXPECT_EQ(outcome.code, 0);
   std::istringstream lines(outcome.out);

@@ -21,7 +21,7 @@ using Eigen::Vector3f;
 struct Shown {
   std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
-  std::unique_ptr<PictureMaker> maker;
+  std::unique_ptr<FrameBuilder> maker;
 
   explicit Shown(const std::string& sheet, const std::string& look = "", const std::string& more = "",
                  const std::string& moves = R"(<fix side="-x"/><drive side="+x" velocity="4 0 0"/>)") {
@@ -33,7 +33,7 @@ struct Shown {
                             R"(<time step="1e-3" integrator="rk4" duration="1"/>)" + more + "</scene>",
                         "shown.xml");
     scene = std::make_unique<Scene>(read_scene(*preset), SceneOptions{});
-    maker = std::make_unique<PictureMaker>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
+    maker = std::make_unique<FrameBuilder>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
   }
   void steps(int count) {
     for (int n = 0; n < count; ++n) scene->step();
@@ -106,9 +106,9 @@ TEST(Picture, TurnsNormalsToTheSideOfTheirTriangle) {
 }
 
 TEST(Picture, GivesAMoebiusBandOneSide) {
-  EXPECT_FALSE(Shown(moebius).frame().bodies.at(0).sides);
-  EXPECT_TRUE(Shown(quads).frame().bodies.at(0).sides);
-  EXPECT_TRUE(Shown(R"(<sheet cells="8 2" size="1 0.3" close="loop"/>)").frame().bodies.at(0).sides);
+  EXPECT_FALSE(Shown(moebius).frame().bodies.at(0).shades_back);
+  EXPECT_TRUE(Shown(quads).frame().bodies.at(0).shades_back);
+  EXPECT_TRUE(Shown(R"(<sheet cells="8 2" size="1 0.3" close="loop"/>)").frame().bodies.at(0).shades_back);
 }
 
 TEST(Picture, KeepsTheColourOfWhatStays) {
@@ -148,7 +148,7 @@ TEST(Picture, TakesColourAndSceneFromThePreset) {
 struct ShownBar {
   std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
-  std::unique_ptr<PictureMaker> maker;
+  std::unique_ptr<FrameBuilder> maker;
 
   explicit ShownBar(const std::string& look, const std::string& pattern = "hexahedra") {
     preset = load_scene_text(R"(<scene name="bar"><body><bar pattern=")" + pattern +
@@ -158,7 +158,7 @@ struct ShownBar {
                              "bar.xml");
     scene = std::make_unique<Scene>(read_scene(*preset), SceneOptions{});
     body().border = &body().map->add(InitialBorder(3));
-    maker = std::make_unique<PictureMaker>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
+    maker = std::make_unique<FrameBuilder>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
   }
   Body& body() { return *scene->bodies()[0]; }
   void part() {
@@ -264,22 +264,23 @@ TEST(Viewpoint, KeepsTheBodiesInSight) {
 
 TEST(Viewpoint, LeavesRoomToFallOrSwingButNotBelowTheFloor) {
   const std::string one_side = R"(<fix near="0 0 1"/>)";
-  EXPECT_NEAR(room_of(*Shown(quads, "", "", R"(<fix near="0 0 1"/><fix near="1 0 1"/>)").scene, 1).min().z(),
-              -0.15, 1e-9);
+  EXPECT_NEAR(
+      bounds_to_frame(*Shown(quads, "", "", R"(<fix near="0 0 1"/><fix near="1 0 1"/>)").scene, 1).min().z(),
+      -0.15, 1e-9);
   const Shown flat(quads, "", R"(<world gravity="0 -9.81 0"/>)", one_side);
-  EXPECT_NEAR(room_of(*flat.scene, 1).min().y(), -0.9, 1e-9);
+  EXPECT_NEAR(bounds_to_frame(*flat.scene, 1).min().y(), -0.9, 1e-9);
   const Shown floor(quads, "", R"(<world><floor z="-0.1"/></world>)", one_side);
-  EXPECT_NEAR(room_of(*floor.scene, 1).min().z(), -0.1, 1e-9);
+  EXPECT_NEAR(bounds_to_frame(*floor.scene, 1).min().z(), -0.1, 1e-9);
 }
 
 // The HUD.
 
-TEST(PictureMaker, without_a_hud_nothing_is_written_over_the_picture) {
+TEST(FrameBuilder, without_a_hud_nothing_is_written_over_the_picture) {
   Shown shown(quads);
   EXPECT_TRUE(shown.frame().hud.empty());
 }
 
-TEST(PictureMaker, a_hud_tells_what_it_is_asked_for) {
+TEST(FrameBuilder, a_hud_tells_what_it_is_asked_for) {
   if (!hud_available()) GTEST_SKIP() << "built without the HUD";
   Shown shown(quads, R"(<look by="force" most="5"/>)", R"(<hud show="title energy legend time tears"/>)");
   shown.frame();
@@ -302,7 +303,7 @@ TEST(PictureMaker, a_hud_tells_what_it_is_asked_for) {
       (std::vector<float>{static_cast<float>(at_start), static_cast<float>(shown.scene->kinetic_energy())}));
 }
 
-TEST(PictureMaker, a_hud_of_nothing_is_empty) {
+TEST(FrameBuilder, a_hud_of_nothing_is_empty) {
   Shown shown(quads, "", R"(<hud show="legend"/>)"); // plain colours have no scale
   EXPECT_TRUE(shown.frame().hud.empty());
 }
@@ -317,7 +318,7 @@ double volume_of(const FrameBody& body) { // by the divergence theorem
   return sum;
 }
 
-TEST(PictureMaker, exploded_cells_are_all_there_whole_and_apart) {
+TEST(FrameBuilder, exploded_cells_are_all_there_whole_and_apart) {
   for (const char* pattern : {"hexahedra", "tetrahedra", "prisms", "mixed"}) {
     const auto preset = load_scene_text(
         fmt::format(R"(<scene name="bar"><body><bar cells="3 2 2" size="3 2 2" pattern="{}"/><mass total="1"/>)"
@@ -326,7 +327,7 @@ TEST(PictureMaker, exploded_cells_are_all_there_whole_and_apart) {
                     pattern),
         "bar.xml");
     Scene scene(read_scene(*preset), {});
-    PictureMaker maker(picture_settings(*preset), scene, 1.5, 1, 31);
+    FrameBuilder maker(picture_settings(*preset), scene, 1.5, 1, 31);
     maker.observe();
     const Frame frame = maker.draw(0, 0);
     EXPECT_NEAR(volume_of(frame.bodies[0]), 12, 1e-4) << pattern; // no cell is lost or doubled
@@ -338,7 +339,7 @@ TEST(PictureMaker, exploded_cells_are_all_there_whole_and_apart) {
   }
 }
 
-TEST(PictureMaker, every_dart_has_a_dot_and_every_link_a_rod) {
+TEST(FrameBuilder, every_dart_has_a_dot_and_every_link_a_rod) {
   Shown shown(R"(<sheet cells="2 1" size="1 1"/>)", R"(<look as="darts"/>)");
   const Frame frame = shown.frame();
   // Two quads of 8 darts: a dot each; α0 4 a quad, α1 4 a quad, α2 2 between the quads.
@@ -346,7 +347,7 @@ TEST(PictureMaker, every_dart_has_a_dot_and_every_link_a_rod) {
   EXPECT_EQ(frame.bodies[0].corners.size(), 16 * dot + (8 + 8 + 2) * rod);
 }
 
-TEST(PictureMaker, darts_of_a_large_body_are_refused) {
+TEST(FrameBuilder, darts_of_a_large_body_are_refused) {
   EXPECT_THROW(Shown(R"(<sheet cells="60 60" size="1 1"/>)", R"(<look as="darts"/>)"), UserError);
 }
 

@@ -14,7 +14,7 @@ namespace rend {
 namespace {
 
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 
 // A few steps of every feature on the built-in scenes, made small.
@@ -37,7 +37,7 @@ const std::vector<LeanRow>& rows() {
 
 TEST(LeanStudy, every_feature_keeps_what_it_promises) {
   for (const LeanRow& row : rows())
-    EXPECT_TRUE(row.as_promised()) << row.scene << ", " << row.feature << " " << row.same_state
+    EXPECT_TRUE(row.as_required()) << row.scene << ", " << row.feature << " " << row.same_state
                                    << row.same_pixels;
 }
 
@@ -79,7 +79,7 @@ TEST(MinimalLoop, goes_as_the_scene_does) {
 }
 
 TEST(LeanStudy, of_a_preset_writes_its_tables_and_its_page) {
-  const Place place;
+  const TestFolder place;
   place.write("pulled.xml", program::pulled);
   const Outcome outcome = place.rend("study --lean pulled.xml -q --quick -o lean --set body.sheet.cells='3 3'");
   EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
@@ -89,7 +89,7 @@ TEST(LeanStudy, of_a_preset_writes_its_tables_and_its_page) {
 }
 
 TEST(LeanStudy, is_asked_for_with_any_number_of_presets_and_a_study_with_one) {
-  const Place place;
+  const TestFolder place;
   EXPECT_EQ(place.rend("study").code, 64);
   EXPECT_EQ(place.rend("study one.xml two.xml").code, 64);
   EXPECT_EQ(place.rend("study --lean missing.xml").code, 66);

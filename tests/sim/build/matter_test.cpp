@@ -169,7 +169,7 @@ TEST(Measure, of_stress_weighs_elements_by_their_mass_not_by_that_of_a_corner) {
   }
 }
 
-TEST(Measure, of_stress_is_each_cells_own_once_they_have_let_go) {
+TEST(Measure, of_stress_is_that_of_each_cell_after_separation) {
   for (Pair& pair : pairs_of_cells()) {
     SCOPED_TRACE(pair.name);
     const auto body = pulled_pair(pair, "corotational");

@@ -3,8 +3,8 @@
 #include "sim/build/build_scene.h"
 
 #include "render/picture/scene_preset.h"
-#include "sim/house_presets.h"
 #include "sim/scene/scene.h"
+#include "sim/shipped_presets.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -114,7 +114,7 @@ SceneDefinition cantilever_of_structs() {
 
 // The steps of both, with the same bits after each of them.
 void expect_same(const std::string& name, SceneDefinition of_structs, int steps, std::size_t least_tears) {
-  const auto preset = load_scene(house::path_of(name));
+  const auto preset = load_scene(shipped::path_of(name));
   Scene read(read_scene(*preset), {}), made(std::move(of_structs), {});
   EXPECT_EQ(made.name(), read.name());
   EXPECT_EQ(made.duration(), read.duration());

@@ -113,7 +113,7 @@ TEST(Column, separation_splits_once_per_new_fragment) {
   EXPECT_EQ(calls, (Calls{0, 2, 0}));
 }
 
-TEST(Column, creation_bears_once_per_orbit_and_removal_asks_nothing) {
+TEST(Column, creation_calls_birth_once_per_orbit_and_removal_calls_none) {
   Calls vertex_calls, corner_calls;
   EmbeddedMap body(2);
   body.add(Counting{.calls = &vertex_calls});
@@ -161,7 +161,7 @@ TEST(Column, triangulation_of_one_face_leaves_the_masses_of_the_others_alone) {
   EXPECT_NEAR(total(*body, mass), 4, 1e-12);
 }
 
-TEST(Column, an_inserted_vertex_bears_the_corners_of_both_faces_again) {
+TEST(Column, inserting_a_vertex_calls_birth_on_corners_of_both_faces) {
   Calls calls;
   const auto body = assets::grid(2, 1);
   const auto& mass = body->add(CornerMass{.calls = &calls});

@@ -129,7 +129,7 @@ TEST(EmbeddedMap, readers_are_told_which_darts_and_slots_an_edit_changed) {
   EXPECT_FALSE(changes.any);
 }
 
-TEST(EmbeddedMap, an_edit_that_changes_nothing_tells_nobody) {
+TEST(EmbeddedMap, an_edit_that_changes_nothing_reports_no_changes) {
   const auto body = assets::grid(2, 1);
   Changes changes;
   body->subscribe(changes);

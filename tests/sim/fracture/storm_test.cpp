@@ -11,12 +11,12 @@ namespace {
 
 using namespace torn;
 
-const std::vector<By>& every_way() {
-  static const std::vector<By> all{{"separate", Cell::Borders},
-                                   {"split-vertex", Cell::Vertices},
-                                   {"split-vertex", Cell::Edges},
-                                   {"delete-element", Cell::Elements},
-                                   {"delete-edge", Cell::Edges}};
+const std::vector<RandomChange>& every_change() {
+  static const std::vector<RandomChange> all{{"separate", Cell::Borders},
+                                             {"split-vertex", Cell::Vertices},
+                                             {"split-vertex", Cell::Edges},
+                                             {"delete-element", Cell::Elements},
+                                             {"delete-edge", Cell::Edges}};
   return all;
 }
 
@@ -24,7 +24,7 @@ bool deletes(const std::string& change) {
   return change.starts_with("delete");
 }
 
-void blow(Body& body, int steps) {
+void apply_random_edits(Body& body, int steps) {
   Seen seen(body);
   for (int n = 0; n < steps; ++n) {
     const Snapshot before(body);
@@ -43,11 +43,11 @@ void blow(Body& body, int steps) {
 }
 
 TEST(Storm, of_each_change_on_every_mesh_leaves_a_valid_map_and_moves_nothing) {
-  for (const By& way : every_way()) {
+  for (const RandomChange& way : every_change()) {
     for (auto& each : elements::irregular_maps()) {
       SCOPED_TRACE(way.change + " on " + each.name);
       const auto body = torn::body(std::move(each.map), {way}, "symplectic", true);
-      blow(*body, 25);
+      apply_random_edits(*body, 25);
       EXPECT_GT(body->events.size(), 5u);
     }
   }
@@ -57,8 +57,8 @@ TEST(Storm, of_all_laws_at_once_leaves_a_valid_map_and_moves_nothing) {
   for (auto& each : elements::irregular_maps()) {
     SCOPED_TRACE(each.name);
     // full binding and rebinding of both sets of rows
-    const auto body = torn::body(std::move(each.map), every_way(), "rk4", true);
-    blow(*body, 25);
+    const auto body = torn::body(std::move(each.map), every_change(), "rk4", true);
+    apply_random_edits(*body, 25);
     EXPECT_GT(body->events.size(), 5u);
   }
 }
@@ -66,13 +66,13 @@ TEST(Storm, of_all_laws_at_once_leaves_a_valid_map_and_moves_nothing) {
 TEST(Storm, on_sheets_of_many_sides_and_without_sides_leaves_a_valid_map) {
   for (const meshes::Named& each : meshes::irregular()) {
     SCOPED_TRACE(each.name);
-    const auto body = torn::body(sheet_from(each.mesh), every_way());
-    blow(*body, 20);
+    const auto body = torn::body(sheet_from(each.mesh), every_change());
+    apply_random_edits(*body, 20);
   }
 }
 
 TEST(FragmentCounter, are_those_of_making_one_change_after_the_other_and_counting) {
-  for (const By& way : every_way()) {
+  for (const RandomChange& way : every_change()) {
     // The ends of an edge are identified by slots from before all changes: changes made one by one have other
     // slots then.
     if (way.change == "split-vertex" && way.cell == Cell::Edges) continue;
@@ -81,30 +81,30 @@ TEST(FragmentCounter, are_those_of_making_one_change_after_the_other_and_countin
       SCOPED_TRACE(way.change + " on " + maps[m].name);
       const auto body = torn::body(std::move(maps[m].map), {way, {"separate", Cell::Borders}});
       const auto twin = torn::body(std::move(twins[m].map), {way});
-      Chance<Cell::Borders>::most = 60; // many, so that pieces come off
+      RandomCriterion<Cell::Borders>::most = 60; // many, so that pieces come off
       long most = 0;
       for (int step = 0; step < 8; ++step) {
         const std::size_t first = body->events.size();
-        std::vector<Candidate> told;
+        std::vector<Candidate> found;
         body->evaluate();
         body->tear(step, step, [] {});
-        for (auto* some : {&Chance<Cell::Borders>::told, &Chance<Cell::Vertices>::told,
-                           &Chance<Cell::Edges>::told, &Chance<Cell::Elements>::told}) {
-          told.insert(told.end(), some->begin(), some->end());
+        for (auto* some : {&RandomCriterion<Cell::Borders>::found, &RandomCriterion<Cell::Vertices>::found,
+                           &RandomCriterion<Cell::Edges>::found, &RandomCriterion<Cell::Elements>::found}) {
+          found.insert(found.end(), some->begin(), some->end());
           some->clear();
         }
         std::vector<std::vector<Dart>> cells; // cells of the events of one law, before its first change
         std::size_t noted = first;
         for (std::size_t e = first; e < body->events.size(); ++e) {
           const TearEvent& event = body->events[e];
-          const By by = event.law == 0 ? way : By{"separate", Cell::Borders};
+          const RandomChange by = event.law == 0 ? way : RandomChange{"separate", Cell::Borders};
           if (noted == e) twin->evaluate(); // a law evaluates forces once, and then makes all its changes
           for (; noted < body->events.size() && body->events[noted].law == event.law; ++noted)
             cells.push_back(cell_of(*twin, by.cell, body->events[noted].dart));
-          const auto candidate = std::find_if(told.begin(), told.end(), [&](const Candidate& c) {
+          const auto candidate = std::find_if(found.begin(), found.end(), [&](const Candidate& c) {
             return c.dart == event.dart && c.value == event.value;
           });
-          ASSERT_NE(candidate, told.end());
+          ASSERT_NE(candidate, found.end());
           const long before = static_cast<long>(count_cells(twin->map->map(), Component));
           ASSERT_TRUE(make(*twin, by.change, by.cell, *candidate, cells[e - first]));
           const long after = static_cast<long>(count_cells(twin->map->map(), Component));
@@ -113,7 +113,7 @@ TEST(FragmentCounter, are_those_of_making_one_change_after_the_other_and_countin
           most = std::max(most, after);
         }
       }
-      Chance<Cell::Borders>::most = 4;
+      RandomCriterion<Cell::Borders>::most = 4;
       EXPECT_GT(most, 1);
     }
   }
@@ -125,14 +125,14 @@ TEST(Body, that_loses_its_last_element_goes_on_with_nothing) {
       SCOPED_TRACE(each.name + std::string(", ") + scheme);
       const auto body = torn::body(std::move(each.map),
                                    {{"delete-element", Cell::Elements}, {"delete-edge", Cell::Edges}}, scheme);
-      Chance<Cell::Elements>::most = 20;
+      RandomCriterion<Cell::Elements>::most = 20;
       Seen seen(*body);
       int step = 0;
       for (; !body->deleted_at && step < 400; ++step) {
         body->evaluate();
         body->tear(step * 1e-3, step, [] {});
       }
-      Chance<Cell::Elements>::most = 4;
+      RandomCriterion<Cell::Elements>::most = 4;
       ASSERT_TRUE(body->deleted_at);
       EXPECT_EQ(*body->deleted_at, (step - 1) * 1e-3);
       EXPECT_EQ(body->events.back().fragments, 0);

@@ -17,13 +17,13 @@ namespace rend::torn {
 using meshes::Noise;
 
 // Finds cells at random: some candidates each time it is evaluated, with random planes.
-template <Cell C> class Chance final : public Criterion {
+template <Cell C> class RandomCriterion final : public Criterion {
 public:
   static inline std::size_t most = 4;
   static inline Noise noise{1};
-  static inline std::vector<Candidate> told; // all candidates so far
+  static inline std::vector<Candidate> found; // all candidates so far
 
-  explicit Chance(const CriterionRequest&) {}
+  explicit RandomCriterion(const CriterionRequest&) {}
   void find(const ForceView& view, double threshold, std::vector<Candidate>& candidates) override {
     const GMap& map = view.map.map();
     std::set<Dart> met;
@@ -34,7 +34,7 @@ public:
       const Dart first = smallest_dart(map, orbit_of(C, map.dimension()), d);
       if (!met.insert(first).second) continue;
       candidates.push_back({threshold + 1 + noise(), first, noise.vector().normalized()});
-      told.push_back(candidates.back());
+      found.push_back(candidates.back());
     }
   }
   void rebind(const Changes&) override {}
@@ -49,7 +49,7 @@ template <Cell C> const CriterionType& chance() {
                                   .cell = [](const CriterionRequest&) { return C; },
                                   .lacking = [](const CriterionRequest&) { return std::string(); },
                                   .make = [](const CriterionRequest& r) -> std::unique_ptr<Criterion> {
-                                    return std::make_unique<Chance<C>>(r);
+                                    return std::make_unique<RandomCriterion<C>>(r);
                                   }};
   return type;
 }
@@ -61,7 +61,7 @@ inline const ChangeType& change(const std::string& name) {
 }
 
 // A change on cells found at random.
-struct By {
+struct RandomChange {
   std::string change;
   Cell cell;
 };
@@ -97,7 +97,7 @@ inline void watch(Body& body) {
 }
 
 // Co-rotational elements and springs along edges, viscous drag, one fixed vertex; displaced at random.
-inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::vector<By>& laws = {},
+inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::vector<RandomChange>& laws = {},
                                   const std::string& scheme = "symplectic", bool watched = false) {
   auto made = std::make_unique<Body>();
   made->name = "torn";
@@ -113,7 +113,7 @@ inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::v
   made->constraints.add(*made->map, Motion{}, {made->map->vertex(Dart{0u})});
   made->border = &made->map->add(InitialBorder(made->map->dimension()));
   made->fragment_counter = std::make_unique<FragmentCounter>();
-  for (const By& by : laws) {
+  for (const RandomChange& by : laws) {
     LawSettings law;
     law.criterion = &chance_on(by.cell);
     law.change = &change(by.change);

@@ -45,7 +45,7 @@ void run(const presets::Loaded& scene, double until) {
 }
 
 // The RMS distance of the vertices of two scenes [m].
-double apart(const presets::Loaded& a, const presets::Loaded& b) {
+double rms_distance(const presets::Loaded& a, const presets::Loaded& b) {
   const auto &x = a.body().map->position().values(), &y = b.body().map->position().values();
   double sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) sum += (x[i].vec() - y[i].vec()).squaredNorm();
@@ -83,8 +83,8 @@ TEST(Guard, goes_on_with_a_step_that_is_too_large_near_where_small_steps_lead) {
         EXPECT_EQ(small->hash(), none->hash());
         const auto alone = presets::load(scene_of(time_of(scheme, step)), {.guard = false});
         run(alone, end);
-        EXPECT_LT(apart(large, small), 2 * apart(alone, small)) << large->guard().rejected;
-        EXPECT_GT(apart(alone, small), 0);
+        EXPECT_LT(rms_distance(large, small), 2 * rms_distance(alone, small)) << large->guard().rejected;
+        EXPECT_GT(rms_distance(alone, small), 0);
       }
     }
   }
@@ -105,7 +105,7 @@ TEST(Guard, survives_a_number_that_is_not_finite_at_any_stage_once) {
         ASSERT_TRUE(finite(faulty));
         ASSERT_EQ(faulty->steps_done(), n + 1);
       }
-      EXPECT_LT(apart(faulty, sound), 1e-5);
+      EXPECT_LT(rms_distance(faulty, sound), 1e-5);
       EXPECT_EQ(sound->guard().rejected, 0);
       const bool halves_itself =
           std::string(scheme) == "implicit" && stage != StepStage::Integration && stage != StepStage::Contact;
@@ -177,7 +177,7 @@ TEST(Guard, rejects_no_step_of_what_is_given_energy) {
   }
 }
 
-TEST(Guard, rejects_no_step_of_the_presets_of_the_house) {
+TEST(Guard, rejects_no_step_of_shipped_presets) {
   namespace fs = std::filesystem;
   int seen = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(REND_ROOT) / "presets")) {

@@ -99,14 +99,14 @@ std::vector<Pair> pairs() {
 }
 
 // A map with masses, viscosities and interactions, and their program.
-struct Laden {
+struct MapWithProgram {
   EmbeddedMap& map;
   MassColumn& mass;
   DragColumn& drag;
   std::vector<std::unique_ptr<Interaction>> interactions;
   std::unique_ptr<Program> program;
 
-  Laden(EmbeddedMap& body, const std::vector<meshes::Spring>& springs)
+  MapWithProgram(EmbeddedMap& body, const std::vector<meshes::Spring>& springs)
       : map(body), mass(body.add(CornerMass{.density = 0.3})), drag(body.add(CornerDrag{.per_vertex = 0.2})) {
     for (const meshes::Spring& spring : springs)
       if (auto made = meshes::interaction(map, spring)) interactions.push_back(std::move(made));
@@ -118,7 +118,7 @@ struct Laden {
 };
 
 // The sum of all corner masses in extended precision.
-double exact_mass(const Laden& body) {
+double exact_mass(const MapWithProgram& body) {
   const CellIndex& corners = body.map.cells(VertexOfFace);
   long double sum = 0;
   for (Slot c = 0; c < corners.slots(); ++c)
@@ -127,7 +127,8 @@ double exact_mass(const Laden& body) {
 }
 
 // Compares the embedded values of two sheets, dart by dart, through the isomorphism.
-void expect_same_load(const Laden& a, const Laden& b, const std::vector<Dart>& image, bool drag = true) {
+void expect_same_load(const MapWithProgram& a, const MapWithProgram& b, const std::vector<Dart>& image,
+                      bool drag = true) {
   ASSERT_EQ(a.interactions.size(), b.interactions.size());
   a.map.map().for_each_dart([&](Dart d) {
     const Dart e = image[d.value];
@@ -154,7 +155,7 @@ void expect_same_load(const Laden& a, const Laden& b, const std::vector<Dart>& i
 
 // Sets the same state on both, by rest positions; returns the largest difference of forces relative to the
 // largest force.
-double difference_of_forces(Laden& a, Laden& b, const std::vector<Dart>& image) {
+double difference_of_forces(MapWithProgram& a, MapWithProgram& b, const std::vector<Dart>& image) {
   const auto moved = [](const Vec3& x) {
     return Vec3(x +
                 0.05 * Vec3(std::sin(7 * x.y() + x.x()), std::cos(5 * x.x()), std::sin(9 * x.x() + 4 * x.y())));
@@ -162,7 +163,7 @@ double difference_of_forces(Laden& a, Laden& b, const std::vector<Dart>& image) 
   const auto speed = [](const Vec3& x) {
     return Vec3(std::sin(11 * x.x()), std::sin(3 * x.y()), std::cos(8 * x.y()));
   };
-  const auto forces_of = [&](Laden& each) {
+  const auto forces_of = [&](MapWithProgram& each) {
     std::vector<Record> x(each.map.position().values().size()), v(x.size()), f(x.size());
     for (std::size_t n = 0; n < x.size(); ++n) {
       x[n] = Record(moved(each.map.rest().values()[n].vec()));
@@ -193,7 +194,7 @@ TEST(SheetByRules, carries_what_the_generators_sheet_carries) {
   for (const Pair& pair : pairs()) {
     SCOPED_TRACE(pair.name);
     const Owned rules = pair.rules(), generator = pair.generator();
-    Laden a(*rules, meshes::all_springs(0.1)), b(*generator, meshes::all_springs(0.1));
+    MapWithProgram a(*rules, meshes::all_springs(0.1)), b(*generator, meshes::all_springs(0.1));
     const std::vector<Dart> image = images(*rules, *generator);
     ASSERT_FALSE(image.empty());
     expect_same_load(a, b, image);
@@ -208,7 +209,7 @@ TEST(SheetByRules, carries_the_same_where_the_load_was_there_before_the_rules) {
     for (int times = 2; times <= 4; ++times) {
       SCOPED_TRACE("pattern " + std::to_string(static_cast<int>(pattern)) + ", times " + std::to_string(times));
       const Owned rules = subdivided(1), generator = by_generator(pattern, 1 << times);
-      Laden a(*rules, meshes::all_springs(0.1)), b(*generator, meshes::all_springs(0.1));
+      MapWithProgram a(*rules, meshes::all_springs(0.1)), b(*generator, meshes::all_springs(0.1));
       for (int n = 1; n < times; ++n) ASSERT_TRUE(apply(subdivide, *rules, Dart{0u}).ok);
       if (pattern == SheetPattern::Crossed) cross(*rules, 1 << times, [](int, int) { return true; });
       if (pattern == SheetPattern::Mixed)
@@ -227,7 +228,8 @@ TEST(SheetByRules, carries_the_same_where_the_load_was_there_before_the_rules) {
 
 TEST(Subdivision, quarters_corner_masses_keeps_stiffnesses_and_halves_rest_lengths) {
   const Owned map = by_generator(SheetPattern::Quads, 3);
-  Laden body(*map, {{"stretch", "", 60, 0.1}, {"shear", "isotropic", 43, 0.2}, {"bend", "provot", 10, 0.3}});
+  MapWithProgram body(*map,
+                      {{"stretch", "", 60, 0.1}, {"shear", "isotropic", 43, 0.2}, {"bend", "provot", 10, 0.3}});
   const double mass = exact_mass(body);
   double corner = body.mass[map->slot(VertexOfFace, Dart{0u})], side = 1.0 / 3, faces = 9;
   for (int n = 0; n < 3; ++n) {
@@ -256,7 +258,7 @@ TEST(Subdivision, quarters_corner_masses_keeps_stiffnesses_and_halves_rest_lengt
 
 TEST(Subdivision, brings_a_program_up_to_date) {
   const Owned map = by_generator(SheetPattern::Mixed, 4);
-  Laden body(*map, meshes::all_springs(0.1));
+  MapWithProgram body(*map, meshes::all_springs(0.1));
   Program& program = body.run();
   for (int n = 0; n < 2; ++n) {
     ASSERT_TRUE(apply(subdivide, *map, Dart{0u}).ok);
@@ -269,7 +271,7 @@ TEST(Subdivision, keeps_the_mass_of_irregular_cells) {
   PolygonMesh mesh = meshes::warped(meshes::bricks(6, 4), 0.15, 5);
   for (Vec3& x : mesh.points) x.z() = 0.5 * x.x(); // planar, but inclined
   const Owned map = sheet_from(mesh);
-  Laden body(*map, meshes::all_springs());
+  MapWithProgram body(*map, meshes::all_springs());
   const double mass = exact_mass(body);
   ASSERT_TRUE(apply(subdivide, *map, Dart{0u}).ok);
   EXPECT_NEAR(exact_mass(body), mass, 1e-14 * mass);
@@ -277,7 +279,7 @@ TEST(Subdivision, keeps_the_mass_of_irregular_cells) {
 
 TEST(Subdivision, of_a_deformed_body_puts_points_in_the_middle_and_looks_at_the_rest_alone) {
   const Owned map = by_generator(SheetPattern::Quads, 4), calm = by_generator(SheetPattern::Quads, 4);
-  Laden body(*map, meshes::all_springs()), other(*calm, meshes::all_springs());
+  MapWithProgram body(*map, meshes::all_springs()), other(*calm, meshes::all_springs());
   const auto deformed = [](const Vec3& x) {
     return Vec3(2 * x.x() + 0.3 * x.y(), x.y() - x.x(), 3 * x.x() + 1);
   };

@@ -91,7 +91,7 @@ public:
   Body& operator*() { return *body_; }
   std::size_t fewest_darts() const { return fewest_; }
 
-  void blow() {
+  void apply_random_edits() {
     const std::size_t edits = 1 + (noise_.below(4) == 0); // sometimes two edits before an update
     for (std::size_t n = 0; n < edits; ++n)
       body_->map->edit([&](Edit& edit) {
@@ -157,7 +157,7 @@ void expect_storm_survived(const PolygonMesh& mesh, const Recipe& recipe, int ed
   ASSERT_GT((*storm).program->folded().size(), 2u);
   ASSERT_EQ((*storm).program->elementary().size(), (*storm).program->folded().size());
   for (int n = 0; n < edits; ++n) {
-    storm.blow();
+    storm.apply_random_edits();
     surface.update();
     ASSERT_EQ(stale(*storm, &surface), "") << "after edit " << n;
     ASSERT_EQ(validate(*(*storm).map), std::nullopt) << "after edit " << n;
@@ -214,7 +214,7 @@ TEST(Rebinding, of_words_that_reach_over_several_faces_equals_binding_from_scrat
   Changes changes;
   map.subscribe(changes);
   for (int n = 0; n < 600; ++n) {
-    storm.blow();
+    storm.apply_random_edits();
     binder.rebind(changes);
     changes.clear();
     Binder anew(map, pattern, fields, 2);

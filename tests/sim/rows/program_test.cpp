@@ -29,7 +29,7 @@ const std::string global_law = R"(<tear criterion="global-border" threshold="0.0
 const std::string atomic_law = R"(<tear criterion="atomic-border" threshold="0.03"/>)";
 
 // The largest difference of the program's forces from those of a walk, for the body's state.
-double off_the_walk(const Body& body) {
+double difference_from_walk(const Body& body) {
   const std::size_t vertices = body.program->vertices(), corners = body.map->cells(VertexOfFace).slots();
   std::vector<Record> flat(vertices), walk(vertices), corner(corners), walk_corner(corners);
   body.program->forces(positions(body), velocities(body), flat.data());
@@ -52,7 +52,7 @@ TEST(Program, gives_the_forces_of_a_walk_all_along_a_run_that_tears) {
         crumple(scene.body(), 3e-3);
         for (int n = 0; n < 500; ++n) {
           scene->step();
-          ASSERT_LT(off_the_walk(scene.body()), 1e-12) << "after step " << n;
+          ASSERT_LT(difference_from_walk(scene.body()), 1e-12) << "after step " << n;
         }
         EXPECT_GT(scene->tears(), 5u);
       }
@@ -74,7 +74,7 @@ TEST(Program, gives_the_forces_of_a_walk_and_of_the_polygons_on_torn_sheets_of_e
       body->map->edit([&](Edit& edit) { unsew(edit, 2, Dart{noise.below(darts)}); });
       body->rebind();
       shake(*body, 0.2, 100 + n);
-      ASSERT_LT(off_the_walk(*body), 1e-12) << "after edit " << n;
+      ASSERT_LT(difference_from_walk(*body), 1e-12) << "after edit " << n;
       BruteForce brute(*body->map);
       brute.look_at(*body);
       for (const Spring& spring : recipe.springs) brute.add(spring);

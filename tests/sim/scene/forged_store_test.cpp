@@ -94,9 +94,9 @@ private:
 };
 
 // A scene of one body, after some steps, and others that read its state.
-class Genuine {
+class StoredScene {
 public:
-  Genuine(std::string xml, long steps) : xml_(std::move(xml)), loaded_(presets::load(xml_)) {
+  StoredScene(std::string xml, long steps) : xml_(std::move(xml)), loaded_(presets::load(xml_)) {
     while (loaded_->steps_done() < steps) loaded_->step();
     bytes_ = stored(*loaded_.scene);
     EXPECT_EQ(refused(*presets::load(xml_).scene, bytes_), "");
@@ -128,7 +128,7 @@ std::string scene_of(const std::string& body, const std::string& rest) {
 }
 
 // Springs that are deleted when they are stretched too far: elements are removed, borders open.
-Genuine torn() {
+StoredScene torn() {
   return {scene_of(R"(<sheet cells="4 4" size="1 1"/><mass total="0.1"/>
                       <springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>
                       <fix side="-x"/><drive side="+x" velocity="4 0 0"/>
@@ -148,7 +148,7 @@ Dart some_dart(const GMap& map, const std::function<bool(Dart)>& fits) {
 }
 
 TEST(ForgedStore, links_are_those_of_the_scene_or_open) {
-  const Genuine genuine = torn();
+  const StoredScene genuine = torn();
   const GMap& map = genuine.map().map();
   ASSERT_LT(map.dart_count(), map.capacity()) << "something was deleted";
   const auto link = [links = genuine.layout().links](int i, Dart d) {
@@ -175,7 +175,7 @@ TEST(ForgedStore, links_are_those_of_the_scene_or_open) {
 }
 
 TEST(ForgedStore, every_dart_has_the_slot_of_its_orbit) {
-  const Genuine genuine = torn();
+  const StoredScene genuine = torn();
   const Layout layout = genuine.layout();
   const int mask = Vertex.mask;
   const CellIndex& vertices = genuine.map().cells(Vertex);
@@ -194,7 +194,7 @@ TEST(ForgedStore, every_dart_has_the_slot_of_its_orbit) {
 }
 
 TEST(ForgedStore, what_the_preset_says_is_no_state) {
-  const Genuine genuine = torn();
+  const StoredScene genuine = torn();
   const Layout layout = genuine.layout();
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinite = std::numeric_limits<double>::infinity();
@@ -215,7 +215,7 @@ TEST(ForgedStore, what_the_preset_says_is_no_state) {
 }
 
 TEST(ForgedStore, a_body_that_nothing_tears_is_as_it_was_built) {
-  const Genuine genuine(presets::cloth("quads", 3), 5);
+  const StoredScene genuine(presets::cloth("quads", 3), 5);
   std::vector<std::uint8_t> opened;
   const auto torn = presets::load(presets::cloth("quads", 3));
   torn.body().map->edit([&](Edit& edit) {
@@ -227,7 +227,7 @@ TEST(ForgedStore, a_body_that_nothing_tears_is_as_it_was_built) {
 }
 
 TEST(ForgedStore, times_and_numbers_of_steps_agree) {
-  const Genuine genuine = torn();
+  const StoredScene genuine = torn();
   const Layout layout = genuine.layout();
   const std::size_t done = layout.scene + 8, looked = layout.scene + 24;
   for (const long steps :
@@ -245,7 +245,7 @@ TEST(ForgedStore, times_and_numbers_of_steps_agree) {
 }
 
 TEST(ForgedStore, the_guard_goes_back_to_a_start_that_there_is) {
-  const Genuine genuine = torn();
+  const StoredScene genuine = torn();
   const std::size_t first = genuine.layout().guard + 8, aside = first + 8, state = aside + 1 + 8;
   for (const long step : {-1L, 0L, 201L, std::numeric_limits<long>::min()})
     EXPECT_THAT(genuine.with(first, step), HasSubstr("starts")) << step;
@@ -264,7 +264,7 @@ TEST(ForgedStore, contact_is_of_vertices_and_faces_that_there_are) {
                                       <contact with="obstacles fragments" thickness="0.01"/>)",
                R"(<world gravity="0 0 -9.81"><sphere centre="0.5 0.5 -0.12" radius="0.1"/></world>
                                       <time step="1e-3" integrator="symplectic" duration="1"/>)");
-  const Genuine genuine(xml, 150);
+  const StoredScene genuine(xml, 150);
   const std::size_t changed = genuine.layout().contacts, lists = changed + 1, vertices = lists + 8;
   ASSERT_EQ(genuine.there<std::uint64_t>(lists), 1u);
   const std::uint64_t count = genuine.there<std::uint64_t>(vertices);
@@ -287,10 +287,10 @@ TEST(ForgedStore, contact_is_of_vertices_and_faces_that_there_are) {
 TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const std::string scheme : {"rk45", "implicit", "static"}) {
-    const Genuine genuine(scene_of(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
+    const StoredScene genuine(scene_of(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
                                       <springs><stretch k="60"/></springs><fix side="-x"/>)",
-                                   R"(<time step="5e-3" integrator=")" + scheme + R"(" duration="1"/>)"),
-                          3);
+                                       R"(<time step="5e-3" integrator=")" + scheme + R"(" duration="1"/>)"),
+                              3);
     std::size_t at = genuine.layout().body + 8 + 1 + 8 + 8; // no tears, not removed; evaluations, time
     for (int n = 0; n < 2; ++n) at += 8 + 32 * genuine.there<std::uint64_t>(at);
     at += 1 + 32; // large, probe

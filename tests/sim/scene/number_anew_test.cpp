@@ -12,8 +12,9 @@ namespace {
 
 using namespace torn;
 
-const std::vector<By>& holes_and_splits() { // slots become free, and new ones are allocated
-  static const std::vector<By> all{{"delete-element", Cell::Elements}, {"split-vertex", Cell::Vertices}};
+const std::vector<RandomChange>& holes_and_splits() { // slots become free, and new ones are allocated
+  static const std::vector<RandomChange> all{{"delete-element", Cell::Elements},
+                                             {"split-vertex", Cell::Vertices}};
   return all;
 }
 
@@ -94,9 +95,9 @@ std::vector<const double*> places_of_rows(const Body& body) {
 TEST(NumberAnew, leaves_room_for_all_separations_that_are_to_come) {
   const auto body = torn::body(solid_from(elements::warped_bar(BarPattern::Tetrahedra, 5, 4, 4, 0.05, 2)),
                                {{"separate", Cell::Borders}});
-  Chance<Cell::Borders>::most = 40;
+  RandomCriterion<Cell::Borders>::most = 40;
   for (int n = 0; n < 4; ++n) body->tear(n, n, [] {});
-  Chance<Cell::Borders>::most = 4;
+  RandomCriterion<Cell::Borders>::most = 4;
   body->map->renumber();
   body->rebind();
   const auto before = places_of_rows(*body);

@@ -7,8 +7,8 @@
 // other processors: tests/same-states.
 #include "render/picture/scene_preset.h"
 #include "sim/build/build_scene.h"
-#include "sim/house_presets.h"
 #include "sim/scene/scene.h"
+#include "sim/shipped_presets.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ struct Played {
   std::unique_ptr<PresetNode> preset;
   Scene scene;
   Played(const std::string& name, int threads)
-      : preset(load_scene(house::path_of(name))),
+      : preset(load_scene(shipped::path_of(name))),
         scene(read_scene(*preset), SceneOptions{.threads = threads, .parallel_small_bodies = true}) {}
   long steps() const { return static_cast<long>(scene.duration() / scene.step_size()); }
   void go_to(long step) {
@@ -88,7 +88,7 @@ TEST_P(SameBytes, on_any_number_of_threads_and_with_everything_built_anew_at_eac
   expect_same(one.scene, anew.scene);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SameBytes, testing::ValuesIn(house::all_presets()), house::as_word);
+INSTANTIATE_TEST_SUITE_P(All, SameBytes, testing::ValuesIn(shipped::all_presets()), shipped::as_word);
 
 } // namespace
 } // namespace rend

@@ -6,8 +6,8 @@
 #include "sim/allocations.h"
 #include "sim/build/build_scene.h"
 #include "sim/guard/guard.h"
-#include "sim/house_presets.h"
 #include "sim/presets.h"
+#include "sim/shipped_presets.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -63,12 +63,12 @@ void expect_none(Scene& scene) {
 class SteadyPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(SteadyPreset, asks_for_no_memory) {
-  const auto preset = load_scene(house::path_of(GetParam()));
+  const auto preset = load_scene(shipped::path_of(GetParam()));
   Scene scene(read_scene(*preset), SceneOptions{.threads = 2});
   expect_none(scene);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SteadyPreset, testing::ValuesIn(house::all_presets()), house::as_word);
+INSTANTIATE_TEST_SUITE_P(All, SteadyPreset, testing::ValuesIn(shipped::all_presets()), shipped::as_word);
 
 std::vector<std::string> schemes() {
   std::vector<std::string> names;

@@ -5,10 +5,10 @@
 #include "render/picture/scene_preset.h"
 #include "sim/base/archive.h"
 #include "sim/build/build_scene.h"
-#include "sim/house_presets.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
 #include "sim/scene/scene.h"
+#include "sim/shipped_presets.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ struct Played {
   std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
   explicit Played(const std::string& name)
-      : preset(load_scene(house::path_of(name))),
+      : preset(load_scene(shipped::path_of(name))),
         scene(std::make_unique<Scene>(read_scene(*preset),
                                       SceneOptions{.threads = 2, .count_fragments = true})) {}
 };
@@ -86,7 +86,7 @@ TEST_P(StoredPreset, goes_on_to_the_bit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, StoredPreset, testing::ValuesIn(house::all_presets()), house::as_word);
+INSTANTIATE_TEST_SUITE_P(All, StoredPreset, testing::ValuesIn(shipped::all_presets()), shipped::as_word);
 
 TEST(Store, a_scene_goes_on_from_any_step_with_every_scheme) {
   for (const Scheme& scheme : all_schemes()) {

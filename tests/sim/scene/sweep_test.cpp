@@ -4,9 +4,9 @@
 // Small bodies split into parts (SceneOptions) never use sweeps: they are the reference.
 #include "render/picture/scene_preset.h"
 #include "sim/build/build_scene.h"
-#include "sim/house_presets.h"
 #include "sim/presets.h"
 #include "sim/scene/scene.h"
+#include "sim/shipped_presets.h"
 
 #include <gtest/gtest.h>
 
@@ -35,13 +35,13 @@ void expect_same(const Scene& swept, const Scene& asked) {
 
 TEST(SweptSteps, of_every_preset_gives_the_bytes_of_forces_first) {
   int swept = 0;
-  for (const std::string& name : house::all_presets()) {
+  for (const std::string& name : shipped::all_presets()) {
     SCOPED_TRACE(name);
-    const auto preset = load_scene(house::path_of(name));
+    const auto preset = load_scene(shipped::path_of(name));
     Scene one(read_scene(*preset), SceneOptions{.threads = 1});
     if (!sweeps(one)) continue;
     ++swept;
-    const auto again = load_scene(house::path_of(name));
+    const auto again = load_scene(shipped::path_of(name));
     Scene other(read_scene(*again), SceneOptions{.threads = 1, .parallel_small_bodies = true});
     EXPECT_FALSE(sweeps(other));
     for (int n = 0; n < 40; ++n) {

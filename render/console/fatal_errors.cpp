@@ -1,4 +1,4 @@
-#include "render/console/last_resort.h"
+#include "render/console/fatal_errors.h"
 
 #include "render/console/console.h"
 #include "render/files/memory_left.h"
@@ -20,17 +20,17 @@ namespace {
 
 bool coloured = false;
 
-struct LastWords {
+struct FatalMessage {
   const char *what, *hint;
 };
-constexpr LastWords no_memory{
+constexpr FatalMessage no_memory{
     "there is not enough memory for this",
     "use fewer cells, smaller pictures or fewer samples, or allow more memory (ulimit -v)"};
-constexpr LastWords no_thread{
+constexpr FatalMessage no_thread{
     "a thread could not be started",
     "run fewer programs at once, or allow more threads (ulimit -u, pids.max of a control group) and memory"};
-constexpr LastWords fault{"this is a fault of rend itself: ",
-                          "please report it, with the command line and the preset"};
+constexpr FatalMessage fault{"this is a fault of rend itself: ",
+                             "please report it, with the command line and the preset"};
 
 void say(std::string_view text) {
   while (!text.empty()) {
@@ -42,7 +42,7 @@ void say(std::string_view text) {
 }
 
 // As print_error(), without allocating memory.
-void say(const LastWords& words, std::string_view more) {
+void say(const FatalMessage& words, std::string_view more) {
   say(coloured ? "\033[1;31mrend: error:\033[0m " : "rend: error: ");
   say(words.what);
   say(more);
@@ -54,7 +54,7 @@ void say(const LastWords& words, std::string_view more) {
 }
 
 // The first thread that gets here ends the program; others wait for that.
-[[noreturn]] void end(Exit code, const LastWords& words, std::string_view more = {}) noexcept {
+[[noreturn]] void end(Exit code, const FatalMessage& words, std::string_view more = {}) noexcept {
   static std::atomic<pid_t> first = 0;
   pid_t none = 0;
   const pid_t self = ::gettid();
@@ -101,7 +101,7 @@ void on_crash(int signal, siginfo_t* info, void*) {
 
 } // namespace
 
-void arm_last_resort() {
+void install_fatal_error_handlers() {
   coloured = wants_colour(stderr);
   std::set_new_handler(end_without_memory);
   std::set_terminate(on_terminate);

@@ -1,4 +1,4 @@
-#include "render/clip/records.h"
+#include "render/clip/run_logs.h"
 
 #include "render/console/json_text.h"
 

@@ -3,7 +3,7 @@
 #include "render/files/png.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
-#include "tests/render/peak.h"
+#include "tests/render/peak_memory.h"
 #include "tests/render/pictures.h"
 #include "tests/render/png_files.h"
 
@@ -15,7 +15,7 @@ namespace {
 using namespace test;
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -56,7 +56,7 @@ protected:
     fs::remove_all(place.path() / "report");
   }
 
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(DiffLies, four_bytes_of_another_format_end_nothing) {

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "render/draw/gl.h"
-#include "render/draw/pixel_box.h"
+#include "render/draw/pixel_rect.h"
 
 namespace rend {
 
-struct BodiesPicture {
+struct BodyTargets {
   GLuint colours = 0, depth = 0; // textures, multisampled if samples > 1; colours are premultiplied by alpha
   int samples = 1;               // per texel: 1 or 4
-  int fine = 1;                  // supersampling: texels per pixel of the picture, each way
-  PixelBox covered; // [pixels] of the picture: no body is outside of it, and the textures may end beyond it
+  int supersampling = 1;         // texels per pixel of the picture, each way
+  PixelRect covered; // [pixels] of the picture: no body is outside of it, and the textures may end beyond it
 
   GLenum kind() const { return samples == 1 ? GL_TEXTURE_2D : GL_TEXTURE_2D_MULTISAMPLE; }
 };

@@ -1,17 +1,17 @@
-#include "render/draw/boxes.h"
+#include "render/draw/rect_painter.h"
 
 namespace rend {
 
-Boxes::Boxes() {
+RectPainter::RectPainter() {
   glBindVertexArray(array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
   glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(Eigen::Vector2f), nullptr);
   glEnableVertexAttribArray(0);
 }
 
-void Boxes::draw(const std::vector<PixelBox>& boxes, int width, int height) {
+void RectPainter::draw(const std::vector<PixelRect>& boxes, int width, int height) {
   corners_.clear();
-  for (const PixelBox& box : boxes) {
+  for (const PixelRect& box : boxes) {
     const auto corner = [&](int x, int y) {
       return Eigen::Vector2f(2.0f * static_cast<float>(x) / static_cast<float>(width) - 1,
                              2.0f * static_cast<float>(y) / static_cast<float>(height) - 1);

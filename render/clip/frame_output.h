@@ -23,22 +23,22 @@
 
 namespace rend {
 
-class Film {
+class FrameOutput {
 public:
   // Throws UserError where the folder could not be created, or the machine cannot draw or encode. Prints notes
   // on what the pictures will not show.
-  Film(Session& session, const PipelineOptions& options, const FramePlan& plan);
-  ~Film();
-  Film(const Film&) = delete;
-  Film& operator=(const Film&) = delete;
+  FrameOutput(Session& session, const PipelineOptions& options, const FramePlan& plan);
+  ~FrameOutput();
+  FrameOutput(const FrameOutput&) = delete;
+  FrameOutput& operator=(const FrameOutput&) = delete;
 
   void take(long frame); // takes the current state
   // Call before take() of a frame: flushes all earlier frames to the disk. False if one of them shows the
   // current state and is still held back.
-  bool settle();
+  bool flush_earlier();
   const OutputFolder& folder() const { return folder_; }
-  void pause();                 // after a signal: flushes all frames, held ones too; creates the folder
-  void store(Archive& archive); // what pictures remember of earlier frames; after settle() or pause()
+  void flush_all();             // after a signal: flushes all frames, held ones too; creates the folder
+  void store(Archive& archive); // what pictures remember; after flush_earlier() or flush_all()
 
   void finish();  // at the end, or after a signal: held frames are written too, and files are closed
   void abandon(); // the state became unstable: held frames are dropped, earlier ones stay; files are closed
@@ -58,14 +58,14 @@ private:
   PipelineOptions options_;
   OutputFolder folder_;
   FramePlan plan_;
-  PictureMaker maker_;
+  FrameBuilder maker_;
   std::unique_ptr<Pipeline> pipeline_;
   PipelineSeconds seconds_; // valid once the pipeline is closed
   std::optional<Frame> held_;
   // the frames that show the held state, with their cameras
-  std::vector<std::pair<long, FrameCamera>> showings_;
+  std::vector<std::pair<long, FrameCamera>> held_frames_;
   long held_step_ = -1;
-  std::vector<long> early_; // frames that show the state of held_step_ and are written already, by pause()
+  std::vector<long> flushed_early_; // frames of the state of held_step_ that flush_all() wrote
   long frames_ = 0;
 };
 

@@ -3,7 +3,7 @@
 
 namespace rend {
 
-struct PixelBox {
+struct PixelRect {
   int x = 0, y = 0;          // [pixels], lower left corner, from that of the picture
   int width = 0, height = 0; // [pixels]
 };

@@ -1,22 +1,22 @@
-#include "render/draw/pixel_footprint.h"
+#include "render/draw/coverage_grid.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace rend {
 
-Footprint::Footprint(int columns, int rows)
+CoverageGrid::CoverageGrid(int columns, int rows)
     : columns_(columns), rows_(rows), marked_(static_cast<std::size_t>(columns) * rows) {}
 
-void Footprint::clear() {
+void CoverageGrid::clear() {
   std::fill(marked_.begin(), marked_.end(), 0);
 }
 
-void Footprint::mark_all() {
+void CoverageGrid::mark_all() {
   std::fill(marked_.begin(), marked_.end(), 1);
 }
 
-Footprint::Range Footprint::range(float low_x, float low_y, float high_x, float high_y) const {
+CoverageGrid::Range CoverageGrid::range(float low_x, float low_y, float high_x, float high_y) const {
   const auto square = [](float at, int most) { // clamped first: far coordinates would overflow an int
     return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(most)));
   };
@@ -25,14 +25,14 @@ Footprint::Range Footprint::range(float low_x, float low_y, float high_x, float 
           std::min(square(high_y, rows_) + 1, rows_)};
 }
 
-void Footprint::mark(float low_x, float low_y, float high_x, float high_y) {
+void CoverageGrid::mark(float low_x, float low_y, float high_x, float high_y) {
   const Range in = range(low_x, low_y, high_x, high_y);
   for (int row = in.low; row < in.high; ++row)
     for (int column = in.left; column < in.right; ++column)
       marked_[static_cast<std::size_t>(row * columns_ + column)] = 1;
 }
 
-bool Footprint::any(float low_x, float low_y, float high_x, float high_y) const {
+bool CoverageGrid::any(float low_x, float low_y, float high_x, float high_y) const {
   const Range in = range(low_x, low_y, high_x, high_y);
   for (int row = in.low; row < in.high; ++row)
     for (int column = in.left; column < in.right; ++column)
@@ -40,7 +40,7 @@ bool Footprint::any(float low_x, float low_y, float high_x, float high_y) const 
   return false;
 }
 
-PixelBox Footprint::bounds() const {
+PixelRect CoverageGrid::bounds() const {
   int left = columns_, right = 0, low = rows_, high = 0;
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column) {
@@ -50,14 +50,15 @@ PixelBox Footprint::bounds() const {
       low = std::min(low, row);
       high = row + 1;
     }
-  return right > left ? PixelBox{left, low, right - left, high - low} : PixelBox{};
+  return right > left ? PixelRect{left, low, right - left, high - low} : PixelRect{};
 }
 
-Footprint blocks_of(int width, int height) {
+CoverageGrid blocks_of(int width, int height) {
   return {(width + block_side - 1) / block_side, (height + block_side - 1) / block_side};
 }
 
-void mark_covered(Footprint& blocks, std::span<const Corner> corners, const View& view, int width, int height) {
+void mark_covered(CoverageGrid& blocks, std::span<const Corner> corners, const View& view, int width,
+                  int height) {
   Eigen::Matrix4d to_blocks = Eigen::Matrix4d::Identity();
   to_blocks(0, 0) = to_blocks(0, 3) = 0.5 * width / block_side;
   to_blocks(1, 1) = to_blocks(1, 3) = 0.5 * height / block_side;
@@ -81,19 +82,19 @@ void mark_covered(Footprint& blocks, std::span<const Corner> corners, const View
   }
 }
 
-PixelBox box_of(const PixelBox& blocks, int width, int height) {
+PixelRect pixels_of(const PixelRect& blocks, int width, int height) {
   const int x = blocks.x * block_side, y = blocks.y * block_side;
   return {x, y, std::min(blocks.width * block_side, width - x),
           std::min(blocks.height * block_side, height - y)};
 }
 
-std::vector<std::vector<PixelBox>> runs(int columns, int rows, int kinds,
-                                        const std::function<int(int column, int row)>& kind) {
-  std::vector<std::vector<PixelBox>> out(static_cast<std::size_t>(kinds));
+std::vector<std::vector<PixelRect>> runs(int columns, int rows, int kinds,
+                                         const std::function<int(int column, int row)>& kind) {
+  std::vector<std::vector<PixelRect>> out(static_cast<std::size_t>(kinds));
   for (int row = 0; row < rows; ++row)
     for (int column = 0, before = -1; column < columns; ++column) {
       const int here = kind(column, row);
-      std::vector<PixelBox>& boxes = out[static_cast<std::size_t>(here)];
+      std::vector<PixelRect>& boxes = out[static_cast<std::size_t>(here)];
       if (here == before)
         ++boxes.back().width;
       else

@@ -1,4 +1,4 @@
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 
 #include "render/draw/device.h"
 #include "render/files/png.h"
@@ -17,15 +17,15 @@ using namespace test;
 
 constexpr int width = 160, height = 120;
 
-class StageTest : public testing::Test {
+class RendererTest : public testing::Test {
 protected:
   static void SetUpTestSuite() { device_ = make_device(); }
   static void TearDownTestSuite() { device_.reset(); }
 
   Image picture(const Frame& frame, int samples = 4) {
-    Stage stage(width, height, samples);
-    stage.draw(frame);
-    return stage.read();
+    Renderer renderer(width, height, samples);
+    renderer.draw(frame);
+    return renderer.read();
   }
 
   // A cloth of many colours and lines over a floor, which uses every feature.
@@ -43,7 +43,7 @@ private:
   static inline std::unique_ptr<Device> device_;
 };
 
-TEST_F(StageTest, ARedSquareInFrontOfTheCameraIsRedInTheMiddle) {
+TEST_F(RendererTest, ARedSquareInFrontOfTheCameraIsRedInTheMiddle) {
   for (const int samples : {1, 4}) {
     Frame frame = front_view();
     frame.bodies.push_back(screen(0, 0.5, red));
@@ -55,7 +55,7 @@ TEST_F(StageTest, ARedSquareInFrontOfTheCameraIsRedInTheMiddle) {
   }
 }
 
-TEST_F(StageTest, TheRightWayUp) {
+TEST_F(RendererTest, TheRightWayUp) {
   Frame frame = front_view();
   FrameBody body = screen(0, 0.2f, red);
   for (Corner& corner : body.corners) corner.position[2] += 0.8f; // up
@@ -66,21 +66,21 @@ TEST_F(StageTest, TheRightWayUp) {
   EXPECT_GT(image.at(3 * width / 4, 5 * height / 6)[1], 180);
 }
 
-TEST_F(StageTest, BothSidesOfASheetAreLitAndTheFarSideIsAShadeDarker) {
+TEST_F(RendererTest, BothSidesOfASheetAreLitAndTheFarSideIsAShadeDarker) {
   Frame frame = front_view();
   frame.light = Eigen::Vector3d(0, -1, 1);
   frame.bodies.push_back(screen(0, 0.5, red)); // its normals point to -y, to the camera
   const int near = brightness(picture(frame), width / 2, height / 2);
   for (Corner& corner : frame.bodies[0].corners) corner.normal = {0, 1, 0};
   const int far = brightness(picture(frame), width / 2, height / 2);
-  frame.bodies[0].sides = false;
+  frame.bodies[0].shades_back = false;
   const int one_sided = brightness(picture(frame), width / 2, height / 2);
   EXPECT_LT(far, near - 10);
   EXPECT_GT(far, near / 2);
   EXPECT_NEAR(one_sided, near, 3);
 }
 
-TEST_F(StageTest, OfASolidOnlyTheOutsideIsDrawn) {
+TEST_F(RendererTest, OfASolidOnlyTheOutsideIsDrawn) {
   Frame frame = front_view();
   const Image empty = picture(frame);
   frame.bodies.push_back(screen(0, 0.5, red)); // winds around -y, towards the camera
@@ -95,7 +95,7 @@ TEST_F(StageTest, OfASolidOnlyTheOutsideIsDrawn) {
   EXPECT_GT(largest_difference(picture(frame), empty), 100);
 }
 
-TEST_F(StageTest, ACreaseOfASolidIsALineThatGoesWithTheEdgesOfCells) {
+TEST_F(RendererTest, ACreaseOfASolidIsALineThatGoesWithTheEdgesOfCells) {
   Frame frame = front_view();
   frame.bodies.push_back(screen(0, 0.5, grey, Line::Crease));
   const Image with = picture(frame);
@@ -106,7 +106,7 @@ TEST_F(StageTest, ACreaseOfASolidIsALineThatGoesWithTheEdgesOfCells) {
   EXPECT_EQ(largest_difference(picture(frame), without), 0);
 }
 
-TEST_F(StageTest, WhatIsInFrontHidesWhatIsBehindInAnyOrder) {
+TEST_F(RendererTest, WhatIsInFrontHidesWhatIsBehindInAnyOrder) {
   for (const bool swapped : {false, true}) {
     Frame frame = front_view();
     frame.bodies = {screen(-0.5, 0.4f, green), screen(0.5, 0.4f, red)};
@@ -117,7 +117,7 @@ TEST_F(StageTest, WhatIsInFrontHidesWhatIsBehindInAnyOrder) {
   }
 }
 
-TEST_F(StageTest, TheFloorIsDarkerInTheShadow) {
+TEST_F(RendererTest, TheFloorIsDarkerInTheShadow) {
   Frame frame = front_view();
   frame.camera.eye = {0, -3, 4};
   frame.floor = FrameFloor{-0.5};
@@ -137,7 +137,7 @@ TEST_F(StageTest, TheFloorIsDarkerInTheShadow) {
   EXPECT_LT(left, 12);
 }
 
-TEST_F(StageTest, ABodyThrowsItsShadowOnAnother) {
+TEST_F(RendererTest, ABodyThrowsItsShadowOnAnother) {
   Frame frame = front_view();
   frame.camera.eye = {0, -3, 3};
   frame.light = Eigen::Vector3d(0, 0, 1);
@@ -149,7 +149,7 @@ TEST_F(StageTest, ABodyThrowsItsShadowOnAnother) {
   EXPECT_LT(brightness(image, width / 2, height * 6 / 10), lit - 60);
 }
 
-TEST_F(StageTest, TheFloorIsDarkWhereABodyNearlyTouchesIt) {
+TEST_F(RendererTest, TheFloorIsDarkWhereABodyNearlyTouchesIt) {
   Frame frame = front_view();
   frame.camera.eye = {0, -3, 2};
   frame.floor = FrameFloor{0};
@@ -164,7 +164,7 @@ TEST_F(StageTest, TheFloorIsDarkWhereABodyNearlyTouchesIt) {
   EXPECT_LT(brightness(near, x, y), brightness(high, x, y) - 10);
 }
 
-TEST_F(StageTest, WhatIsUnderTheFloorIsNotSeenFromAbove) {
+TEST_F(RendererTest, WhatIsUnderTheFloorIsNotSeenFromAbove) {
   Frame frame = front_view();
   frame.camera.eye = {0, -3, 3};
   frame.floor = FrameFloor{0};
@@ -173,7 +173,7 @@ TEST_F(StageTest, WhatIsUnderTheFloorIsNotSeenFromAbove) {
   EXPECT_LT(largest_difference(picture(frame), empty), 3);
 }
 
-TEST_F(StageTest, FromBelowTheFloorIsNotThere) {
+TEST_F(RendererTest, FromBelowTheFloorIsNotThere) {
   Frame frame = front_view();
   frame.camera.eye = {0, -3, -2};
   const Image open = picture(frame);
@@ -191,7 +191,7 @@ int warmest(const Image& image, int x, int y, int margin) {
   return best;
 }
 
-TEST_F(StageTest, ATornLineShowsAlongItsEdge) {
+TEST_F(RendererTest, ATornLineShowsAlongItsEdge) {
   Frame frame = front_view();
   frame.bodies.push_back(screen(0, 0.5, grey, Line::Torn));
   const Image image = picture(frame);
@@ -204,7 +204,7 @@ TEST_F(StageTest, ATornLineShowsAlongItsEdge) {
   EXPECT_LT(image.at(width / 2, height / 2)[0], image.at(width / 2, height / 2)[2] + 20);
 }
 
-TEST_F(StageTest, LinesOfCellsAreDrawnOnlyWhereTheyAreWanted) {
+TEST_F(RendererTest, LinesOfCellsAreDrawnOnlyWhereTheyAreWanted) {
   Frame frame = front_view();
   frame.bodies.push_back(screen(0, 0.5, grey));
   const Image plain = picture(frame);
@@ -217,7 +217,7 @@ TEST_F(StageTest, LinesOfCellsAreDrawnOnlyWhereTheyAreWanted) {
   EXPECT_GT(largest_difference(picture(frame), plain), 12);
 }
 
-TEST_F(StageTest, LinesGoWhereCellsAreOnlyAFewPixelsWide) {
+TEST_F(RendererTest, LinesGoWhereCellsAreOnlyAFewPixelsWide) {
   Frame frame = front_view();
   frame.bodies.push_back(screen(0, 0.02f, grey));
   const Image plain = picture(frame);
@@ -225,7 +225,7 @@ TEST_F(StageTest, LinesGoWhereCellsAreOnlyAFewPixelsWide) {
   EXPECT_LT(largest_difference(picture(frame), plain), 8);
 }
 
-TEST_F(StageTest, FourSamplesSmoothAnEdge) {
+TEST_F(RendererTest, FourSamplesSmoothAnEdge) {
   Frame frame = front_view();
   FrameBody body;
   add_triangle(body, {-0.8f, 0, -0.5f}, {0.8f, 0, -0.4f}, {0, 0, 0.7f}, {0, 0, 0, 255});
@@ -239,7 +239,7 @@ TEST_F(StageTest, FourSamplesSmoothAnEdge) {
   EXPECT_GT(between(picture(frame, 4)), between(picture(frame, 1)) + 40);
 }
 
-TEST_F(StageTest, TheBackdropIsTheBackgroundInTheMiddleAndDarkerInTheCorners) {
+TEST_F(RendererTest, TheBackdropIsTheBackgroundInTheMiddleAndDarkerInTheCorners) {
   Frame frame = front_view();
   frame.background = {0.2f, 0.4f, 0.6f};
   const Image image = picture(frame);
@@ -250,7 +250,7 @@ TEST_F(StageTest, TheBackdropIsTheBackgroundInTheMiddleAndDarkerInTheCorners) {
   EXPECT_LT(brightness(image, 0, height - 1), brightness(image, width / 2, height / 2) - 10);
 }
 
-TEST_F(StageTest, AFrameWithoutTrianglesIsDrawn) {
+TEST_F(RendererTest, AFrameWithoutTrianglesIsDrawn) {
   Frame frame;
   EXPECT_EQ(picture(frame).width, width);
   frame.bodies.emplace_back();
@@ -258,44 +258,44 @@ TEST_F(StageTest, AFrameWithoutTrianglesIsDrawn) {
   EXPECT_EQ(picture(frame).height, height);
 }
 
-TEST_F(StageTest, TheSameFrameGivesTheSameBytesWhateverWasDrawnBefore) {
-  Stage stage(width, height, 4);
-  stage.draw(rich_frame());
-  const Image first = stage.read();
+TEST_F(RendererTest, TheSameFrameGivesTheSameBytesWhateverWasDrawnBefore) {
+  Renderer renderer(width, height, 4);
+  renderer.draw(rich_frame());
+  const Image first = renderer.read();
   Frame other = rich_frame();
   other.bodies.push_back(screen(-0.3f, 2, green));
-  stage.draw(other);
-  EXPECT_NE(stage.read(), first);
-  stage.draw(rich_frame());
-  EXPECT_EQ(stage.read(), first);
+  renderer.draw(other);
+  EXPECT_NE(renderer.read(), first);
+  renderer.draw(rich_frame());
+  EXPECT_EQ(renderer.read(), first);
   EXPECT_EQ(picture(rich_frame()), first);
 }
 
-TEST_F(StageTest, NumbersThatAreNotFiniteAreNeverDrawn) {
-  Stage stage(width, height, 1);
+TEST_F(RendererTest, NumbersThatAreNotFiniteAreNeverDrawn) {
+  Renderer renderer(width, height, 1);
   Frame frame = rich_frame();
   frame.bodies[0].corners[1].position[0] = std::nanf("");
-  EXPECT_THROW(stage.draw(frame), InternalError);
+  EXPECT_THROW(renderer.draw(frame), InternalError);
   frame = rich_frame();
   frame.floor->z = std::nan("");
-  EXPECT_THROW(stage.draw(frame), InternalError);
+  EXPECT_THROW(renderer.draw(frame), InternalError);
   frame = rich_frame();
   frame.camera.target.y() = std::nan("");
-  EXPECT_THROW(stage.draw(frame), InternalError);
+  EXPECT_THROW(renderer.draw(frame), InternalError);
 }
 
-TEST_F(StageTest, ASizeThatCannotBeDrawnIsTheUsersError) {
-  EXPECT_THROW(Stage(1'000'000, 10, 1), UserError);
-  EXPECT_THROW(Stage(0, 10, 1), UserError);
+TEST_F(RendererTest, ASizeThatCannotBeDrawnIsTheUsersError) {
+  EXPECT_THROW(Renderer(1'000'000, 10, 1), UserError);
+  EXPECT_THROW(Renderer(0, 10, 1), UserError);
 }
 
 // llvmpipe reads the number of threads once per process, so each number needs a process: this test runs its own
 // program again.
-TEST_F(StageTest, DISABLED_WritesAPicture) {
+TEST_F(RendererTest, DISABLED_WritesAPicture) {
   write_png(std::getenv("REND_TEST_PICTURE"), picture(rich_frame()));
 }
 
-TEST_F(StageTest, ThePictureIsTheSameForAnyNumberOfThreads) {
+TEST_F(RendererTest, ThePictureIsTheSameForAnyNumberOfThreads) {
   NEEDS_PNG;
   const Folder folder;
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -303,7 +303,7 @@ TEST_F(StageTest, ThePictureIsTheSameForAnyNumberOfThreads) {
     const std::string path = (folder / fmt::format("{}.png", threads)).string();
     const std::string command =
         fmt::format("LP_NUM_THREADS={} REND_TEST_PICTURE={} '{}' --gtest_also_run_disabled_tests "
-                    "--gtest_filter=StageTest.DISABLED_WritesAPicture > /dev/null 2>&1",
+                    "--gtest_filter=RendererTest.DISABLED_WritesAPicture > /dev/null 2>&1",
                     threads, path, self);
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_EQ(read_png(path), picture(rich_frame())) << threads << " threads";
@@ -311,14 +311,14 @@ TEST_F(StageTest, ThePictureIsTheSameForAnyNumberOfThreads) {
 }
 
 // More samples bring the picture nearer to one that is rendered at four times the size and averaged.
-TEST_F(StageTest, SixteenSamplesAreTheMeanOfALargerPicture) {
+TEST_F(RendererTest, SixteenSamplesAreTheMeanOfALargerPicture) {
   Frame frame = rich_frame();
   frame.occlusion = false;                               // its resolution does not depend on the samples
   for (auto* bodies : {&frame.bodies, &frame.obstacles}) // the width of lines depends on the picture's height
     for (FrameBody& body : *bodies)
       for (Corner& corner : body.corners) corner.line = {};
   const Image fine = picture(frame, 16);
-  Stage larger(2 * width, 2 * height, 4);
+  Renderer larger(2 * width, 2 * height, 4);
   larger.draw(frame);
   const Image large = larger.read();
   int worst = 0;
@@ -336,7 +336,7 @@ TEST_F(StageTest, SixteenSamplesAreTheMeanOfALargerPicture) {
   EXPECT_LE(worst, 3);
 }
 
-TEST_F(StageTest, ATransparentPictureHasNothingBehindItsBodies) {
+TEST_F(RendererTest, ATransparentPictureHasNothingBehindItsBodies) {
   Frame frame = front_view();
   frame.transparent = true;
   frame.floor = FrameFloor{-0.6};
@@ -350,7 +350,7 @@ TEST_F(StageTest, ATransparentPictureHasNothingBehindItsBodies) {
   for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(width / 2, height / 2)[c], whole.at(width / 2, height / 2)[c]);
 }
 
-TEST_F(StageTest, OneSeesThroughAWireFrameButNotThroughItsEdges) {
+TEST_F(RendererTest, OneSeesThroughAWireFrameButNotThroughItsEdges) {
   Frame frame = front_view();
   FrameBody wires = screen(-0.2f, 0.5, green, Line::Border);
   wires.filled = false;
@@ -362,7 +362,7 @@ TEST_F(StageTest, OneSeesThroughAWireFrameButNotThroughItsEdges) {
   EXPECT_NE(both, behind);
 }
 
-TEST_F(StageTest, ASheetsFarSideHasItsOwnColour) {
+TEST_F(RendererTest, ASheetsFarSideHasItsOwnColour) {
   Frame frame = front_view();
   FrameBody body = screen(0, 0.5, red);
   body.back = {20, 40, 230};
@@ -377,7 +377,7 @@ TEST_F(StageTest, ASheetsFarSideHasItsOwnColour) {
 }
 
 // The highlight is brighter the glossier the surface, and smaller the sharper.
-TEST_F(StageTest, AFinishChangesTheLightAndNotTheShape) {
+TEST_F(RendererTest, AFinishChangesTheLightAndNotTheShape) {
   Frame frame = rich_frame();
   const Image cloth = picture(frame);
   for (const Finish& finish : finishes()) {

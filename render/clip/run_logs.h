@@ -11,7 +11,7 @@
 namespace rend {
 
 // A CSV file with one row a frame, with nine columns for each probe; cells without a value are empty. Rows are
-// held back as pictures are (film.h).
+// held back as pictures are (frame_output.h).
 class Diagnostics {
 public:
   explicit Diagnostics(const std::filesystem::path& path); // throws UserError (CannotCreate)

@@ -4,7 +4,7 @@
 #include "render/files/png.h"
 #include "sim/base/error.h"
 #include "tests/render/needs.h"
-#include "tests/render/peak.h"
+#include "tests/render/peak_memory.h"
 #include "tests/render/pictures.h"
 #include "tests/render/png_files.h"
 
@@ -22,9 +22,9 @@ std::span<const std::uint8_t> bytes_of(const std::string& file) {
 }
 
 // The error message; empty if it can be read.
-std::string said_of(const std::string& file) {
+std::string error_message_of(const std::string& file) {
   try {
-    read_deep_png(bytes_of(file), "a.png");
+    read_high_depth_png(bytes_of(file), "a.png");
     check_png(bytes_of(file), "a.png");
   } catch (const UserError& error) {
     EXPECT_EQ(error.code, Exit::BadInput);
@@ -50,7 +50,7 @@ std::int64_t peak_of_reading(const std::string& file) {
     }
   };
   return peak_of([&] {
-    whatever([&] { read_deep_png(bytes_of(file), "a.png"); });
+    whatever([&] { read_high_depth_png(bytes_of(file), "a.png"); });
     whatever([&] { read_png(folder / "a.png"); });
   });
 }
@@ -62,7 +62,7 @@ TEST(PngLies, what_the_data_cannot_hold_is_refused_before_there_is_room_for_it) 
       const std::string file =
           png_file(header_of(16384, 16384, bits, colour, interlaced), png_chunk("IDAT", deflated("")));
       EXPECT_LT(file.size(), 70u);
-      EXPECT_THAT(said_of(file), HasSubstr("bytes of data cannot hold them"));
+      EXPECT_THAT(error_message_of(file), HasSubstr("bytes of data cannot hold them"));
       EXPECT_LT(peak_of_reading(file), 10 * megabyte);
       EXPECT_GE(peak_of_reading(file), 0);
     }
@@ -72,7 +72,7 @@ TEST(PngLies, of_a_file_that_is_cut_off_that_is_said) {
   NEEDS_PNG;
   const std::string file = black_png(header_of(2000, 2000));
   for (const std::size_t left : {file.size() - 12, file.size() / 2, png_header_bytes + 9, png_header_bytes})
-    EXPECT_THAT(said_of(file.substr(0, left)), HasSubstr("it is cut off")) << left;
+    EXPECT_THAT(error_message_of(file.substr(0, left)), HasSubstr("it is cut off")) << left;
 }
 
 TEST(PngLies, memory_grows_with_the_rows_that_are_there) {
@@ -80,7 +80,7 @@ TEST(PngLies, memory_grows_with_the_rows_that_are_there) {
   const PngHeader header = header_of(8192, 8192, 16, 6); // 537 MB
   const std::string ten_rows = deflated(std::string(10 * (1 + 8192 * 8), '\0'));
   const std::string file = png_file(header, png_chunk("IDAT", ten_rows + std::string(1'000'000, '\0')));
-  EXPECT_THAT(said_of(file), HasSubstr("cannot be read"));
+  EXPECT_THAT(error_message_of(file), HasSubstr("cannot be read"));
   const std::int64_t peak = peak_of_reading(file);
   EXPECT_GE(peak, 0);
   EXPECT_LT(peak, 20 * megabyte);
@@ -99,7 +99,8 @@ TEST(PngLies, the_size_of_the_rows_is_that_of_the_format) {
           const std::size_t size = png_rows_bytes(header);
           const auto with = [&](std::size_t count) {
             const std::string palette = colour == 3 ? png_chunk("PLTE", std::string(3, '\0')) : "";
-            return said_of(png_file(header, palette + png_chunk("IDAT", deflated(std::string(count, '\0')))));
+            return error_message_of(
+                png_file(header, palette + png_chunk("IDAT", deflated(std::string(count, '\0')))));
           };
           ASSERT_EQ(with(size), "") << width << " x " << height << ", " << bits << " bits of " << colour;
           ASSERT_THAT(with(size - 1), HasSubstr("ot enough")) << width << " x " << height;
@@ -112,20 +113,23 @@ TEST(PngLies, what_readers_forgive_is_read_and_the_rest_is_not) {
   const std::string rows(png_rows_bytes(header), '\0'), data = deflated(rows);
   const std::string idat = png_chunk("IDAT", data);
   const auto file = [&](const std::string& chunks) { return png_file(header, chunks); };
-  EXPECT_EQ(said_of(file(idat)), "");
-  EXPECT_EQ(said_of(file(png_chunk("IDAT", data.substr(0, 3)) + png_chunk("IDAT", data.substr(3)))), "");
-  EXPECT_EQ(said_of(file(png_chunk("IDAT", deflated(rows + "more")))), "");
-  EXPECT_EQ(said_of(file(png_chunk("IDAT", data + "more"))), "");
-  EXPECT_EQ(said_of(file(idat) + "more"), "");
-  EXPECT_EQ(said_of(file(png_chunk("gAMA", "no number") + png_chunk("iCCP", "no profile") + idat)), "");
+  EXPECT_EQ(error_message_of(file(idat)), "");
+  EXPECT_EQ(error_message_of(file(png_chunk("IDAT", data.substr(0, 3)) + png_chunk("IDAT", data.substr(3)))),
+            "");
+  EXPECT_EQ(error_message_of(file(png_chunk("IDAT", deflated(rows + "more")))), "");
+  EXPECT_EQ(error_message_of(file(png_chunk("IDAT", data + "more"))), "");
+  EXPECT_EQ(error_message_of(file(idat) + "more"), "");
+  EXPECT_EQ(error_message_of(file(png_chunk("gAMA", "no number") + png_chunk("iCCP", "no profile") + idat)),
+            "");
   const std::string whole = file(idat);
-  EXPECT_THAT(said_of(whole.substr(0, whole.size() - 12)), HasSubstr("cut off")); // no IEND
-  EXPECT_THAT(said_of(file("")), HasSubstr("cannot be read"));                    // no IDAT
-  EXPECT_THAT(said_of(file(png_chunk("IDAT", "no zlib stream at all"))), HasSubstr("cannot be read"));
-  EXPECT_THAT(said_of(file(png_chunk("NEED", "") + idat)), HasSubstr("cannot be read")); // critical, unknown
+  EXPECT_THAT(error_message_of(whole.substr(0, whole.size() - 12)), HasSubstr("cut off")); // no IEND
+  EXPECT_THAT(error_message_of(file("")), HasSubstr("cannot be read"));                    // no IDAT
+  EXPECT_THAT(error_message_of(file(png_chunk("IDAT", "no zlib stream at all"))), HasSubstr("cannot be read"));
+  // critical, unknown
+  EXPECT_THAT(error_message_of(file(png_chunk("NEED", "") + idat)), HasSubstr("cannot be read"));
   std::string filter = rows;
   filter[0] = 9;
-  EXPECT_THAT(said_of(file(png_chunk("IDAT", deflated(filter)))), HasSubstr("cannot be read"));
+  EXPECT_THAT(error_message_of(file(png_chunk("IDAT", deflated(filter)))), HasSubstr("cannot be read"));
 }
 
 // Each text chunk of 8 kB would inflate to megabytes.
@@ -137,7 +141,7 @@ TEST(PngLies, texts_are_not_inflated) {
   const PngHeader header = header_of(5, 4);
   const std::string file =
       png_file(header, many + png_chunk("IDAT", deflated(std::string(png_rows_bytes(header), '\0'))));
-  EXPECT_EQ(said_of(file), "");
+  EXPECT_EQ(error_message_of(file), "");
   const std::int64_t peak = peak_of_reading(file);
   EXPECT_GE(peak, 0);
   EXPECT_LT(peak, 20 * megabyte);
@@ -150,12 +154,12 @@ TEST(PngLies, a_header_tells_what_reading_will_take) {
     for (const auto& [width, height] : {std::pair{1500u, 1500u}, {2'250'000u, 1u}}) {
       const PngHeader header = header_of(width, height, bits, colour);
       std::ofstream(folder / "a.png", std::ios::binary) << black_png(header);
-      const PngHead head = png_head(folder / "a.png");
+      const PngInfo head = png_info(folder / "a.png");
       EXPECT_EQ(head.width, static_cast<int>(width));
       EXPECT_EQ(head.file_bytes, std::filesystem::file_size(folder / "a.png"));
       const std::int64_t peak = peak_of([&] {
         const std::vector<std::uint8_t> bytes = file_bytes(folder / "a.png");
-        read_deep_png(bytes, "a.png");
+        read_high_depth_png(bytes, "a.png");
       });
       EXPECT_GT(peak, 2250000 * 6); // the returned image
       EXPECT_LT(peak, static_cast<std::int64_t>(head.decoding_bytes()) + 5 * megabyte) << bits << " " << width;
@@ -165,8 +169,8 @@ TEST(PngLies, a_header_tells_what_reading_will_take) {
           << bits << " " << width;
     }
   const std::string file = black_png(header_of(3, 2));
-  EXPECT_EQ(png_head(bytes_of(file), "a.png").file_bytes, file.size());
-  EXPECT_EQ(png_head(bytes_of(png_file(header_of(0, 2), "")), "a.png").width, 0);
+  EXPECT_EQ(png_info(bytes_of(file), "a.png").file_bytes, file.size());
+  EXPECT_EQ(png_info(bytes_of(png_file(header_of(0, 2), "")), "a.png").width, 0);
 }
 
 } // namespace

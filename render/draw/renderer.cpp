@@ -1,4 +1,4 @@
-#include "render/draw/stage.h"
+#include "render/draw/renderer.h"
 
 #include "render/draw/packing.h"
 #include "sim/base/check.h"
@@ -47,47 +47,47 @@ void unmultiply(const std::uint8_t* from, std::uint8_t* to, int pixels) {
 
 } // namespace
 
-Stage::Stage(int width, int height, int samples)
-    : width_(width), height_(height), samples_(samples), fine_(samples == 16 ? 2 : 1),
-      taken_(std::min(samples, 4)), composite_(width, height), blocks_(blocks_of(width, height)) {
+Renderer::Renderer(int width, int height, int samples)
+    : width_(width), height_(height), samples_(samples), supersampling_(samples == 16 ? 2 : 1),
+      samples_per_texel_(std::min(samples, 4)), composite_(width, height), blocks_(blocks_of(width, height)) {
   CHECK(samples == 1 || samples == 4 || samples == 16);
   GLint largest = 0, most = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   glGetIntegerv(GL_MAX_SAMPLES, &most);
-  largest /= fine_;
+  largest /= supersampling_;
   if (width < 1 || height < 1 || width > largest || height > largest)
     throw UserError(Exit::BadInput, {}, fmt::format("a picture of {} x {} cannot be drawn.", width, height),
                     fmt::format("Each side may have from 1 to {} pixels.", largest));
-  if (taken_ > most)
+  if (samples_per_texel_ > most)
     throw UserError(Exit::BadInput, {}, "this machine's OpenGL cannot take 4 samples a pixel.",
                     "Set samples=\"1\" and draw a larger picture.");
   make_picture();
   // fails early if there is no room for the largest target that may be needed
-  make_target(width * fine_, height * fine_);
+  make_target(width * supersampling_, height * supersampling_);
   make_shadow_map();
   make_vertex_array();
   check_gl("Stage");
 }
 
 // For the bound framebuffer. Whether OpenGL can allocate it is known only by trying.
-void Stage::must_hold() const {
+void Renderer::check_framebuffer_fits() const {
   const bool full = glGetError() == GL_OUT_OF_MEMORY;
   if (!full && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
   const std::string picture =
       fmt::format("a picture of {} x {} with {} samples a pixel", width_, height_, samples_);
   const std::string hint = "draw a smaller one, or take fewer samples: --set image.samples=1";
-  if (can_ever_hold())
+  if (is_within_gl_limits())
     throw UserError(Exit::OutOfBudget, {}, "there is not enough memory for " + picture, hint);
   throw UserError(Exit::BadInput, {}, picture + " is more than this machine's OpenGL can hold", hint);
 }
 
 // Whether it could with enough memory: a proxy texture allocates nothing. The depth texture takes as much.
-bool Stage::can_ever_hold() const {
-  const int width = width_ * fine_, height = height_ * fine_;
-  const bool many = taken_ > 1;
+bool Renderer::is_within_gl_limits() const {
+  const int width = width_ * supersampling_, height = height_ * supersampling_;
+  const bool many = samples_per_texel_ > 1;
   const GLenum proxy = many ? GL_PROXY_TEXTURE_2D_MULTISAMPLE : GL_PROXY_TEXTURE_2D;
   if (many)
-    glTexImage2DMultisample(proxy, taken_, GL_RGBA8, width, height, GL_TRUE);
+    glTexImage2DMultisample(proxy, samples_per_texel_, GL_RGBA8, width, height, GL_TRUE);
   else
     glTexImage2D(proxy, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   GLint held = 0;
@@ -95,19 +95,20 @@ bool Stage::can_ever_hold() const {
   return held == width;
 }
 
-void Stage::make_picture() {
+void Renderer::make_picture() {
   glBindRenderbuffer(GL_RENDERBUFFER, picture_colour_.name());
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_, height_);
   glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, picture_colour_.name());
-  must_hold();
+  check_framebuffer_fits();
 }
 
-void Stage::make_target(int width, int height) {
-  const BodiesPicture bodies = bodies_picture({});
+void Renderer::make_target(int width, int height) {
+  const BodyTargets bodies = body_targets({});
   const auto make = [&](const GlTexture& texture, GLenum format, GLenum channels, GLenum numbers) {
     glBindTexture(bodies.kind(), texture.name());
-    if (taken_ > 1) return glTexImage2DMultisample(bodies.kind(), taken_, format, width, height, GL_TRUE);
+    if (samples_per_texel_ > 1)
+      return glTexImage2DMultisample(bodies.kind(), samples_per_texel_, format, width, height, GL_TRUE);
     glTexImage2D(bodies.kind(), 0, static_cast<GLint>(format), width, height, 0, channels, numbers, nullptr);
     glTexParameteri(bodies.kind(), GL_TEXTURE_MAX_LEVEL, 0);
     glTexParameteri(bodies.kind(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -117,7 +118,7 @@ void Stage::make_target(int width, int height) {
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, bodies.kind(), bodies.colours, 0);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, bodies.kind(), bodies.depth, 0);
-  must_hold();
+  check_framebuffer_fits();
   target_width_ = width;
   target_height_ = height;
 }
@@ -125,10 +126,10 @@ void Stage::make_target(int width, int height) {
 // Reallocates the target if the covered area does not fit, or is less than half of it; in coarse steps, so that
 // moving bodies rarely cause it. The target always starts at the picture's corner: at another origin, vertices
 // would be rounded to other sub-pixel positions.
-void Stage::fit_target(const PixelBox& covered) {
+void Renderer::fit_target(const PixelRect& covered) {
   constexpr int step = 128; // [pixels]
   const auto rounded = [&](int size, int most) {
-    return std::min((size + step - 1) / step * step, most) * fine_;
+    return std::min((size + step - 1) / step * step, most) * supersampling_;
   };
   const int width = rounded(covered.x + covered.width, width_),
             height = rounded(covered.y + covered.height, height_);
@@ -136,11 +137,11 @@ void Stage::fit_target(const PixelBox& covered) {
   if (!fits || 2L * width * height < 1L * target_width_ * target_height_) make_target(width, height);
 }
 
-BodiesPicture Stage::bodies_picture(const PixelBox& covered) const {
-  return {target_colour_.name(), target_depth_.name(), taken_, fine_, covered};
+BodyTargets Renderer::body_targets(const PixelRect& covered) const {
+  return {target_colour_.name(), target_depth_.name(), samples_per_texel_, supersampling_, covered};
 }
 
-void Stage::make_shadow_map() {
+void Renderer::make_shadow_map() {
   glBindTexture(GL_TEXTURE_2D, shadow_map_.name());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, shadow_side, shadow_side, 0, GL_DEPTH_COMPONENT,
                GL_FLOAT, nullptr);
@@ -157,7 +158,7 @@ void Stage::make_shadow_map() {
   check_framebuffer("Stage, shadow map");
 }
 
-void Stage::make_vertex_array() {
+void Renderer::make_vertex_array() {
   const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
   constexpr GLsizei stride = sizeof(Corner);
   glBindVertexArray(corners_array_.name());
@@ -169,7 +170,7 @@ void Stage::make_vertex_array() {
   for (GLuint attribute = 0; attribute < 4; ++attribute) glEnableVertexAttribArray(attribute);
 }
 
-void Stage::draw(const Frame& frame) {
+void Renderer::draw(const Frame& frame) {
   CHECK(!frame.floor || std::isfinite(frame.floor->z));
   CHECK(Eigen::Map<const Eigen::Array3f>(frame.background.data()).isFinite().all());
   upload(frame);
@@ -184,12 +185,13 @@ void Stage::draw(const Frame& frame) {
   glEnable(GL_DEPTH_CLAMP);
   draw_shadow_map(light);
   if (frame.floor && !frame.transparent)
-    floor_shadow_.build(frame.floor->z, view.distance, lights.key, lit, casting(), [this] { draw_all(); });
+    floor_shadow_.build(frame.floor->z, view.distance, lights.key, lit, shadow_casters(),
+                        [this] { draw_all(); });
   glDisable(GL_DEPTH_CLAMP);
 
   blocks_.clear();
   for (const Draw& draw : draws_) mark_covered(blocks_, corners_of(draw), view, width_, height_);
-  const BodiesPicture bodies = bodies_picture(box_of(blocks_.bounds(), width_, height_));
+  const BodyTargets bodies = body_targets(pixels_of(blocks_.bounds(), width_, height_));
   draw_bodies(frame, view, lights, light, bodies);
   const bool occluded = frame.occlusion && bodies.covered.width > 0;
   if (occluded) occlude(frame, view, bodies);
@@ -199,7 +201,7 @@ void Stage::draw(const Frame& frame) {
   check_gl("Stage::draw");
 }
 
-void Stage::upload(const Frame& frame) {
+void Renderer::upload(const Frame& frame) {
   packed_.clear();
   draws_.clear();
   for (const auto* bodies : {&frame.bodies, &frame.obstacles})
@@ -218,24 +220,24 @@ void Stage::upload(const Frame& frame) {
   glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(packed_.size() * sizeof(Corner)), packed_.data());
 }
 
-std::span<const Corner> Stage::corners_of(const Draw& draw) const {
+std::span<const Corner> Renderer::corners_of(const Draw& draw) const {
   return {packed_.data() + draw.first, static_cast<std::size_t>(draw.count)};
 }
 
-std::vector<std::span<const Corner>> Stage::casting() const {
+std::vector<std::span<const Corner>> Renderer::shadow_casters() const {
   std::vector<std::span<const Corner>> all;
   for (const Draw& draw : draws_)
     if (draw.body->filled) all.push_back(corners_of(draw));
   return all;
 }
 
-void Stage::draw_all() const {
+void Renderer::draw_all() const {
   glBindVertexArray(corners_array_.name());
   for (const Draw& draw : draws_)
     if (draw.body->filled) glDrawArrays(GL_TRIANGLES, draw.first, draw.count); // wire frames cast no shadow
 }
 
-void Stage::draw_shadow_map(const LightView& light) {
+void Renderer::draw_shadow_map(const LightView& light) {
   glBindFramebuffer(GL_FRAMEBUFFER, shadow_.name());
   glViewport(0, 0, shadow_side, shadow_side);
   glEnable(GL_DEPTH_TEST);
@@ -252,12 +254,12 @@ void Stage::draw_shadow_map(const LightView& light) {
   glDisable(GL_SCISSOR_TEST);
 }
 
-void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
-                        const BodiesPicture& bodies) {
+void Renderer::draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
+                           const BodyTargets& bodies) {
   if (bodies.covered.width == 0) return;
   fit_target(bodies.covered);
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  glViewport(0, 0, width_ * fine_, height_ * fine_);
+  glViewport(0, 0, width_ * supersampling_, height_ * supersampling_);
   glEnable(GL_DEPTH_TEST);
   glClearColor(0, 0, 0, 0); // transparent: the studio is composited behind
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -280,7 +282,7 @@ void Stage::draw_bodies(const Frame& frame, const View& view, const Lights& ligh
   glDisable(GL_CLIP_DISTANCE0);
 }
 
-const GlProgram& Stage::body_program(bool filled) {
+const GlProgram& Renderer::body_program(bool filled) {
   std::optional<GlProgram>& program = filled ? body_ : wires_;
   if (!program)
     program.emplace("body.vert", "body.frag",
@@ -289,16 +291,17 @@ const GlProgram& Stage::body_program(bool filled) {
   return *program;
 }
 
-void Stage::set_view(const GlProgram& program, const Frame& frame, const View& view) const {
+void Renderer::set_view(const GlProgram& program, const Frame& frame, const View& view) const {
   program.set("world_to_clip", view.world_to_clip());
   program.set("eye", Eigen::Vector3f(view.eye.cast<float>()));
-  program.set("line_scale", std::max(static_cast<float>(height_) / 720.0f, 0.5f) * static_cast<float>(fine_));
+  program.set("line_scale",
+              std::max(static_cast<float>(height_) / 720.0f, 0.5f) * static_cast<float>(supersampling_));
   const bool floor_seen = frame.floor && view.eye.z() > frame.floor->z;
   const double hidden_below = floor_seen ? frame.floor->z - sunk * view.distance : -1e30;
   program.set("hidden_below", static_cast<float>(hidden_below));
 }
 
-void Stage::set_light(const GlProgram& program, const Lights& lights, const LightView& light) {
+void Renderer::set_light(const GlProgram& program, const Lights& lights, const LightView& light) {
   const auto texel = static_cast<float>(2 * light.half / shadow_side);
   program.set("world_to_shadow", to_texture(light.world_to_clip));
   program.set("key", Eigen::Vector3f(lights.key.cast<float>()));
@@ -308,7 +311,7 @@ void Stage::set_light(const GlProgram& program, const Lights& lights, const Ligh
   program.set("shadow", 0);
 }
 
-void Stage::set_finish(const GlProgram& program, const FrameBody& body) {
+void Renderer::set_finish(const GlProgram& program, const FrameBody& body) {
   const Finish& finish = body.finish;
   const float transmission = body.two_sided ? finish.transmission : 0;
   program.set("finish",
@@ -318,13 +321,13 @@ void Stage::set_finish(const GlProgram& program, const FrameBody& body) {
   program.set("sheen", Eigen::Vector3f(bit(0), bit(1), bit(2)));
 }
 
-void Stage::draw_body(const GlProgram& program, const Draw& draw) const {
+void Renderer::draw_body(const GlProgram& program, const Draw& draw) const {
   const FrameBody& body = *draw.body;
   program.set("cells", body.edges ? 1 : 0);
   if (body.filled) set_finish(program, body);
   Eigen::Vector4f back(0, 0, 0,
-                       body.sides ? far_side_tint : 1); // the back's own tint, relative to the front's
-  if (body.back && body.sides) {
+                       body.shades_back ? far_side_tint : 1); // the back's own tint, relative to the front's
+  if (body.back && body.shades_back) {
     const auto& colour = *body.back;
     back = Eigen::Vector4f(colour[0], colour[1], colour[2], 0) / 255;
   }
@@ -341,13 +344,13 @@ void Stage::draw_body(const GlProgram& program, const Draw& draw) const {
   glDepthMask(GL_TRUE);
 }
 
-void Stage::occlude(const Frame& frame, const View& view, const BodiesPicture& bodies) {
-  if (!occlusion_) occlusion_.emplace(width_, height_, taken_, fine_);
+void Renderer::occlude(const Frame& frame, const View& view, const BodyTargets& bodies) {
+  if (!occlusion_) occlusion_.emplace(width_, height_, samples_per_texel_, supersampling_);
   const bool floor = frame.floor && !frame.transparent && view.eye.z() > frame.floor->z;
   occlusion_->find(bodies, view, floor ? std::optional(frame.floor->z) : std::nullopt);
 }
 
-Image Stage::read() {
+Image Renderer::read() {
   pixels_.resize(static_cast<std::size_t>(width_) * height_ * 4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

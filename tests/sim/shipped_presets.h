@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace rend::house {
+namespace rend::shipped {
 
 inline std::filesystem::path folder() {
   return std::filesystem::path(REND_ROOT) / "presets";
@@ -36,4 +36,4 @@ inline std::string as_word(const testing::TestParamInfo<std::string>& one) {
   return name;
 }
 
-} // namespace rend::house
+} // namespace rend::shipped

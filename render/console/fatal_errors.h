@@ -16,7 +16,7 @@
 namespace rend {
 
 // Installs the handlers, for the whole process.
-void arm_last_resort();
+void install_fatal_error_handlers();
 
 // Prints that there is not enough memory, and exits with 75.
 [[noreturn]] void end_without_memory() noexcept;

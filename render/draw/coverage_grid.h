@@ -5,7 +5,7 @@
 
 #include "render/draw/camera.h"
 #include "render/draw/frame.h"
-#include "render/draw/pixel_box.h"
+#include "render/draw/pixel_rect.h"
 
 #include <cstdint>
 #include <functional>
@@ -14,9 +14,9 @@
 
 namespace rend {
 
-class Footprint {
+class CoverageGrid {
 public:
-  Footprint(int columns, int rows);
+  CoverageGrid(int columns, int rows);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -28,7 +28,7 @@ public:
   // Whether any of the squares that the rectangle touches is marked.
   bool any(float low_x, float low_y, float high_x, float high_y) const;
   // The bounding rectangle of the marked squares; width 0: there are none.
-  PixelBox bounds() const;
+  PixelRect bounds() const;
 
 private:
   struct Range {
@@ -42,14 +42,15 @@ private:
 
 constexpr int block_side = 32; // [pixels]
 // Marks the blocks of a picture of that size that triangles (three corners each) may cover.
-Footprint blocks_of(int width, int height);
-void mark_covered(Footprint& blocks, std::span<const Corner> corners, const View& view, int width, int height);
+CoverageGrid blocks_of(int width, int height);
+void mark_covered(CoverageGrid& blocks, std::span<const Corner> corners, const View& view, int width,
+                  int height);
 
-PixelBox box_of(const PixelBox& blocks, int width, int height); // in pixels, clipped to the picture
+PixelRect pixels_of(const PixelRect& blocks, int width, int height); // in pixels, clipped to the picture
 
 // Runs of adjacent squares of the same kind in a row, as rectangles of squares. kind: of (column, row), below
 // `kinds`; one list for each kind.
-std::vector<std::vector<PixelBox>> runs(int columns, int rows, int kinds,
-                                        const std::function<int(int column, int row)>& kind);
+std::vector<std::vector<PixelRect>> runs(int columns, int rows, int kinds,
+                                         const std::function<int(int column, int row)>& kind);
 
 } // namespace rend

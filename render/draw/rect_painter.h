@@ -3,18 +3,18 @@
 #pragma once
 
 #include "render/draw/gl.h"
-#include "render/draw/pixel_box.h"
+#include "render/draw/pixel_rect.h"
 
 #include <vector>
 
 namespace rend {
 
-class Boxes {
+class RectPainter {
 public:
-  Boxes();
+  RectPainter();
   // Needs a program in use whose vertex shader takes positions from attribute 0, in normalized device
   // coordinates (corners of the picture at -1 and 1).
-  void draw(const std::vector<PixelBox>& boxes, int width, int height);
+  void draw(const std::vector<PixelRect>& boxes, int width, int height);
 
 private:
   GlVertexArray array_;

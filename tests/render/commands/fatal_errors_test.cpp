@@ -1,5 +1,5 @@
 // The program when memory runs out: exit code 75 and a message, promptly, and no incomplete files.
-#include "render/console/last_resort.h"
+#include "render/console/fatal_errors.h"
 
 #include "sim/base/error.h"
 #include "tests/render/commands/program_run.h"
@@ -18,7 +18,7 @@ namespace {
 
 using program::content;
 using program::Outcome;
-using program::Place;
+using program::TestFolder;
 using testing::AllOf;
 using testing::ExitedWithCode;
 using testing::HasSubstr;
@@ -30,7 +30,7 @@ void bound_memory(rlim_t bytes) {
 }
 
 [[noreturn]] void throw_in_a_thread(const auto& error) {
-  arm_last_resort();
+  install_fatal_error_handlers();
   std::thread([&] { throw error; }).join(); // uncaught
   _exit(1);
 }
@@ -45,11 +45,11 @@ TEST(LastResort, an_exception_that_no_one_can_catch_ends_with_its_code) {
               "fault of rend itself: of ours");
 }
 
-TEST(LastResort, a_crash_is_put_down_to_memory_only_where_that_is_gone) {
+TEST(LastResort, a_crash_is_reported_as_out_of_memory_only_if_it_is) {
   for (const int signal : {SIGSEGV, SIGABRT})
-    EXPECT_EXIT((arm_last_resort(), ::raise(signal)), testing::KilledBySignal(signal), "^$");
+    EXPECT_EXIT((install_fatal_error_handlers(), ::raise(signal)), testing::KilledBySignal(signal), "^$");
   for (const int signal : {SIGSEGV, SIGABRT})
-    EXPECT_EXIT((arm_last_resort(), bound_memory(1 << 20), ::raise(signal)), ExitedWithCode(75),
+    EXPECT_EXIT((install_fatal_error_handlers(), bound_memory(1 << 20), ::raise(signal)), ExitedWithCode(75),
                 "rend: error: there is not enough memory");
 }
 
@@ -78,7 +78,7 @@ protected:
     return outcome.code == 0;
   }
 
-  const Place place;
+  const TestFolder place;
 };
 
 TEST_F(WithoutMemory, pictures_that_are_there_are_whole) {

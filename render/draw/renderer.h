@@ -17,12 +17,12 @@
 #pragma once
 
 #include "render/draw/composite.h"
+#include "render/draw/coverage_grid.h"
 #include "render/draw/floor_shadow.h"
 #include "render/draw/frame.h"
 #include "render/draw/gl.h"
 #include "render/draw/light.h"
 #include "render/draw/occlusion.h"
-#include "render/draw/pixel_footprint.h"
 #include "render/files/image.h"
 
 #include <optional>
@@ -31,11 +31,11 @@
 
 namespace rend {
 
-class Stage {
+class Renderer {
 public:
   // width, height [pixels]; samples a pixel: 1, 4 or 16 (16: 2 x 2 supersampling with 4 samples each, for fine
   // lines and highlights). Throws UserError (BadInput) for a size that cannot be drawn.
-  Stage(int width, int height, int samples);
+  Renderer(int width, int height, int samples);
 
   // Afterwards the framebuffer of the resolved picture is bound: an overlay may draw on it before read().
   // CHECK: all numbers of the frame are finite.
@@ -54,39 +54,39 @@ private:
   };
 
   void make_target(int width, int height);
-  void fit_target(const PixelBox& covered);
+  void fit_target(const PixelRect& covered);
   void make_picture();
   // UserError where OpenGL cannot allocate the bound framebuffer: BadInput if it is beyond any limit,
   // OutOfBudget for lack of memory.
-  void must_hold() const;
-  bool can_ever_hold() const;
+  void check_framebuffer_fits() const;
+  bool is_within_gl_limits() const;
   void make_shadow_map();
   void make_vertex_array();
   void upload(const Frame& frame);
   std::span<const Corner> corners_of(const Draw& draw) const;
-  std::vector<std::span<const Corner>> casting() const; // bodies that cast shadows
-  void draw_all() const;                                // of these bodies
+  std::vector<std::span<const Corner>> shadow_casters() const; // bodies that cast shadows
+  void draw_all() const;                                       // of these bodies
   void draw_shadow_map(const LightView& light);
   void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
-                   const BodiesPicture& bodies);
+                   const BodyTargets& bodies);
   const GlProgram& body_program(bool filled); // compiled on first use
   void set_view(const GlProgram& program, const Frame& frame, const View& view) const;
   static void set_light(const GlProgram& program, const Lights& lights, const LightView& light);
   static void set_finish(const GlProgram& program, const FrameBody& body);
   void draw_body(const GlProgram& program, const Draw& draw) const;
-  BodiesPicture bodies_picture(const PixelBox& covered) const;
-  void occlude(const Frame& frame, const View& view, const BodiesPicture& bodies);
+  BodyTargets body_targets(const PixelRect& covered) const;
+  void occlude(const Frame& frame, const View& view, const BodyTargets& bodies);
 
-  int width_, height_; // [pixels], of the picture
-  int samples_;        // per pixel, as asked for
-  int fine_;           // supersampling: texels drawn per pixel, each way: 1 or 2
-  int taken_;          // samples per texel: 1 or 4
+  int width_, height_;    // [pixels], of the picture
+  int samples_;           // per pixel, as asked for
+  int supersampling_;     // texels drawn per pixel, each way: 1 or 2
+  int samples_per_texel_; // samples per texel: 1 or 4
   bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};
   std::optional<GlProgram> body_, wires_; // of filled bodies, and of wire frames
   FloorShadow floor_shadow_;
   Composite composite_;
-  Footprint blocks_;                   // of the picture that bodies may cover
+  CoverageGrid blocks_;                // of the picture that bodies may cover
   std::optional<Occlusion> occlusion_; // created for the first frame that uses it
 
   GlFramebuffer target_, picture_, shadow_; // target_: of bodies, multisampled
