@@ -129,7 +129,7 @@ SolverFigures adaptive_of(const Scene& scene) {
   SolverFigures sum;
   for (const auto& body : scene.bodies()) {
     const SolverFigures one = body->integrator->solver();
-    sum.parts += one.substeps;
+    sum.substeps += one.substeps;
     sum.rejected += one.rejected;
   }
   return sum;

@@ -94,7 +94,7 @@ Json json_of(const StateFigures& s) {
   state["guard"] = json_of(s.guard);
   state["rows"] = std::move(rows);
   if (s.solver) state["solver"] = json_of(*s.solver);
-  if (s.adaptive) state["adaptive"] = {{"parts", s.adaptive->parts}, {"rejected", s.adaptive->rejected}};
+  if (s.adaptive) state["adaptive"] = {{"parts", s.adaptive->substeps}, {"rejected", s.adaptive->rejected}};
   state["hash"] = fmt::format("{:016x}", s.hash);
   return state;
 }

@@ -79,7 +79,7 @@ std::string schemes_in_words(const StateFigures& state) {
                        state.solver->all.newton, state.solver->all.cg, state.solver->all.factorisations);
   if (state.adaptive)
     out += fmt::format("  adaptive   {} parts of steps, {} more rejected for their error\n",
-                       state.adaptive->parts, state.adaptive->rejected);
+                       state.adaptive->substeps, state.adaptive->rejected);
   return out;
 }
 

@@ -162,7 +162,7 @@ private:
   void check_fragment_colours() {
     for (std::size_t n = 0; n < picture_.looks.size(); ++n) {
       const auto& body = scene_.bodies()[n];
-      if (picture_.looks[n].by != ShownBy::Fragment || body->tears()) continue;
+      if (picture_.looks[n].by != ColourBy::Fragment || body->tears()) continue;
       if (count_cells(body->map->map()).fragments > 1) continue;
       notes_.push_back(fmt::format(
           "body '{}' is coloured by fragment, and nothing tears it: it stays one, of one colour", body->name));

@@ -43,7 +43,7 @@ void add_laws(const Body& body, std::vector<std::string>& out) {
   if (body.corner_force.empty())
     out.push_back(
         "forces on element corners, and rows for them: no law compares the forces of single elements");
-  else if (body.view().corner_room)
+  else if (body.view().corner_buffer)
     out.push_back(
         "forces on element corners in every step: sums of sizes tell where none can exceed the threshold");
   if (!body.fragment_counter)

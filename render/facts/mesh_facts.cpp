@@ -20,7 +20,7 @@ std::string kind_of(const EmbeddedMap& body, Dart d) {
   }
   static constexpr EnumWords<CellKind::Pyramid> words{"tetrahedra", "hexahedra", "prisms", "pyramids"};
   for (const CellKind kind : {CellKind::Tetrahedron, CellKind::Hexahedron, CellKind::Prism, CellKind::Pyramid})
-    if (!laid_out(body.map(), shape_of(kind), d).empty()) return words[kind];
+    if (!darts_in_shape_order(body.map(), shape_of(kind), d).empty()) return words[kind];
   return "polyhedra";
 }
 

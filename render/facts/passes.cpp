@@ -21,7 +21,7 @@ public:
     body_ = &body;
     vertices_ = body.vertices() * sizeof(Record);
     const Program& program = *body.program;
-    const bool elementary = !program.elementary().empty() && !body.view().corner_room;
+    const bool elementary = !program.elementary().empty() && !body.view().corner_buffer;
     const double evaluations = evaluations_of(body);
     const std::size_t corner = elementary ? bytes_of(body.corner_force) : 0;
     add_forces(PassStage::Forces, elementary ? program.elementary() : program.rows(), 1, corner);

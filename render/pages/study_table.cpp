@@ -58,7 +58,7 @@ NamedValues values_of(const StudyReport& report, const StudyRow& row) {
           {"newton", row.counts.newton},
           {"cg", row.counts.cg},
           {"factorisations", row.counts.factorisations},
-          {"parts", row.counts.parts},
+          {"parts", row.counts.substeps},
           {"rejected", row.counts.rejected},
           {"tears", row.tears},
           {"first_tear", row.first_tear},

@@ -50,7 +50,7 @@ TEST(StillPictures, settings_of_a_program_draw_what_a_preset_draws) {
   settings.camera.fov = 40;
   settings.looks.resize(1); // the second body looks as by default
   settings.looks[0].colour = {0x10, 0x20, 0x30};
-  settings.looks[0].by = ShownBy::Fragment;
+  settings.looks[0].by = ColourBy::Fragment;
   settings.looks[0].edges = false;
   settings.looks[0].finish = finish_called("rubber");
   settings.spheres = {{.colour = {0xff, 0, 0}}};
