@@ -34,7 +34,7 @@ REND_INLINE void copy(std::size_t begin, std::size_t end, const System&, const R
 State put(std::size_t count, int threads, const std::vector<Record>& from) {
   State next;
   next.resize(count);
-  put_vertices<twice>(Many(count, threads), next, from.data());
+  write_vertices<twice>(Many(count, threads), next, from.data());
   return next;
 }
 

@@ -23,7 +23,7 @@ Turned turned(const std::array<Matrix3d, 4>& four, const Double4& weight = splat
   Matrix<3> F;
   for (int n = 0; n < 4; ++n) write_lane(F, n, four[static_cast<std::size_t>(n)]);
   Turned out;
-  turn<Rotation::Polar>(F, weight, out.R);
+  rotations_of<Rotation::Polar>(F, weight, out.R);
   return out;
 }
 

@@ -169,7 +169,7 @@ TEST(Preconditioner, multiplies_with_the_matrix_between_its_halves) {
   const std::size_t rows = l.matrix.rows();
   for (const Precision precision : {Precision::Double, Precision::Single}) {
     Preconditioner m;
-    ASSERT_TRUE(m.take(l.matrix, precision));
+    ASSERT_TRUE(m.set_matrix(l.matrix, precision));
     const Records p = right_side(rows);
     Records t(rows), image(rows), natural(rows), product(rows), expected(rows);
     m.product(p, t, image);
@@ -185,9 +185,9 @@ TEST(Preconditioner, multiplies_with_the_matrix_between_its_halves) {
 TEST(Preconditioner, refuses_a_diagonal_that_is_not_positive) {
   Lattice l(3);
   Preconditioner m;
-  EXPECT_TRUE(m.take(l.matrix, Precision::Single));
+  EXPECT_TRUE(m.set_matrix(l.matrix, Precision::Single));
   l.matrix.add_diagonal(13, -1000);
-  EXPECT_FALSE(m.take(l.matrix, Precision::Single));
+  EXPECT_FALSE(m.set_matrix(l.matrix, Precision::Single));
 }
 
 TEST(VertexOrder, is_a_permutation_that_brings_neighbours_together) {
