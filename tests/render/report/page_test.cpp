@@ -22,7 +22,7 @@ Html all_blocks() {
   body +=
       heading(2, "Cases <of> all", "cases") + paragraph(strong("So ") + link("#cases", "it") + muted(" is."));
   body += table(t) + facts({{"machine", escaped("x & y")}}) + list({escaped("one"), escaped("two")});
-  body += details(escaped("more"), preformatted("<scene name=\"x\"/>\n"), true);
+  body += details(escaped("more"), preformatted("<scene name=\"x\"/>\n"), Details::Open);
   body += figure(PictureFormat::Svg, R"(<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>)",
                  "a \"plot\"");
   return body;
