@@ -15,4 +15,17 @@ double arc_tangent(double y, double x);
 double sine_of_degrees(double angle);
 double cosine_of_degrees(double angle);
 
+// Of an angle in radians, of any size: errors below one unit in the last place, of the tangent below three. NaN
+// for an infinite one.
+double sine(double x);
+double cosine(double x);
+double tangent(double x);
+
+// e^x, ln x and x^y: errors below one unit in the last place. Exact where the result is a number of 53 bits.
+// Limits as in C: infinite above the largest number, 0 below the smallest, ln 0 = −∞, NaN for ln of a negative
+// number and for a negative x to a y that is not whole, x^0 = 1.
+double exponential(double x);
+double logarithm(double x);
+double power(double x, double y);
+
 } // namespace rend
