@@ -1,0 +1,141 @@
+#include "sim/expression/expression.h"
+
+#include "sim/base/check.h"
+#include "sim/expression/functions.h"
+#include "sim/expression/operators.h"
+#include "sim/expression/parser.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace rend {
+namespace {
+
+bool is_word(const std::string& name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !name.empty() && letter(name[0]) && name != "and" && name != "or" && name != "not" &&
+         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+void check_vocabulary(const std::vector<ExpressionFunction>& vocabulary) {
+  for (const ExpressionFunction& one : vocabulary) {
+    const auto same = [&](const ExpressionFunction& other) { return other.name == one.name; };
+    CHECK_NOTE(is_word(one.name), one.name);
+    CHECK_NOTE(std::ranges::count_if(vocabulary, same) == 1, one.name);
+    CHECK_NOTE(!std::ranges::any_of(built_ins(), same, &BuiltIn::declared), one.name);
+    CHECK_NOTE(one.optional <= one.arguments.size() && one.arguments.size() <= 100, one.name);
+    CHECK_NOTE(one.result != ValueType::Name, one.name);
+  }
+}
+
+bool is_finite(const Value& value) {
+  return std::isfinite(value.number[0]) && std::isfinite(value.number[1]) && std::isfinite(value.number[2]);
+}
+
+// "0.5", "(1, 2, 3)"
+std::string shown(const Value& value, ValueType type) {
+  const auto& n = value.number;
+  if (type == ValueType::Condition) return value.condition() ? "true" : "false";
+  return type == ValueType::Scalar ? fmt::format("{}", n[0]) : fmt::format("({}, {}, {})", n[0], n[1], n[2]);
+}
+
+} // namespace
+
+ExpressionError::ExpressionError(std::size_t column_, const std::string& flaw_, const std::string& hint_)
+    : std::runtime_error(fmt::format("column {}: {}", column_, flaw_)), column(column_), flaw(flaw_),
+      hint(hint_) {}
+
+std::string signature(const ExpressionFunction& function) {
+  if (function.arguments.empty()) return function.name;
+  const std::size_t least = function.arguments.size() - function.optional;
+  std::string out = function.name + "(";
+  for (std::size_t n = 0; n < function.arguments.size(); ++n) {
+    if (n >= least) out += '[';
+    if (n > 0) out += ", ";
+    out += type_word(function.arguments[n]);
+  }
+  return out + std::string(function.optional, ']') + ")";
+}
+
+Expression::Expression(std::string_view text, const std::vector<ExpressionFunction>& vocabulary,
+                       ValueType wanted) {
+  CHECK(wanted != ValueType::Name);
+  check_vocabulary(vocabulary);
+  ParsedExpression parsed = parse_expression(text, vocabulary);
+  type_ = parsed.type;
+  if (type_ != wanted)
+    throw ExpressionError(
+        1, fmt::format("the expression is {}, where {} is wanted", a_value(type_), a_value(wanted)),
+        wanted == ValueType::Vector      ? "a vector is point(x, y, z)"
+        : wanted == ValueType::Condition ? "a condition is a comparison, such as x > 0"
+                                         : "");
+  text_ = text;
+  program_ = std::move(parsed.program);
+  calls_ = std::move(parsed.calls);
+  if (constant()) evaluate();
+}
+
+Value Expression::evaluate() const {
+  CHECK(constant());
+  return run(nullptr, nullptr);
+}
+
+Value Expression::run(Forward forward, void* supply) const {
+  std::array<Value, most_values> stack; // not initialised: the parser has counted what is used
+  Value* top = stack.data();            // behind the last value
+  for (std::size_t n = 0; n < program_.size(); ++n) {
+    const Instruction& instruction = program_[n];
+    Value* const arguments = top - instruction.count;
+    Value value{};
+    switch (instruction.kind) {
+    case Instruction::Kind::Number:
+      *top++ = scalar_value(instruction.number);
+      continue;
+    case Instruction::Kind::Skip:
+      if (top[-1].condition() == instruction.when)
+        n = instruction.index;
+      else
+        --top;
+      continue;
+    case Instruction::Kind::Join:
+      continue;
+    case Instruction::Kind::Operator:
+    case Instruction::Kind::Function:
+      value = instruction.apply(arguments, instruction.count);
+      break;
+    case Instruction::Kind::Call:
+      value = forward(supply, calls_[instruction.index], instruction.index, {arguments, instruction.count});
+      break;
+    }
+    if (!is_finite(value)) refuse(instruction, arguments);
+    *arguments = value;
+    top = arguments + 1;
+  }
+  return stack[0];
+}
+
+void Expression::refuse(const Instruction& instruction, const Value* arguments) const {
+  std::string what;
+  if (instruction.kind == Instruction::Kind::Operator) {
+    const ExpressionOperator& one = operators()[instruction.index];
+    const auto operand = [&](std::size_t n) {
+      const bool negative = one.operands[n] == ValueType::Scalar && arguments[n].scalar() < 0;
+      const std::string text = shown(arguments[n], one.operands[n]);
+      return negative ? "(" + text + ")" : text;
+    };
+    what = one.operands.size() == 1 ? std::string(one.symbol) + operand(0)
+                                    : fmt::format("{} {} {}", operand(0), one.symbol, operand(1));
+  } else if (instruction.kind == Instruction::Kind::Function) {
+    const ExpressionFunction& one = built_ins()[instruction.index].declared;
+    for (std::size_t n = 0; n < instruction.count; ++n)
+      what += (n == 0 ? "" : ", ") + shown(arguments[n], one.arguments[n]);
+    what = fmt::format("{}({})", one.name, what);
+  } else {
+    what = fmt::format("the value of '{}'", calls_[instruction.index].name);
+  }
+  throw ExpressionError(instruction.column, what + " is not a finite number");
+}
+
+} // namespace rend

@@ -1,0 +1,333 @@
+#include "sim/expression/parser.h"
+
+#include "sim/base/wording.h"
+#include "sim/expression/functions.h"
+#include "sim/expression/operators.h"
+#include "sim/expression/tokens.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace rend {
+namespace {
+
+using Token = ExpressionToken;
+
+bool is_keyword(std::string_view word) {
+  return word == "and" || word == "or" || word == "not";
+}
+
+std::uint32_t column_of(const Token& token) {
+  return static_cast<std::uint32_t>(token.column);
+}
+
+// Recursive descent by precedence (Pratt 1973). Each method reads what it is named after from the next token
+// on, emits code that pushes its value, and returns its type.
+class Parser {
+public:
+  Parser(std::string_view text, const std::vector<ExpressionFunction>& vocabulary)
+      : tokens_(tokens_of_expression(text)), vocabulary_(vocabulary) {}
+
+  ParsedExpression parse() {
+    if (next().kind == Token::Kind::End) throw ExpressionError(1, "the expression is empty");
+    out_.type = expression(Precedence::Or);
+    if (next().kind != Token::Kind::End) refuse_rest();
+    return std::move(out_);
+  }
+
+private:
+  // What binds at least as tightly as `loosest`.
+  ValueType expression(Precedence loosest) {
+    ValueType left = operand();
+    for (;;) {
+      const Token& symbol = next();
+      const Precedence precedence = symbol.kind == Token::Kind::Mark || is_keyword(symbol.text)
+                                        ? binary_precedence(symbol.text)
+                                        : Precedence{};
+      if (precedence < loosest || precedence == Precedence{}) return left;
+      ++at_;
+      left = precedence <= Precedence::And ? decision(symbol, precedence, left)
+                                           : operation(symbol, precedence, left);
+    }
+  }
+
+  ValueType operation(const Token& symbol, Precedence precedence, ValueType left) {
+    ValueType right;
+    if (precedence == Precedence::Power) {
+      const Deeper deeper(*this, symbol);
+      right = expression(Precedence::Power); // to the right: 2^3^2 is 2^(3^2)
+    } else {
+      right = expression(tighter(precedence));
+    }
+    return emit_operator(symbol, {left, right});
+  }
+
+  // left Skip right Join
+  ValueType decision(const Token& symbol, Precedence precedence, ValueType left) {
+    const std::size_t skip = out_.program.size();
+    emit({.kind = Instruction::Kind::Skip,
+          .when = symbol.text == "or",
+          .result = ValueType::Condition,
+          .count = 1,
+          .column = column_of(symbol)});
+    const ValueType right = expression(tighter(precedence));
+    const ExpressionOperator& found = operator_for(symbol, {left, right});
+    out_.program[skip].index = static_cast<std::uint32_t>(out_.program.size());
+    emit({.kind = Instruction::Kind::Join,
+          .result = ValueType::Condition,
+          .index = static_cast<std::uint32_t>(&found - operators().data()),
+          .column = column_of(symbol)});
+    return ValueType::Condition;
+  }
+
+  ValueType operand() {
+    const Token& token = next();
+    if (token.kind == Token::Kind::Number) {
+      ++at_;
+      emit({.column = column_of(token), .number = token.number});
+      return ValueType::Scalar;
+    }
+    if (token.text == "(") return in_parentheses();
+    if (token.text == "-" || token.text == "not") {
+      ++at_;
+      const Deeper deeper(*this, token);
+      const ValueType type = expression(token.text == "-" ? Precedence::Power : Precedence::Comparison);
+      return emit_operator(token, {type});
+    }
+    if (token.kind == Token::Kind::Word && !is_keyword(token.text)) return word();
+    if (token.kind == Token::Kind::End)
+      throw ExpressionError(token.column, "the expression ends where a value is expected");
+    throw ExpressionError(token.column, fmt::format("a value is expected before '{}'", token.text));
+  }
+
+  ValueType in_parentheses() {
+    const Token& open = take();
+    const Deeper deeper(*this, open);
+    const ValueType type = expression(Precedence::Or);
+    close(open);
+    return type;
+  }
+
+  // A variable or a call.
+  ValueType word() {
+    const Token& name = take();
+    const bool called = next().text == "(";
+    for (const BuiltIn& built_in : built_ins()) {
+      if (built_in.declared.name != name.text) continue;
+      const Arguments given = arguments(name, built_in.declared, called);
+      emit({.kind = Instruction::Kind::Function,
+            .result = built_in.declared.result,
+            .count = static_cast<std::uint8_t>(given.types.size()),
+            .index = static_cast<std::uint32_t>(&built_in - built_ins().data()),
+            .column = column_of(name),
+            .apply = built_in.apply});
+      return built_in.declared.result;
+    }
+    for (const ExpressionFunction& function : vocabulary_) {
+      if (function.name != name.text) continue;
+      Arguments given = arguments(name, function, called);
+      const std::size_t names = given.names.size();
+      emit({.kind = Instruction::Kind::Call,
+            .result = function.result,
+            .count = static_cast<std::uint8_t>(given.types.size() - names),
+            .index = static_cast<std::uint32_t>(out_.calls.size()),
+            .column = column_of(name)});
+      out_.calls.push_back({static_cast<std::size_t>(&function - vocabulary_.data()), function.name,
+                            name.column, function.result, std::move(given.types), std::move(given.names),
+                            std::move(given.columns), !called});
+      return function.result;
+    }
+    refuse_word(name, called);
+  }
+
+  struct Arguments {
+    std::vector<ValueType> types;
+    std::vector<std::string> names;
+    std::vector<std::size_t> columns;
+  };
+
+  Arguments arguments(const Token& name, const ExpressionFunction& function, bool called) {
+    const std::size_t most = function.arguments.size(), least = most - function.optional;
+    if (called && most == 0)
+      throw ExpressionError(name.column, fmt::format("'{}' takes no arguments", name.text),
+                            fmt::format("write {}", name.text));
+    if (!called && most > 0)
+      throw ExpressionError(name.column, fmt::format("'{}' is a function", name.text),
+                            "write " + signature(function));
+    Arguments out;
+    if (!called) return out;
+    const Token& open = take();
+    const Deeper deeper(*this, open);
+    if (next().text != ")") {
+      argument(name, function, out);
+      while (next().text == ",") {
+        ++at_;
+        argument(name, function, out);
+      }
+    }
+    if (out.types.size() < least && (next().text == ")"))
+      throw ExpressionError(next().column,
+                            fmt::format("'{}' takes {}{} argument{}, here {} {}", name.text,
+                                        least < most ? "at least " : "", least, least == 1 ? "" : "s",
+                                        out.types.size() == 1 ? "is" : "are", out.types.size()),
+                            signature(function));
+    close(open);
+    return out;
+  }
+
+  void argument(const Token& name, const ExpressionFunction& function, Arguments& out) {
+    const std::size_t number = out.types.size(), most = function.arguments.size();
+    const Token& first = next();
+    if (number == most)
+      throw ExpressionError(first.column,
+                            fmt::format("'{}' takes {}{} argument{}, here are more", name.text,
+                                        function.optional > 0 ? "at most " : "", most, most == 1 ? "" : "s"),
+                            signature(function));
+    const ValueType wanted = function.arguments[number];
+    out.types.push_back(wanted);
+    if (wanted == ValueType::Name) {
+      if (first.kind == Token::Kind::Word && !is_keyword(first.text) && ends_argument(tokens_[at_ + 1])) {
+        out.names.emplace_back(first.text);
+        out.columns.push_back(first.column);
+        ++at_;
+        return;
+      }
+      throw ExpressionError(first.column,
+                            fmt::format("argument {} of '{}' is a name, a single word", number + 1, name.text),
+                            signature(function));
+    }
+    const ValueType given = expression(Precedence::Or);
+    if (given != wanted)
+      throw ExpressionError(first.column,
+                            fmt::format("argument {} of '{}' is {}, here {}", number + 1, name.text,
+                                        a_value(wanted), a_value(given)),
+                            signature(function));
+  }
+
+  static bool ends_argument(const Token& token) {
+    return token.text == "," || token.text == ")" || token.kind == Token::Kind::End;
+  }
+
+  // Reads the ')' of `open`.
+  void close(const Token& open) {
+    const Token& token = next();
+    if (token.text == ")") {
+      ++at_;
+      return;
+    }
+    if (token.kind == Token::Kind::End)
+      throw ExpressionError(token.column,
+                            fmt::format("')' is missing, which closes '(' of column {}", open.column));
+    refuse_rest();
+  }
+
+  // Something stands behind a complete expression.
+  [[noreturn]] void refuse_rest() const {
+    const Token& token = tokens_[at_];
+    if (token.text == ")") throw ExpressionError(token.column, "this ')' closes nothing");
+    if (token.text == ",")
+      throw ExpressionError(token.column, "',' stands outside the arguments of a function",
+                            "the decimal point is '.'; a vector is point(x, y, z)");
+    throw ExpressionError(token.column,
+                          fmt::format("an operator is expected before {}", in_quotes(token.text)));
+  }
+
+  [[noreturn]] void refuse_word(const Token& name, bool called) const {
+    std::vector<std::string> names;
+    const auto add = [&](const ExpressionFunction& one) {
+      if (one.arguments.empty() != called) names.push_back(one.name);
+    };
+    for (const ExpressionFunction& one : vocabulary_) add(one);
+    for (const BuiltIn& one : built_ins()) add(one.declared);
+    const std::string hint = suggestion(name.text, names, called ? "functions" : "values");
+    throw ExpressionError(name.column,
+                          fmt::format("there is no {} {}", called ? "function" : "value", in_quotes(name.text)),
+                          hint);
+  }
+
+  ValueType emit_operator(const Token& symbol, std::vector<ValueType> operands) {
+    const ExpressionOperator& found = operator_for(symbol, operands);
+    emit({.kind = Instruction::Kind::Operator,
+          .result = found.result,
+          .count = static_cast<std::uint8_t>(operands.size()),
+          .index = static_cast<std::uint32_t>(&found - operators().data()),
+          .column = column_of(symbol),
+          .apply = found.apply});
+    return found.result;
+  }
+
+  const ExpressionOperator& operator_for(const Token& symbol, const std::vector<ValueType>& operands) const {
+    const ExpressionOperator* found = find_operator(symbol.text, operands);
+    if (found) return *found;
+    std::string given = a_value(operands[0]);
+    if (operands.size() == 2)
+      given = operands[0] == operands[1] ? fmt::format("two {}s", type_word(operands[0]))
+                                         : given + " and " + a_value(operands[1]);
+    throw ExpressionError(
+        symbol.column,
+        fmt::format("'{}' takes {}, here {}", symbol.text, taken_by(symbol.text, operands.size()), given),
+        std::string(operand_hint(symbol.text, operands)));
+  }
+
+  // Counts the values on the stack.
+  void emit(const Instruction& instruction) {
+    const bool pushes =
+        instruction.kind != Instruction::Kind::Skip && instruction.kind != Instruction::Kind::Join;
+    values_ += (pushes ? 1 : 0) - instruction.count;
+    if (values_ > static_cast<int>(most_values))
+      throw ExpressionError(instruction.column,
+                            fmt::format("more than {} values wait for an operator here", most_values));
+    out_.program.push_back(instruction);
+  }
+
+  // Lives as long as what is nested once more.
+  struct Deeper {
+    Deeper(Parser& parser_, const Token& token) : parser(parser_) {
+      if (++parser.depth_ > deepest_expression)
+        throw ExpressionError(
+            token.column,
+            fmt::format("more than {} parentheses, signs and powers within each other", deepest_expression));
+    }
+    ~Deeper() { --parser.depth_; }
+    Deeper(const Deeper&) = delete;
+    Deeper& operator=(const Deeper&) = delete;
+    Parser& parser;
+  };
+
+  static Precedence tighter(Precedence precedence) {
+    return static_cast<Precedence>(static_cast<int>(precedence) + 1);
+  }
+  const Token& next() const { return tokens_[at_]; }
+  const Token& take() { return tokens_[at_++]; } // never of the last one, End
+
+  std::vector<Token> tokens_;
+  const std::vector<ExpressionFunction>& vocabulary_;
+  std::size_t at_ = 0;
+  int depth_ = 0, values_ = 0;
+  ParsedExpression out_;
+};
+
+} // namespace
+
+std::string_view type_word(ValueType type) {
+  switch (type) {
+  case ValueType::Scalar:
+    return "scalar";
+  case ValueType::Vector:
+    return "vector";
+  case ValueType::Condition:
+    return "condition";
+  default:
+    return "name";
+  }
+}
+
+std::string a_value(ValueType type) {
+  return fmt::format("a {}", type_word(type));
+}
+
+ParsedExpression parse_expression(std::string_view text, const std::vector<ExpressionFunction>& vocabulary) {
+  return Parser(text, vocabulary).parse();
+}
+
+} // namespace rend
