@@ -1,24 +1,49 @@
 // Applying a rule: find a match of its left graph and replace it by the right graph.
 //
-//   if (const Applied done = apply(unsew_edge, body, dart); !done.ok) report(done.reason);
+//   if (const Applied done = apply(rule("unsew-edge"), body, dart); !done.ok) report(done.reason);
 //
-// If there is no match the map is unchanged to the last byte, and the reason is returned. A well-formed rule
-// (rule_check.h) preserves the axioms wherever it matches. Rules specify topology and points only: all other
-// embeddings are updated by their own policies (column.h).
+// If there is no match, a condition does not hold, an expression has no finite value, or a new element would be
+// flat or inverted, the map is unchanged to the last byte, and the reason is returned. A checked rule preserves
+// the axioms wherever it matches. Rules give vertices their points; all other embeddings follow by their own
+// policies (column.h).
 #pragma once
 
-#include "sim/embedding/embedded_map.h"
-#include "sim/rules/match.h"
+#include "sim/rules/rule_values.h"
 
 #include <string>
 #include <vector>
 
 namespace rend {
 
-// The arguments of a rule's point expressions.
-struct Arguments {
-  std::vector<Point> points; // given(n)
-  std::vector<Vec3> vectors; // translated(node, n) [m]: added to position and rest position
+// Applies one rule many times, within one open edit or in several, and keeps its buffers.
+class RuleRunner {
+public:
+  explicit RuleRunner(const Rule& rule, RuleContext context = {}) : rule_(rule), context_(std::move(context)) {}
+
+  const Rule& rule() const { return rule_; }
+  RuleContext& context() { return context_; }
+
+  // Whether it matches there and its conditions hold. Changes nothing.
+  bool matches(const Edit& edit, const Hooks& hooks);
+  // Rewrites what matches() has found; false: the map is as before.
+  bool rewrite(Edit& edit);
+  // Both; false: the map is as before. Expressions read the points from before the edit, and those
+  // given to its new darts. CHECK: as many hooks as the rule requires.
+  bool apply(Edit& edit, const Hooks& hooks);
+
+  const Mismatch& mismatch() const { return mismatch_; } // of the last call
+  std::string reason() const;                            // a sentence; empty: it was applied
+  // After apply(): [instance][node of the right graph].
+  const std::vector<Dart>& darts() const { return darts_; }
+  const Match& match() const { return match_; }
+
+private:
+  const Rule& rule_;
+  RuleContext context_;
+  Match match_;
+  Mismatch mismatch_;
+  std::vector<Dart> darts_;
+  std::vector<std::uint32_t> point_; // of the edit, [instance][node of the right graph]
 };
 
 struct Applied {
@@ -27,22 +52,22 @@ struct Applied {
 
   // The darts of a node of the right graph, one per instance; the first belongs to the hook itself.
   // CHECK: the rule has such a node.
-  std::vector<Dart> darts(char node) const;
-  Dart dart(char node) const { return darts(node).front(); }
+  std::vector<Dart> darts(std::string_view node) const;
+  Dart dart(std::string_view node) const { return darts(node).front(); }
 
   const Rule* rule = nullptr;
   std::vector<Dart> all; // [instance][node of the right graph]
 };
 
-// Within an open edit, so that many applications share one update of the columns. Point expressions read the
-// points from before the edit, and those given to its new darts. CHECK: as many hooks and arguments as the rule
-// requires.
-Applied apply(const Rule& rule, Edit& edit, const Hooks& hooks = {}, const Arguments& arguments = {});
+// The arguments of a rule that differ from their defaults, by name. CHECK: the rule has them.
+using RuleArguments = std::vector<std::pair<std::string, Value>>;
+RuleContext context_of(const Rule& rule, const RuleArguments& arguments);
+
+// Once, within an open edit.
+Applied apply(const Rule& rule, Edit& edit, const Hooks& hooks = {}, const RuleArguments& arguments = {});
 
 // In an edit of its own.
-Applied apply(const Rule& rule, EmbeddedMap& body, const Hooks& hooks = {}, const Arguments& arguments = {});
-
-// The mean of the vertices of orbit(d), each counted once, in the order of their smallest dart in the orbit.
-Point mean_point(const Edit& edit, Orbit orbit, Dart d);
+Applied apply(const Rule& rule, EmbeddedMap& body, const Hooks& hooks = {},
+              const RuleArguments& arguments = {});
 
 } // namespace rend

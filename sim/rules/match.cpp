@@ -1,87 +1,105 @@
 #include "sim/rules/match.h"
 
 #include "sim/base/check.h"
-#include "sim/topology/index_set.h"
 
 #include <fmt/format.h>
 
 namespace rend {
+
+using Kind = RuleLink::Kind;
 
 Hooks::Hooks(std::initializer_list<Dart> darts) {
   CHECK(darts.size() <= darts_.size());
   for (Dart d : darts) darts_[count_++] = d;
 }
 
+std::string Mismatch::sentence(const Rule& rule) const {
+  const auto node_name = [&] { return node < 0 ? std::string() : rule.left[node].name; };
+  switch (kind) {
+  case Kind::None:
+    return {};
+  case Kind::NoDart:
+    return fmt::format("there is no dart {}", dart.value);
+  case Kind::SheetWithoutVolumes:
+    return "a sheet has no volumes to link";
+  case Kind::NotFree:
+    return fmt::format("node {}: dart {} should be α{}-free, and is linked to {}", node_name(), dart.value,
+                       link, is.value);
+  case Kind::Free:
+    return fmt::format("node {}: dart {} is α{}-free, and the rule needs a neighbour there", node_name(),
+                       dart.value, link);
+  case Kind::OtherDart:
+    return fmt::format("node {}: α{} of dart {} should be {}, and is {}", node_name(), link, dart.value,
+                       wanted.value, is.value);
+  case Kind::NotIsomorphic:
+    return fmt::format("the orbits of the hooks are not isomorphic: they part at dart {}", dart.value);
+  case Kind::Twice:
+    return fmt::format("dart {} would have to play two parts, and the rule may not fold", dart.value);
+  case Kind::Condition: {
+    const Rule::When& when = rule.whens[static_cast<std::size_t>(link)];
+    return when.otherwise.empty() ? fmt::format("\"{}\" does not hold", when.test.text()) : when.otherwise;
+  }
+  case Kind::Expression:
+  case Kind::Shape:
+    return text;
+  }
+  return {};
+}
+
 namespace {
 
-using Kind = RuleLink::Kind;
-
-// A node reached by an arc from an earlier node.
-struct Step {
-  int node, from, link;
-};
-
-struct Plan {
-  FixedList<int, 12> hooks; // nodes
-  FixedList<Step, 12> steps;
-};
-
-Plan plan_of(const RuleGraph& graph) {
-  Plan plan;
-  std::array<bool, 12> reached{};
-  for (int n = 0; n < graph.size(); ++n) {
-    if (!graph[n].hook) continue;
-    plan.hooks.push_back(n);
-    reached[static_cast<std::size_t>(n)] = true;
+// The instance of each dart of the hook's orbit: a list while there are few, a table from then on.
+class Instances {
+public:
+  void clear() {
+    count_ = 0;
+    in_table_ = false;
   }
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (const RuleArc& arc : graph.arcs) {
-      const int a = graph.find(arc.from), b = graph.find(arc.to);
-      bool &a_reached = reached[static_cast<std::size_t>(a)], &b_reached = reached[static_cast<std::size_t>(b)];
-      if (a_reached == b_reached) continue;
-      plan.steps.push_back(a_reached ? Step{b, a, arc.link} : Step{a, b, arc.link});
-      a_reached = b_reached = grows = true;
+  // The instance of d; `next` if it is new.
+  std::uint32_t insert(Dart d, std::uint32_t next) {
+    if (in_table_) return table_.insert(d.value, next);
+    for (std::uint32_t n = 0; n < count_; ++n)
+      if (few_[n] == d.value) return n;
+    if (count_ < few_.size()) {
+      few_[count_++] = d.value;
+      return next;
     }
+    table_.clear();
+    for (std::uint32_t n = 0; n < count_; ++n) table_.insert(few_[n], n);
+    in_table_ = true;
+    return table_.insert(d.value, next);
   }
-  return plan;
-}
 
-// Whether a rule would link darts by α3, so that it cannot apply to a sheet.
-bool links_by_alpha3(const Rule& rule) {
-  for (const RuleArc& arc : rule.right.arcs)
-    if (arc.link == 3) return true;
-  for (const RuleNode& node : rule.right.nodes)
-    if (const int p = node.label.position(3); p >= 0 && rule.positions()[p] != 3) return true;
-  return false;
-}
+private:
+  std::array<std::uint32_t, 16> few_; // darts, in the order of instances
+  std::uint32_t count_ = 0;
+  IndexMap table_;
+  bool in_table_ = false;
+};
 
 class Matcher {
 public:
   Matcher(const Rule& rule, const GMap& map, Match& match)
-      : rule_(rule), graph_(rule.left), map_(map), match_(match), plan_(plan_of(rule.left)) {}
+      : rule_(rule), plan_(rule.plan), map_(map), match_(match) {}
 
-  std::string run(const Hooks& hooks) {
-    match_.nodes = graph_.nodes.size();
-    match_.positions = static_cast<std::size_t>(rule_.positions().size);
+  Mismatch run(const Hooks& hooks) {
+    match_.nodes = rule_.left.nodes.size();
+    match_.positions = match_.nodes > 0 ? rule_.left[plan_.hooks[0]].label.size() : 0;
     match_.darts.clear();
     match_.neighbours.clear();
     match_.instances = 1;
     CHECK_NOTE(hooks.size() == plan_.hooks.size(),
-               fmt::format("\"{}\" takes {} hooks", rule_.name, plan_.hooks.size()));
-    if (map_.dimension() == 2 && links_by_alpha3(rule_)) return "a sheet has no volumes to link";
+               fmt::format("\"{}\" takes {} hooks", rule_.name(), plan_.hooks.size()));
+    if (plan_.links_volumes && map_.dimension() == 2) return {.kind = Mismatch::Kind::SheetWithoutVolumes};
     for (Dart d : hooks.span())
-      if (!map_.alive(d)) return fmt::format("there is no dart {}", d.value);
-    if (match_.nodes > 0) {
-      walk_hooks(hooks);
-      follow_arcs();
-      for (int n = 0; n < graph_.size(); ++n)
-        for (int i = 0; i < 4; ++i)
-          if (std::string reason = misfit(n, i); !reason.empty()) return reason;
-      if (std::string reason = overlap(); !reason.empty()) return reason;
-    }
-    const char* broken = rule_.precondition ? rule_.precondition(map_, hooks.span()) : nullptr;
-    return broken ? broken : "";
+      if (!map_.alive(d)) return {.kind = Mismatch::Kind::NoDart, .dart = d};
+    if (match_.nodes == 0) return {};
+    if (Mismatch mismatch = look_at_hooks(hooks)) return mismatch;
+    walk_hooks(hooks);
+    follow_steps();
+    for (const RulePlan::Test& test : plan_.tests)
+      if (Mismatch mismatch = ask(test)) return mismatch;
+    return rule_.settings.may_fold ? Mismatch{} : overlap();
   }
 
 private:
@@ -89,71 +107,92 @@ private:
     return match_.darts[instance * match_.nodes + static_cast<std::size_t>(node)];
   }
 
+  // What most mismatches fail at, before anything is walked.
+  Mismatch look_at_hooks(const Hooks& hooks) const {
+    for (std::size_t h = 0; h < plan_.hooks.size(); ++h)
+      for (const RulePlan::Test& test : plan_.first_tests) {
+        if (test.node != plan_.hooks[h]) continue;
+        const bool free = map_.is_free(test.link, hooks[h]);
+        if (test.kind == Kind::Loop && !free)
+          return {Mismatch::Kind::NotFree,        test.node, test.link, hooks[h], hooks[h],
+                  map_.alpha(test.link, hooks[h])};
+        if (test.kind == Kind::Arc && free && !rule_.settings.may_fold)
+          return {Mismatch::Kind::Free, test.node, test.link, hooks[h], {}, {}};
+      }
+    return {};
+  }
+
   // The instances: a walk over the orbit of the first hook, and the same walk from all other hooks.
   void walk_hooks(const Hooks& hooks) {
-    thread_local IndexMap instance_of;
+    thread_local Instances instance_of;
     instance_of.clear();
     match_.darts.resize(match_.nodes);
     for (std::size_t h = 0; h < plan_.hooks.size(); ++h) dart(0, plan_.hooks[h]) = hooks[h];
-    instance_of.insert(hooks[0].value, 0);
+    const int first = plan_.hooks[0];
+    const std::vector<int>& label = rule_.left[first].label;
+    instance_of.insert(hooks[0], 0);
     for (std::size_t k = 0; k < match_.instances; ++k) {
-      for (int p = 0; p < static_cast<int>(match_.positions); ++p) {
+      for (std::size_t p = 0; p < match_.positions; ++p) {
         const auto next = static_cast<std::uint32_t>(match_.instances);
-        const Dart d = map_.alpha(rule_.positions()[p], dart(k, plan_.hooks[0]));
-        const std::uint32_t found = instance_of.insert(d.value, next);
+        const Dart d = map_.alpha(label[p], dart(k, first));
+        const std::uint32_t found = instance_of.insert(d, next);
         match_.neighbours.push_back(found);
         if (found != next) continue;
         ++match_.instances;
         match_.darts.resize(match_.darts.size() + match_.nodes);
-        for (int hook : plan_.hooks) dart(next, hook) = map_.alpha(graph_[hook].label[p], dart(k, hook));
+        for (int hook : plan_.hooks) dart(next, hook) = map_.alpha(rule_.left[hook].label[p], dart(k, hook));
       }
     }
   }
 
-  void follow_arcs() {
-    if (plan_.steps.size() == 0) return;
+  void follow_steps() {
+    if (plan_.steps.empty()) return;
     for (std::size_t k = 0; k < match_.instances; ++k)
-      for (const Step& step : plan_.steps) dart(k, step.node) = map_.alpha(step.link, dart(k, step.from));
+      for (const RulePlan::Step& step : plan_.steps)
+        dart(k, step.node) = map_.alpha(step.link, dart(k, step.from));
   }
 
-  // How αi of a node differs from the graph; empty if it does not.
-  std::string misfit(int node, int i) {
-    const RuleLink link = graph_.link(node, i);
-    if (link.kind == Kind::Absent || (link.kind == Kind::Implicit && node == plan_.hooks[0])) return {};
+  Mismatch ask(const RulePlan::Test& test) {
     for (std::size_t k = 0; k < match_.instances; ++k) {
-      const Dart d = dart(k, node);
+      const Dart d = dart(k, test.node);
       const Dart wanted =
-          link.kind == Kind::Implicit ? dart(match_.neighbour(k, link.to), node) : dart(k, link.to);
-      const Dart is = map_.alpha(i, d);
+          test.kind == Kind::Implicit ? dart(match_.neighbour(k, test.to), test.node) : dart(k, test.to);
+      const Dart is = map_.alpha(test.link, d);
       if (is == wanted) continue;
-      if (link.kind == Kind::Loop)
-        return fmt::format("dart {} should be α{}-free, and is linked to {}", d.value, i, is.value);
-      if (link.kind == Kind::Implicit && graph_[node].hook)
-        return fmt::format("the orbits of the hooks are not isomorphic: they part at dart {}", d.value);
-      return fmt::format("α{} of dart {} should be {}, and is {}", i, d.value, wanted.value, is.value);
+      const Mismatch::Kind kind = test.kind == Kind::Loop ? Mismatch::Kind::NotFree
+                                  : test.kind == Kind::Implicit && rule_.left[test.node].hook
+                                      ? Mismatch::Kind::NotIsomorphic
+                                      : Mismatch::Kind::OtherDart;
+      return {kind, test.node, test.link, d, wanted, is};
     }
     return {};
   }
 
-  std::string overlap() {
+  Mismatch overlap() const {
+    const std::vector<Dart>& darts = match_.darts;
     if (match_.nodes == 1) return {}; // the walk visits each dart once
+    if (darts.size() <= 16) {
+      for (std::size_t n = 1; n < darts.size(); ++n)
+        for (std::size_t m = 0; m < n; ++m)
+          if (darts[n] == darts[m]) return {.kind = Mismatch::Kind::Twice, .dart = darts[n]};
+      return {};
+    }
     thread_local IndexSet met;
     met.clear();
-    for (Dart d : match_.darts)
-      if (!met.insert(d.value)) return fmt::format("dart {} would have to play two parts", d.value);
+    for (Dart d : darts)
+      if (!met.insert(d.value)) return {.kind = Mismatch::Kind::Twice, .dart = d};
     return {};
   }
 
   const Rule& rule_;
-  const RuleGraph& graph_;
+  const RulePlan& plan_;
   const GMap& map_;
   Match& match_;
-  Plan plan_;
 };
 
 } // namespace
 
-std::string find_match(const Rule& rule, const GMap& map, const Hooks& hooks, Match& match) {
+Mismatch find_match(const Rule& rule, const GMap& map, const Hooks& hooks, Match& match) {
   return Matcher(rule, map, match).run(hooks);
 }
 

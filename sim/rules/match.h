@@ -2,12 +2,15 @@
 //
 // The hooks determine the match: the darts of the first hook's orbit are the instances, in the order of a walk,
 // and every node has one dart at each of them. It is a match if all links and loops of the graph hold at every
-// instance, and no dart is used twice (thesis 3.4.1, footnote 3: a match is injective).
+// instance, and no dart is used twice, unless the rule may fold (thesis 3.4.1, footnote 3: a match is injective).
 #pragma once
 
-#include "sim/topology/rule.h"
+#include "sim/rules/rule.h"
+#include "sim/topology/gmap.h"
+#include "sim/topology/index_set.h"
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,31 @@ private:
   std::size_t count_ = 0;
 };
 
+// Why there is no match, as numbers: a sentence is made only if somebody asks.
+struct Mismatch {
+  enum class Kind {
+    None, // it matches
+    NoDart,
+    SheetWithoutVolumes,
+    NotFree,
+    Free,
+    OtherDart,
+    NotIsomorphic,
+    Twice,
+    Condition,  // `link` is the number of the rule's <when>
+    Expression, // an expression has no finite value
+    Shape,      // a new element would be flat or inverted
+  };
+  Kind kind = Kind::None;
+  int node = -1; // of the left graph
+  int link = -1;
+  Dart dart = {}, wanted = {}, is = {};
+  std::string text = {}; // Expression, Shape: what is wrong
+
+  explicit operator bool() const { return kind != Kind::None; }
+  std::string sentence(const Rule& rule) const;
+};
+
 struct Match {
   std::size_t nodes = 0;                 // of the left graph
   std::size_t positions = 0;             // of its labels
@@ -44,8 +72,8 @@ struct Match {
   }
 };
 
-// Fills `match`; returns why there is none, or an empty text. Linear in the number of matched darts. CHECK: as
-// many hooks as the rule has.
-std::string find_match(const Rule& rule, const GMap& map, const Hooks& hooks, Match& match);
+// Fills `match`. Linear in the number of matched darts. The rule's conditions (<when>) are not asked: see
+// apply.h. CHECK: as many hooks as the rule has.
+Mismatch find_match(const Rule& rule, const GMap& map, const Hooks& hooks, Match& match);
 
 } // namespace rend

@@ -3,7 +3,8 @@
 #include "sim/base/archive.h"
 #include "sim/boundary/solid_surface.h"
 #include "sim/elements.h"
-#include "sim/rules/rules.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/rules/apply.h"
 #include "sim/topology/walk.h"
 
 #include <benchmark/benchmark.h>
@@ -100,7 +101,7 @@ void unsew_edges(benchmark::State& state) {
     if (state.range(1) == Single)
       for (Dart d : edges) body->edit([&](Edit& edit) { unsew(edit, 2, d); });
     if (state.range(1) == ByRule)
-      for (Dart d : edges) apply(unsew_edge, *body, d);
+      for (Dart d : edges) apply(rule("unsew-edge"), *body, d);
     if (state.range(1) == Together)
       body->edit([&](Edit& edit) {
         for (Dart d : edges) unsew(edit, 2, d);
@@ -125,7 +126,7 @@ void subdivide_sheet(benchmark::State& state) {
     state.PauseTiming();
     auto body = sheet(n);
     state.ResumeTiming();
-    apply(subdivide, *body, Dart{0u});
+    apply(rule("quarter-faces"), *body, Dart{0u});
     state.PauseTiming();
     body.reset();
     state.ResumeTiming();

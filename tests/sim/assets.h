@@ -2,7 +2,8 @@
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
-#include "sim/rules/rules.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/rules/apply.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
 
@@ -11,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,41 @@ using Body = std::unique_ptr<EmbeddedMap>;
 
 inline Point at(double x, double y, double z = 0) {
   return {{x, y, z}, {x, y, z}, {0, 0, 0}};
+}
+
+// The corners p, q, r, s of a rule that creates a face.
+inline RuleArguments corners(std::initializer_list<Point> points) {
+  RuleArguments arguments;
+  char name = 'p';
+  for (const Point& point : points) {
+    const Vec3& x = point.position;
+    arguments.push_back({std::string(1, name++), vector_value(x.x(), x.y(), x.z())});
+  }
+  return arguments;
+}
+
+// A face with as many sides as there are points (at least three), free on all sides; returns two darts per side, d
+// and α0(d), side by side: d is at the point of its side.
+inline std::vector<Dart> create_polygon(Edit& edit, std::span<const Point> points) {
+  std::vector<Dart> darts;
+  for (std::size_t n = 0; n < 2 * points.size(); ++n) darts.push_back(edit.add_dart());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const Dart first = darts[2 * n], last = darts[2 * n + 1];
+    const Dart before = darts[(2 * n + 2 * points.size() - 1) % (2 * points.size())];
+    edit.link(0, first, last);
+    edit.link(1, before, first);
+    const std::uint32_t point = edit.add_point(points[n]);
+    edit.give(before, point);
+    edit.give(first, point);
+  }
+  return darts;
+}
+
+// Removes a face from a sheet, or a volume from a solid, whatever it is sewn to, itself included.
+inline void remove_element(Edit& edit, Dart d) {
+  const int dimension = edit.map().dimension();
+  for (Dart e : darts_of(edit.map(), element_orbit(dimension), d)) unsew(edit, dimension, e);
+  remove_orbit(edit, element_orbit(dimension), d);
 }
 
 inline std::vector<Dart> all_darts(const GMap& map) {
@@ -38,7 +75,8 @@ inline std::vector<std::array<std::uint32_t, 4>> links(const GMap& map) {
 }
 
 inline Dart add_quad(EmbeddedMap& body, double x, double y) {
-  return apply(create_quad, body, {}, {{at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}, {}}).dart('a');
+  return apply(rule("create-quad"), body, {}, corners({at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)}))
+      .dart("a");
 }
 
 // Sews every pair of α2-free edges whose end points coincide.
@@ -50,7 +88,7 @@ inline void sew_coincident(EmbeddedMap& body) {
     for (Dart b : darts)
       if (a < b && map.is_free(2, a) && map.is_free(2, b) && map.alpha(0, a) != b && place(a) == place(b) &&
           place(map.alpha(0, a)) == place(map.alpha(0, b)))
-        apply(sew_edges, body, {a, b});
+        apply(rule("sew-edges"), body, {a, b});
 }
 
 inline Body single_quad() {
@@ -61,7 +99,7 @@ inline Body single_quad() {
 
 inline Body triangle() {
   auto body = std::make_unique<EmbeddedMap>(2);
-  apply(create_triangle, *body, {}, {{at(0, 0), at(1, 0), at(0, 1)}, {}});
+  apply(rule("create-triangle"), *body, {}, corners({at(0, 0), at(1, 0), at(0, 1)}));
   return body;
 }
 
@@ -76,10 +114,10 @@ inline Body grid(int columns, int rows) {
 // Built by rules as in thesis 3.4.2: vertex, edge, face, subdivision. 2^levels cells on a side.
 inline Body checkerboard(int levels) {
   auto body = std::make_unique<EmbeddedMap>(2);
-  const Dart d = apply(create_vertex, *body, {}, {{at(0, 0)}, {}}).dart('a');
-  apply(create_edge, *body, d, {{at(1, 0)}, {}});
-  apply(extrude_edge, *body, d, {{}, {Vec3(0, 1, 0)}});
-  for (int n = 0; n < levels; ++n) apply(subdivide, *body, d);
+  const Dart d = apply(rule("create-vertex"), *body).dart("a");
+  apply(rule("extrude-vertex"), *body, d, {{at(1, 0)}, {}});
+  apply(rule("extrude-edge"), *body, d);
+  for (int n = 0; n < levels; ++n) apply(rule("quarter-faces"), *body, d);
   return body;
 }
 
@@ -89,7 +127,7 @@ inline Body triangulated_grid(int columns, int rows) {
   body->map().for_each_dart([&](Dart d) {
     if (smallest_dart(body->map(), FaceOfVolume, d) == d) faces.push_back(d);
   });
-  for (Dart d : faces) apply(triangulate_face, *body, d);
+  for (Dart d : faces) apply(rule("star-face"), *body, d);
   return body;
 }
 
@@ -97,7 +135,8 @@ inline Body triangulated_grid(int columns, int rows) {
 inline Body fan(int n) {
   auto body = std::make_unique<EmbeddedMap>(2);
   const auto rim = [](int k) { return at(std::cos(0.3 * k), std::sin(0.3 * k)); };
-  for (int k = 0; k < n; ++k) apply(create_triangle, *body, {}, {{at(0, 0), rim(k), rim(k + 1)}, {}});
+  for (int k = 0; k < n; ++k)
+    apply(rule("create-triangle"), *body, {}, corners({at(0, 0), rim(k), rim(k + 1)}));
   sew_coincident(*body);
   return body;
 }
@@ -114,7 +153,7 @@ inline Body loop_of_quads(int n, bool twisted) {
     return Dart{};
   };
   const Dart first = find(0, 0), last = find(n, twisted ? 1 : 0);
-  apply(sew_edges, *body, {first, last});
+  apply(rule("sew-edges"), *body, {first, last});
   return body;
 }
 
@@ -123,7 +162,7 @@ inline Body torn_sheet() {
   Body body = grid(4, 2);
   for (Dart d : all_darts(body->map())) {
     const Vec3 p = body->position_of(d), q = body->position_of(body->map().alpha(0, d));
-    if (p.y() == 1 && q.y() == 1 && p.x() + q.x() < 4) apply(unsew_edge, *body, d);
+    if (p.y() == 1 && q.y() == 1 && p.x() + q.x() < 4) apply(rule("unsew-edge"), *body, d);
   }
   return body;
 }
@@ -132,7 +171,7 @@ inline Body torn_sheet() {
 inline Body mixed_sheet() {
   auto body = std::make_unique<EmbeddedMap>(2);
   add_quad(*body, 0, 0);
-  apply(create_triangle, *body, {}, {{at(1, 0), at(2, 0.5), at(1, 1)}, {}});
+  apply(rule("create-triangle"), *body, {}, corners({at(1, 0), at(2, 0.5), at(1, 1)}));
   body->edit([](Edit& edit) {
     const std::array<Point, 5> points{at(0, 1), at(1, 1), at(1.2, 1.5), at(0.5, 2), at(-0.2, 1.5)};
     create_polygon(edit, points);
@@ -217,14 +256,14 @@ inline std::vector<Asset> all() {
           {"vertex",
            [] {
              auto body = std::make_unique<EmbeddedMap>(2);
-             apply(create_vertex, *body, {}, {{at(0, 0)}, {}});
+             apply(rule("create-vertex"), *body);
              return body;
            }},
           {"edge",
            [] {
              auto body = std::make_unique<EmbeddedMap>(2);
-             const Dart d = apply(create_vertex, *body, {}, {{at(0, 0)}, {}}).dart('a');
-             apply(create_edge, *body, d, {{at(1, 0)}, {}});
+             const Dart d = apply(rule("create-vertex"), *body).dart("a");
+             apply(rule("extrude-vertex"), *body, d, {{at(1, 0)}, {}});
              return body;
            }},
           {"quad", single_quad},
@@ -243,9 +282,16 @@ inline std::vector<Asset> all() {
           {"two cubes", [] { return row_of_cubes(2); }}};
 }
 
-// Arguments that satisfy the parameters of any rule.
-inline Arguments some_arguments() {
-  return {{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, {Vec3(0, 0, 1)}};
+// Another value for each argument of a rule that is a point.
+inline RuleArguments some_arguments(const Rule& rule) {
+  const std::array<Vec3, 4> points{Vec3(0, 0, 0), Vec3(1, 0, 0.1), Vec3(1, 1, 0), Vec3(0, 1, 0.2)};
+  RuleArguments arguments;
+  for (const Rule::Where& where : rule.wheres)
+    if (where.type == ValueType::Vector) {
+      const Vec3& p = points[arguments.size() % points.size()];
+      arguments.push_back({where.name, vector_value(p.x(), p.y(), p.z() + 1)});
+    }
+  return arguments;
 }
 
 } // namespace rend::assets

@@ -21,12 +21,12 @@ std::unique_ptr<EmbeddedMap> prism_over_an_l() {
     for (double z : {0.0, 1.0}) {
       std::vector<Point> points;
       for (const auto& [x, y] : ring) points.push_back(at(x, y, z));
-      create_polygon(edit, points);
+      assets::create_polygon(edit, points);
     }
     for (std::size_t n = 0; n < ring.size(); ++n) {
       const auto [x, y] = ring[n];
       const auto [u, v] = ring[(n + 1) % ring.size()];
-      create_polygon(edit, std::vector<Point>{at(x, y), at(u, v), at(u, v, 1), at(x, y, 1)});
+      assets::create_polygon(edit, std::vector<Point>{at(x, y), at(u, v), at(u, v, 1), at(x, y, 1)});
     }
   });
   assets::sew_coincident(*body);

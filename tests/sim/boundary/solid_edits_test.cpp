@@ -221,10 +221,10 @@ TEST(SolidSurface, equals_a_new_one_along_storms_of_any_edit) {
           body->map->edit([&](Edit& edit) {
             for (int k = 0; k < 4; ++k) unsew(edit, 3, any());
             for (int k = 0; k < 60; ++k) sew(edit, 3, any(), any()); // also faces that were never neighbours
-            if (round % 5 == 4 && count_cells(edit.map(), Volume) > 3) remove_element(edit, any());
+            if (round % 5 == 4 && count_cells(edit.map(), Volume) > 3) assets::remove_element(edit, any());
           });
-          if (round % 3 == 1) apply(triangulate_face_both_sides, *body->map, any());
-          if (round % 7 == 5) apply(insert_vertex, *body->map, any());
+          if (round % 3 == 1) apply(rule("star-face-both-sides"), *body->map, any());
+          if (round % 7 == 5) apply(rule("insert-vertex"), *body->map, any());
           if (round % 11 == 6) body->map->edit([&](Edit& edit) { unsew(edit, 2, any()); });
         }
         surface.update();
@@ -238,7 +238,7 @@ TEST(SolidSurface, equals_a_new_one_along_storms_of_any_edit) {
 
 void remove_cells(Body& body, std::initializer_list<std::uint32_t> cells) {
   body.map->edit([&](Edit& edit) {
-    for (std::uint32_t cell : cells) remove_element(edit, Dart{48 * cell});
+    for (std::uint32_t cell : cells) assets::remove_element(edit, Dart{48 * cell});
   });
 }
 

@@ -185,7 +185,7 @@ TEST(SolidSurface, marks_what_is_laid_bare_around_a_cell_cut_free_and_keeps_it_f
       EXPECT_NEAR((normals[c] - area_vector(*body, t).normalized()).norm(), 0, 1e-12);
   }
   EXPECT_EQ(exposed.size(), 12u);
-  body->map->edit([&](Edit& edit) { remove_element(edit, middle); });
+  body->map->edit([&](Edit& edit) { assets::remove_element(edit, middle); });
   surface.update();
   EXPECT_EQ(surface.faces(), 54u + 6);
   EXPECT_NEAR(volume_of(*body, surface), 26, 1e-12);

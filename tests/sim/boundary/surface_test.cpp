@@ -2,7 +2,8 @@
 
 #include "sim/brute_force.h"
 #include "sim/presets.h"
-#include "sim/rules/rules.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/rules/apply.h"
 
 #include <gtest/gtest.h>
 
@@ -133,7 +134,7 @@ TEST(Surface, marks_both_lips_of_a_tear_and_no_border) {
 TEST(Surface, marks_what_a_removed_element_leaves_as_torn) {
   const auto body = tearing(sheet(SheetPattern::Quads, 3, 3));
   Surface surface(*body->map, body->border);
-  body->map->edit([](Edit& edit) { remove_element(edit, Dart{8u * 4u}); }); // the middle one
+  body->map->edit([](Edit& edit) { assets::remove_element(edit, Dart{8u * 4u}); }); // the middle one
   surface.update();
   std::map<LineKind, int> count;
   for (const auto& line : lines_of(surface)) ++count[line.second];
@@ -244,12 +245,12 @@ TEST(Surface, of_a_face_that_gains_sides_grows_with_it_and_shrinks_again) {
   const auto body = tearing(sheet(SheetPattern::Quads, 2, 2));
   Surface surface(*body->map, body->border);
   for (int n = 0; n < 4; ++n) {
-    apply(insert_vertex, *body->map, Dart{0u});
+    apply(rule("insert-vertex"), *body->map, Dart{0u});
     surface.update();
     EXPECT_TRUE(surface.same_as(Surface(*body->map, body->border)));
     EXPECT_EQ(surface.triangles(), 8u + 1u + static_cast<unsigned>(n));
   }
-  body->map->edit([](Edit& edit) { remove_element(edit, Dart{0u}); });
+  body->map->edit([](Edit& edit) { assets::remove_element(edit, Dart{0u}); });
   surface.update();
   EXPECT_TRUE(surface.same_as(Surface(*body->map, body->border)));
 }

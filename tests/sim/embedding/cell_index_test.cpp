@@ -249,8 +249,8 @@ TEST(CellIndex, freed_slots_are_used_again_the_last_first) {
   const Dart a = assets::add_quad(body, 0, 0), b = assets::add_quad(body, 5, 0);
   const CellIndex& faces = body.use(FaceOfVolume);
   EXPECT_EQ(faces.slot(b), 1u);
-  apply(remove_isolated_face, body, a);
-  apply(remove_isolated_face, body, b);
+  apply(rule("remove-isolated-face"), body, a);
+  apply(rule("remove-isolated-face"), body, b);
   EXPECT_EQ(faces.count(), 0u);
   EXPECT_EQ(faces.slot(assets::add_quad(body, 0, 0)), 1u);
   EXPECT_EQ(faces.slot(assets::add_quad(body, 0, 0)), 0u);
@@ -262,8 +262,8 @@ TEST(CellIndex, a_dart_removed_and_used_again_in_one_edit_is_a_new_one) {
   const Dart a = assets::add_quad(body, 0, 0);
   body.use(FaceOfVolume);
   body.edit([&](Edit& edit) {
-    remove_element(edit, a);
-    apply(create_triangle, edit, {}, {{assets::at(7, 0), assets::at(8, 0), assets::at(7, 1)}, {}});
+    assets::remove_element(edit, a);
+    apply(rule("create-triangle"), edit, {}, assets::corners({assets::at(7, 0), assets::at(8, 0), assets::at(7, 1)}));
   });
   EXPECT_FALSE(validate(body));
   EXPECT_EQ(count_cells(body.map(), Vertex), 3u);

@@ -98,7 +98,7 @@ TEST(Column, sewing_merges_once_per_vertex_that_goes) {
   const Dart a = assets::add_quad(body, 0, 0), b = assets::add_quad(body, 1, 0);
   const auto& column = body.add(Counting{.calls = &calls});
   calls.clear();
-  apply(sew_edges, body, {a, b});
+  apply(rule("sew-edges"), body, {a, b});
   EXPECT_EQ(calls, (Calls{0, 0, 2}));
   EXPECT_EQ(column[body.vertex(a)], 2);
   EXPECT_EQ(total(body, column), 8);
@@ -109,7 +109,7 @@ TEST(Column, separation_splits_once_per_new_fragment) {
   const auto body = assets::grid(2, 1);
   body->add(Counting{.calls = &calls});
   calls.clear();
-  apply(unsew_edge, *body, find_edge(*body, Vec3(1, 0, 0), Vec3(1, 1, 0)));
+  apply(rule("unsew-edge"), *body, find_edge(*body, Vec3(1, 0, 0), Vec3(1, 1, 0)));
   EXPECT_EQ(calls, (Calls{0, 2, 0}));
 }
 
@@ -121,7 +121,7 @@ TEST(Column, creation_calls_birth_once_per_orbit_and_removal_calls_none) {
   const Dart d = assets::add_quad(body, 0, 0);
   EXPECT_EQ(vertex_calls, (Calls{4, 0, 0}));
   EXPECT_EQ(corner_calls, (Calls{4, 0, 0}));
-  apply(remove_isolated_face, body, d);
+  apply(rule("remove-isolated-face"), body, d);
   EXPECT_EQ(vertex_calls, (Calls{4, 0, 0}));
   EXPECT_EQ(corner_calls, (Calls{4, 0, 0}));
 }
@@ -132,7 +132,7 @@ TEST(Column, what_depends_on_a_face_does_not_notice_a_separation) {
   const auto& mass = body->add(CornerMass{.calls = &calls});
   const std::vector<double> before = mass.values();
   calls.clear();
-  for (Dart d : assets::all_darts(body->map())) apply(unsew_edge, *body, d);
+  for (Dart d : assets::all_darts(body->map())) apply(rule("unsew-edge"), *body, d);
   EXPECT_EQ(count_cells(body->map(), Component), 9u);
   EXPECT_EQ(calls, Calls{});
   EXPECT_EQ(mass.values(), before);
@@ -145,7 +145,7 @@ TEST(Column, what_depends_on_a_face_is_born_again_by_subdivision_and_its_total_s
   const double before = total(*body, mass);
   calls.clear();
   const std::size_t old_corners = body->cells(VertexOfFace).count();
-  apply(subdivide, *body, Dart{0u});
+  apply(rule("quarter-faces"), *body, Dart{0u});
   EXPECT_EQ(static_cast<std::size_t>(calls.births), body->cells(VertexOfFace).count());
   EXPECT_EQ(body->cells(VertexOfFace).count(), 4 * old_corners);
   EXPECT_NEAR(total(*body, mass), before, 1e-12);
@@ -156,7 +156,7 @@ TEST(Column, triangulation_of_one_face_leaves_the_masses_of_the_others_alone) {
   const auto body = assets::grid(2, 2);
   const auto& mass = body->add(CornerMass{.calls = &calls});
   calls.clear();
-  apply(triangulate_face, *body, Dart{0u});
+  apply(rule("star-face"), *body, Dart{0u});
   EXPECT_EQ(calls.births, 12);
   EXPECT_NEAR(total(*body, mass), 4, 1e-12);
 }
@@ -166,7 +166,7 @@ TEST(Column, inserting_a_vertex_calls_birth_on_corners_of_both_faces) {
   const auto body = assets::grid(2, 1);
   const auto& mass = body->add(CornerMass{.calls = &calls});
   calls.clear();
-  apply(insert_vertex, *body, find_edge(*body, Vec3(1, 0, 0), Vec3(1, 1, 0)));
+  apply(rule("insert-vertex"), *body, find_edge(*body, Vec3(1, 0, 0), Vec3(1, 1, 0)));
   EXPECT_EQ(calls.births, 10);
   EXPECT_NEAR(total(*body, mass), 2, 1e-12);
   EXPECT_NEAR(mass[body->slot(VertexOfFace, Dart{0u})], 0.2, 1e-15);

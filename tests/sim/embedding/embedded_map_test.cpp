@@ -33,13 +33,13 @@ TEST(EmbeddedMap, every_asset_is_valid_with_all_orbits_in_use) {
 TEST(EmbeddedMap, separating_one_edge_inside_a_sheet_splits_no_vertex) {
   const auto body = assets::grid(3, 3);
   const CellIndex& vertices = body->cells(Vertex);
-  apply(unsew_edge, *body, find_edge(*body, Vec3(1, 1, 0), Vec3(2, 1, 0)));
+  apply(rule("unsew-edge"), *body, find_edge(*body, Vec3(1, 1, 0), Vec3(2, 1, 0)));
   EXPECT_EQ(vertices.count(), 16u);
   // Separating the next edge at the same vertex splits it, ...
-  apply(unsew_edge, *body, find_edge(*body, Vec3(2, 1, 0), Vec3(2, 2, 0)));
+  apply(rule("unsew-edge"), *body, find_edge(*body, Vec3(2, 1, 0), Vec3(2, 2, 0)));
   EXPECT_EQ(vertices.count(), 17u);
   // ... and an edge that ends at the border splits both its end points.
-  apply(unsew_edge, *body, find_edge(*body, Vec3(1, 1, 0), Vec3(0, 1, 0)));
+  apply(rule("unsew-edge"), *body, find_edge(*body, Vec3(1, 1, 0), Vec3(0, 1, 0)));
   EXPECT_EQ(vertices.count(), 19u);
   EXPECT_FALSE(validate(*body));
 }
@@ -113,7 +113,7 @@ TEST(EmbeddedMap, readers_are_told_which_darts_and_slots_an_edit_changed) {
   const std::vector<Dart> edge = darts_of(body->map(), EdgeOfVolume, d);
   std::vector<Slot> before(body->map().capacity());
   for (Dart e : assets::all_darts(body->map())) before[e.value] = body->vertex(e);
-  apply(unsew_edge, *body, d);
+  apply(rule("unsew-edge"), *body, d);
   EXPECT_TRUE(changes.any);
   EXPECT_TRUE(
       std::is_permutation(edge.begin(), edge.end(), changes.touched[2].begin(), changes.touched[2].end()));
@@ -125,7 +125,7 @@ TEST(EmbeddedMap, readers_are_told_which_darts_and_slots_an_edit_changed) {
   EXPECT_TRUE(changes.moved[FaceOfVolume.mask].empty());
   changes.clear();
   body->unsubscribe(changes);
-  apply(unsew_edge, *body, Dart{0u});
+  apply(rule("unsew-edge"), *body, Dart{0u});
   EXPECT_FALSE(changes.any);
 }
 
@@ -134,7 +134,7 @@ TEST(EmbeddedMap, an_edit_that_changes_nothing_reports_no_changes) {
   Changes changes;
   body->subscribe(changes);
   body->edit([](Edit&) {});
-  EXPECT_FALSE(apply(unsew_edge, *body, Dart{0u}).ok);
+  EXPECT_FALSE(apply(rule("unsew-edge"), *body, Dart{0u}).ok);
   EXPECT_FALSE(changes.any);
 }
 
@@ -144,15 +144,15 @@ TEST(EmbeddedMap, many_changes_in_one_edit_leave_the_points_that_single_edits_le
   for (Dart d : assets::all_darts(one->map()))
     if (smallest_dart(one->map(), FaceOfVolume, d) == d) faces.push_back(d);
   for (Dart d : faces) {
-    apply(triangulate_face, *many, d);
-    apply(insert_vertex, *many, d);
-    apply(triangulate_face, *many, d);
+    apply(rule("star-face"), *many, d);
+    apply(rule("insert-vertex"), *many, d);
+    apply(rule("star-face"), *many, d);
   }
   one->edit([&](Edit& edit) {
     for (Dart d : faces) {
-      EXPECT_TRUE(apply(triangulate_face, edit, d).ok);
-      EXPECT_TRUE(apply(insert_vertex, edit, d).ok);
-      EXPECT_TRUE(apply(triangulate_face, edit, d).ok);
+      EXPECT_TRUE(apply(rule("star-face"), edit, d).ok);
+      EXPECT_TRUE(apply(rule("insert-vertex"), edit, d).ok);
+      EXPECT_TRUE(apply(rule("star-face"), edit, d).ok);
     }
   });
   EXPECT_FALSE(validate(*one));
@@ -163,7 +163,7 @@ TEST(EmbeddedMap, many_changes_in_one_edit_leave_the_points_that_single_edits_le
 TEST(EmbeddedMap, what_was_created_can_be_cut_off_in_the_same_edit) {
   const auto body = assets::single_quad();
   body->edit([](Edit& edit) {
-    apply(triangulate_face, edit, Dart{0u});
+    apply(rule("star-face"), edit, Dart{0u});
     for (Dart d : assets::all_darts(edit.map()))
       for (int i : {2, 1}) unsew(edit, i, d);
   });

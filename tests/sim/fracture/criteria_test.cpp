@@ -2,7 +2,8 @@
 // known answers.
 #include "sim/brute_force.h"
 #include "sim/fracture/plain_body.h"
-#include "sim/rules/rules.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/rules/apply.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // The values of criteria, against their definitions computed from polygons (thesis 7.4).
 #include "sim/brute_force.h"
-#include "sim/rules/rules.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/rules/apply.h"
 
 #include <gtest/gtest.h>
 

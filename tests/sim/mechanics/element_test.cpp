@@ -2,7 +2,8 @@
 #include "sim/mechanics/element.h"
 
 #include "sim/elements.h"
-#include "sim/rules/rules.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/rules/apply.h"
 #include "sim/topology/walk.h"
 
 #include <gtest/gtest.h>

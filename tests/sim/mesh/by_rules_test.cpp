@@ -1,8 +1,9 @@
 // Sheets built by rules, as in the thesis (3.4.2), against those of the generator, and the effect of
 // subdivision on a body that already has masses and springs (thesis figs. 6.13 to 6.15).
+#include "sim/house_rules/house_rules.h"
 #include "sim/mesh/sheet.h"
 #include "sim/rows/program.h"
-#include "sim/rules/rules.h"
+#include "sim/rules/apply.h"
 #include "sim/topology/count.h"
 #include "sim/topology/isomorphism.h"
 #include "sim/topology/walk.h"
@@ -29,10 +30,11 @@ Owned by_generator(SheetPattern pattern, int cells) {
 // A square, subdivided `times` times: 2^times cells on a side.
 Owned subdivided(int times) {
   auto map = std::make_unique<EmbeddedMap>(2);
-  const Dart d = apply(create_quad, *map, {},
-                       {{assets::at(0, 0), assets::at(1, 0), assets::at(1, 1), assets::at(0, 1)}, {}})
-                     .dart('a');
-  for (int n = 0; n < times; ++n) EXPECT_TRUE(apply(subdivide, *map, d).ok);
+  const Dart d =
+      apply(rule("create-quad"), *map, {},
+            assets::corners({assets::at(0, 0), assets::at(1, 0), assets::at(1, 1), assets::at(0, 1)}))
+          .dart("a");
+  for (int n = 0; n < times; ++n) EXPECT_TRUE(apply(rule("quarter-faces"), *map, d).ok);
   return map;
 }
 
@@ -50,7 +52,7 @@ template <class F> void cross(EmbeddedMap& map, int n, F&& chosen) {
   for (Dart d : faces) {
     const Vec3 centre = centre_of(map, d) * n;
     if (!chosen(static_cast<int>(centre.x()), static_cast<int>(centre.y()))) continue;
-    EXPECT_TRUE(apply(triangulate_face, map, d).ok);
+    EXPECT_TRUE(apply(rule("star-face"), map, d).ok);
   }
 }
 
@@ -67,8 +69,8 @@ Owned halved_by_rules(int n) {
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
       const auto at = [&](int i, int j) { return assets::at(double(x + i) / n, double(y + j) / n); };
-      apply(create_triangle, *map, {}, {{at(0, 0), at(1, 0), at(1, 1)}, {}});
-      apply(create_triangle, *map, {}, {{at(0, 0), at(1, 1), at(0, 1)}, {}});
+      apply(rule("create-triangle"), *map, {}, assets::corners({at(0, 0), at(1, 0), at(1, 1)}));
+      apply(rule("create-triangle"), *map, {}, assets::corners({at(0, 0), at(1, 1), at(0, 1)}));
     }
   assets::sew_coincident(*map);
   return map;
@@ -210,7 +212,7 @@ TEST(SheetByRules, carries_the_same_where_the_load_was_there_before_the_rules) {
       SCOPED_TRACE("pattern " + std::to_string(static_cast<int>(pattern)) + ", times " + std::to_string(times));
       const Owned rules = subdivided(1), generator = by_generator(pattern, 1 << times);
       MapWithProgram a(*rules, meshes::all_springs(0.1)), b(*generator, meshes::all_springs(0.1));
-      for (int n = 1; n < times; ++n) ASSERT_TRUE(apply(subdivide, *rules, Dart{0u}).ok);
+      for (int n = 1; n < times; ++n) ASSERT_TRUE(apply(rule("quarter-faces"), *rules, Dart{0u}).ok);
       if (pattern == SheetPattern::Crossed) cross(*rules, 1 << times, [](int, int) { return true; });
       if (pattern == SheetPattern::Mixed)
         cross(*rules, 1 << times, [](int x, int y) { return (x + y) % 2 == 1; });
@@ -233,7 +235,7 @@ TEST(Subdivision, quarters_corner_masses_keeps_stiffnesses_and_halves_rest_lengt
   const double mass = exact_mass(body);
   double corner = body.mass[map->slot(VertexOfFace, Dart{0u})], side = 1.0 / 3, faces = 9;
   for (int n = 0; n < 3; ++n) {
-    ASSERT_TRUE(apply(subdivide, *map, Dart{0u}).ok);
+    ASSERT_TRUE(apply(rule("quarter-faces"), *map, Dart{0u}).ok);
     corner /= 4;
     side /= 2;
     faces *= 4;
@@ -261,7 +263,7 @@ TEST(Subdivision, brings_a_program_up_to_date) {
   MapWithProgram body(*map, meshes::all_springs(0.1));
   Program& program = body.run();
   for (int n = 0; n < 2; ++n) {
-    ASSERT_TRUE(apply(subdivide, *map, Dart{0u}).ok);
+    ASSERT_TRUE(apply(rule("quarter-faces"), *map, Dart{0u}).ok);
     program.rebind();
     EXPECT_TRUE(program.same_as(Program(*map, body.interactions, body.mass, &body.drag, ProgramOptions{})));
   }
@@ -273,7 +275,7 @@ TEST(Subdivision, keeps_the_mass_of_irregular_cells) {
   const Owned map = sheet_from(mesh);
   MapWithProgram body(*map, meshes::all_springs());
   const double mass = exact_mass(body);
-  ASSERT_TRUE(apply(subdivide, *map, Dart{0u}).ok);
+  ASSERT_TRUE(apply(rule("quarter-faces"), *map, Dart{0u}).ok);
   EXPECT_NEAR(exact_mass(body), mass, 1e-14 * mass);
 }
 
@@ -287,7 +289,8 @@ TEST(Subdivision, of_a_deformed_body_puts_points_in_the_middle_and_looks_at_the_
     map->position().values()[n] = Record(deformed(map->rest().values()[n].vec()));
     map->velocity().values()[n] = Record(deformed(map->rest().values()[n].vec()) * 7);
   }
-  for (EmbeddedMap* each : {map.get(), calm.get()}) ASSERT_TRUE(apply(subdivide, *each, Dart{0u}).ok);
+  for (EmbeddedMap* each : {map.get(), calm.get()})
+    ASSERT_TRUE(apply(rule("quarter-faces"), *each, Dart{0u}).ok);
   map->map().for_each_dart([&](Dart d) { // affine maps preserve means
     EXPECT_NEAR((map->position_of(d) - deformed(map->rest_of(d))).norm(), 0, 1e-14);
     EXPECT_NEAR((map->velocity()[map->vertex(d)].vec() - 7 * deformed(map->rest_of(d))).norm(), 0, 1e-13);

@@ -2,7 +2,8 @@
 #include "sim/boundary/surface.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
-#include "sim/rules/rules.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/rules/apply.h"
 #include "sim/topology/walk.h"
 
 #include <gtest/gtest.h>
@@ -122,13 +123,13 @@ private:
     else if (what < 82)
       sew(edit, 2, d, any(map));
     else if (what < 87 && room && sides_of_face(map, d) < 7)
-      apply(insert_vertex, edit, d);
+      apply(rule("insert-vertex"), edit, d);
     else if (what < 92 && room)
-      apply(triangulate_face, edit, d);
+      apply(rule("star-face"), edit, d);
     else if (room && (map.dart_count() < 150 || darts_of(map, Component, d).size() < 40))
-      apply(subdivide, edit, d);
+      apply(rule("quarter-faces"), edit, d);
     else
-      remove_element(edit, d);
+      assets::remove_element(edit, d);
   }
 
   void separate(Edit& edit, Dart d) {

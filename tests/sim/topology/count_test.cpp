@@ -22,12 +22,12 @@ void expect_cells(const EmbeddedMap& body, std::size_t vertices, std::size_t edg
 
 TEST(Counts, a_vertex_an_edge_and_a_face_grow_out_of_each_other) {
   EmbeddedMap body(2);
-  const Dart d = apply(create_vertex, body, {}, {{assets::at(0, 0)}, {}}).dart('a');
+  const Dart d = apply(rule("create-vertex"), body).dart("a");
   EXPECT_EQ(count_cells(body.map(), Vertex), 1u);
-  apply(create_edge, body, d, {{assets::at(1, 0)}, {}});
+  apply(rule("extrude-vertex"), body, d, {{assets::at(1, 0)}, {}});
   EXPECT_EQ(count_cells(body.map(), Vertex), 2u);
   EXPECT_EQ(count_cells(body.map(), Edge), 1u);
-  apply(extrude_edge, body, d, {{}, {Vec3(0, 1, 0)}});
+  apply(rule("extrude-edge"), body, d);
   expect_cells(body, 4, 4, 1, 0, 1, 1);
 }
 
@@ -88,7 +88,7 @@ TEST(Counts, fragments_are_numbered_by_their_smallest_dart) {
   const auto labels = label_fragments(body.map());
   EXPECT_EQ(labels[first.value], 0u);
   EXPECT_EQ(labels[second.value], 1u);
-  apply(remove_isolated_face, body, first);
+  apply(rule("remove-isolated-face"), body, first);
   const auto after = label_fragments(body.map());
   EXPECT_EQ(after[first.value], Dart::none_value);
   EXPECT_EQ(after[second.value], 0u);

@@ -35,7 +35,7 @@ TEST(Isomorphism, sheets_with_as_many_darts_differ_by_how_they_are_sewn) {
   const auto whole = assets::grid(3, 1), torn = assets::grid(3, 1);
   for (Dart d : assets::all_darts(torn->map()))
     if (!torn->map().is_free(2, d)) {
-      apply(unsew_edge, *torn, d);
+      apply(rule("unsew-edge"), *torn, d);
       break;
     }
   EXPECT_FALSE(isomorphism(whole->map(), torn->map()));

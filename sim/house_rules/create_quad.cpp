@@ -1,0 +1,22 @@
+// A face of four sides.
+#include "sim/house_rules/house_rules.h"
+
+namespace rend {
+
+RuleSettings create_quad() {
+  return {.name = "create-quad",
+          .about = "a face of four sides",
+          .left = "",
+          .right = "a b c d e f g h a-0-b b-1-c c-0-d d-1-e e-0-f f-1-g g-0-h h-1-a a|2,3 b|2,3 c|2,3 d|2,3 "
+                   "e|2,3 f|2,3 g|2,3 h|2,3",
+          .sets = {{.node = "a", .position = "p"},
+                   {.node = "c", .position = "q"},
+                   {.node = "e", .position = "r"},
+                   {.node = "g", .position = "s"}},
+          .wheres = {{.name = "p", .value = "point(0, 0, 0)"},
+                     {.name = "q", .value = "point(1, 0, 0)"},
+                     {.name = "r", .value = "point(1, 1, 0)"},
+                     {.name = "s", .value = "point(0, 1, 0)"}}};
+}
+
+} // namespace rend

@@ -1,0 +1,159 @@
+#include "sim/rules/rest_measures.h"
+
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+
+std::vector<Dart> vertices_of_orbit(const GMap& map, Orbit orbit, Dart d) {
+  thread_local std::vector<Dart> darts, vertex;
+  thread_local IndexSet counted;
+  darts.clear();
+  counted.clear();
+  collect(map, orbit, d, darts);
+  std::sort(darts.begin(), darts.end());
+  std::vector<Dart> first;
+  for (Dart e : darts) {
+    if (counted.contains(e.value)) continue;
+    vertex.clear();
+    collect(map, Vertex, e, vertex);
+    for (Dart v : vertex) counted.insert(v.value);
+    first.push_back(e);
+  }
+  return first;
+}
+
+Point mean_point(const Edit& edit, Orbit orbit, Dart d) {
+  Point sum;
+  double count = 0;
+  for (Dart e : vertices_of_orbit(edit.map(), orbit, d)) {
+    const Point point = edit.point(e);
+    sum.position += point.position;
+    sum.rest += point.rest;
+    sum.velocity += point.velocity;
+    count += 1;
+  }
+  return {sum.position / count, sum.rest / count, sum.velocity / count};
+}
+
+namespace {
+
+// The darts of the face of d that begin its sides, in its order from d; empty: the face is not closed.
+std::vector<Dart> sides_from(const GMap& map, Dart d) {
+  std::vector<Dart> sides;
+  Dart at = d;
+  do {
+    sides.push_back(at);
+    const Dart end = map.alpha(0, at);
+    if (end == at || map.is_free(1, end)) return {};
+    at = map.alpha(1, end);
+  } while (at != d);
+  return sides;
+}
+
+double size_of(const std::vector<Vec3>& points) {
+  double farthest = 0;
+  for (const Vec3& p : points) farthest = std::max(farthest, (p - points[0]).norm());
+  return farthest;
+}
+
+std::string place_of(const Vec3& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+}
+
+constexpr double flat = 1e-9; // of a measure, relative to that of a cube or square of the same extent
+
+std::string fault_of_face(const Edit& edit, Dart d) {
+  std::vector<Vec3> x;
+  for (Dart s : sides_from(edit.map(), d)) x.push_back(edit.point(s).rest);
+  if (x.size() < 3) return "a face would not be closed, or have fewer than three sides";
+  const Vec3 area = face_vector(edit, d);
+  const double extent = size_of(x);
+  if (!(area.norm() > flat * extent * extent)) return "a face would have no area, near " + place_of(x[0]);
+  if (x.size() > 4) return {};
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const Vec3 &before = x[(n + x.size() - 1) % x.size()], &at = x[n], &next = x[(n + 1) % x.size()];
+    if (!((next - at).cross(before - at).dot(area) > 0)) return "a face would be folded, near " + place_of(at);
+  }
+  return {};
+}
+
+std::string fault_of_volume(const Edit& edit, Dart d) {
+  const GMap& map = edit.map();
+  const std::vector<Dart> darts = darts_of(map, Volume, d);
+  std::vector<Vec3> x;
+  for (Dart e : darts) x.push_back(edit.point(e).rest);
+  const double extent = size_of(x);
+  if (!(std::abs(volume_at_rest(edit, d)) > flat * extent * extent * extent))
+    return "a volume would be flat, near " + place_of(x[0]);
+  thread_local IndexMap sense; // dart → 0, 1: darts that one link joins have different ones
+  sense.clear();
+  sense.insert(d.value, 0);
+  int turned = 0, all = 0; // corners of three edges with positive determinants, and all
+  std::vector<Dart> stack{d};
+  while (!stack.empty()) {
+    const Dart e = stack.back();
+    stack.pop_back();
+    const std::uint32_t side = sense.find(e.value);
+    for (int i = 0; i < 3; ++i) {
+      const Dart next = map.alpha(i, e);
+      if (sense.find(next.value) != IndexMap::none) continue;
+      sense.insert(next.value, 1 - side);
+      stack.push_back(next);
+    }
+    if (map.follow(e, std::string_view("121212")) != e) continue; // more than three edges meet, as at an apex
+    const Vec3 at = edit.point(e).rest;
+    const auto edge = [&](std::string_view word) { return Vec3(edit.point(map.follow(e, word)).rest - at); };
+    const double turn = edge("0").cross(edge("10")).dot(edge("210")) * (side == 0 ? 1 : -1);
+    turned += turn > 0;
+    ++all;
+    if (turned != 0 && turned != all) return "a volume would be inverted, near " + place_of(at);
+  }
+  return {};
+}
+
+} // namespace
+
+Vec3 face_vector(const Edit& edit, Dart d, Vec3 Point::*part) {
+  const std::vector<Dart> sides = sides_from(edit.map(), d);
+  if (sides.empty()) return Vec3::Zero();
+  const Vec3 origin = edit.point(d).*part;
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 1; n + 1 < sides.size(); ++n)
+    sum += (edit.point(sides[n]).*part - origin).cross(edit.point(sides[n + 1]).*part - origin);
+  return sum / 2;
+}
+
+double volume_at_rest(const Edit& edit, Dart d) {
+  const GMap& map = edit.map();
+  const Vec3 origin = edit.point(d).rest;
+  double sum = 0;
+  IndexMap sense; // dart → 0, 1: darts that one link joins have different ones
+  sense.insert(d.value, 0);
+  std::vector<Dart> queue{d};
+  for (std::size_t at = 0; at < queue.size(); ++at)
+    for (int i = 0; i < 3; ++i) {
+      const Dart next = map.alpha(i, queue[at]);
+      if (sense.find(next.value) != IndexMap::none) continue;
+      sense.insert(next.value, 1 - sense.find(queue[at].value));
+      queue.push_back(next);
+    }
+  // Each side of each face, with the face's mean: a tetrahedron with the origin.
+  for (Dart e : queue) {
+    if (sense.find(e.value) != 0) continue;
+    const Vec3 a = edit.point(e).rest - origin, b = edit.point(map.alpha(0, e)).rest - origin;
+    const Vec3 mean = mean_point(edit, FaceOfVolume, e).rest - origin;
+    sum += a.cross(b).dot(mean) / 6;
+  }
+  return sum;
+}
+
+std::string shape_fault(const Edit& edit, Dart d) {
+  return edit.map().dimension() == 2 ? fault_of_face(edit, d) : fault_of_volume(edit, d);
+}
+
+} // namespace rend

@@ -1,0 +1,24 @@
+// Measures of cells while an edit is open, from the points that the edit knows, those of new darts included.
+#pragma once
+
+#include "sim/embedding/embedded_map.h"
+
+namespace rend {
+
+// The smallest dart of each distinct vertex of orbit(d), increasing.
+std::vector<Dart> vertices_of_orbit(const GMap& map, Orbit orbit, Dart d);
+
+// The mean of the vertices of orbit(d), each counted once, in the order of their smallest dart in the orbit.
+Point mean_point(const Edit& edit, Orbit orbit, Dart d);
+
+// Half the sum of cross products around the face of d, from d by α0: its length is the area at rest [m²] of a
+// planar face.
+Vec3 face_vector(const Edit& edit, Dart d, Vec3 Point::*part = &Point::rest);
+
+double volume_at_rest(const Edit& edit, Dart d); // [m³], each face a fan around the mean of its corners
+
+// Why the element of d (a face of a sheet, a volume of a solid) is flat or inverted at rest, as a sentence; empty:
+// it is not. Corners where three edges meet must all turn the same way.
+std::string shape_fault(const Edit& edit, Dart d);
+
+} // namespace rend

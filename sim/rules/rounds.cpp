@@ -1,0 +1,76 @@
+#include "sim/rules/rounds.h"
+
+#include "sim/topology/walk.h"
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+class Round {
+public:
+  Round(RuleRunner& runner, Edit& edit, const std::function<bool(Dart)>& selected)
+      : runner_(runner), edit_(edit), selected_(selected), darts_(edit.map().capacity()), used_(darts_),
+        seen_(darts_) {}
+
+  RoundResult run() {
+    runner_.context().sides.reset();
+    if (runner_.rule().only_creates()) {
+      visit({});
+      return result_;
+    }
+    const Orbit orbit = runner_.rule().hook_orbit();
+    for (std::uint32_t n = 0; n < darts_; ++n) {
+      if (!edit_.map().alive(Dart{n}) || used_[n] || seen_[n]) continue;
+      orbit_.clear();
+      collect(edit_.map(), orbit, Dart{n}, orbit_);
+      bool chosen = true;
+      for (Dart d : orbit_) {
+        if (d.value < darts_) seen_[d.value] = true;
+        chosen = chosen && !used(d) && (!selected_ || selected_(d));
+      }
+      if (chosen) visit(Dart{n});
+    }
+    return result_;
+  }
+
+private:
+  bool used(Dart d) const { return d.value >= darts_ || used_[d.value]; }
+  void use(const std::vector<Dart>& darts) {
+    for (Dart d : darts)
+      if (d.value < darts_) used_[d.value] = true;
+  }
+
+  void visit(const Hooks& hooks) {
+    if (!runner_.matches(edit_, hooks)) return refuse();
+    const std::vector<Dart>& matched = runner_.match().darts;
+    if (std::any_of(matched.begin(), matched.end(), [&](Dart d) { return used(d); })) return;
+    if (!runner_.rewrite(edit_)) return refuse();
+    ++result_.applied;
+    use(matched);
+    use(runner_.darts()); // a removed dart's number may have been taken again
+  }
+
+  void refuse() {
+    ++result_.refused;
+    if (result_.reason.empty()) result_.reason = runner_.mismatch().sentence(runner_.rule());
+  }
+
+  RuleRunner& runner_;
+  Edit& edit_;
+  const std::function<bool(Dart)>& selected_;
+  std::size_t darts_;             // when the round began
+  std::vector<bool> used_, seen_; // by dart
+  std::vector<Dart> orbit_;
+  RoundResult result_;
+};
+
+} // namespace
+
+RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected) {
+  RoundResult result;
+  map.edit([&](Edit& edit) { result = Round(runner, edit, selected).run(); });
+  return result;
+}
+
+} // namespace rend

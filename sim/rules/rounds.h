@@ -1,0 +1,24 @@
+// Applying a rule everywhere in a map: to all orbits of its hook's kind, in the order of their smallest darts.
+//
+// One round visits each orbit once. What an application has matched or made is used up for the rest of the round,
+// so that the order of orbits decides where matches overlap, and a round ends. All applications of a round share
+// one edit, and their expressions read the points from before it.
+#pragma once
+
+#include "sim/rules/apply.h"
+
+#include <functional>
+
+namespace rend {
+
+struct RoundResult {
+  std::size_t applied = 0;
+  std::size_t refused = 0; // orbits that were selected, and where the rule did not apply
+  std::string reason;      // of the first refusal; empty: none
+};
+
+// Which orbits: those all of whose darts are `selected`; empty: all. It is asked for darts of the map as it is
+// when the round begins.
+RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected = {});
+
+} // namespace rend

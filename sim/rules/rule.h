@@ -1,0 +1,86 @@
+// A graph transformation rule, checked and compiled: what the engine runs.
+//
+// Its graphs say which darts are matched and what takes their place (rule_graph.h), its expressions where vertices
+// are (rule_values.h). A rule is immutable; what is compiled once, the *plan*, lists the steps of a match and of
+// the rewriting node by node, so that running it reads no names.
+#pragma once
+
+#include "sim/expression/expression.h"
+#include "sim/rules/rule_graph.h"
+#include "sim/rules/rule_settings.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+// Numbers of nodes are those of the left graph, if not said otherwise.
+struct RulePlan {
+  // The dart of `node` is found from that of `from`.
+  struct Step {
+    int node, from, link;
+  };
+  // A link that must be there at every instance, and does not follow from the steps and the axioms.
+  struct Test {
+    int node, link;
+    RuleLink::Kind kind; // Implicit, Arc or Loop
+    int to;              // as in RuleLink
+  };
+  struct Link {
+    int node, link;      // of the right graph
+    RuleLink::Kind kind; // Implicit or Arc
+    int to;              // as in RuleLink
+  };
+  std::vector<int> hooks;
+  std::vector<Step> steps;
+  std::vector<Test> tests;
+  std::vector<Test> first_tests; // of hooks' loops and arcs: asked of the hooks' own darts before anything else
+  std::vector<std::pair<int, int>> unlinks; // node, link
+  std::vector<int> removed;                 // nodes
+  std::vector<Link> links;
+  bool links_volumes = false; // it links by α3, so that it cannot apply to a sheet
+};
+
+struct Rule {
+  // UserError (65) with the place of the attribute: everything that `rend rule check` refuses.
+  explicit Rule(RuleSettings settings);
+  Rule(Rule&&) = default;
+
+  // The values of a vertex; empty where they follow the position.
+  struct Set {
+    int node = -1; // of the right graph
+    std::optional<Expression> position, rest, velocity;
+  };
+  struct When {
+    Expression test;
+    RuleWhenSettings::At at;
+    std::string otherwise;
+  };
+  struct Where {
+    std::string name;
+    ValueType type; // Scalar or Vector
+    Value value;
+  };
+
+  const std::string& name() const { return settings.name; }
+  Orbit hook_orbit(std::size_t hook = 0) const; // what a hook stands for
+  bool only_creates() const { return left.nodes.empty(); }
+  bool creates() const; // some dart
+  bool removes() const { return !plan.removed.empty(); }
+  // As the element <rule> of a preset, in a normal form: read, it makes the same rule.
+  std::string print() const;
+
+  RuleSettings settings;
+  RuleGraph left, right;
+  std::vector<int> before;     // node of the left graph of each node of the right one; -1: it is created
+  std::vector<int> after;      // the reverse; -1: it is removed
+  std::vector<int> vertex_set; // one per node of the right graph: number in `sets` of its vertex; -1: none
+  std::vector<Set> sets;
+  std::vector<When> whens;
+  std::vector<Where> wheres;                  // with the values that they have unless others are given
+  std::vector<ExpressionFunction> vocabulary; // of its expressions
+  RulePlan plan;
+};
+
+} // namespace rend

@@ -1,0 +1,283 @@
+#include "sim/rules/rule_values.h"
+
+#include "sim/base/check.h"
+#include "sim/base/wording.h"
+#include "sim/rules/rest_measures.h"
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+struct NamedOrbit {
+  std::string name;
+  Orbit orbit;
+};
+
+const std::vector<NamedOrbit>& orbits_with_vertices() {
+  static const std::vector<NamedOrbit> orbits{
+      {"vertex", Vertex}, {"edge", Edge}, {"face", Face}, {"volume", Volume}, {"component", Component}};
+  return orbits;
+}
+
+const Orbit* find_orbit(std::string_view name) {
+  for (const NamedOrbit& each : orbits_with_vertices())
+    if (each.name == name) return &each.orbit;
+  return nullptr;
+}
+
+const std::vector<std::string>& directions() {
+  static const std::vector<std::string> names{"normal", "face", "edge"};
+  return names;
+}
+
+Value to_value(const Vec3& v) {
+  return vector_value(v.x(), v.y(), v.z());
+}
+Vec3 to_vec(const Value& value) {
+  return {value.number[0], value.number[1], value.number[2]};
+}
+
+// The orbit within which a call has one value.
+Orbit orbit_of_call(const ExpressionCall& call) {
+  if (call.function >= rule_functions) return Vertex; // a node: its point
+  switch (static_cast<RuleFunction>(call.function)) {
+  case RuleFunction::Mean:
+  case RuleFunction::Size:
+    return call.names.size() > 1 ? *find_orbit(call.names[1]) : Vertex;
+  case RuleFunction::Along:
+    return call.names[1] == "normal" ? Vertex : call.names[1] == "face" ? VertexOfFaceBothSides : EdgeEnd;
+  case RuleFunction::LengthOf:
+    return Edge;
+  case RuleFunction::AreaOf:
+    return Face;
+  case RuleFunction::VolumeOf:
+  case RuleFunction::Strain:
+    return Volume;
+  default:
+    return Vertex;
+  }
+}
+
+// Of its calls: how many functions come before the nodes' names.
+bool is_node(const ExpressionCall& call, const RuleGraph& left) {
+  return call.function >= rule_functions && call.function < rule_functions + left.nodes.size();
+}
+
+} // namespace
+
+std::vector<ExpressionFunction> rule_vocabulary(const RuleGraph& left, std::span<const std::string> wheres) {
+  using enum ValueType;
+  std::vector<ExpressionFunction> all{
+      {"copy", {Name}, Vector, "the point of a node"},
+      {"mean",
+       {Name, Name},
+       Vector,
+       "the mean of the vertices of a node's vertex, edge, face, volume, component"},
+      {"lerp", {Vector, Vector, Scalar}, Vector, "(1 - t) u + t v"},
+      {"along",
+       {Name, Name, Scalar},
+       Vector,
+       "a node's point, moved along the normal of its vertex (normal), of its face (face), or along its edge "
+       "(edge) [m]"},
+      {"size",
+       {Name, Name},
+       Scalar,
+       "how many vertices an edge, face, volume or component has; edges at a vertex"},
+      {"length", {Name}, Scalar, "of a node's edge, at rest [m]"},
+      {"area", {Name}, Scalar, "of a node's face, at rest [m2]"},
+      {"volume", {Name}, Scalar, "of a node's volume, at rest [m3]"},
+      {"stress",
+       {Name},
+       Scalar,
+       "the largest eigenvalue of the stress at a node's vertex [Pa]; of laws of tearing"},
+      {"strain", {Name}, Scalar, "the largest principal strain of a node's element; of laws of tearing"},
+      {"value", {}, Scalar, "what the criterion found, in its unit; of laws of tearing"},
+      {"time", {}, Scalar, "the time [s]; of laws of tearing"},
+  };
+  CHECK(all.size() == rule_functions);
+  for (const RuleNode& node : left.nodes) all.push_back({node.name, {}, Vector, "the point of this node"});
+  for (const std::string& name : wheres) all.push_back({name, {}, Scalar, "an argument of the rule"});
+  return all;
+}
+
+void check_names(const Expression& expression, const RuleGraph& left) {
+  std::vector<std::string> nodes, orbits;
+  for (const RuleNode& node : left.nodes) nodes.push_back(node.name);
+  for (const NamedOrbit& each : orbits_with_vertices()) orbits.push_back(each.name);
+  for (const ExpressionCall& call : expression.calls()) {
+    if (call.function >= rule_functions || call.names.empty()) continue;
+    if (left.find(call.names[0]) < 0)
+      throw ExpressionError(call.columns[0],
+                            fmt::format("the left graph has no node {}", in_quotes(call.names[0])),
+                            suggestion(call.names[0], nodes, "its nodes"));
+    if (call.names.size() < 2) continue;
+    const bool along = static_cast<RuleFunction>(call.function) == RuleFunction::Along;
+    const std::vector<std::string>& allowed = along ? directions() : orbits;
+    if (std::find(allowed.begin(), allowed.end(), call.names[1]) == allowed.end())
+      throw ExpressionError(call.columns[1],
+                            fmt::format("{} is no {}", in_quotes(call.names[1]), along ? "direction" : "orbit"),
+                            suggestion(call.names[1], allowed, "there are"));
+  }
+}
+
+bool keeps_value(const ExpressionCall& call, const RuleGraph& left, int p) {
+  int node = -1;
+  if (is_node(call, left)) node = static_cast<int>(call.function - rule_functions);
+  if (call.function < rule_functions && !call.names.empty()) node = left.find(call.names[0]);
+  if (node < 0) return true; // a number
+  const int link = left[node].label[static_cast<std::size_t>(p)];
+  return link != RuleNode::dropped && orbit_of_call(call).has(link);
+}
+
+Dart RuleValues::dart(std::string_view node, std::size_t instance) const {
+  return match_.dart(instance, rule_.left.find(node));
+}
+
+Vec3 RuleValues::part_of(Dart d, PointPart part) const {
+  const Point point = edit_.point(d);
+  return part == PointPart::Position ? point.position : part == PointPart::Rest ? point.rest : point.velocity;
+}
+
+double RuleValues::side(Dart d) const {
+  if (!context_.sides) context_.sides = sides_of(edit_.map());
+  if (!context_.sides->orientable) throw ExpressionError(1, "a surface with one side has no normal");
+  return d.value < context_.sides->of_dart.size() && context_.sides->of_dart[d.value] == 2 ? -1 : 1;
+}
+
+Vec3 RuleValues::direction(Dart d, std::string_view which, PointPart part) const {
+  const auto member = part == PointPart::Rest ? &Point::rest : &Point::position;
+  const GMap& map = edit_.map();
+  Vec3 sum = Vec3::Zero();
+  if (which == "edge") {
+    sum = edit_.point(map.alpha(0, d)).*member - edit_.point(d).*member;
+  } else {
+    const auto face = [&](Dart e) -> Vec3 {
+      if (map.dimension() == 2) return side(e) * face_vector(edit_, e, member);
+      const Vec3 n = face_vector(edit_, e, member);
+      const Vec3 outward = mean_point(edit_, FaceOfVolume, e).*member - mean_point(edit_, Volume, e).*member;
+      return n.dot(outward) < 0 ? Vec3(-n) : n;
+    };
+    if (which == "face") {
+      sum = face(d);
+    } else {
+      for (Dart e : darts_of(map, Vertex, d))
+        if ((map.dimension() == 2 || map.is_free(3, e)) && e <= map.alpha(1, e))
+          sum += face(e); // once a corner
+    }
+  }
+  const double length = sum.norm();
+  if (!(length > 0))
+    throw ExpressionError(1, fmt::format("there is no direction '{}' at dart {}", which, d.value));
+  return sum / length;
+}
+
+Value RuleValues::quantity(RuleFunction function, Dart d) const {
+  const RuleQuantities* from = context_.quantities;
+  if (!from) throw ExpressionError(1, "stress, strain, value and time are known to laws of tearing alone");
+  switch (function) {
+  case RuleFunction::Stress:
+    return scalar_value(from->stress(d));
+  case RuleFunction::Strain:
+    return scalar_value(from->strain(d));
+  case RuleFunction::Found:
+    return scalar_value(from->value);
+  default:
+    return scalar_value(from->time);
+  }
+}
+
+Value RuleValues::call(const ExpressionCall& call, std::span<const Value> arguments, std::size_t instance,
+                       PointPart part, bool at_zero) const {
+  if (is_node(call, rule_.left)) {
+    if (at_zero) return vector_value(0, 0, 0);
+    return to_value(part_of(match_.dart(instance, static_cast<int>(call.function - rule_functions)), part));
+  }
+  if (call.function >= rule_functions) {
+    const std::size_t n = call.function - rule_functions - rule_.left.nodes.size();
+    return n < context_.wheres.size() ? context_.wheres[n] : rule_.wheres[n].value;
+  }
+  const auto function = static_cast<RuleFunction>(call.function);
+  if (function == RuleFunction::Lerp) {
+    const double t = arguments[2].scalar();
+    return to_value((1 - t) * to_vec(arguments[0]) + t * to_vec(arguments[1]));
+  }
+  const Dart d = call.names.empty() ? Dart{} : dart(call.names[0], instance);
+  const GMap& map = edit_.map();
+  switch (function) {
+  case RuleFunction::Copy:
+    return to_value(at_zero ? Vec3(Vec3::Zero()) : part_of(d, part));
+  case RuleFunction::Mean: {
+    if (at_zero) return vector_value(0, 0, 0);
+    const Point mean = mean_point(edit_, orbit_of_call(call), d);
+    return to_value(part == PointPart::Position ? mean.position
+                    : part == PointPart::Rest   ? mean.rest
+                                                : mean.velocity);
+  }
+  case RuleFunction::Along:
+    if (part == PointPart::Velocity) return to_value(at_zero ? Vec3(Vec3::Zero()) : part_of(d, part));
+    return to_value(part_of(d, part) + arguments[0].scalar() * direction(d, call.names[1], part));
+  case RuleFunction::Size: {
+    const Orbit orbit = orbit_of_call(call);
+    if (!(orbit == Vertex)) return scalar_value(static_cast<double>(vertices_of_orbit(map, orbit, d).size()));
+    IndexSet edges;
+    double count = 0;
+    for (Dart e : darts_of(map, Vertex, d)) count += edges.insert(smallest_dart(map, Edge, e).value);
+    return scalar_value(count);
+  }
+  case RuleFunction::LengthOf:
+    return scalar_value((edit_.point(map.alpha(0, d)).rest - edit_.point(d).rest).norm());
+  case RuleFunction::AreaOf:
+    return scalar_value(face_vector(edit_, d).norm());
+  case RuleFunction::VolumeOf:
+    return scalar_value(std::abs(volume_at_rest(edit_, d)));
+  default:
+    return quantity(function, d);
+  }
+}
+
+Vec3 RuleValues::vector(const Expression& expression, std::size_t instance, PointPart part,
+                        bool at_zero) const {
+  return to_vec(
+      expression.evaluate([&](const ExpressionCall& each, std::size_t, std::span<const Value> arguments) {
+        return call(each, arguments, instance, part, at_zero);
+      }));
+}
+
+Point RuleValues::moved(const Rule::Set& set, std::size_t instance, const Point& was) const {
+  Point point = was;
+  if (set.position) {
+    point.position = vector(*set.position, instance, PointPart::Position);
+    point.rest = vector(*set.position, instance, PointPart::Rest);
+    point.velocity = vector(*set.position, instance, PointPart::Velocity) -
+                     vector(*set.position, instance, PointPart::Velocity, true);
+  }
+  if (set.rest) point.rest = vector(*set.rest, instance, PointPart::Rest);
+  if (set.velocity) point.velocity = vector(*set.velocity, instance, PointPart::Velocity);
+  return point;
+}
+
+Point RuleValues::point(const Rule::Set& set, std::size_t instance) const {
+  return moved(set, instance, Point{});
+}
+
+bool RuleValues::holds(const Rule::When& when) const {
+  const auto at = [&](std::size_t instance) {
+    return when.test
+        .evaluate([&](const ExpressionCall& each, std::size_t, std::span<const Value> arguments) {
+          return call(each, arguments, instance, PointPart::Position, false);
+        })
+        .condition();
+  };
+  if (when.at == RuleWhenSettings::At::Hook) return at(0);
+  const bool all = when.at == RuleWhenSettings::At::All;
+  for (std::size_t k = 0; k < match_.instances; ++k)
+    if (at(k) != all) return !all;
+  return all;
+}
+
+} // namespace rend

@@ -1,0 +1,99 @@
+// What the expressions of a rule speak of, and their values at one instance of a match.
+//
+//   a                    the point of node a of the left graph
+//   copy(a)              the same
+//   mean(a, face)        the mean of the distinct vertices of a's vertex, edge, face, volume or component
+//   lerp(u, v, t)        (1 − t) u + t v
+//   along(a, normal, h)  a, moved by h [m] along the normal of its vertex; of its face; or along its edge
+//   size(a, face)        how many vertices; of a vertex: how many edges
+//   length(a), area(a), volume(a)   of its edge, face, volume, at rest [m, m², m³]
+//   stress(a), strain(a), value, time   where a law of tearing applies the rule
+//
+// The position is the value of the expression over positions; the rest position that over rest positions; the
+// velocity its derivative in time where points move with their velocities: f(v) − f(0) for an affine expression.
+//
+// Normals need a sense: the side of the sheet on which its component's smallest dart lies; out of a volume.
+#pragma once
+
+#include "sim/embedding/embedded_map.h"
+#include "sim/rules/match.h"
+#include "sim/topology/orientation.h"
+
+#include <span>
+
+namespace rend {
+
+// The functions that expressions of a rule may call, in this order; then its nodes and arguments, as variables.
+enum class RuleFunction : std::size_t {
+  Copy,
+  Mean,
+  Lerp,
+  Along,
+  Size,
+  LengthOf,
+  AreaOf,
+  VolumeOf,
+  Stress,
+  Strain,
+  Found,
+  Time
+};
+constexpr std::size_t rule_functions = static_cast<std::size_t>(RuleFunction::Time) + 1;
+
+// Of a rule with these nodes on the left and these arguments.
+std::vector<ExpressionFunction> rule_vocabulary(const RuleGraph& left, std::span<const std::string> wheres);
+
+// Throws ExpressionError: a call that names no node of the left graph, or nothing that has vertices.
+void check_names(const Expression& expression, const RuleGraph& left);
+
+// Whether a call has the same value at an instance and at the one that position `p` of the labels leads to.
+bool keeps_value(const ExpressionCall& call, const RuleGraph& left, int p);
+
+// Quantities that are known above the map.
+class RuleQuantities {
+public:
+  virtual ~RuleQuantities() = default;
+  virtual double stress(Dart d) const = 0; // [Pa], the largest eigenvalue at the vertex of d
+  virtual double strain(Dart d) const = 0; // the largest principal strain of the element of d
+  double value = 0;                        // what the criterion found, in its unit
+  double time = 0;                         // [s]
+};
+
+// Where a rule is applied.
+struct RuleContext {
+  std::vector<Value> wheres = {};             // the rule's arguments; empty: their defaults
+  const RuleQuantities* quantities = nullptr; // null: there is no law
+  mutable std::optional<Sides> sides = {};    // of the map when it was first asked for
+};
+
+enum class PointPart { Position, Rest, Velocity };
+
+// The values of a rule's expressions in one match.
+class RuleValues {
+public:
+  RuleValues(const Rule& rule, const Edit& edit, const Match& match, const RuleContext& context)
+      : rule_(rule), edit_(edit), match_(match), context_(context) {}
+
+  // ExpressionError: a value that is not finite.
+  Point point(const Rule::Set& set, std::size_t instance) const;
+  Point moved(const Rule::Set& set, std::size_t instance,
+              const Point& was) const; // keeps what has no expression
+  bool holds(const Rule::When& when) const;
+
+private:
+  Vec3 vector(const Expression& expression, std::size_t instance, PointPart part, bool at_zero = false) const;
+  Value call(const ExpressionCall& call, std::span<const Value> arguments, std::size_t instance, PointPart part,
+             bool at_zero) const;
+  Value quantity(RuleFunction function, Dart d) const;
+  Dart dart(std::string_view node, std::size_t instance) const;
+  Vec3 part_of(Dart d, PointPart part) const;
+  Vec3 direction(Dart d, std::string_view which, PointPart part) const;
+  double side(Dart d) const; // 1, −1
+
+  const Rule& rule_;
+  const Edit& edit_;
+  const Match& match_;
+  const RuleContext& context_;
+};
+
+} // namespace rend
