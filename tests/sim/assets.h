@@ -115,7 +115,7 @@ inline Body grid(int columns, int rows) {
 inline Body checkerboard(int levels) {
   auto body = std::make_unique<EmbeddedMap>(2);
   const Dart d = apply(rule("create-vertex"), *body).dart("a");
-  apply(rule("extrude-vertex"), *body, d, {{at(1, 0)}, {}});
+  apply(rule("extrude-vertex"), *body, d);
   apply(rule("extrude-edge"), *body, d);
   for (int n = 0; n < levels; ++n) apply(rule("quarter-faces"), *body, d);
   return body;
@@ -263,7 +263,7 @@ inline std::vector<Asset> all() {
            [] {
              auto body = std::make_unique<EmbeddedMap>(2);
              const Dart d = apply(rule("create-vertex"), *body).dart("a");
-             apply(rule("extrude-vertex"), *body, d, {{at(1, 0)}, {}});
+             apply(rule("extrude-vertex"), *body, d);
              return body;
            }},
           {"quad", single_quad},

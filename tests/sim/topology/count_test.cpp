@@ -24,7 +24,7 @@ TEST(Counts, a_vertex_an_edge_and_a_face_grow_out_of_each_other) {
   EmbeddedMap body(2);
   const Dart d = apply(rule("create-vertex"), body).dart("a");
   EXPECT_EQ(count_cells(body.map(), Vertex), 1u);
-  apply(rule("extrude-vertex"), body, d, {{assets::at(1, 0)}, {}});
+  apply(rule("extrude-vertex"), body, d);
   EXPECT_EQ(count_cells(body.map(), Vertex), 2u);
   EXPECT_EQ(count_cells(body.map(), Edge), 1u);
   apply(rule("extrude-edge"), body, d);
