@@ -63,9 +63,9 @@ void NamedFiles::reads(const std::string& what, const fs::path& path) {
   inputs_.push_back(input);
 }
 
-void NamedFiles::reads_meshes(const PresetNode& scene) {
-  for (const PresetNode* body : scene.all("body"))
-    for (const PresetNode* mesh : body->all("mesh")) reads("the mesh", mesh_path(*mesh));
+void NamedFiles::reads_files(const PresetNode& scene) {
+  for (const PresetNode* node : files_of(scene))
+    reads(node->name() == "mesh" ? "the mesh" : "the file of rules", named_path(*node));
 }
 
 void NamedFiles::add(Output output) {

@@ -22,7 +22,7 @@ public:
   // `what` names the file in messages: "the preset", "--events". All throw UserError (Usage) where a file named
   // before would be overwritten, or this one.
   void reads(const std::string& what, const std::filesystem::path& path);
-  void reads_meshes(const PresetNode& scene); // of a preset
+  void reads_files(const PresetNode& scene); // of a preset
   void writes(const std::string& what, const std::filesystem::path& path);
   // In a folder, all files named NUMBER and EXTENSION ("00012.png") with these numbers.
   void writes_frames(const std::string& what, const std::filesystem::path& folder, const std::string& extension,

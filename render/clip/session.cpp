@@ -112,10 +112,8 @@ std::uint64_t Session::key() const {
   for (const std::string& set : options_.sets) words += "set " + set + "\n";
   words += fmt::format("steps {} fps {} kernels {} guard {}\n", options_.steps.value_or(-1),
                        options_.fps.value_or(-1), options_.kernels, options_.guard);
-  for (const PresetNode* body : preset_->all("body")) {
-    for (const PresetNode* mesh : body->all("mesh"))
-      words += fmt::format("mesh {:016x}\n", hash_of(mesh_path(*mesh)));
-  }
+  for (const PresetNode* node : files_of(*preset_))
+    words += fmt::format("{} {:016x}\n", node->name(), hash_of(named_path(*node)));
   return hash_bytes(words.data(), words.size());
 }
 

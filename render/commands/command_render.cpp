@@ -102,7 +102,7 @@ void check_files(const Session& session, const ClipRunOptions& options) {
   const PipelineOptions& out = options.files;
   NamedFiles files;
   files.reads("the preset", session.preset_path());
-  files.reads_meshes(session.preset());
+  files.reads_files(session.preset());
   if (out.video) files.writes("the video", out.folder / (out.name + out.extension));
   if (!out.png) return;
   files.writes("the stored state", checkpoint_path(out.folder, out.name, options.shard));

@@ -110,7 +110,7 @@ Exit run(const RunOptions& options) {
   SessionOptions wanted = options.session;
   wanted.count_fragments = !options.events.empty();
   Session session(wanted);
-  files.reads_meshes(session.preset());
+  files.reads_files(session.preset());
   const std::unique_ptr<ExportSeries> series = export_of(session, options);
   if (series) series->name_files(files);
   const GracefulStop graceful_stop;

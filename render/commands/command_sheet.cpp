@@ -89,7 +89,7 @@ Exit make_sheet(const SheetOptions& options) {
   files.writes("the contact sheet", file);
   for (const std::string& preset : options.presets) {
     files.reads("the preset", preset);
-    files.reads_meshes(*load_scene(preset, {})); // reports a bad preset before anything slow
+    files.reads_files(*load_scene(preset, {})); // reports a bad preset before anything slow
   }
   Image sheet(columns * (size.width + gap) - gap,
               static_cast<int>(options.presets.size()) * (size.height + gap) - gap);

@@ -76,6 +76,7 @@ private:
     documentation(entry.type->what);
     children(*entry.type);
     for (const AttributeType& attribute : entry.type->attributes) attribute_type(attribute);
+    if (!entry.type->further.empty()) line(R"(<xs:anyAttribute processContents="skip"/>)");
     close("xs:complexType");
   }
 

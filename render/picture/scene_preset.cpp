@@ -3,6 +3,7 @@
 #include "sim/base/printable.h"
 #include "sim/base/wording.h"
 #include "sim/build/read_settings.h"
+#include "sim/build/rule_book.h"
 #include "sim/build/scene_types.h"
 
 #include <algorithm>
@@ -137,7 +138,9 @@ const ElementType& scene_type() {
                                 {text("name", "of its pictures").is_required(),
                                  text("thesis", "the figure or table of the thesis that it reproduces"),
                                  word("version", {"1"}, "of this format").otherwise("1")},
-                                {{&drawn_body_type(), 1, -1},
+                                {{&rules_type(), 0, -1},
+                                 {&rule_type(), 0, -1},
+                                 {&drawn_body_type(), 1, -1},
                                  {&drawn_world_type(), 0, 1},
                                  {&time_type(), 1, 1},
                                  {&camera_type(), 0, 1},

@@ -78,6 +78,9 @@ struct ElementType {
   std::string what; // one line
   std::vector<AttributeType> attributes;
   std::vector<ChildType> children;
+  // What attributes of other names are, such as the arguments of a rule: they are kept as texts. Empty: there are
+  // none.
+  std::string further = {};
   const AttributeType* find(std::string_view attribute) const; // null if there is none
 };
 
@@ -118,6 +121,9 @@ public:
   const std::string& text(std::string_view attribute) const; // Text, Word, or the word of a NumberOrWord
   const std::vector<std::string>& words(std::string_view attribute) const; // Words, in their order
   bool is_word(std::string_view attribute) const;                          // NumberOrWord: the value is a word
+
+  // Attributes that its type does not list (ElementType::further): names, in alphabetical order.
+  std::vector<std::string> further() const;
 
   std::span<const std::unique_ptr<PresetNode>> children() const { return children_; }
   const PresetNode* child(std::string_view name) const; // the first of that name, or null

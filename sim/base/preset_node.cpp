@@ -222,6 +222,13 @@ bool PresetNode::is_word(std::string_view attribute) const {
   return value(attribute, {AttributeKind::NumberOrWord}).word;
 }
 
+std::vector<std::string> PresetNode::further() const {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values_)
+    if (!type_->find(name)) names.push_back(name);
+  return names;
+}
+
 const PresetNode* PresetNode::child(std::string_view name) const {
   for (const auto& child : children_) {
     if (child->name() == name) return child.get();

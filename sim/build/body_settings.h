@@ -14,6 +14,7 @@
 
 #include "sim/body/answer.h"
 #include "sim/body/probe.h"
+#include "sim/build/construction.h"
 #include "sim/build/shape.h"
 #include "sim/fracture/tear_law.h"
 #include "sim/mechanics/elasticity.h"
@@ -32,6 +33,7 @@ namespace rend {
 struct BodySettings {
   std::string name = "body"; // to tell bodies apart
   ShapeSettings shape = SheetShape{};
+  std::vector<ApplySettings> applies = {}; // rules that construct, before the body is placed
   Placement place = {};
   MassSettings mass = {};
   std::optional<SpringsSettings> springs = {};
@@ -43,6 +45,7 @@ struct BodySettings {
   std::optional<ContactSettings> contact = {};
   std::vector<ProbeSettings> probes = {};
   std::vector<AnswerSettings> answers = {};
+  RuleBook rules = {}; // that applies and tears may name, besides the house's
   SettingsSource source = {};
 };
 template <> const Fields<BodySettings>& fields_of(); // those of its own

@@ -65,6 +65,8 @@ std::vector<ChildType> shape_types() {
   static const ElementType mass = element<MassSettings>("mass", "the mass of the body");
   std::vector<ChildType> types;
   for (const ShapeType& shape : all_shapes()) types.push_back({&shape.type(), 0, 1});
+  types.push_back({&apply_type(), 0, -1});
+  types.push_back({&subdivide_type(), 0, -1});
   types.push_back({&place, 0, 1});
   types.push_back({&mass, 1, 1});
   return types;

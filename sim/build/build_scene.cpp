@@ -47,7 +47,12 @@ SceneDefinition read_scene(const PresetNode& preset) {
   SceneDefinition scene;
   scene.name = preset.text("name");
   scene.world = read_world(preset.child("world"));
-  for (const PresetNode* body : preset.all("body")) add_body(scene, read_body(*body));
+  const RuleBook rules = read_rules(preset);
+  for (const PresetNode* node : preset.all("body")) {
+    BodySettings body = read_body(*node);
+    body.rules = rules;
+    add_body(scene, body);
+  }
   scene.time = read_settings<TimeSettings>(*preset.child("time"));
   duration_of(scene.time); // which is missed before the scene is made
   scene.build_seconds = wall_clock() - start;

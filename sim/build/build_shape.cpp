@@ -1,5 +1,7 @@
 #include "sim/build/build_shape.h"
 
+#include "sim/build/construction.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -64,7 +66,10 @@ void build_shape(Body& body, const BodySettings& settings) {
   check_settings(settings.place);
   std::visit(
       [&](const auto& shape) {
-        make_map(body, shape, settings.place);
+        const bool by_rules = !settings.applies.empty();
+        make_map(body, shape, by_rules ? Placement{} : settings.place);
+        if (by_rules || body.map->map().dart_count() == 0)
+          construct(body, settings.applies, settings.rules, settings.place, shape.source);
         check_reach(body, shape.source);
       },
       settings.shape);

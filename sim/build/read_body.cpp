@@ -60,6 +60,8 @@ template <class S> void read_all(const PresetNode& node, const char* name, std::
 BodySettings read_body(const PresetNode& node) {
   BodySettings body = read_settings<BodySettings>(node);
   body.shape = read_shape(node);
+  for (const auto& child : node.children())
+    if (child->name() == "apply" || child->name() == "subdivide") body.applies.push_back(read_apply(*child));
   read_child(node, "place", body.place);
   read_child(node, "mass", body.mass);
   if (const PresetNode* springs = node.child("springs")) body.springs = read_springs(*springs);

@@ -32,13 +32,21 @@ struct MeshSettings {
 };
 template <> const Fields<MeshSettings>& fields_of();
 
-using ShapeSettings = std::variant<SheetShape, BarShape, TubeShape, MeshSettings>;
+// An empty map, for rules to begin with.
+struct CreateSettings {
+  int dimension = 3; // 2: of a sheet, 3: of a solid
+  SettingsSource source = {};
+};
+template <> const Fields<CreateSettings>& fields_of();
+
+using ShapeSettings = std::variant<SheetShape, BarShape, TubeShape, MeshSettings, CreateSettings>;
 
 // Make body.map, with its points where `place` puts them. UserError, with its place, for what cannot be built.
 void make_map(Body& body, const SheetShape& shape, const Placement& place);
 void make_map(Body& body, const BarShape& shape, const Placement& place);
 void make_map(Body& body, const TubeShape& shape, const Placement& place);
 void make_map(Body& body, const MeshSettings& shape, const Placement& place);
+void make_map(Body& body, const CreateSettings& shape, const Placement& place);
 
 struct ShapeType {
   const ElementType& (*type)();
@@ -51,5 +59,6 @@ ShapeType sheet_shape();
 ShapeType bar_shape();
 ShapeType tube_shape();
 ShapeType mesh_shape();
+ShapeType create_shape();
 
 } // namespace rend

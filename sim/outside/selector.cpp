@@ -18,6 +18,10 @@ template <> const Fields<Selector>& fields_of() {
   return fields;
 }
 
+bool Selector::given() const {
+  return near || box || !side.empty() || !group.empty() || all;
+}
+
 namespace {
 
 struct Bounds {

@@ -25,6 +25,8 @@ struct Selector {
   std::string side = {};                         // "-x", "+x", "-y" ...; empty: not by side
   std::string group = {};                        // empty: not by group
   std::optional<bool> all = {};                  // false selects nothing, which is refused
+
+  bool given() const; // one of them is
 };
 template <> const Fields<Selector>& fields_of();
 

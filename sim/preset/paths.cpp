@@ -12,10 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check(const PresetNode& mesh) {
-  if (stays_below(fs::path(mesh.place().file).parent_path(), mesh.text("file"))) return;
-  mesh.fail("file", fmt::format("{} is outside of the preset's folder", in_quotes(mesh.text("file"))),
-            "put the mesh beside the preset, or allow it with --allow-path");
+void check(const PresetNode& node) {
+  if (stays_below(fs::path(node.place().file).parent_path(), node.text("file"))) return;
+  node.fail("file", fmt::format("{} is outside of the preset's folder", in_quotes(node.text("file"))),
+            fmt::format("put the {} beside the preset, or allow it with --allow-path",
+                        node.name() == "mesh" ? "mesh" : "file"));
 }
 
 } // namespace
@@ -42,13 +43,19 @@ std::filesystem::path mesh_path(const Place& preset, const std::string& file) {
   return (fs::path(preset.file).parent_path() / file).lexically_normal();
 }
 
-std::filesystem::path mesh_path(const PresetNode& mesh) {
-  return mesh_path(mesh.place(), mesh.text("file"));
+std::filesystem::path named_path(const PresetNode& node) {
+  return mesh_path(node.place(), node.text("file"));
+}
+
+std::vector<const PresetNode*> files_of(const PresetNode& scene) {
+  std::vector<const PresetNode*> files = scene.all("rules");
+  for (const PresetNode* body : scene.all("body"))
+    for (const PresetNode* mesh : body->all("mesh")) files.push_back(mesh);
+  return files;
 }
 
 void check_paths(const PresetNode& scene) {
-  for (const PresetNode* body : scene.all("body"))
-    for (const PresetNode* mesh : body->all("mesh")) check(*mesh);
+  for (const PresetNode* node : files_of(scene)) check(*node);
 }
 
 } // namespace rend

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace rend {
 
@@ -13,15 +14,19 @@ namespace rend {
 // false for an absolute name, for "..", and for a symbolic link that leads out.
 bool stays_below(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-// UserError, at the attribute, for a <mesh> of a preset whose file is not.
+// UserError, at the attribute, for a <mesh> or <rules> of a preset whose file is not.
 void check_paths(const PresetNode& scene);
 
 // Whether `path`, after following links, is `folder` or is below it. A file that does not exist is located by
 // its name.
 bool lies_in(const std::filesystem::path& path, const std::filesystem::path& folder);
 
-// A file that a preset names, at a place of it: relative to its folder. And that of a <mesh>.
+// A file that a preset names, at a place of it: relative to its folder. And the `file` of an
+// element.
 std::filesystem::path mesh_path(const Place& preset, const std::string& file);
-std::filesystem::path mesh_path(const PresetNode& mesh);
+std::filesystem::path named_path(const PresetNode& node);
+
+// The elements of a scene that name a file: its meshes and files of rules.
+std::vector<const PresetNode*> files_of(const PresetNode& scene);
 
 } // namespace rend

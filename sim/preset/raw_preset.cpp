@@ -222,8 +222,7 @@ private:
       CHECK(at != std::string_view::npos && quote != std::string_view::npos && name_at(text_, at) == name);
       byte = text_.find(text_[quote], quote + 1) + 1;
       if (open_.empty() && names_schema(name)) continue;
-      element.attributes.push_back(
-          {&attribute_type(*element.type, name, at), attributes[1], lines_.at(quote + 1)});
+      element.attributes.push_back({&attribute_type(element, name, at), attributes[1], lines_.at(quote + 1)});
     }
   }
 
@@ -232,8 +231,13 @@ private:
     return attribute == "xmlns:xsi" || attribute == "xsi:noNamespaceSchemaLocation";
   }
 
-  const AttributeType& attribute_type(const ElementType& element, std::string_view name, std::size_t byte) {
+  const AttributeType& attribute_type(RawElement& raw, std::string_view name, std::size_t byte) {
+    const ElementType& element = *raw.type;
     if (const AttributeType* type = element.find(name)) return *type;
+    if (!element.further.empty()) {
+      raw.further.push_back(std::make_unique<AttributeType>(text(std::string(name), element.further)));
+      return *raw.further.back();
+    }
     const std::string hint = element.attributes.empty()
                                  ? fmt::format("<{}> has no attributes", element.name)
                                  : suggestion(name, attribute_names(element), "<" + element.name + "> has");

@@ -26,6 +26,7 @@ struct RawElement {
   Place place; // of its '<'
   std::vector<RawAttribute> attributes;
   std::vector<std::unique_ptr<RawElement>> children;
+  std::vector<std::unique_ptr<AttributeType>> further; // of attributes that its type does not list
 
   const RawAttribute* find(std::string_view attribute) const;                       // null if it is not given
   std::vector<RawElement*> all(std::string_view name) const;                        // the children of that name

@@ -1,6 +1,7 @@
 #include "sim/rules/rule.h"
 
 #include "sim/base/wording.h"
+#include "sim/expression/functions.h"
 #include "sim/rules/rule_check.h"
 #include "sim/rules/rule_plan.h"
 #include "sim/rules/rule_values.h"
@@ -110,9 +111,37 @@ private:
     }
   }
 
+  static bool is_word(const std::string& name) {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto later = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; };
+    return !name.empty() && letter(name[0]) && std::all_of(name.begin(), name.end(), later);
+  }
+  static bool is_taken(const std::string& name) {
+    const auto has_it = [&](const std::vector<ExpressionFunction>& functions) {
+      return std::any_of(functions.begin(), functions.end(),
+                         [&](const auto& each) { return each.name == name; });
+    };
+    return name == "and" || name == "or" || name == "not" || has_it(rule_vocabulary({}, {})) ||
+           std::any_of(built_ins().begin(), built_ins().end(),
+                       [&](const BuiltIn& each) { return each.declared.name == name; });
+  }
+
+  // The names of nodes and arguments are variables of expressions.
   std::vector<ExpressionFunction> vocabulary() const {
+    constexpr const char* hint = "take another name";
+    for (const RuleNode& node : rule_.left.nodes)
+      if (is_taken(node.name))
+        fail(settings_.source, "left",
+             fmt::format("{} is a function of expressions, and no name of a node", node.name), hint);
     std::vector<std::string> names;
-    for (const Rule::Where& where : rule_.wheres) names.push_back(where.name);
+    for (const RuleWhereSettings& where : settings_.wheres) {
+      names.push_back(where.name);
+      if (is_taken(where.name))
+        fail(where.source, "name", fmt::format("{} is a function of expressions", where.name), hint);
+      if (!is_word(where.name))
+        fail(where.source, "name", fmt::format("{} is no name", in_quotes(where.name)),
+             "a letter, then letters, digits and _");
+    }
     std::vector<ExpressionFunction> all = rule_vocabulary(rule_.left, names);
     for (std::size_t n = 0; n < rule_.wheres.size(); ++n)
       all[rule_functions + rule_.left.nodes.size() + n].result = rule_.wheres[n].type;
@@ -249,12 +278,33 @@ private:
 
 Rule::Rule(RuleSettings settings_) : settings(std::move(settings_)) {
   Builder(*this).run();
+  forget_places(); // the preset need not outlive the rule
+}
+
+void Rule::forget_places() {
+  settings.source = {};
+  for (RuleSetSettings& set : settings.sets) set.source = {};
+  for (RuleWhenSettings& when : settings.whens) when.source = {};
+  for (RuleWhereSettings& where : settings.wheres) where.source = {};
 }
 
 Orbit Rule::hook_orbit(std::size_t hook) const {
   Orbit orbit;
   for (int link : left[plan.hooks[hook]].label) orbit.mask = static_cast<std::uint8_t>(orbit.mask | 1 << link);
   return orbit;
+}
+
+std::string Rule::quantity_of_law() const {
+  std::vector<const Expression*> expressions;
+  for (const Set& set : sets)
+    for (const auto* each : {&set.position, &set.rest, &set.velocity})
+      if (*each) expressions.push_back(&**each);
+  for (const When& when : whens) expressions.push_back(&when.test);
+  for (const Expression* expression : expressions)
+    for (const ExpressionCall& call : expression->calls())
+      if (call.function >= static_cast<std::size_t>(RuleFunction::Stress) && call.function < rule_functions)
+        return call.name;
+  return {};
 }
 
 bool Rule::creates() const {

@@ -68,6 +68,8 @@ struct Rule {
   bool only_creates() const { return left.nodes.empty(); }
   bool creates() const; // some dart
   bool removes() const { return !plan.removed.empty(); }
+  // The first of stress, strain, value and time that its expressions ask for; empty: none.
+  std::string quantity_of_law() const;
   // As the element <rule> of a preset, in a normal form: read, it makes the same rule.
   std::string print() const;
 
@@ -81,6 +83,9 @@ struct Rule {
   std::vector<Where> wheres;                  // with the values that they have unless others are given
   std::vector<ExpressionFunction> vocabulary; // of its expressions
   RulePlan plan;
+
+private:
+  void forget_places();
 };
 
 } // namespace rend

@@ -1,0 +1,274 @@
+#include "sim/build/construction.h"
+
+#include "sim/body/body.h"
+#include "sim/build/read_settings.h"
+#include "sim/build/shape.h"
+#include "sim/mesh/cell_shapes.h"
+#include "sim/mesh/dart_order.h"
+#include "sim/rules/rest_measures.h"
+#include "sim/rules/rounds.h"
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+constexpr const char* subdivision = "subdivide"; // stands for the rule of the body's dimension
+constexpr std::size_t most_darts = 1u << 30;
+
+// The groups of a vertex: bit k is group k, in the order of names.
+struct GroupMask {
+  using Value = std::uint64_t;
+  std::string name = "groups";
+  Orbit orbit = Vertex;
+  Orbit support = SingleDart;
+  Value birth(const EmbeddedMap&, Dart) const { return 0; }
+  Value split(const Value& whole) const { return whole; }
+  Value merge(const Value& kept, const Value& absorbed) const { return kept | absorbed; }
+};
+using GroupColumn = Column<GroupMask>;
+
+std::string place_of(const Vec3& x) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z());
+}
+
+class Construction {
+public:
+  Construction(Body& body, const RuleBook& rules, const SettingsSource& shape)
+      : body_(body), rules_(rules), shape_(shape) {
+    if (body.groups.size() > 64)
+      shape.fail("", fmt::format("the mesh has {} groups, and rules pass on 64 at most", body.groups.size()));
+    if (!body.groups.empty()) groups_ = &body.map->add(GroupMask{});
+    Slot bit = 0;
+    for (const auto& [name, slots] : body.groups) {
+      for (Slot v : slots) (*groups_)[v] |= std::uint64_t{1} << bit;
+      ++bit;
+    }
+  }
+
+  void apply(const ApplySettings& settings) {
+    check_settings(settings);
+    const std::shared_ptr<const Rule> rule = rule_of(settings);
+    if (rule->plan.hooks.size() > 1)
+      settings.source.fail("rule", fmt::format("rule '{}' has {} hooks", rule->name(), rule->plan.hooks.size()),
+                           "<apply> finds the darts of one");
+    check_quantities(*rule, settings);
+    RuleRunner runner(*rule, context_of(*rule, arguments_of(*rule, settings)));
+    for (int n = 0; n < settings.times; ++n) round(runner, settings);
+  }
+
+  // The body's map, as if it came from a file.
+  void finish(const Placement& place) {
+    MapMesh mesh = map_mesh();
+    place.apply(mesh.points);
+    check_cells(mesh);
+    mesh = renumbered(mesh, mesh.map.dimension() == 3 ? cell_order(mesh) : face_order(mesh.map));
+    std::vector<std::uint32_t> point; // of each vertex slot
+    const std::vector<std::uint64_t> masks = groups_ ? groups_->values() : std::vector<std::uint64_t>();
+    auto map = std::make_unique<EmbeddedMap>(std::move(mesh.map), [&](Dart d) {
+      point.push_back(mesh.point[d.value]);
+      const Vec3& x = mesh.points[point.back()];
+      return Point{x, x, Vec3::Zero()};
+    });
+    VertexGroups groups;
+    std::size_t bit = 0;
+    for (const auto& [name, slots] : body_.groups) {
+      std::vector<Slot>& chosen = groups[name];
+      for (Slot v = 0; v < point.size(); ++v)
+        if (masks[point[v]] >> bit & 1) chosen.push_back(v);
+      ++bit;
+    }
+    body_.groups = std::move(groups);
+    body_.map = std::move(map);
+  }
+
+private:
+  std::shared_ptr<const Rule> rule_of(const ApplySettings& settings) const {
+    if (settings.rule == subdivision)
+      return find_rule({}, body_.map->dimension() == 2 ? "quarter-faces" : "divide-volumes", settings.source,
+                       "");
+    return find_rule(rules_, settings.rule, settings.source, "rule");
+  }
+
+  void check_quantities(const Rule& rule, const ApplySettings& settings) const {
+    if (const std::string name = rule.quantity_of_law(); !name.empty())
+      settings.source.fail("rule", fmt::format("rule '{}' asks for {}", rule.name(), name),
+                           "which only a <tear> knows");
+  }
+
+  static Value value_of(const Rule& rule, const Rule::Where& where, const std::string& text,
+                        const ApplySettings& settings) {
+    try {
+      return Expression(text, {}, where.type).evaluate();
+    } catch (const ExpressionError& error) {
+      settings.source.fail(where.name,
+                           fmt::format("{} of rule '{}': {} (character {} of {})", where.name, rule.name(),
+                                       error.flaw, error.column, in_quotes(text)),
+                           error.hint);
+    }
+  }
+
+  static RuleArguments arguments_of(const Rule& rule, const ApplySettings& settings) {
+    RuleArguments arguments;
+    std::vector<std::string> names;
+    for (const Rule::Where& where : rule.wheres) names.push_back(where.name);
+    for (const auto& [name, text] : settings.arguments) {
+      const auto where = std::find_if(rule.wheres.begin(), rule.wheres.end(),
+                                      [&, &name = name](const Rule::Where& each) { return each.name == name; });
+      if (where == rule.wheres.end())
+        settings.source.fail(name, fmt::format("rule '{}' has no argument {}", rule.name(), in_quotes(name)),
+                             names.empty() ? "it takes none" : suggestion(name, names, "it has"));
+      arguments.push_back({name, value_of(rule, *where, text, settings)});
+    }
+    return arguments;
+  }
+
+  void round(RuleRunner& runner, const ApplySettings& settings) {
+    EmbeddedMap& map = *body_.map;
+    std::vector<bool> chosen;
+    if (settings.where.given()) {
+      chosen.resize(map.cells(Vertex).slots());
+      for (Slot v : select_vertices(map, groups_now(), settings.where, "apply", settings.source))
+        chosen[v] = true;
+    }
+    const auto selected = [&](Dart d) { return chosen[map.vertex(d)]; };
+    const RoundResult result = apply_round(
+        map, runner, chosen.empty() ? std::function<bool(Dart)>() : std::function<bool(Dart)>(selected));
+    if (result.applied == 0)
+      settings.source.fail("",
+                           fmt::format("rule '{}' applies nowhere{}", runner.rule().name(),
+                                       result.reason.empty() ? "" : ": " + result.reason),
+                           result.reason.empty() ? "nothing was selected that its hook stands for" : "");
+    if (map.map().dart_count() > most_darts)
+      settings.source.fail("times", fmt::format("the map grows beyond {} darts", most_darts));
+  }
+
+  VertexGroups groups_now() const {
+    VertexGroups groups;
+    std::size_t bit = 0;
+    const CellIndex& vertices = body_.map->cells(Vertex);
+    for (const auto& [name, slots] : body_.groups) {
+      std::vector<Slot>& chosen = groups[name];
+      for (Slot v = 0; v < vertices.slots(); ++v)
+        if (vertices.alive(v) && ((*groups_)[v] >> bit & 1)) chosen.push_back(v);
+      ++bit;
+    }
+    return groups;
+  }
+
+  // Points are vertex slots.
+  MapMesh map_mesh() const {
+    const EmbeddedMap& from = *body_.map;
+    MapMesh mesh{{}, from.map(), std::vector<std::uint32_t>(from.map().capacity())};
+    for (const Record& x : from.position().values()) mesh.points.push_back(x.vec());
+    from.map().for_each_dart([&](Dart d) { mesh.point[d.value] = from.vertex(d); });
+    return mesh;
+  }
+
+  void check_cells(const MapMesh& mesh) const {
+    const GMap& map = mesh.map;
+    if (map.dart_count() == 0) shape_.fail("", "its rules leave nothing of the body");
+    const auto fail = [&](Dart d, const std::string& what) {
+      shape_.fail("",
+                  fmt::format("after its rules, {}, near {}", what, place_of(mesh.points[mesh.point[d.value]])),
+                  "a sheet has faces, a solid tetrahedra, hexahedra, prisms and pyramids");
+    };
+    map.for_each_dart([&](Dart d) {
+      if (map.is_free(0, d) || map.is_free(1, d)) fail(d, "a face is open");
+      if (map.dimension() == 3 && map.is_free(2, d)) fail(d, "a volume is open");
+    });
+    const CellIndex elements(map, element_orbit(map.dimension()));
+    for (Slot e = 0; e < elements.slots(); ++e) {
+      const Dart d = elements.first_dart(e);
+      if (map.dimension() == 2 ? sides_of_face(map, d) < 3 : !is_standard(map, d))
+        fail(d, map.dimension() == 2 ? "a face has fewer than three sides"
+                                     : "a volume is none of the standard ones");
+    }
+  }
+
+  static bool is_standard(const GMap& map, Dart d) {
+    const std::size_t darts = darts_of(map, Volume, d).size();
+    for (const CellShape& shape : cell_shapes::all) {
+      if (static_cast<std::size_t>(shape.darts) != darts) continue;
+      for (Dart e : darts_of(map, Volume, d))
+        if (!darts_in_shape_order(map, shape, e).empty()) return true;
+    }
+    return false;
+  }
+
+  // Face by face, in the order of smallest darts; each side by side.
+  static std::vector<Dart> face_order(const GMap& map) {
+    std::vector<Dart> order;
+    std::vector<bool> done(map.capacity());
+    map.for_each_dart([&](Dart d) {
+      for (Dart at = d; !done[at.value]; at = map.alpha(1, order.back()))
+        for (Dart e : {at, map.alpha(0, at)}) {
+          order.push_back(e);
+          done[e.value] = true;
+        }
+    });
+    return order;
+  }
+
+  Body& body_;
+  const RuleBook& rules_;
+  const SettingsSource& shape_;
+  GroupColumn* groups_ = nullptr; // null: the body has none
+};
+
+} // namespace
+
+template <> const Fields<ApplySettings>& fields_of() {
+  using S = ApplySettings;
+  static const Fields<S> fields =
+      Fields<S>{
+          field(&S::rule, text("rule", "a rule of the scene or of the house: rend rule list").is_required()),
+          field(&S::times,
+                integer("times", "how often, on what the time before has left").at_least(1).at_most(1000))} +
+      fields_of_part(&S::where);
+  return fields;
+}
+
+const ElementType& apply_type() {
+  static const ElementType type = [] {
+    ElementType made{"apply",
+                     "a rule that constructs: it is applied wherever all vertices are selected",
+                     attributes_of<ApplySettings>(),
+                     {}};
+    made.attributes.push_back(word("to", {"all"}, "everywhere; so it is without a selector"));
+    made.further = "an argument of the rule: an expression of numbers";
+    return made;
+  }();
+  return type;
+}
+
+const ElementType& subdivide_type() {
+  static const ElementType type{
+      "subdivide",
+      "each face of a sheet becomes one quad per corner, each volume of a solid one hexahedron per corner",
+      {integer("times", "how often").at_least(1).at_most(20).otherwise("1")},
+      {}};
+  return type;
+}
+
+ApplySettings read_apply(const PresetNode& node) {
+  if (node.name() == subdivide_type().name)
+    return {.rule = subdivision, .times = node.integer("times"), .source = source_of(node)};
+  ApplySettings settings = read_settings<ApplySettings>(node);
+  for (const std::string& name : node.further()) settings.arguments[name] = node.find(name)->text;
+  if (node.given("to") && settings.where.given())
+    node.fail("to", "<apply> has both to and a selector", "give one of them");
+  return settings;
+}
+
+void construct(Body& body, const std::vector<ApplySettings>& applies, const RuleBook& rules,
+               const Placement& place, const SettingsSource& shape) {
+  Construction construction(body, rules, shape);
+  for (const ApplySettings& settings : applies) construction.apply(settings);
+  construction.finish(place);
+}
+
+} // namespace rend

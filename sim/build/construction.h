@@ -1,0 +1,49 @@
+// Construction by rules: what <apply> and <subdivide> do to a body's shape before it is placed and given matter
+// (thesis 3.5 and chapter 5).
+//
+//   <body> <sheet cells="2 2" size="1 1"/> <apply rule="quarter-faces" times="3"/> ... </body>
+//   <body> <create dimension="3"/> <apply rule="create-vertex"/> <apply rule="extrude-vertex"/> ... </body>
+//
+// A rule is applied to all orbits of its hook's kind whose vertices are all selected, in the order of their
+// smallest darts; `times` times, the orbits being found again each time. What a rule matches or makes is used up
+// for that time. New vertices belong to a group if all vertices that they come from do.
+//
+// At the end the cells must be those that a mesh file may hold: closed faces, volumes that are tetrahedra,
+// hexahedra, prisms or pyramids. Then darts are ordered as for a file, so that a body does not remember how it was
+// made.
+#pragma once
+
+#include "sim/base/settings.h"
+#include "sim/build/rule_book.h"
+#include "sim/outside/selector.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rend {
+
+struct Body;
+struct Placement;
+
+struct ApplySettings {
+  std::string rule = {}; // its name
+  Selector where = {};   // of vertices; none: everywhere
+  int times = 1;
+  std::map<std::string, std::string> arguments = {}; // of the rule, by name: expressions of numbers
+  SettingsSource source = {};
+};
+template <> const Fields<ApplySettings>& fields_of();
+
+const ElementType& apply_type();
+const ElementType& subdivide_type();
+// Of an <apply>, or of a <subdivide>, which is short for the rule that does so in the body's dimension.
+ApplySettings read_apply(const PresetNode& node);
+
+// Applies them in their order to the map of the body, then places and orders it. UserError: a rule that applies
+// nowhere, and cells that are none of the standard ones.
+void construct(Body& body, const std::vector<ApplySettings>& applies, const RuleBook& rules,
+               const Placement& place, const SettingsSource& shape);
+
+} // namespace rend
