@@ -22,7 +22,8 @@ public:
   // Inserts `value` unless `index` is present; returns the value that is stored.
   std::uint32_t insert(std::uint32_t index, std::uint32_t value);
   void assign(std::uint32_t index, std::uint32_t value);
-  std::uint32_t find(std::uint32_t index) const; // none: not there
+  void replace(std::uint32_t index, std::uint32_t value) noexcept; // of an index that is there
+  std::uint32_t find(std::uint32_t index) const;                   // none: not there
 
 private:
   struct Entry {

@@ -3,6 +3,8 @@
 #include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 
+#include <algorithm>
+
 namespace rend {
 
 bool Journal::empty() const {
@@ -18,26 +20,95 @@ void Journal::clear() {
 }
 
 Dart MapEdit::add_dart() {
-  Dart d;
-  if (map_.free_.empty()) {
-    d = Dart{map_.links_.size()};
+  const bool again = !map_.free_.empty();
+  const Dart d = again ? Dart{map_.free_.back()} : Dart{map_.links_.size()};
+  if (!again) {
     CHECK_NOTE(d.value != Dart::none_value, "a map holds at most 2^32 - 1 darts");
-    map_.links_.emplace_back();
-  } else {
-    d = Dart{map_.free_.back()};
-    map_.free_.pop_back();
+    map_.links_.emplace_back().fill(Dart::none_value);
   }
+  if (journal_) {
+    try {
+      journal_->created.push_back(d);
+    } catch (...) {
+      if (!again) map_.links_.pop_back();
+      throw;
+    }
+  }
+  if (again) map_.free_.pop_back();
   map_.links_[d.value].fill(d.value);
-  if (journal_) journal_->created.push_back(d);
   return d;
 }
 
 void MapEdit::remove_dart(Dart d) {
   CHECK(map_.alive(d));
   for (int i = 0; i < 4; ++i) CHECK(map_.is_free(i, d));
-  map_.links_[d.value].fill(Dart::none_value);
   map_.free_.push_back(d.value);
-  if (journal_) journal_->removed.push_back(d);
+  if (journal_) {
+    try {
+      journal_->removed.push_back(d);
+    } catch (...) {
+      map_.free_.pop_back();
+      throw;
+    }
+  }
+  map_.links_[d.value].fill(Dart::none_value);
+}
+
+MapEdit::Savepoint MapEdit::savepoint() const {
+  CHECK(journal_);
+  Savepoint now{{}, journal_->created.size(), journal_->removed.size(), map_.capacity()};
+  for (std::size_t i = 0; i < 4; ++i) now.touched[i] = journal_->touched[i].size();
+  return now;
+}
+
+void MapEdit::rollback(const Savepoint& to) noexcept {
+  for (std::size_t n = to.removed; n < journal_->removed.size();
+       ++n) { // a removed dart was free in all its links
+    const Dart d = journal_->removed[n];
+    if (!map_.alive(d)) map_.links_[d.value].fill(d.value);
+  }
+  for (std::size_t i = 0; i < 4; ++i) undo_links(i, to.touched[i]);
+  undo_darts(to);
+}
+
+void MapEdit::undo_links(std::size_t i, std::size_t from) noexcept {
+  std::vector<Dart>& touched = journal_->touched[i];
+  for (std::size_t n = touched.size(); n > from; n -= 2) {
+    const std::uint32_t a = touched[n - 2].value, b = touched[n - 1].value;
+    const bool linked = map_.links_[a][i] == b;
+    map_.links_[a][i] = linked ? a : b;
+    map_.links_[b][i] = linked ? b : a;
+  }
+  touched.resize(from);
+}
+
+// Darts beyond the old capacity are left out: none of them was free then. Without them the others still form a
+// stack, which never needs more room than it had.
+void MapEdit::undo_darts(const Savepoint& to) noexcept {
+  std::vector<std::uint32_t>& free = map_.free_;
+  std::vector<Dart>&created = journal_->created, &removed = journal_->removed;
+  const auto is_new = [&](std::uint32_t d) { return d >= to.capacity; };
+  const auto drop_new = [&](std::vector<Dart>& list, std::size_t least) {
+    while (list.size() > least && is_new(list.back().value)) list.pop_back();
+    return list.size() > least;
+  };
+  std::erase_if(free, is_new);
+  std::size_t untouched = free.size(); // of the list of free darts, from the bottom
+  for (;;) {
+    const bool some_created = drop_new(created, to.created), some_removed = drop_new(removed, to.removed);
+    if (some_removed && !free.empty() && free.back() == removed.back().value) {
+      free.pop_back();
+      removed.pop_back();
+      untouched = std::min(untouched, free.size());
+    } else if (some_created) {
+      free.push_back(created.back().value);
+      created.pop_back();
+    } else {
+      break;
+    }
+  }
+  map_.links_.resize(to.capacity);
+  for (std::size_t n = untouched; n < free.size(); ++n) map_.links_[free[n]].fill(Dart::none_value);
 }
 
 void MapEdit::reserve(std::size_t darts) {
@@ -109,7 +180,7 @@ bool unsew(MapEdit& edit, int i, Dart d) {
     pairs[count++] = a;
     pairs[count++] = edit.cut(i, a);
     if (count < pairs.size()) return;
-    edit.note(i, pairs);
+    edit.note_cut(i, pairs);
     count = 0;
   };
   switch (i) { // sewing_orbit(i), none of whose links is αi
@@ -125,7 +196,7 @@ bool unsew(MapEdit& edit, int i, Dart d) {
   default:
     walk_two(map, 0, 1, d, open);
   }
-  edit.note(i, std::span(pairs).first(count));
+  edit.note_cut(i, std::span(pairs).first(count));
   return true;
 }
 

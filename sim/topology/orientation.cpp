@@ -1,5 +1,7 @@
 #include "sim/topology/orientation.h"
 
+#include "sim/topology/index_set.h"
+
 namespace rend {
 
 Sides sides_of(const GMap& map) {
@@ -24,6 +26,25 @@ Sides sides_of(const GMap& map) {
     }
   });
   return sides;
+}
+
+bool turns_alike(const GMap& map, Dart a, Dart b) {
+  if (!map.alive(a)) return true;
+  thread_local IndexMap steps; // to each dart that was reached
+  std::vector<Dart> reached{a};
+  steps.clear();
+  steps.insert(a.value, 0);
+  for (std::size_t at = 0; at < reached.size(); ++at) {
+    const std::uint32_t so_far = steps.find(reached[at].value);
+    if (reached[at] == b) return so_far % 2 == 0;
+    for (int i = 0; i < 4; ++i) {
+      const Dart next = map.alpha(i, reached[at]);
+      if (steps.find(next.value) != IndexMap::none) continue;
+      steps.insert(next.value, so_far + 1);
+      reached.push_back(next);
+    }
+  }
+  return true;
 }
 
 } // namespace rend

@@ -9,7 +9,12 @@ void collect(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out) {
   thread_local Marks marks;
   marks.fit(map.capacity());
   const std::size_t begin = out.size();
-  if (!append_orbit(map, orbit, d, out, marks)) return;
+  try {
+    if (!append_orbit(map, orbit, d, out, marks)) return;
+  } catch (...) { // no memory left, with some darts marked
+    marks = Marks();
+    throw;
+  }
   for (std::size_t n = begin; n < out.size(); ++n) marks.clear_word(out[n].value);
 }
 
