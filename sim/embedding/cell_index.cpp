@@ -18,6 +18,11 @@ void SlotEvents::clear() {
   deaths.clear();
   settled.clear();
   moved.clear();
+  origins.clear();
+  lost.clear();
+  renamed.clear();
+  reused.clear();
+  slots_before = buried = 0;
 }
 
 CellIndex::CellIndex(const GMap& map, Orbit orbit) : orbit_(orbit), slot_of_dart_(map.capacity()) {
@@ -133,9 +138,10 @@ std::size_t CellIndex::bytes() const {
   return slot_of_dart_.bytes() + (first_dart_.size() + free_.size()) * sizeof(Slot);
 }
 
-Slot CellIndex::new_slot() {
+Slot CellIndex::new_slot(SlotEvents& events) {
   if (!free_.empty()) {
     const Slot slot = free_.back();
+    events.reused.push_back(slot);
     free_.pop_back();
     return slot;
   }
@@ -168,10 +174,14 @@ thread_local Scratch scratch;
 
 void CellIndex::update(const GMap& map, const Journal& journal, SlotEvents& events) {
   events.clear();
+  events.slots_before = slots();
+  slot_of_dart_.begin_edit();
   scratch.affected.clear();
   for (Dart d : journal.removed) {
     if (d.value >= slot_of_dart_.size()) continue; // created and removed by the same edit
-    if (slot_of_dart_[d] != no_slot) scratch.affected.push_back(slot_of_dart_[d]);
+    if (slot_of_dart_[d] == no_slot) continue;
+    scratch.affected.push_back(slot_of_dart_[d]);
+    events.lost.push_back({d, slot_of_dart_[d]});
     slot_of_dart_.set(d, no_slot);
   }
   slot_of_dart_.resize(map.capacity());
@@ -187,6 +197,25 @@ void CellIndex::update(const GMap& map, const Journal& journal, SlotEvents& even
 
   for (const Dart d : scratch.darts) scratch.reached.clear_word(d.value);
   for (const Slot slot : events.settled) scratch.claimed.clear_word(slot);
+}
+
+void CellIndex::rollback(const SlotEvents& events) noexcept {
+  scratch.reached = scratch.met = scratch.claimed = Marks(); // in case the update did not come to its end
+  slot_of_dart_.rollback();
+  std::size_t n = 0;
+  for (const SlotEvents::Origin& origin : events.origins)
+    for (; n < origin.end; ++n)
+      if (events.moved[n].value < slot_of_dart_.size()) slot_of_dart_.set(events.moved[n], origin.from);
+  for (const auto& [dart, slot] : events.lost) slot_of_dart_.set(dart, slot); // also if used again, and moved
+
+  free_.resize(free_.size() - events.buried);
+  for (std::size_t k = events.reused.size(); k-- > 0;) {
+    free_.push_back(events.reused[k]); // where it was: no memory is needed
+    first_dart_[events.reused[k]] = Dart{};
+  }
+  for (std::size_t k = events.renamed.size(); k-- > 0;)
+    first_dart_[events.renamed[k].first] = events.renamed[k].second;
+  first_dart_.resize(events.slots_before);
 }
 
 void CellIndex::find_fragments(const GMap& map, const Journal& journal, std::vector<Fragment>& fragments) {
@@ -218,30 +247,39 @@ CellIndex::Fragment CellIndex::fragment_at(const GMap& map, Dart d) const {
   return fragment;
 }
 
+inline void CellIndex::set_first(Slot slot, Dart first, SlotEvents& events) {
+  Dart& was = first_dart_[slot];
+  if (was == first) return;
+  if (was) events.renamed.push_back({slot, was});
+  was = first;
+}
+
 // Assigns a slot to a fragment. Fragments come by increasing smallest dart, so that the first to claim a slot
 // keeps it.
 void CellIndex::settle(const Fragment& fragment, SlotEvents& events) {
   Scratch& my = scratch;
   const std::span<const Dart> darts(my.darts.data() + fragment.begin, fragment.end - fragment.begin);
+  // Everything is written down before it is done: memory may be exhausted in between.
   Slot slot = fragment.old;
   if (slot == no_slot) {
     slot = slot_for(fragment, events);
     for (const Dart d : darts) {
-      if (slot_of_dart_[d] == slot) continue;
-      slot_of_dart_.set(d, slot);
+      const Slot from = slot_of_dart_[d];
+      if (from == slot) continue;
       events.moved.push_back(d);
+      events.origins.push_back({from, static_cast<std::uint32_t>(events.moved.size())});
+      slot_of_dart_.set(d, slot);
     }
   } else if (!my.claimed.insert(slot)) { // a fragment of what was one orbit: the common case
-    slot = new_slot();
+    slot = new_slot(events);
     my.claimed.set(slot);
     events.splits.push_back({fragment.old, slot});
-    for (const Dart d : darts) {
-      slot_of_dart_.set(d, slot);
-      events.moved.push_back(d);
-    }
+    events.moved.insert(events.moved.end(), darts.begin(), darts.end());
+    events.origins.push_back({fragment.old, static_cast<std::uint32_t>(events.moved.size())});
+    for (const Dart d : darts) slot_of_dart_.set(d, slot);
   }
   events.settled.push_back(slot);
-  first_dart_[slot] = fragment.smallest;
+  set_first(slot, fragment.smallest, events);
 }
 
 // The slot of a fragment whose darts had several, or some of them none.
@@ -266,7 +304,7 @@ Slot CellIndex::slot_for(const Fragment& fragment, SlotEvents& events) {
       if (!scratch.claimed.has(old)) slot = std::min(slot, old); // no_slot is the largest
   }
   if (slot == no_slot) {
-    slot = new_slot();
+    slot = new_slot(events);
     if (oldest)
       events.splits.push_back({slot_of_dart_[oldest], slot});
     else
@@ -286,9 +324,10 @@ void CellIndex::bury(SlotEvents& events) {
   std::erase_if(events.merges, [](const auto& merge) { return scratch.claimed.has(merge.second); });
   for (const Slot slot : affected) {
     if (scratch.claimed.has(slot)) continue;
-    first_dart_[slot] = Dart{};
-    free_.push_back(slot);
     events.deaths.push_back(slot);
+    free_.push_back(slot);
+    ++events.buried;
+    set_first(slot, Dart{}, events);
   }
 }
 

@@ -26,6 +26,18 @@ struct SlotEvents {
   std::vector<Slot> settled;                 // slots of all orbits that contain a touched dart
   std::vector<Dart> moved;                   // darts whose slot changed
   void clear();
+  bool beyond_splits() const { return !(births.empty() && merges.empty() && deaths.empty() && reused.empty()); }
+
+  // What CellIndex::rollback() needs besides.
+  struct Origin {
+    Slot from;
+    std::uint32_t end; // index in `moved`
+  };
+  std::vector<Origin> origins;                // of `moved`: up to `end`, darts had the slot `from`
+  std::vector<std::pair<Dart, Slot>> lost;    // removed darts, and the slot of each
+  std::vector<std::pair<Slot, Dart>> renamed; // slots whose smallest dart changed, and which it was
+  std::vector<Slot> reused;                   // new slots that were free, in the order in which they were taken
+  std::size_t slots_before = 0, buried = 0;   // number of slots; how many of `deaths` are in the free list
 };
 
 class CellIndex {
@@ -46,7 +58,13 @@ public:
   void reserve(std::size_t slots) { first_dart_.reserve(slots); }
 
   // Updates the slots after the changes of `journal`; visits only the orbits of the darts listed there.
+  // If memory is exhausted on the way, rollback() with the events as they are then is due.
   void update(const GMap& map, const Journal& journal, SlotEvents& events);
+
+  // After the last update, whose events these are: either the slots and the list of free ones become what they
+  // were before it, to the last byte; or they stay, and what rollback() needs is given up.
+  void rollback(const SlotEvents& events) noexcept;
+  void commit() noexcept { slot_of_dart_.end_edit(); }
 
   // Whether the slots are those of a newly built map: none is free, and they are in the order of smallest
   // darts.
@@ -72,7 +90,8 @@ private:
   void settle(const Fragment& fragment, SlotEvents& events);
   Slot slot_for(const Fragment& fragment, SlotEvents& events);
   void bury(SlotEvents& events);
-  Slot new_slot();
+  Slot new_slot(SlotEvents& events);
+  void set_first(Slot slot, Dart first, SlotEvents& events);
 
   Orbit orbit_;
   SlotTable slot_of_dart_;       // no_slot: removed

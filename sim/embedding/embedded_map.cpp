@@ -54,96 +54,6 @@ void EmbeddedMap::adopt(std::unique_ptr<ColumnBase> column) {
   columns_.push_back(std::move(column));
 }
 
-void EmbeddedMap::edit(const std::function<void(Edit&)>& change) {
-  CHECK_NOTE(consistent_, "an earlier edit was left by an exception");
-  journal_.clear();
-  Edit edit(map_, journal_, *this);
-  consistent_ = false;
-  change(edit);
-  if (!journal_.empty()) close(edit);
-  consistent_ = true;
-#ifdef REND_VALIDATE
-  if (const auto fault = validate(*this)) CHECK_NOTE(!fault, *fault);
-#endif
-}
-
-void EmbeddedMap::close(const Edit& edit) {
-  for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
-    initialised_[mask].clear();
-    if (cells_[mask]) cells_[mask]->update(map_, journal_, events_[mask]);
-  }
-  for (auto& column : columns_) {
-    const std::size_t mask = column->orbit().mask;
-    column->apply(*this, *cells_[mask], events_[mask]);
-    // position and rest come before: the columns that follow depend on rest positions
-    if (column.get() == velocity_) give_points(edit);
-    initialise_reshaped(*column);
-  }
-  publish();
-}
-
-void EmbeddedMap::give_points(const Edit& edit) {
-  const CellIndex& vertices = *cells_[Vertex.mask];
-  std::vector<Dart> darts;
-  for (Slot v : events_[Vertex.mask].births) {
-    std::uint32_t given = edit.given_.find(vertices.first_dart(v).value);
-    if (given == IndexMap::none) { // not the smallest dart: the next of them
-      darts.clear();
-      collect(map_, Vertex, vertices.first_dart(v), darts);
-      std::sort(darts.begin(), darts.end());
-      for (Dart d : darts)
-        if (given == IndexMap::none) given = edit.given_.find(d.value);
-    }
-    CHECK_NOTE(given != IndexMap::none, "a new vertex was given no point");
-    const Point& point = edit.points_[given];
-    (*position_)[v] = point.position;
-    (*rest_)[v] = point.rest;
-    (*velocity_)[v] = point.velocity;
-  }
-}
-
-void EmbeddedMap::initialise_reshaped(ColumnBase& column) {
-  thread_local std::vector<Dart> darts;
-  thread_local IndexSet seen, done;
-  const Orbit support = column.support();
-  const CellIndex& index = *cells_[column.orbit().mask];
-  seen.clear();
-  done.clear();
-  for (Slot slot : events_[column.orbit().mask].births) done.insert(slot); // just initialised
-  for (int i = 0; i < 4; ++i) {
-    if (!support.has(i)) continue;
-    for (Dart touched : journal_.touched[static_cast<std::size_t>(i)]) {
-      if (!map_.alive(touched) || seen.contains(touched.value)) continue;
-      darts.clear();
-      collect(map_, support, touched, darts);
-      for (Dart d : darts) {
-        seen.insert(d.value);
-        const Slot slot = index.slot(d);
-        if (!done.insert(slot)) continue;
-        column.initialise(*this, index, slot);
-        initialised_[column.orbit().mask].push_back(slot);
-      }
-    }
-  }
-}
-
-void EmbeddedMap::publish() {
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  for (Changes* changes : readers_) {
-    changes->any = true;
-    for (std::size_t i = 0; i < 4; ++i) append(changes->touched[i], journal_.touched[i]);
-    for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
-      if (!cells_[mask]) continue;
-      const SlotEvents& events = events_[mask];
-      append(changes->moved[mask], events.moved);
-      auto& slots = changes->slots[mask];
-      append(slots, events.settled);
-      append(slots, events.deaths);
-      append(slots, initialised_[mask]);
-    }
-  }
-}
-
 void EmbeddedMap::publish_whole() {
   for (Changes* changes : readers_) {
     changes->clear();
@@ -152,7 +62,7 @@ void EmbeddedMap::publish_whole() {
 }
 
 void EmbeddedMap::renumber() {
-  CHECK_NOTE(consistent_, "an edit is open, or was left by an exception");
+  CHECK_NOTE(!open_, "an edit is open");
   std::vector<Slot> from;
   for (auto& index : cells_) {
     if (!index || index->in_order()) continue;
@@ -236,18 +146,6 @@ void EmbeddedMap::store(Archive& archive, ColumnBase& column, const CellIndex* w
   else
     refuse_unless(same_values(column.raw(), index, then, *was),
                   "what the scene has from its preset is another");
-}
-
-std::uint32_t Edit::add_point(const Point& point) {
-  points_.push_back(point);
-  return static_cast<std::uint32_t>(points_.size() - 1);
-}
-
-Point Edit::point(Dart d) const {
-  if (const std::uint32_t given = given_.find(d.value); given != IndexMap::none) return points_[given];
-  const Slot v = embedded_.cells(Vertex).find(d);
-  CHECK_NOTE(v != no_slot, "the dart was created by this edit and given no point");
-  return {embedded_.position()[v], embedded_.rest()[v], embedded_.velocity()[v]};
 }
 
 std::optional<std::string> validate(const EmbeddedMap& embedded) {

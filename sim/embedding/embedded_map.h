@@ -5,9 +5,16 @@
 // While the scope is open the map changes and a journal records it; when it closes, the slots of every orbit in
 // use are updated once, visiting touched darts alone, and every column applies its policies. Only orbits that
 // were asked for (use()) have slots. Derived data (rows, surfaces) subscribes to Changes.
+//
+// An edit is atomic. Whatever throws, in the scope or in a policy while it closes, takes back all that was done:
+// links, slots, values and both kinds of free lists are as before to the last byte, subscribers see no change, and
+// the next edit may follow. Part of an edit can be taken back as well (Edit::savepoint). A change is undone by what
+// the journal and the events of slots say of it (map_edit.h, cell_index.h), and by copies of the values that are
+// overwritten: the price of a separation, which overwrites none, stays what it was.
 #pragma once
 
 #include "sim/embedding/column.h"
+#include "sim/embedding/lineage.h"
 #include "sim/topology/gmap.h"
 #include "sim/topology/index_set.h"
 #include "sim/topology/map_edit.h"
@@ -93,8 +100,9 @@ public:
   Vec3 rest_of(Dart d) const { return (*rest_)[vertex(d)]; }
   Vec3 position_of(Dart d) const { return (*position_)[vertex(d)]; }
 
-  // Runs `change` and updates the columns. An exception thrown by `change` or a birth() leaves a map that
-  // accepts no further edit (CHECK). CHECK (with REND_VALIDATE): the map and slots are valid.
+  // Runs `change` and updates the columns. An exception thrown by `change` or by a policy of an embedding passes
+  // through, and leaves everything as before. CHECK: no edit is open; (with REND_VALIDATE) the map and slots are
+  // valid.
   void edit(const std::function<void(Edit&)>& change);
 
   void subscribe(Changes& changes) { readers_.push_back(&changes); }
@@ -118,11 +126,16 @@ public:
   void store(Archive& archive);
 
 private:
+  struct Closing; // an edit that is being closed
   void adopt(std::unique_ptr<ColumnBase> column);
-  void close(const Edit& edit);
+  void close(const Edit& edit, Closing& closing);
+  void find_heirs(const Edit& edit, Closing& closing);
+  void bring_columns_up_to_date(const Edit& edit, Closing& closing);
+  void take_back(const Closing& closing) noexcept;
   void give_points(const Edit& edit);
-  void initialise_reshaped(ColumnBase& column);
-  void publish();
+  void initialise_reshaped(ColumnBase& column, const Heirs* heirs);
+  void publish(Closing& closing);
+  template <class F> void each_publication(F&& f);
   void publish_whole();
   void store(Archive& archive, ColumnBase& column, const CellIndex* was);
   bool moves(const ColumnBase& column) const { return &column == position_ || &column == velocity_; }
@@ -136,7 +149,7 @@ private:
   VertexColumn *position_ = nullptr, *rest_ = nullptr, *velocity_ = nullptr;
   std::vector<Changes*> readers_;
   Journal journal_;
-  bool consistent_ = true; // no edit is open, and none was ended by an exception
+  bool open_ = false; // an edit is
 };
 
 // An open edit.
@@ -151,16 +164,40 @@ public:
 
   // The same in two steps, for many darts with one point.
   std::uint32_t add_point(const Point& point);
-  void give(Dart d, std::uint32_t point) { given_.assign(d.value, point); }
+  void give(Dart d, std::uint32_t point);
 
   // For point expressions: what d was given, else its point before the edit. CHECK: one of them exists.
   Point point(Dart d) const;
+
+  // What the new dart `child` comes from, for one kind of orbit: Vertex, Edge or EdgeOfFace, an element ... The
+  // embeddings on such orbits, and on others that depend on them, may follow from it (inheritance.h). Darts that
+  // this edit created may be parents, too: they stand for their own parents, and if one has none, nor has the
+  // child. If several darts of a new orbit have parents, those of the smallest dart count; of two calls for one
+  // dart, the last. An element that is recorded as a parent gives its mass away: name it only for elements that lie
+  // in it. CHECK: the weights sum up to 1.
+  void inherit(Dart child, Orbit orbit, std::span<const Parent> parents);
+
+  // The same in two steps, for many children with the same parents.
+  std::uint32_t add_family(Orbit orbit, std::span<const Parent> parents);
+  void inherit(Dart child, Orbit orbit, std::uint32_t family) { lineage().assign(child, orbit, family); }
+
+  // As of MapEdit, with points and parents.
+  struct Savepoint {
+    MapEdit::Savepoint map;
+    Lineage::Savepoint lineage;
+    std::size_t points = 0, given = 0;
+  };
+  Savepoint savepoint() const;
+  void rollback(const Savepoint& to) noexcept;
 
 private:
   friend class EmbeddedMap;
   EmbeddedMap& embedded_;
   std::vector<Point> points_;
-  IndexMap given_; // dart → index in points_
+  IndexMap given_;                                             // dart → index in points_
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> gifts_; // darts, and what each had been given before
+  Lineage& lineage();
+  std::unique_ptr<Lineage> lineage_; // null: no parents were recorded
 };
 
 // Checks every axiom of the map, and that the darts of an orbit share a slot which no other orbit has.

@@ -3,6 +3,7 @@
 #include "sim/base/archive.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rend {
 
@@ -25,8 +26,23 @@ void SlotTable::unpack() {
   std::vector<Slot> wide(step_.size());
   for (std::size_t d = 0; d < wide.size(); ++d) wide[d] = (*this)[Dart{d}];
   wide_ = std::move(wide);
-  least_ = std::vector<Slot>();
-  step_ = std::vector<std::uint8_t>();
+  least_before_ = std::exchange(least_, {});
+  step_before_ = std::exchange(step_, {});
+}
+
+void SlotTable::forget() noexcept {
+  least_before_ = std::vector<Slot>(); // assigning {} would keep the capacity
+  step_before_ = std::vector<std::uint8_t>();
+}
+
+void SlotTable::rollback() noexcept {
+  if (!step_before_.empty()) {
+    wide_ = std::vector<Slot>();
+    least_ = std::exchange(least_before_, {});
+    step_ = std::exchange(step_before_, {});
+  } else if (!wide_.empty()) {
+    wide_.resize(size_before_);
+  }
 }
 
 bool SlotTable::set_step(Dart d, Slot slot) {
@@ -48,6 +64,7 @@ void SlotTable::resize(std::size_t darts) {
 
 void SlotTable::rename(std::span<const Slot> now) {
   if (wide_.empty()) unpack();
+  forget(); // no edit is open
   for (Slot& slot : wide_)
     if (slot != no_slot) slot = now[slot];
 }

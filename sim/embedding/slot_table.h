@@ -37,6 +37,14 @@ public:
   }
   void resize(std::size_t darts); // new ones have no slot
 
+  // Between begin_edit() and end_edit() rollback() makes the table as long as it was, and packed again if it was.
+  // It restores no slots: they are to be set again.
+  void begin_edit() { size_before_ = size(); }
+  void end_edit() noexcept {
+    if (!step_before_.empty()) forget();
+  }
+  void rollback() noexcept;
+
   void rename(std::span<const Slot> now); // every slot s becomes now[s]
   void pack();                            // does nothing if the slots of some group lie too far apart
   std::size_t bytes() const;              // with reserved capacity, which was written to
@@ -48,10 +56,15 @@ private:
   static constexpr std::uint8_t no_step = 0xff; // a dart without a slot
   bool set_step(Dart d, Slot slot);             // false: it did not fit, and the table is now unpacked
   void unpack();
+  void forget() noexcept;
 
   std::vector<Slot> wide_;         // one per dart; empty: packed
   std::vector<Slot> least_;        // packed: one per group
   std::vector<std::uint8_t> step_; // packed: one per dart
+
+  std::size_t size_before_ = 0; // of the edit
+  std::vector<Slot> least_before_;
+  std::vector<std::uint8_t> step_before_; // not empty: the edit unpacked the table
 };
 
 } // namespace rend

@@ -116,13 +116,21 @@ void for_each_unit(const EmbeddedMap& map, const std::vector<std::unique_ptr<Int
 // Rest positions of the particles of a unit.
 std::vector<Vec3> rest_positions(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit);
 
+// What of a spring that is divided follows from the whole, as of springs in series: a side of length L and stiffness
+// k that is halved becomes two of 2k.
+struct InSeries {
+  bool k = false, damping = false;
+};
+
 // The embedding of an interaction's parameters: initialised from rest positions and stiffness; fragments keep
-// them.
+// them. In series, a spring along a side that was cut from others (Edit::inherit) has k = Σ w k_p L_p / L, of
+// parents with the weights w; its length is that of its rest positions, so that no force arises at rest.
 template <int Units> struct UnitEmbedding {
   using Value = std::array<UnitParameters, Units>;
   std::string name;
   Orbit orbit, support;
   std::function<UnitParameters(const EmbeddedMap&, Dart, int unit)> parameters_of;
+  InSeries in_series = {};
   Value birth(const EmbeddedMap& map, Dart d) const {
     Value value;
     for (int unit = 0; unit < Units; ++unit)
@@ -130,19 +138,37 @@ template <int Units> struct UnitEmbedding {
     return value;
   }
   Value split(const Value& whole) const { return whole; }
+  Value inherit(const EmbeddedMap& map, Dart d, std::span<const Inherited<Value>> parents) const {
+    Value value = birth(map, d);
+    for (std::size_t unit = 0; unit < Units; ++unit) {
+      UnitParameters& own = value[unit];
+      if (!(own.k > 0 && own.rest > 0)) continue;
+      UnitParameters sum;
+      for (const Inherited<Value>& parent : parents) {
+        const UnitParameters& whole = parent.value[unit];
+        sum.k += parent.weight * whole.k * (whole.rest / own.rest);
+        sum.damping += parent.weight * whole.damping * (whole.rest / own.rest);
+      }
+      if (in_series.k) own.k = sum.k;
+      if (in_series.damping) own.damping = sum.damping;
+    }
+    return value;
+  }
 };
 
 // Makes an interaction of springs or hinges from its parts.
 template <int Units>
 std::unique_ptr<Interaction>
 make_interaction(EmbeddedMap& map, std::string name, std::shared_ptr<const ForceLaw> law, Pattern pattern,
-                 double damping, std::function<UnitParameters(const EmbeddedMap&, Dart, int)> parameters_of) {
+                 double damping, std::function<UnitParameters(const EmbeddedMap&, Dart, int)> parameters_of,
+                 InSeries in_series = {}) {
   struct Carried final : Interaction {
     const Column<UnitEmbedding<Units>>* column = nullptr;
     const double* unit(Slot owner, std::size_t unit) const override { return &(*column)[owner][unit].k; }
   };
   auto made = std::make_unique<Carried>();
-  made->column = &map.add(UnitEmbedding<Units>{name, pattern.owner, pattern.support, std::move(parameters_of)});
+  made->column =
+      &map.add(UnitEmbedding<Units>{name, pattern.owner, pattern.support, std::move(parameters_of), in_series});
   made->name = std::move(name);
   made->law = std::move(law);
   made->pattern = std::move(pattern);

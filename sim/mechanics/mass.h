@@ -2,7 +2,9 @@
 //
 // Each corner of an element carries a share of its mass; the mass of a vertex is the sum over its corners. A
 // separation regroups the corners without changing them, so that mass and momentum, summed over corners in the
-// order of darts, are conserved to the last bit.
+// order of darts, are conserved to the last bit. Where an edit divides elements and says so (Edit::inherit), mass
+// and viscosity of the old element are shared by the new ones, by area or volume, and the momentum is kept
+// (embedding/inheritance.h).
 #pragma once
 
 #include "sim/base/settings.h"
@@ -41,6 +43,11 @@ struct CornerMass {
   double density = 0; // [kg/m²] of a sheet, [kg/m³] of a solid
   Value birth(const EmbeddedMap& map, Dart d) const;
   Value split(const Value& whole) const { return whole; }
+  static constexpr Inheritance inheritance = Inheritance::Share;
+  static constexpr bool carries_momentum = true;
+  Value inherit(const EmbeddedMap&, Dart, std::span<const Inherited<Value>> parents) const {
+    return sum_of(parents);
+  }
   CornerMass on(const EmbeddedMap& map) const;
 };
 using MassColumn = Column<CornerMass>;
@@ -54,6 +61,10 @@ struct CornerDrag {
   double per_vertex = 0; // [N·s/m] of a vertex of the undamaged body
   Value birth(const EmbeddedMap& map, Dart d) const;
   Value split(const Value& whole) const { return whole; }
+  static constexpr Inheritance inheritance = Inheritance::Share;
+  Value inherit(const EmbeddedMap&, Dart, std::span<const Inherited<Value>> parents) const {
+    return sum_of(parents);
+  }
   CornerDrag on(const EmbeddedMap& map) const;
 };
 using DragColumn = Column<CornerDrag>;

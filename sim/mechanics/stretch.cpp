@@ -21,7 +21,8 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
         if (surface && !body.map().is_free(3, d)) return UnitParameters{};
         const Dart e = body.map().alpha(0, d);
         return UnitParameters{k(body, d), damping, (body.rest_of(e) - body.rest_of(d)).norm()};
-      });
+      },
+      InSeries{.k = request.settings.k.has_value(), .damping = true}); // a material knows the k of any side
 }
 
 } // namespace

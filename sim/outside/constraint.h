@@ -75,7 +75,8 @@ Motion motion_of(const FixSettings& settings);
 // UserError: settings that do not fit together.
 Motion motion_of(const DriveSettings& settings);
 
-// The motions a vertex mask: bit k is motion k.
+// The motions of a vertex: bit k is motion k. A vertex that comes to lie between others has the motions that all
+// of them have.
 struct MotionMask {
   using Value = std::uint64_t;
   std::string name = "prescribed motions";
@@ -84,6 +85,11 @@ struct MotionMask {
   Value birth(const EmbeddedMap&, Dart) const { return 0; }
   Value split(const Value& whole) const { return whole; }
   Value merge(const Value& kept, const Value& absorbed) const { return kept | absorbed; }
+  Value inherit(const EmbeddedMap&, Dart, std::span<const Inherited<Value>> parents) const {
+    Value all = ~Value{0};
+    for (const Inherited<Value>& parent : parents) all &= parent.value;
+    return all;
+  }
 };
 
 class Constraints {

@@ -1,9 +1,18 @@
 #include "sim/outside/share.h"
 
 #include "sim/mechanics/mass.h"
+#include "sim/topology/orientation.h"
 #include "sim/topology/walk.h"
 
 namespace rend {
+
+double Share::inherit(const EmbeddedMap& map, Dart d, std::span<const Inherited<double>> parents) const {
+  if (inheritance == Inheritance::Share) return sum_of(parents);
+  for (const Inherited<double>& parent : parents)
+    if (parent.value == 0) return 0;
+  const Inherited<double>& parent = parents.front();
+  return orbit == FaceOfVolume && !turns_alike(map.map(), parent.dart, d) ? -parent.value : parent.value;
+}
 
 ShareColumn& share_equally(EmbeddedMap& map, const std::string& name, const std::vector<Slot>& vertices) {
   const Orbit corner = corner_orbit(map.dimension());

@@ -54,6 +54,15 @@ void MapEdit::remove_dart(Dart d) {
   map_.links_[d.value].fill(Dart::none_value);
 }
 
+void MapEdit::note_cut(int i, std::span<const Dart> pairs) {
+  try {
+    note(i, pairs);
+  } catch (...) {
+    for (std::size_t n = 0; n < pairs.size(); n += 2) join(i, pairs[n], pairs[n + 1]);
+    throw;
+  }
+}
+
 MapEdit::Savepoint MapEdit::savepoint() const {
   CHECK(journal_);
   Savepoint now{{}, journal_->created.size(), journal_->removed.size(), map_.capacity()};

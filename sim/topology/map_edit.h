@@ -104,15 +104,6 @@ inline void MapEdit::unlink(int i, Dart a) {
   note_cut(i, std::array{a, cut(i, a)});
 }
 
-inline void MapEdit::note_cut(int i, std::span<const Dart> pairs) {
-  try {
-    note(i, pairs);
-  } catch (...) {
-    for (std::size_t n = 0; n < pairs.size(); n += 2) join(i, pairs[n], pairs[n + 1]);
-    throw;
-  }
-}
-
 // Sews d and e by αi, and all corresponding darts of <0..i-2, i+2..3>(d) and (e). False, and nothing changed:
 // one of them is not αi-free, the orbits are not isomorphic, or d and e belong to one orbit whose sewing
 // contradicts itself.
