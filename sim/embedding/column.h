@@ -24,9 +24,9 @@
 //     static constexpr bool carries_momentum = true;                   // of masses alone
 //
 // It then takes the place of birth() and, for the parts of a split orbit, of split(), in edits that recorded
-// parents, wherever parents are found: how, and what their weights mean, is told in inheritance.h. The dart is the
-// smallest of the orbit; the map is as after the edit, with slots and rest positions; the values are those from
-// before. Without parents, and in all other edits, there is birth().
+// parents, wherever parents are found: how, and what their weights mean, is told in inheritance.h. The dart is
+// the smallest of the orbit; the map is as after the edit, with slots and rest positions; the values are those
+// from before. Without parents, and in all other edits, there is birth().
 
 #include "sim/base/record.h"
 #include "sim/embedding/cell_index.h"
@@ -78,8 +78,8 @@ public:
                      const Heirs* heirs) = 0;
   virtual void inherit(const EmbeddedMap& map, const CellIndex& cells, const Heirs& heirs) = 0;
   virtual void initialise(const EmbeddedMap& map, const CellIndex& cells, Slot slot) = 0;
-  // Takes back, to the last byte, all changes since apply() began; or gives up what that needs, which is nothing if
-  // there were only splits into slots that are new.
+  // Takes back, to the last byte, all changes since apply() began; or gives up what that needs, which is
+  // nothing if there were only splits into slots that are new.
   virtual void rollback() noexcept = 0;
   virtual void commit() noexcept = 0;
   // slot s takes the value of from[s]; resizes to from.size()

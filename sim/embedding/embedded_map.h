@@ -6,11 +6,11 @@
 // use are updated once, visiting touched darts alone, and every column applies its policies. Only orbits that
 // were asked for (use()) have slots. Derived data (rows, surfaces) subscribes to Changes.
 //
-// An edit is atomic. Whatever throws, in the scope or in a policy while it closes, takes back all that was done:
-// links, slots, values and both kinds of free lists are as before to the last byte, subscribers see no change, and
-// the next edit may follow. Part of an edit can be taken back as well (Edit::savepoint). A change is undone by what
-// the journal and the events of slots say of it (map_edit.h, cell_index.h), and by copies of the values that are
-// overwritten: the price of a separation, which overwrites none, stays what it was.
+// An edit is atomic. Whatever throws, in the scope or in a policy while it closes, takes back all that was
+// done: links, slots, values and both kinds of free lists are as before to the last byte, subscribers see no
+// change, and the next edit may follow. A part of an edit can be taken back as well (Edit::savepoint). A change
+// is undone by what the journal and the events of slots say of it (map_edit.h, cell_index.h), and by copies of
+// the values that were overwritten. A separation overwrites none, and costs what it did without.
 #pragma once
 
 #include "sim/embedding/column.h"
@@ -100,9 +100,9 @@ public:
   Vec3 rest_of(Dart d) const { return (*rest_)[vertex(d)]; }
   Vec3 position_of(Dart d) const { return (*position_)[vertex(d)]; }
 
-  // Runs `change` and updates the columns. An exception thrown by `change` or by a policy of an embedding passes
-  // through, and leaves everything as before. CHECK: no edit is open; (with REND_VALIDATE) the map and slots are
-  // valid.
+  // Runs `change` and updates the columns. An exception thrown by `change` or by a policy of an embedding
+  // passes through, and leaves everything as before. CHECK: no edit is open; (with REND_VALIDATE) the map and
+  // slots are valid.
   void edit(const std::function<void(Edit&)>& change);
 
   void subscribe(Changes& changes) { readers_.push_back(&changes); }
@@ -169,12 +169,16 @@ public:
   // For point expressions: what d was given, else its point before the edit. CHECK: one of them exists.
   Point point(Dart d) const;
 
-  // What the new dart `child` comes from, for one kind of orbit: Vertex, Edge or EdgeOfFace, an element ... The
-  // embeddings on such orbits, and on others that depend on them, may follow from it (inheritance.h). Darts that
-  // this edit created may be parents, too: they stand for their own parents, and if one has none, nor has the
-  // child. If several darts of a new orbit have parents, those of the smallest dart count; of two calls for one
-  // dart, the last. An element that is recorded as a parent gives its mass away: name it only for elements that lie
-  // in it. CHECK: the weights sum up to 1.
+  // What the new dart `child` comes from, for one kind of orbit; the embeddings on such orbits, and on others
+  // that depend on them, follow from it (inheritance.h):
+  //   Vertex               the vertices whose mean it is; of a new dart in a vertex that is kept: this one
+  //   EdgeOfFace, Edge     of a part of a side or edge: the whole one
+  //   element              the element in which it lies. It gives its mass away: nothing for elements beside it
+  //   FaceOfVolume         in a solid, of a part of a face: the whole one
+  // Darts that this edit created may be parents, too: they stand for their own parents, and if one has none,
+  // nor has the child. If several darts of a new orbit have parents, those of the smallest dart count; of two
+  // calls for one dart, the last. Nobody asks what was recorded for orbits that have darts from before the
+  // edit. CHECK: the weights sum up to 1.
   void inherit(Dart child, Orbit orbit, std::span<const Parent> parents);
 
   // The same in two steps, for many children with the same parents.

@@ -65,8 +65,8 @@ Orbit united(Orbit a, Orbit b) {
   return a;
 }
 
-// The orbits in which to look for the parents of an orbit: itself, then those that contain it and belong to a cell
-// of the same dimension, smaller ones first.
+// The orbits in which to look for the parents of an orbit: itself, then those that contain it and belong to a
+// cell of the same dimension, smaller ones first.
 std::vector<Orbit> entries_for(Orbit orbit) {
   std::vector<Orbit> all{orbit};
   Orbit cell; // the largest

@@ -1,40 +1,41 @@
 // How the values of new cells follow from those of the cells that they come from (column.h: inherit).
 //
-// An edit that divides or joins cells records the parents of its new darts (Edit::inherit). When it closes, every
-// column whose embedding inherits asks here which of its cells are heirs, and of what. Heirs are, in an edit that
-// recorded parents, the cells that birth() would initialise: those of new darts alone, and those whose support
-// changed its links; and the parts of a cell that was split.
+// An edit that divides or joins cells records the parents of its new darts (Edit::inherit). When it closes,
+// every column whose embedding inherits asks here which of its cells are heirs, and of what. Heirs are, in an
+// edit that recorded parents, the cells that birth() would initialise: those of new darts alone, and those
+// whose support changed its links; and the parts of a cell that was split.
 //
 // The parents of a heir:
-//   1. If it has darts from before the edit: the cells in which they were, by the number of darts. It is what is
-//      left of them.
+//   1. If it has darts from before the edit: the cells in which they were, by the number of darts. It is what
+//      is left of them.
 //   2. Otherwise what was recorded for its smallest dart that has an entry for its own orbit.
-//   3. Otherwise the same for an orbit that contains its own and belongs to a cell of the same dimension: a side of
-//      a face (EdgeOfFace) takes an entry for Edge, a corner one for Vertex. It then descends from the orbit of its
-//      own kind at the parent dart. (Not where cells share; see below.)
+//   3. Otherwise the same for an orbit that contains its own and belongs to a cell of the same dimension: a
+//      side of a face (EdgeOfFace) takes an entry for Edge, a corner one for Vertex. It then descends from the
+//      orbit of its own kind at the parent dart. (Not where cells share; see below.)
 //   4. Otherwise it has none, and is born.
 //
 // Inheritance::Share keeps sums: the old value of each parent is divided among its heirs. If the support is the
-// element, elements give and take: parents are found for elements as above, and a heir's share of an old element is
+// element, elements give and take: parents are found for elements as above, and a heir's share of an old
+// element is
 //
 //   f = w A / Σ w A      A: rest area [m²] or volume [m³] of the heirs, w: weight of that parent
 //
-// which is spread evenly over its cells (its corners, say); the old element has the sum over its own cells. So the
-// density of a new element is that of its parents, and the sum over all cells keeps its value to rounding, also
-// where faces are warped and areas do not add up. A corner needs no entry of its own. A parent that the edit did
-// not change (it was copied) keeps what it has, and A of that parent stands in place of the sum.
-// If the support is SingleDart, each cell gives and takes by itself, with A = 1: the fragments of a corner share
-// what it had, and a new corner has nothing, unless there is an entry for its own orbit.
+// which is spread evenly over its cells (its corners, say); the old element has the sum over its own cells. So
+// the density of a new element is that of its parents, and the sum over all cells keeps its value to rounding,
+// also where faces are warped and areas do not add up. A corner needs no entry of its own. A parent that the
+// edit did not change (it was copied) keeps what it has, and A of that parent stands in place of the sum.
+// If the support is SingleDart, each cell gives and takes by itself, with A = 1: the fragments of a corner
+// share what it had, and a new corner has nothing, unless there is an entry for its own orbit.
 //
 // Momentum. A vertex that comes to lie between others has the mean of their velocities, but the lumped masses
-// around it need not fit: Σ m v is kept for a triangle or a parallelogram that is subdivided, not for other quads,
-// and not if a vertex is inserted on one side. So, once masses are inherited, the difference Δp of each divided
-// element and its heirs is given back by the same shift of velocity for all their vertices,
+// around it need not fit: Σ m v is kept for a triangle or a parallelogram that is subdivided, not for other
+// quads, and not if a vertex is inserted on one side. So, once masses are inherited, the difference Δp of each
+// divided element and its heirs is given back by the same shift of velocity for all their vertices,
 //
 //   δ = Δp / Σ m_j       m_j: the whole mass of vertex j,
 //
-// of all shifts with Σ m_j δ_j = Δp the one with the least Σ m_j δ_j². Positions stay; angular momentum is kept as
-// far as the positions allow.
+// of all shifts with Σ m_j δ_j = Δp the one with the least Σ m_j δ_j². Positions stay. Angular momentum and
+// energy are not restored.
 #pragma once
 
 #include "sim/base/record.h"
@@ -115,8 +116,8 @@ public:
     }
   }
 
-  // Momentum, if the column has masses [kg], one per slot (otherwise empty): before the slots are up to date, and
-  // after the masses are; `shift(vertex slot, δ [m/s])` is called at most once for a vertex.
+  // Momentum, if the column has masses [kg], one per slot (otherwise empty): before the slots are up to date,
+  // and after the masses are; `shift(vertex slot, δ [m/s])` is called at most once for a vertex.
   void note_momentum(const EmbeddedMap& map, std::span<const double> masses);
   template <class F>
   void restore_momentum(const EmbeddedMap& map, std::span<const double> masses, F&& shift) const {

@@ -1,7 +1,7 @@
 // What the new darts of an edit come from: of a kind of orbit, a dart and its parents.
 //
-// An edit that divides a cell knows which cell that was; the values of the new cells follow from the values of the
-// old ones (inheritance.h). Here stands only who descends from whom.
+// An edit that divides a cell knows which cell that was; the values of the new cells follow from the values of
+// the old ones (inheritance.h). Here stands only who descends from whom.
 #pragma once
 
 #include "sim/topology/index_set.h"

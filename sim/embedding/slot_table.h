@@ -37,8 +37,8 @@ public:
   }
   void resize(std::size_t darts); // new ones have no slot
 
-  // Between begin_edit() and end_edit() rollback() makes the table as long as it was, and packed again if it was.
-  // It restores no slots: they are to be set again.
+  // Between begin_edit() and end_edit() rollback() makes the table as long as it was, and packed again if it
+  // was. It restores no slots: they are to be set again.
   void begin_edit() { size_before_ = size(); }
   void end_edit() noexcept {
     if (!step_before_.empty()) forget();

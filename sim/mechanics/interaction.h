@@ -116,8 +116,8 @@ void for_each_unit(const EmbeddedMap& map, const std::vector<std::unique_ptr<Int
 // Rest positions of the particles of a unit.
 std::vector<Vec3> rest_positions(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit);
 
-// What of a spring that is divided follows from the whole, as of springs in series: a side of length L and stiffness
-// k that is halved becomes two of 2k.
+// What of a spring that is divided follows from the whole, as of springs in series: a side of length L and
+// stiffness k that is halved becomes two of 2k.
 struct InSeries {
   bool k = false, damping = false;
 };

@@ -2,8 +2,8 @@
 //
 // Each corner of an element carries a share of its mass; the mass of a vertex is the sum over its corners. A
 // separation regroups the corners without changing them, so that mass and momentum, summed over corners in the
-// order of darts, are conserved to the last bit. Where an edit divides elements and says so (Edit::inherit), mass
-// and viscosity of the old element are shared by the new ones, by area or volume, and the momentum is kept
+// order of darts, are conserved to the last bit. Where an edit divides elements and says so (Edit::inherit),
+// mass and viscosity of the old element are shared by the new ones, by area or volume, and the momentum is kept
 // (embedding/inheritance.h).
 #pragma once
 

@@ -75,8 +75,8 @@ Motion motion_of(const FixSettings& settings);
 // UserError: settings that do not fit together.
 Motion motion_of(const DriveSettings& settings);
 
-// The motions of a vertex: bit k is motion k. A vertex that comes to lie between others has the motions that all
-// of them have.
+// The motions of a vertex: bit k is motion k. A vertex that comes to lie between others has the motions that
+// all of them have.
 struct MotionMask {
   using Value = std::uint64_t;
   std::string name = "prescribed motions";

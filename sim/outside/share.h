@@ -3,9 +3,10 @@
 // A share is embedded on cells that a separation never splits (a corner, an edge or a face of one element), so
 // that it survives tearing: the fragments of a split vertex together have the share that the vertex had.
 //
-// Where an edit divides cells and says so (Edit::inherit), the fragments of a corner together have its share, and a
-// new corner has none: a force or a probe stays at the points that were selected. An edge or a face is in the patch
-// if the ones are that it was cut from; a face that goes around the other way than its parent changes its sign.
+// Where an edit divides cells and says so (Edit::inherit), the fragments of a corner together have its share,
+// and a new corner has none: a force or a probe stays at the points that were selected. An edge or a face is in
+// the patch if the ones are that it was cut from; a face that goes around the other way than its parent changes
+// its sign.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"

@@ -5,11 +5,12 @@
 // other.
 //
 // The journal is also what an edit is undone by, and nothing else is recorded for it:
-//   links     Read backwards, each pair of touched[i] is found as the change left it: linked to each other by αi,
-//             so that the change was a link; or free, so that it was an unlink. What happens to αj or to the list
-//             of free darts in between does not matter.
-//   darts     The list of free darts is a stack. Read backwards, the last change was a removal if and only if the
-//             dart on top is the last of `removed`: whatever was created after it would have taken it off first.
+//   links     Read backwards, each pair of touched[i] is found as the change left it: linked to each other by
+//             αi, so that the change was a link; or free, so that it was an unlink. What happens to αj or to
+//             the list of free darts in between does not matter.
+//   darts     The list of free darts is a stack. Read backwards, the last change was a removal if and only if
+//             the dart on top is the last of `removed`: whatever was created after it would have taken it off
+//             first.
 #pragma once
 
 #include "sim/base/check.h"
@@ -51,8 +52,8 @@ public:
 
   Savepoint savepoint() const; // CHECK: there is a journal
 
-  // Takes back all changes since then, in time proportional to their number: links, capacity and the list of free
-  // darts, to its order, are as they were, and so is the journal. Allocates nothing.
+  // Takes back all changes since then, in time proportional to their number: links, capacity and the list of
+  // free darts, to its order, are as they were, and so is the journal. Allocates nothing.
   void rollback(const Savepoint& to) noexcept;
 
   // Appends links.size() darts, dart n with αi = first + links[n][i], where `first` is the dart that is

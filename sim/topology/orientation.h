@@ -18,8 +18,8 @@ struct Sides {
 };
 Sides sides_of(const GMap& map);
 
-// Whether a path of an even number of links leads from a to b, a shortest one: found as soon as they are near to each
-// other. True if there is none, or a is removed.
+// Whether a path of an even number of links leads from a to b, a shortest one: found as soon as they are near
+// to each other. True if there is none, or a is removed.
 bool turns_alike(const GMap& map, Dart a, Dart b);
 
 inline bool is_orientable(const GMap& map) {

@@ -2,9 +2,14 @@
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
+#include "sim/random_meshes.h"
 #include "sim/rules/rules.h"
 #include "sim/topology/walk.h"
+#include "tests/sim/assets.h"
 
+#include <gtest/gtest.h>
+
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,8 +27,9 @@ inline std::vector<Parent> mean_of(const Edit& edit, Orbit orbit, Dart d) {
   return all;
 }
 
-// Applies the rule, and records for its new darts: the element and the side in which they lie, as those of dart `a`
-// of their instance; and, of the darts of `vertices[n]`, that they are at the mean of the vertices of `orbits[n]`.
+// Applies the rule, and records for its new darts: the element and the side in which they lie, as those of dart
+// `a` of their instance; and, of the darts of `vertices[n]`, that they are at the mean of the vertices of
+// `orbits[n]`.
 inline Applied apply_with_parents(const Rule& rule, Edit& edit, Dart hook, const std::string& vertices,
                                   const std::vector<Orbit>& orbits, const std::string& on_side,
                                   const std::string& created) {
@@ -62,6 +68,37 @@ inline bool triangulated_both_sides(Edit& edit, Dart d) {
 }
 inline bool vertex_inserted(Edit& edit, Dart d) {
   return apply_with_parents(insert_vertex, edit, d, "c", {Edge}, "c", "c").ok;
+}
+
+struct Division {
+  std::string name;
+  std::function<void(Edit&, meshes::Noise&)> change;
+};
+
+inline Dart any(const GMap& map, meshes::Noise& noise) {
+  const std::vector<Dart> darts = assets::all_darts(map);
+  return darts[noise.below(darts.size())];
+}
+
+inline const std::vector<Division>& divisions() {
+  static const std::vector<Division> all{
+      {"subdivide", [](Edit& edit, meshes::Noise&) { ASSERT_TRUE(subdivided(edit, Dart{0u})); }},
+      {"triangulate a face",
+       [](Edit& edit, meshes::Noise& n) { ASSERT_TRUE(triangulated(edit, any(edit.map(), n))); }},
+      {"insert a vertex",
+       [](Edit& edit, meshes::Noise& n) { ASSERT_TRUE(vertex_inserted(edit, any(edit.map(), n))); }},
+      {"several", [](Edit& edit, meshes::Noise& n) {
+         for (int k = 0; k < 3; ++k) {
+           ASSERT_TRUE(vertex_inserted(edit, any(edit.map(), n)));
+           ASSERT_TRUE(triangulated(edit, any(edit.map(), n)));
+         }
+       }}};
+  return all;
+}
+
+inline PolygonMesh flat(PolygonMesh mesh) {
+  for (Vec3& x : mesh.points) x.z() = 0;
+  return mesh;
 }
 
 } // namespace rend::divided

@@ -1,55 +1,24 @@
 // What the values of divided cells become, against sums over polygons and particles.
 #include "sim/embedding/inheritance.h"
 
-#include "sim/boundary/initial_border.h"
+#include "sim/base/check.h"
 #include "sim/divided.h"
+#include "sim/elements.h"
 #include "sim/mechanics/mass.h"
-#include "sim/mechanics/mass_tensor.h"
 #include "sim/mesh/bar.h"
-#include "sim/outside/constraint.h"
-#include "sim/outside/patch.h"
 #include "sim/random_meshes.h"
 #include "tests/sim/assets.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <map>
 
 namespace rend {
 namespace {
 
 using namespace meshes;
-
-struct Division {
-  std::string name;
-  std::function<void(Edit&, Noise&)> change;
-};
-
-Dart any(const GMap& map, Noise& noise) {
-  const std::vector<Dart> darts = assets::all_darts(map);
-  return darts[noise.below(darts.size())];
-}
-
-const std::vector<Division>& divisions() {
-  static const std::vector<Division> all{
-      {"subdivide", [](Edit& edit, Noise&) { ASSERT_TRUE(divided::subdivided(edit, Dart{0u})); }},
-      {"triangulate a face",
-       [](Edit& edit, Noise& n) { ASSERT_TRUE(divided::triangulated(edit, any(edit.map(), n))); }},
-      {"insert a vertex",
-       [](Edit& edit, Noise& n) { ASSERT_TRUE(divided::vertex_inserted(edit, any(edit.map(), n))); }},
-      {"several", [](Edit& edit, Noise& n) {
-         for (int k = 0; k < 3; ++k) {
-           ASSERT_TRUE(divided::vertex_inserted(edit, any(edit.map(), n)));
-           ASSERT_TRUE(divided::triangulated(edit, any(edit.map(), n)));
-         }
-       }}};
-  return all;
-}
-
-PolygonMesh flat(PolygonMesh mesh) {
-  for (Vec3& x : mesh.points) x.z() = 0;
-  return mesh;
-}
+using divided::any, divided::Division, divided::divisions, divided::flat;
 
 // Twice the vector area of the face of d, at rest.
 Vec3 twice_area(const EmbeddedMap& map, Dart d) {
@@ -262,31 +231,6 @@ TEST(Inheritance, weights_that_do_not_sum_up_to_one_are_our_slip) {
                InternalError);
 }
 
-TEST(Inheritance, of_motions_holds_a_vertex_between_held_ones_alone) {
-  const auto map = sheet_from(sheet(SheetPattern::Quads, 4, 4));
-  Constraints constraints;
-  Changes changes;
-  map->subscribe(changes);
-  std::vector<Slot> low, left;
-  for (Slot v = 0; v < map->cells(Vertex).slots(); ++v) {
-    if (map->rest()[v].y < 1.5) low.push_back(v);
-    if (map->rest()[v].x < 0.5) left.push_back(v);
-  }
-  Motion along_x;
-  along_x.axes = {true, false, false};
-  constraints.add(*map, Motion{}, low);
-  constraints.add(*map, along_x, left);
-  map->edit([](Edit& edit) { ASSERT_TRUE(divided::subdivided(edit, Dart{0u})); });
-  constraints.rebind(*map, changes);
-  std::vector<std::uint8_t> axes(map->cells(Vertex).slots(), 0);
-  constraints.mark(0, axes.data());
-  for (Slot v = 0; v < axes.size(); ++v) {
-    const Vec3 x = map->rest()[v].vec();
-    const int expected = x.y() <= 1 ? 7 : x.x() == 0 ? 1 : 0; // whole cells below 1 and at the left side
-    EXPECT_EQ(axes[v], expected) << x.transpose();
-  }
-}
-
 TEST(Inheritance, of_a_side_puts_springs_in_series) {
   const auto map = sheet_from(warped(sheet(SheetPattern::Mixed, 3, 3), 0.2, 1));
   const auto springs = interaction(*map, {"stretch", "", 60, 0.4});
@@ -332,91 +276,6 @@ TEST(Inheritance, of_springs_from_a_material_is_what_a_new_body_has) {
   map->map().for_each_dart([&](Dart d) {
     EXPECT_NEAR(divided_springs->unit(map->slot(EdgeOfFace, d), 0)[0], expected, 1e-12 * expected);
   });
-}
-
-TEST(Inheritance, of_corner_shares_keeps_sum_and_middle_of_the_selected_points) {
-  for (const Division& division : divisions()) {
-    const auto map = sheet_from(warped(sheet(SheetPattern::Mixed, 4, 4), 0.2, 3));
-    std::vector<Slot> chosen;
-    Vec3 middle = Vec3::Zero();
-    for (Slot v = 0; v < map->cells(Vertex).slots(); v += 3) {
-      chosen.push_back(v);
-      middle += map->rest()[v].vec();
-    }
-    middle /= static_cast<double>(chosen.size());
-    const ShareColumn& shares = share_equally(*map, "probe", chosen);
-    Noise noise(7);
-    for (int times = 0; times < 2; ++times) map->edit([&](Edit& edit) { division.change(edit, noise); });
-    const CellIndex& corners = map->cells(VertexOfFace);
-    double sum = 0;
-    Vec3 x = Vec3::Zero();
-    for (Slot c = 0; c < corners.slots(); ++c) {
-      if (!corners.alive(c)) continue;
-      sum += shares[c];
-      x += shares[c] * map->rest_of(corners.first_dart(c));
-    }
-    EXPECT_NEAR(sum, 1, 1e-14) << division.name;
-    EXPECT_LT((x - middle).norm(), 1e-13) << division.name;
-  }
-}
-
-TEST(Inheritance, of_patches_keeps_their_length_and_their_vector_area) {
-  for (const Division& division : divisions()) {
-    for (unsigned seed = 0; seed < 5; ++seed) {
-      const auto map = sheet_from(flat(warped(sheet(SheetPattern::Mixed, 4, 4), 0.2, seed)));
-      std::vector<Slot> left, all;
-      for (Slot v = 0; v < map->cells(Vertex).slots(); ++v) {
-        all.push_back(v);
-        if (map->rest()[v].x < 2.5) left.push_back(v);
-      }
-      Patch border = Patch::boundary(*map, "border", left), faces = Patch::faces(*map, "faces", left);
-      const auto size = [&] {
-        double sum = 0;
-        for (const double part : border.measures(*map)) sum += part;
-        return sum;
-      };
-      const auto area = [&] {
-        Vec3 sum = Vec3::Zero();
-        for (std::size_t c = 0; c < faces.cells().size(); ++c) {
-          std::vector<Vec3> x, parts;
-          for (const Slot v : faces.cells()[c]) x.push_back(map->rest()[v].vec());
-          parts.resize(x.size());
-          corner_areas(x, parts);
-          for (const Vec3& part : parts) sum += part;
-        }
-        return sum;
-      };
-      const double before = size();
-      const Vec3 area_before = area();
-      EXPECT_GT(area_before.norm(), 1);
-      Noise noise(seed);
-      for (int times = 0; times < 2; ++times) map->edit([&](Edit& edit) { division.change(edit, noise); });
-      border.rebind(*map);
-      faces.rebind(*map);
-      EXPECT_NEAR(size(), before, 1e-13) << division.name;
-      EXPECT_LT((area() - area_before).norm(), 1e-13) << division.name;
-    }
-  }
-}
-
-TEST(Inheritance, of_the_initial_border_keeps_torn_sides_torn) {
-  for (const Division& division : divisions()) {
-    const auto map = sheet_from(sheet(SheetPattern::Quads, 4, 4));
-    const auto& border = map->add(InitialBorder{});
-    map->edit([&](Edit& edit) {
-      for (const Dart d : assets::all_darts(edit.map())) {
-        const Vec3 a = map->rest_of(d), b = map->rest_of(map->map().alpha(0, d));
-        if (a.y() == 2 && b.y() == 2) unsew(edit, 2, d);
-      }
-    });
-    Noise noise(7);
-    for (int times = 0; times < 3; ++times) map->edit([&](Edit& edit) { division.change(edit, noise); });
-    map->map().for_each_dart([&](Dart d) {
-      const Vec3 x = (map->rest_of(d) + map->rest_of(map->map().alpha(0, d))) / 2;
-      const bool outside = x.x() == 0 || x.x() == 4 || x.y() == 0 || x.y() == 4;
-      EXPECT_EQ(border[map->slot(EdgeOfFace, d)], outside ? 1 : 0) << division.name << ": " << x.transpose();
-    });
-  }
 }
 
 TEST(Inheritance, of_solids_keeps_the_sums_of_mass_viscosity_and_momentum) {
@@ -481,6 +340,45 @@ TEST(Inheritance, a_division_at_rest_makes_no_force) {
       made->forces(0, made->map->rest().values().data(), velocities(*made), force.data());
       EXPECT_LT(largest(force), 1e-12 * 60) << each.name << ", " << division.name;
     }
+}
+
+TEST(Inheritance, of_elements_makes_them_as_a_body_built_of_the_parts_has_them) {
+  for (const char* model : {"linear", "corotational", "mass-tensor"}) {
+    const PolygonMesh mesh = warped(sheet(SheetPattern::Quads, 3, 3), 0.1, 4);
+    const auto divided_body = elements::elastic_body(sheet_from(mesh), {.model = model});
+    EmbeddedMap& map = *divided_body->map;
+    map.edit([](Edit& edit) { ASSERT_TRUE(divided::subdivided(edit, Dart{0u})); });
+    const auto bind = [](Body& body) {
+      body.program =
+          std::make_unique<Program>(*body.map, body.interactions, *body.mass, nullptr, ProgramOptions{});
+    };
+    bind(*divided_body);
+    const auto forces = [](Body& body, const Record* x) {
+      std::vector<Record> force(body.map->cells(Vertex).slots());
+      body.program->forces(x, velocities(body), force.data());
+      return force;
+    };
+    EXPECT_LT(largest(forces(*divided_body, map.rest().values().data())), 1e-12 * 100) << model; // E h L [N]
+
+    const auto built =
+        elements::elastic_body(std::make_unique<EmbeddedMap>(map.map(),
+                                                             [&](Dart d) {
+                                                               return Point{map.rest_of(d), map.rest_of(d)};
+                                                             }),
+                               {.model = model});
+    Noise noise(1);
+    for (Slot v = 0; v < map.position().values().size(); ++v) {
+      const Vec3 x = map.rest()[v].vec() + 0.05 * noise.vector();
+      map.position()[v] = Record(x);
+      built->map->position()[built->map->vertex(map.cells(Vertex).first_dart(v))] = Record(x);
+    }
+    const auto one = forces(*divided_body, positions(*divided_body)), other = forces(*built, positions(*built));
+    EXPECT_GT(largest(one), 0.1) << model;
+    for (Slot v = 0; v < one.size(); ++v) {
+      const Slot same = built->map->vertex(map.cells(Vertex).first_dart(v));
+      EXPECT_LT((one[v].vec() - other[same].vec()).norm(), 1e-12 * largest(one)) << model;
+    }
+  }
 }
 
 } // namespace
