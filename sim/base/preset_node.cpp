@@ -249,8 +249,8 @@ void PresetNode::fail(std::string_view attribute, const std::string& what, const
 }
 
 void PresetNode::set(const AttributeType& attribute, const std::string& value, const Place& place, bool given) {
-  CHECK_NOTE(type_->find(attribute.name) == (type_->further.empty() ? &attribute : type_->find(attribute.name)),
-             attribute.name);
+  const AttributeType* listed = type_->find(attribute.name);
+  CHECK_NOTE(listed == &attribute || (!listed && !type_->further.empty()), attribute.name);
   Value read = Reading{attribute, type_->name, value, place}.read();
   read.given = given;
   values_.insert_or_assign(attribute.name, std::move(read));

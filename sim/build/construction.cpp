@@ -28,6 +28,11 @@ struct GroupMask {
   Value birth(const EmbeddedMap&, Dart) const { return 0; }
   Value split(const Value& whole) const { return whole; }
   Value merge(const Value& kept, const Value& absorbed) const { return kept | absorbed; }
+  Value inherit(const EmbeddedMap&, Dart, std::span<const Inherited<Value>> parents) const {
+    Value all = ~Value{0};
+    for (const Inherited<Value>& parent : parents) all &= parent.value;
+    return all;
+  }
 };
 using GroupColumn = Column<GroupMask>;
 
@@ -62,6 +67,7 @@ public:
 
   // The body's map, as if it came from a file.
   void finish(const Placement& place) {
+    check_shapes();
     MapMesh mesh = map_mesh();
     place.apply(mesh.points);
     check_cells(mesh);
@@ -157,6 +163,15 @@ private:
       ++bit;
     }
     return groups;
+  }
+
+  void check_shapes() const {
+    body_.map->edit([&](Edit& edit) {
+      const CellIndex elements(edit.map(), element_orbit(edit.map().dimension()));
+      for (Slot e = 0; e < elements.slots(); ++e)
+        if (const std::string fault = shape_fault(edit, elements.first_dart(e)); !fault.empty())
+          shape_.fail("", "after its rules " + fault);
+    });
   }
 
   // Points are vertex slots.

@@ -26,7 +26,7 @@ void EmbeddedMap::edit(const std::function<void(Edit&)>& change) {
   Closing closing;
   try {
     change(edit);
-    if (!journal_.empty()) close(edit, closing);
+    if (!journal_.empty() || !edit.moves_.empty()) close(edit, closing);
   } catch (...) {
     take_back(closing);
     edit.rollback(start);
@@ -91,10 +91,11 @@ void EmbeddedMap::bring_columns_up_to_date(const Edit& edit, Closing& closing) {
     // position and rest come before: the columns that follow depend on rest positions
     if (column.get() == velocity_) {
       give_points(edit);
+      move_vertices(edit);
       for (const auto& each : closing.heirs) each->weigh(*this);
     }
     if (heirs) column->inherit(*this, *cells_[mask], *heirs);
-    initialise_reshaped(*column, heirs);
+    initialise_reshaped(*column, edit, heirs);
     if (heirs)
       heirs->restore_momentum(*this, column->masses(), [&](Slot v, const Vec3& shift) {
         velocity_->write(v, Record((*velocity_)[v].vec() + shift));
@@ -133,7 +134,17 @@ void EmbeddedMap::give_points(const Edit& edit) {
   }
 }
 
-void EmbeddedMap::initialise_reshaped(ColumnBase& column, const Heirs* heirs) {
+void EmbeddedMap::move_vertices(const Edit& edit) {
+  for (const auto& [d, point] : edit.moves_) {
+    if (!map_.alive(d)) continue;
+    const Slot v = vertex(d);
+    position_->write(v, point.position);
+    rest_->write(v, point.rest);
+    velocity_->write(v, point.velocity);
+  }
+}
+
+void EmbeddedMap::initialise_reshaped(ColumnBase& column, const Edit& edit, const Heirs* heirs) {
   thread_local std::vector<Dart> darts;
   thread_local IndexSet seen, done;
   const Orbit support = column.support();
@@ -146,21 +157,26 @@ void EmbeddedMap::initialise_reshaped(ColumnBase& column, const Heirs* heirs) {
     heirs->each_slot([&](Slot slot) {
       if (done.insert(slot)) initialised.push_back(slot);
     });
+  const auto initialise_around = [&](Dart touched) {
+    if (!map_.alive(touched) || seen.contains(touched.value)) return;
+    darts.clear();
+    collect(map_, support, touched, darts);
+    for (Dart d : darts) {
+      seen.insert(d.value);
+      const Slot slot = index.slot(d);
+      if (!done.insert(slot)) continue;
+      column.initialise(*this, index, slot);
+      initialised.push_back(slot);
+    }
+  };
   for (int i = 0; i < 4; ++i) {
     if (!support.has(i)) continue;
-    for (Dart touched : journal_.touched[static_cast<std::size_t>(i)]) {
-      if (!map_.alive(touched) || seen.contains(touched.value)) continue;
-      darts.clear();
-      collect(map_, support, touched, darts);
-      for (Dart d : darts) {
-        seen.insert(d.value);
-        const Slot slot = index.slot(d);
-        if (!done.insert(slot)) continue;
-        column.initialise(*this, index, slot);
-        initialised.push_back(slot);
-      }
-    }
+    for (Dart touched : journal_.touched[static_cast<std::size_t>(i)]) initialise_around(touched);
   }
+  if (support == SingleDart) return;
+  for (const auto& [moved, point] : edit.moves_)
+    if (map_.alive(moved))
+      for (Dart d : darts_of(map_, Vertex, moved)) initialise_around(d);
 }
 
 // Calls f(list of a subscriber, what is appended to it) in an order that is always the same.
@@ -201,6 +217,7 @@ void Edit::give(Dart d, std::uint32_t point) {
   }
 }
 
+// A vertex that moves has its old point until the edit closes.
 Point Edit::point(Dart d) const {
   if (const std::uint32_t given = given_.find(d.value); given != IndexMap::none) return points_[given];
   const Slot v = embedded_.cells(Vertex).find(d);
@@ -244,13 +261,14 @@ std::uint32_t Edit::add_family(Orbit orbit, std::span<const Parent> parents) {
 
 Edit::Savepoint Edit::savepoint() const {
   return {MapEdit::savepoint(), lineage_ ? lineage_->savepoint() : Lineage::Savepoint{}, points_.size(),
-          gifts_.size()};
+          gifts_.size(), moves_.size()};
 }
 
 void Edit::rollback(const Savepoint& to) noexcept {
   MapEdit::rollback(to.map);
   if (lineage_) lineage_->rollback(to.lineage);
   for (; gifts_.size() > to.given; gifts_.pop_back()) given_.replace(gifts_.back().first, gifts_.back().second);
+  moves_.erase(moves_.begin() + static_cast<std::ptrdiff_t>(to.moves), moves_.end());
   points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(to.points), points_.end());
 }
 

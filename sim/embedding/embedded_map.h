@@ -133,7 +133,8 @@ private:
   void bring_columns_up_to_date(const Edit& edit, Closing& closing);
   void take_back(const Closing& closing) noexcept;
   void give_points(const Edit& edit);
-  void initialise_reshaped(ColumnBase& column, const Heirs* heirs);
+  void move_vertices(const Edit& edit);
+  void initialise_reshaped(ColumnBase& column, const Edit& edit, const Heirs* heirs);
   void publish(Closing& closing);
   template <class F> void each_publication(F&& f);
   void publish_whole();
@@ -166,6 +167,10 @@ public:
   std::uint32_t add_point(const Point& point);
   void give(Dart d, std::uint32_t point);
 
+  // A vertex from before the edit, that of d, takes that place; of two for one vertex, the last counts. What depends
+  // on the rest positions of its elements is initialised again.
+  void move(Dart d, const Point& point) { moves_.push_back({d, point}); }
+
   // For point expressions: what d was given, else its point before the edit. CHECK: one of them exists.
   Point point(Dart d) const;
 
@@ -189,7 +194,7 @@ public:
   struct Savepoint {
     MapEdit::Savepoint map;
     Lineage::Savepoint lineage;
-    std::size_t points = 0, given = 0;
+    std::size_t points = 0, given = 0, moves = 0;
   };
   Savepoint savepoint() const;
   void rollback(const Savepoint& to) noexcept;
@@ -200,6 +205,7 @@ private:
   std::vector<Point> points_;
   IndexMap given_;                                             // dart → index in points_
   std::vector<std::pair<std::uint32_t, std::uint32_t>> gifts_; // darts, and what each had been given before
+  std::vector<std::pair<Dart, Point>> moves_;
   Lineage& lineage();
   std::unique_ptr<Lineage> lineage_; // null: no parents were recorded
 };

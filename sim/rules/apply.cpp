@@ -2,6 +2,7 @@
 
 #include "sim/base/check.h"
 #include "sim/rules/rest_measures.h"
+#include "sim/topology/walk.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@ namespace rend {
 namespace {
 
 using Kind = RuleLink::Kind;
-constexpr std::uint32_t no_point = IndexMap::none;
+constexpr std::uint32_t no_point = IndexMap::none, no_family = IndexMap::none;
 
 // One rewriting of a match.
 class Rewriter {
@@ -22,6 +23,8 @@ public:
   // First, since expressions read the map as it was matched. ExpressionError.
   void place_vertices(const RuleValues& values);
   void run();
+  // Why some element that was changed is flat or inverted; empty: none is.
+  std::string shape_fault() const;
 
 private:
   std::size_t index(std::size_t instance, int node) const {
@@ -32,6 +35,7 @@ private:
   void place(const RuleValues& values, int node);
   void spread(std::size_t instance, int node, std::uint32_t point);
   void create();
+  void record_elements();
   void link(const RulePlan::Link& link);
 
   const Rule& rule_;
@@ -40,6 +44,9 @@ private:
   std::size_t nodes_;                 // of the right graph
   std::vector<Dart>& darts_;          // [instance][right node]
   std::vector<std::uint32_t>& point_; // of the edit, [instance][right node]; kept nodes that do not move: none
+  std::vector<std::uint32_t> family_of_; // likewise: of the edit's lineage, of new vertices
+  std::vector<Parent> parents_;          // scratch
+  std::uint32_t family_ = no_family;     // of the vertex that is being placed
 };
 
 // A node of the same vertex that is kept, as a node of the left graph; -1: none.
@@ -54,6 +61,7 @@ int Rewriter::kept_in_vertex(int node) const {
 void Rewriter::place_vertices(const RuleValues& values) {
   point_.assign(rule_.creates() || !rule_.sets.empty() ? match_.instances * nodes_ : 0, no_point);
   if (point_.empty()) return;
+  family_of_.assign(point_.size(), no_family);
   for (int n = 0; n < rule_.right.size(); ++n)
     if (left_of(n) < 0 || rule_.vertex_set[static_cast<std::size_t>(n)] >= 0) place(values, n);
 }
@@ -64,11 +72,18 @@ void Rewriter::place(const RuleValues& values, int node) {
     if (point_[index(k, node)] != no_point) continue;
     if (set < 0) {
       point_[index(k, node)] = edit_.add_point(edit_.point(match_.dart(k, kept)));
-    } else {
-      const Rule::Set& values_of = rule_.sets[static_cast<std::size_t>(set)];
-      const Point was = kept >= 0 ? edit_.point(match_.dart(k, kept)) : Point{};
-      spread(k, node, edit_.add_point(values.moved(values_of, k, was)));
+      continue;
     }
+    const Rule::Set& values_of = rule_.sets[static_cast<std::size_t>(set)];
+    const Point was = kept >= 0 ? edit_.point(match_.dart(k, kept)) : Point{};
+    const Point point = values.moved(values_of, k, was);
+    if (kept >= 0) {
+      edit_.move(match_.dart(k, kept), point);
+    } else {
+      values.parents(values_of, k, parents_);
+      family_ = parents_.empty() ? no_family : edit_.add_family(Vertex, parents_);
+    }
+    spread(k, node, edit_.add_point(point));
   }
 }
 
@@ -76,7 +91,11 @@ void Rewriter::place(const RuleValues& values, int node) {
 void Rewriter::spread(std::size_t instance, int node, std::uint32_t point) {
   thread_local std::vector<std::pair<std::size_t, int>> stack;
   stack.assign(1, {instance, node});
-  point_[index(instance, node)] = point;
+  const auto put = [&](std::size_t k, int n) {
+    point_[index(k, n)] = point;
+    family_of_[index(k, n)] = family_;
+  };
+  put(instance, node);
   while (!stack.empty()) {
     const auto [k, n] = stack.back();
     stack.pop_back();
@@ -86,10 +105,11 @@ void Rewriter::spread(std::size_t instance, int node, std::uint32_t point) {
       const std::size_t next_k = link.kind == Kind::Implicit ? match_.neighbour(k, link.to) : k;
       const int next_n = link.kind == Kind::Implicit ? n : link.to;
       if (point_[index(next_k, next_n)] != no_point) continue;
-      point_[index(next_k, next_n)] = point;
+      put(next_k, next_n);
       stack.push_back({next_k, next_n});
     }
   }
+  family_ = no_family;
 }
 
 void Rewriter::run() {
@@ -97,6 +117,7 @@ void Rewriter::run() {
     for (std::size_t k = 0; k < match_.instances; ++k)
       if (const Dart d = match_.dart(k, node); !edit_.map().is_free(i, d)) edit_.unlink(i, d);
   create();
+  if (rule_.creates()) record_elements(); // before darts of parents may be removed
   for (int node : rule_.plan.removed)
     for (std::size_t k = 0; k < match_.instances; ++k) edit_.remove_dart(match_.dart(k, node));
   for (const RulePlan::Link& each : rule_.plan.links) link(each);
@@ -110,9 +131,37 @@ void Rewriter::create() {
       const int before = left_of(n);
       Dart& d = darts_[index(k, n)];
       d = before >= 0 ? match_.dart(k, before) : edit_.add_dart();
-      if (!point_.empty() && point_[index(k, n)] != no_point) edit_.give(d, point_[index(k, n)]);
+      if (point_.empty() || point_[index(k, n)] == no_point) continue;
+      edit_.give(d, point_[index(k, n)]);
+      if (before < 0 && family_of_[index(k, n)] != no_family) edit_.inherit(d, Vertex, family_of_[index(k, n)]);
     }
   }
+}
+
+// In which element from before the created darts lie.
+void Rewriter::record_elements() {
+  const int dimension = edit_.map().dimension();
+  const std::vector<int>& inside = rule_.plan.inside[static_cast<std::size_t>(dimension - 2)];
+  for (int n = 0; n < rule_.right.size(); ++n) {
+    const int node = inside[static_cast<std::size_t>(n)];
+    if (node < 0) continue;
+    for (std::size_t k = 0; k < match_.instances; ++k)
+      edit_.inherit(darts_[index(k, n)], element_orbit(dimension), std::array{Parent{match_.dart(k, node), 1}});
+  }
+}
+
+std::string Rewriter::shape_fault() const {
+  thread_local IndexSet seen;
+  thread_local std::vector<Dart> element;
+  seen.clear();
+  for (Dart d : darts_) {
+    if (seen.contains(d.value)) continue;
+    element.clear();
+    collect(edit_.map(), element_orbit(edit_.map().dimension()), d, element);
+    for (Dart e : element) seen.insert(e.value);
+    if (std::string fault = rend::shape_fault(edit_, d); !fault.empty()) return fault;
+  }
+  return {};
 }
 
 void Rewriter::link(const RulePlan::Link& link) {
@@ -149,13 +198,22 @@ bool RuleRunner::apply(Edit& edit, const Hooks& hooks) {
 
 bool RuleRunner::rewrite(Edit& edit) {
   Rewriter rewriter(rule_, match_, edit, darts_, point_);
+  const bool may_fail = rule_.creates() || !rule_.sets.empty();
+  const std::optional<Edit::Savepoint> start = may_fail ? std::optional(edit.savepoint()) : std::nullopt;
   try {
     rewriter.place_vertices(RuleValues(rule_, edit, match_, context_));
   } catch (const ExpressionError& error) {
+    if (start) edit.rollback(*start);
     mismatch_ = {.kind = Mismatch::Kind::Expression, .text = error.flaw};
     return false;
   }
   rewriter.run();
+  if (!rule_.creates()) return true; // where vertices move, others of the element may yet follow
+  if (std::string fault = rewriter.shape_fault(); !fault.empty()) {
+    edit.rollback(*start);
+    mismatch_ = {.kind = Mismatch::Kind::Shape, .text = std::move(fault)};
+    return false;
+  }
   return true;
 }
 

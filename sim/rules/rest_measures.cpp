@@ -70,7 +70,8 @@ constexpr double flat = 1e-9; // of a measure, relative to that of a cube or squ
 std::string fault_of_face(const Edit& edit, Dart d) {
   std::vector<Vec3> x;
   for (Dart s : sides_from(edit.map(), d)) x.push_back(edit.point(s).rest);
-  if (x.size() < 3) return "a face would not be closed, or have fewer than three sides";
+  if (x.empty()) return {}; // not closed yet
+  if (x.size() < 3) return "a face would have fewer than three sides";
   const Vec3 area = face_vector(edit, d);
   const double extent = size_of(x);
   if (!(area.norm() > flat * extent * extent)) return "a face would have no area, near " + place_of(x[0]);
@@ -86,7 +87,11 @@ std::string fault_of_volume(const Edit& edit, Dart d) {
   const GMap& map = edit.map();
   const std::vector<Dart> darts = darts_of(map, Volume, d);
   std::vector<Vec3> x;
-  for (Dart e : darts) x.push_back(edit.point(e).rest);
+  for (Dart e : darts) {
+    for (int i = 0; i < 3; ++i)
+      if (map.is_free(i, e)) return {}; // not closed yet
+    x.push_back(edit.point(e).rest);
+  }
   const double extent = size_of(x);
   if (!(std::abs(volume_at_rest(edit, d)) > flat * extent * extent * extent))
     return "a volume would be flat, near " + place_of(x[0]);

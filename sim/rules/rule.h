@@ -39,6 +39,9 @@ struct RulePlan {
   std::vector<std::pair<int, int>> unlinks; // node, link
   std::vector<int> removed;                 // nodes
   std::vector<Link> links;
+  // Of each node of the right graph, in a sheet and in a solid: the node of the left graph in whose element a created
+  // dart comes to lie; -1: it is kept, or its element lies in none that is there.
+  std::array<std::vector<int>, 2> inside;
   bool links_volumes = false; // it links by α3, so that it cannot apply to a sheet
 };
 

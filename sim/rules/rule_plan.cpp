@@ -24,6 +24,9 @@ public:
       if (after_[static_cast<std::size_t>(n)] < 0) plan_.removed.push_back(n);
     for (int n = 0; n < right_.size(); ++n)
       for (int i = 0; i < 4; ++i) link(n, i);
+    for (int dimension : {2, 3})
+      for (int n = 0; n < right_.size(); ++n)
+        plan_.inside[static_cast<std::size_t>(dimension - 2)].push_back(inside(n, dimension));
     return std::move(plan_);
   }
 
@@ -82,6 +85,36 @@ private:
     if (kind == Kind::Absent || kind == Kind::Loop) return;
     if (after >= 0 && unchanged(left_, n, right_, after, i)) return;
     plan_.unlinks.push_back({n, i});
+  }
+
+  // The element of a kept node is divided if one of its links changes.
+  bool divides(int right_node, int dimension) const {
+    const int before = before_[static_cast<std::size_t>(right_node)];
+    for (int i = 0; i < dimension; ++i)
+      if (!unchanged(left_, before, right_, right_node, i)) return true;
+    return false;
+  }
+
+  // The nearest kept node whose element is divided, by arcs.
+  int inside(int node, int dimension) const {
+    if (before_[static_cast<std::size_t>(node)] >= 0) return -1;
+    std::vector<bool> met(right_.nodes.size());
+    std::vector<int> queue{node};
+    met[static_cast<std::size_t>(node)] = true;
+    for (std::size_t at = 0; at < queue.size(); ++at) {
+      const int n = queue[at], before = before_[static_cast<std::size_t>(n)];
+      if (before >= 0) {
+        if (divides(n, dimension)) return before;
+        continue; // what lies beyond is another element's
+      }
+      for (int i = 0; i <= dimension; ++i) {
+        const RuleLink& next = right_.link(n, i);
+        if (next.kind != Kind::Arc || met[static_cast<std::size_t>(next.to)]) continue;
+        met[static_cast<std::size_t>(next.to)] = true;
+        queue.push_back(next.to);
+      }
+    }
+    return -1;
   }
 
   void link(int n, int i) {

@@ -265,6 +265,23 @@ Point RuleValues::point(const Rule::Set& set, std::size_t instance) const {
   return moved(set, instance, Point{});
 }
 
+void RuleValues::parents(const Rule::Set& set, std::size_t instance, std::vector<Parent>& out) const {
+  out.clear();
+  if (!set.position) return;
+  for (const ExpressionCall& call : set.position->calls()) {
+    if (is_node(call, rule_.left)) {
+      out.push_back({match_.dart(instance, static_cast<int>(call.function - rule_functions)), 1});
+    } else if (call.function == static_cast<std::size_t>(RuleFunction::Mean)) {
+      for (Dart d : vertices_of_orbit(edit_.map(), orbit_of_call(call), dart(call.names[0], instance)))
+        out.push_back({d, 1});
+    } else if (call.function == static_cast<std::size_t>(RuleFunction::Copy) ||
+               call.function == static_cast<std::size_t>(RuleFunction::Along)) {
+      out.push_back({dart(call.names[0], instance), 1});
+    }
+  }
+  for (Parent& parent : out) parent.weight = 1 / static_cast<double>(out.size());
+}
+
 bool RuleValues::holds(const Rule::When& when) const {
   const auto at = [&](std::size_t instance) {
     return when.test

@@ -79,6 +79,8 @@ public:
   Point moved(const Rule::Set& set, std::size_t instance,
               const Point& was) const; // keeps what has no expression
   bool holds(const Rule::When& when) const;
+  // The vertices that the position is made of, with equal weights; none: it is made of numbers.
+  void parents(const Rule::Set& set, std::size_t instance, std::vector<Parent>& out) const;
 
 private:
   Vec3 vector(const Expression& expression, std::size_t instance, PointPart part, bool at_zero = false) const;
