@@ -1,9 +1,61 @@
 #include "sim/rows/frequency.h"
 
+#include "sim/topology/walk.h"
+
 #include <algorithm>
 #include <array>
 
 namespace rend {
+namespace {
+
+// Whether fragments of a divided owner keep the unit. What reaches across a border to its particles is gone
+// when that border is separated; only around a vertex are there others.
+bool outlives_division(const Pattern& pattern, std::size_t unit, int dimension) {
+  if (!pattern.owner.has(dimension)) return false; // no separation divides the owner
+  const auto crosses = [&](const Word& word) {
+    return word.find(static_cast<char>('0' + dimension)) != Word::npos;
+  };
+  return pattern.owner == Vertex ||
+         std::none_of(pattern.units[unit].begin(), pattern.units[unit].end(), crosses);
+}
+
+// Appends the darts from which the unit of an owner may be bound, now or after separations: the smallest of
+// each part of the owner that no separation divides.
+void collect_starts(const GMap& map, Orbit owner, Dart d, std::vector<Dart>& out) {
+  Orbit part = owner;
+  part.mask = static_cast<std::uint8_t>(part.mask & ~(1U << static_cast<unsigned>(map.dimension())));
+  collect(map, owner, d, out);
+  std::erase_if(out, [&](Dart e) { return smallest_dart(map, part, e) != e; });
+}
+
+// Calls f(interaction, slot of the owner, dart at which it starts, unit) for every unit that counts.
+template <class F>
+void for_each_bounded_unit(const EmbeddedMap& map,
+                           const std::vector<std::unique_ptr<Interaction>>& interactions, F&& f) {
+  std::vector<Dart> starts;
+  std::vector<char> outlives; // one per unit
+  for (const auto& interaction : interactions) {
+    const Pattern& pattern = interaction->pattern;
+    const CellIndex& owners = map.cells(pattern.owner);
+    outlives.clear();
+    for (std::size_t unit = 0; unit < pattern.units.size(); ++unit)
+      outlives.push_back(outlives_division(pattern, unit, map.dimension()) ? 1 : 0);
+    for (Slot owner = 0; owner < owners.slots(); ++owner) {
+      if (!owners.alive(owner)) continue;
+      for (std::size_t unit = 0; unit < pattern.units.size(); ++unit) {
+        starts.clear();
+        if (outlives[unit] != 0)
+          collect_starts(map.map(), pattern.owner, owners.first_dart(owner), starts);
+        else
+          starts.push_back(owners.first_dart(owner));
+        for (const Dart d : starts)
+          if (pattern.present(map.map(), d, unit)) f(*interaction, owner, d, unit);
+      }
+    }
+  }
+}
+
+} // namespace
 
 FrequencyBounds frequency_bounds(const EmbeddedMap& map,
                                  const std::vector<std::unique_ptr<Interaction>>& interactions,
@@ -12,7 +64,7 @@ FrequencyBounds frequency_bounds(const EmbeddedMap& map,
   std::vector<double> stiffness(corners.slots(), 0), damping(corners.slots(), 0); // one per corner slot
   std::array<Vec3, most_particles> rest;
   std::array<double, most_particles> weight{}, s{}, c{};
-  for_each_unit(map, interactions, [&](const Interaction& interaction, Dart d, std::size_t unit) {
+  const auto add = [&](const Interaction& interaction, Slot owner, Dart d, std::size_t unit) {
     const std::vector<Word>& words = interaction.pattern.units[unit];
     std::array<Slot, most_particles> at{};
     for (std::size_t n = 0; n < words.size(); ++n) {
@@ -21,13 +73,13 @@ FrequencyBounds frequency_bounds(const EmbeddedMap& map,
       rest[n] = map.rest_of(end);
       weight[n] = mass[at[n]];
     }
-    const double* values = interaction.unit(map.slot(interaction.pattern.owner, d), unit);
-    interaction.law->bound(values, rest.data(), weight.data(), s.data(), c.data());
+    interaction.law->bound(interaction.unit(owner, unit), rest.data(), weight.data(), s.data(), c.data());
     for (std::size_t n = 0; n < words.size(); ++n) {
       stiffness[at[n]] += s[n];
       damping[at[n]] += c[n];
     }
-  });
+  };
+  for_each_bounded_unit(map, interactions, add);
   FrequencyBounds bounds{0, 0, 1e300};
   for (Slot corner = 0; corner < corners.slots(); ++corner) {
     const double m = corners.alive(corner) ? mass[corner] : 0;

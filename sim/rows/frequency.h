@@ -4,6 +4,10 @@
 // Gershgorin discs, or an element's largest eigenvalue). The diagonals are summed at each element corner and
 // divided by the corner's mass; the maximum bounds the whole body (Irons: no eigenvalue of an assembly exceeds
 // the largest of its elements), and no separation changes it, since a separation changes no corner.
+//
+// A separation divides some owners, such as a Vertex, and each fragment takes over the whole unit, from its own
+// smallest dart. Such a unit therefore counts in full at each element corner of the owner: then the bound holds
+// before and after, however light a fragment is.
 #pragma once
 
 #include "sim/mechanics/interaction.h"

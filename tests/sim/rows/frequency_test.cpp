@@ -1,12 +1,18 @@
 // Natural frequencies: eigenvalues of the assembled stiffness over the lumped masses, against those of bars
-// and beams that are fixed at one end (tests/README.md, "Closed forms").
+// and beams that are fixed at one end (tests/README.md, "Closed forms"), and against the bound that limits the
+// step.
+#include "sim/rows/frequency.h"
+
 #include "sim/base/math.h"
+#include "sim/elements.h"
+#include "sim/ground_springs.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rend {
@@ -14,11 +20,7 @@ namespace {
 
 // Angular frequencies [rad/s] of the body at rest, increasing: the roots of the eigenvalues of M^-1/2 K M^-1/2
 // over the free coordinates.
-std::vector<double> frequencies(const std::string& in_body) {
-  const auto s = presets::load("<scene><body>" + in_body +
-                               R"(<fix side="-x"/></body><world gravity="0 0 0"/>)"
-                               R"(<time step="1" integrator="static" duration="1"/></scene>)");
-  Body& body = s.body();
+std::vector<double> frequencies(Body& body) {
   std::vector<std::uint8_t> held(body.vertices(), 0);
   body.mark_prescribed(0, held.data());
   BlockMatrix stiffness;
@@ -46,6 +48,13 @@ std::vector<double> frequencies(const std::string& in_body) {
   std::vector<double> found;
   for (const double value : solver.eigenvalues()) found.push_back(std::sqrt(std::max(0.0, value)));
   return found;
+}
+
+std::vector<double> frequencies(const std::string& in_body) {
+  const auto s = presets::load("<scene><body>" + in_body +
+                               R"(<fix side="-x"/></body><world gravity="0 0 0"/>)"
+                               R"(<time step="1" integrator="static" duration="1"/></scene>)");
+  return frequencies(s.body());
 }
 
 // c = √(E/ρ) = 10 m/s. A chain of n lumped masses, the last of them a half, has 2 n c/L sin((2i − 1) π/(4 n)),
@@ -83,6 +92,76 @@ TEST(Frequencies, of_a_beam_across) {
       const double beam = betas[i] * betas[i] * 10 * c.height * std::sqrt(stiffness / 12);
       EXPECT_NEAR(found[i], beam, c.tolerance * beam) << c.body << i;
     }
+  }
+}
+
+// Bodies of one interaction that a vertex owns, which every fragment of a split vertex takes over.
+std::unique_ptr<Body> body_of(std::unique_ptr<EmbeddedMap> map,
+                              std::unique_ptr<Interaction> (*make)(EmbeddedMap&)) {
+  auto body = std::make_unique<Body>();
+  body->map = std::move(map);
+  CornerMass mass;
+  mass.density = 0.1;
+  body->mass = &body->map->add(mass.on(*body->map));
+  body->interactions.push_back(make(*body->map));
+  body->prepare(*find_scheme("implicit"));
+  return body;
+}
+
+double bound_of(const Body& body) {
+  return std::sqrt(frequency_bounds(*body.map, body.interactions, *body.mass, nullptr).omega_squared);
+}
+
+// Separates borders at random, all of them in the end, and looks at the body in between.
+template <class F> void separate_all(Body& body, F&& look) {
+  const int dimension = body.map->dimension();
+  std::vector<Dart> borders;
+  body.map->map().for_each_dart([&](Dart d) {
+    if (!body.map->map().is_free(dimension, d)) borders.push_back(d);
+  });
+  meshes::Noise noise(5);
+  for (std::size_t n = borders.size(); n > 1; --n) std::swap(borders[n - 1], borders[noise.below(n)]);
+  const std::size_t some = borders.size() / 2 + 1;
+  for (std::size_t n = 0; n < borders.size(); ++n) {
+    body.map->edit([&](Edit& edit) { unsew(edit, dimension, borders[n]); });
+    if (n % some != 0 && n + 1 < borders.size()) continue;
+    body.rebind();
+    look();
+  }
+}
+
+// A spring from each vertex to its place: √(k/m) of the lightest vertex, which in the end is the lightest
+// corner.
+TEST(FrequencyBound, of_springs_to_the_ground_is_that_of_the_lightest_fragment_to_come) {
+  for (auto& each : elements::irregular_maps()) {
+    SCOPED_TRACE(each.name);
+    const auto body = body_of(std::move(each.map), [](EmbeddedMap& map) { return ground::springs(map, 3); });
+    const auto highest = [&] {
+      const double* inverse_mass = body->program->inverse_mass();
+      return std::sqrt(3 * *std::max_element(inverse_mass, inverse_mass + body->vertices()));
+    };
+    const double bound = bound_of(*body);
+    EXPECT_LE(highest(), bound * (1 + 1e-12));
+    separate_all(*body, [&] {
+      EXPECT_EQ(bound_of(*body), bound) << "a separation changes no corner";
+      EXPECT_LE(highest(), bound * (1 + 1e-12));
+    });
+    EXPECT_NEAR(highest(), bound, 1e-12 * bound);
+  }
+}
+
+TEST(FrequencyBound, of_springs_from_vertices_to_their_neighbours_holds_before_and_after_separations) {
+  for (auto& each : elements::irregular_maps()) {
+    SCOPED_TRACE(each.name);
+    const auto body =
+        body_of(std::move(each.map), [](EmbeddedMap& map) { return ground::springs_to_neighbours(map, 3); });
+    const double bound = bound_of(*body);
+    EXPECT_LE(frequencies(*body).back(), bound);
+    separate_all(*body, [&] {
+      EXPECT_EQ(bound_of(*body), bound);
+      EXPECT_LE(frequencies(*body).back(), bound);
+    });
+    EXPECT_GE(frequencies(*body).back(), 0.5 * bound) << "it is not far from what is needed";
   }
 }
 
