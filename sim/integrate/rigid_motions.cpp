@@ -15,6 +15,12 @@ namespace {
 
 using Piece = std::vector<std::uint32_t>; // its vertex slots, in the order in which they are reached
 
+constexpr double least_anchor = 1e-9; // relative to the largest stiffness at a vertex: beyond round-off
+
+unsigned mask_of(const AxisMasks& masks, std::uint32_t v) {
+  return masks.empty() ? 0U : masks[v];
+}
+
 // Calls f(piece) for every component, in the order of their smallest slots, until f returns true.
 template <class F> bool any_piece(const BlockPattern& pattern, const double* inverse_mass, F&& f) {
   thread_local std::vector<bool> seen; // kept to avoid allocation in each step
@@ -68,11 +74,33 @@ struct RigidMotions {
 
 } // namespace
 
+AxisMasks anchored_axes(const double* inverse_mass, const BlockMatrix& tangent) {
+  const BlockPattern& pattern = *tangent.pattern();
+  AxisMasks masks;
+  any_piece(pattern, inverse_mass, [&](const Piece& piece) {
+    Vec3 sum = Vec3::Zero(); // [N/m]: against a translation of the whole along each axis
+    double largest = 0;      // [N/m]
+    for (const std::uint32_t v : piece) {
+      for (const Block3& block : tangent.row(v))
+        for (int axis = 0; axis < 3; ++axis) sum[axis] += block(axis, axis);
+      largest = std::max(largest, stiffness_of(tangent.diagonal(v)));
+    }
+    unsigned axes = 0;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      if (std::abs(sum[axis]) > least_anchor * largest) axes |= 1U << axis;
+    if (axes == 0) return false;
+    if (masks.empty()) masks.assign(pattern.rows(), 0);
+    for (const std::uint32_t v : piece) masks[v] = static_cast<std::uint8_t>(axes);
+    return false;
+  });
+  return masks;
+}
+
 std::optional<std::string> free_translation_of(const BlockPattern& pattern, const double* inverse_mass,
-                                               const std::vector<std::uint8_t>& held) {
+                                               const AxisMasks& held, const AxisMasks& anchored) {
   std::optional<std::string> drift;
   any_piece(pattern, inverse_mass, [&](const Piece& piece) {
-    unsigned axes = 0;
+    unsigned axes = mask_of(anchored, piece.front());
     for (std::uint32_t v : piece) axes |= held[v];
     if (axes == 7) return false;
     std::string names;
@@ -85,21 +113,24 @@ std::optional<std::string> free_translation_of(const BlockPattern& pattern, cons
   return drift;
 }
 
-bool can_rotate(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
-                const Record* position) {
+bool can_rotate(const BlockPattern& pattern, const double* inverse_mass, const AxisMasks& held,
+                const AxisMasks& anchored, const Record* position) {
   return any_piece(pattern, inverse_mass, [&](const Piece& piece) {
+    if (mask_of(anchored, piece.front()) != 0) return false;
     const RigidMotions motions(piece, held, position);
     return motions.size > 0 && motions.rank(1e-9) < 6;
   });
 }
 
 void constrain_detached(const BlockPattern& pattern, const double* inverse_mass, const Record* position,
-                        bool turns, std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& detached) {
+                        bool turns, const AxisMasks& anchored, AxisMasks& held,
+                        std::vector<std::uint8_t>& detached) {
   any_piece(pattern, inverse_mass, [&](Piece& piece) {
     RigidMotions motions(piece, held, position);
-    unsigned axes = 0;
+    const unsigned anchors = mask_of(anchored, piece.front());
+    unsigned axes = anchors;
     for (std::uint32_t v : piece) axes |= held[v];
-    if (axes == 7 && (turns || motions.size == 0 || motions.rank(1e-9) == 6)) return false;
+    if (axes == 7 && (turns || anchors != 0 || motions.size == 0 || motions.rank(1e-9) == 6)) return false;
     for (std::uint32_t v : piece) detached[v] = 1;
     std::stable_sort(piece.begin(), piece.end(), [&](std::uint32_t a, std::uint32_t b) {
       return motions.arm(a).squaredNorm() > motions.arm(b).squaredNorm();
@@ -133,13 +164,11 @@ double extent(const Records& x, const double* inverse_mass) {
 }
 
 bool is_rotation_invariant(System& system, double time, const Records& position, double size,
-                           BlockMatrix& matrix, RotationScratch& room) {
+                           const BlockMatrix& tangent, const AxisMasks& anchored, RotationScratch& room) {
   auto& [still, turned_position, force, after] = room;
   for (Records* each : {&turned_position, &force, &after}) each->resize(position.size());
   still.assign(position.size(), Record{});
   system.forces(time, position.data(), still.data(), force.data());
-  matrix.reset(system.pattern());
-  system.add_stiffness(position.data(), still.data(), Tangent::SemiDefinite, 1, 0, matrix);
   for (const bool about_z : {true, false}) {
     const auto turned = [about_z](Double4 v) {
       return about_z ? Double4{-v[1], v[0], v[2], 0} : Double4{v[0], -v[2], v[1], 0};
@@ -148,9 +177,9 @@ bool is_rotation_invariant(System& system, double time, const Records& position,
     system.forces(time, turned_position.data(), still.data(), after.data());
     Double4 change{}, scale{};
     for (std::size_t i = 0; i < position.size(); ++i) {
-      if (system.inverse_mass[i] == 0) continue;
+      if (system.inverse_mass[i] == 0 || mask_of(anchored, static_cast<std::uint32_t>(i)) != 0) continue;
       const Double4 f = turned(load(force[i])), d = load(after[i]) - f;
-      const double stretch = stiffness_of(matrix.diagonal(i)) * size;
+      const double stretch = stiffness_of(tangent.diagonal(i)) * size;
       change += d * d;
       scale += f * f + splat(stretch * stretch);
     }
@@ -171,16 +200,24 @@ double mean_stiffness(const BlockMatrix& matrix, const double* inverse_mass, std
 }
 
 // A component that was supported in the first equilibrium and is no longer was torn off or released.
-void SupportState::check(System& system, double time, const Records& position, double size,
-                         BlockMatrix& matrix) {
+void SupportState::check(System& system, double time, const Records& position, const Records& still,
+                         double size, BlockMatrix& matrix) {
   const BlockPattern& pattern = *system.pattern();
+  const double* inverse_mass = system.inverse_mass;
   detached.assign(position.size(), 0);
-  const auto drift = free_translation_of(pattern, system.inverse_mass, held);
+  anchored.clear();
+  if (!free_translation_of(pattern, inverse_mass, held, {}) &&
+      !can_rotate(pattern, inverse_mass, held, {}, position.data()))
+    return;
+  matrix.reset(system.pattern());
+  system.add_stiffness(position.data(), still.data(), Tangent::SemiDefinite, 1, 0, matrix);
+  anchored = anchored_axes(inverse_mass, matrix);
+  const auto drift = free_translation_of(pattern, inverse_mass, held, anchored);
   const bool stiff_to_turns =
-      can_rotate(pattern, system.inverse_mass, held, position.data()) &&
-      (constrains_rotations || !is_rotation_invariant(system, time, position, size, matrix, room));
+      can_rotate(pattern, inverse_mass, held, anchored, position.data()) &&
+      (constrains_rotations || !is_rotation_invariant(system, time, position, size, matrix, anchored, room));
   if (found_equilibrium && (drift || stiff_to_turns)) {
-    constrain_detached(pattern, system.inverse_mass, position.data(), !stiff_to_turns, held, detached);
+    constrain_detached(pattern, inverse_mass, position.data(), !stiff_to_turns, anchored, held, detached);
     return;
   }
   if (drift)

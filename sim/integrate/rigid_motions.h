@@ -3,6 +3,10 @@
 // The connected components of the stiffness pattern are treated one by one. A translation along an axis without
 // prescribed coordinates meets no resistance in any state: there is no equilibrium, or it is not unique.
 // Rotations are different, since a pendulum has an equilibrium.
+//
+// All that is so for forces between particles. A component is *anchored* where internal forces act against the
+// ground instead, as springs from its vertices to their places at rest do; the solve itself finds whether these
+// suffice.
 #pragma once
 
 #include "sim/integrate/integrator.h"
@@ -15,31 +19,40 @@
 
 namespace rend {
 
-// The free translations of the first component that has some ("along x and z ..."); nullopt: none. `held`: as
-// in System::hold; `inverse_mass` 0: free slot.
-std::optional<std::string> free_translation_of(const BlockPattern& pattern, const double* inverse_mass,
-                                               const std::vector<std::uint8_t>& held);
+// One mask of axes per vertex slot, bits 0, 1, 2 for x, y, z, as in System::mark_prescribed. `inverse_mass` 0:
+// free slot.
+using AxisMasks = std::vector<std::uint8_t>;
 
-// Whether some component can rotate as a rigid body, from the current positions.
-bool can_rotate(const BlockPattern& pattern, const double* inverse_mass, const std::vector<std::uint8_t>& held,
-                const Record* position);
+// The axes along which each component is anchored, at all of its vertices; empty where none is. By the tangent:
+// stiffnesses of forces between particles sum up to 0 over a component.
+AxisMasks anchored_axes(const double* inverse_mass, const BlockMatrix& tangent);
+
+// The free translations of the first component that has some ("along x and z ..."); nullopt: none.
+std::optional<std::string> free_translation_of(const BlockPattern& pattern, const double* inverse_mass,
+                                               const AxisMasks& held, const AxisMasks& anchored);
+
+// Whether some component that is not anchored can rotate as a rigid body, from the current positions.
+bool can_rotate(const BlockPattern& pattern, const double* inverse_mass, const AxisMasks& held,
+                const AxisMasks& anchored, const Record* position);
 
 // For components that were torn off: constrains as many coordinates of each component that can translate (or
-// rotate, unless its forces are invariant under rotation, `turns`) as make its rigid motions determinate
-// without restricting its shape, and marks its vertices. Without loads the reactions there are 0. `loose`: one
-// per vertex slot.
+// rotate, unless its forces are invariant under rotation, `turns`, or it is anchored) as make its rigid motions
+// determinate without restricting its shape, and marks its vertices. Without loads the reactions there are 0.
 void constrain_detached(const BlockPattern& pattern, const double* inverse_mass, const Record* position,
-                        bool turns, std::vector<std::uint8_t>& held, std::vector<std::uint8_t>& detached);
+                        bool turns, const AxisMasks& anchored, AxisMasks& held,
+                        std::vector<std::uint8_t>& detached);
 
-// Whether the internal forces are rotation invariant, measured at quarter turns about z and x, which are exact
-// in floating point. `size`: extent() of the body [m]; the matrix and `room` are overwritten.
+// Whether the internal forces on components that are not anchored are rotation invariant, measured at quarter
+// turns about z and x, which are exact in floating point. `size`: extent() of the body [m]; `tangent`: the
+// semi-definite one at `position`; `room` is overwritten.
 using RotationScratch = std::array<Records, 4>; // one record per vertex slot each
 bool is_rotation_invariant(System& system, double time, const Records& position, double size,
-                           BlockMatrix& matrix, RotationScratch& room);
+                           const BlockMatrix& tangent, const AxisMasks& anchored, RotationScratch& room);
 
 // The boundary conditions of a static solve.
 struct SupportState {
-  std::vector<std::uint8_t> held;     // constrained axes, one per vertex slot
+  AxisMasks held;                     // constrained axes
+  AxisMasks anchored;                 // known where a component could move otherwise; empty: none is
   std::vector<std::uint8_t> detached; // 1: of a component that was torn off, without loads; one per vertex slot
   bool found_equilibrium = false;     // an equilibrium has been found before
   bool constrains_rotations = false;  // components that can rotate are treated as torn off
@@ -47,8 +60,9 @@ struct SupportState {
 
   // With `held` as set by the system: constrains and marks the components that were torn off since the last
   // equilibrium, and refuses (NotConverged) a body that can translate or rotate without resistance. Position
-  // and size as above; the matrix is overwritten.
-  void check(System& system, double time, const Records& position, double size, BlockMatrix& matrix);
+  // and size as above; `still`: velocities of 0; the matrix is overwritten.
+  void check(System& system, double time, const Records& position, const Records& still, double size,
+             BlockMatrix& matrix);
 };
 
 double stiffness_of(const Block3& diagonal); // the largest diagonal entry [N/m]

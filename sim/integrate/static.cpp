@@ -22,8 +22,8 @@
 // (lowest_eigenvalue.h): a straight strut beyond its buckling load is not accepted. (Not tested with follower
 // loads, as for a strip bent to a circle by a moment.) Relaxation decreases the potential, and stays at a
 // saddle point only by symmetry. A component with a free translation is refused, and so is one with a free
-// rotation in a linear model, whose f is not rotation invariant. Once an equilibrium has been found, components
-// that come off are no error: they take their rest shape in place, without loads.
+// rotation in a linear model, whose f is not rotation invariant (rigid_motions.h). Once an equilibrium has been
+// found, components that come off are no error: they take their rest shape in place, without loads.
 #include "sim/integrate/lowest_eigenvalue.h"
 #include "sim/integrate/newton_scheme.h"
 #include "sim/integrate/rigid_motions.h"
@@ -56,7 +56,8 @@ public:
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override;
   std::size_t bytes() const override {
-    std::size_t sum = bytes_of(supports_.held) + bytes_of(supports_.detached) + bytes_of(stiff_);
+    std::size_t sum = bytes_of(supports_.held) + bytes_of(supports_.anchored) + bytes_of(supports_.detached) +
+                      bytes_of(stiff_);
     for (const Records& one : supports_.room) sum += bytes_of(one);
     return sum + bytes_with({&position_, &trial_, &start_, &zeros_, &target_, &force_, &sum_, &first_sum_,
                              &imposed_, &right_, &update_});
@@ -131,7 +132,7 @@ void StaticSolve::prepare(System& system, const StateView& now) {
   trial_ = zeros_;
   system.constrain(end_, target_.data(), trial_.data());
   reach_ = std::max({largest_coordinate(start_), largest_coordinate(target_), size_});
-  supports_.check(system, end_, start_, size_, matrix_);
+  supports_.check(system, end_, start_, zeros_, size_, matrix_);
 }
 
 // The round-off of F due to rounding positions at x, with the stiffness last assembled [N].
@@ -339,7 +340,8 @@ bool StaticSolve::loads_first() {
 // moments: from then on it is treated as torn off.
 bool StaticSolve::without_rotations(const StateView& now) {
   if (!supports_.found_equilibrium || supports_.constrains_rotations ||
-      !can_rotate(*system_->pattern(), system_->inverse_mass, supports_.held, start_.data()))
+      !can_rotate(*system_->pattern(), system_->inverse_mass, supports_.held, supports_.anchored,
+                  start_.data()))
     return false;
   supports_.constrains_rotations = true;
   last_ += most_solved;
@@ -350,7 +352,8 @@ bool StaticSolve::without_rotations(const StateView& now) {
 }
 
 void StaticSolve::give_up() const {
-  const bool turns = can_rotate(*system_->pattern(), system_->inverse_mass, supports_.held, start_.data());
+  const bool turns =
+      can_rotate(*system_->pattern(), system_->inverse_mass, supports_.held, supports_.anchored, start_.data());
   const std::string left =
       fmt::format("no equilibrium was found: {:.2g} of the forces are left after {} iterations", norm_ / terms_,
                   newton_ - (last_ - most_solved));

@@ -1,6 +1,10 @@
 // What the static solve refuses, and what it does not, where little or nothing holds the body.
 #include "sim/integrate/solved_scenes.h"
 
+#include "sim/build/build_scene.h"
+#include "sim/elements.h"
+#include "sim/ground_springs.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,6 +96,52 @@ TEST(StaticSolve, refuses_forces_that_overflow) {
   EXPECT_THAT(refusal_of_step(heavy_bar("hexahedra", "corotational", 1000,
                                         R"(<fix side="-x"/><load side="+x" force="1e300 0 0"/>)")),
               HasSubstr("larger than numbers go"));
+}
+
+// A sheet of 1 kg under its weight with nothing fixed, and springs to the ground at every vertex; `springs`:
+// its own.
+Scene anchored(std::unique_ptr<Interaction> (*make)(EmbeddedMap&), bool springs) {
+  BodySettings sheet;
+  sheet.shape = SheetShape{.pattern = SheetPattern::Mixed, .nx = 4, .ny = 3, .size = {{1, 1}}};
+  sheet.place = Placement{.rotate = {20, 10, 0}};
+  sheet.mass.total = 1;
+  if (springs)
+    sheet.springs = SpringsSettings{.springs = {{.type = find_interaction("stretch"), .k = 200},
+                                                {.type = find_interaction("bend", "angular"), .k = 0.1}}};
+  SceneDefinition scene;
+  scene.time = TimeSettings{.step = 1, .scheme = find_scheme("static"), .duration = 1};
+  Body& body = add_body(scene, sheet);
+  body.interactions.push_back(make(*body.map));
+  return {std::move(scene), {}};
+}
+
+TEST(StaticSolve, takes_springs_to_the_ground_for_a_hold) {
+  constexpr double k = 30, g = 9.81;
+  for (const bool springs : {false, true}) {
+    Scene scene = anchored([](EmbeddedMap& map) { return ground::springs(map, k); }, springs);
+    scene.step();
+    const Body& body = *scene.bodies()[0];
+    Vec3 carried = Vec3::Zero();
+    for (Slot v = 0; v < body.vertices(); ++v) {
+      const Vec3 sinks = body.map->position()[v].vec() - body.map->rest()[v].vec();
+      carried += k * sinks;
+      if (!springs) {
+        EXPECT_NEAR((sinks - Vec3(0, 0, -g / (k * body.program->inverse_mass()[v]))).norm(), 0, 1e-9) << v;
+      }
+    }
+    EXPECT_NEAR((carried - Vec3(0, 0, -g)).norm(), 0, 1e-6)
+        << "they carry the weight of 1 kg, and nothing else does";
+  }
+}
+
+TEST(StaticSolve, refuses_what_springs_to_the_ground_let_slide) {
+  Scene scene = anchored([](EmbeddedMap& map) { return ground::springs(map, 30, 0, Vec3(0, 0, 1)); }, true);
+  try {
+    scene.step();
+    FAIL() << "not refused";
+  } catch (const Unstable& error) {
+    EXPECT_THAT(error.what(), HasSubstr("along x, y, and a static solve"));
+  }
 }
 
 } // namespace
