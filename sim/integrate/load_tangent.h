@@ -36,8 +36,9 @@ public:
   void at(System& system, double time, const Records& position, const Records& velocity,
           const std::vector<std::uint8_t>& held, const Scales& scales);
 
-  // Until the next at(): includes the internal forces; `matrix` is their tangent by position plus shift M
-  // [1/s²] (and must outlive the use). For static solves, with the default Scales.
+  // Until the next at(): includes the internal forces; `matrix` is A + shift M, A their tangent by position and
+  // shift [1/s²] (it must outlive the use), and L δ is that of A alone. With the default Scales only: A is not
+  // scaled by them. Static solves (static.cpp) and the test of their stability (lowest_eigenvalue.cpp) use it.
   void with_forces(const BlockMatrix& matrix, double shift = 0);
 
   // L δ, 0 at constrained coordinates; false: it is 0, and not written.
