@@ -63,8 +63,8 @@ std::string text_of(double value);
 
 std::string text_of_list(std::span<const double> values);
 
-// UserError: a number that is not finite or out of the attribute's bounds; a text that is none of its words;
-// one that is required and not there.
+// UserError: a number that is not finite or out of the attribute's bounds; a text that is none of its words
+// (the hint names the nearest); one that is required and not there.
 void check_numbers(const AttributeType& type, std::span<const double> values, const SettingsSource& source);
 void check_text(const AttributeType& type, const std::string& value, const SettingsSource& source);
 [[noreturn]] void refuse_missing(const AttributeType& type, const SettingsSource& source);
@@ -173,6 +173,8 @@ template <class S, class M> Field<S> field(M S::*member, AttributeType type) {
             fields::put_numbers(s.*member, numbers);
             fields::check_numbers(type, numbers, source);
             if constexpr (std::is_same_v<M, std::string>) fields::check_text(type, s.*member, source);
+            if constexpr (std::is_same_v<M, std::vector<std::string>>)
+              for (const std::string& word : s.*member) fields::check_text(type, word, source);
           }};
 }
 

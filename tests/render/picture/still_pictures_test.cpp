@@ -101,5 +101,22 @@ TEST(StillPictures, settings_that_cannot_be_are_refused) {
   EXPECT_THROW(StillPictures(empty, *seen.scene), UserError);
 }
 
+TEST(StillPictures, refuse_a_word_of_the_hud_that_there_is_not) {
+  const Seen seen(scene_with("", "", small_image));
+  PictureSettings settings = small();
+  settings.hud = HudSettings{.show = {"time", "tittle"}};
+  try {
+    StillPictures(settings, *seen.scene).take();
+    FAIL() << "not refused";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code, Exit::BadInput);
+    EXPECT_STREQ(error.what(), "show is 'tittle'; expected any of title, time, energy, tears, legend, cost, "
+                               "separated by blanks");
+    EXPECT_EQ(error.hint, "did you mean 'title'?");
+  }
+  settings.hud->show = {"time", "title"};
+  EXPECT_NO_THROW(StillPictures(settings, *seen.scene).take());
+}
+
 } // namespace
 } // namespace rend
