@@ -15,21 +15,45 @@ void add_once(std::vector<std::string>& list, const std::string& word) {
   if (!word.empty() && std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
 }
 
+std::string joined(const std::vector<std::string>& list, const char* between) {
+  std::string out;
+  for (const std::string& each : list) out += (out.empty() ? "" : between) + each;
+  return out;
+}
+
+// "isotropic in a face"; empty: the only interaction of its element.
+std::string variant_of(const InteractionType& interaction) {
+  return interaction.kind + (interaction.where.empty() ? "" : " in a " + interaction.where);
+}
+
+// What help says of k: units of all interactions of the element, and which of them have a formula.
+void describe_stiffness(AttributeType& k, const std::vector<const InteractionType*>& interactions) {
+  std::vector<std::string> units, by_formula;
+  bool all = true;
+  for (const InteractionType* interaction : interactions) {
+    add_once(units, interaction->k_unit);
+    all = all && interaction->by_formula;
+    if (interaction->by_formula) by_formula.push_back(variant_of(*interaction));
+  }
+  k.unit = joined(units, " or ");
+  if (by_formula.empty()) return;
+  k.what += "; or by formula from young" + (all ? "" : " (" + joined(by_formula, ", ") + ")");
+}
+
 // <stretch>, <shear>, <bend>: one element for all interactions of that name, which differ by `kind` and
 // `where`.
 ElementType spring_element(const std::string& name) {
   ElementType type{name, "", {}, {}};
-  std::vector<std::string> kinds, places;
-  std::string unit;
+  std::vector<std::string> kinds, places, damping_units;
+  std::vector<const InteractionType*> interactions;
   for (const InteractionType& interaction : all_interactions()) {
     if (interaction.element != name) continue;
-    const std::string which =
-        interaction.kind + (interaction.where.empty() ? "" : " in a " + interaction.where);
+    interactions.push_back(&interaction);
+    const std::string which = variant_of(interaction);
     type.what += (type.what.empty() ? "" : "; ") + (which.empty() ? "" : which + ": ") + interaction.what;
     add_once(kinds, interaction.kind);
     add_once(places, interaction.where);
-    if (unit.find(interaction.k_unit) == std::string::npos)
-      unit += (unit.empty() ? "" : " or ") + interaction.k_unit;
+    add_once(damping_units, interaction.damping_unit());
   }
   if (!kinds.empty()) {
     const std::string first = kinds.front();
@@ -40,7 +64,8 @@ ElementType spring_element(const std::string& name) {
     type.attributes.push_back(word("where", places, "in faces, or in hexahedra").otherwise(first));
   }
   for (AttributeType attribute : attributes_of<SpringSettings>()) {
-    if (attribute.name == "k") attribute.unit = unit;
+    if (attribute.name == "k") describe_stiffness(attribute, interactions);
+    if (attribute.name == "damping") attribute.unit = joined(damping_units, " or ");
     type.attributes.push_back(std::move(attribute));
   }
   return type;

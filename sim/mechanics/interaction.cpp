@@ -7,6 +7,8 @@
 #include "sim/mechanics/stretch.h"
 #include "sim/topology/walk.h"
 
+#include <algorithm>
+
 namespace rend {
 
 const std::vector<InteractionType>& all_interactions() {
@@ -18,6 +20,11 @@ const std::vector<InteractionType>& all_interactions() {
                                                  bend_provot(),
                                                  bend_angular()};
   return list;
+}
+
+std::string InteractionType::damping_unit() const {
+  std::string unit = k_unit;
+  return unit.insert(std::min(unit.find('/'), unit.size()), ".s");
 }
 
 void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f) {

@@ -89,7 +89,10 @@ struct InteractionType {
   std::string k_unit;
   // Adds the embeddings to the map. Null: there is nothing to add here, and a note says why. Throws UserError.
   std::function<std::unique_ptr<Interaction>(EmbeddedMap&, const InteractionRequest&)> make;
-  std::string where = ""; // its `where`, if the element has several: "face", "volume"
+  std::string where = "";  // its `where`, if the element has several: "face", "volume"
+  bool by_formula = false; // whether k may come from the springs' material (spring_stiffness.h)
+
+  std::string damping_unit() const; // k's times a second: "N.s/m"
 };
 
 const std::vector<InteractionType>& all_interactions();

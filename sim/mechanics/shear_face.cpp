@@ -82,12 +82,22 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
 } // namespace
 
 InteractionType shear_face_isotropic() {
-  return {"shear", "isotropic",    "springs along both diagonals of each quad, one stiffness",
-          "N/m",   make_isotropic, "face"};
+  return {.element = "shear",
+          .kind = "isotropic",
+          .what = "springs along both diagonals of each quad, one stiffness",
+          .k_unit = "N/m",
+          .make = make_isotropic,
+          .where = "face",
+          .by_formula = true};
 }
 InteractionType shear_face_anisotropic() {
-  return {"shear", "anisotropic",    "a spring across each corner, each with its own stiffness",
-          "N/m",   make_anisotropic, "face"};
+  return {.element = "shear",
+          .kind = "anisotropic",
+          .what = "a spring across each corner, each with its own stiffness",
+          .k_unit = "N/m",
+          .make = make_anisotropic,
+          .where = "face",
+          .by_formula = true};
 }
 
 } // namespace rend

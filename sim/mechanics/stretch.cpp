@@ -28,8 +28,12 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
 } // namespace
 
 InteractionType stretch() {
-  return {"stretch", "", "a spring along each side of each face; an edge between two faces carries two", "N/m",
-          make};
+  return {.element = "stretch",
+          .kind = "",
+          .what = "a spring along each side of each face; an edge between two faces carries two",
+          .k_unit = "N/m",
+          .make = make,
+          .by_formula = true};
 }
 
 } // namespace rend

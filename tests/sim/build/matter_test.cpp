@@ -2,6 +2,7 @@
 #include "sim/build/build_matter.h"
 
 #include "sim/body/measure.h"
+#include "sim/build/body_types.h"
 #include "sim/elements.h"
 #include "sim/mechanics/mass_tensor.h"
 #include "sim/presets.h"
@@ -217,6 +218,39 @@ TEST(Elasticity, a_scrambled_solid_comes_back_to_rest) {
   const Vec3 rest0 = body.map->rest()[0], x0 = body.map->position()[0];
   for (Slot v = 1; v < body.program->vertices(); ++v)
     EXPECT_NEAR((body.map->position()[v].vec() - x0).norm(), (body.map->rest()[v].vec() - rest0).norm(), 1e-4);
+}
+
+// What help says of an attribute of an element in <springs>: its unit and its meaning.
+std::pair<std::string, std::string> help_of(const std::string& element, const std::string& attribute) {
+  for (const ChildType& matter : matter_types())
+    for (const ChildType& spring : matter.type->children)
+      if (spring.type->name == element)
+        return {spring.type->find(attribute)->unit, spring.type->find(attribute)->what};
+  return {};
+}
+
+TEST(Springs, say_of_their_attributes_what_holds_for_them) {
+  using Help = std::pair<std::string, std::string>;
+  EXPECT_EQ(help_of("stretch", "k"), Help("N/m", "stiffness of each one; or by formula from young"));
+  EXPECT_EQ(help_of("shear", "k"),
+            Help("N/m", "stiffness of each one; or by formula from young (isotropic in a "
+                        "face, anisotropic in a face)"));
+  EXPECT_EQ(help_of("bend", "k"), Help("N/m or N.m/rad", "stiffness of each one"));
+  EXPECT_EQ(help_of("stretch", "damping"), Help("N.s/m", "damping of each one"));
+  EXPECT_EQ(help_of("bend", "damping"), Help("N.s/m or N.m.s/rad", "damping of each one"));
+}
+
+// Where help says that there is a formula, young is enough; elsewhere it is refused.
+TEST(Springs, have_a_formula_where_help_says_so) {
+  const std::string quads = R"(<sheet pattern="quads" cells="2 2" size="1 1"/><mass total="1"/>)";
+  for (const InteractionType& type : all_interactions()) {
+    if (type.where == "volume") continue; // no solid takes young
+    const std::string kind = type.kind.empty() ? "" : " kind=\"" + type.kind + "\"";
+    const std::string refusal = refusal_of(quads + R"(<springs young="1e5" poisson="0.33" thickness="1e-3"><)" +
+                                           type.element + kind + "/></springs>");
+    EXPECT_THAT(refusal, HasSubstr(type.by_formula ? "not refused" : "no formula gives this stiffness"))
+        << type.element << kind;
+  }
 }
 
 } // namespace
