@@ -1,7 +1,6 @@
 #include "sim/boundary/boundary.h"
 
 #include "sim/base/check.h"
-#include "sim/mechanics/winding.h"
 
 namespace rend {
 
@@ -40,12 +39,7 @@ SolidSurface& Boundary::solid() {
 }
 
 BoundaryFaces::Face Boundary::face_of_sheet(Dart first, std::vector<Slot>& vertices) const {
-  vertices.clear();
-  Dart at = first;
-  do {
-    vertices.push_back(map_.vertex(at));
-    at = map_.map().follow(at, to_next_side);
-  } while (at != first);
+  vertices_of_face(map_, first, false, vertices);
   return {
       .first = first, .turned = false, .exposed = false, .sides = static_cast<std::uint32_t>(vertices.size())};
 }

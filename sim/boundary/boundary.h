@@ -2,13 +2,15 @@
 // order they come and how each is walked is found here; contact, exports and pictures take what they need of it
 // (Body::boundary()).
 //
-// Of a sheet these are all faces, of a solid the α3-free ones (solid_surface.h). What only pictures need of a
-// sheet, triangles with their sides and normals (surface.h), is there once somebody asks for it.
+// Of a sheet these are all faces, of a solid the α3-free ones (outer_faces.h, solid_surface.h). What only
+// pictures need of a sheet, triangles with their sides and normals (surface.h), is there once somebody asks for
+// it.
 //
 // Everything is brought up to date after changes of the map by update(), from the places that changed, and is
 // then what it would be if it were made anew: when and how often that is done leaves no trace.
 #pragma once
 
+#include "sim/boundary/outer_faces.h"
 #include "sim/boundary/solid_surface.h"
 #include "sim/boundary/surface.h"
 
@@ -40,12 +42,10 @@ public:
           });
       return;
     }
-    const CellIndex& faces = map_.cells(FaceOfVolume);
-    for (Slot face = 0; face < faces.slots(); ++face) {
-      if (!faces.alive(face)) continue;
-      const BoundaryFaces::Face found = face_of_sheet(faces.first_dart(face), vertices);
+    for_each_outer_face(map_, [&](Slot, Dart first) {
+      const BoundaryFaces::Face found = face_of_sheet(first, vertices);
       f(found, std::span<const Slot>(vertices));
-    }
+    });
   }
 
   Surface& sheet();      // CHECK: of a sheet; made when it is first asked for

@@ -1,5 +1,6 @@
 #include "sim/outside/patch.h"
 
+#include "sim/boundary/outer_faces.h"
 #include "sim/mechanics/winding.h"
 #include "sim/topology/orientation.h"
 
@@ -53,16 +54,6 @@ void CellList::add(std::span<const Slot> vertices) {
   first_.push_back(vertices_.size());
 }
 
-void vertices_of_face(const EmbeddedMap& map, Dart d, bool turned, std::vector<Slot>& out) {
-  out.clear();
-  Dart at = d;
-  do {
-    out.push_back(map.vertex(at));
-    at = map.map().alpha(1, map.map().alpha(0, at));
-  } while (at != d);
-  if (turned) std::reverse(out.begin(), out.end());
-}
-
 namespace {
 
 std::vector<bool> chosen(const EmbeddedMap& map, const std::vector<Slot>& vertices) {
@@ -80,21 +71,18 @@ Patch Patch::of_cells(EmbeddedMap& map, const std::string& name, Orbit orbit, co
 }
 
 Patch::Found Patch::find_faces(EmbeddedMap& map, const std::vector<Slot>& vertices) {
-  const CellIndex& cells = map.use(FaceOfVolume);
+  map.use(FaceOfVolume);
   const std::vector<bool> is = chosen(map, vertices);
   const bool sheet = map.dimension() == 2;
   // A face of a sheet is gone around as the smallest dart of its component leads.
   const Sides sides = sheet ? sides_of(map.map()) : Sides{};
   Found found;
   std::vector<Slot> face;
-  for (Slot f = 0; f < cells.slots(); ++f) {
-    if (!cells.alive(f)) continue;
-    const Dart d = cells.first_dart(f);
-    if (!sheet && !map.map().is_free(3, d)) continue;
+  for_each_outer_face(map, [&](Slot f, Dart d) {
     vertices_of_face(map, d, false, face);
-    if (!std::all_of(face.begin(), face.end(), [&](Slot v) { return is[v]; })) continue;
+    if (!std::all_of(face.begin(), face.end(), [&](Slot v) { return is[v]; })) return;
     found.emplace_back(f, (sheet ? sides.of_dart[d.value] == 2 : !winds_outward(map, d)) ? -1 : 1);
-  }
+  });
   return found;
 }
 

@@ -42,9 +42,6 @@ private:
   std::vector<Slot> vertices_;
 };
 
-// The vertices of the face of d, in the order of the walk d → α0 d; reversed if `turned`.
-void vertices_of_face(const EmbeddedMap& map, Dart d, bool turned, std::vector<Slot>& out);
-
 class Patch {
 public:
   enum class Kind { Faces, Edges, Corners };

@@ -1,5 +1,6 @@
 #include "sim/outside/wind.h"
 
+#include "sim/boundary/outer_faces.h"
 #include "sim/mechanics/winding.h"
 
 #include <algorithm>
@@ -22,15 +23,11 @@ WindLoad::WindLoad(EmbeddedMap& map, const Wind& wind) : wind_(wind), sheet_(map
 
 void WindLoad::rebind(const EmbeddedMap& map) {
   faces_.clear();
-  const CellIndex& cells = map.cells(FaceOfVolume);
   std::vector<Slot> vertices;
-  for (Slot f = 0; f < cells.slots(); ++f) {
-    if (!cells.alive(f)) continue;
-    const Dart d = cells.first_dart(f);
-    if (!map.map().is_free(3, d)) continue;
+  for_each_outer_face(map, [&](Slot, Dart d) {
     vertices_of_face(map, d, !sheet_ && !winds_outward(map, d), vertices);
     faces_.add(vertices);
-  }
+  });
 }
 
 void WindLoad::add(const Record* position, const Record* velocity, Record* force) const {
