@@ -73,6 +73,8 @@ void ClipRun::begin() {
 
 Stopped ClipRun::run() {
   Stopped stopped = simulates() ? simulate() : Stopped::No;
+  if (!session_.quiet())
+    for (const std::string& note : frame_output_->notes()) print_note(note);
   if (stopped != Stopped::Interrupted && video_at_end_ && video_of_files() == Stopped::Interrupted)
     stopped = Stopped::Interrupted;
   if (stopped != Stopped::Interrupted) remove_checkpoint();

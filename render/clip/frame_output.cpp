@@ -12,7 +12,8 @@ namespace rend {
 FrameOutput::FrameOutput(Session& session, const PipelineOptions& options, const FramePlan& plan)
     : session_(session), options_(options), folder_(options.folder), plan_(plan),
       maker_(session.picture(), session.scene(), static_cast<double>(options.width) / options.height,
-             session.clock().duration(), session.clock().frames()) {
+             session.clock().duration(), session.clock().frames()),
+      pass_through_(session.scene()) {
   check_pipeline(options);
   if (session.quiet()) return;
   const double aspect = static_cast<double>(options.width) / options.height;
@@ -34,7 +35,10 @@ void FrameOutput::take(long frame) {
   held_step_ = step;
   if (plan_.has_existing(frame)) flushed_early_.push_back(frame);
   if (!plan_.has(frame)) return;
-  if (!held_) held_ = maker_.draw(frame, session_.clock().time_of(frame));
+  if (!held_) {
+    held_ = maker_.draw(frame, session_.clock().time_of(frame));
+    pass_through_.look(frame);
+  }
   held_frames_.emplace_back(frame, maker_.camera(session_.clock().time_of(frame)));
 }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "render/clip/frame_plan.h"
+#include "render/clip/pass_through.h"
 #include "render/clip/session.h"
 #include "render/files/output_folder.h"
 #include "render/picture/scene_picture.h"
@@ -44,6 +45,8 @@ public:
   void abandon(); // the state became unstable: held frames are dropped, earlier ones stay; files are closed
 
   long frames() const { return frames_; } // passed to the pipeline
+  // what the pictures so far show that is likely a mistake
+  const std::vector<std::string>& notes() const { return pass_through_.notes(); }
   PipelineSeconds seconds() const;
   double picture_seconds() const { return maker_.seconds(); }
   std::size_t surface_bytes() const { return maker_.bytes(); }
@@ -59,6 +62,7 @@ private:
   OutputFolder folder_;
   FramePlan plan_;
   FrameBuilder maker_;
+  PassThrough pass_through_;
   std::unique_ptr<Pipeline> pipeline_;
   PipelineSeconds seconds_; // valid once the pipeline is closed
   std::optional<Frame> held_;

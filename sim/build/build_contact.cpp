@@ -9,7 +9,8 @@ namespace rend {
 
 namespace {
 
-// `contact`: none where the body has none.
+// `contact`: none where the body has none. Whether it does pass through is known once it has moved: pictures
+// tell (render/clip/pass_through.h).
 void say_what_it_passes(Body& body, const World& world, const std::optional<ContactSettings>& contact) {
   const bool floor = contact && contact->floor, obstacles = contact && contact->obstacles;
   const bool through_floor = world.floor && !floor, through_obstacles = world.has_obstacles() && !obstacles;
@@ -19,7 +20,6 @@ void say_what_it_passes(Body& body, const World& world, const std::optional<Cont
                                       : through_floor                    ? "the floor is"
                                                                          : "spheres and boxes are",
                                       contact ? "with of its <contact> names other things" : "no <contact>"));
-  body.notes.push_back(body.left_out.back());
 }
 
 // Vertices that start below the floor are put onto it in the first step, which strains the body.

@@ -9,7 +9,9 @@
 #include <cctype>
 #include <cstdlib>
 #include <gmock/gmock.h>
+#include <iterator>
 #include <set>
+#include <sstream>
 
 namespace rend {
 namespace {
@@ -100,6 +102,29 @@ TEST_P(EveryPreset, is_used_by_somebody) {
   EXPECT_NE(texts.find(name), std::string::npos) << "nobody names " << name;
 }
 
+// Those that presets/demo renders when it is not told which, and the showcase.
+std::vector<std::string> shown_presets() {
+  const std::string script = content(root / "presets/demo");
+  const std::size_t begin = script.find("  showcase/bowl", script.find("|| clips=("));
+  std::istringstream list(script.substr(begin, script.find(')', begin) - begin));
+  std::set<std::string> names{std::istream_iterator<std::string>(list), {}};
+  for (const std::string& name : all_presets())
+    if (name.starts_with("showcase/")) names.insert(name);
+  return {names.begin(), names.end()};
+}
+
+class ShownPreset : public EveryPreset {};
+
+// The first two frames; with REND_WHOLE in the environment all of them.
+TEST_P(ShownPreset, is_rendered_without_a_note) {
+  NEEDS_PNG;
+  const std::string frames = std::getenv("REND_WHOLE") ? "" : " --frames 0,1";
+  const Outcome outcome =
+      place.rend("render '" + path.string() + "' -o out --size 64x36 --set image.samples=1" + frames);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::Not(testing::HasSubstr("note:")));
+}
+
 class PresetWithALaw : public EveryPreset {};
 
 // (tests/sim/fracture/torn_presets_test.cpp tests that it tears.)
@@ -117,11 +142,13 @@ std::string as_word(const testing::TestParamInfo<std::string>& preset) {
   return name;
 }
 INSTANTIATE_TEST_SUITE_P(House, EveryPreset, testing::ValuesIn(all_presets()), as_word);
+INSTANTIATE_TEST_SUITE_P(House, ShownPreset, testing::ValuesIn(shown_presets()), as_word);
 INSTANTIATE_TEST_SUITE_P(House, PresetWithALaw, testing::ValuesIn(presets_with_laws()), as_word);
 
 TEST(Presets, are_some) {
   EXPECT_GE(all_presets().size(), 14u);
   EXPECT_GE(presets_with_laws().size(), 8u);
+  EXPECT_GE(shown_presets().size(), 23u);
 }
 
 TEST(Schema, beside_the_presets_is_what_the_program_prints) {

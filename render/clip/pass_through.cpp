@@ -1,0 +1,82 @@
+#include "render/clip/pass_through.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+constexpr double hair = 0.002; // relative to the diagonal of the body's bounding box
+
+double size_at_rest(const Body& body) {
+  Eigen::AlignedBox3d bounds;
+  const CellIndex& cells = body.map->cells(Vertex);
+  for (Slot v = 0; v < cells.slots(); ++v)
+    if (cells.alive(v)) bounds.extend(Vec3(body.map->rest()[v].vec()));
+  return bounds.isEmpty() ? 0 : bounds.diagonal().norm();
+}
+
+// How deep a point lies inside [m]; not above 0: outside.
+double depth_in(const Sphere& sphere, const Vec3& x) {
+  return sphere.radius - (x - sphere.centre).norm();
+}
+double depth_in(const Box& box, const Vec3& x) {
+  return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff());
+}
+
+// Whether a vertex lies deeper than that; `depth`: of a point.
+template <class F> bool has_vertex_deeper_than(double least, const Body& body, F&& depth) {
+  const CellIndex& cells = body.map->cells(Vertex);
+  for (Slot v = 0; v < cells.slots(); ++v)
+    if (cells.alive(v) && depth(Vec3(body.map->position()[v].vec())) > least) return true;
+  return false;
+}
+
+template <class Obstacle>
+bool lies_in_one(double least, const Body& body, const std::vector<Obstacle>& obstacles) {
+  return std::any_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& one) {
+    return has_vertex_deeper_than(least, body, [&](const Vec3& x) { return depth_in(one, x); });
+  });
+}
+
+} // namespace
+
+PassThrough::PassThrough(const Scene& scene) : scene_(scene) {
+  const World& world = scene.world();
+  for (const auto& body : scene.bodies()) {
+    const bool obstacles = !(body->contact && body->contact->obstacles);
+    const Watched watched{body.get(), hair * size_at_rest(*body), world.floor && !body->floor_contact,
+                          obstacles && !world.spheres.empty(), obstacles && !world.boxes.empty()};
+    if (watched.floor || watched.spheres || watched.boxes) bodies_.push_back(watched);
+  }
+}
+
+void PassThrough::look(long frame) {
+  const World& world = scene_.world();
+  for (Watched& watched : bodies_) {
+    const Body& body = *watched.body;
+    if (watched.floor &&
+        has_vertex_deeper_than(watched.hair, body, [&](const Vec3& x) { return world.floor->z - x.z(); })) {
+      watched.floor = false;
+      tell(body, frame, "the floor", "floor");
+    }
+    if (watched.spheres && lies_in_one(watched.hair, body, world.spheres)) {
+      watched.spheres = false;
+      tell(body, frame, "a sphere", "obstacles");
+    }
+    if (watched.boxes && lies_in_one(watched.hair, body, world.boxes)) {
+      watched.boxes = false;
+      tell(body, frame, "a box", "obstacles");
+    }
+  }
+}
+
+void PassThrough::tell(const Body& body, long frame, const char* what, const char* remedy) {
+  notes_.push_back(
+      fmt::format("body '{}' passes through {}, as frame {} shows first: it has no contact with it "
+                  "(<contact with=\"{}\"/>)",
+                  body.name, what, frame, remedy));
+}
+
+} // namespace rend
