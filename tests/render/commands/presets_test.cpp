@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(House, PresetWithALaw, testing::ValuesIn(presets_with_l
 TEST(Presets, are_some) {
   EXPECT_GE(all_presets().size(), 14u);
   EXPECT_GE(presets_with_laws().size(), 8u);
-  EXPECT_GE(shown_presets().size(), 23u);
+  EXPECT_GE(shown_presets().size(), 22u);
 }
 
 TEST(Schema, beside_the_presets_is_what_the_program_prints) {
