@@ -98,7 +98,8 @@ std::size_t EmbeddedMap::bytes() const {
 
 void EmbeddedMap::store(Archive& archive) {
   archive.mark("map");
-  map_.store(archive);
+  constexpr std::size_t most_darts = Dart::none_value;
+  grows_ ? map_.store_any(archive, most_darts) : map_.store(archive);
   // the slots before reading, of the orbits that are read
   std::array<std::optional<CellIndex>, orbit_kinds> was;
   for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
@@ -136,14 +137,14 @@ void EmbeddedMap::store(Archive& archive, ColumnBase& column, const CellIndex* w
   archive.mark(column.name());
   const CellIndex& index = *cells_[column.orbit().mask];
   std::vector<std::byte> then;
-  if (was && !moves(column)) then.assign(column.raw().begin(), column.raw().end());
+  if (was && !moves(column) && !grows_) then.assign(column.raw().begin(), column.raw().end());
   column.resize(index.slots());
   archive.same(column.bytes(), "bytes of an embedding");
   archive.raw(column.raw().data(), column.raw().size());
   if (!was) return;
   if (moves(column))
     refuse_unless_finite(static_cast<const VertexColumn&>(column).values());
-  else
+  else if (!grows_)
     refuse_unless(same_values(column.raw(), index, then, *was),
                   "what the scene has from its preset is another");
 }

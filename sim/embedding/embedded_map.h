@@ -122,8 +122,13 @@ public:
   // Writes or reads everything (base/archive.h): links, slots with their order and free list, and every column.
   // Afterwards subscribers see the whole map changed. What is read must result from this map by fracture and
   // time steps (GMap::store), so that all values but positions and velocities are the same at the same darts.
-  // ArchiveError otherwise; this map is then unusable.
+  // ArchiveError otherwise; this map is then unusable. Where rules may create darts (grows()), what is read must
+  // satisfy the axioms, and values may differ.
   void store(Archive& archive);
+
+  // Changes after this may create darts, and not only separate and remove elements.
+  void let_grow() { grows_ = true; }
+  bool grows() const { return grows_; }
 
 private:
   struct Closing; // an edit that is being closed
@@ -151,6 +156,7 @@ private:
   std::vector<Changes*> readers_;
   Journal journal_;
   bool open_ = false; // an edit is
+  bool grows_ = false;
 };
 
 // An open edit.

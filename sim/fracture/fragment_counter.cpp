@@ -17,13 +17,25 @@ void TearEvent::store(Archive& archive) {
   refuse_unless(step >= 0 && law >= 0 && fragments >= -1, "a tear has no step, no law, or no fragments");
 }
 
-void FragmentCounter::begin() {
+namespace {
+
+std::uint32_t count_labels(const std::vector<std::uint32_t>& labels) {
+  std::uint32_t count = 0;
+  for (std::uint32_t label : labels)
+    if (label != Dart::none_value) count = std::max(count, label + 1);
+  return count;
+}
+
+} // namespace
+
+void FragmentCounter::begin(const GMap* growing) {
+  if (growing && !before_) before_ = count_labels(label_fragments(*growing));
   touched_.fill(0);
   removed_read_ = 0;
 }
 
 void FragmentCounter::note(const Journal& journal) {
-  CHECK_NOTE(journal.created.empty(), "a change of a law creates no darts");
+  CHECK_NOTE(before_ || journal.created.empty(), "this law was not expected to create darts");
   for (std::size_t i = 0; i < 4; ++i) {
     const std::vector<Dart>& touched = journal.touched[i];
     for (std::size_t n = touched_[i]; n < touched.size(); n += 2)
@@ -63,9 +75,8 @@ void FragmentCounter::settle(const GMap& map, std::span<TearEvent> events) {
   CHECK(events.size() == changes_.size());
   if (events.empty()) return;
   piece_of_dart_ = label_fragments(map);
-  std::uint32_t pieces = 0;
-  for (std::uint32_t label : piece_of_dart_)
-    if (label != Dart::none_value) pieces = std::max(pieces, label + 1);
+  const std::uint32_t pieces = count_labels(piece_of_dart_);
+  if (before_) return settle_grown(pieces, events);
   parent_.resize(pieces);
   std::iota(parent_.begin(), parent_.end(), 0u);
   long fragments = pieces;
@@ -75,6 +86,17 @@ void FragmentCounter::settle(const GMap& map, std::span<TearEvent> events) {
     events[n].born = -more;
     fragments += more;
   }
+  forget();
+}
+
+void FragmentCounter::settle_grown(std::size_t pieces, std::span<TearEvent> events) {
+  for (TearEvent& event : events) event.fragments = static_cast<long>(pieces);
+  events.back().born = static_cast<long>(pieces) - *before_;
+  forget();
+}
+
+void FragmentCounter::forget() {
+  before_.reset();
   changes_.clear();
   pairs_.clear();
   removed_.clear();

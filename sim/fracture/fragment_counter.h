@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,6 +20,7 @@
 namespace rend {
 
 class Archive;
+class GMap;
 
 // One applied change.
 struct TearEvent {
@@ -36,7 +38,9 @@ struct TearEvent {
 
 class FragmentCounter {
 public:
-  void begin();                      // before an edit
+  // Before an edit. `growing`: the map, if the edit may create darts or links, which the above does not undo; then
+  // the components before and after the step are counted, and all changes of the step have the number after it.
+  void begin(const GMap* growing = nullptr);
   void note(const Journal& journal); // after a change: reads the new entries of the journal
 
   // Writes fragments and born of the events, one per change noted since the last call, in their order; then
@@ -50,6 +54,10 @@ private:
   std::uint32_t piece_of(std::uint32_t piece);
   long undo(std::size_t change);
 
+  void forget();
+  void settle_grown(std::size_t pieces, std::span<TearEvent> events);
+
+  std::optional<long> before_; // components before the step, if something grows in it
   std::array<std::size_t, 4> touched_{}; // how much of the journal's lists was read
   std::size_t removed_read_ = 0;
   std::vector<Undoing> changes_;             // one per change noted

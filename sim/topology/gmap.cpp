@@ -2,6 +2,7 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/check.h"
+#include "sim/topology/validate.h"
 
 namespace rend {
 
@@ -35,6 +36,20 @@ struct GMap::Stored {
       refuse_unless(is_free(n, now[i]) == is_free(n, d), "a border is open in part");
   }
 
+  // Every link leads to a dart that is alive; a removed dart has none.
+  void check_links(int dimension) const {
+    constexpr Links none{Dart::none_value, Dart::none_value, Dart::none_value, Dart::none_value};
+    for (std::uint32_t d = 0; d < links.size(); ++d) {
+      if (removed(d)) {
+        refuse_unless(links[d] == none, "a dart is removed in part");
+        continue;
+      }
+      for (std::uint32_t link : links[d])
+        refuse_unless(link < links.size() && !removed(link), "a link leads to no dart");
+      refuse_unless(dimension == 3 || links[d][3] == d, "a dart of a sheet is not α3-free");
+    }
+  }
+
   // The free list must name each removed dart once.
   void check_free(std::size_t removed_darts) const {
     std::vector<bool> named(links.size());
@@ -66,6 +81,26 @@ void GMap::store(Archive& archive) {
   stored.check_free(removed);
   links_.swap(stored.links);
   free_.swap(stored.free);
+}
+
+void GMap::store_any(Archive& archive, std::size_t most_darts) {
+  archive.same(static_cast<std::uint64_t>(dimension_), "dimension");
+  if (!archive.reading()) {
+    archive.list(links_, most_darts, "");
+    return archive.list(free_, most_darts, "");
+  }
+  Stored stored;
+  archive.list(stored.links, most_darts, "there are more darts than rules can have made");
+  archive.list(stored.free, stored.links.size(), "there are more free darts than darts");
+  stored.check_links(dimension_);
+  std::size_t removed = 0;
+  for (std::uint32_t d = 0; d < stored.links.size(); ++d) removed += stored.removed(d);
+  stored.check_free(removed);
+  GMap read(dimension_);
+  read.links_ = std::move(stored.links);
+  read.free_ = std::move(stored.free);
+  if (const auto broken = validate(read)) throw ArchiveError(broken->text());
+  *this = std::move(read);
 }
 
 std::size_t GMap::bytes() const {

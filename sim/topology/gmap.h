@@ -53,6 +53,10 @@ public:
   // known shapes. ArchiveError otherwise, and this map is unchanged.
   void store(Archive& archive);
 
+  // The same for a map that rules change as well: what is read must satisfy the axioms, and have at most
+  // `most_darts`, removed ones included.
+  void store_any(Archive& archive, std::size_t most_darts);
+
 private:
   friend class MapEdit;
   struct Stored;
