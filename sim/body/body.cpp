@@ -27,16 +27,15 @@ Body::~Body() {
 }
 
 void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
-  const bool elementary = std::any_of(tear_laws.begin(), tear_laws.end(),
-                                      [](const TearLaw& law) { return law.settings().elementary(); });
+  const bool elementary =
+      std::any_of(tear_laws.begin(), tear_laws.end(), [](const TearLaw& law) { return law.elementary(); });
   ProgramOptions options;
   options.elementary = elementary;
   options.fold = cumulated != Cumulated::No;
   options.walk = settings.walk;
   sums_ = elementary && sums_available(interactions, options) &&
-          std::all_of(tear_laws.begin(), tear_laws.end(), [](const TearLaw& law) {
-            return !law.settings().elementary() || law.settings().by_sums();
-          });
+          std::all_of(tear_laws.begin(), tear_laws.end(),
+                      [](const TearLaw& law) { return !law.elementary() || law.by_sums(); });
   options.folded = !elementary || scheme.evaluations > 1 || sums_;
   options.threads = settings.threads;
   options.timed = profile && profile->every_step();

@@ -1,5 +1,7 @@
 #include "sim/build/build_laws.h"
 
+#include "sim/fracture/pairs.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -7,26 +9,11 @@
 namespace rend {
 namespace {
 
-// The change that was asked for, or the one that is the cell's own.
-const ChangeType* change_of(const LawSettings& law, int dimension) {
-  std::string fitting;
-  for (const ChangeType& type : all_changes()) {
-    if (!type.fits(law.cell, dimension)) continue;
-    fitting += (fitting.empty() ? "" : ", ") + type.name;
-    if (law.change ? &type == law.change : type.own == law.cell) return &type;
-  }
-  law.source.fail("change",
-                  fmt::format("'{}' does not fit the criterion '{}', which measures the {}",
-                              law.change ? law.change->name : "", law.criterion->name,
-                              name_of(law.cell, dimension)),
-                  "these do: " + fitting);
-}
-
 // With what is found on the body.
 LawSettings completed(LawSettings law, const Body& body) {
   check_settings(law);
   const SettingsSource& source = law.source;
-  if (!law.kind.empty() && !law.criterion->takes_kind)
+  if (!law.kind.empty() && law.criterion->kinds.empty())
     source.fail("kind", fmt::format("a kind means nothing to the criterion '{}'", law.criterion->name),
                 "atomic-spring and strain look at springs of a kind");
   if (law.compression && !law.criterion->takes_compression)
@@ -34,10 +21,14 @@ LawSettings completed(LawSettings law, const Body& body) {
                 fmt::format("compression means nothing to the criterion '{}'", law.criterion->name),
                 "forces count by magnitude; stresses and strains have a sign");
   const CriterionRequest request = body.request_for(law);
+  const NamedCriterion criterion{law.criterion, law.kind};
+  law.cell = criterion.cell();
+  if (!law.change) law.change = &default_change(law.cell);
+  if (const std::string refusal = pair_of(criterion, *law.change, request.map.dimension()).refusal;
+      !refusal.empty())
+    source.fail("kind", fmt::format("'{}' {}", criterion.name(), refusal));
   if (const std::string lacking = law.criterion->lacking(request); !lacking.empty())
     source.fail("criterion", fmt::format("'{}' {}", law.criterion->name, lacking));
-  law.cell = law.criterion->cell(request);
-  law.change = change_of(law, request.map.dimension());
   law.unit = law.criterion->unit_there ? law.criterion->unit_there(request) : law.criterion->unit;
   if (law.until < law.from) source.fail("until", "the law ends before it starts");
   return law;
@@ -73,9 +64,12 @@ void build_laws(Body& body, const BodySettings& settings) {
   for (const LawSettings& asked : settings.tears) {
     const LawSettings law = completed(asked, body);
     body.tear_laws.emplace_back(body.request_for(law), law);
-    if (law.elementary() && body.cumulated == Cumulated::Yes)
-      law.source.fail("criterion", "looks at each element by itself, and cumulated=\"yes\" folds what they do",
-                      "leave cumulated at auto");
+    if (!body.tear_laws.back().elementary() || body.cumulated != Cumulated::Yes) continue;
+    law.source.fail(law.criterion->elementary ? "criterion" : "change",
+                    law.criterion->elementary
+                        ? "looks at each element by itself, and cumulated=\"yes\" folds what they do"
+                        : "is made where single elements pull most, and cumulated=\"yes\" folds what they do",
+                    "leave cumulated at auto");
   }
 }
 

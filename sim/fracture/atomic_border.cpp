@@ -77,7 +77,7 @@ CriterionType atomic_border() {
           .what = "|difference of the forces that the two elements apply, across the border|",
           .unit = "N",
           .elementary = true,
-          .cell = [](const CriterionRequest&) { return Cell::Borders; },
+          .cell = [](std::string_view) { return Cell::Borders; },
           .lacking = [](const CriterionRequest& request) { return lacking_for_borders(request.map); },
           .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return std::make_unique<AtomicBorder>(request.map);

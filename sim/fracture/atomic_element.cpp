@@ -8,7 +8,7 @@ CriterionType atomic_element() {
   return {.name = "atomic-element",
           .what = "the largest principal stress of each element",
           .unit = "Pa",
-          .cell = [](const CriterionRequest&) { return Cell::Elements; },
+          .cell = [](std::string_view) { return Cell::Elements; },
           .lacking = [](const CriterionRequest& request) { return lacking_for_stress(request); },
           .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return largest_of_elements(request, ElementScan::Quantity::Stress);

@@ -34,13 +34,14 @@ CriterionType atomic_spring() {
       .name = "atomic-spring",
       .what = "the force of each single spring of the kind given, of an angular bend its moment [N.m]",
       .unit = "N",
-      .cell = [](const CriterionRequest& request) { return cell_of_kind(request.kind); },
+      .cell = &cell_of_kind,
       .lacking = [](const CriterionRequest& request) { return lacking_for_springs(request); },
       .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
         return std::make_unique<AtomicSpring>(request);
       },
-      .takes_kind = true,
-      .unit_there = [](const CriterionRequest& request) { return std::string(turns(request) ? "N.m" : "N"); }};
+      .kinds = {"stretch", "shear", "bend"},
+      .unit_there = [](const CriterionRequest& request) { return std::string(turns(request) ? "N.m" : "N"); },
+      .without_meaning = &springs_without_meaning};
 }
 
 } // namespace rend

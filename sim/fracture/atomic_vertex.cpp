@@ -124,7 +124,7 @@ CriterionType atomic_vertex() {
   return {.name = "atomic-vertex",
           .what = "the largest single force on the vertex, of a spring or an element; the plane across it",
           .unit = "N",
-          .cell = [](const CriterionRequest&) { return Cell::Vertices; },
+          .cell = [](std::string_view) { return Cell::Vertices; },
           .lacking = [](const CriterionRequest&) { return std::string(); },
           .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             CriterionRequest any = request;

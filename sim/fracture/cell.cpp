@@ -27,6 +27,15 @@ std::string name_of(Cell cell, int dimension) {
   return dimension == 2 ? of_sheet[cell] : of_solid[cell];
 }
 
+std::vector<Slot> corners_of(const EmbeddedMap& map, std::span<const Dart> darts) {
+  const Orbit corner = corner_orbit(map.dimension());
+  std::vector<Slot> slots;
+  for (Dart d : darts) slots.push_back(map.slot(corner, d));
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
+}
+
 Vec3 middle_of(const EmbeddedMap& map, const Record* x, std::span<const Dart> darts) {
   thread_local std::vector<Slot> vertices;
   vertices.clear();

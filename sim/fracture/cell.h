@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace rend {
 
@@ -17,6 +18,10 @@ enum class Cell {
 
 Orbit orbit_of(Cell cell, int dimension);
 std::string name_of(Cell cell, int dimension); // "edge", "face" ...
+
+// The slots of the element corners of the darts, without repetition, in increasing order: those before an edit,
+// which does not change them.
+std::vector<Slot> corners_of(const EmbeddedMap& map, std::span<const Dart> darts);
 
 // The mean of the positions [m, one per vertex slot] of the vertices of these darts.
 Vec3 middle_of(const EmbeddedMap& map, const Record* position, std::span<const Dart> darts);

@@ -17,13 +17,11 @@ namespace rend {
 
 struct ChangeType {
   std::string name, what;
-  Cell own; // the cell for which it is the default change
-  bool (*fits)(Cell cell, int dimension);
-  bool (*elementary)(Cell cell); // needs the forces of each element separately
-  // Applies the change at a candidate if it is still possible; false: it was not, and nothing changed. Slots
-  // and positions are those before the edit, links the current ones. `darts`: those of the candidate's cell
-  // before the edit, without removed ones; the cell may have been split since.
-  bool (*apply)(Edit&, const ForceView&, Cell cell, const Candidate&, std::span<const Dart> darts);
+  Cell cell; // on which it acts; it is the default change of the criteria that measure such cells (transfer.h)
+  // Applies the change if it is still possible; false: it was not, and nothing changed. Slots and positions are
+  // those before the edit, links the current ones. `darts`: those of the cell, without removed ones; the cell
+  // may have been split since. `normal`: of the plane along which a vertex would be split.
+  bool (*apply)(Edit&, const ForceView&, const Vec3& normal, std::span<const Dart> darts);
 };
 
 const std::vector<ChangeType>& all_changes();

@@ -60,14 +60,18 @@ struct CriterionRequest {
 struct CriterionType {
   std::string name, what, unit;
   bool elementary = false; // needs the forces of each element by itself
-  // The cell that it measures there.
-  Cell (*cell)(const CriterionRequest&);
+  // The cell that it measures, with the kind that was given.
+  Cell (*cell)(std::string_view kind);
   // Why the criterion cannot be made for this body and these settings, as a sentence; empty: it can.
   std::string (*lacking)(const CriterionRequest&);
   std::unique_ptr<Criterion> (*make)(const CriterionRequest&);
-  bool by_sums = false;                               // elementary, but works with ForceView::corner_buffer
-  bool takes_kind = false, takes_compression = false; // which settings of the request it uses
+  bool by_sums = false;                // elementary, but works with ForceView::corner_buffer
+  std::vector<std::string> kinds = {}; // of springs that it takes; "": may be left out; empty: none
+  bool takes_compression = false;      // which settings of the request it uses
   std::string (*unit_there)(const CriterionRequest&) = nullptr; // null: `unit` for every body
+  // Why it has no meaning with this kind in sheets (2) or solids (3), whatever the body, as a sentence that goes on
+  // after its name; empty: it has one. Null: it always has.
+  std::string (*without_meaning)(std::string_view kind, int dimension) = nullptr;
 };
 
 const std::vector<CriterionType>& all_criteria();

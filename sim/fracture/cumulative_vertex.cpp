@@ -29,7 +29,7 @@ CriterionType cumulative_vertex() {
   return {.name = "cumulative-vertex",
           .what = "|sum of the internal forces on the vertex|; the plane across it",
           .unit = "N",
-          .cell = [](const CriterionRequest&) { return Cell::Vertices; },
+          .cell = [](std::string_view) { return Cell::Vertices; },
           .lacking = [](const CriterionRequest&) { return std::string(); },
           .make = [](const CriterionRequest&) -> std::unique_ptr<Criterion> {
             return std::make_unique<CumulativeVertex>();

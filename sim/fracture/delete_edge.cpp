@@ -9,10 +9,7 @@ ChangeType delete_edge() {
       "delete-edge",
       "every element that holds the edge is gone; its other variant is split-vertex, which splits one of the "
       "edge's ends",
-      Cell::Edges,
-      [](Cell cell, int) { return cell == Cell::Edges; },
-      [](Cell) { return false; },
-      [](Edit& edit, const ForceView&, Cell, const Candidate&, std::span<const Dart> darts) {
+      Cell::Edges, [](Edit& edit, const ForceView&, const Vec3&, std::span<const Dart> darts) {
         for (Dart d : darts)
           if (edit.map().alive(d)) remove_element_of(edit, d);
         return true;

@@ -15,12 +15,8 @@ void remove_element_of(Edit& edit, Dart d) {
 }
 
 ChangeType delete_element() {
-  return {"delete-element",
-          "the element lets go of all its neighbours and is gone",
-          Cell::Elements,
-          [](Cell cell, int) { return cell == Cell::Elements; },
-          [](Cell) { return false; },
-          [](Edit& edit, const ForceView&, Cell, const Candidate&, std::span<const Dart> darts) {
+  return {"delete-element", "the element lets go of all its neighbours and is gone", Cell::Elements,
+          [](Edit& edit, const ForceView&, const Vec3&, std::span<const Dart> darts) {
             remove_element_of(edit, darts.front());
             return true;
           }};

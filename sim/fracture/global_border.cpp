@@ -59,7 +59,7 @@ CriterionType global_border() {
   return {.name = "global-border",
           .what = "|sum of the internal forces of the shared vertices, across the border|",
           .unit = "N",
-          .cell = [](const CriterionRequest&) { return Cell::Borders; },
+          .cell = [](std::string_view) { return Cell::Borders; },
           .lacking = [](const CriterionRequest& request) { return lacking_for_borders(request.map); },
           .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             return std::make_unique<GlobalBorder>(request.map);

@@ -5,15 +5,10 @@
 namespace rend {
 
 ChangeType separate() {
-  return {
-      "separate",
-      "the two elements at the border let go of each other",
-      Cell::Borders,
-      [](Cell cell, int dimension) { return cell == Cell::Borders || (cell == Cell::Edges && dimension == 2); },
-      [](Cell) { return false; },
-      [](Edit& edit, const ForceView&, Cell, const Candidate&, std::span<const Dart> darts) {
-        return unsew(edit, edit.map().dimension(), darts.front());
-      }};
+  return {"separate", "the two elements at the border let go of each other", Cell::Borders,
+          [](Edit& edit, const ForceView&, const Vec3&, std::span<const Dart> darts) {
+            return unsew(edit, edit.map().dimension(), darts.front());
+          }};
 }
 
 } // namespace rend

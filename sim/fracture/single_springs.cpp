@@ -59,7 +59,7 @@ double elongation_of(const CurrentUnit& spring) {
   return rest > 0 ? (spring.position[1] - spring.position[0]).norm() / rest - 1 : 0;
 }
 
-Cell cell_of_kind(const std::string& kind) {
+Cell cell_of_kind(std::string_view kind) {
   return kind == "stretch" ? Cell::Edges : kind == "shear" ? Cell::Elements : Cell::Borders;
 }
 
@@ -85,6 +85,14 @@ std::string lacking_for_springs(const CriterionRequest& request) {
   if (hinges && straight)
     return "would compare forces and moments with one threshold: this body bends by both kinds";
   return {};
+}
+
+std::string springs_without_meaning(std::string_view kind, int dimension) {
+  if (kind != "bend" || dimension == 2) return {};
+  return "has nothing to measure in a solid: bending springs join the faces of a sheet, while volumes that "
+         "share a "
+         "face resist bending by their stretch and shear; atomic-border measures what opens a face between "
+         "them";
 }
 
 bool turns(const CriterionRequest& request) {

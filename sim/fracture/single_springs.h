@@ -65,11 +65,14 @@ double force_of(const CurrentUnit& spring);
 double elongation_of(const CurrentUnit& spring);
 
 // The kind of cell for springs of this kind, and the cell of a single one, by its smallest dart.
-Cell cell_of_kind(const std::string& kind);
+Cell cell_of_kind(std::string_view kind);
 Dart cell_of(const EmbeddedMap& map, Cell cell, const CurrentUnit& spring);
 
 // Why the requested `kind` is not possible, as a sentence; empty: it is.
 std::string lacking_for_springs(const CriterionRequest& request);
+
+// CriterionType::without_meaning of the criteria on springs.
+std::string springs_without_meaning(std::string_view kind, int dimension);
 
 // Whether springs of this kind are hinges, which have a moment and no elongation.
 bool turns(const CriterionRequest& request);

@@ -48,17 +48,15 @@ CriterionType strain() {
           .what = "the elongation ratio of each spring of the kind given; without a kind, the largest "
                   "principal strain of each element",
           .unit = "",
-          .cell =
-              [](const CriterionRequest& request) {
-                return request.kind.empty() ? Cell::Elements : cell_of_kind(request.kind);
-              },
+          .cell = [](std::string_view kind) { return kind.empty() ? Cell::Elements : cell_of_kind(kind); },
           .lacking = &lacking,
           .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
             if (request.kind.empty()) return largest_of_elements(request, ElementScan::Quantity::Strain);
             return std::make_unique<SpringStrain>(request);
           },
-          .takes_kind = true,
-          .takes_compression = true};
+          .kinds = {"", "stretch", "shear", "bend"},
+          .takes_compression = true,
+          .without_meaning = &springs_without_meaning};
 }
 
 } // namespace rend

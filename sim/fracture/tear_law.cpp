@@ -32,7 +32,9 @@ template <> const Fields<LawSettings>& fields_of() {
       field(&S::compression,
             flag("compression", "principal stresses and strains count in compression as well")),
       field(&S::change, all_changes(), "change",
-            "what is done; default: that of the cell which the criterion measures; " + told(all_changes())),
+            "what is done, any with any criterion (rend help tear says where); default: that of the cell which "
+            "the criterion measures; " +
+                told(all_changes())),
       field(&S::from, number("from", "s", "not before").at_least(0)),
       field(&S::until, number("until", "s", "not after").at_least(0)),
       field(&S::max_per_step, integer("max-per-step", "the worst so many a step; 0: all").at_least(0))};
@@ -40,7 +42,8 @@ template <> const Fields<LawSettings>& fields_of() {
 }
 
 TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
-    : settings_(settings), criterion_(settings.criterion->make(request)) {}
+    : settings_(settings), transfer_(&transfer(settings.cell, settings.change->cell, request.map.dimension())),
+      criterion_(settings.criterion->make(request)) {}
 
 const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   candidates_.clear();
@@ -54,25 +57,42 @@ const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
 int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,
                    FragmentCounter* fragment_counter) {
   note_cells(map.map());
+  if (transfer_->find) note_places(view);
   int made = 0;
   map.edit([&](Edit& edit) {
     if (fragment_counter) fragment_counter->begin();
     for (std::size_t n = 0; n < candidates_.size(); ++n) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
-      const std::span<const Dart> cell(darts_.data() + begin_[n], begin_[n + 1] - begin_[n]);
-      left_.clear();
-      for (Dart d : cell)
-        if (map.map().alive(d)) left_.push_back(d);
-      if (left_.empty()) continue; // the cell was removed by an earlier change
-      if (!settings_.change->apply(edit, view, settings_.cell, candidates_[n], left_)) continue;
+      if (!change_at(edit, view, n)) continue;
       events.push_back({.value = candidates_[n].value,
                         .dart = candidates_[n].dart,
-                        .place = middle_of(map, view.position, cell)});
+                        .place = middle_of(map, view.position, cell(n))});
       if (fragment_counter) fragment_counter->note(*edit.journal());
       ++made;
     }
   });
   return made;
+}
+
+// False: it is not possible any more; its cell may have been removed by an earlier change.
+bool TearLaw::change_at(Edit& edit, const ForceView& view, std::size_t n) {
+  const ChangeType& change = *settings_.change;
+  if (!transfer_->find) {
+    left_.clear();
+    for (Dart d : cell(n))
+      if (edit.map().alive(d)) left_.push_back(d);
+    return !left_.empty() && change.apply(edit, view, candidates_[n].normal, left_);
+  }
+  const Orbit orbit = orbit_of(change.cell, edit.map().dimension());
+  for (std::size_t place = first_place_[n]; place < first_place_[n + 1]; ++place) {
+    grown(edit.map(), orbit, places_.darts(place), left_);
+    if (!left_.empty() && change.apply(edit, view, places_.normal(place), left_)) return true;
+  }
+  return false;
+}
+
+std::span<const Dart> TearLaw::cell(std::size_t candidate) const {
+  return std::span(darts_).subspan(begin_[candidate], begin_[candidate + 1] - begin_[candidate]);
 }
 
 // The change of a candidate must not depend on whether an earlier change removed the cell's smallest dart.
@@ -83,6 +103,15 @@ void TearLaw::note_cells(const GMap& map) {
   for (const Candidate& candidate : candidates_) {
     collect(map, orbit, candidate.dart, darts_);
     begin_.push_back(darts_.size());
+  }
+}
+
+void TearLaw::note_places(const ForceView& view) {
+  places_.clear();
+  first_place_.assign(1, 0);
+  for (std::size_t n = 0; n < candidates_.size(); ++n) {
+    transfer_->find(view, candidates_[n], cell(n), places_);
+    first_place_.push_back(places_.count());
   }
 }
 

@@ -1,13 +1,16 @@
-// A fracture law: a criterion, a threshold and a change, combined freely if their cells fit (thesis 7.1).
+// A fracture law: a criterion, a threshold and a change, combined freely (thesis 7.1). Where the criterion
+// measures cells of another kind than the change acts on, transfer.h says at which.
 //
-// All candidates of a law are found on the unchanged map; then the changes are made in order, the largest value
-// first, ties by smallest dart, each checked again for being possible; and the embeddings are updated once.
+// All candidates of a law, and the places where they would change the map, are found on the unchanged map; then
+// the changes are made in order, the largest value first, ties by smallest dart, each checked again for being
+// possible; and the embeddings are updated once.
 #pragma once
 
 #include "sim/base/settings.h"
 #include "sim/fracture/change.h"
 #include "sim/fracture/criterion.h"
 #include "sim/fracture/fragment_counter.h"
+#include "sim/fracture/transfer.h"
 
 #include <limits>
 
@@ -26,9 +29,6 @@ struct LawSettings {
   // Found when it is put on a body.
   Cell cell = Cell::Borders; // of the criterion
   std::string unit = {};     // of the threshold
-
-  bool elementary() const { return criterion->elementary || change->elementary(cell); }
-  bool by_sums() const { return criterion->by_sums && !change->elementary(cell); }
 };
 
 template <> const Fields<LawSettings>& fields_of();
@@ -40,6 +40,10 @@ public:
   const LawSettings& settings() const { return settings_; }
   bool active(double time) const { return time >= settings_.from && time <= settings_.until; }
 
+  // Needs the forces of each element by itself; they are enough where ForceView::corner_buffer says so.
+  bool elementary() const { return settings_.criterion->elementary || transfer_->find; }
+  bool by_sums() const { return settings_.criterion->by_sums && !transfer_->find; }
+
   // The candidates above the threshold, sorted. Changes nothing.
   const std::vector<Candidate>& find(const ForceView& view);
 
@@ -50,16 +54,25 @@ public:
 
   void rebind(const Changes& changes) { criterion_->rebind(changes); }
   void reserve_for_separations() { criterion_->reserve_for_separations(); }
-  std::size_t bytes() const { return criterion_->bytes() + candidates_.capacity() * sizeof(Candidate); }
+  std::size_t bytes() const {
+    return criterion_->bytes() + candidates_.capacity() * sizeof(Candidate) + places_.bytes();
+  }
 
 private:
   void note_cells(const GMap& map);
+  void note_places(const ForceView& view);
+  std::span<const Dart> cell(std::size_t candidate) const;
+  bool change_at(Edit& edit, const ForceView& view, std::size_t candidate);
+
   LawSettings settings_;
+  const Transfer* transfer_;
   std::unique_ptr<Criterion> criterion_;
   std::vector<Candidate> candidates_;
   std::vector<Dart> darts_;        // of the candidates' cells before the edit, cell by cell
   std::vector<std::size_t> begin_; // first entry of each candidate in darts_
-  std::vector<Dart> left_;         // scratch: the darts of one cell that still exist
+  Places places_;                  // of all candidates, before the edit; empty if the cells are the places
+  std::vector<std::size_t> first_place_; // of each candidate in places_
+  std::vector<Dart> left_;               // scratch: the darts of one cell that still exist
 };
 
 } // namespace rend

@@ -49,7 +49,7 @@ CriterionType vertex_stress_criterion() {
       .what =
           "the largest principal value of the mean stress of the elements at the vertex; the plane across it",
       .unit = "Pa",
-      .cell = [](const CriterionRequest&) { return Cell::Vertices; },
+      .cell = [](std::string_view) { return Cell::Vertices; },
       .lacking = [](const CriterionRequest& request) { return lacking_for_stress(request); },
       .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
         return std::make_unique<VertexStressCriterion>(request);

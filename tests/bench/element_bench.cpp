@@ -1,5 +1,6 @@
 // Element kernels: nanoseconds per element and evaluation of forces, one thread.
 #include "sim/elements.h"
+#include "sim/fracture/pairs.h"
 #include "sim/presets.h"
 
 #include <benchmark/benchmark.h>
@@ -53,9 +54,10 @@ void corotational_step(benchmark::State& state, const std::string& criterion, bo
   LawSettings settings;
   for (const CriterionType& type : all_criteria())
     if (type.name == criterion) settings.criterion = &type;
-  settings.change = &all_changes().front();
   settings.threshold = 1e-12;
   if (settings.criterion) {
+    settings.cell = settings.criterion->cell("");
+    settings.change = &default_change(settings.cell);
     Body& body = scene.body();
     body.evaluate();
     TearLaw all(body.request_for(settings), settings);

@@ -4,6 +4,7 @@
 
 #include "sim/body/body.h"
 #include "sim/build/scene_types.h"
+#include "sim/fracture/pairs.h"
 #include "sim/mesh/sheet.h"
 
 #include <memory>
@@ -135,7 +136,10 @@ inline LawSettings law(const std::string& criterion, double threshold) {
   LawSettings settings;
   for (const CriterionType& type : all_criteria())
     if (type.name == criterion) settings.criterion = &type;
-  settings.change = &all_changes().front();
+  if (settings.criterion) {
+    settings.cell = settings.criterion->cell("");
+    settings.change = &default_change(settings.cell);
+  }
   settings.threshold = threshold;
   return settings;
 }

@@ -227,16 +227,13 @@ TEST(SplitVertex, makes_of_every_vertex_of_solids_as_many_fragments_as_lists_say
   }
 }
 
-TEST(Change, fits_the_cells_it_is_about_and_is_the_own_of_one) {
-  std::set<Cell> own;
+TEST(Change, acts_on_one_kind_of_cell_and_is_the_default_of_it) {
+  std::set<Cell> cells;
   for (const ChangeType& type : all_changes()) {
-    EXPECT_TRUE(own.insert(type.own).second) << type.name;
-    for (int dimension : {2, 3}) EXPECT_TRUE(type.fits(type.own, dimension)) << type.name;
+    EXPECT_TRUE(cells.insert(type.cell).second) << type.name;
+    EXPECT_EQ(default_change(type.cell).name, type.name);
   }
-  EXPECT_EQ(own.size(), 4u);
-  EXPECT_TRUE(change("separate").fits(Cell::Edges, 2));
-  EXPECT_FALSE(change("separate").fits(Cell::Edges, 3));
-  EXPECT_TRUE(change("split-vertex").fits(Cell::Edges, 3));
+  EXPECT_EQ(cells.size(), 4u);
 }
 
 } // namespace

@@ -120,7 +120,8 @@ void expect_measured(Body& body, const Asked& asked, const Values& expected) {
     settings.compression = asked.compression;
     const CriterionRequest request = body.request_for(settings);
     EXPECT_EQ(settings.criterion->lacking(request), "");
-    settings.cell = settings.criterion->cell(request);
+    settings.cell = settings.criterion->cell(settings.kind);
+    settings.change = &default_change(settings.cell);
     TearLaw law(request, settings);
     expect_found(body, law, expected);
   }

@@ -6,6 +6,7 @@
 #include "sim/boundary/solids.h"
 #include "sim/boundary/surface.h"
 #include "sim/elements.h"
+#include "sim/fracture/pairs.h"
 #include "sim/fracture/tear_law.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
@@ -46,7 +47,7 @@ template <Cell C> const CriterionType& chance() {
   static const CriterionType type{.name = "chance",
                                   .what = "anything",
                                   .unit = "",
-                                  .cell = [](const CriterionRequest&) { return C; },
+                                  .cell = [](std::string_view) { return C; },
                                   .lacking = [](const CriterionRequest&) { return std::string(); },
                                   .make = [](const CriterionRequest& r) -> std::unique_ptr<Criterion> {
                                     return std::make_unique<RandomCriterion<C>>(r);
@@ -85,11 +86,11 @@ inline void watch(Body& body) {
   for (const CriterionType& type : all_criteria()) {
     LawSettings law;
     law.criterion = &type;
-    law.change = &all_changes().front();
     if (type.name == "atomic-spring") law.kind = "stretch";
     const CriterionRequest request = body.request_for(law);
     if (!type.lacking(request).empty()) continue;
-    law.cell = type.cell(request);
+    law.cell = type.cell(law.kind);
+    law.change = &default_change(law.cell);
     law.threshold = 1e-3;
     law.from = 1e9;
     body.tear_laws.emplace_back(request, law);
@@ -149,8 +150,21 @@ inline bool make(Body& body, const std::string& name, Cell cell, const Candidate
                  std::vector<Dart> darts) {
   bool made = false;
   const ForceView view = body.view();
+  const ChangeType& type = change(name);
+  const int dimension = body.map->dimension();
   std::erase_if(darts, [&](Dart d) { return !body.map->map().alive(d); });
-  body.map->edit([&](Edit& edit) { made = change(name).apply(edit, view, cell, candidate, darts); });
+  Places places;
+  if (const auto find = transfer(cell, type.cell, dimension).find)
+    find(view, candidate, darts, places);
+  else
+    places.add(darts, candidate.normal);
+  body.map->edit([&](Edit& edit) {
+    for (std::size_t n = 0; n < places.count() && !made; ++n) {
+      std::vector<Dart> at(places.darts(n).begin(), places.darts(n).end());
+      if (type.cell != cell) grown(edit.map(), orbit_of(type.cell, dimension), places.darts(n), at);
+      made = type.apply(edit, view, places.normal(n), at);
+    }
+  });
   body.rebind();
   return made;
 }
