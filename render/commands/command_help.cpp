@@ -1,10 +1,11 @@
-// rend help: commands, the preset's vocabulary and schema, the manual, and completions.
+// rend help: commands, the preset's vocabulary and schema, where laws tear, the manual, and completions.
 #include "render/commands/command.h"
 #include "render/console/console.h"
 #include "render/help/completion.h"
 #include "render/help/help.h"
 #include "render/help/manual.h"
 #include "render/help/schema.h"
+#include "render/help/tear_table.h"
 #include "render/help/usage.h"
 #include "render/picture/scene_preset.h"
 #include "render/report/machine.h"
@@ -25,7 +26,7 @@ struct HelpOptions {
 };
 
 const std::vector<std::string>& topics() {
-  static const std::vector<std::string> all{"preset", "schema", "man", "completion"};
+  static const std::vector<std::string> all{"preset", "tear", "schema", "man", "completion"};
   return all;
 }
 
@@ -66,6 +67,7 @@ std::string page(const CLI::App& root, const HelpOptions& options) {
     const auto element = options.element.empty() ? std::nullopt : std::optional(options.element);
     return help_preset(scene_type(), element, wants_colour(stdout));
   }
+  if (options.topic == "tear") return tear_table(wants_colour(stdout));
   if (options.topic == "schema") return schema(scene_type());
   if (options.topic == "man") return man_page(root, !options.element.empty());
   if (options.topic == "completion") return completion(root, options.element);
@@ -84,7 +86,8 @@ Exit help(const CLI::App& root, const HelpOptions& options) {
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<HelpOptions>();
   app.add_option("topic", options->topic,
-                 "preset: what a preset may hold; schema: the same as an XML schema; man: the manual, for man; "
+                 "preset: what a preset may hold; tear: every criterion with every change; schema: the same as "
+                 "an XML schema; man: the manual, for man; "
                  "completion: a script for a shell; or a command")
       ->type_name(choices(topics()) + "|COMMAND");
   app.add_option("element", options->element,

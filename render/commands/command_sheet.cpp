@@ -1,4 +1,5 @@
-// rend sheet: a contact sheet, one row a preset: how it starts, tears and ends.
+// rend sheet: a contact sheet, one row a preset: how it starts, tears and ends; or the ends of many presets side by
+// side.
 #include "render/clip/named_files.h"
 #include "render/clip/session.h"
 #include "render/commands/command.h"
@@ -24,22 +25,39 @@
 namespace rend {
 namespace {
 
-constexpr int columns = 3;
-constexpr int gap = 6; // [pixels]
+constexpr int moments = 3; // that are shown of a preset
+constexpr int gap = 6;     // [pixels]
 
 struct SheetOptions {
   SessionOptions session;
   std::vector<std::string> presets;
   std::string file, size;
+  int ends = 0; // pictures in a row, of the ends of so many presets; 0: a row shows one preset at three moments
 };
+
+// Which pictures there are, and where each stands.
+struct Layout {
+  int columns, shown; // pictures in a row, and of a preset
+  int rows;
+  int column(std::size_t preset, int k) const { return shown == 1 ? static_cast<int>(preset) % columns : k; }
+  int row(std::size_t preset) const { return static_cast<int>(preset) / (shown == 1 ? columns : 1); }
+};
+Layout layout_of(const SheetOptions& options) {
+  const int presets = static_cast<int>(options.presets.size());
+  if (options.ends == 0) return {moments, moments, presets};
+  const int columns = std::min(options.ends, presets);
+  return {columns, 1, (presets + columns - 1) / columns};
+}
 
 // The three frames of a row, chosen while the clip runs: the first; the one a twentieth of the clip after the
 // first tear (the middle one if nothing has torn by then); the last.
 class Row {
 public:
-  explicit Row(long frames) : middle_(frames / 2), last_(frames - 1), lag_(frames / 20) {}
+  Row(long frames, bool end_alone)
+      : end_alone_(end_alone), middle_(frames / 2), last_(frames - 1), lag_(frames / 20) {}
 
   bool wants(long frame, bool torn) {
+    if (end_alone_) return frame == last_;
     if (torn && !tear_) tear_ = std::min(frame + lag_, last_);
     return frame == 0 || frame == last_ || frame == middle_ || frame == tear_;
   }
@@ -48,12 +66,14 @@ public:
     if (frame == (tear_ ? *tear_ : middle_)) frames_[1] = picture;
     if (frame == last_) frames_[2] = picture;
   }
-  const std::array<Frame, columns>& frames() const { return frames_; }
+  // The k-th of those that are shown.
+  const Frame& shown(int k) const { return frames_[static_cast<std::size_t>(end_alone_ ? moments - 1 : k)]; }
 
 private:
+  bool end_alone_;
   long middle_, last_, lag_;
   std::optional<long> tear_;
-  std::array<Frame, columns> frames_;
+  std::array<Frame, moments> frames_;
 };
 
 Exit run(Session& session, double aspect, Row& row) {
@@ -91,42 +111,47 @@ Exit make_sheet(const SheetOptions& options) {
     files.reads("the preset", preset);
     files.reads_files(*load_scene(preset, {})); // reports a bad preset before anything slow
   }
-  Image sheet(columns * (size.width + gap) - gap,
-              static_cast<int>(options.presets.size()) * (size.height + gap) - gap);
+  const Layout layout = layout_of(options);
+  Image sheet(layout.columns * (size.width + gap) - gap, layout.rows * (size.height + gap) - gap);
   std::fill(sheet.pixels.begin(), sheet.pixels.end(), std::uint8_t{255});
   for (std::size_t n = 0; n < options.presets.size(); ++n) {
     SessionOptions one = options.session;
     one.preset = options.presets[n];
     Session session(one);
-    Row row(session.clock().frames());
+    Row row(session.clock().frames(), layout.shown == 1);
     const Exit end = run(session, static_cast<double>(size.width) / size.height, row);
     if (end != Exit::Done) return end;
     const auto device = make_device();
     Renderer renderer(size.width, size.height, session.image().samples);
-    for (int k = 0; k < columns; ++k) {
-      Frame frame = row.frames()[static_cast<std::size_t>(k)];
+    for (int k = 0; k < layout.shown; ++k) {
+      Frame frame = row.shown(k);
       frame.transparent = false; // the sheet itself is opaque
       renderer.draw(frame);
-      paste(renderer.read(), k * (size.width + gap), static_cast<int>(n) * (size.height + gap), sheet);
+      paste(renderer.read(), layout.column(n, k) * (size.width + gap), layout.row(n) * (size.height + gap),
+            sheet);
     }
   }
   const GracefulStop graceful_stop;
   write_png(file, sheet);
   sync_folder(file.parent_path());
   if (!options.session.quiet)
-    print_result(fmt::format("{}: {} row{} of {} pictures\n", printable(options.file), options.presets.size(),
-                             options.presets.size() == 1 ? "" : "s", columns));
+    print_result(fmt::format("{}: {} row{} of {} picture{}\n", printable(options.file), layout.rows,
+                             layout.rows == 1 ? "" : "s", layout.columns, layout.columns == 1 ? "" : "s"));
   return Exit::Done;
 }
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<SheetOptions>();
-  app.add_option("presets", options->presets, "one row each")->required()->type_name("PRESET...");
+  app.add_option("presets", options->presets, "one row each; with --ends one picture each")
+      ->required()
+      ->type_name("PRESET...");
   app.add_option("-o,--output", options->file, "the picture to write")->required()->type_name("FILE.png");
   app.add_option("--size", options->size, "of each picture in pixels")
       ->type_name("WxH")
       ->check(some_word())
       ->default_val("480x270");
+  app.add_option("--ends", options->ends, "one picture of each preset, its end, and so many in a row")
+      ->transform(whole_number(1, 64));
   app.add_option("--threads", options->session.threads, "threads; default: all that the machine has")
       ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->session.quiet, "no progress and no notes");

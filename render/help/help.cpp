@@ -1,5 +1,6 @@
 #include "render/help/help.h"
 
+#include "render/help/folding.h"
 #include "render/help/table.h"
 
 #include <algorithm>
@@ -22,28 +23,6 @@ private:
     return colour ? fmt::format("{}{}\033[0m", code, text) : std::string(text);
   }
 };
-
-// Width of UTF-8 text in terminal columns; assumes no double-width characters.
-std::size_t width(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(
-      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-// Wraps `text` at blanks into lines that fit with an indent of `indent` columns.
-std::vector<std::string> folded(std::string_view text, std::size_t indent) {
-  std::vector<std::string> lines(1);
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (word.empty()) continue;
-    if (!lines.back().empty() && indent + width(lines.back()) + 1 + width(word) > page_width)
-      lines.emplace_back();
-    if (!lines.back().empty()) lines.back() += ' ';
-    lines.back() += word;
-  }
-  return lines;
-}
 
 std::string multiplicity(int at_least, int at_most) {
   if (at_least == 1 && at_most == 1) return "exactly one";
@@ -69,11 +48,11 @@ void print_attributes(const ElementType& type, const Style& style, std::string& 
   for (const AttributeType& attribute : type.attributes) {
     out += "    " + style.strong(attribute.name) + std::string(longest + 2 - width(attribute.name), ' ');
     std::string gap;
-    for (const std::string& line : folded(attribute.what, indent)) {
+    for (const std::string& line : folded(attribute.what, page_width - indent)) {
       out += gap + line + '\n';
       gap.assign(indent, ' ');
     }
-    for (const std::string& line : folded(value_of(attribute), indent))
+    for (const std::string& line : folded(value_of(attribute), page_width - indent))
       out += std::string(indent, ' ') + style.faint(line) + '\n';
   }
 }
@@ -84,7 +63,7 @@ void print_entry(const TableEntry& entry, const Style& style, std::string& out) 
     const std::string count = is_root ? "the root" : multiplicity(place.at_least, place.at_most);
     out += style.strong(place.path) + style.faint("  (" + count + ")") + '\n';
   }
-  for (const std::string& line : folded(entry.type->what, 2)) out += "  " + line + '\n';
+  for (const std::string& line : folded(entry.type->what, page_width - 2)) out += "  " + line + '\n';
   if (!entry.type->attributes.empty()) {
     out += "  Attributes:\n";
     print_attributes(*entry.type, style, out);
@@ -98,7 +77,7 @@ void print_entry(const TableEntry& entry, const Style& style, std::string& out) 
     const std::string what =
         fmt::format("{} ({})", child.type->what, multiplicity(child.at_least, child.at_most));
     std::string gap;
-    for (const std::string& line : folded(what, 4 + longest + 2)) {
+    for (const std::string& line : folded(what, page_width - (4 + longest + 2))) {
       out += gap + line + '\n';
       gap.assign(4 + longest + 2, ' ');
     }
@@ -128,7 +107,7 @@ std::string help_preset(const ElementType& root, const std::optional<std::string
   const std::vector<TableEntry> entries = table_entries(root);
   std::string out;
   if (!element) {
-    for (const std::string& line : folded(introduction(root), 0)) out += line + '\n';
+    for (const std::string& line : folded(introduction(root), page_width)) out += line + '\n';
   }
   bool found = false;
   for (const TableEntry& entry : entries) {
