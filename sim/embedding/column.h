@@ -27,6 +27,7 @@
 // parents, wherever parents are found: how, and what their weights mean, is told in inheritance.h. The dart is
 // the smallest of the orbit; the map is as after the edit, with slots and rest positions; the values are those
 // from before. Without parents, and in all other edits, there is birth().
+#pragma once
 
 #include "sim/base/record.h"
 #include "sim/embedding/cell_index.h"
