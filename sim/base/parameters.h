@@ -141,6 +141,7 @@ public:
   void check_complete() const; // required attributes, numbers of children; of this element and its descendants
 
 private:
+  bool may_have(std::string_view attribute) const; // its type lists it, or takes any
   struct Value : AttributeValue {
     bool given = false;
     Place place;

@@ -156,13 +156,17 @@ struct PresetNode::Reading {
 PresetNode::PresetNode(const ElementType& type, Place place) : type_(&type), place_(std::move(place)) {}
 
 const Place& PresetNode::place(std::string_view attribute) const {
-  CHECK_NOTE(type_->find(attribute), fmt::format("{} of <{}>", attribute, name()));
+  CHECK_NOTE(may_have(attribute), fmt::format("{} of <{}>", attribute, name()));
   const auto found = values_.find(attribute);
   return found != values_.end() && found->second.given ? found->second.place : place_;
 }
 
+bool PresetNode::may_have(std::string_view attribute) const {
+  return type_->find(attribute) || !type_->further.empty();
+}
+
 bool PresetNode::has(std::string_view attribute) const {
-  CHECK_NOTE(type_->find(attribute), fmt::format("{} of <{}>", attribute, name()));
+  CHECK_NOTE(may_have(attribute), fmt::format("{} of <{}>", attribute, name()));
   return values_.find(attribute) != values_.end();
 }
 

@@ -1,6 +1,7 @@
 #include "sim/build/build_laws.h"
 
 #include "sim/fracture/pairs.h"
+#include "sim/fracture/rule_change.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +10,17 @@
 namespace rend {
 namespace {
 
+void take_rule(LawSettings& law, const RuleBook& rules, int dimension) {
+  if (law.change) law.source.fail("rule", "<tear> has both a change and a rule", "give one of them");
+  const std::shared_ptr<const Rule> rule = find_rule(rules, law.rule, law.source, "rule");
+  if (const std::string misfit = misfit_of(*rule, dimension); !misfit.empty())
+    law.source.fail("rule", fmt::format("rule '{}' {}", rule->name(), misfit));
+  law.by_rule = change_by(rule, dimension);
+  law.change = law.by_rule.get();
+}
+
 // With what is found on the body.
-LawSettings completed(LawSettings law, const Body& body) {
+LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) {
   check_settings(law);
   const SettingsSource& source = law.source;
   if (!law.kind.empty() && law.criterion->kinds.empty())
@@ -23,6 +33,7 @@ LawSettings completed(LawSettings law, const Body& body) {
   const CriterionRequest request = body.request_for(law);
   const NamedCriterion criterion{law.criterion, law.kind};
   law.cell = criterion.cell();
+  if (!law.rule.empty()) take_rule(law, rules, request.map.dimension());
   if (!law.change) law.change = &default_change(law.cell);
   if (const std::string refusal = pair_of(criterion, *law.change, request.map.dimension()).refusal;
       !refusal.empty())
@@ -62,8 +73,9 @@ void build_laws(Body& body, const BodySettings& settings) {
         "every step");
   body.border = &body.map->add(InitialBorder(body.map->dimension()));
   for (const LawSettings& asked : settings.tears) {
-    const LawSettings law = completed(asked, body);
+    const LawSettings law = completed(asked, body, settings.rules);
     body.tear_laws.emplace_back(body.request_for(law), law);
+    if (law.change->grows) body.map->let_grow();
     if (!body.tear_laws.back().elementary() || body.cumulated != Cumulated::Yes) continue;
     law.source.fail(law.criterion->elementary ? "criterion" : "change",
                     law.criterion->elementary

@@ -202,6 +202,10 @@ void EmbeddedMap::publish(Closing& closing) {
   for (Changes* changes : readers_) changes->any = true;
 }
 
+Edit::Edit(GMap& map, Journal& journal, EmbeddedMap& embedded) : MapEdit(map, &journal), embedded_(embedded) {
+  for (const auto& column : embedded.columns()) inherits_ = inherits_ || column->inheritance();
+}
+
 std::uint32_t Edit::add_point(const Point& point) {
   points_.push_back(point);
   return static_cast<std::uint32_t>(points_.size() - 1);

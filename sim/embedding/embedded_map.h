@@ -162,7 +162,7 @@ private:
 // An open edit.
 class Edit : public MapEdit {
 public:
-  Edit(GMap& map, Journal& journal, EmbeddedMap& embedded) : MapEdit(map, &journal), embedded_(embedded) {}
+  Edit(GMap& map, Journal& journal, EmbeddedMap& embedded);
 
   // The point of the vertex of d, if it turns out to be a new vertex: one without darts from before the edit.
   // If several darts of a new vertex are given points, that of the smallest dart counts; of two points given to
@@ -192,6 +192,9 @@ public:
   // edit. CHECK: the weights sum up to 1.
   void inherit(Dart child, Orbit orbit, std::span<const Parent> parents);
 
+  // Whether some embedding inherits, so that recording parents is of use.
+  bool inherits() const { return inherits_; }
+
   // The same in two steps, for many children with the same parents.
   std::uint32_t add_family(Orbit orbit, std::span<const Parent> parents);
   void inherit(Dart child, Orbit orbit, std::uint32_t family) { lineage().assign(child, orbit, family); }
@@ -212,6 +215,7 @@ private:
   IndexMap given_;                                             // dart → index in points_
   std::vector<std::pair<std::uint32_t, std::uint32_t>> gifts_; // darts, and what each had been given before
   std::vector<std::pair<Dart, Point>> moves_;
+  bool inherits_ = false;
   Lineage& lineage();
   std::unique_ptr<Lineage> lineage_; // null: no parents were recorded
 };

@@ -1,13 +1,14 @@
 // Topological changes: what a law does when its criterion exceeds the threshold (thesis 7.3; sim/README.md,
 // "Tearing").
 //
-// Every change is composed of one operation, the separation of two elements. Embeddings are updated by their
-// own policies. To add one: a file with a function `ChangeType my_change()`, and its name in all_changes().
+// Every change of this list is composed of one operation, the separation of two elements; rules are changes as well
+// (rule_change.h). Embeddings are updated by their own policies. To add one: a file with a function `ChangeType my_change()`, and its name in all_changes().
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
 #include "sim/fracture/criterion.h"
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,7 +22,8 @@ struct ChangeType {
   // Applies the change if it is still possible; false: it was not, and nothing changed. Slots and positions are
   // those before the edit, links the current ones. `darts`: those of the cell, without removed ones; the cell
   // may have been split since. `normal`: of the plane along which a vertex would be split.
-  bool (*apply)(Edit&, const ForceView&, const Vec3& normal, std::span<const Dart> darts);
+  std::function<bool(Edit&, const ForceView&, const Vec3& normal, std::span<const Dart> darts)> apply;
+  bool grows = false; // it may create darts and links (rule_change.h); the others separate and remove elements
 };
 
 const std::vector<ChangeType>& all_changes();

@@ -57,7 +57,7 @@ private:
   void forget();
   void settle_grown(std::size_t pieces, std::span<TearEvent> events);
 
-  std::optional<long> before_; // components before the step, if something grows in it
+  std::optional<long> before_;           // components before the step, if something grows in it
   std::array<std::size_t, 4> touched_{}; // how much of the journal's lists was read
   std::size_t removed_read_ = 0;
   std::vector<Undoing> changes_;             // one per change noted

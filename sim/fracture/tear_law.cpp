@@ -35,6 +35,7 @@ template <> const Fields<LawSettings>& fields_of() {
             "what is done, any with any criterion (rend help tear says where); default: that of the cell which "
             "the criterion measures; " +
                 told(all_changes())),
+      field(&S::rule, text("rule", "a rule of the scene or of the house, instead of a change: rend rule list")),
       field(&S::from, number("from", "s", "not before").at_least(0)),
       field(&S::until, number("until", "s", "not after").at_least(0)),
       field(&S::max_per_step, integer("max-per-step", "the worst so many a step; 0: all").at_least(0))};
@@ -60,7 +61,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
   if (transfer_->find) note_places(view);
   int made = 0;
   map.edit([&](Edit& edit) {
-    if (fragment_counter) fragment_counter->begin();
+    if (fragment_counter) fragment_counter->begin(settings_.change->grows ? &map.map() : nullptr);
     for (std::size_t n = 0; n < candidates_.size(); ++n) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
       if (!change_at(edit, view, n)) continue;

@@ -13,6 +13,7 @@
 #include "sim/fracture/transfer.h"
 
 #include <limits>
+#include <memory>
 
 namespace rend {
 
@@ -22,13 +23,15 @@ struct LawSettings {
   std::string kind = {};                    // of springs: CriterionRequest
   bool compression = false;
   const ChangeType* change = nullptr; // one of all_changes(); null: that of the criterion's cell
+  std::string rule = {};              // instead of a change: the name of a rule; empty: none
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   int max_per_step = 0;                                             // 0: any number
   SettingsSource source = {};
 
   // Found when it is put on a body.
-  Cell cell = Cell::Borders; // of the criterion
-  std::string unit = {};     // of the threshold
+  Cell cell = Cell::Borders;                      // of the criterion
+  std::string unit = {};                          // of the threshold
+  std::shared_ptr<const ChangeType> by_rule = {}; // what `change` is then
 };
 
 template <> const Fields<LawSettings>& fields_of();

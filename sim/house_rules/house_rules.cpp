@@ -27,6 +27,7 @@ std::vector<RuleSettings> house_settings() {
           star_face_both_sides(),
           star_volume(),
           halve_quad(),
+          halve_triangles(),
           quarter_faces(),
           divide_volumes(),
           halve_tetrahedra(),

@@ -43,6 +43,7 @@ RuleSettings star_face();
 RuleSettings star_face_both_sides();
 RuleSettings star_volume();
 RuleSettings halve_quad();
+RuleSettings halve_triangles();
 RuleSettings quarter_faces();
 RuleSettings divide_volumes();
 RuleSettings halve_tetrahedra();

@@ -72,6 +72,8 @@ void Rewriter::place(const RuleValues& values, int node) {
     if (point_[index(k, node)] != no_point) continue;
     if (set < 0) {
       point_[index(k, node)] = edit_.add_point(edit_.point(match_.dart(k, kept)));
+      if (edit_.inherits())
+        family_of_[index(k, node)] = edit_.add_family(Vertex, std::array{Parent{match_.dart(k, kept), 1}});
       continue;
     }
     const Rule::Set& values_of = rule_.sets[static_cast<std::size_t>(set)];
@@ -79,7 +81,7 @@ void Rewriter::place(const RuleValues& values, int node) {
     const Point point = values.moved(values_of, k, was);
     if (kept >= 0) {
       edit_.move(match_.dart(k, kept), point);
-    } else {
+    } else if (edit_.inherits()) {
       values.parents(values_of, k, parents_);
       family_ = parents_.empty() ? no_family : edit_.add_family(Vertex, parents_);
     }
@@ -117,7 +119,7 @@ void Rewriter::run() {
     for (std::size_t k = 0; k < match_.instances; ++k)
       if (const Dart d = match_.dart(k, node); !edit_.map().is_free(i, d)) edit_.unlink(i, d);
   create();
-  if (rule_.creates()) record_elements(); // before darts of parents may be removed
+  if (rule_.creates() && edit_.inherits()) record_elements(); // before darts of parents may be removed
   for (int node : rule_.plan.removed)
     for (std::size_t k = 0; k < match_.instances; ++k) edit_.remove_dart(match_.dart(k, node));
   for (const RulePlan::Link& each : rule_.plan.links) link(each);

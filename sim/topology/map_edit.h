@@ -44,7 +44,7 @@ public:
   const GMap& map() const { return map_; }
   const Journal* journal() const { return journal_; } // null: no journal
 
-  Dart add_dart();                  // free in all its links
+  Dart add_dart();                  // free in all its links; none that this edit has removed
   void remove_dart(Dart d);         // CHECK: free in all its links
   void link(int i, Dart a, Dart b); // αi(a) = b, αi(b) = a. CHECK: both αi-free
   void unlink(int i, Dart a);       // a and αi(a) become αi-free. CHECK: a is not free
