@@ -96,7 +96,7 @@ public:
     if (match_.nodes == 0) return {};
     if (Mismatch mismatch = look_at_hooks(hooks)) return mismatch;
     walk_hooks(hooks);
-    follow_steps();
+    if (Mismatch mismatch = follow_steps()) return mismatch;
     for (const RulePlan::Test& test : plan_.tests)
       if (Mismatch mismatch = ask(test)) return mismatch;
     return rule_.settings.may_fold ? Mismatch{} : overlap();
@@ -116,7 +116,7 @@ private:
         if (test.kind == Kind::Loop && !free)
           return {Mismatch::Kind::NotFree,        test.node, test.link, hooks[h], hooks[h],
                   map_.alpha(test.link, hooks[h])};
-        if (test.kind == Kind::Arc && free && !rule_.settings.may_fold)
+        if (test.kind == Kind::Arc && free)
           return {Mismatch::Kind::Free, test.node, test.link, hooks[h], {}, {}};
       }
     return {};
@@ -145,11 +145,16 @@ private:
     }
   }
 
-  void follow_steps() {
-    if (plan_.steps.empty()) return;
+  // An arc leads to another dart, even where the rule may fold.
+  Mismatch follow_steps() {
+    if (plan_.steps.empty()) return {};
     for (std::size_t k = 0; k < match_.instances; ++k)
-      for (const RulePlan::Step& step : plan_.steps)
-        dart(k, step.node) = map_.alpha(step.link, dart(k, step.from));
+      for (const RulePlan::Step& step : plan_.steps) {
+        const Dart from = dart(k, step.from), to = map_.alpha(step.link, from);
+        if (to == from) return {.kind = Mismatch::Kind::Free, .node = step.from, .link = step.link, .dart = from};
+        dart(k, step.node) = to;
+      }
+    return {};
   }
 
   Mismatch ask(const RulePlan::Test& test) {
@@ -158,8 +163,10 @@ private:
       const Dart wanted =
           test.kind == Kind::Implicit ? dart(match_.neighbour(k, test.to), test.node) : dart(k, test.to);
       const Dart is = map_.alpha(test.link, d);
-      if (is == wanted) continue;
-      const Mismatch::Kind kind = test.kind == Kind::Loop ? Mismatch::Kind::NotFree
+      const bool free_arc = test.kind == Kind::Arc && is == d;
+      if (is == wanted && !free_arc) continue;
+      const Mismatch::Kind kind = free_arc                  ? Mismatch::Kind::Free
+                                  : test.kind == Kind::Loop ? Mismatch::Kind::NotFree
                                   : test.kind == Kind::Implicit && rule_.left[test.node].hook
                                       ? Mismatch::Kind::NotIsomorphic
                                       : Mismatch::Kind::OtherDart;
