@@ -13,21 +13,17 @@
 namespace rend {
 namespace {
 
-bool is_word(const std::string& name) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  return !name.empty() && letter(name[0]) && name != "and" && name != "or" && name != "not" &&
-         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
-}
-
 void check_vocabulary(const std::vector<ExpressionFunction>& vocabulary) {
+  std::vector<std::string_view> names;
   for (const ExpressionFunction& one : vocabulary) {
-    const auto same = [&](const ExpressionFunction& other) { return other.name == one.name; };
-    CHECK_NOTE(is_word(one.name), one.name);
-    CHECK_NOTE(std::ranges::count_if(vocabulary, same) == 1, one.name);
-    CHECK_NOTE(!std::ranges::any_of(built_ins(), same, &BuiltIn::declared), one.name);
+    CHECK_NOTE(may_name(one.name), one.name);
     CHECK_NOTE(one.optional <= one.arguments.size() && one.arguments.size() <= 100, one.name);
     CHECK_NOTE(one.result != ValueType::Name, one.name);
+    names.push_back(one.name);
   }
+  std::ranges::sort(names);
+  const auto twice = std::ranges::adjacent_find(names);
+  CHECK_NOTE(twice == names.end(), std::string(*twice));
 }
 
 bool is_finite(const Value& value) {
@@ -46,6 +42,13 @@ std::string shown(const Value& value, ValueType type) {
 ExpressionError::ExpressionError(std::size_t column_, const std::string& flaw_, const std::string& hint_)
     : std::runtime_error(fmt::format("column {}: {}", column_, flaw_)), column(column_), flaw(flaw_),
       hint(hint_) {}
+
+bool may_name(std::string_view name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !name.empty() && letter(name[0]) && name != "and" && name != "or" && name != "not" &&
+         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); }) &&
+         std::ranges::none_of(built_ins(), [&](const BuiltIn& one) { return one.declared.name == name; });
+}
 
 std::string signature(const ExpressionFunction& function) {
   if (function.arguments.empty()) return function.name;

@@ -151,7 +151,8 @@ private:
     for (std::size_t k = 0; k < match_.instances; ++k)
       for (const RulePlan::Step& step : plan_.steps) {
         const Dart from = dart(k, step.from), to = map_.alpha(step.link, from);
-        if (to == from) return {.kind = Mismatch::Kind::Free, .node = step.from, .link = step.link, .dart = from};
+        if (to == from)
+          return {.kind = Mismatch::Kind::Free, .node = step.from, .link = step.link, .dart = from};
         dart(k, step.node) = to;
       }
     return {};

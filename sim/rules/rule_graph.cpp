@@ -78,6 +78,8 @@ private:
            at_ == text_.size() ? "a node's name is missing at the end"
                                : fmt::format("{} begins no node's name", in_quotes(text_.substr(at_, 1))),
            "items are nodes a(0,1), arcs a-2-b and free links a|3, separated by blanks");
+    if (at_ - first > RuleGraph::longest_name)
+      fail(first + 1, fmt::format("the name of a node is longer than {} characters", RuleGraph::longest_name));
     return std::string(text_.substr(first, at_ - first));
   }
 

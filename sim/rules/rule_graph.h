@@ -56,6 +56,7 @@ struct RuleFault : std::runtime_error {
 
 struct RuleGraph {
   static constexpr std::size_t longest = 32768; // characters of a text
+  static constexpr std::size_t longest_name = 50;
   static constexpr std::size_t most_nodes = 1000;
 
   std::vector<RuleNode> nodes;

@@ -1,9 +1,8 @@
 #include "sim/boundary/surface.h"
 
+#include "sim/assets.h"
 #include "sim/brute_force.h"
 #include "sim/presets.h"
-#include "sim/house_rules/house_rules.h"
-#include "sim/rules/apply.h"
 
 #include <gtest/gtest.h>
 

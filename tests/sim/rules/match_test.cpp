@@ -57,9 +57,8 @@ TEST(Match, says_which_link_is_not_free) {
 
 TEST(Match, says_which_link_is_free) {
   const auto body = assets::single_quad();
-  EXPECT_EQ(
-      reason("unsew-edge", *body, Dart{0u}),
-      "\"unsew-edge\" does not apply: node a: dart 0 is α2-free, and the rule needs a neighbour there");
+  EXPECT_EQ(reason("unsew-edge", *body, Dart{0u}),
+            "\"unsew-edge\" does not apply: node a: dart 0 is α2-free, and the rule needs a neighbour there");
   EXPECT_EQ(
       reason("remove-inner-face", *body, Dart{0u}),
       "\"remove-inner-face\" does not apply: node a: dart 0 is α2-free, and the rule needs a neighbour there");

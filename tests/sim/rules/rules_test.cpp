@@ -77,8 +77,9 @@ assets::Body uneven_grid() {
 }
 
 TEST(Rules, any_dart_of_the_hooks_orbit_gives_the_same_map_and_the_same_points) {
-  for (const Rule* each : {&rule("star-face"), &rule("insert-vertex"), &rule("quarter-faces"), &rule("unsew-edge"),
-                           &rule("remove-inner-face"), &rule("halve-quad"), &rule("move"), &rule("duplicate")}) {
+  for (const Rule* each :
+       {&rule("star-face"), &rule("insert-vertex"), &rule("quarter-faces"), &rule("unsew-edge"),
+        &rule("remove-inner-face"), &rule("halve-quad"), &rule("move"), &rule("duplicate")}) {
     // All darts of the hook's orbit, and those that an automorphism of the graph exchanges with them.
     const bool edge = each->name() == "unsew-edge", quad = each->name() == "halve-quad";
     const Orbit orbit = edge ? EdgeOfFace : quad ? SingleDart : each->hook_orbit();
@@ -287,8 +288,9 @@ TEST(SewAndUnsew, a_face_that_is_sewn_to_itself_is_unsewn_as_by_the_operator) {
       const auto faces = assets::add_cube(edit, place, Vec3::Zero());
       const Dart a = faces[static_cast<std::size_t>(i)];
       // Of the same face: the dart on the far side of its corner or of its edge.
-      const Dart b = i == 0 && j == 1 ? map.alpha(1, a) : i == 0 ? map.alpha(0, a)
-                                                                 : faces[static_cast<std::size_t>(j)];
+      const Dart b = i == 0 && j == 1 ? map.alpha(1, a)
+                     : i == 0         ? map.alpha(0, a)
+                                      : faces[static_cast<std::size_t>(j)];
       EXPECT_TRUE(sew(edit, 3, a, b));
       return std::make_unique<EmbeddedMap>(std::move(map), [](Dart) { return Point{}; });
     };
