@@ -50,7 +50,8 @@ Orbit orbit_of_call(const ExpressionCall& call) {
   case RuleFunction::Size:
     return call.names.size() > 1 ? *find_orbit(call.names[1]) : Vertex;
   case RuleFunction::Along:
-    return call.names[1] == "normal" ? Vertex : call.names[1] == "face" ? VertexOfFaceBothSides : EdgeEnd;
+    // Seen from the two sides of a face in a solid, its normals are opposite.
+    return call.names[1] == "normal" ? Vertex : call.names[1] == "face" ? VertexOfFace : EdgeEnd;
   case RuleFunction::LengthOf:
     return Edge;
   case RuleFunction::AreaOf:

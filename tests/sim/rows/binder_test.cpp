@@ -1,9 +1,8 @@
 // Incremental = from scratch: after every edit, all that depends on the map equals what is built from scratch.
+#include "sim/assets.h"
 #include "sim/boundary/surface.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
-#include "sim/house_rules/house_rules.h"
-#include "sim/rules/apply.h"
 #include "sim/topology/walk.h"
 
 #include <gtest/gtest.h>
