@@ -13,6 +13,14 @@
 namespace rend {
 namespace {
 
+// A word that is neither a keyword nor a built-in function.
+bool may_name(std::string_view name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !name.empty() && letter(name[0]) && name != "and" && name != "or" && name != "not" &&
+         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); }) &&
+         std::ranges::none_of(built_ins(), [&](const BuiltIn& one) { return one.declared.name == name; });
+}
+
 void check_vocabulary(const std::vector<ExpressionFunction>& vocabulary) {
   std::vector<std::string_view> names;
   for (const ExpressionFunction& one : vocabulary) {
@@ -42,13 +50,6 @@ std::string shown(const Value& value, ValueType type) {
 ExpressionError::ExpressionError(std::size_t column_, const std::string& flaw_, const std::string& hint_)
     : std::runtime_error(fmt::format("column {}: {}", column_, flaw_)), column(column_), flaw(flaw_),
       hint(hint_) {}
-
-bool may_name(std::string_view name) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  return !name.empty() && letter(name[0]) && name != "and" && name != "or" && name != "not" &&
-         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); }) &&
-         std::ranges::none_of(built_ins(), [&](const BuiltIn& one) { return one.declared.name == name; });
-}
 
 std::string signature(const ExpressionFunction& function) {
   if (function.arguments.empty()) return function.name;

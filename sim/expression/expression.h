@@ -54,9 +54,6 @@ struct ExpressionFunction {
   std::size_t optional = 0;             // how many arguments at the end may be left out
 };
 
-// Whether such a function may have this name.
-bool may_name(std::string_view name);
-
 // "lerp(name, name, scalar)", "noise(vector[, scalar])", "time".
 std::string signature(const ExpressionFunction& function);
 

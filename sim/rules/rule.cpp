@@ -35,7 +35,6 @@ public:
     check_settings(settings_);
     graphs();
     pair_nodes();
-    names_of_nodes();
     rule_.plan = make_plan(rule_.left, rule_.right, rule_.before, rule_.after);
     wheres();
     rule_.vocabulary = vocabulary();
@@ -69,20 +68,6 @@ private:
     source.fail(attribute, fmt::format("rule {}: {}", in_quotes(rule_.name()), what), hint);
   }
 
-  // Nodes of the left graph and arguments are values of expressions.
-  static bool may_be_value(std::string_view name) {
-    const std::vector<ExpressionFunction> functions = rule_vocabulary({}, {});
-    return may_name(name) && std::none_of(functions.begin(), functions.end(),
-                                          [&](const ExpressionFunction& one) { return one.name == name; });
-  }
-  void names_of_nodes() const {
-    for (const RuleNode& node : rule_.left.nodes)
-      if (!may_be_value(node.name))
-        fail(settings_.source, "left",
-             fmt::format("no node can be called {} (character {} of left)", in_quotes(node.name), node.column),
-             "expressions have a function or a word of that name");
-  }
-
   Expression expression(const SettingsSource& source, const char* attribute, const std::string& text,
                         ValueType wanted) const {
     try {
@@ -104,9 +89,6 @@ private:
       for (const Rule::Where& other : rule_.wheres)
         if (other.name == where.name)
           fail(where.source, "name", fmt::format("two arguments are called {}", in_quotes(where.name)));
-      if (!may_be_value(where.name))
-        fail(where.source, "name", fmt::format("no argument can be called {}", in_quotes(where.name)),
-             "a letter, then letters, digits and _; and no function or word of expressions");
       if (rule_.left.find(where.name) >= 0)
         fail(where.source, "name", fmt::format("{} is a node's name already", in_quotes(where.name)));
       try {

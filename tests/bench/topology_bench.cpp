@@ -4,6 +4,7 @@
 #include "sim/boundary/solid_surface.h"
 #include "sim/elements.h"
 #include "sim/house_rules/house_rules.h"
+#include "sim/mesh/sheet.h"
 #include "sim/rules/apply.h"
 #include "sim/topology/walk.h"
 
@@ -87,7 +88,7 @@ std::vector<Dart> columns_of_edges(std::uint32_t n) {
   return edges;
 }
 
-enum Way { Single, ByRule, Together };
+enum Way { Single, ByRule, Together, TogetherByRule };
 
 // The vertices and one more column besides the points; per edge. state: side of the sheet, variant.
 void unsew_edges(benchmark::State& state) {
@@ -100,11 +101,16 @@ void unsew_edges(benchmark::State& state) {
     state.ResumeTiming();
     if (state.range(1) == Single)
       for (Dart d : edges) body->edit([&](Edit& edit) { unsew(edit, 2, d); });
+    RuleRunner runner(rule("unsew-edge"));
     if (state.range(1) == ByRule)
-      for (Dart d : edges) apply(rule("unsew-edge"), *body, d);
+      for (Dart d : edges) body->edit([&](Edit& edit) { runner.apply(edit, d); });
     if (state.range(1) == Together)
       body->edit([&](Edit& edit) {
         for (Dart d : edges) unsew(edit, 2, d);
+      });
+    if (state.range(1) == TogetherByRule)
+      body->edit([&](Edit& edit) {
+        for (Dart d : edges) runner.apply(edit, d);
       });
     state.PauseTiming();
     body.reset();
@@ -117,23 +123,68 @@ BENCHMARK(unsew_edges)
     ->Args({50, Single})
     ->Args({50, ByRule})
     ->Args({50, Together})
+    ->Args({50, TogetherByRule})
     ->Args({300, Single})
-    ->Args({300, Together});
+    ->Args({300, ByRule})
+    ->Args({300, Together})
+    ->Args({300, TogetherByRule});
 
-void subdivide_sheet(benchmark::State& state) {
+// A rule that does not match: of two faces at an edge of the border, there is one. Per edge.
+void no_match(benchmark::State& state) {
   const auto n = static_cast<std::uint32_t>(state.range(0));
+  const auto body = sheet(n);
+  std::vector<Dart> edges;
+  for (std::uint32_t x = 0; x < n; ++x) edges.push_back(Dart{8 * x}); // the south sides of the first row
+  body->edit([&](Edit& edit) {
+    RuleRunner runner(rule("unsew-edge"));
+    for (auto _ : state)
+      for (Dart d : edges)
+        if (runner.apply(edit, d)) state.SkipWithError("it matches");
+  });
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(edges.size()));
+}
+BENCHMARK(no_match)->ArgName("side")->Arg(50);
+
+SheetShape square(std::int64_t n) {
+  SheetShape shape;
+  shape.pattern = SheetPattern::Quads;
+  shape.nx = shape.ny = static_cast<int>(n);
+  shape.size = {1, 1};
+  return shape;
+}
+
+// A sheet of n × n quads to one of 2n × 2n: subdivided by the rule, or built in bulk. Per dart of the result.
+void subdivide_sheet(benchmark::State& state) {
+  const std::int64_t n = state.range(0);
+  const PolygonMesh mesh = sheet_polygons(square(n));
+  RuleRunner runner(rule("quarter-faces"));
   for (auto _ : state) {
     state.PauseTiming();
-    auto body = sheet(n);
+    auto body = sheet_from(mesh);
     state.ResumeTiming();
-    apply(rule("quarter-faces"), *body, Dart{0u});
+    body->edit([&](Edit& edit) { runner.apply(edit, Dart{0u}); });
+    state.PauseTiming();
+    if (body->map().dart_count() != static_cast<std::size_t>(32 * n * n))
+      state.SkipWithError("it does not match");
+    body.reset();
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(state.iterations() * 32 * n * n);
+}
+BENCHMARK(subdivide_sheet)->ArgName("side")->Arg(112)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+void build_subdivided(benchmark::State& state) {
+  const std::int64_t n = state.range(0);
+  const PolygonMesh mesh = sheet_polygons(square(2 * n));
+  for (auto _ : state) {
+    auto body = sheet_from(mesh);
     state.PauseTiming();
     body.reset();
     state.ResumeTiming();
   }
-  state.SetItemsProcessed(state.iterations() * 8 * n * n);
+  state.SetItemsProcessed(state.iterations() * 32 * n * n);
 }
-BENCHMARK(subdivide_sheet)->ArgName("side")->Arg(112)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_subdivided)->ArgName("side")->Arg(112)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 // A cube of 6 n³ co-rotational tetrahedra that tears, and its surface.
 struct TornCube {
