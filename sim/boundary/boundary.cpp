@@ -10,6 +10,7 @@ Boundary::Boundary(EmbeddedMap& map, const BorderColumn* border) : map_(map), bo
     return;
   }
   map.use(FaceOfVolume);
+  sense_ = find_face_sense(map);
   map.subscribe(changes_);
 }
 
@@ -39,9 +40,10 @@ SolidSurface& Boundary::solid() {
 }
 
 BoundaryFaces::Face Boundary::face_of_sheet(Dart first, std::vector<Slot>& vertices) const {
-  vertices_of_face(map_, first, false, vertices);
+  const bool turned = sense_ && (*sense_)[map_.slot(FaceOfVolume, first)] != 0;
+  vertices_of_face(map_, first, turned, vertices);
   return {
-      .first = first, .turned = false, .exposed = false, .sides = static_cast<std::uint32_t>(vertices.size())};
+      .first = first, .turned = turned, .exposed = false, .sides = static_cast<std::uint32_t>(vertices.size())};
 }
 
 } // namespace rend

@@ -10,6 +10,7 @@
 // then what it would be if it were made anew: when and how often that is done leaves no trace.
 #pragma once
 
+#include "sim/boundary/face_sense.h"
 #include "sim/boundary/outer_faces.h"
 #include "sim/boundary/solid_surface.h"
 #include "sim/boundary/surface.h"
@@ -56,7 +57,8 @@ private:
 
   EmbeddedMap& map_;
   const BorderColumn* border_;
-  Changes changes_; // of a sheet
+  const Column<FaceSense>* sense_ = nullptr; // null: fronts are walked from smallest darts
+  Changes changes_;                          // of a sheet
   long revision_ = 0;
   std::optional<Surface> sheet_; // none: nobody asked for it
   std::optional<SolidSurface> solid_;

@@ -8,7 +8,7 @@
 namespace rend {
 
 Surface::Surface(EmbeddedMap& map, const BorderColumn* border)
-    : map_(map), border_(border), triangles_(5, 0, 0), corners_(3, 0, 0) {
+    : map_(map), border_(border), sense_(find_face_sense(map)), triangles_(5, 0, 0), corners_(3, 0, 0) {
   CHECK(map.dimension() == 2);
   map.use(FaceOfVolume);
   map.use(VertexOfFace);
@@ -53,8 +53,9 @@ LineKind Surface::line_kind_of(Dart d) const {
 void Surface::write_face(Slot face) {
   const EmbeddedMap& map = map_;
   const CellIndex& faces = map.cells(FaceOfVolume);
-  const Dart first = faces.first_dart(face);
   const bool seen = faces.alive(face);
+  const bool reversed = seen && sense_ && (*sense_)[face] != 0;
+  const Dart first = reversed ? map.map().alpha(1, faces.first_dart(face)) : faces.first_dart(face);
   const int sides = seen ? sides_of_face(map.map(), first) : 0;
   // the dart that starts the second side
   Dart at = seen ? map.map().alpha(1, map.map().alpha(0, first)) : first;

@@ -11,6 +11,7 @@
 // oriented consistently without an orientation of the whole, on a Möbius band as well.
 #pragma once
 
+#include "sim/boundary/face_sense.h"
 #include "sim/boundary/initial_border.h"
 #include "sim/boundary/line_kind.h"
 #include "sim/rows/packed_rows.h"
@@ -62,10 +63,11 @@ private:
 
   EmbeddedMap& map_;
   const BorderColumn* border_;
-  std::size_t fan_ = 0;  // triangles reserved per face: those of the face with the most sides
-  std::size_t full_ = 0; // number of faces that need all of them
-  PackedRows triangles_; // key: face slot × fan_ + n; vertices, sides, face
-  PackedRows corners_;   // key: corner slot; vertex, even end, odd end
+  const Column<FaceSense>* sense_; // null: fronts are walked from smallest darts
+  std::size_t fan_ = 0;            // triangles reserved per face: those of the face with the most sides
+  std::size_t full_ = 0;           // number of faces that need all of them
+  PackedRows triangles_;           // key: face slot × fan_ + n; vertices, sides, face
+  PackedRows corners_;             // key: corner slot; vertex, even end, odd end
   Changes changes_;
 };
 

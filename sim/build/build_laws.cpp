@@ -10,6 +10,12 @@
 namespace rend {
 namespace {
 
+void let_grow(Body& body) {
+  if (body.map->grows()) return;
+  body.map->let_grow();
+  if (body.map->dimension() == 2) body.map->add(FaceSense{});
+}
+
 void take_rule(LawSettings& law, const RuleBook& rules, int dimension) {
   if (law.change) law.source.fail("rule", "<tear> has both a change and a rule", "give one of them");
   const std::shared_ptr<const Rule> rule = find_rule(rules, law.rule, law.source, "rule");
@@ -75,7 +81,7 @@ void build_laws(Body& body, const BodySettings& settings) {
   for (const LawSettings& asked : settings.tears) {
     const LawSettings law = completed(asked, body, settings.rules);
     body.tear_laws.emplace_back(body.request_for(law), law);
-    if (law.change->grows) body.map->let_grow();
+    if (law.change->grows) let_grow(body);
     if (!body.tear_laws.back().elementary() || body.cumulated != Cumulated::Yes) continue;
     law.source.fail(law.criterion->elementary ? "criterion" : "change",
                     law.criterion->elementary

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/build/build_scene.h"
+#include "sim/build/rule_book.h"
 #include "sim/build/scene_types.h"
 #include "sim/preset/preset_reader.h"
 #include "sim/scene/scene.h"
@@ -17,7 +18,11 @@ inline const ElementType& scene_type() {
   static const ElementType type{"scene",
                                 "a scene",
                                 {text("name", "").otherwise("test")},
-                                {{&body_type(), 1, -1}, {&world_type(), 0, 1}, {&time_type(), 1, 1}}};
+                                {{&rules_type(), 0, -1},
+                                 {&rule_type(), 0, -1},
+                                 {&body_type(), 1, -1},
+                                 {&world_type(), 0, 1},
+                                 {&time_type(), 1, 1}}};
   return type;
 }
 
