@@ -25,6 +25,7 @@ Command render_command();
 Command run_command();
 Command info_command();
 Command mesh_command();
+Command rule_command();
 Command batch_command();
 Command sheet_command();
 Command check_command();

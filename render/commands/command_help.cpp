@@ -4,6 +4,7 @@
 #include "render/help/completion.h"
 #include "render/help/help.h"
 #include "render/help/manual.h"
+#include "render/help/rule_page.h"
 #include "render/help/schema.h"
 #include "render/help/tear_table.h"
 #include "render/help/usage.h"
@@ -26,13 +27,14 @@ struct HelpOptions {
 };
 
 const std::vector<std::string>& topics() {
-  static const std::vector<std::string> all{"preset", "tear", "schema", "man", "completion"};
+  static const std::vector<std::string> all{"preset", "rule", "tear", "schema", "man", "completion"};
   return all;
 }
 
 void check_words(const HelpOptions& options) {
   std::vector<std::string> known = topics();
-  for (const Command& command : all_commands()) known.push_back(command.name);
+  for (const Command& command : all_commands())
+    if (command.name != "rule") known.push_back(command.name); // a topic already
   if (!options.topic.empty() && std::find(known.begin(), known.end(), options.topic) == known.end())
     throw UserError(Exit::Usage, {}, fmt::format("there is no help on {}", in_quotes(options.topic)),
                     suggestion(options.topic, known, "there is on"));
@@ -67,6 +69,7 @@ std::string page(const CLI::App& root, const HelpOptions& options) {
     const auto element = options.element.empty() ? std::nullopt : std::optional(options.element);
     return help_preset(scene_type(), element, wants_colour(stdout));
   }
+  if (options.topic == "rule") return rule_page();
   if (options.topic == "tear") return tear_table(wants_colour(stdout));
   if (options.topic == "schema") return schema(scene_type());
   if (options.topic == "man") return man_page(root, !options.element.empty());
@@ -85,10 +88,11 @@ Exit help(const CLI::App& root, const HelpOptions& options) {
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<HelpOptions>();
-  app.add_option("topic", options->topic,
-                 "preset: what a preset may hold; tear: every criterion with every change; schema: the same as "
-                 "an XML schema; man: the manual, for man; "
-                 "completion: a script for a shell; or a command")
+  app.add_option(
+         "topic", options->topic,
+         "preset: what a preset may hold; rule: how rules are written; tear: every criterion with every "
+         "change; schema: the same as an XML schema; man: the manual, for man; "
+         "completion: a script for a shell; or a command")
       ->type_name(choices(topics()) + "|COMMAND");
   app.add_option("element", options->element,
                  "an element of a preset, such as stretch or body.springs; of man: preset; of completion: " +

@@ -93,6 +93,20 @@ RuleBook read_rules_file(const std::filesystem::path& path) {
   return book;
 }
 
+// Skips what may stand before the root: declarations and comments. What is no XML is left to the reader.
+bool is_rules_file(const std::filesystem::path& path) {
+  const std::string text = read_preset_file(path);
+  std::string_view rest = text;
+  for (;;) {
+    rest.remove_prefix(std::min(rest.find('<'), rest.size()));
+    const std::string_view end = rest.starts_with("<!--") ? "-->" : rest.starts_with("<?") ? "?>" : "";
+    if (end.empty()) break;
+    rest.remove_prefix(std::min(rest.find(end), rest.size()));
+  }
+  const std::string root = "<" + rules_file_type().name;
+  return rest.starts_with(root) && rest.find_first_of(" \t\r\n/>") == root.size();
+}
+
 std::shared_ptr<const Rule> find_rule(const RuleBook& book, const std::string& name,
                                       const SettingsSource& source, std::string_view attribute) {
   for (const auto& rule : book)

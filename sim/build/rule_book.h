@@ -27,6 +27,9 @@ RuleSettings read_rule(const PresetNode& rule);
 RuleBook read_rules(const PresetNode& scene);
 RuleBook read_rules_file(const std::filesystem::path& path);
 
+// Whether the root of a file is <rules>; of a preset it is <scene>. UserError: there is no such file.
+bool is_rules_file(const std::filesystem::path& path);
+
 // In the book, then in the house. UserError, at the attribute of `source`, with the nearest name.
 std::shared_ptr<const Rule> find_rule(const RuleBook& book, const std::string& name,
                                       const SettingsSource& source, std::string_view attribute);

@@ -1,0 +1,163 @@
+// rend rule: the rules of the house, of a preset, or of a file of rules: listed, shown, checked, drawn.
+#include "render/clip/named_files.h"
+#include "render/commands/command.h"
+#include "render/console/console.h"
+#include "render/console/json_text.h"
+#include "render/console/signals.h"
+#include "render/diagram/paint.h"
+#include "render/diagram/rule_diagram.h"
+#include "render/diagram/svg.h"
+#include "render/facts/rule_facts.h"
+#include "render/files/output.h"
+#include "render/files/png.h"
+#include "render/picture/scene_preset.h"
+#include "sim/base/wording.h"
+#include "sim/build/rule_book.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/preset/paths.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+
+namespace rend {
+namespace {
+
+struct RuleOptions {
+  std::string name, file, out, on;
+  bool json = false, allow_path = false;
+};
+
+// Of a preset, or of a file of rules.
+RuleBook book_of(const RuleOptions& options) {
+  if (options.file.empty()) return {};
+  const std::filesystem::path path = options.file;
+  if (is_rules_file(path)) return read_rules_file(path);
+  const auto scene = load_scene(path);
+  if (!options.allow_path) check_paths(*scene);
+  return read_rules(*scene);
+}
+
+const Rule& chosen_rule(const RuleOptions& options, const RuleBook& book, std::string& from) {
+  std::vector<std::string> names;
+  for (const auto& rule : book) {
+    names.push_back(rule->name());
+    from = options.file;
+    if (rule->name() == options.name) return *rule;
+  }
+  from = "house";
+  if (const Rule* found = find_house_rule(options.name)) return *found;
+  for (const Rule& rule : house_rules()) names.push_back(rule.name());
+  throw UserError(Exit::Usage, {}, fmt::format("there is no rule {}", in_quotes(options.name)),
+                  suggestion(options.name, names, "there are"));
+}
+
+Exit list(const RuleOptions& options) {
+  std::vector<RuleFacts> all;
+  for (const auto& rule : book_of(options)) all.push_back(rule_facts(*rule, options.file));
+  for (const Rule& rule : house_rules()) all.push_back(rule_facts(rule, "house"));
+  if (!options.json) {
+    print_result(list_in_words(all));
+    return Exit::Done;
+  }
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const RuleFacts& facts : all) json.push_back(json_of(facts));
+  print_result(text_of(json, 2) + "\n");
+  return Exit::Done;
+}
+
+Exit show_rule(const RuleOptions& options) {
+  const RuleBook book = book_of(options);
+  std::string from;
+  const RuleFacts facts = rule_facts(chosen_rule(options, book, from), from);
+  print_result(options.json ? text_of(json_of(facts), 2) + "\n" : facts_in_words(facts));
+  return Exit::Done;
+}
+
+Exit check(const RuleOptions& options) {
+  const std::size_t count = book_of(options).size();
+  print_result(fmt::format("{} {} well formed\n", count, count == 1 ? "rule is" : "rules are"));
+  return Exit::Done;
+}
+
+Exit draw_rule(const RuleOptions& options) {
+  const std::filesystem::path out = options.out;
+  const bool png = out.extension() == ".png";
+  if (!png && out.extension() != ".svg")
+    throw UserError(Exit::Usage, {}, fmt::format("{} is no format that can be written", in_quotes(options.out)),
+                    "a name that ends in .svg or .png tells the format");
+  if (png) require_png();
+  const RuleBook book = book_of(options);
+  std::string from;
+  const Rule& rule = chosen_rule(options, book, from);
+  const RuleShown shown = show(rule, options.on);
+  const std::filesystem::path file = resolve_link(out);
+  NamedFiles files;
+  if (!options.file.empty()) files.reads("the rules", options.file);
+  files.writes("the drawing", file);
+  if (!shown.sample) print_note("no small map was found where the rule applies: its graphs are drawn alone");
+  const Drawing drawing = diagram_of(rule, shown);
+  const GracefulStop graceful_stop;
+  if (png)
+    write_png(file, paint(drawing, 2));
+  else
+    write_atomically(file, svg_text(drawing));
+  sync_folder(file.parent_path());
+  return Exit::Done;
+}
+
+using Chosen = std::shared_ptr<Exit (*)(const RuleOptions&)>;
+using Options = std::shared_ptr<RuleOptions>;
+
+CLI::App* subcommand(CLI::App& app, const char* name, const char* what, const Chosen& chosen,
+                     Exit (*run)(const RuleOptions&)) {
+  CLI::App* made = app.add_subcommand(name, what);
+  made->callback([chosen, run] { *chosen = run; });
+  return made;
+}
+
+void add_file(CLI::App& app, const Options& options, const char* name, bool required) {
+  app.add_option(name, options->file, "a preset, or a file of rules")->type_name("FILE")->required(required);
+  app.add_flag("--allow-path", options->allow_path,
+               "read files that the preset names from outside of its folder, too");
+}
+
+void add_rule(CLI::App& app, const Options& options) {
+  app.add_option("name", options->name, "a rule: rend rule list")->required()->type_name("NAME");
+  add_file(app, options, "--in", false);
+}
+
+std::function<Exit()> declare(CLI::App& app) {
+  auto options = std::make_shared<RuleOptions>();
+  auto chosen = std::make_shared<Exit (*)(const RuleOptions&)>(nullptr);
+  app.require_subcommand(1);
+  app.footer("rend help rule tells how rules are written.");
+  const auto json = [&](CLI::App* to, const char* what) { to->add_flag("--json", options->json, what); };
+  CLI::App* listing = subcommand(app, "list", "the rules of the house, and those of a file", chosen, list);
+  add_file(*listing, options, "file", false);
+  json(listing, "the same as a JSON array");
+  CLI::App* showing = subcommand(app, "show", "one rule: its text, and what it does", chosen, show_rule);
+  add_rule(*showing, options);
+  json(showing, "the same as one JSON object");
+  CLI::App* checking = subcommand(app, "check", "whether all rules of a file are well formed", chosen, check);
+  add_file(*checking, options, "file", true);
+  CLI::App* drawing =
+      subcommand(app, "draw", "its two graphs, and a small map before and after", chosen, draw_rule);
+  add_rule(*drawing, options);
+  drawing->add_option("-o,--output", options->out, "the picture")->required()->type_name("FILE.svg|FILE.png");
+  std::vector<std::string> samples;
+  for (const SampleMap& each : sample_maps()) samples.push_back(each.name);
+  drawing->add_option("--on", options->on, "the map: " + listed(samples) + "; default: the first one that fits")
+      ->type_name("MAP");
+  return [options, chosen] { return (*chosen)(*options); };
+}
+
+} // namespace
+
+Command rule_command() {
+  return {"rule", "look at rules: changes of the map, for <apply> and <tear>", declare};
+}
+
+} // namespace rend

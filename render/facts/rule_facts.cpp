@@ -1,0 +1,127 @@
+#include "render/facts/rule_facts.h"
+
+#include "sim/base/printable.h"
+#include "sim/base/wording.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace rend {
+namespace {
+
+// A left graph that needs a neighbour by α3, or a rule that links by it.
+bool needs_a_solid(const Rule& rule) {
+  return rule.plan.links_volumes ||
+         std::any_of(rule.left.nodes.begin(), rule.left.nodes.end(),
+                     [](const RuleNode& node) { return node.links[3].kind == RuleLink::Kind::Arc; });
+}
+
+std::string list_or(const std::vector<std::string>& names, const char* none) {
+  return names.empty() ? none : listed(names);
+}
+
+std::string hooks_in_words(const RuleFacts& facts, bool with_nodes) {
+  std::vector<std::string> words;
+  for (const RuleFacts::Hook& hook : facts.hooks)
+    words.push_back((with_nodes ? hook.node + ": " : "") + hook.orbit + " " + hook.cell);
+  if (words.empty()) return with_nodes ? "none: it only creates" : "-";
+  if (!with_nodes && words.size() > 1 && words.front() == words.back())
+    return fmt::format("{} x {}", words.size(), words.front());
+  std::string out;
+  for (const std::string& each : words) out += (out.empty() ? "" : with_nodes ? "; " : " + ") + each;
+  return out;
+}
+
+} // namespace
+
+std::string cell_in_words(Orbit orbit) {
+  static constexpr std::array<const char*, orbit_kinds> names{"dart",
+                                                              "side of a face, one volume",   // <0>
+                                                              "corner of a face, one volume", // <1>
+                                                              "face, one volume",             // <0,1>
+                                                              "end of an edge, one volume",   // <2>
+                                                              "edge, one volume",             // <0,2>
+                                                              "vertex, one volume",           // <1,2>
+                                                              "volume, or all of a sheet",    // <0,1,2>
+                                                              "dart, both volumes",           // <3>
+                                                              "side of a face",               // <0,3>
+                                                              "corner of a face",             // <1,3>
+                                                              "face",                         // <0,1,3>
+                                                              "end of an edge",               // <2,3>
+                                                              "edge",                         // <0,2,3>
+                                                              "vertex",                       // <1,2,3>
+                                                              "component"};
+  return names[orbit.mask];
+}
+
+RuleFacts rule_facts(const Rule& rule, const std::string& from) {
+  RuleFacts facts{.name = rule.name(), .about = rule.settings.about, .from = from};
+  for (std::size_t n = 0; n < rule.plan.hooks.size(); ++n) {
+    const Orbit orbit = rule.hook_orbit(n);
+    facts.hooks.push_back({rule.left[rule.plan.hooks[n]].name, to_string(orbit), cell_in_words(orbit)});
+  }
+  for (const RuleWhereSettings& where : rule.settings.wheres)
+    facts.arguments.push_back({where.name, where.value});
+  for (const RuleNode& node : rule.right.nodes)
+    (rule.left.find(node.name) < 0 ? facts.creates : facts.keeps).push_back(node.name);
+  for (const RuleNode& node : rule.left.nodes)
+    if (rule.right.find(node.name) < 0) facts.removes.push_back(node.name);
+  facts.fits_sheets = !needs_a_solid(rule);
+  facts.folds = rule.settings.may_fold;
+  facts.asks_for = rule.quantity_of_law();
+  facts.text = rule.print();
+  return facts;
+}
+
+nlohmann::ordered_json json_of(const RuleFacts& facts) {
+  nlohmann::ordered_json hooks = nlohmann::ordered_json::array(), arguments = nlohmann::ordered_json::object();
+  for (const RuleFacts::Hook& hook : facts.hooks)
+    hooks.push_back({{"node", hook.node}, {"orbit", hook.orbit}, {"cell", hook.cell}});
+  for (const RuleFacts::Argument& argument : facts.arguments) arguments[argument.name] = argument.value;
+  nlohmann::ordered_json out{{"name", facts.name},   {"about", facts.about},     {"from", facts.from},
+                             {"hooks", hooks},       {"arguments", arguments},   {"creates", facts.creates},
+                             {"keeps", facts.keeps}, {"removes", facts.removes}, {"sheets", facts.fits_sheets},
+                             {"solids", true},       {"may_fold", facts.folds}};
+  if (!facts.asks_for.empty()) out["asks_for"] = facts.asks_for;
+  out["rule"] = facts.text;
+  return out;
+}
+
+std::string facts_in_words(const RuleFacts& facts) {
+  std::string out = printable(facts.name) + (facts.about.empty() ? "" : ": " + printable(facts.about)) +
+                    "\n\n" + printable_lines(facts.text) + "\n";
+  const auto row = [&](const char* what, const std::string& words) {
+    out += fmt::format("{:<11}{}\n", what, printable(words));
+  };
+  std::vector<std::string> arguments;
+  for (const RuleFacts::Argument& argument : facts.arguments)
+    arguments.push_back(argument.name + " = " + argument.value);
+  row("hook", hooks_in_words(facts, true));
+  row("arguments", list_or(arguments, "none"));
+  row("keeps", list_or(facts.keeps, "nothing"));
+  row("creates", list_or(facts.creates, "nothing"));
+  row("removes", list_or(facts.removes, "nothing"));
+  row("fits", facts.fits_sheets ? "sheets and solids" : "solids");
+  if (facts.folds) row("may fold", "it also matches where darts of the left graph coincide");
+  if (!facts.asks_for.empty()) row("asks for", facts.asks_for + ", which laws of tearing alone know");
+  if (facts.from != "house") row("from", facts.from);
+  return out;
+}
+
+std::string list_in_words(const std::vector<RuleFacts>& all) {
+  std::size_t name = 0, hooks = 0;
+  for (const RuleFacts& facts : all) {
+    name = std::max(name, printable(facts.name).size());
+    hooks = std::max(hooks, hooks_in_words(facts, false).size());
+  }
+  std::string out;
+  for (const RuleFacts& facts : all)
+    out += fmt::format("{:<{}}  {:<{}}  {}\n", printable(facts.name), name, hooks_in_words(facts, false), hooks,
+                       printable(facts.about));
+  return out;
+}
+
+} // namespace rend

@@ -1,0 +1,40 @@
+// What `rend rule list` and `rend rule show` tell about a rule.
+#pragma once
+
+#include "sim/rules/rule.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+namespace rend {
+
+struct RuleFacts {
+  struct Hook {
+    std::string node;
+    std::string orbit, cell; // "<0,1>", "face, one side"
+  };
+  struct Argument {
+    std::string name, value; // its default, as it is written
+  };
+  std::string name = {}, about = {};
+  std::string from = {}; // "house", or the file
+  std::vector<Hook> hooks = {};
+  std::vector<Argument> arguments = {};
+  std::vector<std::string> creates = {}, keeps = {}, removes = {}; // nodes
+  bool fits_sheets = true;                                         // solids always
+  bool folds = false;
+  std::string asks_for = {}; // what only laws of tearing know, such as "stress"; empty: nothing
+  std::string text = {};     // the element <rule>
+};
+RuleFacts rule_facts(const Rule& rule, const std::string& from);
+
+nlohmann::ordered_json json_of(const RuleFacts& facts);
+std::string facts_in_words(const RuleFacts& facts);
+std::string list_in_words(const std::vector<RuleFacts>& all); // a line each
+
+// What an orbit is called: "edge". See the table in sim/README.md, "The map".
+std::string cell_in_words(Orbit orbit);
+
+} // namespace rend

@@ -1,0 +1,144 @@
+#include "render/help/rule_page.h"
+
+#include "sim/expression/functions.h"
+#include "sim/rules/rule_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace rend {
+namespace {
+
+constexpr std::size_t page_width = 100; // columns
+
+constexpr const char* language =
+    R"page(A rule changes the map of a body: where its left graph matches, its right graph takes the place.
+
+THE MAP consists of darts. A dart is one end of one side of a face, and has four links:
+  α0 to the other end of the side             α2 to the next face, across the side
+  α1 to the next side, at the same corner     α3 to the next volume, through the face
+A link that leads nowhere is free: it leads to the dart itself. In a sheet every α3 is free. What is
+reached from a dart by some of the links is an orbit, and cells are orbits: vertex <1,2,3>, edge
+<0,2,3>, face <0,1,3>, the same of one volume (or of a sheet) <0,1>, volume <0,1,2>, component
+<0,1,2,3>. A hole's border is none: a rule matches it dart by dart, or edge by edge.
+
+GRAPHS. left="..." and right="..." hold items in any order, separated by blanks:
+  a*(0,1)  a hook: it stands for all darts of an orbit at once, here for those of one face. Each
+           connected part of the left graph has one hook, and the right graph has none.
+  b(_,2)   a node: one dart beside each dart of the hook's orbit. Position k of its label tells what
+           the hook's k-th link becomes there: kept, renamed, or dropped (_). With a*(0,1), b's
+           darts are not linked where α0 links those of a, and by α2 where α1 links those of a.
+  b        a node with an empty label, as all have beside a hook a*, which is a single dart
+  a-1-b    an arc: α1 links the darts of a and b
+  a|2,3    α2 and α3 of a are free
+A node on both sides is kept. What the left graph does not mention of its links stays; what the left
+mentions, the right must mention, too, and nothing else. The right states the label anew.
+A node on the right alone is created; there it says of each of its four links what it is.
+A node on the left alone is removed; there it says so of all four, so that nothing is left hanging.
+α0 and α2 must fit, and so must α0 and α3, α1 and α3: what α2 links at one end of an α0, it links
+at the other end, too. An arc a-2-b fits to 0 at the same place of both labels; to an arc a-0-c fit
+b-0-d and c-2-d; to a|2 fits c|2.
+left="" creates out of nothing.
+
+VALUES are elements within <rule>:
+  <set node="c" position="..." rest="..." velocity="..."/>   the point of a new vertex, which needs
+      a position, or of a kept one, which moves there; once a vertex. rest and velocity follow it.
+  <when test="size(a, face) > 3" at="all" otherwise="why not"/>   a further condition, asked at the
+      hook's dart, or at all or any darts of its orbit
+  <where name="h" value="0.1"/>   an argument, a number or point(x, y, z), and its default
+may-fold="yes" of <rule>: darts of the left graph may coincide; for rules that only open links.
+In XML a < within an attribute is written &lt; and & is &amp;: test="size(a, face) &lt; 5".
+
+EXPRESSIONS know numbers, + - * / ^, < <= > >= == !=, and, or, not. A node of the left graph is its
+point. A value must be the same at all darts of its vertex: in the middle of an edge mean(a, edge)
+is, and a, which is one of its two ends, is not. A name is that of a node, then of an orbit:
+)page";
+
+constexpr const char* use = R"page(
+USE. Rules stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> in the scene.
+  <apply rule="raise" times="2" h="0.3"/>   in a <body>, after its shape: h is an argument; where all
+      vertices of the hook's orbit are selected, as by side="+x"; to="all": everywhere
+  <create dimension="2"/>   a shape with nothing in it, with which rules begin: create-quad ...
+  <subdivide times="3"/>    each face, or each volume, becomes one per corner
+rend rule list | show NAME: the rules there are; check FILE; draw NAME --in FILE -o F.svg: see it.
+
+EXAMPLES, a file of rules:
+)page";
+
+constexpr const char* examples =
+    R"page(<rules>
+  <rule name="star" about="a triangle on each side of a face of a sheet, around a new vertex c"
+        left="a*(0,1) a|3"   right="a(0,_) b(_,2) c(1,2)   a-1-b b-0-c   a|3 b|3 c|3">
+    <set node="c" position="mean(a, face)"/>
+  </rule>
+  <rule name="cut-corners" about="off a face without neighbours: a new side b at each corner"
+        left="a*(0,1) a|2,3"   right="a(0,_) b(_,0)   a-1-b   a|2,3 b|2,3">
+    <where name="t" value="0.3"/>
+    <set node="a" position="lerp(a, mean(a, edge), 2*t)"/>
+  </rule>
+  <rule name="raise" about="each vertex goes up by h" left="a*(1,2,3)" right="a(1,2,3)">
+    <where name="h" value="0.1"/>
+    <set node="a" position="a + point(0, 0, h)"/>
+  </rule>
+</rules>
+)page";
+
+// Columns of UTF-8 text.
+std::size_t width(const std::string& text) {
+  std::size_t count = 0;
+  for (char c : text) count += (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
+  return count;
+}
+
+// Items one after another, on lines that are indented by two.
+std::string folded(const std::vector<std::string>& items, const std::string& indent) {
+  std::string out, line;
+  for (const std::string& item : items) {
+    if (!line.empty() && width(line) + 1 + width(item) > page_width) {
+      out += line + "\n";
+      line.clear();
+    }
+    line += line.empty() ? (out.empty() ? "" : indent) + item : " " + item;
+  }
+  return out + line + "\n";
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    out.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return out;
+}
+
+std::string functions() {
+  std::string out;
+  for (const ExpressionFunction& function : rule_vocabulary({}, {})) {
+    std::vector<std::string> words = words_of(function.about);
+    words.front() = fmt::format("  {:<28} {}", signature(function), words.front());
+    out += folded(words, std::string(31, ' '));
+  }
+  std::vector<std::string> known;
+  for (const BuiltIn& each : built_ins())
+    for (const std::string& word : words_of(signature(each.declared) + ": " + each.declared.about + ";"))
+      known.push_back(word);
+  known.front() = "  " + known.front();
+  known.back().pop_back();
+  return out + folded(known, "  ");
+}
+
+} // namespace
+
+std::string rule_examples() {
+  return examples;
+}
+
+std::string rule_page() {
+  return language + functions() + use + examples;
+}
+
+} // namespace rend
