@@ -7,6 +7,7 @@
 #include "sim/mesh/dart_order.h"
 #include "sim/rules/rest_measures.h"
 #include "sim/rules/rounds.h"
+#include "sim/topology/orientation.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
@@ -40,6 +41,46 @@ std::string place_of(const Vec3& x) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z());
 }
 
+// Which darts lie at the same place: their vertices, the other ends of their sides and, if asked for, those of the
+// next sides of their faces are apart by less than 1e-9 of the body's size.
+class Touching {
+public:
+  Touching(const EmbeddedMap& map, bool needed) : map_(map) {
+    if (!needed) return;
+    double size = 0;
+    map.map().for_each_dart([&](Dart d) {
+      by_x_.push_back({map.position_of(d).x(), d});
+      size = std::max(size, (map.position_of(d) - map.position_of(by_x_[0].second)).norm());
+    });
+    std::sort(by_x_.begin(), by_x_.end());
+    slack_ = 1e-9 * size;
+  }
+
+  // Without d itself; in increasing order.
+  std::vector<Dart> darts_at(Dart d, bool next_sides) const {
+    std::vector<Dart> found;
+    const double x = map_.position_of(d).x();
+    auto at = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair(x - slack_, Dart{0u}));
+    for (; at != by_x_.end() && at->first <= x + slack_; ++at) {
+      const Dart e = at->second;
+      if (e != d && close(d, e, "") && close(d, e, "0") && (!next_sides || close(d, e, "10")))
+        found.push_back(e);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+private:
+  bool close(Dart d, Dart e, std::string_view word) const {
+    return (map_.position_of(map_.map().follow(d, word)) - map_.position_of(map_.map().follow(e, word)))
+               .norm() <= slack_;
+  }
+
+  const EmbeddedMap& map_;
+  std::vector<std::pair<double, Dart>> by_x_;
+  double slack_ = 0; // [m]
+};
+
 class Construction {
 public:
   Construction(Body& body, const RuleBook& rules, const SettingsSource& shape)
@@ -57,9 +98,7 @@ public:
   void apply(const ApplySettings& settings) {
     check_settings(settings);
     const std::shared_ptr<const Rule> rule = rule_of(settings);
-    if (rule->plan.hooks.size() > 1)
-      settings.source.fail("rule", fmt::format("rule '{}' has {} hooks", rule->name(), rule->plan.hooks.size()),
-                           "<apply> finds the darts of one");
+    check_hooks(*rule, settings);
     check_quantities(*rule, settings);
     RuleRunner runner(*rule, context_of(*rule, arguments_of(*rule, settings)));
     for (int n = 0; n < settings.times; ++n) round(runner, settings);
@@ -97,6 +136,17 @@ private:
       return find_rule({}, body_.map->dimension() == 2 ? "quarter-faces" : "divide-volumes", settings.source,
                        "");
     return find_rule(rules_, settings.rule, settings.source, "rule");
+  }
+
+  void check_hooks(const Rule& rule, const ApplySettings& settings) const {
+    const std::size_t hooks = rule.plan.hooks.size();
+    const bool with = settings.with == ApplySettings::With::Touching;
+    if (hooks > 2 || (hooks == 2 && !with))
+      settings.source.fail("rule", fmt::format("rule '{}' has {} hooks", rule.name(), hooks),
+                           hooks == 2 ? "with=\"touching\" finds the second one where two places coincide"
+                                      : "<apply> finds the darts of two at most");
+    if (with && hooks < 2)
+      settings.source.fail("with", fmt::format("rule '{}' has no second hook", rule.name()), "leave it out");
   }
 
   void check_quantities(const Rule& rule, const ApplySettings& settings) const {
@@ -141,8 +191,13 @@ private:
         chosen[v] = true;
     }
     const auto selected = [&](Dart d) { return chosen[map.vertex(d)]; };
+    const bool pairs = runner.rule().plan.hooks.size() == 2;
+    const Touching touching(map, pairs);
+    const bool sides = pairs && runner.rule().hook_orbit().has(1);
+    const Partners partners = [&](Dart d) { return touching.darts_at(d, sides); };
     const RoundResult result = apply_round(
-        map, runner, chosen.empty() ? std::function<bool(Dart)>() : std::function<bool(Dart)>(selected));
+        map, runner, chosen.empty() ? std::function<bool(Dart)>() : std::function<bool(Dart)>(selected),
+        pairs ? partners : Partners());
     if (result.applied == 0)
       settings.source.fail("",
                            fmt::format("rule '{}' applies nowhere{}", runner.rule().name(),
@@ -214,12 +269,16 @@ private:
     return false;
   }
 
-  // Face by face, in the order of smallest darts; each side by side.
+  // Face by face, in the order of smallest darts; each side by side, all in the sense of the component's smallest dart,
+  // where it has two sides: the fronts of faces are those of the walks from their smallest darts.
   static std::vector<Dart> face_order(const GMap& map) {
     std::vector<Dart> order;
     std::vector<bool> done(map.capacity());
+    const Sides sides = sides_of(map);
     map.for_each_dart([&](Dart d) {
-      for (Dart at = d; !done[at.value]; at = map.alpha(1, order.back()))
+      if (done[d.value]) return;
+      for (Dart at = sides.of_dart[d.value] == 1 ? d : map.alpha(1, d); !done[at.value];
+           at = map.alpha(1, order.back()))
         for (Dart e : {at, map.alpha(0, at)}) {
           order.push_back(e);
           done[e.value] = true;
@@ -240,6 +299,8 @@ template <> const Fields<ApplySettings>& fields_of() {
   using S = ApplySettings;
   static const Fields<S> fields =
       Fields<S>{
+          field(&S::with, word("with", {"nothing", "touching"},
+                               "for rules with two hooks: the second one is the dart at the same place")),
           field(&S::rule, text("rule", "a rule of the scene or of the house: rend rule list").is_required()),
           field(&S::times,
                 integer("times", "how often, on what the time before has left").at_least(1).at_most(1000))} +

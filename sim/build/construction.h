@@ -8,6 +8,9 @@
 // smallest darts; `times` times, the orbits being found again each time. What a rule matches or makes is used up
 // for that time. New vertices belong to a group if all vertices that they come from do.
 //
+// The second hook of a rule that has two (sew-edges, sew-faces) is found by with="touching": the dart at the same
+// place, whose side and face lie on those of the first.
+//
 // At the end the cells must be those that a mesh file may hold: closed faces, volumes that are tetrahedra,
 // hexahedra, prisms or pyramids. Then darts are ordered as for a file, so that a body does not remember how it was
 // made.
@@ -31,7 +34,8 @@ struct ApplySettings {
   std::string rule = {}; // its name
   Selector where = {};   // of vertices; none: everywhere
   int times = 1;
-  std::map<std::string, std::string> arguments = {}; // of the rule, by name: expressions of numbers
+  enum class With { Nothing, Touching } with = With::Nothing; // for the second hook of a rule, if it has two
+  std::map<std::string, std::string> arguments = {};          // of the rule, by name: expressions of numbers
   SettingsSource source = {};
 };
 template <> const Fields<ApplySettings>& fields_of();

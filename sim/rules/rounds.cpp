@@ -1,5 +1,6 @@
 #include "sim/rules/rounds.h"
 
+#include "sim/base/check.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -9,9 +10,9 @@ namespace {
 
 class Round {
 public:
-  Round(RuleRunner& runner, Edit& edit, const std::function<bool(Dart)>& selected)
-      : runner_(runner), edit_(edit), selected_(selected), darts_(edit.map().capacity()), used_(darts_),
-        seen_(darts_) {}
+  Round(RuleRunner& runner, Edit& edit, const std::function<bool(Dart)>& selected, const Partners& partners)
+      : runner_(runner), edit_(edit), selected_(selected), partners_(partners), darts_(edit.map().capacity()),
+        used_(darts_), seen_(darts_) {}
 
   RoundResult run() {
     runner_.context().sides.reset();
@@ -29,7 +30,7 @@ public:
         if (d.value < darts_) seen_[d.value] = true;
         chosen = chosen && !used(d) && (!selected_ || selected_(d));
       }
-      if (chosen) visit(Dart{n});
+      if (chosen) visit_with_partners(Dart{n});
     }
     return result_;
   }
@@ -41,24 +42,33 @@ private:
       if (d.value < darts_) used_[d.value] = true;
   }
 
-  void visit(const Hooks& hooks) {
+  void visit_with_partners(Dart d) {
+    if (!partners_) return void(visit(d));
+    for (Dart e : partners_(d))
+      if (edit_.map().alive(e) && visit({d, e})) return;
+  }
+
+  bool visit(const Hooks& hooks) {
     if (!runner_.matches(edit_, hooks)) return refuse();
     const std::vector<Dart>& matched = runner_.match().darts;
-    if (std::any_of(matched.begin(), matched.end(), [&](Dart d) { return used(d); })) return;
+    if (std::any_of(matched.begin(), matched.end(), [&](Dart d) { return used(d); })) return false;
     if (!runner_.rewrite(edit_)) return refuse();
     ++result_.applied;
     use(matched);
     use(runner_.darts()); // a removed dart's number may have been taken again
+    return true;
   }
 
-  void refuse() {
+  bool refuse() {
     ++result_.refused;
     if (result_.reason.empty()) result_.reason = runner_.mismatch().sentence(runner_.rule());
+    return false;
   }
 
   RuleRunner& runner_;
   Edit& edit_;
   const std::function<bool(Dart)>& selected_;
+  const Partners& partners_;
   std::size_t darts_;             // when the round began
   std::vector<bool> used_, seen_; // by dart
   std::vector<Dart> orbit_;
@@ -67,9 +77,11 @@ private:
 
 } // namespace
 
-RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected) {
+RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected,
+                        const Partners& partners) {
+  CHECK(runner.rule().plan.hooks.size() <= (partners ? 2 : 1));
   RoundResult result;
-  map.edit([&](Edit& edit) { result = Round(runner, edit, selected).run(); });
+  map.edit([&](Edit& edit) { result = Round(runner, edit, selected, partners).run(); });
   return result;
 }
 

@@ -17,8 +17,13 @@ struct RoundResult {
   std::string reason;      // of the first refusal; empty: none
 };
 
+// The darts to try for the second hook, beside a first one.
+using Partners = std::function<std::vector<Dart>(Dart)>;
+
 // Which orbits: those all of whose darts are `selected`; empty: all. It is asked for darts of the map as it is
-// when the round begins.
-RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected = {});
+// when the round begins. `partners`, for rules with two hooks: the darts to try for the second one; it must be given
+// for them, and the rule is applied with the first that matches. Other numbers of hooks: CHECK.
+RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected = {},
+                        const Partners& partners = {});
 
 } // namespace rend
