@@ -132,9 +132,9 @@ TEST(Pairs, compute_forces_of_single_elements_only_where_the_change_is_made_at_a
     for (const Pair& pair : all_pairs(shape.dimension)) {
       if (!pair.refusal.empty() || (pair.criterion.kind == "shear" && !shape.quads)) continue;
       const presets::Loaded scene = presets::load(text_of(shape, pair, 1e30));
-      const bool itself = pair.transfer->find == nullptr;
-      EXPECT_EQ(scene.body().tear_laws.front().elementary(), !itself || pair.criterion.type->elementary);
-      if (itself && !pair.criterion.type->elementary) EXPECT_TRUE(scene.body().corner_force.empty());
+      const bool needed = pair.transfer->find != nullptr || pair.criterion.type->elementary;
+      EXPECT_EQ(scene.body().tear_laws.front().elementary(), needed);
+      EXPECT_EQ(scene.body().corner_force.empty(), !needed);
     }
 }
 
