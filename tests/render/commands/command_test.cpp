@@ -36,6 +36,7 @@ TEST_F(Program, SaysWhatItIs) {
 TEST_F(Program, ExplainsPresets) {
   EXPECT_THAT(place.rend("help preset").out, AllOf(HasSubstr("scene.body.sheet"), HasSubstr("scene.camera")));
   EXPECT_THAT(place.rend("help preset stretch").out, HasSubstr("stiffness"));
+  EXPECT_THAT(place.rend("help tear").out, AllOf(HasSubstr("atomic-border"), HasSubstr("split-vertex")));
   EXPECT_EQ(place.rend("help preset strech").code, 64);
   const Outcome schema = place.rend("help schema > scene.xsd && xmllint --noout --schema scene.xsd pulled.xml");
   EXPECT_EQ(schema.code, 0) << schema.err;

@@ -52,6 +52,26 @@ TEST(Sheet, shows_the_start_the_tear_and_the_end_as_render_draws_them) {
   }
 }
 
+TEST(Sheet, shows_the_ends_alone_side_by_side) {
+  NEEDS_PNG;
+  const TestFolder place;
+  place.write("pulled.xml", program::pulled);
+  const std::string three = "pulled.xml pulled.xml pulled.xml -o ";
+  ASSERT_EQ(place.rend("sheet " + three + "rows.png --size 96x54 -q").code, 0);
+  const Outcome made = place.rend("sheet " + three + "ends.png --size 96x54 --ends 2");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, testing::HasSubstr("2 rows of 2 pictures"));
+  const Image rows = read_png(place.path() / "rows.png"), ends = read_png(place.path() / "ends.png");
+  ASSERT_EQ(ends.width, 2 * 96 + 6);
+  ASSERT_EQ(ends.height, 2 * 54 + 6);
+  const Image end = part(rows, 2, 0, 96, 54);
+  for (const auto& [column, row] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1)})
+    EXPECT_EQ(part(ends, column, row, 96, 54), end);
+  const Image none = part(ends, 1, 1, 96, 54);
+  EXPECT_TRUE(
+      std::all_of(none.pixels.begin(), none.pixels.end(), [](std::uint8_t byte) { return byte == 255; }));
+}
+
 TEST(Sheet, leaves_nothing_where_a_preset_is_bad) {
   NEEDS_PNG;
   const TestFolder place;
