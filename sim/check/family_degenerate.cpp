@@ -14,7 +14,7 @@ struct Odd {
   std::pair<std::string, std::string> file = {};
 };
 
-const char* springs = "    <mass total=\"0.1\"/>\n    <springs><stretch k=\"60\"/></springs>\n";
+const char* some_springs = "    <mass total=\"0.1\"/>\n    <springs><stretch k=\"60\"/></springs>\n";
 const char* plastic =
     "    <mass density=\"100\"/>\n    <elasticity model=\"corotational\" young=\"1e4\" poisson=\"0.3\"/>\n";
 
@@ -30,7 +30,7 @@ std::string msh(const std::string& nodes, int node_count, const std::string& ele
 }
 
 std::vector<Odd> meshes() {
-  const std::string cloth = std::string(springs) + "";
+  const std::string cloth = std::string(some_springs) + "";
   return {
       mesh("triangle without area", cloth, "odd-line.obj",
            "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n"),
@@ -55,7 +55,7 @@ std::vector<Odd> meshes() {
 }
 
 std::vector<Odd> generated() {
-  const std::string cloth = springs;
+  const std::string cloth = some_springs;
   return {
       {"sheet folded to a line", "    <sheet cells=\"2 2\" corners=\"0 0 0  1 0 0  1 0 0  0 0 0\"/>\n" + cloth},
       {"sheet with a side of no length",
@@ -126,7 +126,7 @@ CheckCase odd_case(const Odd& odd) {
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> degenerate_cases() {
   std::vector<CheckCase> all;
   for (const Odd& odd : meshes()) all.push_back(odd_case(odd));
   for (const Odd& odd : generated()) all.push_back(odd_case(odd));
@@ -140,7 +140,7 @@ CheckFamily degenerate_family() {
           "Elements that are flat, folded or inside out, springs without length, points in one place, masses "
           "of nothing. "
           "Either they are refused by name, or they do no harm.",
-          cases};
+          degenerate_cases};
 }
 
 } // namespace rend

@@ -8,7 +8,7 @@
 namespace rend {
 namespace {
 
-constexpr long steps = 200, struck = 60;
+constexpr long fault_steps = 200, struck = 60;
 
 CheckCase fault_case(const Scheme& scheme, StepStage stage, bool lasting) {
   Sketch sketch;
@@ -37,7 +37,7 @@ CheckCase fault_case(const Scheme& scheme, StepStage stage, bool lasting) {
     SceneOptions options;
     options.fault = Fault{stage, struck, lasting};
     const Trial sound = bench.open(), trial = bench.open({}, options);
-    const Course course = run(*trial.scene, steps, steps);
+    const Course course = run(*trial.scene, fault_steps, fault_steps);
     finding.at_least("finite", is_finite(*trial.scene), 1);
     finding.what = course.why;
     if (lasting) {
@@ -48,7 +48,7 @@ CheckCase fault_case(const Scheme& scheme, StepStage stage, bool lasting) {
                        1);
       return;
     }
-    run(*sound.scene, steps, steps);
+    run(*sound.scene, fault_steps, fault_steps);
     const auto end = [](const Trial& t) { return t.body().probes[0].read(t.body())->displacement; };
     finding.at_most("stopped as unstable", course.stopped, 0);
     finding.at_most("difference of the end over its way", (end(trial) - end(sound)).norm() / end(sound).norm(),
@@ -58,7 +58,7 @@ CheckCase fault_case(const Scheme& scheme, StepStage stage, bool lasting) {
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> fault_cases() {
   std::vector<CheckCase> all;
   for (const Scheme& scheme : all_schemes()) {
     if (scheme.name == "static" || scheme.limit({1, 0, 0}) <= 0)
@@ -77,7 +77,7 @@ CheckFamily fault_family() {
           "A NaN is put into each stage of one step of a loaded bar above a floor (on the scene). Once: the "
           "guard must redo "
           "the step and nothing is lost. At every try: the run must stop and say where, with its state whole.",
-          cases};
+          fault_cases};
 }
 
 } // namespace rend

@@ -68,7 +68,7 @@ CheckCase long_case(const Matter& matter, const Scheme& scheme, long steps) {
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> long_cases() {
   std::vector<CheckCase> all;
   for (const Matter& matter : all_matters("1 1 1", "1 0.8 0.9", "1 1", "1 0.8")) {
     if (matter.name.ends_with("mixed") || matter.model == "corotational-qr") continue;
@@ -91,7 +91,7 @@ CheckFamily long_family() {
           "nor damped, for a million steps. Symplectic schemes must keep the energy, the others must not make "
           "any; momentum "
           "stays, and angular momentum where the forces have no moment.",
-          cases};
+          long_cases};
 }
 
 } // namespace rend

@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-constexpr double g = 9.81, k = 1e3; // [m/s²], [N/m]
+constexpr double ladder_g = 9.81, ladder_k = 1e3; // [m/s²], [N/m]
 
 // A ladder 1 m wide, whose five cells are 1, r, 1, r, 1 m high, which are also their masses [kg]: each rung has
 // half of the adjacent cells. It hangs by its two rails of springs, all of the same stiffness whatever their
@@ -39,7 +39,7 @@ struct Ladder {
   double extension() const { // [m]
     double sum = 0, below = 0;
     for (std::size_t n = heights.size(); n-- > 0;) {
-      sum += (below + 0.5 * heights[n]) * g / (2 * k);
+      sum += (below + 0.5 * heights[n]) * ladder_g / (2 * ladder_k);
       below += heights[n];
     }
     return sum;
@@ -57,7 +57,7 @@ CheckCase ladder_case(const Scheme& scheme, int exponent) {
                   "    <springs><stretch k=\"{}\"/></springs>\n    <viscosity value=\"{}\" per=\"body\"/>\n"
                   "    <fix side=\"+z\"/>\n    <fix all=\"yes\" axes=\"xy\"/>\n"
                   "    <probe name=\"end\" side=\"-z\"/>\n",
-                  -exponent, in_short(k), in_short(2 * slowest * ladder.mass()));
+                  -exponent, in_short(ladder_k), in_short(2 * slowest * ladder.mass()));
   const bool own_step = scheme.solves || scheme.adaptive;
   sketch.time = time_of(scheme.name,
                         scheme.name == "static" ? "1"
@@ -120,7 +120,7 @@ CheckCase ball_case(int exponent) {
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> mass_cases() {
   std::vector<CheckCase> all;
   for (const Scheme& scheme : all_schemes())
     for (const int exponent : {-2, -4, -6})
@@ -138,7 +138,7 @@ CheckFamily mass_family() {
           "A ladder of springs whose light cells, of 1e-2 to 1e-6 kg, carry cells of 1 kg: how long it hangs "
           "is exact. And "
           "a ball of 1 to a million times the mass of the sheet that it flies into.",
-          cases};
+          mass_cases};
 }
 
 } // namespace rend

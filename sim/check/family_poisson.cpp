@@ -11,11 +11,11 @@
 namespace rend {
 namespace {
 
-constexpr double young = 1e6;
+constexpr double poisson_young = 1e6;
 
 // Every vertex on the boundary moves by u = G X; the inner ones are free.
 std::string patch_body(const Matter& matter, double poisson) {
-  std::string body = matter.shape + "    <mass total=\"1\"/>\n" + matter.matter(young, poisson);
+  std::string body = matter.shape + "    <mass total=\"1\"/>\n" + matter.matter(poisson_young, poisson);
   const char* gradient = matter.dimension == 3 ? "1e-3 5e-4 5e-4  5e-4 1e-3 5e-4  5e-4 5e-4 1e-3"
                                                : "1e-3 5e-4 0  5e-4 1e-3 0  0 0 0";
   const std::vector<const char*> sides = matter.dimension == 3
@@ -31,8 +31,9 @@ CheckCase patch(const Matter& matter, double poisson) {
   Sketch sketch;
   sketch.body = patch_body(matter, poisson);
   sketch.time = time_of("static", "1", 1);
-  const double mu = young / (2 * (1 + poisson));
-  const double sum = matter.dimension == 3 ? young / (1 - 2 * poisson) : young / (1 - poisson); // σxx/1e-3
+  const double mu = poisson_young / (2 * (1 + poisson));
+  const double sum =
+      matter.dimension == 3 ? poisson_young / (1 - 2 * poisson) : poisson_young / (1 - poisson); // σxx/1e-3
   CheckCase one;
   one.name = fmt::format("poisson/patch/{}/{}", matter.name, poisson);
   const bool turns = matter.model == "corotational-qr";
@@ -57,7 +58,7 @@ CheckCase patch(const Matter& matter, double poisson) {
 
 CheckCase shaken(const Matter& matter, double poisson) {
   Sketch sketch;
-  sketch.body = matter.shape + "    <mass total=\"1\"/>\n" + matter.matter(young, poisson);
+  sketch.body = matter.shape + "    <mass total=\"1\"/>\n" + matter.matter(poisson_young, poisson);
   if (matter.small_strain() && matter.dimension == 2) sketch.body += "    <fix all=\"yes\" axes=\"z\"/>\n";
   sketch.time = time_of("symplectic", "auto", 1);
   CheckCase one;
@@ -83,7 +84,7 @@ CheckCase shaken(const Matter& matter, double poisson) {
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> poisson_cases() {
   std::vector<CheckCase> all;
   for (const Matter& matter : all_matters("3 3 3", "1 0.8 0.9", "3 3", "1 0.8")) {
     if (matter.model == "springs") continue; // independent of ν
@@ -102,7 +103,7 @@ CheckFamily poisson_family() {
           "uniform strain has the stress that Hooke's law says in every element (the shear modulus against a "
           "bulk modulus "
           "5000 times as large); a free body that is shaken keeps its energy bounded and its momentum.",
-          cases};
+          poisson_cases};
 }
 
 } // namespace rend

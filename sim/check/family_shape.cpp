@@ -13,7 +13,7 @@ namespace rend {
 namespace {
 
 constexpr int seeds = 100;
-constexpr long steps = 6000, few_steps = 3000;
+constexpr long shape_steps = 6000, scrambled_steps = 3000;
 
 const std::vector<std::string> shapes{"plane", "line", "point", "inside out", "scrambled"};
 
@@ -53,7 +53,7 @@ void try_once(const Bench& bench, const Matter& matter, const std::string& shape
   put(body, placed("point", body, seed));
   const double scale = trial->elastic_energy();
   put(body, placed(shape, body, seed));
-  const Course course = run(*trial.scene, shape == "scrambled" ? few_steps : steps, 25);
+  const Course course = run(*trial.scene, shape == "scrambled" ? scrambled_steps : shape_steps, 25);
   tally.finite = tally.finite && is_finite(*trial.scene);
   tally.growth = std::max(tally.growth, course.most_energy / std::max(course.first_energy, scale));
   if (course.stopped) tally.stopped = course.why;
@@ -137,7 +137,7 @@ CheckCase shape_case(const Matter& matter, const std::string& shape) {
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> shape_cases() {
   std::vector<CheckCase> all;
   for (const Matter& matter : all_matters("2 2 2", "1 0.8 0.9", "3 3", "1 0.8"))
     for (const std::string& shape : shapes) all.push_back(shape_case(matter, shape));
@@ -153,7 +153,7 @@ CheckFamily shape_family() {
           "mirrored; with all vertices at random (100 times). With the automatic step it must gain no energy "
           "and find "
           "its shape again.",
-          cases};
+          shape_cases};
 }
 
 } // namespace rend

@@ -32,7 +32,7 @@ std::string hinges(double L) {
       in_short(L), in_short(L / 2), in_short(0.1 * L * L * L), in_short(60 * L), in_short(0.05 * L * L * L),
       in_short(0.3 * L));
 }
-std::string bar(double L, const char* pattern, const char* model) {
+std::string scaled_bar(double L, const char* pattern, const char* model) {
   return fmt::format(
       "    <bar pattern=\"{}\" cells=\"5 1 1\" size=\"{} {} {}\"/>\n    <mass density=\"1000\"/>\n"
       "    <elasticity model=\"{}\" young=\"2e5\" poisson=\"0.3\"/>\n    <fix side=\"-x\"/>\n"
@@ -50,13 +50,13 @@ std::string torn(double L) {
                      in_short(L), in_short(0.01 * L), in_short(20 / L), in_short(0.5 * L));
 }
 
-std::vector<Scaled> bodies() {
+std::vector<Scaled> scaled_bodies() {
   return {{"springs, mixed cells", springs},
           {"angular hinges", hinges},
-          {"corotational tetrahedra", [](double L) { return bar(L, "tetrahedra", "corotational"); }},
-          {"corotational, mixed elements", [](double L) { return bar(L, "mixed", "corotational"); }},
-          {"linear hexahedra", [](double L) { return bar(L, "hexahedra", "linear"); }},
-          {"mass-tensor tetrahedra", [](double L) { return bar(L, "tetrahedra", "mass-tensor"); }},
+          {"corotational tetrahedra", [](double L) { return scaled_bar(L, "tetrahedra", "corotational"); }},
+          {"corotational, mixed elements", [](double L) { return scaled_bar(L, "mixed", "corotational"); }},
+          {"linear hexahedra", [](double L) { return scaled_bar(L, "hexahedra", "linear"); }},
+          {"mass-tensor tetrahedra", [](double L) { return scaled_bar(L, "tetrahedra", "mass-tensor"); }},
           {"torn sheet", torn}};
 }
 
@@ -116,9 +116,9 @@ CheckCase size_case(const Scaled& what, int exponent, const std::string& scheme)
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> size_cases() {
   std::vector<CheckCase> all;
-  for (const Scaled& what : bodies())
+  for (const Scaled& what : scaled_bodies())
     for (const char* scheme : {"symplectic", "rk4", "implicit"})
       for (const int exponent : {-6, -3, 3, 6}) all.push_back(size_case(what, exponent, scheme));
   return all;
@@ -132,7 +132,7 @@ CheckFamily size_family() {
           "length they "
           "must do what the one of 1 m does: any constant with a dimension that is hidden in the program would "
           "show here.",
-          cases};
+          size_cases};
 }
 
 } // namespace rend

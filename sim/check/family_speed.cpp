@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-constexpr double speed = 1e6;
+constexpr double thrown_speed = 1e6;
 
 CheckCase flight(const Matter& matter, const Scheme& scheme) {
   Sketch sketch;
@@ -46,7 +46,7 @@ CheckCase flight(const Matter& matter, const Scheme& scheme) {
     const Vec3 start = mean(), momentum = trial->momentum();
     const double since = trial->time();
     const Course course = run(*trial.scene, 2000, 100);
-    const double way = speed * (trial->time() - since);
+    const double way = thrown_speed * (trial->time() - since);
     finding.what = course.why;
     finding.at_most("error of the way, over it", (mean() - start - Vec3(way, 0, 0)).norm() / way, 1e-10);
     finding.at_most("change of momentum, over it", (trial->momentum() - momentum).norm() / momentum.norm(),
@@ -89,7 +89,7 @@ CheckCase crash(const std::string& name, const std::string& body, const std::str
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> speed_cases() {
   std::vector<CheckCase> all;
   for (const Matter& matter : all_matters("2 1 1", "1 0.5 0.5", "2 2", "1 1")) {
     if (matter.model == "corotational-qr") continue; // differs from the other model only in its rotation
@@ -123,7 +123,7 @@ CheckFamily speed_family() {
           "Free flight at 1e6 m/s under every scheme that has a stable step; then against floor, box and "
           "sphere, and what "
           "is pulled or spun so fast that a step passes many elements.",
-          cases};
+          speed_cases};
 }
 
 } // namespace rend

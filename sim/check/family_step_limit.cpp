@@ -188,7 +188,7 @@ CheckCase large_case(const Mover& mover, const Scheme& scheme) {
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> step_limit_cases() {
   std::vector<CheckCase> all;
   for (const Specimen& specimen : specimens())
     for (const std::string& damping : dampings)
@@ -210,7 +210,7 @@ CheckFamily step_limit_family() {
           "of the linearised body, damping included, passes 1. Found: by bisection over runs, without anything "
           "that "
           "would rescue a step. Where no step is stable, step=\"auto\" must be refused.",
-          cases};
+          step_limit_cases};
 }
 
 } // namespace rend

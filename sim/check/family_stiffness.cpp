@@ -14,7 +14,7 @@ namespace {
 
 // A displacement of dt v below half a unit in the last place is lost: a motion that decays with 1/ω stops 1/(dt
 // ω) units away.
-constexpr double g = 9.81, rounded = 2e-15; // [m/s²]; [m]: some units in the last place of 1 m
+constexpr double hanging_g = 9.81, rounded = 2e-15; // [m/s²]; [m]: some units in the last place of 1 m
 // [m]: for adaptive schemes, whose substeps have a tolerance of 1e-6 of the size
 constexpr double tolerance = 2e-6;
 constexpr int links = 10;
@@ -29,7 +29,7 @@ struct Hanging {
 
 Hanging chain(double k) {
   constexpr double m = 0.01;
-  return {"chain", m * g / k * links * links / 2, 2 * std::sqrt(k / m) * std::sin(M_PI / (4 * links)),
+  return {"chain", m * hanging_g / k * links * links / 2, 2 * std::sqrt(k / m) * std::sin(M_PI / (4 * links)),
           fmt::format("    <sheet cells=\"1 {}\" size=\"0.2 1\"/>\n    <place rotate=\"90 0 0\"/>\n"
                       "    <mass total=\"{}\"/>\n    <springs><stretch k=\"{}\"/></springs>\n",
                       links, in_short(2 * m * links), in_short(k))};
@@ -37,7 +37,7 @@ Hanging chain(double k) {
 
 Hanging bar(double young) {
   return {
-      "bar", g / (2 * young), M_PI / 2 * std::sqrt(young),
+      "bar", hanging_g / (2 * young), M_PI / 2 * std::sqrt(young),
       fmt::format(
           "    <bar pattern=\"hexahedra\" cells=\"1 1 4\" size=\"0.2 0.2 1\"/>\n"
           "    <mass density=\"1\"/>\n    <elasticity model=\"corotational\" young=\"{}\" poisson=\"0\"/>\n",
@@ -87,7 +87,7 @@ CheckCase hang(const Hanging& what, const Scheme& scheme, int exponent) {
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> stiffness_cases() {
   std::vector<CheckCase> all;
   for (const auto make : {chain, bar})
     for (const Scheme& scheme : all_schemes())
@@ -106,7 +106,7 @@ CheckFamily stiffness_family() {
           "They hang by "
           "their weight, damped as fast as they can come to rest; the length there is exact, (m g/k) N^2/2 and "
           "rho g L^2/(2 E).",
-          cases};
+          stiffness_cases};
 }
 
 } // namespace rend

@@ -13,7 +13,7 @@
 namespace rend {
 namespace {
 
-constexpr long steps = 400;
+constexpr long least_steps = 400;
 
 // A body of 1 m, a stiffness of 1e4 Pa (or N/m for 1 m), and factors of these.
 struct Strain {
@@ -66,7 +66,7 @@ struct Pulled {
   Of of;
   int dimension;
 };
-const std::vector<Pulled>& bodies() {
+const std::vector<Pulled>& pulled_bodies() {
   static const std::vector<Pulled> all{{"sheet of springs", "quads", Pulled::Of::Springs, 2},
                                        {"sheet of elements", "triangles", Pulled::Of::Elements, 2},
                                        {"solid of springs", "hexahedra", Pulled::Of::Springs, 3},
@@ -137,7 +137,7 @@ CheckCase tear_case(const Pulled& body, const ForceLaw& law, const Strain& strai
     Body& it = trial.body();
     if (strain.scrambled) scramble(it, 0.1 * strain.length);
     const double mass = trial->mass();
-    const long all = std::max(steps, std::lround(trial->duration() / trial->step_size()));
+    const long all = std::max(least_steps, std::lround(trial->duration() / trial->step_size()));
     const Course course = run(*trial.scene, all, all);
     finding.what = course.stopped ? course.why : fmt::format("{} tears in {} steps", trial->tears(), all);
     finding.at_most("stopped as unstable", course.stopped, 0);
@@ -157,9 +157,9 @@ CheckCase tear_case(const Pulled& body, const ForceLaw& law, const Strain& strai
   return one;
 }
 
-std::vector<CheckCase> cases() {
+std::vector<CheckCase> tear_cases() {
   std::vector<CheckCase> all;
-  for (const Pulled& body : bodies())
+  for (const Pulled& body : pulled_bodies())
     for (const ForceLaw& law : body.of == Pulled::Of::Springs ? spring_laws() : element_laws())
       for (const Strain& strain : strains()) all.push_back(tear_case(body, law, strain));
   return all;
@@ -174,7 +174,7 @@ CheckFamily tear_family() {
           "they are, 1e8 times as stiff, of a micrometre and of a thousand kilometres, pulled a hundred times "
           "as fast, "
           "scrambled, and out of their plane.",
-          cases};
+          tear_cases};
 }
 
 } // namespace rend

@@ -8,11 +8,11 @@
 namespace rend {
 namespace {
 
-constexpr int sweeps = 4;
-constexpr double relaxation = 0.05;  // [s]
-constexpr double coincident = 1e-10; // relative to the thickness and the face's size
-constexpr double deepest = 0.2;      // relative to a face's size: the largest penetration of a solid's face
-constexpr double beside = 1.5;       // distance in thicknesses at which a path misses a face
+constexpr int fragment_sweeps = 4;
+constexpr double fragment_relaxation = 0.05; // [s]
+constexpr double coincident = 1e-10;         // relative to the thickness and the face's size
+constexpr double deepest = 0.2; // relative to a face's size: the largest penetration of a solid's face
+constexpr double beside = 1.5;  // distance in thicknesses at which a path misses a face
 
 TriangleCorners mixed(const TriangleCorners& a, const TriangleCorners& b, double share) {
   TriangleCorners out;
@@ -77,7 +77,8 @@ std::optional<FragmentContact::Touch> FragmentContact::touch(const ContactPairs:
   }
   double wanted = std::min(thickness, before);
   const double short_of = (before < 0 ? 0 : thickness) - before;
-  if (short_of > 0 && (before < 0 || !pair.neighbours)) wanted += std::min(1.0, step / relaxation) * short_of;
+  if (short_of > 0 && (before < 0 || !pair.neighbours))
+    wanted += std::min(1.0, step / fragment_relaxation) * short_of;
   const double friction = std::max(body.settings().friction, other.settings().friction);
   const ContactPoint vertex = ContactPoint::at(body, pair.vertex), face{&other, slots, start->weight};
   const Vec3 normal = start->normal;
@@ -110,7 +111,7 @@ void FragmentContact::advance(const ContactPairs::Bodies& bodies, double step) {
   touches_.clear();
   for (const ContactPair& pair : pairs_.find(bodies))
     if (auto found = touch(bodies, pair, step)) touches_.push_back(*found);
-  for (int sweep = 0; sweep < sweeps; ++sweep)
+  for (int sweep = 0; sweep < fragment_sweeps; ++sweep)
     for (const Touch& touch : touches_) meet(touch, step);
 }
 

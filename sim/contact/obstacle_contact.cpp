@@ -6,12 +6,12 @@
 namespace rend {
 namespace {
 
-constexpr int sweeps = 8;
-constexpr int passes = 2;            // over faces: moving one out may move its neighbour in
-constexpr double touching = 1e-9;    // [m]
-constexpr double relaxation = 0.05;  // [s], for what was inside at the start of the step
-constexpr double fastest = 0.1;      // [m/s], for the same
-constexpr double own_friction = 0.5; // between obstacles without a friction of their own
+constexpr int obstacle_sweeps = 8;
+constexpr int passes = 2;                    // over faces: moving one out may move its neighbour in
+constexpr double touching = 1e-9;            // [m]
+constexpr double obstacle_relaxation = 0.05; // [s], for what was inside at the start of the step
+constexpr double fastest = 0.1;              // [m/s], for the same
+constexpr double own_friction = 0.5;         // between obstacles without a friction of their own
 
 using Bounds = Eigen::AlignedBox3d;
 
@@ -98,7 +98,7 @@ void for_each_face(const Shape& shape, const ContactBody& body, const std::vecto
 
 // The allowed penetration [m] at the end of a step of a point that was `before` deep at its start.
 double allowed_depth(double before, double step) {
-  return before > 0 ? before - std::min(before * std::min(1.0, step / relaxation), fastest * step) : 0;
+  return before > 0 ? before - std::min(before * std::min(1.0, step / obstacle_relaxation), fastest * step) : 0;
 }
 
 // On positions only, leaving the penetration `kept` [m].
@@ -179,7 +179,7 @@ void ObstacleContact::exchange_momentum(const std::vector<std::unique_ptr<Contac
       if (body->settings().obstacles) find_touches(s, *body);
   }
   if (!falls) return;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  for (int sweep = 0; sweep < obstacle_sweeps; ++sweep) {
     for (Touch& touch : touches_) meet(touch, step);
     for (Sphere& a : world_.spheres)
       for (Sphere& b : world_.spheres)

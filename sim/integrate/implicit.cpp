@@ -30,16 +30,16 @@
 namespace rend {
 namespace {
 
-constexpr double wanted = 1e-5; // tolerance, relative to the terms of R
+constexpr double newton_digits = 1e-5; // tolerance, relative to the terms of R
 // tolerance of linear systems, relative to R: Newton's method with an approximate tangent gains little from
 // more
-constexpr double linear_digits = 1e-2;
+constexpr double most_linear_digits = 1e-2;
 constexpr double accepted = 1e-4;     // relative to the terms, if no update reduces R: the limit of round-off
 constexpr double keeps_tangent = 0.1; // the tangent is reused if |R| falls below this share
 
-constexpr int most_iterations = 50, most_halvings = 12; // of Newton iterations, of the line search
-constexpr int most_step_halvings = 10;                  // halvings of the step
-constexpr double least_part = 1.0 / (1 << most_step_halvings);
+constexpr int most_newton_iterations = 50, most_halvings = 12; // of Newton iterations, of the line search
+constexpr int most_step_halvings = 10;                         // halvings of the step
+constexpr double least_step_part = 1.0 / (1 << most_step_halvings);
 
 // |R| and the sum of its terms, in the norm of kinetic energy [√J].
 struct Residual {
@@ -158,7 +158,7 @@ bool ImplicitEuler::search(const Step& step, Residual& residual) {
 
 // The tolerance of the linear system: 1e-2, or less strict if that already reaches the final tolerance.
 double linear_tolerance(const Residual& residual) {
-  return std::clamp(0.3 * wanted * residual.terms / residual.norm, linear_digits, 0.1);
+  return std::clamp(0.3 * newton_digits * residual.terms / residual.norm, most_linear_digits, 0.1);
 }
 
 [[noreturn]] void give_up(const Residual& residual, int iterations) {
@@ -175,7 +175,7 @@ void ImplicitEuler::solve(const Step& step) {
   before_.swap(momentum_);
   bool linear = false, here = false; // linear: a matrix exists; here: it is the tangent at velocity_
   for (int n = 0; residual.norm != 0; ++n) {
-    if (n == most_iterations || !residual.finite()) give_up(residual, n);
+    if (n == most_newton_iterations || !residual.finite()) give_up(residual, n);
     if (!linear) linearise(step);
     here = here || !linear;
     ++newton_;
@@ -190,7 +190,7 @@ void ImplicitEuler::solve(const Step& step) {
       if (residual.norm <= accepted * residual.terms) return;
       if (here) give_up(residual, n);
     }
-    if (residual.norm <= wanted * residual.terms + round_off(step)) return;
+    if (residual.norm <= newton_digits * residual.terms + round_off(step)) return;
     linear = moved && residual.norm <= keeps_tangent * last.norm;
     here = false;
   }
@@ -221,7 +221,7 @@ void ImplicitEuler::advance(System& system, double time, double size, const Stat
       solve(step);
     } catch (const NotConverged& unsolved) {
       part *= 0.5;
-      if (part < least_part)
+      if (part < least_step_part)
         throw NotConverged(
             fmt::format("{}, and after {} halvings of the step", unsolved.what(), most_step_halvings),
             unsolved.hint);

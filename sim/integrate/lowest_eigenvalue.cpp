@@ -9,8 +9,8 @@ namespace rend {
 namespace {
 
 constexpr double first_shift = 1e-9, most_shift = 64, shift_grows = 4; // relative to the mean stiffness
-constexpr int most_iterations = 100;
-constexpr double steady = 1e-4, digits = 1e-8; // tolerances of λ + s, and of a linear system
+constexpr int most_inverse_iterations = 100;
+constexpr double steady = 1e-4, eigen_digits = 1e-8; // tolerances of λ + s, and of a linear system
 
 // Sets the matrix to A + s M with constraints, with the smallest s that makes it positive definite [1/s²]; 0:
 // none did.
@@ -62,12 +62,12 @@ double lowest_eigenvalue(const Equilibrium& at, BlockMatrix& matrix, LinearSolve
   tangent.with_forces(matrix, shift);
   Records mode = start_of(at), weighed, next(mode.size());
   double found = unknown;
-  for (int n = 0; n < most_iterations; ++n) {
+  for (int n = 0; n < most_inverse_iterations; ++n) {
     weigh(at.system, mode, weighed);
     const double size = std::sqrt(dot(parts, mode, weighed));
     if (!(size > 0) || !std::isfinite(size)) return unknown;
     for (Record& r : weighed) store(r, load(r) / splat(size));
-    if (!tangent.solve(linear, weighed, next, digits)) return unknown;
+    if (!tangent.solve(linear, weighed, next, eigen_digits)) return unknown;
     const double inverse = dot(parts, weighed, next); // 1/(λ + s)
     const double before = found;
     found = 1 / inverse - shift;

@@ -55,7 +55,7 @@ class Midpoint final : public Integrator {
 
 // The right-hand side increases with d up to dt d = 1, so that the smallest d is decisive, and the largest ends
 // the search.
-double limit(const StabilityBounds& b) {
+double limit_midpoint(const StabilityBounds& b) {
   if (b.omega_squared == 0 || b.least_drag_rate <= 0) return limit_by_drag(b);
   double low = 0, high = 2 / b.damping_rate;
   for (int n = 0; n < 60; ++n) {
@@ -72,7 +72,7 @@ Scheme midpoint() {
           .what = "midpoint rule (RK2)",
           .order = 2,
           .evaluations = 2,
-          .limit = &limit,
+          .limit = &limit_midpoint,
           .make = &make_integrator<Midpoint>};
 }
 

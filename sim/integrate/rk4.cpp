@@ -89,7 +89,7 @@ class RungeKutta4 final : public Integrator {
   }
 };
 
-double limit(const StabilityBounds& b) {
+double limit_rk4(const StabilityBounds& b) {
   const double d = b.damping_rate / 2;
   const double speed = std::sqrt(b.omega_squared + d * d) + d;
   return speed > 0 ? 2.6 / speed : std::numeric_limits<double>::infinity();
@@ -102,7 +102,7 @@ Scheme runge_kutta_4() {
           .what = "the classical Runge-Kutta scheme",
           .order = 4,
           .evaluations = 4,
-          .limit = &limit,
+          .limit = &limit_rk4,
           .make = &make_integrator<RungeKutta4>};
 }
 

@@ -38,10 +38,10 @@
 namespace rend {
 namespace {
 
-constexpr double wanted = 1e-9, linear_digits = 1e-10, most_noise = 1e-6; // relative to the forces
-constexpr double rounded = 4 * std::numeric_limits<double>::epsilon();    // relative to a coordinate
+constexpr double static_digits = 1e-9, least_linear_digits = 1e-10, most_noise = 1e-6; // relative to the forces
+constexpr double rounded = 4 * std::numeric_limits<double>::epsilon(); // relative to a coordinate
 constexpr int most_symmetric = 4, most_newton = 16, most_falling = 60, most_relaxed = 600, most_solved = 3000;
-constexpr double least_part = 1.0 / 256, least_unstable = 1.0 / 16; // load steps
+constexpr double least_load_part = 1.0 / 256, least_unstable = 1.0 / 16; // load steps
 // of a linear step, relative to the size of the body: beyond it the matrix counts as singular
 constexpr double most_reach = 4096;
 // σ relative to the mean stiffness
@@ -81,7 +81,7 @@ private:
   void evaluate(const Records& x);
   double noise(const Records& x) const;
   bool settled() const {
-    return std::isfinite(norm_) && std::isfinite(terms_) && norm_ <= wanted * terms_ + noise_;
+    return std::isfinite(norm_) && std::isfinite(terms_) && norm_ <= static_digits * terms_ + noise_;
   }
   void linearise(const Records& x, Tangent tangent);
   void set_right_side(double part);
@@ -206,9 +206,10 @@ void StaticSolve::set_right_side(double part) {
 
 // The tolerance of iteration n for an iterative solver: no stricter than quadratic convergence can use.
 double StaticSolve::digits(int n, double before) const {
-  if (linear_.direct()) return linear_digits;
+  if (linear_.direct()) return least_linear_digits;
   const double fell = n == 0 ? 1 : norm_ / before;
-  return std::clamp(std::max(0.5 * fell * fell, 0.3 * wanted * terms_ / norm_), linear_digits, far_digits);
+  return std::clamp(std::max(0.5 * fell * fell, 0.3 * static_digits * terms_ / norm_), least_linear_digits,
+                    far_digits);
 }
 
 // Whether the equilibrium at trial_ is stable, if that is tested.
@@ -263,7 +264,7 @@ bool StaticSolve::in_parts_of_the_way() {
       continue;
     }
     part *= 0.5;
-    if (part < (found == Found::Unstable ? least_unstable : least_part)) return false;
+    if (part < (found == Found::Unstable ? least_unstable : least_load_part)) return false;
     if (found == Found::Singular && gone == 0) return false;
   }
   return gone == 1;

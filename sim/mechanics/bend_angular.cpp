@@ -11,9 +11,9 @@
 namespace rend {
 namespace {
 
-const std::vector<Word> hinge{"", "0", "10", "010", "2", "20", "210", "2010"};
+const std::vector<Word> hinge_corners{"", "0", "10", "010", "2", "20", "210", "2010"};
 
-bool present(const GMap& map, Dart d, std::size_t = 0) {
+bool is_hinge(const GMap& map, Dart d, std::size_t = 0) {
   if (map.is_free(2, d)) return false;
   const int one = sides_of_face(map, d), two = sides_of_face(map, map.alpha(2, d));
   return one >= 3 && one <= 4 && two >= 3 && two <= 4;
@@ -27,8 +27,8 @@ struct HingeEmbedding {
   StiffnessOf k;
   double damping = 0;
   Value birth(const EmbeddedMap& body, Dart d) const {
-    if (!present(body.map(), d)) return {};
-    const std::vector<Vec3> rest = rest_positions(body, d, hinge);
+    if (!is_hinge(body.map(), d)) return {};
+    const std::vector<Vec3> rest = rest_positions(body, d, hinge_corners);
     HingePoints x;
     std::copy(rest.begin(), rest.end(), x.begin());
     return {k(body, d), damping, hinge_angle(x), hinge_fade_threshold(x)};
@@ -52,7 +52,7 @@ bool has_hinge(const EmbeddedMap& map, std::vector<std::string>& notes) {
   map.map().for_each_dart([&](Dart d) {
     if (map.map().is_free(2, d) || smallest_dart(map.map(), EdgeOfVolume, d) != d) return;
     ++inner;
-    hinges += present(map.map(), d);
+    hinges += is_hinge(map.map(), d);
   });
   if (hinges < inner)
     notes.push_back(fmt::format(
@@ -63,7 +63,7 @@ bool has_hinge(const EmbeddedMap& map, std::vector<std::string>& notes) {
   return hinges > 0;
 }
 
-std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& request) {
+std::unique_ptr<Interaction> make_hinges(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_bend_of_solid(map, request);
   if (!has_hinge(map, request.notes)) return nullptr;
   HingeEmbedding embedding;
@@ -73,8 +73,11 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
   made->name = embedding.name;
   made->law = hinge_law();
   made->damped = embedding.damping > 0;
-  made->pattern = {
-      .owner = EdgeOfVolume, .support = FaceOfVolume, .units = {hinge}, .fold = {}, .present = &present};
+  made->pattern = {.owner = EdgeOfVolume,
+                   .support = FaceOfVolume,
+                   .units = {hinge_corners},
+                   .fold = {},
+                   .present = &is_hinge};
   made->column = &map.add(std::move(embedding));
   return made;
 }
@@ -82,7 +85,8 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
 } // namespace
 
 InteractionType bend_angular() {
-  return {"bend", "angular", "an angular spring on each edge between two triangles or quads", "N.m/rad", make};
+  return {"bend", "angular", "an angular spring on each edge between two triangles or quads", "N.m/rad",
+          make_hinges};
 }
 
 } // namespace rend

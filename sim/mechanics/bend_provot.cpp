@@ -6,15 +6,15 @@
 namespace rend {
 namespace {
 
-const std::vector<Word> across{"10", "210"};
+const std::vector<Word> far_ends{"10", "210"};
 
-bool present(const GMap& map, Dart d, std::size_t = 0) {
+bool is_strip(const GMap& map, Dart d, std::size_t = 0) {
   if (map.is_free(2, d)) return false;
   const Dart left = map.alpha(1, d), right = map.alpha(1, map.alpha(2, d));
   return !map.is_free(0, left) && !map.is_free(0, right) && left != d && right != map.alpha(2, d);
 }
 
-std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& request) {
+std::unique_ptr<Interaction> make_provot(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_bend_of_solid(map, request);
   if (!has_inner_edge(map)) {
     request.notes.emplace_back("bend was left out: no edge lies between two faces");
@@ -22,14 +22,14 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
   }
   Pattern pattern{.owner = EdgeEndOfVolume,
                   .support = FaceOfVolume,
-                  .units = {across},
+                  .units = {far_ends},
                   .fold = {"0", "121"},
-                  .present = &present};
+                  .present = &is_strip};
   const StiffnessOf k = stiffness_of(request, nullptr);
   const double damping = request.settings.damping;
   return make_interaction<1>(map, "bend provot", spring_law(), pattern, damping,
                              [=](const EmbeddedMap& body, Dart d, int) {
-                               const std::vector<Vec3> x = rest_positions(body, d, across);
+                               const std::vector<Vec3> x = rest_positions(body, d, far_ends);
                                return UnitParameters{k(body, d), damping, (x[1] - x[0]).norm()};
                              });
 }
@@ -38,7 +38,7 @@ std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& re
 
 InteractionType bend_provot() {
   return {"bend", "provot", "springs between the far ends of the edges that continue across an edge", "N/m",
-          make};
+          make_provot};
 }
 
 } // namespace rend

@@ -23,7 +23,7 @@ double slope(int up) {
 }
 
 // The position of corner n of a square, in cyclic order.
-constexpr std::array<std::array<int, 2>, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+constexpr std::array<std::array<int, 2>, 4> unit_square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
 // For [0,1]², or [0,1]³ with the lower square first.
 std::vector<ReferencePoint> box_points(int dimension) {
@@ -33,7 +33,7 @@ std::vector<ReferencePoint> box_points(int dimension) {
     ReferencePoint point{1.0 / count, {}};
     const double t[3] = {gauss[g & 1], gauss[g >> 1 & 1], gauss[g >> 2 & 1]};
     for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
-      const int at[3] = {square[n % 4][0], square[n % 4][1], n < 4 ? 0 : 1};
+      const int at[3] = {unit_square[n % 4][0], unit_square[n % 4][1], n < 4 ? 0 : 1};
       for (int axis = 0; axis < dimension; ++axis) {
         double value = slope(at[axis]);
         for (int other = 0; other < dimension; ++other)

@@ -16,15 +16,16 @@ bool has_face(const EmbeddedMap& map, int at_least, int at_most) {
   return found;
 }
 
-UnitParameters along(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit, double k, double damping) {
+UnitParameters along_face_diagonal(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit, double k,
+                                   double damping) {
   const std::vector<Vec3> x = rest_positions(body, d, unit);
   return {k, damping, (x[1] - x[0]).norm()};
 }
 
-const std::vector<std::vector<Word>> diagonals{{"", "010"}, {"0", "10"}};
+const std::vector<std::vector<Word>> face_diagonals{{"", "010"}, {"0", "10"}};
 const std::vector<Word> across_corner{"0", "10"};
 
-std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionRequest& request) {
+std::unique_ptr<Interaction> make_isotropic_face(EmbeddedMap& map, const InteractionRequest& request) {
   if (!has_face(map, 4, 4)) {
     request.notes.push_back(
         "shear was left out: no face is a quad, and a triangle keeps its angles by its sides");
@@ -32,7 +33,7 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
   }
   Pattern pattern{.owner = FaceOfVolume,
                   .support = FaceOfVolume,
-                  .units = diagonals,
+                  .units = face_diagonals,
                   .fold = {},
                   .present = [](const GMap& m, Dart d, std::size_t) { return sides_of_face(m, d) == 4; }};
   if (map.dimension() == 3) pattern.fold.emplace_back("3");
@@ -42,8 +43,9 @@ std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionR
                              [=, surface = request.surface](const EmbeddedMap& body, Dart d, int unit) {
                                if (surface && !body.map().is_free(3, d)) return UnitParameters{};
                                if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
-                               return along(body, d, diagonals[static_cast<std::size_t>(unit)], k(body, d),
-                                            damping);
+                               return along_face_diagonal(body, d,
+                                                          face_diagonals[static_cast<std::size_t>(unit)],
+                                                          k(body, d), damping);
                              });
 }
 
@@ -58,7 +60,7 @@ bool carries(const GMap& map, Dart d) {
   return same_cell(map, VertexOfFaceBothSides, d, first) || same_cell(map, VertexOfFaceBothSides, d, next);
 }
 
-std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const InteractionRequest& request) {
+std::unique_ptr<Interaction> make_anisotropic_face(EmbeddedMap& map, const InteractionRequest& request) {
   if (!has_face(map, 4, 1 << 30)) {
     request.notes.emplace_back("shear was left out: no face has a diagonal, every one is a triangle");
     return nullptr;
@@ -75,7 +77,7 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
                              [=, surface = request.surface](const EmbeddedMap& body, Dart d, int) {
                                if (surface && !body.map().is_free(3, d)) return UnitParameters{};
                                if (!carries(body.map(), d)) return UnitParameters{};
-                               return along(body, d, across_corner, k(body, d), damping);
+                               return along_face_diagonal(body, d, across_corner, k(body, d), damping);
                              });
 }
 
@@ -86,7 +88,7 @@ InteractionType shear_face_isotropic() {
           .kind = "isotropic",
           .what = "springs along both diagonals of each quad, one stiffness",
           .k_unit = "N/m",
-          .make = make_isotropic,
+          .make = make_isotropic_face,
           .where = "face",
           .by_formula = true};
 }
@@ -95,7 +97,7 @@ InteractionType shear_face_anisotropic() {
           .kind = "anisotropic",
           .what = "a spring across each corner, each with its own stiffness",
           .k_unit = "N/m",
-          .make = make_anisotropic,
+          .make = make_anisotropic_face,
           .where = "face",
           .by_formula = true};
 }

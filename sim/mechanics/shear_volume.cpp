@@ -8,7 +8,8 @@
 namespace rend {
 namespace {
 
-const std::vector<std::vector<Word>> diagonals{{"", "010210"}, {"0", "10210"}, {"010", "210"}, {"10", "0210"}};
+const std::vector<std::vector<Word>> volume_diagonals{
+    {"", "010210"}, {"0", "10210"}, {"010", "210"}, {"10", "0210"}};
 
 bool in_hexahedron(const GMap& map, Dart d, std::size_t) {
   return element_present<ElementKind::Hexahedron>(map, d, 0);
@@ -24,7 +25,8 @@ std::optional<std::string> reason_to_leave_out(const EmbeddedMap& map) {
          "faces";
 }
 
-UnitParameters along(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit, double k, double damping) {
+UnitParameters along_volume_diagonal(const EmbeddedMap& body, Dart d, const std::vector<Word>& unit, double k,
+                                     double damping) {
   const std::vector<Vec3> x = rest_positions(body, d, unit);
   return {k, damping, (x[1] - x[0]).norm()};
 }
@@ -35,25 +37,26 @@ void refuse_surface(const InteractionRequest& request) {
                     "springs on the surface have no diagonals inside", "leave it out, or take where=\"face\"");
 }
 
-std::unique_ptr<Interaction> make_isotropic(EmbeddedMap& map, const InteractionRequest& request) {
+std::unique_ptr<Interaction> make_isotropic_volume(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_surface(request);
   if (const auto why = reason_to_leave_out(map)) {
     request.notes.push_back(*why);
     return nullptr;
   }
   const Pattern pattern{
-      .owner = Volume, .support = Volume, .units = diagonals, .fold = {}, .present = &in_hexahedron};
+      .owner = Volume, .support = Volume, .units = volume_diagonals, .fold = {}, .present = &in_hexahedron};
   const StiffnessOf k = stiffness_of(request, nullptr);
   const double damping = request.settings.damping;
   return make_interaction<4>(map, "shear isotropic volume", spring_law(), pattern, damping,
                              [=](const EmbeddedMap& body, Dart d, int unit) {
                                if (!in_hexahedron(body.map(), d, 0)) return UnitParameters{};
-                               return along(body, d, diagonals[static_cast<std::size_t>(unit)], k(body, d),
-                                            damping);
+                               return along_volume_diagonal(body, d,
+                                                            volume_diagonals[static_cast<std::size_t>(unit)],
+                                                            k(body, d), damping);
                              });
 }
 
-std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const InteractionRequest& request) {
+std::unique_ptr<Interaction> make_anisotropic_volume(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_surface(request);
   if (const auto why = reason_to_leave_out(map)) {
     request.notes.push_back(*why);
@@ -61,33 +64,36 @@ std::unique_ptr<Interaction> make_anisotropic(EmbeddedMap& map, const Interactio
   }
   const Pattern pattern{.owner = VertexOfVolume,
                         .support = Volume,
-                        .units = {diagonals.front()},
+                        .units = {volume_diagonals.front()},
                         .fold = {},
                         .present = &in_hexahedron};
   const StiffnessOf k = stiffness_of(request, nullptr);
   const double damping = request.settings.damping;
-  return make_interaction<1>(map, "shear anisotropic volume", spring_law(), pattern, damping,
-                             [=](const EmbeddedMap& body, Dart d, int) {
-                               const GMap& m = body.map();
-                               if (!in_hexahedron(m, d, 0)) return UnitParameters{};
-                               const Dart far_end = m.follow(d, diagonals.front().back());
-                               if (smallest_dart(m, VertexOfVolume, far_end) <
-                                   smallest_dart(m, VertexOfVolume, d))
-                                 return UnitParameters{}; // the other end carries it
-                               return along(body, d, diagonals.front(), k(body, d), damping);
-                             });
+  return make_interaction<1>(
+      map, "shear anisotropic volume", spring_law(), pattern, damping,
+      [=](const EmbeddedMap& body, Dart d, int) {
+        const GMap& m = body.map();
+        if (!in_hexahedron(m, d, 0)) return UnitParameters{};
+        const Dart far_end = m.follow(d, volume_diagonals.front().back());
+        if (smallest_dart(m, VertexOfVolume, far_end) < smallest_dart(m, VertexOfVolume, d))
+          return UnitParameters{}; // the other end carries it
+        return along_volume_diagonal(body, d, volume_diagonals.front(), k(body, d), damping);
+      });
 }
 
 } // namespace
 
 InteractionType shear_volume_isotropic() {
-  return {"shear", "isotropic",    "springs along the diagonals of each hexahedron, one stiffness",
-          "N/m",   make_isotropic, "volume"};
+  return {"shear", "isotropic",           "springs along the diagonals of each hexahedron, one stiffness",
+          "N/m",   make_isotropic_volume, "volume"};
 }
 InteractionType shear_volume_anisotropic() {
-  return {
-      "shear", "anisotropic",    "springs along the diagonals of each hexahedron, each with its own stiffness",
-      "N/m",   make_anisotropic, "volume"};
+  return {"shear",
+          "anisotropic",
+          "springs along the diagonals of each hexahedron, each with its own stiffness",
+          "N/m",
+          make_anisotropic_volume,
+          "volume"};
 }
 
 } // namespace rend

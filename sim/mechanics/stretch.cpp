@@ -6,7 +6,7 @@
 namespace rend {
 namespace {
 
-std::unique_ptr<Interaction> make(EmbeddedMap& map, const InteractionRequest& request) {
+std::unique_ptr<Interaction> make_stretch(EmbeddedMap& map, const InteractionRequest& request) {
   Pattern pattern{.owner = EdgeOfFace,
                   .support = FaceOfVolume,
                   .units = {{"", "0"}},
@@ -32,7 +32,7 @@ InteractionType stretch() {
           .kind = "",
           .what = "a spring along each side of each face; an edge between two faces carries two",
           .k_unit = "N/m",
-          .make = make,
+          .make = make_stretch,
           .by_formula = true};
 }
 

@@ -125,7 +125,7 @@ std::vector<std::uint32_t> spread(const MeshFile& file, const GMap& map, const L
   return point;
 }
 
-void read(MeshFile& file) {
+void read_moka(MeshFile& file) {
   Lines lines = read_lines(file);
   MapMesh mesh{{}, map_of(file, lines), {}};
   check_elements(file, mesh.map);
@@ -144,7 +144,7 @@ void read(MeshFile& file) {
 } // namespace
 
 MeshReader moka_reader() {
-  return {"Moka", {".moka"}, "a generalized map, dart by dart, as text", read};
+  return {"Moka", {".moka"}, "a generalized map, dart by dart, as text", read_moka};
 }
 
 } // namespace rend

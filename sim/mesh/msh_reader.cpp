@@ -295,7 +295,7 @@ void read_section(Msh& msh, const std::string& name) {
   end_section(msh, name);
 }
 
-void read(MeshFile& file) {
+void read_msh(MeshFile& file) {
   Msh msh(file);
   if (msh.in.token("$MeshFormat") != "$MeshFormat") msh.in.fail("a Gmsh file starts with $MeshFormat");
   read_format(msh);
@@ -314,7 +314,7 @@ void read(MeshFile& file) {
 } // namespace
 
 MeshReader msh_reader() {
-  return {"Gmsh", {".msh"}, "versions 2.2 and 4.1, ASCII and binary, elements of first order", read};
+  return {"Gmsh", {".msh"}, "versions 2.2 and 4.1, ASCII and binary, elements of first order", read_msh};
 }
 
 } // namespace rend

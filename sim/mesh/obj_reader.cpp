@@ -89,7 +89,7 @@ void add_to_groups(MeshFile& file, const std::string& names, std::span<const std
   }
 }
 
-void read(MeshFile& file) {
+void read_obj(MeshFile& file) {
   std::istringstream text(checked(file));
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
@@ -120,7 +120,7 @@ void read(MeshFile& file) {
 } // namespace
 
 MeshReader obj_reader() {
-  return {"Wavefront", {".obj"}, "points and polygons; g and o name groups", read};
+  return {"Wavefront", {".obj"}, "points and polygons; g and o name groups", read_obj};
 }
 
 } // namespace rend

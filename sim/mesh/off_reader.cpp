@@ -35,7 +35,7 @@ void read_face(Scanner& in, PolygonMesh& mesh) {
   mesh.first.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
 }
 
-void read(MeshFile& file) {
+void read_off(MeshFile& file) {
   Scanner in(file.source);
   in.skip_comments('#');
   const std::string_view head = in.token("the word OFF");
@@ -71,7 +71,7 @@ void read(MeshFile& file) {
 } // namespace
 
 MeshReader off_reader() {
-  return {"OFF", {".off"}, "polygons, ASCII", read};
+  return {"OFF", {".off"}, "polygons, ASCII", read_off};
 }
 
 } // namespace rend

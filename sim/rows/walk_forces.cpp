@@ -6,7 +6,7 @@
 namespace rend {
 namespace {
 
-void add(Record& to, const Vec3& force) {
+void add_force(Record& to, const Vec3& force) {
   to = Record(to.vec() + force);
 }
 
@@ -30,8 +30,8 @@ void walk_forces(const EmbeddedMap& map, const std::vector<std::unique_ptr<Inter
     const double* values = interaction.unit(map.slot(interaction.pattern.owner, d), unit);
     interaction.law->forces(values, {x.data(), v.data(), rest.data()}, f.data());
     for (std::size_t n = 0; n < words.size(); ++n) {
-      add(force[map.vertex(end[n])], f[n]);
-      if (corner) add(corner[map.slot(corner_orbit, end[n])], f[n]);
+      add_force(force[map.vertex(end[n])], f[n]);
+      if (corner) add_force(corner[map.slot(corner_orbit, end[n])], f[n]);
     }
   });
 }

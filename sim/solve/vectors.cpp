@@ -8,7 +8,7 @@
 namespace rend {
 namespace {
 
-constexpr std::size_t block = 1024; // records
+constexpr std::size_t block_records = 1024; // records
 
 REND_INLINE double sum_products(const Record* a, const Record* b, std::size_t begin, std::size_t end) {
   Double4 even{}, odd{};
@@ -44,13 +44,14 @@ double largest_coordinate(const Records& x) {
 }
 
 double dot(int parts, const Records& a, const Records& b) {
-  const std::size_t blocks = (a.size() + block - 1) / block;
+  const std::size_t blocks = (a.size() + block_records - 1) / block_records;
   thread_local std::vector<double> partial;
   partial.assign(blocks, 0);
   double* const sums = partial.data();
   parallel_ranges(parts, blocks, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      sums[n] = at_width<sum_products>(a.data(), b.data(), n * block, std::min(a.size(), (n + 1) * block));
+      sums[n] = at_width<sum_products>(a.data(), b.data(), n * block_records,
+                                       std::min(a.size(), (n + 1) * block_records));
   });
   double sum = 0;
   for (double part : partial) sum += part;

@@ -12,7 +12,7 @@ namespace {
 
 // relative to the motion: the round-off of thousands of steps in double precision
 constexpr double round_off = 1e-12;
-constexpr double tightest = 1e-13; // tolerance
+constexpr double reference_tolerance = 1e-13; // tolerance
 
 struct Attempt {
   SampledRun run;
@@ -76,10 +76,10 @@ Reference make_reference(const MakeScene& make, const StudyGroup& group, double 
   if (calls.progress) calls.progress("reference, second scheme", 0);
   Variant other = variant;
   other.integrator = "rk45";
-  other.tolerance = tightest;
+  other.tolerance = reference_tolerance;
   const Attempt second = attempt(make, group, other, duration, coarse, calls);
   if (second.run.outcome != Outcome::Done) fail(second);
-  figures.second = fmt::format("rk45, tolerance {:g}", tightest);
+  figures.second = fmt::format("rk45, tolerance {:g}", reference_tolerance);
   figures.second_step =
       duration / static_cast<double>(std::max(second.run.counts.substeps, second.run.steps_done));
   figures.second_first_tear = second.run.trajectory.first_tear;
