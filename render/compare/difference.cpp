@@ -10,15 +10,15 @@
 namespace rend {
 namespace {
 
-struct Row {
+struct RowDifference {
   double sum = 0, squares = 0; // [levels], [levels²]
   float max = 0;               // [levels]
   int at = 0;                  // x of the first `max`
   std::size_t counted = 0, differing = 0;
 };
 
-Row row_of(const Picture& a, const Picture& b, const Mask& mask, int y, float* largest) {
-  Row row;
+RowDifference row_of(const Picture& a, const Picture& b, const Mask& mask, int y, float* largest) {
+  RowDifference row;
   const std::size_t start = static_cast<std::size_t>(y) * a.width, channels = a.alpha ? 4 : 3;
   for (int x = 0; x < a.width; ++x) {
     const std::size_t n = start + x;
@@ -47,14 +47,14 @@ Difference difference_of(const Picture& a, const Picture& b, const Mask& mask, i
   CHECK(a.width == b.width && a.height == b.height && a.alpha == b.alpha);
   Difference out;
   out.largest.resize(a.pixels());
-  std::vector<Row> rows(static_cast<std::size_t>(a.height));
+  std::vector<RowDifference> rows(static_cast<std::size_t>(a.height));
   parallel_ranges(threads, rows.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y)
       rows[y] = row_of(a, b, mask, static_cast<int>(y), out.largest.data());
   });
   double squares = 0;
   for (std::size_t y = 0; y < rows.size(); ++y) {
-    const Row& row = rows[y];
+    const RowDifference& row = rows[y];
     out.mean += row.sum;
     squares += row.squares;
     out.counted += row.counted;

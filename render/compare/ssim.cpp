@@ -8,7 +8,7 @@
 namespace rend {
 namespace {
 
-constexpr int side = 7;
+constexpr int window_side = 7;
 constexpr double c1 = (0.01 * 255) * (0.01 * 255), c2 = (0.03 * 255) * (0.03 * 255);
 
 // Column sums over the height of a window, one array per quantity, one number per column of the picture.
@@ -78,7 +78,7 @@ Total total_of(const Levels& a, const Levels& b, const Mask& mask, int width, in
 
 double ssim_of(const Picture& a, const Picture& b, const Mask& mask, int threads) {
   CHECK(a.width == b.width && a.height == b.height && !a.alpha && !b.alpha);
-  const Window window{std::min(side, a.width), std::min(side, a.height)};
+  const Window window{std::min(window_side, a.width), std::min(window_side, a.height)};
   std::vector<Total> rows(static_cast<std::size_t>(a.height - window.down + 1));
   parallel_ranges(threads, rows.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y)

@@ -17,7 +17,7 @@ constexpr ImU32 ink = IM_COL32(28, 32, 38, 255), faint = IM_COL32(28, 32, 38, 15
 constexpr ImU32 paper = IM_COL32(255, 255, 255, 168), hair = IM_COL32(28, 32, 38, 60);
 
 // As fractions of the picture's height.
-constexpr float title_size = 1 / 26.0f, text_size = 1 / 42.0f, margin = 1 / 30.0f, padding = 1 / 60.0f;
+constexpr float title_size = 1 / 26.0f, text_size = 1 / 42.0f, hud_margin = 1 / 30.0f, padding = 1 / 60.0f;
 constexpr float plot_width = 0.42f, plot_height = 0.17f, bar_width = 0.30f, bar_height = 1 / 50.0f;
 
 ImU32 colour(const std::array<std::uint8_t, 3>& c) {
@@ -89,18 +89,18 @@ void Hud::Context::panel(float x, float y, float width, float height) {
 }
 
 void Hud::Context::titles(const HudContent& content) {
-  float y = at(margin);
+  float y = at(hud_margin);
   if (!content.title.empty()) {
-    write(title_, at(margin), y, ink, content.title);
+    write(title_, at(hud_margin), y, ink, content.title);
     y += title_->FontSize * 1.15f;
   }
-  if (!content.subtitle.empty()) write(text_, at(margin), y, faint, content.subtitle);
+  if (!content.subtitle.empty()) write(text_, at(hud_margin), y, faint, content.subtitle);
 }
 
 void Hud::Context::figures(const HudContent& content) {
-  float y = at(margin);
+  float y = at(hud_margin);
   for (const std::string& line : content.figures) {
-    write(text_, width_ - at(margin) - size_of(text_, line).x, y, ink, line);
+    write(text_, width_ - at(hud_margin) - size_of(text_, line).x, y, ink, line);
     y += text_->FontSize * 1.3f;
   }
 }
@@ -142,7 +142,7 @@ float Hud::Context::plot(const HudPlot& plot, float bottom) {
   named += size_of(text_, plot.low_text).x; // written after them
   across = std::max(across, named);
   const float width = across + 2 * pad, height = at(plot_height) + 2 * line + 2 * pad;
-  const float left = at(margin), top = bottom - height;
+  const float left = at(hud_margin), top = bottom - height;
   panel(left, top, width, height);
   write(text_, left + pad, top + pad, ink, plot.title);
   const ImVec2 high(left + width - pad, top + pad + line), low(left + pad, high.y + at(plot_height));
@@ -161,7 +161,7 @@ float Hud::Context::legend(const HudLegend& legend, float bottom) {
   // as wide as its text needs
   const float across = std::max({at(bar_width), size_of(text_, legend.title).x, words});
   const float width = across + 2 * pad, height = at(bar_height) + 2 * line + 2 * pad;
-  const float left = width_ - at(margin) - width, top = bottom - height;
+  const float left = width_ - at(hud_margin) - width, top = bottom - height;
   panel(left, top, width, height);
   write(text_, left + pad, top + pad, ink, legend.title);
   const float bar = top + pad + line, step = across / static_cast<float>(legend.colours.size());
@@ -189,7 +189,7 @@ void Hud::draw(const HudContent& content) {
   context_->list_ = ImGui::GetBackgroundDrawList();
   context_->titles(content);
   context_->figures(content);
-  const float foot = context_->height_ - context_->at(margin), gap = context_->at(padding);
+  const float foot = context_->height_ - context_->at(hud_margin), gap = context_->at(padding);
   float bottom = foot;
   for (const HudPlot& plot : content.plots) bottom = context_->plot(plot, bottom) - gap;
   bottom = foot;

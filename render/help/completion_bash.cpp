@@ -56,7 +56,7 @@ std::string values_of(const std::vector<SettableAttribute>& sets) {
   return out;
 }
 
-constexpr const char* functions = R"bash(
+constexpr const char* bash_functions = R"bash(
 # _rend_plain PATH: without the brackets of body[left].tear[2]; into plain.
 _rend_plain() {
   plain=${1#scene.}
@@ -159,7 +159,7 @@ _rend() {
 complete -F _rend rend
 )bash";
 
-std::string script(const CompletionSource& source) {
+std::string bash_script(const CompletionSource& source) {
   Tables tables;
   add_command(source.program, "", source.program, tables);
   std::vector<std::string> paths;
@@ -172,13 +172,13 @@ std::string script(const CompletionSource& source) {
                      "_rend_takes() {{ # COMMAND, OPTION or number of the word: into takes\n"
                      "  case \"$1 $2\" in\n{}  esac\n}}\n{}",
                      joined_by_blanks(paths), joined_by_blanks(source.elements), values_of(source.sets),
-                     tables.options, tables.takes, functions);
+                     tables.options, tables.takes, bash_functions);
 }
 
 } // namespace
 
 Shell bash_shell() {
-  return {"bash", script};
+  return {"bash", bash_script};
 }
 
 } // namespace rend

@@ -59,7 +59,7 @@ void add_command(const CommandUsage& command, const std::string& path, const Com
     add_command(part, fmt::format("{} {}", path, part.name), program, out);
 }
 
-constexpr const char* functions = R"fish(
+constexpr const char* fish_functions = R"fish(
 function __rend_at # COMMAND...: whether that is the command
   set -l words (commandline -opc)[2..-1]
   set -l number (count $argv)
@@ -78,9 +78,9 @@ end
 complete -c rend -f
 )fish";
 
-std::string script(const CompletionSource& source) {
+std::string fish_script(const CompletionSource& source) {
   std::string out = "# Completion of rend for fish, as `rend help completion fish` prints it.\n";
-  out += functions;
+  out += fish_functions;
   out += "\nfunction __rend_attributes\n  __rend_lines";
   for (const SettableAttribute& set : source.sets) {
     if (set.values.empty()) out += fmt::format(" {}=", set.path);
@@ -95,7 +95,7 @@ std::string script(const CompletionSource& source) {
 } // namespace
 
 Shell fish_shell() {
-  return {"fish", script};
+  return {"fish", fish_script};
 }
 
 } // namespace rend

@@ -97,7 +97,7 @@ std::string attributes(const std::vector<SettableAttribute>& sets) {
   return out + "  esac\n}\n\n";
 }
 
-std::string script(const CompletionSource& source) {
+std::string zsh_script(const CompletionSource& source) {
   std::string out = "#compdef rend\n# Completion of rend for zsh, as `rend help completion zsh` prints it.\n\n";
   out += attributes(source.sets);
   out += fmt::format("_rend_elements() {{ compadd {} }}\n\n", joined_by_blanks(source.elements));
@@ -108,7 +108,7 @@ std::string script(const CompletionSource& source) {
 } // namespace
 
 Shell zsh_shell() {
-  return {"zsh", script};
+  return {"zsh", zsh_script};
 }
 
 } // namespace rend

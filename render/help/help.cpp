@@ -33,7 +33,7 @@ std::string multiplicity(int at_least, int at_most) {
   return at_least == at_most ? fmt::format("exactly {}", at_least) : fmt::format("{} to {}", at_least, at_most);
 }
 
-std::string value_of(const AttributeType& attribute) {
+std::string value_text(const AttributeType& attribute) {
   const std::string out = expected(attribute);
   if (attribute.required) return out + "; required";
   if (!attribute.fallback) return out + "; optional";
@@ -52,7 +52,7 @@ void print_attributes(const ElementType& type, const Style& style, std::string& 
       out += gap + line + '\n';
       gap.assign(indent, ' ');
     }
-    for (const std::string& line : folded(value_of(attribute), page_width - indent))
+    for (const std::string& line : folded(value_text(attribute), page_width - indent))
       out += std::string(indent, ' ') + style.faint(line) + '\n';
   }
 }

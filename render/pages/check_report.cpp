@@ -122,7 +122,7 @@ private:
   const std::vector<CheckChapter>& chapters_;
 };
 
-const std::vector<html::Column> columns{
+const std::vector<html::Column> case_columns{
     {"case"}, {"verdict"}, {"expected"}, {"what happened"}, number_column("s")};
 
 std::vector<html::Cell> Report::row(const CheckChapter& chapter, std::size_t n, const std::string& name) const {
@@ -164,7 +164,7 @@ Html Report::contents() const {
 }
 
 Html Report::picked(Verdict verdict, const std::string& title, const std::string& about) const {
-  Table t{.columns = columns, .rows = {}};
+  Table t{.columns = case_columns, .rows = {}};
   for (const CheckChapter& chapter : chapters_)
     for (std::size_t n = 0; n < chapter.results.size(); ++n)
       if (chapter.results[n].finding.verdict == verdict) {
@@ -234,7 +234,7 @@ Html Report::matrix(const CheckChapter& chapter) const {
 }
 
 Html Report::cases(const CheckChapter& chapter) const {
-  Table t{.columns = columns, .rows = {}, .sortable = true};
+  Table t{.columns = case_columns, .rows = {}, .sortable = true};
   for (std::size_t n = 0; n < chapter.cases.size(); ++n)
     t.rows.push_back(row(chapter, n, short_name(chapter, chapter.cases[n])));
   return table(t);

@@ -56,21 +56,21 @@ html::Cell figure_cell(double value, int digits = 3) {
   return {escaped(in_digits(value, digits)), fmt::format("{}", value)};
 }
 
-const std::vector<html::Column> columns{{"picture"},
-                                        {"state"},
-                                        number_column("max"),
-                                        number_column("mean"),
-                                        number_column("RMSE"),
-                                        number_column("PSNR"),
-                                        number_column("SSIM"),
-                                        number_column("FLIP"),
-                                        number_column("share"),
-                                        number_column("window")};
+const std::vector<html::Column> picture_columns{{"picture"},
+                                                {"state"},
+                                                number_column("max"),
+                                                number_column("mean"),
+                                                number_column("RMSE"),
+                                                number_column("PSNR"),
+                                                number_column("SSIM"),
+                                                number_column("FLIP"),
+                                                number_column("share"),
+                                                number_column("window")};
 
 std::vector<html::Cell> row_of(const CaseResult& one, const Html& name, const Html& state) {
   std::vector<html::Cell> row{{name, one.paths.name}, {state, {}}};
   if (!one.metrics) {
-    for (std::size_t n = row.size(); n < columns.size(); ++n) row.push_back({muted("-"), {}});
+    for (std::size_t n = row.size(); n < picture_columns.size(); ++n) row.push_back({muted("-"), {}});
     return row;
   }
   const Metrics& m = *one.metrics;
@@ -174,7 +174,7 @@ std::string diff_page(const DiffReport& report) {
   body += facts({{"expected", code(report.a)}, {"now", code(report.b)}});
   for (const std::string& remark : report.remarks)
     body += paragraph(badge(Tone::Limit, "note") + escaped(fmt::format(" {}", remark)));
-  Table failures{.columns = columns, .rows = {}, .sortable = true}, rest = failures;
+  Table failures{.columns = picture_columns, .rows = {}, .sortable = true}, rest = failures;
   Html pictures;
   Chapters chapters(report);
   for (const std::size_t n : failures_first(report)) {

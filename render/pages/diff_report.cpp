@@ -81,7 +81,7 @@ Json figures_json(const Metrics& m) {
       {"worst_place", {{"x", m.worst.x}, {"y", m.worst.y}}}};
 }
 
-std::string joined(const std::vector<std::string>& parts) {
+std::string reasons_text(const std::vector<std::string>& parts) {
   std::string out;
   for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
   return out;
@@ -110,7 +110,7 @@ std::string line_of(const DiffReport& report, std::size_t n) {
   const CaseResult& one = report.cases[n];
   std::string line =
       fmt::format("{:<11} {}", report.updated[n] ? "updated" : name_of(one.state), one.paths.name);
-  if (!one.why.empty() && !report.updated[n]) line += ": " + joined(one.why);
+  if (!one.why.empty() && !report.updated[n]) line += ": " + reasons_text(one.why);
   return printable(line) + "\n";
 }
 
@@ -181,7 +181,7 @@ std::string diff_junit(const DiffReport& report) {
     cases += fmt::format(
         ">\n      <{0} type=\"{1}\" message=\"{1}: {2}\">expected: {3}\nnow: {4}\n{5}</{0}>\n    "
         "</testcase>\n",
-        element, name_of(one.state), text(joined(one.why)), text(one.paths.a.string()),
+        element, name_of(one.state), text(reasons_text(one.why)), text(one.paths.a.string()),
         text(one.paths.b.string()), one.metrics ? html::escaped_lines(figures_text(*one.metrics)).text : "");
   }
   return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites tests=\"{0}\" failures=\"{1}\" "

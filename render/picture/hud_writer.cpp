@@ -13,7 +13,7 @@ namespace rend {
 namespace {
 
 constexpr double nothing = 1e-15; // [J], round-off of sums that are zero; a smaller range gives no axis
-constexpr std::array<const char*, 4> names{"kinetic", "elastic", "gravity", "sum"};
+constexpr std::array<const char*, 4> energy_names{"kinetic", "elastic", "gravity", "sum"};
 // Distinguishable by hue and by lightness (Okabe and Ito 2008).
 constexpr std::array<Colour, 4> colours{{{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {60, 60, 60}}};
 
@@ -77,7 +77,7 @@ HudPlot HudWriter::energy_plot() const {
   plot.title = "energy";
   const bool falls = !scene_.world().gravity.isZero(0);
   for (std::size_t n = 0; n < energies_.size(); ++n)
-    if (n != 2 || falls) plot.curves.push_back({names[n], colours[n], energies_[n]});
+    if (n != 2 || falls) plot.curves.push_back({energy_names[n], colours[n], energies_[n]});
   plot.low = static_cast<float>(low_);
   plot.high = static_cast<float>(high_);
   plot.low_text = in_units(low_, "J");
