@@ -114,11 +114,11 @@ std::vector<Clip> clips() {
 }
 
 // A run in this process; of its pictures only the last is drawn, and none written.
-struct LocalRun {
+struct ForgedRun {
   Session session;
   FrameOutput output;
   std::string key;
-  LocalRun(const TestFolder& place, const Clip& clip)
+  ForgedRun(const TestFolder& place, const Clip& clip)
       : session(options_in(place, clip)), output(session, files(), last_frame(session)),
         key(picture_key(session, 64, 48, 1)) {}
   static SessionOptions options_in(const TestFolder& place, const Clip& clip) {
@@ -146,7 +146,7 @@ struct LocalRun {
 
 // A genuine checkpoint: a few steps beyond the frame before `next`.
 std::string genuine(const TestFolder& place, const Clip& clip, long next) {
-  LocalRun run(place, clip);
+  ForgedRun run(place, clip);
   EXPECT_EQ(run.run(0, next - 1), Stopped::No);
   for (int n = 0; n < 3 && run.session.scene().steps_done() < run.session.clock().step_of(next); ++n)
     run.session.scene().step();
@@ -274,7 +274,7 @@ void limit() {
 }
 
 // The exit code that the program would have: 65, 76, or 0 after some frames.
-int go_on_from(const fs::path& path, LocalRun& run) try {
+int go_on_from(const fs::path& path, ForgedRun& run) try {
   const long frames = run.session.clock().frames();
   const auto head = read_checkpoint(path, run.key, frames, run.session, run.output);
   if (!head) return 65; // its key or next frame does not fit
@@ -293,7 +293,7 @@ int go_on_from(const fs::path& path, LocalRun& run) try {
   return 70;
 }
 
-int in_a_process_of_its_own(const fs::path& path, LocalRun& run) {
+int in_a_process_of_its_own(const fs::path& path, ForgedRun& run) {
   const pid_t child = fork();
   if (child == 0) {
     limit();
@@ -314,7 +314,7 @@ TEST_P(Forged, is_refused_in_words_or_goes_on) {
   place.write("clip.xml", clip.xml);
   const std::string bytes = genuine(place, clip, clip.next), later = genuine(place, clip, clip.next + 2);
   const fs::path path = place.path() / "forged.checkpoint";
-  LocalRun run(place, clip); // forked processes get it as it was built
+  ForgedRun run(place, clip); // forked processes get it as it was built
   place.write("forged.checkpoint", mended(bytes));
   ASSERT_EQ(in_a_process_of_its_own(path, run), 0) << "as it was";
   Forger forger(bytes, later, 17);

@@ -161,7 +161,7 @@ std::string refusal_of(const BodySettings& settings, SceneDefinition scene = {})
   return {};
 }
 
-BodySettings sheet() {
+BodySettings sheet_settings() {
   BodySettings body;
   body.shape = SheetShape{.nx = 2, .ny = 2, .size = {{1, 1}}};
   body.mass.total = 1;
@@ -169,33 +169,33 @@ BodySettings sheet() {
 }
 
 TEST(Settings, that_no_reader_has_looked_at_are_checked_as_a_reader_would) {
-  EXPECT_EQ(refusal_of(sheet()), "");
-  BodySettings body = sheet();
+  EXPECT_EQ(refusal_of(sheet_settings()), "");
+  BodySettings body = sheet_settings();
   body.mass.total = -1;
   EXPECT_EQ(refusal_of(body), "total is -1; expected a number above 0 [kg]");
-  body = sheet();
+  body = sheet_settings();
   body.mass.total = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal_of(body), HasSubstr("total is nan"));
-  body = sheet();
+  body = sheet_settings();
   body.shape = SheetShape{.nx = 0, .size = {{1, 1}}};
   EXPECT_THAT(refusal_of(body), HasSubstr("cells is 0; expected 2 whole numbers"));
-  body = sheet();
+  body = sheet_settings();
   body.motions = {FixSettings{.where = {.side = "left"}}};
   EXPECT_THAT(refusal_of(body), HasSubstr("side is 'left'; expected one of -x, +x"));
-  body = sheet();
+  body = sheet_settings();
   body.motions = {DriveSettings{.where = {.all = true}}};
   EXPECT_THAT(refusal_of(body), HasSubstr("needs one of velocity, displacement, gradient, rotate"));
-  body = sheet();
+  body = sheet_settings();
   body.tears = {LawSettings{.criterion = find_criterion("strian"), .threshold = 1}};
   EXPECT_THAT(refusal_of(body), HasSubstr("criterion is missing; expected one of atomic-spring"));
-  body = sheet();
+  body = sheet_settings();
   body.springs = SpringsSettings{.springs = {{.type = find_interaction("strech"), .k = 1}}};
   EXPECT_THAT(refusal_of(body), HasSubstr("there is no such spring"));
 }
 
 TEST(Settings, of_two_bodies_or_two_probes_of_one_name_are_refused) {
   SceneDefinition scene;
-  BodySettings body = sheet();
+  BodySettings body = sheet_settings();
   body.probes = {{.name = "tip", .where = {.side = "+x"}}};
   add_body(scene, body);
   EXPECT_EQ(refusal_of(body, std::move(scene)), "two bodies are called 'body'");
@@ -207,7 +207,7 @@ TEST(Settings, of_time_need_a_duration_and_a_scheme) {
   const auto refusal = [](const TimeSettings& time) -> std::string {
     SceneDefinition scene;
     scene.time = time;
-    add_body(scene, sheet());
+    add_body(scene, sheet_settings());
     try {
       Scene(std::move(scene), {});
     } catch (const UserError& error) {

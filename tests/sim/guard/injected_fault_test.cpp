@@ -9,8 +9,8 @@
 namespace rend {
 namespace {
 
-constexpr StepStage stages[] = {StepStage::Forces, StepStage::Loads, StepStage::Integration,
-                                StepStage::Contact};
+constexpr StepStage struck_stages[] = {StepStage::Forces, StepStage::Loads, StepStage::Integration,
+                                       StepStage::Contact};
 
 presets::Loaded loaded(const SceneOptions& options) {
   return presets::load(presets::cloth("quads", 5, "",
@@ -21,7 +21,7 @@ presets::Loaded loaded(const SceneOptions& options) {
 
 // Without the guard, a fault stops the run, with the state before it intact.
 TEST(Faults, spoil_the_step_and_the_stage_that_they_name) {
-  for (const StepStage stage : stages) {
+  for (const StepStage stage : struck_stages) {
     SceneOptions options;
     options.guard = false;
     options.fault = Fault{stage, 7, false};
@@ -35,7 +35,7 @@ TEST(Faults, spoil_the_step_and_the_stage_that_they_name) {
 }
 
 TEST(Faults, happen_once_unless_they_last) {
-  for (const StepStage stage : stages) {
+  for (const StepStage stage : struck_stages) {
     SceneOptions options;
     options.guard = false;
     options.fault = Fault{stage, 2, false};

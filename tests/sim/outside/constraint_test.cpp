@@ -246,7 +246,7 @@ TEST(Constraints, hold_every_fragment_of_a_split_vertex) {
   EXPECT_EQ(found, held.size());
 }
 
-std::string refusal_of(const std::string& prescribed) {
+std::string constraint_refusal(const std::string& prescribed) {
   try {
     cloth(prescribed);
   } catch (const UserError& error) {
@@ -257,23 +257,23 @@ std::string refusal_of(const std::string& prescribed) {
 }
 
 TEST(Constraints, are_refused_where_they_mean_nothing) {
-  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" displacement="1 0 0"/>)"),
+  EXPECT_THAT(constraint_refusal(R"(<drive side="+x" velocity="1 0 0" displacement="1 0 0"/>)"),
               HasSubstr("several of velocity"));
-  EXPECT_THAT(refusal_of(R"(<drive side="+x"/>)"), HasSubstr("one of velocity"));
-  EXPECT_THAT(refusal_of(R"(<drive side="+x" rotate="0 0 0 90"/>)"), HasSubstr("no direction"));
-  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" rotate="0 0 1 90"/>)"),
+  EXPECT_THAT(constraint_refusal(R"(<drive side="+x"/>)"), HasSubstr("one of velocity"));
+  EXPECT_THAT(constraint_refusal(R"(<drive side="+x" rotate="0 0 0 90"/>)"), HasSubstr("no direction"));
+  EXPECT_THAT(constraint_refusal(R"(<drive side="+x" velocity="1 0 0" rotate="0 0 1 90"/>)"),
               HasSubstr("several of velocity"));
-  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" centre="0 0 1"/>)"),
+  EXPECT_THAT(constraint_refusal(R"(<drive side="+x" velocity="1 0 0" centre="0 0 1"/>)"),
               HasSubstr("no use without rotate"));
-  EXPECT_THAT(refusal_of(R"(<drive side="+x" velocity="1 0 0" from="2" until="1"/>)"),
+  EXPECT_THAT(constraint_refusal(R"(<drive side="+x" velocity="1 0 0" from="2" until="1"/>)"),
               HasSubstr("ends before"));
-  EXPECT_THAT(refusal_of(R"(<fix side="+x" near="0 0 0"/>)"), HasSubstr("has 2 selectors"));
-  EXPECT_THAT(refusal_of(R"(<fix/>)"), HasSubstr("give one of near, box, side, group, all"));
-  EXPECT_THAT(refusal_of(R"(<fix box="2 2 2 3 3 3"/>)"), HasSubstr("from (0, 0, 0) to (1, 1, 0)"));
+  EXPECT_THAT(constraint_refusal(R"(<fix side="+x" near="0 0 0"/>)"), HasSubstr("has 2 selectors"));
+  EXPECT_THAT(constraint_refusal(R"(<fix/>)"), HasSubstr("give one of near, box, side, group, all"));
+  EXPECT_THAT(constraint_refusal(R"(<fix box="2 2 2 3 3 3"/>)"), HasSubstr("from (0, 0, 0) to (1, 1, 0)"));
   std::string many;
   for (int n = 0; n < 64; ++n) many += R"(<fix near="0 0 0"/>)";
-  EXPECT_EQ(refusal_of(many), "not refused");
-  EXPECT_THAT(refusal_of(many + R"(<fix near="1 0 0"/>)"), HasSubstr("at most 64"));
+  EXPECT_EQ(constraint_refusal(many), "not refused");
+  EXPECT_THAT(constraint_refusal(many + R"(<fix near="1 0 0"/>)"), HasSubstr("at most 64"));
 }
 
 } // namespace

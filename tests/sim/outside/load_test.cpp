@@ -338,7 +338,7 @@ TEST(Load, keeps_its_total_in_a_body_that_tears) {
   EXPECT_NEAR(scene->momentum().z(), -9.81 * 0.5 * 0.6, 1e-12);
 }
 
-std::string refusal_of(const std::string& load) {
+std::string load_refusal(const std::string& load) {
   try {
     presets::load(scene_of(load, "rk4"));
   } catch (const UserError& error) {
@@ -348,15 +348,15 @@ std::string refusal_of(const std::string& load) {
 }
 
 TEST(Load, is_refused_where_it_means_nothing) {
-  EXPECT_THAT(refusal_of(R"(<load side="+x"/>)"), HasSubstr("one of force, moment, pressure"));
-  EXPECT_THAT(refusal_of(R"(<load side="+x" force="1 0 0" pressure="2"/>)"),
+  EXPECT_THAT(load_refusal(R"(<load side="+x"/>)"), HasSubstr("one of force, moment, pressure"));
+  EXPECT_THAT(load_refusal(R"(<load side="+x" force="1 0 0" pressure="2"/>)"),
               HasSubstr("of force, moment, pressure"));
-  EXPECT_THAT(refusal_of(R"(<load side="+x" pressure="2"/>)"), HasSubstr("no face has all"));
-  EXPECT_THAT(refusal_of(R"(<load all="yes" pressure="2" follows="body"/>)"), HasSubstr("along the normals"));
-  EXPECT_THAT(refusal_of(R"(<load side="+x" moment="0 1 0"/>)"), HasSubstr("straight line"));
-  EXPECT_THAT(refusal_of(R"(<load side="+x" force="0 1 0" from="2" until="1"/>)"),
+  EXPECT_THAT(load_refusal(R"(<load side="+x" pressure="2"/>)"), HasSubstr("no face has all"));
+  EXPECT_THAT(load_refusal(R"(<load all="yes" pressure="2" follows="body"/>)"), HasSubstr("along the normals"));
+  EXPECT_THAT(load_refusal(R"(<load side="+x" moment="0 1 0"/>)"), HasSubstr("straight line"));
+  EXPECT_THAT(load_refusal(R"(<load side="+x" force="0 1 0" from="2" until="1"/>)"),
               HasSubstr("before it starts"));
-  EXPECT_EQ(refusal_of(R"(<load side="+x" moment="0 0 1"/>)"), "not refused");
+  EXPECT_EQ(load_refusal(R"(<load side="+x" moment="0 0 1"/>)"), "not refused");
 }
 
 } // namespace

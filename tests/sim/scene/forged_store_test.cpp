@@ -123,18 +123,18 @@ private:
   std::vector<std::uint8_t> bytes_;
 };
 
-std::string scene_of(const std::string& body, const std::string& rest) {
+std::string stored_scene_xml(const std::string& body, const std::string& rest) {
   return R"(<scene name="forged"><body name="body">)" + body + "</body>" + rest + "</scene>";
 }
 
 // Springs that are deleted when they are stretched too far: elements are removed, borders open.
 StoredScene torn() {
-  return {scene_of(R"(<sheet cells="4 4" size="1 1"/><mass total="0.1"/>
+  return {stored_scene_xml(R"(<sheet cells="4 4" size="1 1"/><mass total="0.1"/>
                       <springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>
                       <fix side="-x"/><drive side="+x" velocity="4 0 0"/>
                       <tear criterion="global-border" threshold="1" max-per-step="1"/>
                       <tear criterion="atomic-spring" kind="shear" threshold="0.5" max-per-step="1"/>)",
-                   R"(<time step="1e-3" integrator="rk4" duration="1"/>)"),
+                           R"(<time step="1e-3" integrator="rk4" duration="1"/>)"),
           200};
 }
 
@@ -258,11 +258,11 @@ TEST(ForgedStore, the_guard_goes_back_to_a_start_that_there_is) {
 // Two sheets, one on top of the other, and a sphere.
 TEST(ForgedStore, contact_is_of_vertices_and_faces_that_there_are) {
   const std::string xml =
-      scene_of(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
+      stored_scene_xml(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
                                       <springs><stretch k="60"/></springs>
                                       <tear criterion="global-border" threshold="0.001" max-per-step="1"/>
                                       <contact with="obstacles fragments" thickness="0.01"/>)",
-               R"(<world gravity="0 0 -9.81"><sphere centre="0.5 0.5 -0.12" radius="0.1"/></world>
+                       R"(<world gravity="0 0 -9.81"><sphere centre="0.5 0.5 -0.12" radius="0.1"/></world>
                                       <time step="1e-3" integrator="symplectic" duration="1"/>)");
   const StoredScene genuine(xml, 150);
   const std::size_t changed = genuine.layout().contacts, lists = changed + 1, vertices = lists + 8;
@@ -287,10 +287,11 @@ TEST(ForgedStore, contact_is_of_vertices_and_faces_that_there_are) {
 TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const std::string scheme : {"rk45", "implicit", "static"}) {
-    const StoredScene genuine(scene_of(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
+    const StoredScene genuine(
+        stored_scene_xml(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
                                       <springs><stretch k="60"/></springs><fix side="-x"/>)",
-                                       R"(<time step="5e-3" integrator=")" + scheme + R"(" duration="1"/>)"),
-                              3);
+                         R"(<time step="5e-3" integrator=")" + scheme + R"(" duration="1"/>)"),
+        3);
     std::size_t at = genuine.layout().body + 8 + 1 + 8 + 8; // no tears, not removed; evaluations, time
     for (int n = 0; n < 2; ++n) at += 8 + 32 * genuine.there<std::uint64_t>(at);
     at += 1 + 32; // large, probe

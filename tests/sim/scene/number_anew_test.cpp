@@ -120,7 +120,7 @@ const std::string bar = R"(<bar pattern="mixed" cells="6 3 2" size="1 0.5 0.4"/>
   <tear criterion="atomic-border" threshold="60"/>
   <load side="-y" moment="0.01 0 0"/>)";
 
-std::string scene_of(const std::string& body, const std::string& integrator) {
+std::string renumbered_scene_xml(const std::string& body, const std::string& integrator) {
   return R"(<scene name="anew"><world gravity="0 0 -9.81"><floor z="-0.1"/><wind velocity="0.5 0.2 2"/></world>
     <body name="it">)" +
          body + R"(<viscosity value="0.1" per="body"/><fix side="-x"/><drive side="+x" velocity="1.2 0.1 0"/>
@@ -172,7 +172,7 @@ TEST(NumberAnew, at_every_change_leaves_the_course_of_a_scene_as_it_is) {
   for (const std::string& body : {sheet, bar}) {
     for (const char* integrator : {"symplectic", "rk4", "implicit"}) {
       SCOPED_TRACE(body + integrator);
-      const std::string xml = scene_of(body, integrator);
+      const std::string xml = renumbered_scene_xml(body, integrator);
       const auto one = presets::load(xml, {.count_fragments = true}),
                  other = presets::load(xml, {.count_fragments = true});
       Body& renumbered = one.body();

@@ -34,7 +34,7 @@ struct Played {
   }
 };
 
-void expect_same(const Scene& a, const Scene& b) {
+void expect_same_state(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.hash(), b.hash());
   EXPECT_EQ(a.tears(), b.tears());
   EXPECT_EQ(a.kinetic_energy(), b.kinetic_energy());
@@ -75,7 +75,7 @@ TEST_P(SameBytes, on_any_number_of_threads_and_with_everything_built_anew_at_eac
     Played other(GetParam(), threads);
     other.go_to(one.scene.steps_done());
     SCOPED_TRACE(threads);
-    expect_same(one.scene, other.scene);
+    expect_same_state(one.scene, other.scene);
   }
   if (one.scene.tears() == 0) return;
   Played anew(GetParam(), 1);
@@ -85,7 +85,7 @@ TEST_P(SameBytes, on_any_number_of_threads_and_with_everything_built_anew_at_eac
     };
   anew.go_to(one.scene.steps_done());
   SCOPED_TRACE("built anew");
-  expect_same(one.scene, anew.scene);
+  expect_same_state(one.scene, anew.scene);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SameBytes, testing::ValuesIn(shipped::all_presets()), shipped::as_word);

@@ -37,10 +37,10 @@ std::vector<std::uint8_t> timeless(const std::vector<std::uint8_t>& bytes) {
   return {bytes.begin(), at};
 }
 
-struct Played {
+struct StoredRun {
   std::unique_ptr<PresetNode> preset;
   std::unique_ptr<Scene> scene;
-  explicit Played(const std::string& name)
+  explicit StoredRun(const std::string& name)
       : preset(load_scene(shipped::path_of(name))),
         scene(std::make_unique<Scene>(read_scene(*preset),
                                       SceneOptions{.threads = 2, .count_fragments = true})) {}
@@ -63,7 +63,7 @@ void go(Scene& scene, long steps) {
 class StoredPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(StoredPreset, goes_on_to_the_bit) {
-  Played first(GetParam()), other(GetParam());
+  StoredRun first(GetParam()), other(GetParam());
   Scene& scene = *first.scene;
   const bool whole = std::getenv("REND_WHOLE") != nullptr;
   const long all = static_cast<long>(scene.duration() / scene.step_size());

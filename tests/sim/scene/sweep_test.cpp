@@ -22,7 +22,7 @@ bool sweeps(const Scene& scene) {
                      [](const auto& body) { return body->may_defer_forces(); });
 }
 
-void expect_same(const Scene& swept, const Scene& asked) {
+void expect_same_sweep(const Scene& swept, const Scene& asked) {
   EXPECT_EQ(swept.hash(), asked.hash());
   EXPECT_EQ(swept.kinetic_energy(), asked.kinetic_energy());
   for (std::size_t b = 0; b < swept.bodies().size(); ++b) {
@@ -48,7 +48,7 @@ TEST(SweptSteps, of_every_preset_gives_the_bytes_of_forces_first) {
       one.step();
       other.step();
     }
-    expect_same(one, other);
+    expect_same_sweep(one, other);
   }
   EXPECT_GT(swept, 5);
 }
@@ -64,7 +64,7 @@ TEST(SweptSteps, of_many_tiles_gives_the_same_bytes_on_any_number_of_threads) {
     presets::Loaded swept = presets::load(xml, {.threads = threads});
     EXPECT_TRUE(sweeps(*swept.scene));
     for (int n = 0; n < 20; ++n) swept->step();
-    expect_same(*swept.scene, *asked.scene);
+    expect_same_sweep(*swept.scene, *asked.scene);
   }
 }
 
