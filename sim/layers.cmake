@@ -1,4 +1,4 @@
-# rend_library(FOLDER [TOOL] DEPENDS folder... LINKS target... [EXCLUDE file...])
+# rend_library(FOLDER [TOOL] DEPENDS folder... LINKS target... [EXCLUDE file...] [ALONE file...])
 #
 # Makes one library of all .cpp files of FOLDER (such as sim/topology) and lets it include headers of its own
 # folder and of DEPENDS and what those depend on, and of no other: the check runs before the library compiles.
@@ -33,8 +33,17 @@ function(rend_use_precompiled TARGET HEADERS)
   endif()
 endfunction()
 
+# Compiles the files of a library some at a time, as one: most of a file's time goes into headers and their templates.
+# What takes long by itself (ALONE in rend_library) stays by itself: it gains nothing, and would be compiled anew with
+# each neighbour.
+function(rend_use_unity TARGET BATCH)
+  if(REND_UNITY)
+    set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${BATCH})
+  endif()
+endfunction()
+
 function(rend_library FOLDER)
-  cmake_parse_arguments(ARG "TOOL" "" "DEPENDS;LINKS;EXCLUDE" ${ARGN})
+  cmake_parse_arguments(ARG "TOOL" "" "DEPENDS;LINKS;EXCLUDE;ALONE" ${ARGN})
   get_filename_component(name ${FOLDER} NAME)
   if(TARGET rend_${name})
     message(FATAL_ERROR "two folders are called ${name}, and ${FOLDER} is one: libraries are called after their folders")
@@ -67,6 +76,10 @@ function(rend_library FOLDER)
 
   if(sources)
     add_library(rend_${name} STATIC ${sources})
+    rend_use_unity(rend_${name} 8)
+    foreach(file IN LISTS ARG_ALONE)
+      set_property(SOURCE ${PROJECT_SOURCE_DIR}/${FOLDER}/${file} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
+    endforeach()
     if(ARG_TOOL)
       target_compile_options(rend_${name} PRIVATE ${rend_tool_options})
       rend_use_precompiled(rend_${name} rend_headers_tools)
