@@ -10,27 +10,38 @@
 namespace rend {
 
 std::vector<Dart> vertices_of_orbit(const GMap& map, Orbit orbit, Dart d) {
+  std::vector<Dart> out;
+  vertices_of_orbit(map, orbit, d, out);
+  return out;
+}
+
+void vertices_of_orbit(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out) {
   thread_local std::vector<Dart> darts, vertex;
   thread_local IndexSet counted;
   darts.clear();
   counted.clear();
   collect(map, orbit, d, darts);
   std::sort(darts.begin(), darts.end());
-  std::vector<Dart> first;
+  out.clear();
   for (Dart e : darts) {
     if (counted.contains(e.value)) continue;
     vertex.clear();
     collect(map, Vertex, e, vertex);
     for (Dart v : vertex) counted.insert(v.value);
-    first.push_back(e);
+    out.push_back(e);
   }
-  return first;
 }
 
 Point mean_point(const Edit& edit, Orbit orbit, Dart d) {
+  thread_local std::vector<Dart> vertices;
+  vertices_of_orbit(edit.map(), orbit, d, vertices);
+  return mean_point(edit, vertices);
+}
+
+Point mean_point(const Edit& edit, std::span<const Dart> vertices) {
   Point sum;
   double count = 0;
-  for (Dart e : vertices_of_orbit(edit.map(), orbit, d)) {
+  for (Dart e : vertices) {
     const Point point = edit.point(e);
     sum.position += point.position;
     sum.rest += point.rest;

@@ -3,13 +3,17 @@
 
 #include "sim/embedding/embedded_map.h"
 
+#include <span>
+
 namespace rend {
 
 // The smallest dart of each distinct vertex of orbit(d), increasing.
 std::vector<Dart> vertices_of_orbit(const GMap& map, Orbit orbit, Dart d);
+void vertices_of_orbit(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out);
 
 // The mean of the vertices of orbit(d), each counted once, in the order of their smallest dart in the orbit.
 Point mean_point(const Edit& edit, Orbit orbit, Dart d);
+Point mean_point(const Edit& edit, std::span<const Dart> vertices); // one dart each
 
 // Half the sum of cross products around the face of d, from d by α0: its length is the area at rest [m²] of a
 // planar face.

@@ -161,7 +161,10 @@ Vec3 RuleValues::direction(Dart d, std::string_view which, PointPart part) const
       if (map.dimension() == 2) return side(e) * face_vector(edit_, e, member);
       const Vec3 n = face_vector(edit_, e, member);
       const Vec3 outward = mean_point(edit_, FaceOfVolume, e).*member - mean_point(edit_, Volume, e).*member;
-      return n.dot(outward) < 0 ? Vec3(-n) : n;
+      const double out = n.dot(outward), length = std::sqrt(n.norm());
+      if (std::abs(out) <= 1e-9 * length * length * length)
+        return side(e) * n; // a flat volume, as a face alone
+      return out < 0 ? Vec3(-n) : n;
     };
     if (which == "face") {
       sum = face(d);
@@ -192,6 +195,15 @@ Value RuleValues::quantity(RuleFunction function, Dart d) const {
   }
 }
 
+const RuleValues::Mean& RuleValues::mean_of(const ExpressionCall& call, std::size_t instance) const {
+  if (mean_.call == &call && mean_.instance == instance) return mean_;
+  mean_.call = &call;
+  mean_.instance = instance;
+  vertices_of_orbit(edit_.map(), orbit_of_call(call), dart(call.names[0], instance), mean_.vertices);
+  mean_.point = mean_point(edit_, mean_.vertices);
+  return mean_;
+}
+
 Value RuleValues::call(const ExpressionCall& call, std::span<const Value> arguments, std::size_t instance,
                        PointPart part, bool at_zero) const {
   if (is_node(call, rule_.left)) {
@@ -214,7 +226,7 @@ Value RuleValues::call(const ExpressionCall& call, std::span<const Value> argume
     return to_value(at_zero ? Vec3(Vec3::Zero()) : part_of(d, part));
   case RuleFunction::Mean: {
     if (at_zero) return vector_value(0, 0, 0);
-    const Point mean = mean_point(edit_, orbit_of_call(call), d);
+    const Point& mean = mean_of(call, instance).point;
     return to_value(part == PointPart::Position ? mean.position
                     : part == PointPart::Rest   ? mean.rest
                                                 : mean.velocity);
@@ -273,8 +285,7 @@ void RuleValues::parents(const Rule::Set& set, std::size_t instance, std::vector
     if (is_node(call, rule_.left)) {
       out.push_back({match_.dart(instance, static_cast<int>(call.function - rule_functions)), 1});
     } else if (call.function == static_cast<std::size_t>(RuleFunction::Mean)) {
-      for (Dart d : vertices_of_orbit(edit_.map(), orbit_of_call(call), dart(call.names[0], instance)))
-        out.push_back({d, 1});
+      for (Dart d : mean_of(call, instance).vertices) out.push_back({d, 1});
     } else if (call.function == static_cast<std::size_t>(RuleFunction::Copy) ||
                call.function == static_cast<std::size_t>(RuleFunction::Along)) {
       out.push_back({dart(call.names[0], instance), 1});

@@ -12,7 +12,8 @@
 // The position is the value of the expression over positions; the rest position that over rest positions; the
 // velocity its derivative in time where points move with their velocities: f(v) − f(0) for an affine expression.
 //
-// Normals need a sense: the side of the sheet on which its component's smallest dart lies; out of a volume.
+// Normals need a sense: out of a volume; of a sheet, and of a face in a solid that encloses nothing, the side on
+// which its component's smallest dart lies.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -92,10 +93,20 @@ private:
   Vec3 direction(Dart d, std::string_view which, PointPart part) const;
   double side(Dart d) const; // 1, −1
 
+  // Position, rest, velocity and heirs of a vertex all ask for the same mean: the last one is kept.
+  struct Mean {
+    const ExpressionCall* call = nullptr;
+    std::size_t instance = 0;
+    std::vector<Dart> vertices;
+    Point point;
+  };
+  const Mean& mean_of(const ExpressionCall& call, std::size_t instance) const;
+
   const Rule& rule_;
   const Edit& edit_;
   const Match& match_;
   const RuleContext& context_;
+  mutable Mean mean_;
 };
 
 } // namespace rend

@@ -141,7 +141,8 @@ inline Body fan(int n) {
   return body;
 }
 
-// A strip of n quads whose ends are sewn to each other, straight or with a twist.
+// A strip of n quads whose ends are sewn to each other, straight or with a twist; bent into a ring, so that no quad
+// is degenerate.
 inline Body loop_of_quads(int n, bool twisted) {
   Body body = grid(n, 1);
   const GMap& map = body->map();
@@ -154,6 +155,13 @@ inline Body loop_of_quads(int n, bool twisted) {
   };
   const Dart first = find(0, 0), last = find(n, twisted ? 1 : 0);
   apply(rule("sew-edges"), *body, {first, last});
+  for (VertexColumn* column : {&body->position(), &body->rest()})
+    for (Record& value : column->values()) {
+      const Vec3 x = value.vec();
+      const double around = 2 * M_PI * x.x() / n, turn = twisted ? around / 2 : 0, across = x.y() - 0.5;
+      const double radius = 0.5 * n + across * std::cos(turn);
+      value = Record(radius * std::cos(around), radius * std::sin(around), across * std::sin(turn));
+    }
   return body;
 }
 
