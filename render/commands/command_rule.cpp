@@ -77,7 +77,7 @@ Exit show_rule(const RuleOptions& options) {
 }
 
 Exit check(const RuleOptions& options) {
-  const std::size_t count = book_of(options).size();
+  const std::size_t count = options.file.empty() ? house_rules().size() : book_of(options).size();
   print_result(fmt::format("{} {} well formed\n", count, count == 1 ? "rule is" : "rules are"));
   return Exit::Done;
 }
@@ -118,15 +118,15 @@ CLI::App* subcommand(CLI::App& app, const char* name, const char* what, const Ch
   return made;
 }
 
-void add_file(CLI::App& app, const Options& options, const char* name, bool required) {
-  app.add_option(name, options->file, "a preset, or a file of rules")->type_name("FILE")->required(required);
+void add_file(CLI::App& app, const Options& options, const char* name) {
+  app.add_option(name, options->file, "a preset, or a file of rules")->type_name("FILE");
   app.add_flag("--allow-path", options->allow_path,
                "read files that the preset names from outside of its folder, too");
 }
 
 void add_rule(CLI::App& app, const Options& options) {
   app.add_option("name", options->name, "a rule: rend rule list")->required()->type_name("NAME");
-  add_file(app, options, "--in", false);
+  add_file(app, options, "--in");
 }
 
 std::function<Exit()> declare(CLI::App& app) {
@@ -136,13 +136,15 @@ std::function<Exit()> declare(CLI::App& app) {
   app.footer("rend help rule tells how rules are written.");
   const auto json = [&](CLI::App* to, const char* what) { to->add_flag("--json", options->json, what); };
   CLI::App* listing = subcommand(app, "list", "the rules of the house, and those of a file", chosen, list);
-  add_file(*listing, options, "file", false);
+  add_file(*listing, options, "file");
   json(listing, "the same as a JSON array");
   CLI::App* showing = subcommand(app, "show", "one rule: its text, and what it does", chosen, show_rule);
   add_rule(*showing, options);
   json(showing, "the same as one JSON object");
-  CLI::App* checking = subcommand(app, "check", "whether all rules of a file are well formed", chosen, check);
-  add_file(*checking, options, "file", true);
+  CLI::App* checking =
+      subcommand(app, "check", "whether all rules of a file are well formed; without one, those of the house",
+                 chosen, check);
+  add_file(*checking, options, "file");
   CLI::App* drawing =
       subcommand(app, "draw", "its two graphs, and a small map before and after", chosen, draw_rule);
   add_rule(*drawing, options);

@@ -65,10 +65,14 @@ private:
   void labels(RuleSide side) const {
     const std::size_t length = hook_ ? hook_->label.size() : 0;
     for (const RuleNode& node : graph(side).nodes) {
+      if (!hook_ && !node.label.empty())
+        fail(side, node,
+             fmt::format("node {} has a label, and there is no hook whose links it could name", node.name),
+             "a rule with left=\"\" creates single darts, whose links are all arcs and free links");
       if (node.label.size() != length)
         fail(side, node,
              fmt::format("the label of node {} has {} links, and that of hook {} has {}", node.name,
-                         node.label.size(), hook_ ? hook_->name : "(none)", length),
+                         node.label.size(), hook_->name, length),
              "position k of a label tells what the hook's k-th link becomes; _ where it is dropped");
       if (node.hook && node.position(RuleNode::dropped) >= 0)
         fail(side, node, fmt::format("the label of hook {} drops a link", node.name),
@@ -130,7 +134,31 @@ private:
     if (before >= 0 && unchanged(left_, before, right_, n, i) && unchanged(left_, before, right_, n, j)) return;
     if (closes(n, i, j)) return;
     fail(RuleSide::Right, node, fmt::format("at node {}, α{}α{} is no involution any more", node.name, i, j),
-         fmt::format("following α{}, α{}, α{}, α{} from {} must lead back to it", i, j, i, j, node.name));
+         fmt::format("following α{}, α{}, α{}, α{} from {} must lead back to it{}", i, j, i, j, node.name,
+                     what_would_close(n, i, j)));
+  }
+
+  // What has to be there, given one of the two links; empty: the left graph does not mention the other one.
+  std::string what_would_close(int n, int i, int j) const {
+    const RuleLink by_i = right_.link(n, i), by_j = right_.link(n, j);
+    if (by_i.kind == Kind::Absent || by_j.kind == Kind::Absent)
+      return fmt::format(": mention α{} of {} in both graphs", by_i.kind == Kind::Absent ? i : j,
+                         right_[n].name);
+    if (by_i.kind == Kind::Implicit && by_j.kind == Kind::Implicit)
+      return fmt::format(
+          ": they stand where the hook has α{} and α{}, which do not fit; 0 fits to 2 and 3, 1 to 3",
+          hook_->label[static_cast<std::size_t>(by_i.to)], hook_->label[static_cast<std::size_t>(by_j.to)]);
+    if (by_i.kind == Kind::Implicit || by_j.kind == Kind::Implicit) {
+      const bool first = by_i.kind == Kind::Implicit;
+      return fmt::format(": {} must have {} at place {} of its label, as {} has",
+                         right_[first ? by_j.to : by_i.to].name, first ? i : j, (first ? by_i.to : by_j.to) + 1,
+                         right_[n].name);
+    }
+    if (by_i.kind == Kind::Loop || by_j.kind == Kind::Loop)
+      return fmt::format(": {0}|{1} fits to {2}|{1}", right_[by_i.kind == Kind::Loop ? by_j.to : by_i.to].name,
+                         by_i.kind == Kind::Loop ? i : j, right_[n].name);
+    return fmt::format(": {0}-{1}-x and {2}-{3}-x must lead to the same node x", right_[by_i.to].name, j,
+                       right_[by_j.to].name, i);
   }
 
   void unlinks_only() const {

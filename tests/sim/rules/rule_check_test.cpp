@@ -85,7 +85,7 @@ TEST(RuleCheck, hooks_and_labels) {
        "left"},
       {{.left = "a*", .right = "a(2)"}, "the label of node a has 1 links, and that of hook a has 0", "right"},
       {{.left = "a*(0,1,2,3)", .right = "a(0,1,2,3) b"}, "the label of node b has 0 links", "right"},
-      {{.left = "", .right = "a(0) a|1,2,3"}, "and that of hook (none) has 0", "right"},
+      {{.left = "", .right = "a(0) a|1,2,3"}, "node a has a label, and there is no hook", "right"},
       {{.left = "a*(0) b*(0,1)", .right = "a(0) b(0,1)"}, "the label of node b has 2 links", "left"},
       {{.left = "a*(0,_,2)", .right = "a(0,_,2)"}, "the label of hook a drops a link", "left"},
       {{.left = "a*(0) b*(_) a|2 b|0", .right = "a(0) b(_) a|2 b|0"},

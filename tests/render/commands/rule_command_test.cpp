@@ -1,0 +1,188 @@
+// rend rule and rend help rule, as a user runs them.
+#include "render/files/png.h"
+#include "sim/expression/functions.h"
+#include "sim/house_rules/house_rules.h"
+#include "sim/rules/rule_values.h"
+#include "tests/render/commands/program_run.h"
+
+#include <gmock/gmock.h>
+
+namespace rend {
+namespace {
+
+using program::Outcome;
+using program::TestFolder;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+// What stands in the page of `rend help rule` from <rules> to </rules>.
+std::string examples_of(const std::string& page) {
+  const std::size_t from = page.find("\n<rules>\n"), to = page.find("</rules>", from);
+  return from == std::string::npos ? "" : page.substr(from + 1, to + 8 - from);
+}
+
+std::string scene(const std::string& shape) {
+  return "<scene name=\"s\"><rules file=\"mine.xml\"/><body name=\"b\">" + shape +
+         "<mass total=\"1\"/></body><time step=\"1e-3\" integrator=\"symplectic\" duration=\"0\"/></scene>";
+}
+
+TEST(RuleCommand, lists_all_rules_of_the_house) {
+  const TestFolder place;
+  const std::vector<std::string> lines = lines_of(place.rend("rule list").out);
+  const auto json = place.rend("rule list --json").json();
+  ASSERT_EQ(lines.size(), house_rules().size());
+  ASSERT_EQ(json.size(), house_rules().size());
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    EXPECT_THAT(lines[n], StartsWith(house_rules()[n].name() + " "));
+    EXPECT_THAT(lines[n], HasSubstr(house_rules()[n].settings.about));
+    EXPECT_EQ(json[n]["name"], house_rules()[n].name());
+    EXPECT_EQ(json[n]["rule"], house_rules()[n].print());
+  }
+}
+
+TEST(RuleCommand, shows_a_rule_that_can_be_read_again) {
+  const TestFolder place;
+  for (const Rule& rule : house_rules()) {
+    std::string text = place.rend("rule show " + rule.name() + " --json").json()["rule"];
+    const std::string name = "name=\"" + rule.name() + "\"";
+    text.replace(text.find(name), name.size(), "name=\"mine\"");
+    place.write("mine.xml", "<?xml version=\"1.0\"?>\n<!-- <scene> -->\n<rules>" + text + "</rules>");
+    ASSERT_EQ(place.rend("rule check mine.xml").out, "1 rule is well formed\n") << rule.name();
+    EXPECT_EQ(place.rend("rule show mine --in mine.xml --json").json()["rule"], text);
+  }
+}
+
+TEST(RuleCommand, tells_what_a_rule_does) {
+  const TestFolder place;
+  const auto star = place.rend("rule show star-volume --json").json();
+  EXPECT_EQ(star["hooks"][0]["orbit"], "<0,1,2>");
+  EXPECT_EQ(star["creates"], nlohmann::json({"b", "c", "d"}));
+  EXPECT_EQ(star["sheets"], false);
+  const auto inner = place.rend("rule show remove-inner-face --json").json();
+  EXPECT_EQ(inner["removes"], nlohmann::json({"a"}));
+  EXPECT_EQ(inner["sheets"], true);
+  EXPECT_EQ(place.rend("rule show unsew-face --json").json()["sheets"], false); // it needs a neighbour by α3
+  EXPECT_EQ(place.rend("rule show move --json").json()["arguments"]["v"], "point(0, 0, 0)");
+}
+
+TEST(RuleCommand, refuses_by_the_table_of_exit_codes) {
+  const TestFolder place;
+  place.write("bad.xml", "<rules>\n  <rule name=\"r\" left=\"a*(0,1)\" right=\"a(0,1) b(0,1)\"/>\n</rules>");
+  const Outcome bad = place.rend("rule check bad.xml");
+  EXPECT_EQ(bad.code, 65);
+  EXPECT_THAT(bad.err, HasSubstr("bad.xml:2:40: rule 'r': the new node b does not say what its α2 is"));
+  EXPECT_EQ(place.rend("rule").code, 64);
+  EXPECT_EQ(place.rend("rule check none.xml").code, 66);
+  EXPECT_EQ(place.rend("rule check " + std::string(REND_ROOT) + "/README.md").code, 65);
+  const Outcome unknown = place.rend("rule show star-faces");
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'star-face'?"));
+  EXPECT_EQ(place.rend("rule draw star-face -o a.pdf").code, 64);
+  EXPECT_EQ(place.rend("rule draw star-face -o none/a.svg").code, 73);
+  EXPECT_THAT(place.rend("rule draw star-face --on cub -o a.svg").err, HasSubstr("did you mean 'cube'?"));
+  EXPECT_EQ(place.rend("rule draw r --in bad.xml -o bad.xml").code, 64);
+  EXPECT_EQ(place.files(), std::vector<std::string>{"bad.xml"});
+}
+
+TEST(RuleCommand, reads_the_rules_of_presets) {
+  const TestFolder place;
+  const std::string ball = std::string(REND_ROOT) + "/presets/rules/ball.xml";
+  EXPECT_EQ(place.rend("rule check " + ball).out, "1 rule is well formed\n");
+  const std::vector<std::string> lines = lines_of(place.rend("rule list " + ball).out);
+  ASSERT_EQ(lines.size(), house_rules().size() + 1);
+  EXPECT_THAT(lines[0], StartsWith("round"));
+  place.write("s.xml", "<scene name=\"s\"><rules file=\"../mine.xml\"/></scene>");
+  EXPECT_EQ(place.rend("rule check s.xml").code, 65);
+}
+
+TEST(RuleCommand, draws) {
+  const TestFolder place;
+  ASSERT_EQ(place.rend("rule draw quarter-faces -o a.svg").code, 0);
+  const std::string svg = program::content(place.path() / "a.svg");
+  EXPECT_THAT(svg, StartsWith("<svg "));
+  double width = 0, height = 0;
+  ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("width="), "width=\"%lf\" height=\"%lf\"", &width, &height), 2);
+  if (!png_available() || place.rend("rule draw quarter-faces -o a.png").code == 64) return;
+  const Image image = read_png(place.path() / "a.png");
+  EXPECT_NEAR(image.width, 2 * width, 1.5);
+  EXPECT_NEAR(image.height, 2 * height, 1.5);
+}
+
+TEST(RulePage, fits_on_a_page_and_names_all_functions) {
+  const TestFolder place;
+  const std::string page = place.rend("help rule").out;
+  const std::vector<std::string> lines = lines_of(page);
+  EXPECT_LE(lines.size(), 100U);
+  for (const std::string& line : lines) {
+    const auto columns = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
+    EXPECT_LE(columns, 100) << line;
+  }
+  for (const ExpressionFunction& function : rule_vocabulary({}, {}))
+    EXPECT_THAT(page, HasSubstr(function.name));
+  for (const BuiltIn& each : built_ins()) EXPECT_THAT(page, HasSubstr(each.declared.name));
+}
+
+TEST(RulePage, has_examples_that_work) {
+  const TestFolder place;
+  place.write("mine.xml", examples_of(place.rend("help rule").out));
+  ASSERT_EQ(place.rend("rule check mine.xml").out, "3 rules are well formed\n");
+  const auto build = [&](const std::string& shape) {
+    place.write("s.xml", scene(shape));
+    const Outcome outcome = place.rend("run s.xml --export obj -o out --json");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    std::string obj;
+    for (const std::string& file : place.files())
+      if (file.ends_with(".obj")) obj = program::content(place.path() / file);
+    return lines_of(obj);
+  };
+  const auto count = [](const std::vector<std::string>& lines, const std::string& start) {
+    return std::count_if(lines.begin(), lines.end(),
+                         [&](const std::string& line) { return line.starts_with(start); });
+  };
+  const std::string quad = "<create dimension=\"2\"/><apply rule=\"create-quad\"/>";
+  const auto star = build(quad + "<apply rule=\"star\" to=\"all\"/>");
+  EXPECT_EQ(count(star, "v "), 5);
+  EXPECT_EQ(count(star, "f "), 4);
+  EXPECT_THAT(star, testing::Contains("v 0.5 0.5 0"));
+  // Corners at 0.3 and 0.7 of each side.
+  const auto cut = build(quad + "<apply rule=\"cut-corners\" to=\"all\"/>");
+  EXPECT_EQ(count(cut, "v "), 8);
+  EXPECT_EQ(count(cut, "f "), 1);
+  EXPECT_EQ(count(cut, "v 0.3 "), 2);
+  EXPECT_EQ(count(cut, "v 0.7 "), 2);
+  const auto raised =
+      build("<sheet cells=\"2 2\" size=\"1 1\"/><apply rule=\"raise\" side=\"+x\" h=\"0.25\"/>");
+  const auto high = std::count_if(raised.begin(), raised.end(), [](const std::string& line) {
+    return line.starts_with("v ") && line.ends_with(" 0.25");
+  });
+  EXPECT_EQ(high, 3);
+}
+
+// What the page says of holes: a triangular hole in a closed surface is capped dart by dart.
+TEST(RulePage, tells_enough_to_cap_a_hole) {
+  const TestFolder place;
+  place.write("mine.xml", R"(<rules>
+  <rule name="cap" about="a triangle over a hole of three sides, with two triangles at each of its corners"
+        left="a* b c d e f g h i j k l  a-1-b b-2-c c-1-d d-0-e e-1-f f-2-g g-1-h h-0-i i-1-j j-2-k k-1-l l-0-a
+              a|2 d|2 e|2 h|2 i|2 l|2"
+        right="a b c d e f g h i j k l  a-1-b b-2-c c-1-d d-0-e e-1-f f-2-g g-1-h h-0-i i-1-j j-2-k k-1-l l-0-a
+               m n o p q r  m-1-n n-0-o o-1-p p-0-q q-1-r r-0-m  a-2-m d-2-n e-2-o h-2-p i-2-q l-2-r
+               m|3 n|3 o|3 p|3 q|3 r|3"/>
+</rules>)");
+  place.write("s.xml", scene("<create dimension=\"2\"/><apply rule=\"create-tetrahedron\"/>"
+                             "<apply rule=\"remove-inner-face\" box=\"-1 -1 -1 2 2 0.1\"/>"
+                             "<apply rule=\"cap\" to=\"all\"/>"));
+  ASSERT_EQ(place.rend("rule check mine.xml").code, 0) << place.rend("rule check mine.xml").err;
+  const Outcome outcome = place.rend("run s.xml --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+}
+
+} // namespace
+} // namespace rend
