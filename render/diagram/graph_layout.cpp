@@ -88,7 +88,7 @@ private:
 
   void relax(std::vector<Spot>& x) const {
     const std::size_t pairs = n_ * n_ + 1;
-    const std::size_t rounds = std::clamp<std::size_t>(40'000'000 / pairs, 20, 300);
+    const std::size_t rounds = std::clamp<std::size_t>(40'000'000 / pairs, 20, 800);
     for (std::size_t round = 0; round < rounds; ++round)
       for (std::size_t a = 0; a < n_; ++a) {
         Spot sum;

@@ -22,7 +22,8 @@ class MapPicture {
 public:
   MapPicture(const EmbeddedMap& map, const MapView& view, double side)
       : body_(map), map_(map.map()), view_(view), side_(side), scale_(view.scale(side)) {
-    drawing_.width = drawing_.height = side;
+    drawing_.width = side;
+    drawing_.height = view.height(side);
   }
 
   Drawing run(const std::vector<Dart>& marked) {
@@ -64,7 +65,7 @@ private:
   Spot spot(const Vec3& x) const {
     const Spot at = view_.project(x);
     const Spot middle = 0.5 * (view_.low + view_.high);
-    return {side_ / 2 + scale_ * (at.x - middle.x), side_ / 2 - scale_ * (at.y - middle.y)};
+    return {side_ / 2 + scale_ * (at.x - middle.x), drawing_.height / 2 - scale_ * (at.y - middle.y)};
   }
   Spot spot(Dart d) const { return spot(place(d)); }
 
@@ -176,6 +177,10 @@ Spot MapView::project(const Vec3& x) const {
 double MapView::scale(double side) const {
   const double extent = std::max({high.x - low.x, high.y - low.y, 1e-9});
   return std::min((side - 2 * margin) / extent, 130.0);
+}
+
+double MapView::height(double side) const {
+  return scale(side) * (high.y - low.y) + 2 * margin;
 }
 
 Drawing picture_of(const EmbeddedMap& map, const MapView& view, const std::vector<Dart>& marked, double side) {

@@ -19,9 +19,10 @@ struct MapView {
   static MapView of(const std::vector<const EmbeddedMap*>& maps);
   Spot project(const Vec3& x) const; // [m], y up
   double scale(double side) const;   // of pixels to metres, to fit into a square
+  double height(double side) const;  // [pixels], of what is seen at that scale, with a margin
 };
 
-// `marked`: darts to point out. `side`: of the square drawing [pixels].
+// `marked`: darts to point out. `side`: the width of the drawing, and the most that it is high [pixels].
 Drawing picture_of(const EmbeddedMap& map, const MapView& view, const std::vector<Dart>& marked, double side);
 
 } // namespace rend

@@ -210,8 +210,8 @@ Drawing diagram_of(const Rule& rule, const RuleShown& shown) {
   if (shown.sample) {
     const MapView view = MapView::of({shown.before.get(), shown.after.get()});
     add_pair(page, picture_of(*shown.before, view, shown.hooks, map_side),
-             picture_of(*shown.after, view, {}, map_side), y, map_side);
-    y += map_side + 8;
+             picture_of(*shown.after, view, {}, map_side), y, view.height(map_side));
+    y += view.height(map_side) + 10;
     page.parts.push_back(
         DrawnText{{page.width / 2, y},
                   "on " + shown.sample->what + (shown.hooks.empty() ? "" : "; orange: the hook"),

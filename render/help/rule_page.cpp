@@ -37,9 +37,9 @@ A node on both sides is kept. What the left graph does not mention of its links 
 mentions, the right must mention, too, and nothing else. The right states the label anew.
 A node on the right alone is created; there it says of each of its four links what it is.
 A node on the left alone is removed; there it says so of all four, so that nothing is left hanging.
-α0 and α2 must fit, and so must α0 and α3, α1 and α3: what α2 links at one end of an α0, it links
-at the other end, too. An arc a-2-b fits to 0 at the same place of both labels; to an arc a-0-c fit
-b-0-d and c-2-d; to a|2 fits c|2.
+α0 α2, α0 α3, α1 α3 must close: what α2 links at one end of an α0, it links at the other end, too.
+So with an arc a-2-b, 0 stands at the same place of both labels, or in neither; with a-0-c and a-2-b
+goes a node d that both lead to, by b-0-d and c-2-d; with a-0-c and a|2 goes c|2.
 left="" creates out of nothing.
 
 VALUES are elements within <rule>:
@@ -58,8 +58,8 @@ is, and a, which is one of its two ends, is not. A name is that of a node, then 
 
 constexpr const char* use = R"page(
 USE. Rules stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> in the scene.
-  <apply rule="raise" times="2" h="0.3"/>   in a <body>, after its shape: h is an argument; where all
-      vertices of the hook's orbit are selected, as by side="+x"; to="all": everywhere
+  <apply rule="raise" times="2" h="0.3"/>   in a <body>, after its shape: h is an argument; where
+      all vertices of the hook's orbit are selected, as by side="+x"; to="all": everywhere
   <create dimension="2"/>   a shape with nothing in it, with which rules begin: create-quad ...
   <subdivide times="3"/>    each face, or each volume, becomes one per corner
 rend rule list | show NAME: the rules there are; check FILE; draw NAME --in FILE -o F.svg: see it.
@@ -69,15 +69,20 @@ EXAMPLES, a file of rules:
 
 constexpr const char* examples =
     R"page(<rules>
+  <!-- c is the new vertex, b the other end of a line to it. The face's α1 is cut; a-1-b turns into
+       the triangle of a's side. Where α1 led, b and c go on by α2, to the next triangle. -->
   <rule name="star" about="a triangle on each side of a face of a sheet, around a new vertex c"
         left="a*(0,1) a|3"   right="a(0,_) b(_,2) c(1,2)   a-1-b b-0-c   a|3 b|3 c|3">
     <set node="c" position="mean(a, face)"/>
   </rule>
+  <!-- At a corner two sides met by α1. Now b lies between: where α1 led, b's α0 leads: a side.
+       Each a has its vertex for itself then, so that it may move along its edge. -->
   <rule name="cut-corners" about="off a face without neighbours: a new side b at each corner"
         left="a*(0,1) a|2,3"   right="a(0,_) b(_,0)   a-1-b   a|2,3 b|2,3">
     <where name="t" value="0.3"/>
     <set node="a" position="lerp(a, mean(a, edge), 2*t)"/>
   </rule>
+  <!-- Nothing is linked anew: the graphs are the same, and the vertex moves. -->
   <rule name="raise" about="each vertex goes up by h" left="a*(1,2,3)" right="a(1,2,3)">
     <where name="h" value="0.1"/>
     <set node="a" position="a + point(0, 0, h)"/>
