@@ -1,5 +1,5 @@
-// A drawing: lines, circles, polygons and text in the order in which they are painted, for two writers: svg.h, and
-// paint.h for pictures.
+// A drawing: lines, circles, polygons and text in the order in which they are painted, for two writers:
+// svg.h, and paint.h for pictures.
 //
 // Units are pixels of a drawing at scale 1; x to the right, y down.
 #pragma once

@@ -1,7 +1,8 @@
 // A small map, drawn: its cells side by side, so that what is linked, and what is not, can be seen.
 //
-// Faces of a sheet, and volumes of a solid, are drawn a little smaller around their middles; a blue stroke across
-// the gap is a link α2, a green one α3. What lies in a plane z = const is seen from above, anything else obliquely.
+// Faces of a sheet, and volumes of a solid, are drawn a little smaller around their middles; a blue stroke
+// across the gap is a link α2, a green one α3. What lies in a plane z = const is seen from above, anything
+// else obliquely.
 #pragma once
 
 #include "render/diagram/drawing.h"

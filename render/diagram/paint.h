@@ -1,7 +1,7 @@
 // A drawing as a picture: anti-aliased, each part over those before it. Text is in the embedded font.
 //
-// Everything becomes polygons. A polygon's share of a pixel is measured on five lines across it, exactly along each
-// line; colours are mixed by that share as they are stored, without gamma, as browsers do.
+// Everything becomes polygons. A polygon's share of a pixel is measured on five lines across it, exactly
+// along each line; colours are mixed by that share as they are stored, without gamma, as browsers do.
 #pragma once
 
 #include "render/diagram/drawing.h"

@@ -1,8 +1,8 @@
-// A rule as a drawing, in the style of the thesis (figs. 3.20, 3.22): its left and its right graph, and below them a
-// small map before and after.
+// A rule as a drawing, in the style of the thesis (figs. 3.20, 3.22): its left and its right graph, and below
+// them a small map before and after.
 //
-// A node is a circle with its name and label; a hook has two circles. Created nodes are green, removed ones red. A
-// link is a line in its colour (rule_colours.h), with its number; a free one a small loop.
+// A node is a circle with its name and label; a hook has two circles. Created nodes are green, removed ones
+// red. A link is a line in its colour (rule_colours.h), with its number; a free one a small loop.
 #pragma once
 
 #include "render/diagram/drawing.h"

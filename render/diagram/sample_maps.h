@@ -25,9 +25,10 @@ struct RuleShown {
   std::vector<Dart> hooks; // in `before`
 };
 
-// On the sample of that name, or, if it is empty, on the first one where the rule applies: those of three dimensions
-// come first for a rule that speaks of α3, and those that can be sewn for one that sews. Of several hooks those next to each other are taken. Results without faces
-// of fewer than three sides are preferred. UserError (Usage): no such sample.
+// On the sample of that name, or, if it is empty, on the first one where the rule applies: those of three
+// dimensions come first for a rule that speaks of α3, and those that can be sewn for one that sews. Of
+// several hooks those next to each other are taken. Results without faces of fewer than three sides are
+// preferred. UserError (Usage): no such sample.
 RuleShown show(const Rule& rule, const std::string& sample = {});
 
 } // namespace rend

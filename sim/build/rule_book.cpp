@@ -81,7 +81,14 @@ RuleSettings read_rule(const PresetNode& node) {
 RuleBook read_rules(const PresetNode& scene) {
   RuleBook book;
   for (const auto& child : scene.children()) { // in the order in which they stand there
-    if (child->name() == "rules") add_file(book, named_path(*child));
+    if (child->name() == "rules") {
+      const std::filesystem::path path = named_path(*child);
+      std::error_code error;
+      if (!std::filesystem::exists(path, error))
+        throw UserError(Exit::NoInput, child->place("file"), path.string() + ": there is no such file of rules",
+                        "names are relative to the preset");
+      add_file(book, path);
+    }
     if (child->name() == "rule") add(book, *child);
   }
   return book;
@@ -103,8 +110,8 @@ bool is_rules_file(const std::filesystem::path& path) {
     if (end.empty()) break;
     rest.remove_prefix(std::min(rest.find(end), rest.size()));
   }
-  const std::string root = "<" + rules_file_type().name;
-  return rest.starts_with(root) && rest.find_first_of(" \t\r\n/>") == root.size();
+  const std::string_view root = rest.substr(0, rest.find_first_of(" \t\r\n/>"));
+  return root == "<rules" || root == "<rule"; // the latter lacks the former, and its reader says so
 }
 
 std::shared_ptr<const Rule> find_rule(const RuleBook& book, const std::string& name,

@@ -2,8 +2,8 @@
 //
 //   <scene name="..."> <rules file="my-rules.xml"/> <rule name="..." left="..." right="..."/> ... </scene>
 //
-// A file of rules holds <rules> with any number of <rule>. Names differ; a preset may not redefine a rule of the
-// house.
+// A file of rules holds <rules> with any number of <rule>. Names differ; a preset may not redefine a rule of
+// the house.
 #pragma once
 
 #include "sim/base/parameters.h"
@@ -27,7 +27,7 @@ RuleSettings read_rule(const PresetNode& rule);
 RuleBook read_rules(const PresetNode& scene);
 RuleBook read_rules_file(const std::filesystem::path& path);
 
-// Whether the root of a file is <rules>; of a preset it is <scene>. UserError: there is no such file.
+// Whether a file is one of rules, and no preset, by its root. UserError: there is no such file.
 bool is_rules_file(const std::filesystem::path& path);
 
 // In the book, then in the house. UserError, at the attribute of `source`, with the nearest name.

@@ -5,6 +5,7 @@
 #include "sim/rules/rule_values.h"
 #include "tests/render/commands/program_run.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace rend {
@@ -47,16 +48,26 @@ TEST(RuleCommand, lists_all_rules_of_the_house) {
   }
 }
 
-TEST(RuleCommand, shows_a_rule_that_can_be_read_again) {
+TEST(RuleCommand, shows_rules_that_can_be_read_again) {
   const TestFolder place;
-  for (const Rule& rule : house_rules()) {
-    std::string text = place.rend("rule show " + rule.name() + " --json").json()["rule"];
-    const std::string name = "name=\"" + rule.name() + "\"";
-    text.replace(text.find(name), name.size(), "name=\"mine\"");
-    place.write("mine.xml", "<?xml version=\"1.0\"?>\n<!-- <scene> -->\n<rules>" + text + "</rules>");
-    ASSERT_EQ(place.rend("rule check mine.xml").out, "1 rule is well formed\n") << rule.name();
-    EXPECT_EQ(place.rend("rule show mine --in mine.xml --json").json()["rule"], text);
+  std::string file = "<?xml version=\"1.0\"?>\n<!-- <scene> -->\n<rules>\n";
+  for (const auto& rule : place.rend("rule list --json").json()) {
+    std::string text = rule["rule"];
+    file += text.insert(text.find("name=\"") + 6, "my-");
   }
+  place.write("mine.xml", file + "</rules>\n");
+  EXPECT_EQ(place.rend("rule check mine.xml").out,
+            fmt::format("{} rules are well formed\n", house_rules().size()));
+  const auto read = place.rend("rule list mine.xml --json").json();
+  ASSERT_EQ(read.size(), 2 * house_rules().size());
+  for (std::size_t n = 0; n < house_rules().size(); ++n) {
+    std::string text = house_rules()[n].print();
+    text.insert(text.find("name=\"") + 6, "my-");
+    EXPECT_EQ(read[n]["rule"], text);
+    EXPECT_EQ(read[n]["from"], "mine.xml");
+  }
+  EXPECT_THAT(place.rend("rule show my-star-face --in mine.xml").out,
+              StartsWith("my-star-face: a triangle on"));
 }
 
 TEST(RuleCommand, tells_what_a_rule_does) {
@@ -86,7 +97,7 @@ TEST(RuleCommand, refuses_by_the_table_of_exit_codes) {
   EXPECT_THAT(unknown.err, HasSubstr("did you mean 'star-face'?"));
   EXPECT_EQ(place.rend("rule draw star-face -o a.pdf").code, 64);
   EXPECT_EQ(place.rend("rule draw star-face -o none/a.svg").code, 73);
-  EXPECT_THAT(place.rend("rule draw star-face --on cub -o a.svg").err, HasSubstr("did you mean 'cube'?"));
+  EXPECT_THAT(place.rend("rule draw star-face --on shet -o a.svg").err, HasSubstr("did you mean 'sheet'?"));
   EXPECT_EQ(place.rend("rule draw r --in bad.xml -o bad.xml").code, 64);
   EXPECT_EQ(place.files(), std::vector<std::string>{"bad.xml"});
 }
