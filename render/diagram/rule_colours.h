@@ -1,5 +1,5 @@
-// The colours of links, as the thesis draws them (fig. 3.14): α0 black, α1 red, α2 blue, α3 green. Dashes
-// tell them apart in grey as well.
+// The colours of links: α0 black, α1 red, α2 blue, as in the thesis (fig. 3.14), and α3 green. Dashes tell them
+// apart in grey as well.
 #pragma once
 
 #include "render/diagram/drawing.h"
