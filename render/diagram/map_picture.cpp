@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-constexpr double margin = 16, shrunk_face = 0.88, shrunk_volume = 0.8;
+constexpr double map_margin = 16, shrunk_face = 0.88, shrunk_volume = 0.8;
 
 struct Face {
   std::vector<Dart> darts; // one a corner, in turn; of an open face: one of each edge
@@ -176,11 +176,11 @@ Spot MapView::project(const Vec3& x) const {
 
 double MapView::scale(double side) const {
   const double extent = std::max({high.x - low.x, high.y - low.y, 1e-9});
-  return std::min((side - 2 * margin) / extent, 130.0);
+  return std::min((side - 2 * map_margin) / extent, 130.0);
 }
 
 double MapView::height(double side) const {
-  return scale(side) * (high.y - low.y) + 2 * margin;
+  return scale(side) * (high.y - low.y) + 2 * map_margin;
 }
 
 Drawing picture_of(const EmbeddedMap& map, const MapView& view, const std::vector<Dart>& marked, double side) {

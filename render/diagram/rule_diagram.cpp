@@ -12,7 +12,7 @@ namespace {
 
 using Kind = RuleLink::Kind;
 
-constexpr double arc = 82, radius = 21, loop = 9, margin = 44, map_side = 230;
+constexpr double arc = 82, radius = 21, loop = 9, graph_margin = 44, map_side = 230;
 constexpr Ink text_ink{0x222222}, faint{0x666666};
 constexpr unsigned kept = 0xffffff, created = 0xd9f0d3, removed = 0xf6d5d0;
 
@@ -53,10 +53,10 @@ private:
       low = n == 0 ? at_[n] : Spot{std::min(low.x, at_[n].x), std::min(low.y, at_[n].y)};
       high = n == 0 ? at_[n] : Spot{std::max(high.x, at_[n].x), std::max(high.y, at_[n].y)};
     }
-    for (Spot& each : at_) each = each - low + Spot{margin, margin};
-    drawing_.width = std::max(140.0, high.x - low.x + 2 * margin);
-    drawing_.height = high.y - low.y + 2 * margin;
-    const double shift = (drawing_.width - (high.x - low.x) - 2 * margin) / 2;
+    for (Spot& each : at_) each = each - low + Spot{graph_margin, graph_margin};
+    drawing_.width = std::max(140.0, high.x - low.x + 2 * graph_margin);
+    drawing_.height = high.y - low.y + 2 * graph_margin;
+    const double shift = (drawing_.width - (high.x - low.x) - 2 * graph_margin) / 2;
     for (Spot& each : at_) each.x += shift;
   }
 

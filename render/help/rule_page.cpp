@@ -11,9 +11,9 @@
 namespace rend {
 namespace {
 
-constexpr std::size_t page_width = 100; // columns
+constexpr std::size_t page_columns = 100; // columns
 
-constexpr const char* language =
+constexpr const char* page_language =
     R"page(A rule changes the map of a body: where its left graph matches, its right graph takes the place.
 
 THE MAP consists of darts. A dart is one end of one side of a face, and has four links:
@@ -56,7 +56,7 @@ point. A value must be the same at all darts of its vertex: in the middle of an 
 is, and a, which is one of its two ends, is not. A name is that of a node, then of an orbit:
 )page";
 
-constexpr const char* use = R"page(
+constexpr const char* page_use = R"page(
 USE. Rules stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> in the scene.
   <apply rule="raise" times="2" h="0.3"/>   in a <body>, after its shape: h is an argument; where
       all vertices of the hook's orbit are selected, as by side="+x"; to="all": everywhere
@@ -67,7 +67,7 @@ rend rule list | show NAME: the rules there are; check FILE; draw NAME --in FILE
 EXAMPLES, a file of rules:
 )page";
 
-constexpr const char* examples =
+constexpr const char* page_examples =
     R"page(<rules>
   <!-- c is the new vertex, b the other end of a line to it. The face's α1 is cut; a-1-b turns into
        the triangle of a's side. Where α1 led, b and c go on by α2, to the next triangle. -->
@@ -91,17 +91,17 @@ constexpr const char* examples =
 )page";
 
 // Columns of UTF-8 text.
-std::size_t width(const std::string& text) {
+std::size_t columns_of(const std::string& text) {
   std::size_t count = 0;
   for (char c : text) count += (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
   return count;
 }
 
 // Items one after another, on lines that are indented by two.
-std::string folded(const std::vector<std::string>& items, const std::string& indent) {
+std::string folded_items(const std::vector<std::string>& items, const std::string& indent) {
   std::string out, line;
   for (const std::string& item : items) {
-    if (!line.empty() && width(line) + 1 + width(item) > page_width) {
+    if (!line.empty() && columns_of(line) + 1 + columns_of(item) > page_columns) {
       out += line + "\n";
       line.clear();
     }
@@ -120,12 +120,12 @@ std::vector<std::string> words_of(const std::string& text) {
   return out;
 }
 
-std::string functions() {
+std::string functions_on_page() {
   std::string out;
   for (const ExpressionFunction& function : rule_vocabulary({}, {})) {
     std::vector<std::string> words = words_of(function.about);
     words.front() = fmt::format("  {:<28} {}", signature(function), words.front());
-    out += folded(words, std::string(31, ' '));
+    out += folded_items(words, std::string(31, ' '));
   }
   std::vector<std::string> known;
   for (const BuiltIn& each : built_ins())
@@ -133,17 +133,17 @@ std::string functions() {
       known.push_back(word);
   known.front() = "  " + known.front();
   known.back().pop_back();
-  return out + folded(known, "  ");
+  return out + folded_items(known, "  ");
 }
 
 } // namespace
 
 std::string rule_examples() {
-  return examples;
+  return page_examples;
 }
 
 std::string rule_page() {
-  return language + functions() + use + examples;
+  return page_language + functions_on_page() + page_use + page_examples;
 }
 
 } // namespace rend
