@@ -33,9 +33,9 @@ struct RuleOptions {
 // Of a preset, or of a file of rules.
 RuleBook book_of(const RuleOptions& options) {
   if (options.file.empty()) return {};
-  const std::filesystem::path path = options.file;
-  if (is_rules_file(path)) return read_rules_file(path);
-  const auto scene = load_scene(path);
+  const std::string text = read_preset_file(options.file); // once: it may be a pipe
+  if (is_rules_text(text)) return read_rules_text(text, options.file);
+  const auto scene = load_scene_text(text, options.file);
   if (!options.allow_path) check_paths(*scene);
   return read_rules(*scene);
 }

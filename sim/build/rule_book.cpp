@@ -36,9 +36,13 @@ void add(RuleBook& book, const PresetNode& node) {
   book.push_back(std::make_shared<const Rule>(std::move(settings)));
 }
 
-void add_file(RuleBook& book, const std::filesystem::path& path) {
-  const auto root = read_preset(path, rules_file_type(), {});
+void add_text(RuleBook& book, std::string_view text, const std::string& file) {
+  const auto root = read_preset_text(text, file, rules_file_type(), {});
   for (const PresetNode* rule : root->all("rule")) add(book, *rule);
+}
+
+void add_file(RuleBook& book, const std::filesystem::path& path) {
+  add_text(book, read_preset_file(path), path.string());
 }
 
 } // namespace
@@ -100,9 +104,14 @@ RuleBook read_rules_file(const std::filesystem::path& path) {
   return book;
 }
 
+RuleBook read_rules_text(std::string_view text, const std::string& file) {
+  RuleBook book;
+  add_text(book, text, file);
+  return book;
+}
+
 // Skips what may stand before the root: declarations and comments. What is no XML is left to the reader.
-bool is_rules_file(const std::filesystem::path& path) {
-  const std::string text = read_preset_file(path);
+bool is_rules_text(std::string_view text) {
   std::string_view rest = text;
   for (;;) {
     rest.remove_prefix(std::min(rest.find('<'), rest.size()));

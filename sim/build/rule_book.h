@@ -27,8 +27,9 @@ RuleSettings read_rule(const PresetNode& rule);
 RuleBook read_rules(const PresetNode& scene);
 RuleBook read_rules_file(const std::filesystem::path& path);
 
-// Whether a file is one of rules, and no preset, by its root. UserError: there is no such file.
-bool is_rules_file(const std::filesystem::path& path);
+// The same of a text; `file` is its name in messages. And whether a text is one, and no preset, by its root.
+RuleBook read_rules_text(std::string_view text, const std::string& file);
+bool is_rules_text(std::string_view text);
 
 // In the book, then in the house. UserError, at the attribute of `source`, with the nearest name.
 std::shared_ptr<const Rule> find_rule(const RuleBook& book, const std::string& name,
