@@ -32,7 +32,8 @@ Vec3 mean(const EmbeddedMap& body, Orbit orbit, Dart d) {
   return sum / static_cast<double>(vertices.size());
 }
 
-// The volume at rest of a cell with plane faces, as the sum of one tetrahedron a dart: vertex, edge, face, volume.
+// The volume at rest of a cell with plane faces, as the sum of one tetrahedron a dart: vertex, edge, face,
+// volume.
 double volume(const EmbeddedMap& body, Dart cell) {
   const Vec3 centre = mean(body, Volume, cell);
   double sum = 0;

@@ -1,5 +1,5 @@
-// Random rules that are legal: house rules with labels, nodes, arcs and free links changed at random, of which those
-// are kept that the checker accepts.
+// Random rules that are legal: house rules with labels, nodes, arcs and free links changed at random, of
+// which those are kept that the checker accepts.
 #pragma once
 
 #include "sim/base/error.h"

@@ -40,8 +40,8 @@ std::vector<std::size_t> instances_of_vertex(const Rule& rule, const Match& matc
   return {instances.begin(), instances.end()};
 }
 
-// The values of each vertex that the rule sets, evaluated at each of its instances by itself. Returns how many were
-// compared.
+// The values of each vertex that the rule sets, evaluated at each of its instances by itself. Returns how many
+// were compared.
 int compare_values(const Rule& rule, const Edit& edit, const Match& match) {
   const RuleContext context;
   const RuleValues values(rule, edit, match, context);

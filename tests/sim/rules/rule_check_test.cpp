@@ -1,5 +1,5 @@
-// Rules that are refused, and why: every condition of rule_check.h, in every dimension; and what else a user may
-// write. Each refusal is a UserError with code 65 that blames one attribute.
+// Rules that are refused, and why: every condition of rule_check.h, in every dimension; and what else a user
+// may write. Each refusal is a UserError with code 65 that blames one attribute.
 #include "sim/rules/rule_check.h"
 
 #include "sim/base/error.h"

@@ -1,5 +1,5 @@
-// Reads what Rule::print() writes. Presets have their own reader; this one is for tests of the engine alone, and
-// CHECKs where it meets anything else.
+// Reads what Rule::print() writes. Presets have their own reader; this one is for tests of the engine alone,
+// and CHECKs where it meets anything else.
 #pragma once
 
 #include "sim/base/check.h"
