@@ -41,7 +41,8 @@ std::string text_of(const Shape& shape, const Pair& pair, double threshold) {
 
 constexpr int steps = 120;
 
-// A little below the largest value that an untorn body reaches in the steps, so that few cells exceed it at first.
+// A tenth of the largest value of an untorn body half way: some of the worst cells cannot tear, such as vertices at a
+// side that is held, whose elements all lie on one side of the plane.
 double threshold_for(const Shape& shape, const Pair& pair) {
   const presets::Loaded scene = presets::load(text_of(shape, pair, 1e30));
   Body& body = scene.body();
@@ -52,7 +53,7 @@ double threshold_for(const Shape& shape, const Pair& pair) {
   body.evaluate();
   TearLaw law(body.request_for(all), all);
   for (const Candidate& candidate : law.find(body.view())) most = std::max(most, candidate.value);
-  return 0.9 * most;
+  return most / 10;
 }
 
 void expect_tears(const Shape& shape, const Pair& pair) {
