@@ -1,5 +1,5 @@
-// All pairs of a criterion and a change: where the change is made, or why the pair has no meaning. What builds a
-// law, the table of `rend help tear` and the tests ask here.
+// All pairs of a criterion and a change: where the change is made, or why the pair has no meaning. What builds
+// a law, the table of `rend help tear` and the tests ask here.
 #pragma once
 
 #include "sim/fracture/change.h"
