@@ -1,5 +1,5 @@
-// rend sheet: a contact sheet, one row a preset: how it starts, tears and ends; or the ends of many presets side
-// by side.
+// rend sheet: a contact sheet, one row a preset: how it starts, tears and ends; or the ends of many presets
+// side by side.
 #include "render/clip/named_files.h"
 #include "render/clip/session.h"
 #include "render/commands/command.h"

@@ -69,8 +69,8 @@ struct CriterionType {
   std::vector<std::string> kinds = {}; // of springs that it takes; "": may be left out; empty: none
   bool takes_compression = false;      // which settings of the request it uses
   std::string (*unit_there)(const CriterionRequest&) = nullptr; // null: `unit` for every body
-  // Why it has no meaning with this kind in sheets (2) or solids (3), whatever the body, as a sentence that goes
-  // on after its name; empty: it has one. Null: it always has.
+  // Why it has no meaning with this kind in sheets (2) or solids (3), whatever the body, as a sentence that
+  // goes on after its name; empty: it has one. Null: it always has.
   std::string (*without_meaning)(std::string_view kind, int dimension) = nullptr;
 };
 

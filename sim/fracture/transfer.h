@@ -17,13 +17,13 @@
 // One cell is chosen, so that a law breaks what is strained most and no more than that. (Acting on all cells
 // around would crumble a body: an element that lets go of all neighbours is as good as deleted; and both
 // elements at an edge are what delete-edge removes.) What is "most" is said by the forces f_e,c that an element
-// e applies at its corners c, whatever interaction they come from; with x_c the corners, n and u unit vectors:
+// e applies at its corners c, whatever these come from; with x_c the corners, n and u unit vectors:
 //
 //   a border b is opened      |(Σ_c f_1,c − Σ_c f_2,c)·n|, c on b: the value of the criterion atomic-border
 //   ... at one vertex         the same of the corners there alone; n the border's, or the pull on the vertex
 //   an edge a–b is pulled     |(f_e,a − f_e,b)·u| by one element, u along it; at one end Σ_e |f_e,a·u|
-//   an element is pulled      along the eigenvector of the largest eigenvalue of −Σ_c (x_c − x̄) f_e,cᵀ, which is
-//                             its mean stress times its volume
+//   an element is pulled      along the eigenvector for the largest eigenvalue of −Σ_c (x_c − x̄) f_e,cᵀ:
+//                             of its mean stress times its volume
 //
 // All of that is of the state and the map before the edit. Values are compared in steps of 1e-9 of the largest,
 // so that rounding does not decide between equals; among equals the smallest dart is first.
@@ -40,8 +40,8 @@ namespace rend {
 // Cells of one kind at which a change may act, the best first: it is made at the first where it is possible.
 class Places {
 public:
-  // Darts of the cell, at least one; the cell is what grown() finds from them. Normal of the plane along which a
-  // vertex would be split; 0 for other cells.
+  // Darts of the cell, at least one; the cell is what grown() finds from them. Normal of the plane along which
+  // a vertex would be split; 0 for other cells.
   void add(std::span<const Dart> darts, const Vec3& normal = Vec3::Zero());
   void clear();
 

@@ -1,5 +1,5 @@
-// Every pair of a criterion and a change on sheets and solids: it is refused with a sentence, or it tears, leaves
-// a valid map and bindings as those of a body built anew, and gives the same state for any number of threads.
+// Every pair of a criterion and a change on sheets and solids: it is refused with a sentence, or it tears,
+// leaves a valid map and bindings as those of a body built anew, and gives the same state on any threads.
 #include "sim/fracture/pairs.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
@@ -41,8 +41,8 @@ std::string text_of(const Shape& shape, const Pair& pair, double threshold) {
 
 constexpr int steps = 120;
 
-// A tenth of the largest value of an untorn body half way: some of the worst cells cannot tear, such as vertices
-// at a side that is held, whose elements all lie on one side of the plane.
+// A tenth of the largest value of an untorn body half way: some of the worst cells cannot tear, such as
+// vertices at a side that is held, whose elements all lie on one side of the plane.
 double threshold_for(const Shape& shape, const Pair& pair) {
   const presets::Loaded scene = presets::load(text_of(shape, pair, 1e30));
   Body& body = scene.body();
