@@ -89,7 +89,9 @@ std::string fault_of_face(const Edit& edit, Dart d) {
   if (x.size() > 4) return {};
   for (std::size_t n = 0; n < x.size(); ++n) {
     const Vec3 &before = x[(n + x.size() - 1) % x.size()], &at = x[n], &next = x[(n + 1) % x.size()];
-    if (!((next - at).cross(before - at).dot(area) > 0)) return "a face would be folded, near " + place_of(at);
+    // a straight corner is none that is folded
+    if (!((next - at).cross(before - at).dot(area) >= -flat * extent * extent * area.norm()))
+      return "a face would be folded, near " + place_of(at);
   }
   return {};
 }
@@ -125,6 +127,7 @@ std::string fault_of_volume(const Edit& edit, Dart d) {
     const Vec3 at = edit.point(e).rest;
     const auto edge = [&](std::string_view word) { return Vec3(edit.point(map.follow(e, word)).rest - at); };
     const double turn = edge("0").cross(edge("10")).dot(edge("210")) * (side == 0 ? 1 : -1);
+    if (std::abs(turn) <= flat * extent * extent * extent) continue; // its edges lie in a plane
     turned += turn > 0;
     ++all;
     if (turned != 0 && turned != all) return "a volume would be inverted, near " + place_of(at);

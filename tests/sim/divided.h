@@ -2,8 +2,9 @@
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
+#include "sim/house_rules/house_rules.h"
 #include "sim/random_meshes.h"
-#include "sim/rules/rules.h"
+#include "sim/rules/apply.h"
 #include "sim/topology/walk.h"
 #include "tests/sim/assets.h"
 
@@ -41,13 +42,13 @@ inline Applied apply_with_parents(const Rule& rule, Edit& edit, Dart hook, const
   }
   Applied done = apply(rule, edit, hook);
   if (!done.ok) return done;
-  const std::vector<Dart> from = done.darts('a');
+  const std::vector<Dart> from = done.darts("a");
   for (std::size_t n = 0; n < vertices.size(); ++n) {
-    const std::vector<Dart> darts = done.darts(vertices[n]);
+    const std::vector<Dart> darts = done.darts(std::string(1, vertices[n]));
     for (std::size_t k = 0; k < from.size(); ++k) edit.inherit(darts[k], Vertex, means[n][from[k].value]);
   }
   for (const char node : created) {
-    const std::vector<Dart> darts = done.darts(node);
+    const std::vector<Dart> darts = done.darts(std::string(1, node));
     for (std::size_t k = 0; k < from.size(); ++k) {
       const std::array<Parent, 1> parent{Parent{from[k], 1}};
       edit.inherit(darts[k], element_orbit(map.dimension()), parent);
@@ -58,16 +59,16 @@ inline Applied apply_with_parents(const Rule& rule, Edit& edit, Dart hook, const
 }
 
 inline bool subdivided(Edit& edit, Dart d) {
-  return apply_with_parents(subdivide, edit, d, "bcd", {Edge, Edge, FaceOfVolume}, "b", "bcd").ok;
+  return apply_with_parents(rule("quarter-faces"), edit, d, "bcd", {Edge, Edge, FaceOfVolume}, "b", "bcd").ok;
 }
 inline bool triangulated(Edit& edit, Dart d) {
-  return apply_with_parents(triangulate_face, edit, d, "bc", {SingleDart, FaceOfVolume}, "", "bc").ok;
+  return apply_with_parents(rule("star-face"), edit, d, "bc", {SingleDart, FaceOfVolume}, "", "bc").ok;
 }
 inline bool triangulated_both_sides(Edit& edit, Dart d) {
-  return apply_with_parents(triangulate_face_both_sides, edit, d, "bc", {SingleDart, Face}, "", "bc").ok;
+  return apply_with_parents(rule("star-face-both-sides"), edit, d, "bc", {SingleDart, Face}, "", "bc").ok;
 }
 inline bool vertex_inserted(Edit& edit, Dart d) {
-  return apply_with_parents(insert_vertex, edit, d, "c", {Edge}, "c", "c").ok;
+  return apply_with_parents(rule("insert-vertex"), edit, d, "c", {Edge}, "c", "c").ok;
 }
 
 struct Division {

@@ -76,7 +76,7 @@ struct Storm {
     const GMap& map = edit.map();
     if (map.dart_count() < 40 || random() % 8 == 0) {
       const std::array<Point, 4> points{assets::at(0, 0), assets::at(1, 0), assets::at(1, 1), assets::at(0, 1)};
-      create_polygon(edit, points);
+      assets::create_polygon(edit, points);
       return;
     }
     const int i = static_cast<int>(random() % static_cast<unsigned>(map.dimension() + 1));
@@ -88,17 +88,17 @@ struct Storm {
       return static_cast<void>(sew(edit, i, any(map), any(map)));
     case 3: {
       const Dart a = any(map);
-      const auto done = apply(insert_vertex, edit, a);
+      const auto done = apply(rule("insert-vertex"), edit, a);
       if (!done.ok) return;
-      for (const Dart d : done.darts('c')) {
-        edit.inherit(d, Vertex, std::array{Parent{a, 0.5}, Parent{done.darts('a').back(), 0.5}});
+      for (const Dart d : done.darts("c")) {
+        edit.inherit(d, Vertex, std::array{Parent{a, 0.5}, Parent{done.darts("a").back(), 0.5}});
         edit.inherit(d, EdgeOfFace, std::array{Parent{map.alpha(0, d), 1}});
         edit.inherit(d, element_orbit(map.dimension()), std::array{Parent{map.alpha(0, d), 1}});
       }
       return;
     }
     case 4:
-      return static_cast<void>(apply(triangulate_face, edit, any(map)));
+      return static_cast<void>(apply(rule("star-face"), edit, any(map)));
     default:
       return static_cast<void>(unsew(edit, i, any(map)));
     }
@@ -211,14 +211,14 @@ TEST(AtomicEdit, refuses_an_edit_within_an_edit_and_takes_back_both) {
   }),
                InternalError);
   EXPECT_EQ(bytes_of(*body), before);
-  EXPECT_TRUE(apply(subdivide, *body, Dart{0u}).ok);
+  EXPECT_TRUE(apply(rule("quarter-faces"), *body, Dart{0u}).ok);
 }
 
 TEST(AtomicEdit, a_packed_table_of_slots_is_packed_again) {
   Storm storm(0, assets::grid(20, 20)); // corners have packed slots, which new darts unpack
   const auto before = bytes_of(*storm.body);
   storm.countdown.left = 20;
-  EXPECT_THROW(apply(subdivide, *storm.body, Dart{0u}), std::runtime_error);
+  EXPECT_THROW(apply(rule("quarter-faces"), *storm.body, Dart{0u}), std::runtime_error);
   EXPECT_EQ(bytes_of(*storm.body), before);
 }
 

@@ -263,7 +263,8 @@ TEST(CellIndex, a_dart_removed_and_used_again_in_one_edit_is_a_new_one) {
   body.use(FaceOfVolume);
   body.edit([&](Edit& edit) {
     assets::remove_element(edit, a);
-    apply(rule("create-triangle"), edit, {}, assets::corners({assets::at(7, 0), assets::at(8, 0), assets::at(7, 1)}));
+    apply(rule("create-triangle"), edit, {},
+          assets::corners({assets::at(7, 0), assets::at(8, 0), assets::at(7, 1)}));
   });
   EXPECT_FALSE(validate(body));
   EXPECT_EQ(count_cells(body.map(), Vertex), 3u);

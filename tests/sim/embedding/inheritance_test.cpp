@@ -309,7 +309,7 @@ TEST(Inheritance, a_copy_has_the_density_of_what_it_was_copied_from) {
   std::vector<Dart> made;
   map.edit([&](Edit& edit) {
     const std::array<Point, 3> points{assets::at(5, 0), assets::at(8, 0), assets::at(5, 2)}; // 3 m²
-    made = create_polygon(edit, points);
+    made = assets::create_polygon(edit, points);
     for (const Dart d : made) edit.inherit(d, FaceOfVolume, std::array{Parent{quad, 1}});
   });
   EXPECT_NEAR(sum_over_face(map, mass, mass.values(), made[0]), 6, 1e-14);
@@ -320,7 +320,7 @@ TEST(Inheritance, without_parents_there_is_birth) {
   const auto map = sheet_from(warped(sheet(SheetPattern::Mixed, 3, 3), 0.2, 1));
   auto& mass = map->add(CornerMass{.density = 1});
   for (double& each : mass.values()) each = 7; // what birth() does not give
-  map->edit([&](Edit& edit) { ASSERT_TRUE(apply(subdivide, edit, Dart{0u}).ok); });
+  map->edit([&](Edit& edit) { ASSERT_TRUE(apply(rule("quarter-faces"), edit, Dart{0u}).ok); });
   double area = 0;
   each_face(*map, [&](Dart d) { area += rest_area(*map, d); });
   EXPECT_NEAR(total_mass(*map, mass), area, 1e-12);
