@@ -87,12 +87,12 @@ std::string fault_of_face(const Edit& edit, Dart d) {
   const double extent = size_of(x);
   if (!(area.norm() > flat * extent * extent)) return "a face would have no area, near " + place_of(x[0]);
   if (x.size() > 4) return {};
+  int reflex = 0; // corners: one of a concave quad, two of one that crosses itself; a straight corner is none
   for (std::size_t n = 0; n < x.size(); ++n) {
     const Vec3 &before = x[(n + x.size() - 1) % x.size()], &at = x[n], &next = x[(n + 1) % x.size()];
-    // a straight corner is none that is folded
-    if (!((next - at).cross(before - at).dot(area) >= -flat * extent * extent * area.norm()))
-      return "a face would be folded, near " + place_of(at);
+    reflex += !((next - at).cross(before - at).dot(area) >= -flat * extent * extent * area.norm());
   }
+  if (reflex > 1) return "a face would cross itself, near " + place_of(x[0]);
   return {};
 }
 

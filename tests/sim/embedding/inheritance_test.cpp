@@ -317,13 +317,17 @@ TEST(Inheritance, a_copy_has_the_density_of_what_it_was_copied_from) {
 }
 
 TEST(Inheritance, without_parents_there_is_birth) {
-  const auto map = sheet_from(warped(sheet(SheetPattern::Mixed, 3, 3), 0.2, 1));
-  auto& mass = map->add(CornerMass{.density = 1});
+  EmbeddedMap map(2);
+  assets::add_quad(map, 0, 0);
+  auto& mass = map.add(CornerMass{.density = 1});
   for (double& each : mass.values()) each = 7; // what birth() does not give
-  map->edit([&](Edit& edit) { ASSERT_TRUE(apply(rule("quarter-faces"), edit, Dart{0u}).ok); });
-  double area = 0;
-  each_face(*map, [&](Dart d) { area += rest_area(*map, d); });
-  EXPECT_NEAR(total_mass(*map, mass), area, 1e-12);
+  std::vector<Dart> made;
+  map.edit([&](Edit& edit) {
+    const std::array<Point, 3> points{assets::at(5, 0), assets::at(8, 0), assets::at(5, 2)}; // 3 m²
+    made = assets::create_polygon(edit, points);
+  });
+  EXPECT_NEAR(sum_over_face(map, mass, mass.values(), made[0]), 3, 1e-14);
+  EXPECT_EQ(total_mass(map, mass), 31);
 }
 
 TEST(Inheritance, a_division_at_rest_makes_no_force) {

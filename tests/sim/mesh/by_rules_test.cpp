@@ -255,7 +255,8 @@ TEST(Subdivision, quarters_corner_masses_halves_rest_lengths_and_divides_springs
         if (each->name == "stretch") { // k times length stays, where a side is halved
           const Vec3 x = map->rest_of(d), y = map->rest_of(map->map().alpha(0, d));
           const auto on_grid = [](double s) { return std::abs(3 * s - std::round(3 * s)) < 1e-9; };
-          const bool old = (x.x() == y.x() && on_grid(x.x())) || (x.y() == y.y() && on_grid(x.y()));
+          const bool old = (std::abs(x.x() - y.x()) < 1e-9 && on_grid(x.x())) ||
+                           (std::abs(x.y() - y.y()) < 1e-9 && on_grid(x.y()));
           const double halved = std::log2(p.k / 60);
           EXPECT_NEAR(halved, std::round(halved), 1e-12);
           EXPECT_GE(halved, -1e-12);
