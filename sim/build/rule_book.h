@@ -9,6 +9,7 @@
 #include "sim/base/parameters.h"
 #include "sim/rules/rule.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
