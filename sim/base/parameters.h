@@ -78,8 +78,8 @@ struct ElementType {
   std::string what; // one line
   std::vector<AttributeType> attributes;
   std::vector<ChildType> children;
-  // What attributes of other names are, such as the arguments of a rule: they are kept as texts. Empty: there are
-  // none.
+  // What attributes of other names are, such as the arguments of a rule: they are kept as texts. Empty: there
+  // are none.
   std::string further = {};
   const AttributeType* find(std::string_view attribute) const; // null if there is none
 };

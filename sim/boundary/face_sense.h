@@ -1,8 +1,8 @@
 // Which side of a face of a sheet is its front, where rules create faces.
 //
-// The front of a face is where its corners run anticlockwise when it is walked from its smallest dart. What a rule
-// creates may have any smallest dart: a face that is divided hands its front on, and each part remembers whether that
-// is the walk from its own smallest dart. Only bodies with such a rule have this embedding.
+// The front of a face is where its corners run anticlockwise when it is walked from its smallest dart. What a
+// rule creates may have any smallest dart: a face that is divided hands its front on, and each part remembers
+// whether that is the walk from its own smallest dart. Only bodies with such a rule have this embedding.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"

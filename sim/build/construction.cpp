@@ -41,8 +41,8 @@ std::string place_of(const Vec3& x) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z());
 }
 
-// Which darts lie at the same place: their vertices, the other ends of their sides and, if asked for, those of the
-// next sides of their faces are apart by less than 1e-9 of the body's size.
+// Which darts lie at the same place: their vertices, the other ends of their sides and, if asked for, those of
+// the next sides of their faces are apart by less than 1e-9 of the body's size.
 class Touching {
 public:
   Touching(const EmbeddedMap& map, bool needed) : map_(map) {
@@ -269,8 +269,9 @@ private:
     return false;
   }
 
-  // Face by face, in the order of smallest darts; each side by side, all in the sense of the component's smallest dart,
-  // where it has two sides: the fronts of faces are those of the walks from their smallest darts.
+  // Face by face, in the order of smallest darts; each side by side, all in the sense of the component's
+  // smallest dart, where it has two sides: the fronts of faces are those of the walks from their smallest
+  // darts.
   static std::vector<Dart> face_order(const GMap& map) {
     std::vector<Dart> order;
     std::vector<bool> done(map.capacity());

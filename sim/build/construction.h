@@ -5,15 +5,15 @@
 //   <body> <create dimension="3"/> <apply rule="create-vertex"/> <apply rule="extrude-vertex"/> ... </body>
 //
 // A rule is applied to all orbits of its hook's kind whose vertices are all selected, in the order of their
-// smallest darts; `times` times, the orbits being found again each time. What a rule matches or makes is used up
-// for that time. New vertices belong to a group if all vertices that they come from do.
+// smallest darts; `times` times, the orbits being found again each time. What a rule matches or makes is used
+// up for that time. New vertices belong to a group if all vertices that they come from do.
 //
-// The second hook of a rule that has two (sew-edges, sew-faces) is found by with="touching": the dart at the same
-// place, whose side and face lie on those of the first.
+// The second hook of a rule that has two (sew-edges, sew-faces) is found by with="touching": the dart at the
+// same place, whose side and face lie on those of the first.
 //
 // At the end the cells must be those that a mesh file may hold: closed faces, volumes that are tetrahedra,
-// hexahedra, prisms or pyramids. Then darts are ordered as for a file, so that a body does not remember how it was
-// made.
+// hexahedra, prisms or pyramids. Then darts are ordered as for a file, so that a body does not remember how it
+// was made.
 #pragma once
 
 #include "sim/base/settings.h"

@@ -122,8 +122,8 @@ public:
   // Writes or reads everything (base/archive.h): links, slots with their order and free list, and every column.
   // Afterwards subscribers see the whole map changed. What is read must result from this map by fracture and
   // time steps (GMap::store), so that all values but positions and velocities are the same at the same darts.
-  // ArchiveError otherwise; this map is then unusable. Where rules may create darts (grows()), what is read must
-  // satisfy the axioms, and values may differ.
+  // ArchiveError otherwise; this map is then unusable. Where rules may create darts (grows()), what is read
+  // must satisfy the axioms, and values may differ.
   void store(Archive& archive);
 
   // Changes after this may create darts, and not only separate and remove elements.
@@ -173,8 +173,8 @@ public:
   std::uint32_t add_point(const Point& point);
   void give(Dart d, std::uint32_t point);
 
-  // A vertex from before the edit, that of d, takes that place; of two for one vertex, the last counts. What depends
-  // on the rest positions of its elements is initialised again.
+  // A vertex from before the edit, that of d, takes that place; of two for one vertex, the last counts. What
+  // depends on the rest positions of its elements is initialised again.
   void move(Dart d, const Point& point) { moves_.push_back({d, point}); }
 
   // For point expressions: what d was given, else its point before the edit. CHECK: one of them exists.

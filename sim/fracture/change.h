@@ -1,8 +1,9 @@
 // Topological changes: what a law does when its criterion exceeds the threshold (thesis 7.3; sim/README.md,
 // "Tearing").
 //
-// Every change of this list is composed of one operation, the separation of two elements; rules are changes as well
-// (rule_change.h). Embeddings are updated by their own policies. To add one: a file with a function `ChangeType my_change()`, and its name in all_changes().
+// Every change of this list is composed of one operation, the separation of two elements; rules are changes as
+// well (rule_change.h). Embeddings are updated by their own policies. To add one: a file with a function
+// `ChangeType my_change()`, and its name in all_changes().
 #pragma once
 
 #include "sim/embedding/embedded_map.h"

@@ -38,8 +38,9 @@ struct TearEvent {
 
 class FragmentCounter {
 public:
-  // Before an edit. `growing`: the map, if the edit may create darts or links, which the above does not undo; then
-  // the components before and after the step are counted, and all changes of the step have the number after it.
+  // Before an edit. `growing`: the map, if the edit may create darts or links, which the above does not undo;
+  // then the components before and after the step are counted, and all changes of the step have the number
+  // after it.
   void begin(const GMap* growing = nullptr);
   void note(const Journal& journal); // after a change: reads the new entries of the journal
 

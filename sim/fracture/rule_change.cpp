@@ -11,8 +11,8 @@
 namespace rend {
 namespace {
 
-// The cell that a hook's orbit is a part of, α of the body's dimension aside; nullopt: a whole component. A hook that
-// is a single dart belongs to an element, whose darts are tried one after another.
+// The cell that a hook's orbit is a part of, α of the body's dimension aside; nullopt: a whole component. A
+// hook that is a single dart belongs to an element, whose darts are tried one after another.
 std::optional<Cell> cell_of(Orbit hook, int dimension) {
   const auto has = [&](std::initializer_list<int> links) {
     return std::all_of(links.begin(), links.end(), [&](int i) { return hook.has(i); });

@@ -1,4 +1,5 @@
-// Each volume of a component becomes one hexahedron per corner: 8 of a hexahedron, 6 of a prism, 4 of a tetrahedron.
+// Each volume of a component becomes one hexahedron per corner: 8 of a hexahedron, 6 of a prism, 4 of a
+// tetrahedron.
 #include "sim/house_rules/house_rules.h"
 
 namespace rend {

@@ -1,5 +1,5 @@
-// The rules that rend knows by itself, each in a file of its own. A preset may use them by name, or write others.
-// To add one: a file with a function that returns its RuleSettings, and its name in house_settings()
+// The rules that rend knows by itself, each in a file of its own. A preset may use them by name, or write
+// others. To add one: a file with a function that returns its RuleSettings, and its name in house_settings()
 // (house_rules.cpp). `rend rule check` checks them when the program is built.
 #pragma once
 

@@ -1,4 +1,5 @@
-// Each hexahedron of a component becomes 20, of a third of its size: those in the middle and in the middle of its faces are left out (a Menger sponge).
+// Each hexahedron of a component becomes 20, of a third of its size: those in the middle and in the middle of
+// its faces are left out (a Menger sponge).
 #include "sim/house_rules/house_rules.h"
 
 namespace rend {

@@ -2,8 +2,8 @@
 //
 // The hooks determine the match: the darts of the first hook's orbit are the instances, in the order of a walk,
 // and every node has one dart at each of them. It is a match if all links and loops of the graph hold at every
-// instance, and no dart is used twice, unless the rule may fold (thesis 3.4.1, footnote 3: a match is injective).
-// An arc always leads to another dart: a free link is no arc.
+// instance, and no dart is used twice, unless the rule may fold (thesis 3.4.1, footnote 3: a match is
+// injective). An arc always leads to another dart: a free link is no arc.
 #pragma once
 
 #include "sim/rules/rule.h"

@@ -21,8 +21,8 @@ Vec3 face_vector(const Edit& edit, Dart d, Vec3 Point::*part = &Point::rest);
 
 double volume_at_rest(const Edit& edit, Dart d); // [m³], each face a fan around the mean of its corners
 
-// Why the element of d (a face of a sheet, a volume of a solid) is flat or inverted at rest, as a sentence; empty:
-// it is not, or is not closed yet. Corners where three edges meet must all turn the same way.
+// Why the element of d (a face of a sheet, a volume of a solid) is flat or inverted at rest, as a sentence;
+// empty: it is not, or is not closed yet. Corners where three edges meet must all turn the same way.
 std::string shape_fault(const Edit& edit, Dart d);
 
 } // namespace rend

@@ -1,8 +1,8 @@
 // Applying a rule everywhere in a map: to all orbits of its hook's kind, in the order of their smallest darts.
 //
-// One round visits each orbit once. What an application has matched or made is used up for the rest of the round,
-// so that the order of orbits decides where matches overlap, and a round ends. All applications of a round share
-// one edit, and their expressions read the points from before it.
+// One round visits each orbit once. What an application has matched or made is used up for the rest of the
+// round, so that the order of orbits decides where matches overlap, and a round ends. All applications of a
+// round share one edit, and their expressions read the points from before it.
 #pragma once
 
 #include "sim/rules/apply.h"
@@ -21,8 +21,8 @@ struct RoundResult {
 using Partners = std::function<std::vector<Dart>(Dart)>;
 
 // Which orbits: those all of whose darts are `selected`; empty: all. It is asked for darts of the map as it is
-// when the round begins. `partners`, for rules with two hooks: the darts to try for the second one; it must be given
-// for them, and the rule is applied with the first that matches. Other numbers of hooks: CHECK.
+// when the round begins. `partners`, for rules with two hooks: the darts to try for the second one; it must be
+// given for them, and the rule is applied with the first that matches. Other numbers of hooks: CHECK.
 RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected = {},
                         const Partners& partners = {});
 

@@ -198,8 +198,9 @@ private:
     rule_.sets.push_back(std::move(made));
   }
 
-  // The vertex of a node stretches over several instances where a label leads to it: there the value must be the
-  // same. Asked with numbers: calls that keep their value at that neighbour get the same ones there, others do not.
+  // The vertex of a node stretches over several instances where a label leads to it: there the value must be
+  // the same. Asked with numbers: calls that keep their value at that neighbour get the same ones there,
+  // others do not.
   void check_symmetry(std::size_t s) {
     const Rule::Set& set = rule_.sets[s];
     const std::vector<bool> vertex = rule_.right.reach(set.node, Vertex);

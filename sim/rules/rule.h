@@ -1,8 +1,8 @@
 // A graph transformation rule, checked and compiled: what the engine runs.
 //
-// Its graphs say which darts are matched and what takes their place (rule_graph.h), its expressions where vertices
-// are (rule_values.h). A rule is immutable; what is compiled once, the *plan*, lists the steps of a match and of
-// the rewriting node by node, so that running it reads no names.
+// Its graphs say which darts are matched and what takes their place (rule_graph.h), its expressions where
+// vertices are (rule_values.h). A rule is immutable; what is compiled once, the *plan*, lists the steps of a
+// match and of the rewriting node by node, so that running it reads no names.
 #pragma once
 
 #include "sim/expression/expression.h"
@@ -39,8 +39,8 @@ struct RulePlan {
   std::vector<std::pair<int, int>> unlinks; // node, link
   std::vector<int> removed;                 // nodes
   std::vector<Link> links;
-  // Of each node of the right graph, in a sheet and in a solid: the node of the left graph in whose element a created
-  // dart comes to lie; -1: it is kept, or its element lies in none that is there.
+  // Of each node of the right graph, in a sheet and in a solid: the node of the left graph in whose element a
+  // created dart comes to lie; -1: it is kept, or its element lies in none that is there.
   std::array<std::vector<int>, 2> inside;
   bool links_volumes = false; // it links by α3, so that it cannot apply to a sheet
 };

@@ -1,5 +1,5 @@
-// The two graphs of a rule, and the notation in which they are written (thesis 3.4.1; Poudret 2009; Belhaouari et
-// al. 2014, whose program Jerboa draws the same graphs).
+// The two graphs of a rule, and the notation in which they are written (thesis 3.4.1; Poudret 2009; Belhaouari
+// et al. 2014, whose program Jerboa draws the same graphs).
 //
 //   a*(0,1,2)   a node, with a star: a hook. It stands for every dart of the orbit <0,1,2> of one dart at once
 //   b(_,1,2)    a node. At each dart of the hook's orbit, an *instance* of the rule, every node has one dart.
@@ -69,7 +69,8 @@ struct RuleGraph {
   const RuleLink& link(int node, int i) const { return (*this)[node].links[static_cast<std::size_t>(i)]; }
   int find(std::string_view name) const; // -1: no such node
 
-  // The nodes that arcs lead to from `node`, itself included, whose links are all in `allowed`; one flag a node.
+  // The nodes that arcs lead to from `node`, itself included, whose links are all in `allowed`; one flag a
+  // node.
   std::vector<bool> reach(int node, Orbit allowed) const;
 
   // In the notation: parses to the same graph.

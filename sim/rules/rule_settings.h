@@ -14,8 +14,8 @@
 
 namespace rend {
 
-// The values of the vertex of a node: of a new vertex, which needs a position, or of one that is kept, which then
-// moves. Rest position and velocity follow the position's expression where they have none of their own.
+// The values of the vertex of a node: of a new vertex, which needs a position, or of one that is kept, which
+// then moves. Rest position and velocity follow the position's expression where they have none of their own.
 struct RuleSetSettings {
   std::string node = {};     // of the right graph
   std::string position = {}; // [m], an expression

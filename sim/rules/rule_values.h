@@ -10,10 +10,11 @@
 //   stress(a), strain(a), value, time   where a law of tearing applies the rule
 //
 // The position is the value of the expression over positions; the rest position that over rest positions; the
-// velocity its derivative in time where points move with their velocities: f(v) − f(0) for an affine expression.
+// velocity its derivative in time where points move with their velocities: f(v) − f(0) for an affine
+// expression.
 //
-// Normals need a sense: out of a volume; of a sheet, and of a face in a solid that encloses nothing, the side on
-// which its component's smallest dart lies.
+// Normals need a sense: out of a volume; of a sheet, and of a face in a solid that encloses nothing, the side
+// on which its component's smallest dart lies.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"

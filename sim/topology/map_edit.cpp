@@ -20,7 +20,8 @@ void Journal::clear() {
 }
 
 Dart MapEdit::add_dart() {
-  // What this edit has removed may still be spoken of, by a law's candidates: it is not used again before the next.
+  // What this edit has removed may still be spoken of, by a law's candidates: it is not used again before the
+  // next.
   const bool again = !map_.free_.empty() && (!journal_ || journal_->removed.empty());
   const Dart d = again ? Dart{map_.free_.back()} : Dart{map_.links_.size()};
   if (!again) {

@@ -35,8 +35,8 @@ inline RuleArguments corners(std::initializer_list<Point> points) {
   return arguments;
 }
 
-// A face with as many sides as there are points (at least three), free on all sides; returns two darts per side, d
-// and α0(d), side by side: d is at the point of its side.
+// A face with as many sides as there are points (at least three), free on all sides; returns two darts per
+// side, d and α0(d), side by side: d is at the point of its side.
 inline std::vector<Dart> create_polygon(Edit& edit, std::span<const Point> points) {
   std::vector<Dart> darts;
   for (std::size_t n = 0; n < 2 * points.size(); ++n) darts.push_back(edit.add_dart());
@@ -141,8 +141,8 @@ inline Body fan(int n) {
   return body;
 }
 
-// A strip of n quads whose ends are sewn to each other, straight or with a twist; bent into a ring, so that no quad
-// is degenerate.
+// A strip of n quads whose ends are sewn to each other, straight or with a twist; bent into a ring, so that no
+// quad is degenerate.
 inline Body loop_of_quads(int n, bool twisted) {
   Body body = grid(n, 1);
   const GMap& map = body->map();

@@ -1,4 +1,5 @@
-// Bodies that rules construct, against the generators of sim/mesh, which know no rules; and laws that act by rules.
+// Bodies that rules construct, against the generators of sim/mesh, which know no rules; and laws that act by
+// rules.
 #include "sim/build/construction.h"
 
 #include "sim/topology/count.h"
