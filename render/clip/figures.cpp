@@ -148,9 +148,7 @@ StateFigures state_of(const Scene& scene) {
   state.fragments = scene.fragments();
   state.tears = scene.tears();
   state.laws = laws_of(scene);
-  state.kinetic = scene.kinetic_energy();
-  state.elastic = scene.elastic_energy();
-  state.gravity = scene.gravity_energy();
+  state.energy = scene.energy();
   state.mass = scene.mass();
   state.momentum = scene.momentum();
   state.angular_momentum = scene.angular_momentum();

@@ -62,7 +62,7 @@ struct StateFigures {
   double time = 0;                 // [s]
   std::size_t vertices = 0, elements = 0, darts = 0, fragments = 0, tears = 0;
   std::vector<LawFigures> laws;
-  double kinetic = 0, elastic = 0, gravity = 0; // [J]
+  EnergyFigures energy;
   double mass = 0;                              // [kg]
   Vec3 momentum, angular_momentum;              // [kg m/s], [kg m²/s]
   std::vector<ProbeFigures> probes;

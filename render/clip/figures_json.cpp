@@ -71,6 +71,18 @@ template <class T> Json list_of(const std::vector<T>& all) {
   return list;
 }
 
+Json json_of(const EnergyFigures& e) {
+  const Work& w = e.now.work;
+  return {
+      {"kinetic", e.now.kinetic},
+      {"elastic", e.now.elastic},
+      {"gravity", e.now.gravity},
+      {"work", w.sum()},
+      {"work_of", {{"loads", w.loads}, {"drives", w.drives}, {"contact", w.contact}, {"changes", w.changes}}},
+      {"dissipated", e.dissipated},
+      {"balance", e.balance}};
+}
+
 Json json_of(const StateFigures& s) {
   Json probes = Json::object(), rows = Json::object();
   for (const ProbeFigures& probe : s.probes) probes[probe.name] = json_of(probe);
@@ -84,7 +96,7 @@ Json json_of(const StateFigures& s) {
              {"fragments", s.fragments},
              {"tears", s.tears},
              {"laws", list_of(s.laws)},
-             {"energy", {{"kinetic", s.kinetic}, {"elastic", s.elastic}, {"gravity", s.gravity}}},
+             {"energy", json_of(s.energy)},
              {"mass", s.mass},
              {"momentum", json_of(s.momentum)},
              {"angular_momentum", json_of(s.angular_momentum)},

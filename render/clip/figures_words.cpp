@@ -94,8 +94,10 @@ std::string summary_of(const Figures& f) {
   out +=
       fmt::format("  tearing    {} tears, {} fragment{}\n", s.tears, s.fragments, s.fragments == 1 ? "" : "s");
   out += laws_in_words(s.laws);
-  out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n", s.kinetic,
-                     s.elastic, s.gravity);
+  out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n",
+                     s.energy.now.kinetic, s.energy.now.elastic, s.energy.now.gravity);
+  out += fmt::format("             {:.6g} J of work done on it, {:.6g} J dissipated, {:.3g} J unexplained\n",
+                     s.energy.now.work.sum(), s.energy.dissipated, s.energy.balance);
   out += guard_in_words(s.guard);
   out += fmt::format("  forces     evaluated {} times\n", s.evaluations);
   out += rows_in_words(s.rows);

@@ -23,8 +23,9 @@ void commit(OutputFile& file) {
 }
 
 std::string header_of(const Scene& scene) {
-  std::string header = "frame,step,time,kinetic,elastic,gravity,momentum_x,momentum_y,momentum_z,"
-                       "angular_momentum_x,angular_momentum_y,angular_momentum_z,tears,fragments";
+  std::string header =
+      "frame,step,time,kinetic,elastic,gravity,work,dissipated,balance,momentum_x,momentum_y,momentum_z,"
+      "angular_momentum_x,angular_momentum_y,angular_momentum_z,tears,fragments";
   for (const auto& body : scene.bodies())
     for (const Probe& probe : body->probes)
       for (const char* what : {"x", "y", "z", "dx", "dy", "dz", "reaction_x", "reaction_y", "reaction_z"})
@@ -56,11 +57,13 @@ Diagnostics::Diagnostics(const std::filesystem::path& path) : file_(path) {}
 void Diagnostics::add(long frame, const Scene& scene) {
   flush();
   if (!any_ && text_.empty()) text_ = header_of(scene);
+  const EnergyFigures e = scene.energy();
   const Vec3 p = scene.momentum(), l = scene.angular_momentum();
   // {} of a double gives the shortest text that reads back as the same number.
-  held_ = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", frame, scene.steps_done(), scene.time(),
-                      scene.kinetic_energy(), scene.elastic_energy(), scene.gravity_energy(), p.x(), p.y(),
-                      p.z(), l.x(), l.y(), l.z(), scene.tears(), scene.fragments(), probe_cells(scene));
+  held_ = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", frame, scene.steps_done(),
+                      scene.time(), e.now.kinetic, e.now.elastic, e.now.gravity, e.now.work.sum(), e.dissipated,
+                      e.balance, p.x(), p.y(), p.z(), l.x(), l.y(), l.z(), scene.tears(), scene.fragments(),
+                      probe_cells(scene));
 }
 
 void Diagnostics::flush() {

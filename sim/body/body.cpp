@@ -47,7 +47,20 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
   map->subscribe(changes);
   if (tears()) reserve_for_separations();
+  make_work_meter(scheme);
   constrain(0, map->position().values().data(), map->velocity().values().data());
+}
+
+// An equilibrium has no account of work.
+void Body::make_work_meter(const Scheme& scheme) {
+  const bool touched = floor_contact || (contact && contact->faces());
+  if (integrator->has_inertia() && (constraints.drives() || !loads.empty() || touched || tears()))
+    work_meter = std::make_unique<WorkMeter>(scheme.shadow);
+}
+
+MeteredBody Body::metered(const Record* internal_force) const {
+  return {*this,         constraints, loads, map->position().values().data(), map->velocity().values().data(),
+          internal_force};
 }
 
 Boundary& Body::boundary() {
@@ -136,6 +149,25 @@ void Body::evaluate() {
   ++evaluations;
   if (faulty.armed(StepStage::Forces)) faulty.inject(inverse_mass, vertices(), force.data());
   update_loads(time_, x, v);
+  if (work_meter) work_meter->settle(metered());
+}
+
+BodyEnergy Body::energy(double shadow_step, std::vector<Record>& scratch) {
+  bind_program();
+  const Record *x = map->position().values().data(), *v = map->velocity().values().data();
+  BodyEnergy sum{.elastic = program->elastic_energy(x), .shadow = 0, .work = {}};
+  if (work_meter) sum.work = work(scratch);
+  if (shadow_step == 0) return sum;
+  if (!work_meter) program->forces(x, v, scratch.data());
+  sum.shadow = shadow_step * power(metered(scratch.data()), time_);
+  return sum;
+}
+
+Work Body::work(std::vector<Record>& scratch) {
+  const Record *x = map->position().values().data(), *v = map->velocity().values().data();
+  program->forces(x, v, scratch.data());
+  update_loads(time_, x, v);
+  return work_meter->work(metered(scratch.data()));
 }
 
 ForceView Body::view() const {
@@ -182,7 +214,9 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
 int Body::make_changes(std::size_t number, const ForceView& now, double time, long step) {
   const PhaseScope within(profile, Phase::Changes);
   const std::size_t before = events.size();
+  const double potential = gravity_energy(*map, *mass, gravity);
   const int made = tear_laws[number].apply(*map, now, events, fragment_counter.get());
+  if (made > 0 && work_meter) work_meter->change(gravity_energy(*map, *mass, gravity) - potential);
   for (std::size_t e = before; e < events.size(); ++e) {
     events[e].time = time;
     events[e].step = step;
@@ -204,17 +238,31 @@ void Body::advance(double time, double step) {
   next.resize(vertices());
   next.probe = Double4{};
   next_time_ = time + step;
-  const StateView now{map->position().values().data(), map->velocity().values().data()};
-  if (forces_deferred_)
-    integrator->advance_fused(*this, time, step, now, force.data(), next);
-  else
-    integrator->advance(*this, time, step, now, force.data(), next);
+  move(time, step);
   if (faulty.armed(StepStage::Integration)) inject_into_next();
   if (next.large) fence_streams(); // for schemes that write their state on this thread
-  if (!floor_contact) return;
-  const PhaseScope contact_within(profile, Phase::Contact);
-  floor_contact->apply(next, step);
-  constrain(time + step, next.position.data(), next.velocity.data()); // prescribed vertices ignore the floor
+  if (work_meter) work_meter->measure(metered(), next_time_, next);
+  if (floor_contact) touch_floor(next_time_, step);
+}
+
+// By the scheme. Its fused advance evaluates the forces of the current state, and leaves the loads at them.
+void Body::move(double time, double step) {
+  const StateView now{map->position().values().data(), map->velocity().values().data()};
+  if (!forces_deferred_) {
+    integrator->advance(*this, time, step, now, force.data(), next);
+    return;
+  }
+  integrator->advance_fused(*this, time, step, now, force.data(), next);
+  if (work_meter) work_meter->settle(metered());
+}
+
+// Prescribed vertices ignore the floor.
+void Body::touch_floor(double time, double step) {
+  const PhaseScope within(profile, Phase::Contact);
+  touched_.clear();
+  floor_contact->apply(next, step, touched_);
+  constrain(time, next.position.data(), next.velocity.data());
+  if (work_meter && !touched_.empty()) work_meter->after_contact(metered(), step, next, touched_);
 }
 
 void Body::restore_state(const State& start, double time) {
@@ -235,6 +283,7 @@ void Body::rebind() {
   if (!corner_force.empty()) corner_force.resize(map->cells(mass->orbit()).slots());
   constraints.rebind(*map, changes);
   loads.rebind(*map);
+  if (work_meter) work_meter->rebind();
   for (TearLaw& law : tear_laws) law.rebind(changes);
   if (changes.whole && tears()) reserve_for_separations(); // there may be more rows than were reserved
   changes.clear();
@@ -255,6 +304,7 @@ void Body::store(Archive& archive, long done, double step) {
   archive.same(numbers.size(), "numbers that its steps hand on");
   for (double& number : numbers) archive.unbounded(number);
   for (Answer& answer : answers) archive(answer.asked, answer.measured);
+  if (work_meter) work_meter->store(archive, map->cells(Vertex).slots());
   if (!archive.reading()) return;
   check_read(done, step);
   refuse_unless(integrator->restore_state(numbers), "what its steps hand on is nothing that they would");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/body/answer.h"
+#include "sim/body/work_meter.h"
 #include "sim/boundary/boundary.h"
 #include "sim/fracture/tear_law.h"
 #include "sim/integrate/integrator.h"
@@ -25,6 +26,12 @@ struct RunSettings {
   bool walk = false; // ProgramOptions
   int threads = 1;
   double tolerance = SchemeSettings{}.tolerance;
+};
+
+// Of the current state.
+struct BodyEnergy {
+  double elastic = 0, shadow = 0; // [J]; shadow: Scheme::shadow
+  Work work;
 };
 
 enum class WitnessAt { BeforeChanges, AfterChanges };
@@ -59,6 +66,7 @@ struct Body final : System {
   std::function<void(WitnessAt)>
       change_observer; // called before and after a law makes its changes; may be empty
   std::unique_ptr<FragmentCounter> fragment_counter; // null: nobody asks how many fragments each change left
+  std::unique_ptr<WorkMeter> work_meter;             // null: nothing does work on it
   std::optional<double> deleted_at; // [s], when the last element was deleted; the body goes on with nothing
 
   ~Body() override;
@@ -84,10 +92,16 @@ struct Body final : System {
                      double by_velocity, BlockMatrix& out) override;
   void mark_prescribed(double time, std::uint8_t* axes) override;
 
+  // `shadow_step` [s]: weight of the shadow term × step; `scratch`: one record per vertex slot. Leaves the loads
+  // of the current state in `load`.
+  BodyEnergy energy(double shadow_step, std::vector<Record>& scratch);
+  Work work(std::vector<Record>& scratch); // CHECK: it has a meter
   void evaluate();     // evaluates force and corner_force in the current state
   void defer_forces(); // leaves the evaluation to advance(): if they are not needed before
   bool may_defer_forces() const;
   ForceView view() const; // of the evaluated state
+  MeteredBody metered() const { return metered(force.data()); }
+  MeteredBody metered(const Record* internal_force) const; // [N], one per vertex slot
   CriterionRequest request_for(const LawSettings& law) const;
   double time() const { return time_; } // [s], of the current state
 
@@ -111,6 +125,9 @@ struct Body final : System {
   bool parallel_small_bodies = false; // see ProgramOptions
 
 private:
+  void make_work_meter(const Scheme& scheme);
+  void move(double time, double step);
+  void touch_floor(double time, double step);
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   int make_changes(std::size_t number, const ForceView& now, double time, long step);
   void follow_changes();
@@ -120,6 +137,7 @@ private:
   void clear_sums();
   bool forces_deferred_ = false;
   bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
+  std::vector<TouchedVertex> touched_; // scratch: by the floor
   double time_ = 0, next_time_ = 0;    // [s], of the current state and of `next`
   std::unique_ptr<Boundary> boundary_; // null: nobody asked for it
 };

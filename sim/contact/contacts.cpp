@@ -19,13 +19,18 @@ std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::uniq
 void Contacts::advance(double time, double step) {
   for (auto& body : bodies_)
     if (!body->body->next.finite()) return; // the scene is about to stop
-  for (auto& body : bodies_) body->prepare(time + step);
+  for (auto& body : bodies_) {
+    body->prepare(time + step);
+    if (body->body->work_meter) body->body->work_meter->before_contact(body->body->next);
+  }
   if (fragments_) fragments_->advance(bodies_, step);
   obstacles_.advance(bodies_, time, step);
   for (auto& each : bodies_) {
     Body& body = *each->body;
-    if (body.floor_contact) body.floor_contact->apply(body.next, step);
+    touched_.clear();
+    if (body.floor_contact) body.floor_contact->apply(body.next, step, touched_);
     body.constrain(time + step, body.next.position.data(), body.next.velocity.data());
+    if (body.work_meter) body.work_meter->after_contact(body.metered(), step, body.next);
   }
 }
 

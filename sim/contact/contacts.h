@@ -25,6 +25,7 @@ private:
   std::vector<std::unique_ptr<ContactBody>> bodies_; // those with contact, in the order of the scene
   std::unique_ptr<FragmentContact> fragments_;       // null: not enabled in any body
   ObstacleContact obstacles_;
+  std::vector<TouchedVertex> touched_; // scratch: by the floor
 };
 
 } // namespace rend

@@ -100,8 +100,9 @@ double Guard::allowed(const Rollback::Account& account) const {
   return std::max(budget_ + account.work, 0.0) + account.headroom + 0.5 * account.mass * slow * slow;
 }
 
-Guard::EnergyTest Guard::test_energy(const Rollback::Account& account) {
+Guard::EnergyTest Guard::test_energy(Rollback::Account account) {
   ++figures_.energy_tests;
+  account.work += rollback_->pending_work();
   return {account.kinetic + rollback_->elastic_energy(), factor * allowed(account), account.work};
 }
 
@@ -112,7 +113,7 @@ StepFailure Guard::judge(const Rollback::Account& account, Look look) {
   const EnergyTest now = test_energy(account);
   if (!(now.energy <= now.limit)) return StepFailure::Energy;
   calm_ = account.kinetic;
-  if (look == Look::Exactly) budget_ = std::min(budget_, 2 * now.energy - account.work);
+  if (look == Look::Exactly) budget_ = std::min(budget_, 2 * now.energy - now.work);
   return StepFailure::None;
 }
 
@@ -171,7 +172,7 @@ StepFailure Guard::end_redo(long done) {
     return StepFailure::Energy;
   }
   figures_.accepted += !fits;
-  end_rollback(done, fits ? std::max(budget_ + account.work, 0.0) : now.energy,
+  end_rollback(done, fits ? std::max(budget_ + now.work, 0.0) : now.energy,
                fits ? Finer::Helps : Finer::DoesNot);
   return StepFailure::None;
 }
@@ -200,8 +201,8 @@ std::optional<long> Guard::roll_back(StepFailure failure, long done) {
     figures_.rejected += goal_ - from_;
     growth_.reset();
     if (failure == StepFailure::Energy) {
-      const Rollback::Account account = rollback_->account();
-      growth_ = test_energy(account).energy - account.work;
+      const EnergyTest now = test_energy(rollback_->account());
+      growth_ = now.energy - now.work;
     }
   }
   const bool first = !redoing_;

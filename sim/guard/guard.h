@@ -82,7 +82,7 @@ private:
   StepFailure update_budget(long step, Look look);
   StepFailure judge(const Rollback::Account& account, Look look);
   double allowed(const Rollback::Account& account) const; // [J]
-  EnergyTest test_energy(const Rollback::Account& account);
+  EnergyTest test_energy(Rollback::Account account);
   bool pass_through(int substeps) const;
   bool may_pass_through() const;
   StepFailure end_redo(long done);

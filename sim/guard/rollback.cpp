@@ -1,7 +1,6 @@
 #include "sim/guard/rollback.h"
 
 #include "sim/base/archive.h"
-#include "sim/rows/frequency.h"
 #include "sim/solve/vectors.h"
 
 #include <algorithm>
@@ -10,18 +9,9 @@
 namespace rend {
 Rollback::Rollback(World& world, const Bodies& bodies, double step)
     : world_(world), bodies_(bodies), step_(step), starts_(bodies.size()), spheres_(world.spheres.size()) {
-  for (const Sphere& sphere : world.spheres)
-    if (!sphere.falls()) push_ = std::max(push_, sphere.velocity.norm());
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Body& body = *bodies[b];
-    if (body.constraints.drives() || pushed(body))
-      starts_[b].omega_squared =
-          frequency_bounds(*body.map, body.interactions, *body.mass, body.drag).omega_squared;
-  }
-}
-
-bool Rollback::pushed(const Body& body) const {
-  return push_ > 0 && body.contact && body.contact->obstacles;
+  for (const Sphere& sphere : world.spheres) pushed_ = pushed_ || (!sphere.falls() && sphere.moves());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b]->work_meter) starts_[b].meter = *bodies[b]->work_meter;
 }
 
 void Rollback::reserve_for_separations() {
@@ -31,7 +21,6 @@ void Rollback::reserve_for_separations() {
     const std::size_t most = body.map->slots_when_separated(Vertex);
     starts_[b].state.position.reserve(most);
     starts_[b].state.velocity.reserve(most);
-    if (!body.loads.empty()) starts_[b].load.reserve(most);
   }
 }
 
@@ -40,18 +29,13 @@ void Rollback::begin(long step) {
   aside_ = false;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = *bodies_[b];
-    Start& start = starts_[b];
-    start.time = body.time();
-    if (body.load) start.load.assign(body.load, body.load + body.vertices());
-    start.force.clear();
-    if (body.constraints.drives())
-      for (Slot v : body.constraints.vertices()) start.force.push_back(Record(body.force[v].vec()));
-    if (!pushed(body)) continue;
-    start.forces = 0;
-    for (const Record& f : body.force) start.forces += f.vec().norm();
+    starts_[b].time = body.time();
+    if (body.work_meter) starts_[b].meter = *body.work_meter;
   }
-  for (std::size_t s = 0; s < spheres_.size(); ++s)
-    spheres_[s] = {world_.spheres[s].centre, world_.spheres[s].velocity};
+  for (std::size_t s = 0; s < spheres_.size(); ++s) {
+    const Sphere& sphere = world_.spheres[s];
+    spheres_[s] = {sphere.centre, sphere.velocity, sphere.contact_work};
+  }
 }
 
 void Rollback::save_start() {
@@ -71,20 +55,22 @@ bool Rollback::fits() const {
 
 void Rollback::restore() {
   if (!aside_) return;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->restore_state(starts_[b].state, starts_[b].time);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b]->restore_state(starts_[b].state, starts_[b].time);
+    if (starts_[b].meter) *bodies_[b]->work_meter = *starts_[b].meter;
+  }
   for (std::size_t s = 0; s < spheres_.size(); ++s) {
     world_.spheres[s].centre = spheres_[s].centre;
     world_.spheres[s].velocity = spheres_[s].velocity;
+    world_.spheres[s].contact_work = spheres_[s].contact_work;
   }
 }
 
-Rollback::Account Rollback::account() {
+Rollback::Account Rollback::account() const {
   Account sum;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     add(*bodies_[b], starts_[b], sum);
-    if (!starts_[b].load.empty()) add_loads(*bodies_[b], starts_[b], sum);
-    if (bodies_[b]->constraints.drives()) add_drives(*bodies_[b], starts_[b], sum);
-    if (pushed(*bodies_[b])) add_pushes(*bodies_[b], starts_[b], sum);
+    if (bodies_[b]->load) add_loads(*bodies_[b], sum);
   }
   for (std::size_t s = 0; s < spheres_.size(); ++s) {
     const Sphere& sphere = world_.spheres[s];
@@ -92,6 +78,33 @@ Rollback::Account Rollback::account() {
     sum.kinetic += 0.5 * sphere.mass * sphere.velocity.squaredNorm();
     sum.work += sphere.mass * world_.gravity.dot(sphere.centre - spheres_[s].centre);
     sum.headroom += 2 * sphere.mass * (step_ * world_.gravity).squaredNorm();
+  }
+  sum.work += measured_work();
+  return sum;
+}
+
+double Rollback::measured_work() const {
+  Work work;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!starts_[b].meter) continue;
+    const Work before = starts_[b].meter->work();
+    work += bodies_[b]->work_meter->work();
+    work += {-before.loads, -before.drives, -before.contact, 0};
+  }
+  for (std::size_t s = 0; s < spheres_.size(); ++s)
+    work.contact += world_.spheres[s].contact_work - spheres_[s].contact_work;
+  return work.loads + work.drives + (pushed_ ? work.contact : std::min(work.contact, 0.0));
+}
+
+double Rollback::pending_work() const {
+  thread_local std::vector<Record> force; // keeps its capacity, since the guard calls this during a run
+  double sum = 0;
+  for (const auto& body : bodies_) {
+    if (!body->work_meter) continue;
+    force.resize(body->vertices());
+    const Work exact = body->work(force), known = body->work_meter->work();
+    sum += exact.loads + exact.drives - known.loads - known.drives;
+    if (pushed_) sum += exact.contact - known.contact;
   }
   return sum;
 }
@@ -131,66 +144,25 @@ void Rollback::add(const Body& body, const Start& start, Account& sum) const {
   sum.headroom += 2 * mass * (step_ * world_.gravity).squaredNorm();
 }
 
-// The loads at the start, and as they would be there at the current time.
-void Rollback::add_loads(Body& body, const Start& start, Account& sum) const {
-  const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
-  const Record* x0 = from(body, start);
-  const Record* v0 = aside_ ? start.state.velocity.data() : v;
-  const Record* later = body.loads.evaluate(*body.map, body.time(), x0, v0);
-  const bool dead = body.loads.constant();
-  const double* inverse = body.program->inverse_mass();
-  for (std::size_t i = 0; i < body.vertices(); ++i) {
-    const Vec3 f = start.load[i], dx = x[i].vec() - x0[i].vec();
-    const double most = std::max(f.norm(), later[i].vec().norm());
-    if (most == 0) continue;
-    sum.work += dead && f == later[i].vec() ? f.dot(dx) : most * dx.norm();
-    sum.headroom += 2 * inverse[i] * most * most * step_ * step_;
-  }
-  body.update_loads(body.time(), x, v); // restores the loads of the current step
-}
-
-void Rollback::add_drives(const Body& body, const Start& start, Account& sum) const {
-  const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
-  const Record* x0 = from(body, start);
-  const double* inverse = body.program->inverse_mass();
-  const std::vector<Slot>& held = body.constraints.vertices();
-  for (std::size_t n = 0; n < held.size(); ++n) {
-    const double m = 1 / inverse[held[n]], way = (x[held[n]].vec() - x0[held[n]].vec()).norm();
-    sum.work += (start.force[n].vec().norm() + m * world_.gravity.norm()) * way;
-    sum.work += 0.5 * m * start.omega_squared * way * way;
-    sum.headroom += 0.5 * m * v[held[n]].vec().squaredNorm();
-  }
-}
-
-void Rollback::add_pushes(const Body& body, const Start& start, Account& sum) const {
-  const double way = push_ * (body.time() - start.time);
-  double mass = 0;
+void Rollback::add_loads(const Body& body, Account& sum) const {
   for (std::size_t i = 0; i < body.vertices(); ++i)
-    if (const double w = body.program->inverse_mass()[i]; w > 0) mass += 1 / w;
-  sum.work += (start.forces + mass * world_.gravity.norm()) * way;
-  sum.work += 0.5 * mass * start.omega_squared * way * way;
-  sum.headroom += 2 * mass * push_ * push_;
+    sum.headroom += 2 * body.inverse_mass[i] * body.load[i].vec().squaredNorm() * step_ * step_;
 }
 
-void Rollback::Start::store(Archive& archive, const Body& body) {
-  state.store(archive, body.vertices());
+void Rollback::Start::store(Archive& archive, std::size_t most) {
+  state.store(archive, most);
   archive(time);
-  archive.list(load, body.vertices(), "loads are of more vertices than the body has");
-  archive.list(force, body.vertices(), "forces are of more vertices than the body has");
-  archive(forces);
-  double omega = omega_squared;
-  archive(omega);
-  refuse_unless(omega == omega_squared, "a body's frequencies are others");
+  if (meter) meter->store(archive, most);
 }
 
 void Rollback::SphereStart::store(Archive& archive) {
-  archive(centre, velocity);
+  archive(centre, velocity, contact_work);
 }
 
 void Rollback::store(Archive& archive, long done) {
   archive(first_, aside_);
   archive.same(starts_.size(), "number of bodies");
-  for (std::size_t b = 0; b < starts_.size(); ++b) starts_[b].store(archive, *bodies_[b]);
+  for (std::size_t b = 0; b < starts_.size(); ++b) starts_[b].store(archive, bodies_[b]->vertices());
   archive.fixed(spheres_, "number of spheres");
   if (archive.reading()) check_read(done);
 }
@@ -203,22 +175,16 @@ void Rollback::check_read(long done) const {
   for (std::size_t b = 0; aside_ && b < starts_.size(); ++b) {
     const Body& body = *bodies_[b];
     const Start& start = starts_[b];
-    const std::size_t driven = body.constraints.drives() ? body.constraints.vertices().size() : 0;
     refuse_unless(start.state.position.size() == body.vertices(), "a stretch starts with another body");
-    refuse_unless(start.load.size() == (body.load ? body.vertices() : 0), "a stretch starts with other loads");
-    refuse_unless(start.force.size() == driven, "a stretch starts with other drives");
     refuse_unless(std::abs(start.time - static_cast<double>(first_) * step_) <= 1e-3 * step_,
                   "a stretch starts at another time");
-    refuse_unless(start.forces >= 0, "a stretch starts with a sum of forces below 0");
   }
 }
 
 std::size_t Rollback::bytes() const {
-  std::size_t records = 0;
-  for (const Start& start : starts_)
-    records +=
-        start.state.position.size() + start.state.velocity.size() + start.load.size() + start.force.size();
-  return records * sizeof(Record);
+  std::size_t sum = 0;
+  for (const Start& start : starts_) sum += start.state.bytes() + (start.meter ? start.meter->bytes() : 0);
+  return sum;
 }
 
 } // namespace rend

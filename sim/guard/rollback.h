@@ -1,28 +1,22 @@
-// A stretch of steps that can be repeated (rollback): the state at its start, and a bound of the work done
-// since.
+// A stretch of steps that can be repeated (rollback): the state at its start, and the work done since.
 //
 // Saving the start costs no copy: when its first step is accepted, the buffers of the old state are put aside,
 // and those put aside before take their place (Body::commit swaps two buffers, this rotates three). The
 // topology is constant within a stretch: a change begins a new one.
 //
-// Kinetic and elastic energy K + U can grow by the work of gravity, loads, drives and moving spheres,
+// Kinetic and elastic energy K + U grow by the work of gravity, loads, drives and contact: that of gravity is
 //
-//   gravity   Σ m g·Δx                                      Δx: displacement since the start
-//   loads     Σ f·Δx; Σ |f| |Δx| if they depend on the state or on time           f: at the start
-//   drives    Σ (|F| + m |g|) |Δx| + ½ m ω² |Δx|²            over prescribed vertices; F: internal force at the
-//                                         start, ω: a bound of the highest frequency (frequency.h)
-//   spheres   the same over all vertices, with |V| Δt for |Δx|        for spheres moving as prescribed, with V
+//   Σ m g·Δx                     Δx: displacement since the start
 //
-// and, as headroom, by the energy of prescribed motion: ½ m v² of prescribed vertices, ½ m (2V)² of vertices
-// that a sphere may hit, and the velocity gained in two steps under gravity and loads. All are bounded by
-// quantities at the start, or known beforehand: none grows as fast as the energy of an exploding motion, which
-// therefore does not hide itself.
+// and the rest is measured (WorkMeter). Contact with what does not move can only dissipate: of its work nothing
+// above 0 counts. Headroom is the velocity gained in two steps under gravity and loads.
 #pragma once
 
 #include "sim/body/body.h"
 #include "sim/outside/world.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace rend {
@@ -47,7 +41,10 @@ public:
     double mass = 0, heaviest = 0; // [kg], of all vertices
     double squared_speeds = 0;     // [m²/s²], of live vertices
   };
-  Account account();             // of the current state, which is not changed
+  Account account() const;       // of the current state
+  // [J], by which the work of an account is less than what the forces of the current state give: costs one
+  // evaluation of the forces
+  double pending_work() const;
   double elastic_energy() const; // [J], of the current state; costs about twenty evaluations of the forces
 
   std::size_t bytes() const;
@@ -56,29 +53,25 @@ public:
 private:
   struct Start { // per body
     State state;
-    double time = 0;           // [s]
-    std::vector<Record> load;  // [N], one per vertex slot; empty: none
-    std::vector<Record> force; // [N], internal, one for each of Constraints::vertices()
-    double forces = 0;         // [N], Σ |F| over all vertices if spheres push; else 0
-    double omega_squared = 0;  // [1/s²]; 0: the body has no drives
-    void store(Archive& archive, const Body& body);
+    double time = 0;                                // [s]
+    std::optional<WorkMeter> meter;                 // none: nothing does work on the body
+    void store(Archive& archive, std::size_t most); // of at most `most` vertices
   };
   struct SphereStart {
     Vec3 centre, velocity;
+    double contact_work = 0; // [J]
     void store(Archive& archive);
   };
   void check_read(long done) const; // throws ArchiveError
   void add(const Body& body, const Start& start, Account& sum) const;
-  void add_loads(Body& body, const Start& start, Account& sum) const;
-  void add_drives(const Body& body, const Start& start, Account& sum) const;
-  void add_pushes(const Body& body, const Start& start, Account& sum) const;
+  void add_loads(const Body& body, Account& sum) const;
+  double measured_work() const;                                   // [J], since the start, of all but gravity
   const Record* from(const Body& body, const Start& start) const; // [m], positions at the start
-  bool pushed(const Body& body) const;
 
   World& world_;
   const Bodies& bodies_;
-  double step_;     // [s]
-  double push_ = 0; // [m/s], speed of the fastest sphere that moves as prescribed
+  double step_;         // [s]
+  bool pushed_ = false; // some sphere moves as prescribed
   long first_ = 0;
   bool aside_ = false;        // whether the start is in starts_, and no longer the current state
   std::vector<Start> starts_; // one per body

@@ -78,6 +78,10 @@ struct Scheme {
   std::unique_ptr<Integrator> (*make)(const SchemeSettings& settings);
   bool solves = false;   // implicit: needs the stiffness matrix; `evaluations` is the minimum per step
   bool adaptive = false; // chooses substeps by their error; `evaluations` is the minimum per step
+  // The scheme keeps K + U + shadow · h Σ v·F rather than K + U (its shadow Hamiltonian to first order in the
+  // step h; exact for linear forces)
+  double shadow = 0;
+  bool has_account() const { return name != "static"; } // of energy: where bodies have inertia
 };
 
 const std::vector<Scheme>& all_schemes();

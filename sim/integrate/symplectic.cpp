@@ -13,7 +13,8 @@ Scheme symplectic_euler() {
           .order = 1,
           .evaluations = 1,
           .limit = &limit_symplectic,
-          .make = &make_integrator<Euler<MovesBy::NewVelocity>>};
+          .make = &make_integrator<Euler<MovesBy::NewVelocity>>,
+          .shadow = 0.5};
 }
 
 } // namespace rend

@@ -21,10 +21,11 @@ template <> const Fields<ContactSettings>& fields_of() {
   return fields;
 }
 
-void FloorContact::apply(State& next, double step) const {
+void FloorContact::apply(State& next, double step, std::vector<TouchedVertex>& touched) const {
   for (std::size_t i = 0; i < next.position.size(); ++i) {
     Record &x = next.position[i], &v = next.velocity[i];
     if (!(x.z < height)) continue;
+    touched.push_back({static_cast<Slot>(i), x, v});
     const Impulse change = impact(v, Vec3::UnitZ(), friction, Vec3::Ones());
     x = Record(x.x + step * change.friction.x(), x.y + step * change.friction.y(), height);
     v = Record(v.vec() + change.whole());

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "sim/base/settings.h"
+#include "sim/embedding/slot_table.h"
 #include "sim/integrate/system.h"
 
 namespace rend {
@@ -26,11 +27,18 @@ struct ContactSettings {
 };
 template <> const Fields<ContactSettings>& fields_of();
 
+// A vertex as it was before contact changed it.
+struct TouchedVertex {
+  Slot vertex = 0;
+  Record position, velocity; // [m], [m/s]
+};
+
 struct FloorContact {
   double height = 0;   // [m], the floor's plus the body's thickness
   double friction = 0; // coefficient
 
-  void apply(State& next, double step) const; // step [s]
+  // step [s]; vertices that it changes are added to `touched`, as they were before
+  void apply(State& next, double step, std::vector<TouchedVertex>& touched) const;
 };
 
 } // namespace rend

@@ -53,12 +53,18 @@ void Sphere::predict(double time, double step, const Vec3& gravity) {
 
 void Sphere::store(Archive& archive) {
   const Vec3 prescribed = velocity;
-  archive(centre, velocity, next_centre, next_velocity);
+  archive(centre, velocity, next_centre, next_velocity, contact_work);
   if (archive.reading())
     refuse_unless(falls() || velocity == prescribed, "a sphere moves as its preset does not say");
 }
 
-void Sphere::commit() {
+// Its motion without contact is symplectic Euler's, whose shadow term is counted (WorkMeter).
+void Sphere::commit(double step, const Vec3& gravity) {
+  if (falls()) {
+    const Vec3 change = next_velocity - velocity;
+    const Vec3 mean = 0.5 * (velocity + next_velocity + step * gravity);
+    contact_work += mass * (mean.dot(change) - gravity.dot(next_centre - centre));
+  }
   centre = next_centre;
   velocity = next_velocity;
 }

@@ -51,13 +51,15 @@ struct Sphere {
   Sphere() = default;
   explicit Sphere(const SphereSettings& settings); // UserError
 
+  double contact_work = 0; // [J], done on it by contact since the start, if it falls
+
   bool falls() const { return mass > 0; }
   bool moves() const { return falls() || !velocity.isZero(0); }
   double inverse_mass() const { return mass > 0 ? 1 / mass : 0; } // [1/kg]
 
   // Its motion without contact; `time` [s] at the end of the step.
   void predict(double time, double step, const Vec3& gravity);
-  void commit();
+  void commit(double step, const Vec3& gravity);
   void store(Archive& archive); // the members that change
 
   // For a point that moved from → to [m] in the step, relative to the sphere's centre at its start and end;

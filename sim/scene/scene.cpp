@@ -227,6 +227,30 @@ double Scene::gravity_energy() const {
   for (const Sphere& s : world_.spheres) sum -= s.mass * world_.gravity.dot(s.centre);
   return sum;
 }
+EnergyFigures Scene::energy() const {
+  return account_.figures(energy_state());
+}
+
+EnergyState Scene::energy_state() const {
+  EnergyState sum;
+  sum.kinetic = kinetic_energy();
+  sum.gravity = gravity_energy();
+  static thread_local std::vector<Record> force;
+  for (const auto& body : bodies_) {
+    force.resize(body->vertices());
+    const BodyEnergy one = body->energy(scheme().shadow * step_, force);
+    sum.elastic += one.elastic;
+    sum.shadow += one.shadow;
+    sum.work += one.work;
+  }
+  for (const Sphere& s : world_.spheres) {
+    if (!s.falls()) continue;
+    sum.shadow += 0.5 * step_ * s.mass * s.velocity.dot(world_.gravity);
+    sum.work.contact += s.contact_work;
+  }
+  return sum;
+}
+
 double Scene::mass() const {
   double sum = 0;
   for (const auto& body : bodies_) sum += total_mass(*body->map, *body->mass);
@@ -260,6 +284,7 @@ void Scene::store(Archive& archive) {
   for (auto& body : bodies_) body->store(archive, steps_done_, step_);
   archive.same(world_.spheres.size(), "number of spheres");
   for (Sphere& sphere : world_.spheres) sphere.store(archive);
+  account_.store(archive, steps_done_);
   if (contacts_) contacts_->store(archive);
   guard_->store(archive, steps_done_);
   archive.mark("seconds"); // last, since they differ from run to run

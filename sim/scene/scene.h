@@ -4,6 +4,7 @@
 #include "sim/contact/contacts.h"
 #include "sim/guard/step_failure.h"
 #include "sim/scene/definition.h"
+#include "sim/scene/energy_account.h"
 
 #include <optional>
 
@@ -73,6 +74,8 @@ public:
   double kinetic_energy() const;
   double elastic_energy() const;
   double gravity_energy() const;
+  // Evaluates forces and elastic energy of all bodies, without counting them. Changes nothing.
+  EnergyFigures energy() const;
   double mass() const;
   Vec3 momentum() const;
   Vec3 angular_momentum() const;
@@ -87,6 +90,7 @@ public:
   void store(Archive& archive);
 
 private:
+  EnergyState energy_state() const;
   void set_step();
   void set_answers();
   void measure_answers();
@@ -106,7 +110,7 @@ private:
   StepFailure integrate(double time, double step);        // [s]
   StepFailure resolve_contacts(double time, double step); // [s]
   void apply_contacts(double time, double step);
-  void commit();
+  void commit(double step); // [s]
   bool finite() const;
   void redo(StepFailure failure, long entry);
   bool state_was_set();
@@ -129,6 +133,7 @@ private:
   std::vector<std::string> notes_;
   double build_seconds_ = 0, bind_seconds_ = 0;
   std::unique_ptr<Guard> guard_;
+  EnergyAccount account_; // never open: equilibria have none
   // why the last attempt of the step failed; nullopt: it did not, or it is not finite
   std::optional<NotConverged> not_converged_;
   long laws_applied_at_ = -1;  // steps_done() when the laws were last applied

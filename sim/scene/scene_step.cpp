@@ -23,6 +23,7 @@ struct UnsoundState { // thrown if the state about to be torn is not sound
 
 void Scene::step() {
   const long entry = steps_done_;
+  if (account_.due(entry) && scheme().has_account()) account_.add(entry, energy_state());
   while (steps_done_ <= entry) {
     const StepFailure failure = try_step();
     if (failure != StepFailure::None)
@@ -58,7 +59,7 @@ StepFailure Scene::substep(double time, double step) {
   if (failure == StepFailure::None) failure = integrate(time, step);
   if (failure == StepFailure::None) failure = resolve_contacts(time, step);
   if (failure != StepFailure::None) return failure;
-  commit();
+  commit(step);
   guard_->after_substep();
   return StepFailure::None;
 }
@@ -123,9 +124,9 @@ void Scene::apply_contacts(double time, double step) {
   }
 }
 
-void Scene::commit() {
+void Scene::commit(double step) {
   for (auto& body : bodies_) body->commit();
-  for (Sphere& sphere : world_.spheres) sphere.commit();
+  for (Sphere& sphere : world_.spheres) sphere.commit(step, world_.gravity);
 }
 
 // Arms or disarms the fault for the current step.
@@ -173,6 +174,7 @@ bool Scene::state_was_set() {
   return_to(done);
   laws_applied_at_ = done - 1; // nothing tore in between
   guard_->discard_start();
+  account_.restart();
   return true;
 }
 
@@ -186,6 +188,7 @@ void Scene::redo(StepFailure failure, long entry) {
 
 void Scene::return_to(long step) {
   steps_done_ = laws_applied_at_ = step;
+  account_.roll_back(step);
   for (auto& body : bodies_) body->faulty.disarm();
   forget_answers();
 }

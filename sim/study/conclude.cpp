@@ -14,7 +14,7 @@ void mark(StudyReport& report, std::size_t group) {
   StudyReference& reference = report.references[group];
   reference.smallest = std::numeric_limits<double>::infinity();
   std::vector<std::size_t> done;
-  std::vector<Work> work;
+  std::vector<WorkPrecision> work;
   for (std::size_t n = 0; n < report.rows.size(); ++n) {
     StudyRow& row = report.rows[n];
     if (row.group != group || row.failed()) continue;
@@ -32,7 +32,7 @@ StudyCurve curve_of(const StudyReport& report, std::size_t group, const std::str
   curve.integrator = integrator;
   curve.theory = find_scheme(integrator)->order;
   std::vector<OrderPoint> points;
-  std::vector<Work> work;
+  std::vector<WorkPrecision> work;
   for (std::size_t n = 0; n < report.rows.size(); ++n) {
     const StudyRow& row = report.rows[n];
     if (row.group != group || row.integrator != integrator) continue;

@@ -18,7 +18,7 @@ TEST(ParetoFront, is_what_nothing_beats) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 300; ++trial) {
     std::uniform_int_distribution<int> few(1, 9); // small integers, so that ties are common
-    std::vector<Work> runs(static_cast<std::size_t>(trial % 40));
+    std::vector<WorkPrecision> runs(static_cast<std::size_t>(trial % 40));
     for (Work& run : runs) run = {static_cast<double>(few(random)), static_cast<double>(few(random))};
     std::vector<std::size_t> front = pareto_front(runs), expected;
     for (std::size_t n = 0; n < runs.size(); ++n)
@@ -33,7 +33,7 @@ TEST(ParetoFront, is_what_nothing_beats) {
 }
 
 TEST(TimeToReach, lies_on_the_power_law_between_two_runs) {
-  std::vector<Work> runs; // error 1 / t²
+  std::vector<WorkPrecision> runs; // error 1 / t²
   for (double t : {1.0, 2.0, 5.0, 20.0}) runs.push_back({t, 1 / (t * t)});
   for (double error : {0.5, 0.1, 0.01}) {
     const auto reach = time_to_reach(runs, error);

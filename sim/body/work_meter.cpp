@@ -1,0 +1,176 @@
+#include "sim/body/work_meter.h"
+
+#include "sim/base/archive.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+Vec3 load_on(const MeteredBody& body, Slot v) {
+  return body.system.load ? body.system.load[v].vec() : Vec3::Zero();
+}
+
+double mass_of(const MeteredBody& body, Slot v) {
+  const double inverse = body.system.inverse_mass[v];
+  return inverse > 0 ? 1 / inverse : 0;
+}
+
+Vec3 whole_force(const MeteredBody& body, Slot v) {
+  return body.force[v].vec() + load_on(body, v) + mass_of(body, v) * body.system.gravity.vec();
+}
+
+double drag_rate(const System& system, Slot v) {
+  return system.uniform_drag + (system.drag_rate ? system.drag_rate[v] : 0);
+}
+
+// 1 along the coordinates of a vertex that are prescribed at a time, 0 along the others.
+Vec3 prescribed(const Constraints& constraints, Slot v, double time) {
+  Vec3 axes = Vec3::Zero();
+  constraints.for_each_motion(v, [&](const Motion& motion) {
+    for (int a = 0; a < 3 && motion.acts(time); ++a)
+      if (motion.axes[static_cast<std::size_t>(a)]) axes[a] = 1;
+  });
+  return axes;
+}
+
+std::vector<Slot> loaded_vertices(const Loads& loads) {
+  std::vector<Slot> all;
+  const auto add = [&](const std::vector<Slot>& some) { all.insert(all.end(), some.begin(), some.end()); };
+  for (const Load& load : loads.loads()) add(load.vertices());
+  if (loads.wind()) add(loads.wind()->vertices());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+bool equal(const Record& a, const Record& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+} // namespace
+
+double power(const MeteredBody& body, double time) {
+  double sum = 0;
+  const auto of = [&](Slot v) -> Vec3 { return whole_force(body, v).cwiseProduct(body.velocity[v].vec()); };
+  for (Slot v = 0; v < body.system.vertices(); ++v)
+    if (body.system.inverse_mass[v] > 0) sum += of(v).sum();
+  for (const Slot v : body.constraints.vertices())
+    if (body.system.inverse_mass[v] > 0) sum -= of(v).dot(prescribed(body.constraints, v, time));
+  return sum;
+}
+
+Work& Work::operator+=(const Work& other) {
+  loads += other.loads;
+  drives += other.drives;
+  contact += other.contact;
+  changes += other.changes;
+  return *this;
+}
+
+double Work::size() const {
+  return std::abs(loads) + std::abs(drives) + std::abs(contact) + std::abs(changes);
+}
+
+void WorkMeter::list(const MeteredBody& body) {
+  const auto become = [](std::vector<Entry>& entries, const std::vector<Slot>& vertices) {
+    entries.assign(vertices.size(), {});
+    for (std::size_t n = 0; n < vertices.size(); ++n) entries[n].vertex = vertices[n];
+  };
+  become(entries_.loads, loaded_vertices(body.loads));
+  become(entries_.drives, body.constraints.drives() ? body.constraints.vertices() : std::vector<Slot>{});
+  listed_ = true;
+}
+
+void WorkMeter::settle(const MeteredBody& body) {
+  settled_ = work(body);
+  entries_.contact.clear();
+  if (!listed_) list(body);
+  for (Entry& e : entries_.loads) e = {e.vertex, Record(load_on(body, e.vertex)), {}};
+  for (Entry& e : entries_.drives) e = {e.vertex, Record(whole_force(body, e.vertex)), {}};
+}
+
+void WorkMeter::measure(const MeteredBody& body, double time, const State& next) {
+  for (Entry& e : entries_.loads) {
+    const Vec3 half = 0.5 * (next.position[e.vertex].vec() - body.position[e.vertex].vec());
+    settled_.loads += e.force.vec().dot(half);
+    e.pending = Record(half);
+  }
+  for (Entry& e : entries_.drives) {
+    const Slot i = e.vertex;
+    const Vec3 axes = prescribed(body.constraints, i, time);
+    const Vec3 move = axes.cwiseProduct(next.position[i].vec() - body.position[i].vec());
+    const Vec3 v = axes.cwiseProduct(body.velocity[i].vec()), w = axes.cwiseProduct(next.velocity[i].vec());
+    const double m = mass_of(body, i);
+    settled_.drives += 0.5 * m * (w.squaredNorm() - v.squaredNorm());
+    settled_.drives += m * drag_rate(body.system, i) * w.dot(move) - 0.5 * e.force.vec().dot(move);
+    e.pending = Record(Vec3(-0.5 * move));
+  }
+}
+
+void WorkMeter::before_contact(const State& next) {
+  position_before_ = next.position;
+  velocity_before_ = next.velocity;
+}
+
+void WorkMeter::after_contact(const MeteredBody& body, double step, const State& next) {
+  static thread_local std::vector<TouchedVertex> touched;
+  touched.clear();
+  for (Slot i = 0; i < next.position.size(); ++i)
+    if (!equal(next.position[i], position_before_[i]) || !equal(next.velocity[i], velocity_before_[i]))
+      touched.push_back({i, position_before_[i], velocity_before_[i]});
+  after_contact(body, step, next, touched);
+}
+
+void WorkMeter::after_contact(const MeteredBody& body, double step, const State& next,
+                              const std::vector<TouchedVertex>& before) {
+  for (const TouchedVertex& was : before) {
+    const Slot i = was.vertex;
+    const Vec3 w = next.velocity[i].vec(), v = was.velocity.vec();
+    const Vec3 shift = next.position[i].vec() - was.position.vec();
+    const Vec3 force = whole_force(body, i);
+    settled_.contact += 0.5 * mass_of(body, i) * (w.squaredNorm() - v.squaredNorm()) - 0.5 * force.dot(shift);
+    entries_.contact.push_back({i, Record(force), Record(Vec3(-0.5 * shift + shadow_ * step * (w - v)))});
+  }
+}
+
+Work WorkMeter::work(const MeteredBody& body) const {
+  Work sum = settled_;
+  for (const Entry& e : entries_.loads) sum.loads += load_on(body, e.vertex).dot(e.pending.vec());
+  for (const Entry& e : entries_.drives) sum.drives += whole_force(body, e.vertex).dot(e.pending.vec());
+  for (const Entry& e : entries_.contact) sum.contact += whole_force(body, e.vertex).dot(e.pending.vec());
+  return sum;
+}
+
+Work WorkMeter::work() const {
+  Work sum = settled_;
+  for (const Entry& e : entries_.loads) sum.loads += e.force.vec().dot(e.pending.vec());
+  for (const Entry& e : entries_.drives) sum.drives += e.force.vec().dot(e.pending.vec());
+  for (const Entry& e : entries_.contact) sum.contact += e.force.vec().dot(e.pending.vec());
+  return sum;
+}
+
+void WorkMeter::Entry::store(Archive& archive) {
+  archive(vertex, force, pending);
+}
+
+void WorkMeter::store(Archive& archive, std::size_t most) {
+  archive.unbounded(settled_.loads, settled_.drives, settled_.contact, settled_.changes);
+  archive(listed_);
+  const auto all = [&](std::vector<Entry>& entries) {
+    archive.list(entries, most, "work is done on more vertices than the body has");
+    if (!archive.reading()) return;
+    for (const Entry& e : entries) refuse_unless(e.vertex < most, "work is done on a vertex that is not there");
+  };
+  all(entries_.loads);
+  all(entries_.drives);
+  all(entries_.contact);
+}
+
+std::size_t WorkMeter::bytes() const {
+  return bytes_of(entries_.loads) + bytes_of(entries_.drives) + bytes_of(entries_.contact) +
+         bytes_of(position_before_) + bytes_of(velocity_before_);
+}
+
+} // namespace rend

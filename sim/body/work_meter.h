@@ -1,0 +1,92 @@
+// The work done on a body from outside, measured step by step: entries of the energy account
+// (sim/scene/energy_account.h).
+//
+// A step takes a vertex of mass m from x, v to x', v'. With Δx = x' − x, its load L, and the forces F at the
+// start and F' at the end of the step, of which each is internal force + load + weight, by the trapezoidal rule:
+//
+//   loads    Σ ½ (L + L')·Δx
+//   drives   Σ Δ(½ m v²) − ½ (F + F')·Δx + m γ v'·Δx       along prescribed coordinates; γ: ambient drag
+//   contact  Σ Δ(½ m v²) − ½ (F + F')·δ + s h F'·Δv        Δv, δ: what contact adds to v' and x'
+//
+// s is the weight of the scheme's shadow term (Scheme::shadow) and h the step: with it, a vertex that rests
+// pressed against an obstacle takes no work. Sums are of the order of the scheme's, two at most. An adaptive
+// scheme is measured over the whole step.
+//
+//   changes  Δ of the potential in gravity            of matter that a change of the map takes away or adds
+//
+// F' is known once the forces of the next step are: until then it is pending. A body on which nothing does work
+// has no meter.
+#pragma once
+
+#include "sim/outside/constraint.h"
+#include "sim/outside/floor_contact.h"
+#include "sim/outside/load.h"
+
+namespace rend {
+
+struct Work {
+  double loads = 0, drives = 0, contact = 0, changes = 0; // [J]
+
+  double sum() const { return loads + drives + contact + changes; }
+  double size() const; // [J], sum of magnitudes
+  Work& operator+=(const Work& other);
+};
+
+// What a meter sees of its body. Arrays: one record per vertex slot, of the current state.
+struct MeteredBody {
+  const System& system;
+  const Constraints& constraints;
+  const Loads& loads;
+  const Record *position, *velocity; // [m], [m/s]
+  const Record* force;               // [N], internal
+};
+
+// Of internal forces, loads and weight on free coordinates: Σ F·v [W].
+double power(const MeteredBody& body, double time);
+
+class WorkMeter {
+public:
+  explicit WorkMeter(double shadow) : shadow_(shadow) {}
+
+  // The calls of a step, in this order. Forces and loads of the current state are evaluated; called again if
+  // they were evaluated anew, after a change of the map.
+  void settle(const MeteredBody& body);
+  // After the scheme: `time` [s] at the end of the step.
+  void measure(const MeteredBody& body, double time, const State& next);
+  // Before and after contact changes `next`: all of it, or some vertices as they were before.
+  void before_contact(const State& next);
+  void after_contact(const MeteredBody& body, double step, const State& next);
+  void after_contact(const MeteredBody& body, double step, const State& next,
+                     const std::vector<TouchedVertex>& before);
+
+  void rebind() { listed_ = false; }                         // after a change of the map ...
+  void change(double energy) { settled_.changes += energy; } // [J] ... by which gravity has so much more
+
+  // Since the start. Of `body`, forces and loads are those of the current state; without it, those of the state
+  // before stand in for what is pending.
+  Work work(const MeteredBody& body) const;
+  Work work() const;
+
+  void store(Archive& archive, std::size_t most); // of a body with at most `most` vertex slots
+  std::size_t bytes() const;
+
+private:
+  struct Entry {
+    Slot vertex = 0;
+    Record force = {};   // [N], F or L at the start of the step
+    Record pending = {}; // F'·pending [J] is still to be added
+    void store(Archive& archive);
+  };
+  struct Entries {
+    std::vector<Entry> loads, drives, contact;
+  };
+  void list(const MeteredBody& body);
+
+  double shadow_;
+  bool listed_ = false; // loads and drives have the vertices of the current map
+  Work settled_;
+  Entries entries_;
+  std::vector<Record> position_before_, velocity_before_; // scratch of before_contact()
+};
+
+} // namespace rend
