@@ -159,7 +159,10 @@ Stopped Session::loop(long first_frame, long last_frame, const Callbacks& calls,
       due = frame <= last_frame ? clock_->step_of(frame) : never;
       callback_seconds += wall_clock() - since;
     }
-    if (scene_->steps_done() >= last_step) return Stopped::No;
+    if (scene_->steps_done() >= last_step) {
+      scene_->check_account();
+      return Stopped::No;
+    }
     if (stop_signal() != 0) return Stopped::Interrupted;
     scene_->step();
     if (calls.step) calls.step();

@@ -32,6 +32,8 @@ long steps_of(const Scene& scene, long most) {
 void ask_for_soundness(const Trial& trial, const Course& course, Finding& finding) {
   finding.at_most("stopped as unstable", course.stopped, 0);
   finding.at_least("finite", is_finite(*trial.scene), 1);
+  finding.at_most("energy without a cause, of all that there was", trial->energy().gained_share(),
+                  most_gained_share);
   for (const auto& body : trial->bodies()) {
     const auto broken = validate(body->map->map());
     finding.at_most(broken ? "broken axioms of the map: " + broken->text() : "broken axioms of the map",

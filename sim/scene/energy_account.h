@@ -33,7 +33,12 @@ struct EnergyFigures {
   double dissipated = 0, balance = 0;
   double gained = 0; // [J], the largest balance so far
   double scale = 0;  // [J]
+
+  double gained_share() const { return scale > 0 ? gained / scale : 0; }
 };
+
+// Of gained energy in the scale of the account: a run that exceeds it shows a motion that nothing caused.
+constexpr double most_gained_share = 0.1;
 
 class EnergyAccount {
 public:

@@ -61,6 +61,9 @@ public:
   // Without a guard: throws Unstable if the step does not resolve the motion of the current state. Called
   // before a state is shown.
   void check_sound() const;
+  // At the end of a run: throws Unstable if more energy appeared without a cause than most_gained_share. Costs
+  // as much as energy().
+  void check_account() const;
   const GuardFigures& guard() const;
   std::size_t guard_bytes() const;
 

@@ -257,6 +257,19 @@ void Scene::check_sound() const {
   }
 }
 
+void Scene::check_account() const {
+  if (!account_.open()) return;
+  const EnergyFigures e = energy();
+  if (e.gained_share() <= most_gained_share) return;
+  throw Unstable(
+      Exit::Unstable, step_place_,
+      fmt::format("the motion is not to be trusted: {:.3g} J of energy appeared that no load, drive, "
+                  "contact or weight gave, where there were {:.3g} J at most",
+                  e.gained, e.scale),
+      scheme().limit == &no_limit ? "take a smaller step"
+                                  : "take a smaller step, another integrator, or add viscosity");
+}
+
 void Scene::stop(const Body& body, const std::string& what) const {
   const double limit = stability_limit(), tried = guard_->on() ? step_ / 1024 : step_;
   std::string hint;

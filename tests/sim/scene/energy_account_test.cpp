@@ -195,6 +195,11 @@ TEST(EnergyAccount, tells_what_a_scheme_gains) {
   const EnergyFigures e = scene->energy();
   EXPECT_NEAR(e.balance, energy_of(e.now) - e.now.work.sum(), 0.05 * e.balance + 1e-12);
   EXPECT_GT(e.gained, 0.05 * e.scale);
+  if (e.gained_share() > most_gained_share) {
+    EXPECT_THROW(scene->check_account(), Unstable);
+  } else {
+    EXPECT_NO_THROW(scene->check_account());
+  }
 }
 
 } // namespace
