@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace rend {
 namespace {
@@ -15,6 +16,7 @@ constexpr long exact_period = 4096; // steps between reductions of B
 // steps between tests of neighbours, unless speeds alone rule out that they pass each other
 constexpr long passing_period = 32;
 constexpr int most_substeps = 1024;
+constexpr long memory = 8;            // steps whose motion S is compared with, and at most twice as many
 constexpr double more = 1.25;         // growth of K before U is tested again
 constexpr double least_motion = 1e-6; // rest lengths per step: slower motion is no explosion
 constexpr long longest_hold = 4096;   // steps
@@ -58,7 +60,7 @@ void Guard::before_laws(long step) {
     const double energy = test_energy(account).energy;
     budget_ = std::isfinite(energy) ? energy : std::numeric_limits<double>::infinity();
     heaviest_ = account.heaviest;
-    lately_ = account.squared_speeds;
+    watch_.lately = watch_.before = account.squared_speeds;
     settled_ = exactly_ = step;
   }
 }
@@ -75,8 +77,8 @@ void Guard::after_laws(long step) {
   const PhaseScope within(profile_, Phase::Guard);
   if (!rollback_ || !(begins_ || !energy_)) return;
   rollback_->begin(step);
-  threshold_ = std::max(factor * lately_, heaviest_ > 0 ? 2 * budget_ / heaviest_ : 0);
-  lately_ = 0;
+  watch_.threshold = threshold();
+  watch_at_start_ = watch_;
   begins_ = false;
   start_.reset();
   growth_.reset();
@@ -108,11 +110,11 @@ Guard::EnergyTest Guard::test_energy(Rollback::Account account) {
 
 StepFailure Guard::judge(const Rollback::Account& account, Look look) {
   const bool high = account.kinetic > allowed(account);
-  if (!high) calm_ = 0;
-  if (look == Look::AsNeeded && (!high || account.kinetic <= more * calm_)) return StepFailure::None;
+  if (!high) watch_.calm = 0;
+  if (look == Look::AsNeeded && (!high || account.kinetic <= more * watch_.calm)) return StepFailure::None;
   const EnergyTest now = test_energy(account);
   if (!(now.energy <= now.limit)) return StepFailure::Energy;
-  calm_ = account.kinetic;
+  watch_.calm = account.kinetic;
   if (look == Look::Exactly) budget_ = std::min(budget_, 2 * now.energy - now.work);
   return StepFailure::None;
 }
@@ -132,6 +134,18 @@ bool Guard::pass_through(int substeps) const {
   return false;
 }
 
+double Guard::threshold() const {
+  return std::max(factor * std::max(watch_.lately, watch_.before), heaviest_ > 0 ? 2 * budget_ / heaviest_ : 0);
+}
+
+// The threshold sinks with the motion, and rises only when the energy was tested.
+void Guard::follow(double motion, long done) {
+  watch_.lately = std::max(watch_.lately, motion);
+  if (done % memory != 0) return;
+  watch_.threshold = std::min(watch_.threshold, threshold());
+  watch_.before = std::exchange(watch_.lately, 0.0);
+}
+
 StepFailure Guard::after_step(long done) {
   const PhaseScope within(profile_, Phase::Guard);
   if (!energy_) {
@@ -141,8 +155,8 @@ StepFailure Guard::after_step(long done) {
   if (!redoing_ && done <= hold_until_) figures_.redone += hold_substeps_;
   double motion = 0;
   for (const auto& body : bodies_) motion += body->next.motion();
-  lately_ = std::max(lately_, motion);
-  const bool above = motion > threshold_;
+  const bool above = motion > watch_.threshold;
+  follow(motion, done);
   if ((above || done % passing_period == 0) && may_pass_through() && pass_through(substeps(done - 1)))
     return StepFailure::PassThrough;
   if (redoing_) return done == goal_ ? end_redo(done) : StepFailure::None;
@@ -153,9 +167,8 @@ StepFailure Guard::after_step(long done) {
     return failure;
   }
   if (!above) return StepFailure::None;
-  const Rollback::Account account = rollback_->account();
-  const StepFailure failure = judge(account, Look::AsNeeded);
-  if (failure == StepFailure::None) threshold_ = factor * motion;
+  const StepFailure failure = judge(rollback_->account(), Look::AsNeeded);
+  if (failure == StepFailure::None) watch_.threshold = factor * motion;
   return failure;
 }
 
@@ -216,6 +229,7 @@ std::optional<long> Guard::roll_back(StepFailure failure, long done) {
   }
   from_ = std::max(from_, rollback_->first());
   rollback_->restore();
+  watch_ = watch_at_start_;
   if (energy_ && !start_) start_ = rollback_->account().kinetic + rollback_->elastic_energy();
   if (first && growth_) *growth_ -= *start_;
   settled_ = rollback_->first();
@@ -224,6 +238,7 @@ std::optional<long> Guard::roll_back(StepFailure failure, long done) {
 
 long Guard::restore_start() {
   redoing_ = begins_ = false;
+  watch_ = watch_at_start_;
   rollback_->restore();
   settled_ = rollback_->first();
   return rollback_->first();
@@ -237,13 +252,19 @@ void GuardFigures::store(Archive& archive) {
   refuse_unless(is_substep_count(most_substeps) && smallest >= 0, "steps were redone in no parts");
 }
 
+void Guard::Watch::store(Archive& archive) {
+  archive.unbounded(threshold, lately, before, calm);
+}
+
 void Guard::store(Archive& archive, long done) {
   archive.mark("guard");
   archive.same(on() ? 1 : 0, "whether steps are guarded");
   if (rollback_) rollback_->store(archive, done);
   double least_rest = least_rest_;
   archive(figures_);
-  archive.unbounded(budget_, threshold_, lately_, heaviest_, calm_, least_rest);
+  archive.unbounded(budget_, heaviest_, least_rest);
+  watch_.store(archive);
+  watch_at_start_.store(archive);
   archive(begins_, settled_, exactly_, redoing_, from_, goal_, substeps_);
   archive.unbounded(start_, growth_);
   archive(hold_until_, hold_length_, hold_substeps_);

@@ -3,8 +3,8 @@
 //
 // Every `period` steps, and at each change of topology, it saves the state: a new stretch begins (rollback.h).
 // In each step it tests S = Σ |v|², which the integration accumulates (State::put): S is not finite if a number
-// of the state is not, and only if S exceeds a threshold, about four times its recent values, the energy is
-// tested. A body may have
+// of the state is not, and only if S exceeds four times its values in the last steps, the energy is tested. A body
+// may have
 //
 //   K + U ≤ factor · ( B + work done on it since the start of the stretch + headroom )
 //
@@ -82,6 +82,8 @@ private:
   StepFailure update_budget(long step, Look look);
   StepFailure judge(const Rollback::Account& account, Look look);
   double allowed(const Rollback::Account& account) const; // [J]
+  double threshold() const;                               // [m²/s²], by the last steps
+  void follow(double motion, long done);
   EnergyTest test_energy(Rollback::Account account);
   bool pass_through(int substeps) const;
   bool may_pass_through() const;
@@ -96,11 +98,16 @@ private:
   std::optional<Rollback> rollback_; // none: off
   GuardFigures figures_;
 
-  double budget_ = -1;                    // [J], B; < 0: not computed yet
-  double threshold_ = 0;                  // [m²/s²], threshold of S
-  double lately_ = 0;                     // [m²/s²], the largest S of the stretch
+  double budget_ = -1; // [J], B; < 0: not computed yet
+  // What S was and may become. A repetition starts with what was there at the start of the stretch.
+  struct Watch {
+    double threshold = 0;          // [m²/s²], S below which the energy is not tested
+    double lately = 0, before = 0; // [m²/s²], the largest S of the last steps, and of those before
+    double calm = 0;               // [J], K when U was last tested and accepted; 0: no test was needed
+    void store(Archive& archive);
+  };
+  Watch watch_, watch_at_start_;
   double heaviest_ = 0;                   // [kg], of all vertices
-  double calm_ = 0;                       // [J], K when U was last tested and accepted; 0: no test was needed
   double least_rest_ = 0;                 // [m], the smallest rest length of neighbours
   bool begins_ = true;                    // whether a stretch begins with the current step
   long settled_ = -1, exactly_ = 0;       // steps done when B was last updated, and when with U

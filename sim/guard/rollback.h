@@ -41,7 +41,7 @@ public:
     double mass = 0, heaviest = 0; // [kg], of all vertices
     double squared_speeds = 0;     // [m²/s²], of live vertices
   };
-  Account account() const;       // of the current state
+  Account account() const; // of the current state
   // [J], by which the work of an account is less than what the forces of the current state give: costs one
   // evaluation of the forces
   double pending_work() const;

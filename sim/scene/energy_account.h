@@ -21,9 +21,10 @@ class Archive;
 struct EnergyState {
   double kinetic = 0, elastic = 0, gravity = 0, shadow = 0; // [J]
   Work work;
+  double round_off = 0; // [J]: what less than that is says nothing
 
   double balance() const { return kinetic + elastic + gravity + shadow - work.sum(); }
-  double scale() const { return kinetic + std::abs(elastic) + work.size(); }
+  double scale() const { return kinetic + std::abs(elastic) + work.size() + round_off; }
 };
 
 struct EnergyFigures {

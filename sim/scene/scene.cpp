@@ -4,6 +4,7 @@
 #include "sim/base/hash.h"
 #include "sim/base/wall_clock.h"
 #include "sim/guard/guard.h"
+#include "sim/integrate/rigid_motions.h"
 #include "sim/rows/frequency.h"
 #include "sim/topology/count.h"
 
@@ -231,6 +232,17 @@ EnergyFigures Scene::energy() const {
   return account_.figures(energy_state());
 }
 
+namespace {
+
+// Of a velocity of 1e-12 of the body's size in a step.
+double body_round_off(const Body& body, double step) {
+  const double size = extent(body.map->rest().values(), body.program->inverse_mass());
+  const double speed = 1e-12 * size / step;
+  return total_mass(*body.map, *body.mass) * speed * speed;
+}
+
+} // namespace
+
 EnergyState Scene::energy_state() const {
   EnergyState sum;
   sum.kinetic = kinetic_energy();
@@ -242,6 +254,7 @@ EnergyState Scene::energy_state() const {
     sum.elastic += one.elastic;
     sum.shadow += one.shadow;
     sum.work += one.work;
+    sum.round_off = std::max(sum.round_off, body_round_off(*body, step_));
   }
   for (const Sphere& s : world_.spheres) {
     if (!s.falls()) continue;
