@@ -8,10 +8,10 @@ namespace rend {
 
 namespace {
 
-// "name: what; name: what"
+// A line for each: "name: what".
 template <class T> std::string told(const std::vector<T>& all) {
   std::string out;
-  for (const T& each : all) out += (out.empty() ? "" : "; ") + each.name + ": " + each.what;
+  for (const T& each : all) out += (out.empty() ? "" : "\n") + each.name + ": " + each.what;
   return out;
 }
 
@@ -21,24 +21,28 @@ template <> const Fields<LawSettings>& fields_of() {
   using S = LawSettings;
   constexpr bool required = true;
   static const Fields<S> fields{
-      field(&S::criterion, all_criteria(), "criterion", told(all_criteria()), required),
+      field(&S::criterion, all_criteria(), "criterion", "what is measured\n" + told(all_criteria()), required),
       field(&S::threshold,
             number("threshold", "",
-                   "the value above which it tears, in newtons, of stresses in pascals, of strains a ratio; a "
-                   "low one and rend run --events tell what is reached")
+                   "the body tears where the criterion's value is larger than this: a force [N], a stress [Pa] "
+                   "or a strain (a ratio); rend run PRESET --reach tells which values are reached")
                 .above(0)
                 .is_required()),
-      field(&S::kind, word("kind", {"stretch", "shear", "bend"}, "of springs: which of them are measured")),
+      field(&S::kind, word("kind", {"stretch", "shear", "bend"},
+                           "which springs are measured: for atomic-spring and strain")),
       field(&S::compression,
-            flag("compression", "principal stresses and strains count in compression as well")),
+            flag("compression", "yes: compression counts as well as tension (for stresses and strains)")),
       field(&S::change, all_changes(), "change",
-            "what is done, any with any criterion (rend help tear says where); default: that of the cell which "
-            "the criterion measures; " +
+            "what happens where it tears; every change goes with every criterion (rend help tear says where it "
+            "is made); default: the first of these that acts on what the criterion measures\n" +
                 told(all_changes())),
-      field(&S::rule, text("rule", "a rule of the scene or of the house, instead of a change: rend rule list")),
-      field(&S::from, number("from", "s", "not before").at_least(0)),
-      field(&S::until, number("until", "s", "not after").at_least(0)),
-      field(&S::max_per_step, integer("max-per-step", "the worst so many a step; 0: all").at_least(0))};
+      field(&S::rule,
+            text("rule",
+                 "a rule to apply instead of a change: one of this scene, or a built-in one (rend rule list)")),
+      field(&S::from, number("from", "s", "start time; nothing tears before it").at_least(0)),
+      field(&S::until, number("until", "s", "end time; without it, to the end of the clip").at_least(0)),
+      field(&S::max_per_step,
+            integer("max-per-step", "at most N changes per step, worst first; 0 = unlimited").at_least(0))};
   return fields;
 }
 
