@@ -20,7 +20,8 @@ std::string message_of(const BatchResult& result, const std::string& err) {
   if (at == std::string::npos) {
     const int signal = result.code - 128;
     if (!result.ran || signal <= 0 || signal >= NSIG) return {};
-    return fmt::format("it was ended by signal {} ({}), not by this batch", signal, ::strsignal(signal));
+    return fmt::format("it was killed by signal {} ({}), which this batch did not send", signal,
+                       ::strsignal(signal));
   }
   const std::size_t begin = at + mark.size();
   return err.substr(begin, err.find('\n', begin) - begin);

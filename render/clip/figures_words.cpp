@@ -10,7 +10,7 @@ namespace {
 
 std::string guard_in_words(const GuardFigures& guard) {
   if (guard.rejected == 0) return "";
-  return fmt::format("  guard      {} steps rejected, {} parts of steps in their place, of {:.3g} s and more\n",
+  return fmt::format("  guard      {} steps were too large and redone as {} smaller ones, down to {:.3g} s\n",
                      guard.rejected, guard.redone, guard.smallest);
 }
 
@@ -23,7 +23,7 @@ std::string probes_in_words(const std::vector<ProbeFigures>& probes) {
   for (const auto& [name, reading] : probes) {
     out += fmt::format("{}{} ", out.empty() ? "  probes     " : "             ", name);
     if (!reading) {
-      out += "has lost its vertices\n";
+      out += "its vertices have been deleted\n";
       continue;
     }
     out += "at " + triple(reading->position) + " m, displaced by " + triple(reading->displacement) + " m";
@@ -53,9 +53,9 @@ std::string answers_in_words(const std::vector<AnswerFigures>& answers) {
     out += fmt::format("{}{} {} at {:.6g} s is {:.9g}", out.empty() ? "  answers    " : "             ",
                        a.probe, a.quantity, a.at, a.value);
     if (!a.holds)
-      out += ": not reached";
+      out += ": its time was not reached";
     else if (!a.measured)
-      out += ": its vertices are gone";
+      out += ": not measured, because its vertices have been deleted";
     else
       out += fmt::format(", measured {:.9g}: {} of {:.2g} {} {:.2g}", *a.measured,
                          a.value != 0 ? "a relative error" : "an error", *a.error,
@@ -78,7 +78,7 @@ std::string schemes_in_words(const StateFigures& state) {
     out += fmt::format("  solver     {} Newton iterations, {} of conjugate gradients, {} factorisations\n",
                        state.solver->all.newton, state.solver->all.cg, state.solver->all.factorisations);
   if (state.adaptive)
-    out += fmt::format("  adaptive   {} parts of steps, {} more rejected for their error\n",
+    out += fmt::format("  adaptive   {} parts of steps; {} more were rejected because of their error\n",
                        state.adaptive->substeps, state.adaptive->rejected);
   return out;
 }
@@ -100,8 +100,8 @@ std::string summary_of(const Figures& f) {
   out += fmt::format("  forces     evaluated {} times\n", s.evaluations);
   out += rows_in_words(s.rows);
   out += schemes_in_words(s);
-  out += fmt::format("  memory     {} for the scene, {} at most in all\n", bytes_in_words(f.bytes.of_scene()),
-                     bytes_in_words(f.bytes.peak));
+  out += fmt::format("  memory     {} for the scene; the program took {} at most\n",
+                     bytes_in_words(f.bytes.of_scene()), bytes_in_words(f.bytes.peak));
   out += fmt::format("  state      {:016x}\n", s.hash);
   if (f.exported)
     out += fmt::format("  exported   {} files ({}) in {}\n", f.exported->files,

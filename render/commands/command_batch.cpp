@@ -53,8 +53,8 @@ std::size_t parse_memory(const std::string& text) {
   const bool whole = error == std::errc() && (after == end || unit != std::string::npos);
   for (std::size_t n = 0; unit != std::string::npos && n <= unit; ++n) bytes *= 1024;
   if (!whole || !(bytes >= 1 && bytes <= most)) // also refuses nan
-    throw UserError(Exit::Usage, {}, fmt::format("--memory {} is no amount of memory", in_quotes(text)),
-                    "an amount is such as 800M or 4G");
+    throw UserError(Exit::Usage, {}, fmt::format("--memory {} is not an amount of memory", in_quotes(text)),
+                    "write it as 800M or 4G");
   return static_cast<std::size_t>(bytes);
 }
 
@@ -143,9 +143,10 @@ Exit batch(const BatchOptions& options) {
   BatchReport report{
       options.folder, jobs_of(options, settings, shard, frames_are_shared), {}, limits_of(options), 0};
   if (frames_are_shared && !options.video.empty())
-    throw UserError(Exit::Usage, {},
-                    "there are fewer jobs than shards, so that these share frames; a video is of all",
-                    "use at most as many shards as jobs, or leave --video out");
+    throw UserError(
+        Exit::Usage, {},
+        "there are fewer jobs than parts (--shard), so each part makes some frames of each job, and no video",
+        "use at most as many parts as jobs, or leave out --video");
   const Shard frames = frames_are_shared ? shard : Shard{};
   const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
   const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
@@ -171,7 +172,7 @@ Exit batch(const BatchOptions& options) {
       });
   report.results = queue.run();
   if (queue.processes_were_refused() && !options.quiet)
-    print_note("fewer jobs ran at once than were wanted: the system started no more");
+    print_note("the system could not start as many jobs at once as were allowed");
   report.seconds = wall_clock() - start;
   write_atomically(page, batch_page(report));
   folder.sync();
@@ -180,68 +181,73 @@ Exit batch(const BatchOptions& options) {
 }
 
 void declare_passed_on(CLI::App& app, BatchOptions& options) {
-  app.add_option("--frames", options.frames, "only these: 7, 0-100, 0-100x5, 10-, or several with commas")
+  app.add_option("--frames", options.frames,
+                 "render only these frames, such as 7, 0-100, 0-100x5 (every fifth), 10- (to the end), or "
+                 "several separated by commas")
       ->type_name("LIST")
       ->check(some_word());
-  app.add_option("--size", options.size, "of the pictures in pixels, instead of the presets'")
+  app.add_option("--size", options.size, "width and height of the pictures in pixels; default: the presets'")
       ->type_name("WxH")
       ->check(some_word());
-  app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the presets'")
+  app.add_option("--fps", options.fps, "frames per second of simulated time; default: the presets'")
       ->type_name("N")
       ->transform(real_number(1e-6, 1e6));
-  app.add_option("--video", options.video, "also a video of each job")
+  app.add_option("--video", options.video, "also write a video of each job")
       ->type_name(choices(video_format_names()));
-  app.add_flag("--no-png", options.no_png, "the videos alone");
-  app.add_option("--threads", options.threads,
-                 "threads of each simulation; default: one, where jobs run in parallel")
+  app.add_flag("--no-png", options.no_png, "write no PNG files, only the video");
+  app.add_option("--threads", options.threads, "threads of each job; default: 1 where jobs run in parallel")
       ->type_name("N")
       ->transform(whole_number(1, 256));
-  app.add_option("--checkpoint-every", options.checkpoint_every, "as of rend render")
+  app.add_option("--checkpoint-every", options.checkpoint_every,
+                 "seconds between stored states, as for rend render")
       ->type_name("S")
       ->transform(real_number(0, 1e9));
-  app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the presets' folders, too");
+  app.add_flag("--allow-path", options.allow_path, "allow files outside of the presets' folders");
 }
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<BatchOptions>();
-  app.add_option("inputs", options->inputs, "presets, and folders of them")->required()->type_name("PRESET...");
-  app.add_option("-o,--output", options->folder, "folder of all jobs' folders, and of index.html")
+  app.add_option("inputs", options->inputs, "presets, and folders with presets")
+      ->required()
+      ->type_name("PRESET...");
+  app.add_option("-o,--output", options->folder, "folder for the page index.html and one folder per job")
       ->type_name("DIR")
       ->capture_default_str();
-  app.add_option(
-         "--set", options->sets,
-         "replace an attribute in all jobs (any number of times); several values with commas are a sweep, "
-         "unless the attribute is a free text")
+  app.add_option("--set", options->sets,
+                 "replace an attribute in all jobs (can be repeated); several values separated by commas make "
+                 "one job each, unless the attribute is free text")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   app.add_option("--sweep", options->sweeps,
-                 "one job for each of these values of an attribute, free texts too; several sweeps are crossed")
+                 "make one job for each of these values of an attribute, free text included; several sweeps "
+                 "make all combinations")
       ->type_name("PATH=V,V,...")
       ->allow_extra_args(false);
-  app.add_option("-j,--jobs", options->jobs, "jobs at once; default: as many as the machine has threads")
+  app.add_option("-j,--jobs", options->jobs,
+                 "run at most N jobs at once; default: the number of the machine's threads")
       ->type_name("N")
       ->transform(whole_number(1, 1024));
   app.add_option("--memory", options->memory,
-                 "that all jobs together may take, such as 4G; default: 80 % of what is available")
+                 "memory for all jobs together, such as 4G; default: 80 % of what is available")
       ->type_name("SIZE")
       ->check(some_word());
-  app.add_option(
-         "--shard", options->shard,
-         "of the jobs only part I of N; default: as Slurm says of an array task. With fewer jobs than shards: "
-         "a part of each job's frames")
+  app.add_option("--shard", options->shard,
+                 "run only part I of N of the jobs; default: the number of the Slurm array task, if there is "
+                 "one. With fewer jobs than parts, each part renders some frames of each job")
       ->type_name("I/N")
       ->check(some_word());
-  app.add_flag("--resume", options->resume, "keep the pictures that are there and whole, and make the rest");
+  app.add_flag("--resume", options->resume, "keep pictures that are complete, and make the missing ones");
   declare_passed_on(app, *options);
-  app.add_flag("--json", options->json, "one JSON object a line for each job, as it ends");
-  app.add_flag("-q,--quiet", options->quiet, "no progress");
+  app.add_flag("--json", options->json,
+               "print one JSON object per job on stdout, one a line, as each job ends");
+  app.add_flag("-q,--quiet", options->quiet, "print no progress");
   return [options] { return batch(*options); };
 }
 
 } // namespace
 
 Command batch_command() {
-  return {"batch", "render many presets in parallel, with a page of what came of them", declare};
+  return {"batch", "render many presets in parallel, and make a page of the results", declare};
 }
 
 } // namespace rend

@@ -112,8 +112,8 @@ std::vector<std::string> remarks_of(const Cases& cases, const Tolerances& tolera
   for (const CasePaths& one : cases.all) names.push_back(one.name);
   std::vector<std::string> out = tolerances.remarks(names);
   if (cases.left_out > 0)
-    out.push_back(fmt::format("{} file{} in the folders {} not called .png, and left out", cases.left_out,
-                              cases.left_out == 1 ? "" : "s", cases.left_out == 1 ? "is" : "are"));
+    out.push_back(fmt::format("ignored {} non-PNG file{}", cases.left_out, cases.left_out == 1 ? "" : "s",
+                              cases.left_out == 1 ? "is" : "are"));
   return out;
 }
 
@@ -158,7 +158,7 @@ void check_folder(const fs::path& report, const Cases& cases) {
                       "choose a folder beside it for the report");
     if (lies_in(inputs, report / "maps"))
       throw UserError(Exit::Usage, {},
-                      fmt::format("-o {} has its maps where {} lies, which is compared",
+                      fmt::format("-o {} would write its maps into {}, which is compared",
                                   in_quotes(report.string()), in_quotes(inputs.string())),
                       "choose another folder for the report");
   }
@@ -208,36 +208,44 @@ Exit run(const DiffOptions& options) {
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<DiffOptions>();
-  app.add_option("expected", options->a, "a PNG picture, or a folder of them")
+  app.add_option("expected", options->a, "the expected picture (PNG), or a folder of pictures")
       ->required()
       ->type_name("EXPECTED");
-  app.add_option("now", options->b, "what is compared with it: of a folder, pictures of the same names")
+  app.add_option("now", options->b,
+                 "the picture to compare with it, or a folder with pictures of the same names")
       ->required()
       ->type_name("NOW");
-  app.add_option("-t,--tolerances", options->tolerances, "what may differ, by picture; without it nothing may")
+  app.add_option("-t,--tolerances", options->tolerances,
+                 "which differences are allowed, by picture (rend help tolerances); without it, none")
       ->type_name("FILE.xml");
   app.add_option("--limit", options->limits,
-                 "one such limit for all pictures: max=1, flip=0.002, share=any, threshold=4")
+                 "set one limit for all pictures, such as max=1, flip=0.002, share=any or threshold=4 (can be "
+                 "repeated)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--mask", options->mask, "a PNG: white counts, black does not")->type_name("FILE.png");
-  app.add_flag("--allow-path", options->allow_path,
-               "let the tolerances name masks outside of their folder, too");
-  app.add_option("-o,--output", options->folder, "write index.html, diff.json and maps of what differs there")
+  app.add_option("--mask", options->mask,
+                 "a PNG of the same size: white pixels are compared, black ones are not")
+      ->type_name("FILE.png");
+  app.add_flag("--allow-path", options->allow_path, "allow masks outside of the folder of the tolerances");
+  app.add_option(
+         "-o,--output", options->folder,
+         "folder for a report: index.html, diff.json and maps of the differences; default: none is written")
       ->type_name("DIR");
-  app.add_option("--junit", options->junit, "write the findings as JUnit XML there")->type_name("FILE.xml");
-  auto* json = app.add_flag("--json", options->json, "the findings as one JSON object");
-  app.add_flag("--json-lines", options->json_lines, "one JSON object a picture, each as soon as it is known")
+  app.add_option("--junit", options->junit, "also write the results as JUnit XML to this file")
+      ->type_name("FILE.xml");
+  auto* json = app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
+  app.add_flag("--json-lines", options->json_lines,
+               "print one JSON object per picture on stdout, one a line, each as soon as it is known")
       ->excludes(json);
   app.add_option("--update", options->update,
                  "these pictures (or folders of them) are right as they are now: make "
                  "them what is expected")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  app.add_option("--threads", options->threads, "threads; default: all that the machine has")
+  app.add_option("--threads", options->threads, "number of threads; default: as many as the machine has")
       ->transform(whole_number(1, 256));
-  app.add_flag("-q,--quiet", options->quiet, "nothing but the exit code, JSON and files");
-  app.footer("Ends with 0 where all pictures match, 1 where one does not, 2 where one cannot be compared.");
+  app.add_flag("-q,--quiet", options->quiet, "print nothing but JSON and errors");
+  app.footer("Exit code: 0 if all pictures match, 1 if one does not, 2 if one cannot be compared.");
   return [options] { return run(*options); };
 }
 

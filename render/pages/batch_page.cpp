@@ -140,9 +140,8 @@ std::string batch_page(const BatchReport& report) {
                       number_column("memory")},
           .rows = {},
           .sortable = true,
-          .caption =
-              "Failures first; a click on a column's name sorts by it. Frames were made now, kept ones were "
-              "there."};
+          .caption = "Failures first; a click on a column's name sorts by it. \"frames\" were made now, "
+                     "\"kept\" ones were already there."};
   for (std::size_t n : order) t.rows.push_back(row_of(report, n));
   body += table(t) + heading(2, "Made on") + facts_of(provenance_of_build());
   return page("rend batch", body);
