@@ -33,6 +33,23 @@ std::string probes_in_words(const std::vector<ProbeFigures>& probes) {
   return out;
 }
 
+std::string place_in_words(const Reached& reached, const std::string& unit) {
+  return fmt::format("{:.6g}{}{} at {:.6g} s near ({:.4g}, {:.4g}, {:.4g}) m", reached.value,
+                     unit.empty() ? "" : " ", printable(unit), reached.time, reached.place.x(),
+                     reached.place.y(), reached.place.z());
+}
+
+std::string reach_in_words(const std::vector<ReachFigures>& all) {
+  if (all.empty()) return "";
+  std::string out =
+      "  reach      largest values, without tearing: with a threshold below such a value, the first tear\n"
+      "             comes no later than at its time; with one above, none comes\n";
+  for (const ReachFigures& one : all)
+    out += fmt::format("             {} of '{}': {}\n", printable(one.criterion), printable(one.body),
+                       one.reached.value > 0 ? place_in_words(one.reached, one.unit) : "nothing");
+  return out;
+}
+
 std::string laws_in_words(const std::vector<LawFigures>& laws) {
   std::string out;
   for (const LawFigures& law : laws) {
@@ -42,6 +59,11 @@ std::string laws_in_words(const std::vector<LawFigures>& laws) {
                        : law.tears == 1 ? "once"
                                         : fmt::format("{} times", law.tears));
     if (law.first) out += fmt::format(", first at {:.6g} s", *law.first);
+    if (law.reached.value > 0)
+      out += fmt::format(
+          "; largest value{} {}",
+          law.look_every > 1 && law.tears == 0 ? fmt::format(" at every {}th step", law.look_every) : "",
+          place_in_words(law.reached, law.unit));
     out += "\n";
   }
   return out;
@@ -93,7 +115,7 @@ std::string summary_of(const Figures& f) {
   out += fmt::format("  cells      {} vertices, {} elements, {} darts\n", s.vertices, s.elements, s.darts);
   out +=
       fmt::format("  tearing    {} tears, {} fragment{}\n", s.tears, s.fragments, s.fragments == 1 ? "" : "s");
-  out += laws_in_words(s.laws);
+  out += laws_in_words(s.laws) + reach_in_words(s.reach);
   out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n", s.kinetic,
                      s.elastic, s.gravity);
   out += guard_in_words(s.guard);

@@ -93,6 +93,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
                                                                  .threads = threads(),
                                                                  .count_fragments = options.count_fragments,
                                                                  .guard = options.guard,
+                                                                 .reach = options.reach,
                                                                  .profile = options.profile});
   check_counts();
   const double step = scene_->step_size();

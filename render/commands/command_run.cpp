@@ -33,6 +33,9 @@ struct RunOptions {
 
 // Reports errors before anything slow is done.
 void check_export(const RunOptions& options) {
+  if (options.session.reach && !options.events.empty())
+    throw UserError(Exit::Usage, {}, "--events lists tears, but nothing tears with --reach",
+                    "leave out one of them");
   if (!options.format.empty()) {
     export_format(options.format);
     return;
@@ -137,6 +140,10 @@ std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   add_run_options(app, options->session);
   app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
+  app.add_flag(
+      "--reach", options->session.reach,
+      "do not tear: print the largest value that each criterion of tearing reaches, when and where, to "
+      "choose a threshold by");
   app.add_flag("--profile", options->session.profile,
                "also print where the time and the memory traffic went, by stage and by interaction");
   app.add_option("--diagnostics", options->diagnostics,

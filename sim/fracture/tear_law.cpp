@@ -1,8 +1,10 @@
 #include "sim/fracture/tear_law.h"
 
+#include "sim/base/archive.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 
@@ -53,10 +55,57 @@ TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
 const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   candidates_.clear();
   criterion_->find(view, settings_.threshold, candidates_);
+  sort_candidates();
+  return candidates_;
+}
+
+const std::vector<Candidate>& TearLaw::find_and_note(const ForceView& view, double time, bool look) {
+  candidates_.clear();
+  if (look && reached_.value < settings_.threshold)
+    find_largest(view);
+  else
+    criterion_->find(view, settings_.threshold, candidates_);
+  if (candidates_.empty()) return candidates_;
+  note_reached(view, time);
+  std::erase_if(candidates_, [&](const Candidate& one) { return !(one.value > settings_.threshold); });
+  sort_candidates();
+  return candidates_;
+}
+
+void TearLaw::sort_candidates() {
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     return a.value != b.value ? a.value > b.value : a.dart < b.dart;
   });
-  return candidates_;
+}
+
+// Those above the largest value so far. Where nothing has been reached yet, from the threshold downwards: with 0 every
+// cell would be a candidate.
+void TearLaw::find_largest(const ForceView& view) {
+  if (reached_.value > 0 || std::isinf(settings_.threshold))
+    return criterion_->find(view, reached_.value, candidates_);
+  constexpr int most_looks = 10;
+  constexpr double factor = 1.0 / 8;
+  double above = settings_.threshold;
+  for (int n = 0; n < most_looks && candidates_.empty(); ++n, above *= factor)
+    criterion_->find(view, above, candidates_);
+}
+
+void TearLaw::note_reached(const ForceView& view, double time) {
+  const auto largest =
+      std::max_element(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+        return a.value != b.value ? a.value < b.value : b.dart < a.dart;
+      });
+  if (!(largest->value > reached_.value)) return;
+  left_.clear();
+  collect(view.map.map(), orbit_of(settings_.cell, view.map.dimension()), largest->dart, left_);
+  reached_ = {largest->value, time, middle_of(view.map, view.position, left_)};
+}
+
+void TearLaw::store(Archive& archive, double now) {
+  archive(reached_.value, reached_.time, reached_.place);
+  if (archive.reading())
+    refuse_unless(reached_.value >= 0 && reached_.time >= 0 && reached_.time <= now,
+                  "a law has reached less than nothing, or later than now");
 }
 
 int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,

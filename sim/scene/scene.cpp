@@ -26,6 +26,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   for (auto& body : bodies_) {
     body->profile = profile_.get();
     body->parallel_small_bodies = options.parallel_small_bodies;
+    if (options.reach) body->watch_all_criteria();
     if (options.count_fragments) body->fragment_counter = std::make_unique<FragmentCounter>();
   }
   check_contact();
@@ -33,6 +34,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   const RunSettings run{options.walk, options.threads, checked_tolerance()};
   for (auto& body : bodies_) body->prepare(scheme(), run);
   set_step();
+  set_looks(options.reach);
   guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
   set_answers();
   bind_seconds_ = wall_clock() - start;
@@ -80,6 +82,17 @@ void Scene::set_step() {
   if (duration / step_ > 1e12)
     time_.source.fail("step",
                       fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration, step_));
+}
+
+// Looking for the largest value that a law has reached takes longer than looking for what exceeds its threshold: up to
+// half a step for atomic-border. So it is done at every 16th step, in short clips more often; a step that solves takes
+// so long that it is done at every one.
+void Scene::set_looks(bool every_step) {
+  constexpr double least_looks = 64, longest = 16; // looks in a clip; steps from one to the next
+  const double steps = duration_ / step_;
+  const bool each = every_step || scheme().solves;
+  const long every = each ? 1 : std::lround(std::clamp(std::floor(steps / least_looks), 1.0, longest));
+  for (auto& body : bodies_) body->look_every = every;
 }
 
 double Scene::stability_limit() const {
