@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DiffOptions {
-  std::string a, b, folder, junit, tolerances, mask;
+  std::string a, b, folder, junit, gitlab, github, tolerances, mask;
   std::vector<std::string> limits, update;
   bool allow_path = false, json = false, json_lines = false, quiet = false;
   int threads = 0; // 0: as many as the machine has
@@ -137,11 +137,14 @@ void check_files(const DiffOptions& options, const Cases& cases) {
   for (const char* file : {"index.html", "diff.json"})
     if (!options.folder.empty()) files.writes("the report", fs::path(options.folder) / file);
   if (!options.junit.empty()) files.writes("--junit", resolve_link(options.junit));
+  if (!options.gitlab.empty()) files.writes("--gitlab", resolve_link(options.gitlab));
+  if (!options.github.empty()) files.writes("--github", resolve_link(options.github));
   if (!options.tolerances.empty()) files.reads("the file of tolerances", options.tolerances);
   if (!options.mask.empty()) files.reads("the mask", options.mask);
   for (const CasePaths& one : cases.all)
     for (const fs::path& picture : {one.a, one.b})
-      if (!picture.empty() && !options.junit.empty()) files.reads("the picture", picture);
+      if (!picture.empty() && !(options.junit + options.gitlab + options.github).empty())
+        files.reads("the picture", picture);
 }
 
 // A report within a compared folder would itself be compared the next time, since its difference maps have the
@@ -176,7 +179,7 @@ Exit diff(const DiffOptions& options) {
   report.a = options.a;
   report.b = options.b;
   report.remarks = remarks_of(cases, tolerances);
-  DiffFiles files(options.folder, options.junit);
+  DiffFiles files({options.folder, options.junit, options.gitlab, options.github});
   MemoryBudget memory(MemoryBudget::of_machine(available_memory()));
   report.cases = compare_all(cases.all, tolerances, options, memory);
   if (report.cases.empty()) {
@@ -184,10 +187,12 @@ Exit diff(const DiffOptions& options) {
     return exit_code_of_signal();
   }
   report.updated.assign(report.cases.size(), false);
-  for (const std::size_t n : chosen) report.updated[n] = true;
+  const std::set<std::size_t> changed = updatable(report.cases, chosen, memory);
+  for (const std::size_t n : changed) report.updated[n] = true;
+  report.clips = clips_of(report.cases);
   // made before the update: it shows the old expected pictures
   const std::string page = options.folder.empty() ? "" : diff_page(report);
-  update_expected(report.cases, chosen, options.a, memory);
+  update_expected(report.cases, changed, options.a);
   files.write(page, report);
   if (!options.quiet)
     for (const std::string& remark : report.remarks) print_note(remark);
@@ -195,12 +200,13 @@ Exit diff(const DiffOptions& options) {
   return exit_of(report);
 }
 
-// An input that cannot be compared gives exit code 2 (trouble), as in diff(1).
+// An input that cannot be compared gives exit code 2 (trouble), as in diff(1). A file that is not there has the exit
+// code that it has everywhere.
 Exit run(const DiffOptions& options) {
   try {
     return diff(options);
   } catch (const UserError& error) {
-    if (error.code != Exit::BadInput && error.code != Exit::NoInput) throw;
+    if (error.code != Exit::BadInput) throw;
     print_error(error.what(), error.hint);
     return Exit::DiffError;
   }
@@ -231,6 +237,12 @@ std::function<Exit()> declare(CLI::App& app) {
          "-o,--output", options->folder,
          "folder for a report: index.html, diff.json and maps of the differences; default: none is written")
       ->type_name("DIR");
+  app.add_option("--gitlab", options->gitlab,
+                 "also write the failures as a GitLab Code Quality report to this file")
+      ->type_name("FILE.json");
+  app.add_option("--github", options->github,
+                 "also write the failures as GitHub annotations (workflow commands) to this file")
+      ->type_name("FILE");
   app.add_option("--junit", options->junit, "also write the results as JUnit XML to this file")
       ->type_name("FILE.xml");
   auto* json = app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
@@ -238,10 +250,10 @@ std::function<Exit()> declare(CLI::App& app) {
                "print one JSON object per picture on stdout, one a line, each as soon as it is known")
       ->excludes(json);
   app.add_option("--update", options->update,
-                 "these pictures (or folders of them) are right as they are now: make "
-                 "them what is expected")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
+                 "accept what there is now: names of pictures or folders, or patterns such as 'tear/*' or '*'; "
+                 "new pictures are added to what is expected, and missing ones are removed from it")
+      ->type_name("NAME...")
+      ->expected(1, -1);
   app.add_option("--threads", options->threads, "number of threads; default: as many as the machine has")
       ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->quiet, "print nothing but JSON and errors");

@@ -67,7 +67,7 @@ private:
 bool is_folder(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw UserError(Exit::DiffError, {path.string()}, "there is no such file or folder");
+  if (!fs::exists(status)) throw UserError(Exit::NoInput, {path.string()}, "there is no such file or folder");
   return fs::is_directory(status);
 }
 

@@ -145,9 +145,13 @@ void judge(Sides& sides, bool equal, const PngInfo& mask_head, const CompareOpti
   Picture a = taken(sides[0].image);
   Picture b = equal ? a : taken(sides[1].image);
   Metrics metrics = measure(std::move(a), std::move(b), mask,
-                            {options.tolerance.threshold, options.tolerance.window_side, options.threads});
+                            {options.tolerance.threshold, options.tolerance.window_side, options.threads,
+                             options.tolerance.leave_out_smoothed});
   for (const Excess& excess : excesses(options.tolerance, metrics)) out.why.push_back(excess.text());
   if (metrics.difference.counted == 0) out.notes.emplace_back("the mask leaves no pixel to compare");
+  if (metrics.smoothed > 0)
+    out.notes.push_back(fmt::format("{} pixel{} left out as smoothed edges", metrics.smoothed,
+                                    metrics.smoothed == 1 ? "" : "s"));
   out.state = out.why.empty() ? CaseState::Match : CaseState::Differ;
   if (options.heat && out.state == CaseState::Differ && !metrics.flip_map.empty())
     out.heat = encode_png(heat_of(metrics.flip_map, out.width, out.height, mask));

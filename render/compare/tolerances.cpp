@@ -20,6 +20,10 @@ std::vector<AttributeType> settings() {
       integer("window-size", "for window: the side of the window [pixels]; default 16")
           .at_least(1)
           .at_most(4096)};
+  out.push_back(
+      word("antialiased", {"count", "ignore"},
+           "ignore: pixels that differ only because an edge is smoothed differently are left out (the "
+           "rule of pixelmatch; it may also leave out a crack one pixel wide); default count"));
   for (const Limit& limit : all_limits())
     out.push_back(number_or(limit.name, {"any"}, limit.unit,
                             limit.what + (limit.kind == LimitKind::AtLeast ? ", at least" : ", at most"))
@@ -54,6 +58,7 @@ bool fits(const PresetNode& one, const std::string& name) {
 void apply(const PresetNode& node, const std::filesystem::path& folder, CompareOptions& options) {
   if (node.given("threshold")) options.tolerance.threshold = node.number("threshold");
   if (node.given("window-size")) options.tolerance.window_side = node.integer("window-size");
+  if (node.given("antialiased")) options.tolerance.leave_out_smoothed = node.text("antialiased") == "ignore";
   if (node.given("mask")) options.mask = node.text("mask").empty() ? "" : folder / node.text("mask");
   for (const Limit& limit : all_limits()) {
     if (!node.given(limit.name)) continue;
