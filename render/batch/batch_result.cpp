@@ -47,7 +47,9 @@ bool BatchResult::failed() const {
 void take_end(BatchResult& result, const Child& child, bool ran) {
   result.ran = ran;
   result.code = child.code();
-  result.figures = read_figures(child.out());
+  result.printed = child.out();
+  result.log += child.err(); // of earlier tries, too
+  result.figures = read_figures(result.printed);
   result.message = message_of(result, child.err());
 }
 
