@@ -25,9 +25,9 @@
 namespace rend {
 
 const std::vector<Command>& all_commands() {
-  static const std::vector<Command> commands{render_command(), batch_command(), run_command(),   info_command(),
-                                             mesh_command(),   rule_command(),  sheet_command(), diff_command(),
-                                             study_command(),  check_command(), help_command()};
+  static const std::vector<Command> commands{
+      render_command(), batch_command(), run_command(),  info_command(),  mesh_command(),  rule_command(),
+      list_command(),   sheet_command(), diff_command(), study_command(), check_command(), help_command()};
   return commands;
 }
 
