@@ -200,8 +200,8 @@ Exit diff(const DiffOptions& options) {
   return exit_of(report);
 }
 
-// An input that cannot be compared gives exit code 2 (trouble), as in diff(1). A file that is not there has the exit
-// code that it has everywhere.
+// An input that cannot be compared gives exit code 2 (trouble), as in diff(1). A file that is not there has the
+// exit code that it has everywhere.
 Exit run(const DiffOptions& options) {
   try {
     return diff(options);

@@ -1,5 +1,5 @@
-// Clips among the pictures that are compared: frames of one folder, called by their numbers (00000.png, 00001.png, ...),
-// as one curve over time.
+// Clips among the pictures that are compared: frames of one folder, called by their numbers (00000.png,
+// 00001.png, ...), as one curve over time.
 #pragma once
 
 #include "render/compare/compare.h"

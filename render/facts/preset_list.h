@@ -1,7 +1,7 @@
 // What presets there are: their figure in the thesis, a line about each, and how long they take.
 //
-// The line is the first sentence of the comment that a preset begins with. How long a preset takes stands in times.csv of
-// its folder, which presets/measure writes: processor time of `rend run` on one thread.
+// The line is the first sentence of the comment that a preset begins with. How long a preset takes stands in
+// times.csv of its folder, which presets/measure writes: processor time of `rend run` on one thread.
 #pragma once
 
 #include <filesystem>
@@ -19,11 +19,12 @@ struct ListedPreset {
   std::optional<long> steps;     // that were counted when it was measured
 };
 
-// The folder of presets that rend comes with: "presets" here, or where it is installed. Throws UserError (NoInput).
+// The folder of presets that rend comes with: "presets" here, or where it is installed. Throws UserError
+// (NoInput).
 std::filesystem::path folder_of_presets();
 
-// All presets of a folder and below, by file. What is no scene, such as a file of rules, is left out. Throws UserError:
-// NoInput, ReadWrite.
+// All presets of a folder and below, by file. What is no scene, such as a file of rules, is left out. Throws
+// UserError: NoInput, ReadWrite.
 std::vector<ListedPreset> list_presets(const std::filesystem::path& folder);
 
 // The first sentence of the first comment of an XML text, on one line. An abbreviation (fig. 7.17) ends none.

@@ -9,9 +9,9 @@
 
 namespace rend {
 
-// The page of all elements, after `opening`, or of `element`: a name (stretch: all elements of that name) or a path
-// as in --set (body.springs.stretch). `colour` adds terminal codes; lines have at most `columns`, unless a word is
-// longer. Throws UserError (Usage) if there is no such element.
+// The page of all elements, after `opening`, or of `element`: a name (stretch: all elements of that name) or a
+// path as in --set (body.springs.stretch). `colour` adds terminal codes; lines have at most `columns`, unless a
+// word is longer. Throws UserError (Usage) if there is no such element.
 std::string help_elements(const ElementType& root, const std::string& opening,
                           const std::optional<std::string>& element, bool colour, std::size_t columns);
 

@@ -12,8 +12,8 @@
 namespace rend {
 namespace {
 
-// Escapes text for troff: a dot or quote at the start of a line would be a request, a minus must stay ASCII, and a
-// line end is to be seen.
+// Escapes text for troff: a dot or quote at the start of a line would be a request, a minus must stay ASCII,
+// and a line end is to be seen.
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text) {

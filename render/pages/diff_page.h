@@ -23,8 +23,8 @@ struct DiffFileNames {
   std::string github; // annotations of GitHub
 };
 
-// The output files: a folder with index.html, diff.json, and maps/NAME.png for cases that differ; and reports for other
-// programs. That they are writable is tested before anything is compared; each is written atomically.
+// The output files: a folder with index.html, diff.json, and maps/NAME.png for cases that differ; and reports
+// for other programs. That they are writable is tested before anything is compared; each is written atomically.
 class DiffFiles {
 public:
   explicit DiffFiles(const DiffFileNames& names); // throws UserError: CannotCreate

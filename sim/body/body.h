@@ -65,8 +65,8 @@ struct Body final : System {
   ~Body() override;
   bool tears() const { return !tear_laws.empty(); }
 
-  // In place of its laws: every criterion that fits this body, with a threshold that nothing reaches. To be called
-  // before prepare().
+  // In place of its laws: every criterion that fits this body, with a threshold that nothing reaches. To be
+  // called before prepare().
   void watch_all_criteria();
 
   // Builds the program and all that the time loop needs. To be called once, when everything is declared.

@@ -78,8 +78,8 @@ void TearLaw::sort_candidates() {
   });
 }
 
-// Those above the largest value so far. Where nothing has been reached yet, from the threshold downwards: with 0 every
-// cell would be a candidate.
+// Those above the largest value so far. Where nothing has been reached yet, from the threshold downwards: with
+// 0 every cell would be a candidate.
 void TearLaw::find_largest(const ForceView& view) {
   if (reached_.value > 0 || std::isinf(settings_.threshold))
     return criterion_->find(view, reached_.value, candidates_);

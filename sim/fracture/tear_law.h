@@ -1,10 +1,10 @@
 // A fracture law: a criterion, a threshold and a change, combined freely (thesis 7.1). Where the criterion
 // measures cells of another kind than the change acts on, transfer.h says at which.
 //
-// A law also remembers the largest value that its criterion has reached, so that a threshold can be chosen: at the
-// steps at which it is told to look, it asks the criterion for what exceeds the largest value so far instead of the
-// threshold, which a criterion's bounds keep cheap (criterion.h: find()). What exceeds the threshold is known at every
-// step anyway.
+// A law also remembers the largest value that its criterion has reached, so that a threshold can be chosen: at
+// the steps at which it is told to look, it asks the criterion for what exceeds the largest value so far
+// instead of the threshold, which a criterion's bounds keep cheap (criterion.h: find()). What exceeds the
+// threshold is known at every step anyway.
 //
 // All candidates of a law, and the places where they would change the map, are found on the unchanged map; then
 // the changes are made in order, the largest value first, ties by smallest dart, each checked again for being
@@ -61,8 +61,8 @@ public:
 
   // The candidates above the threshold, sorted. Changes nothing.
   const std::vector<Candidate>& find(const ForceView& view);
-  // The same at a time [s] of the run: what is above the largest value so far is noted. `look`: also where that is
-  // below the threshold.
+  // The same at a time [s] of the run: what is above the largest value so far is noted. `look`: also where that
+  // is below the threshold.
   const std::vector<Candidate>& find_and_note(const ForceView& view, double time, bool look);
   const Reached& reached() const { return reached_; }
   void store(Archive& archive, double now); // what was reached; nothing is reached later than now [s]

@@ -99,8 +99,8 @@ TEST_F(Program, NotesThatPicturesWillShowNothing) {
   NEEDS_PNG;
   const std::string line = "render pulled.xml --steps 0 -o frames ";
   const std::string away = "--set camera.eye='0 0 3' --set camera.target='0 0 6'";
-  EXPECT_THAT(place.rend(line + away).err, AllOf(HasSubstr("the camera sees no body"),
-                                                 HasSubstr("body 'cloth' is between (0, ")));
+  EXPECT_THAT(place.rend(line + away).err,
+              AllOf(HasSubstr("the camera sees no body"), HasSubstr("body 'cloth' is between (0, ")));
   const std::string beside = "--set camera.eye='2 -3 0.5' --set camera.target='2 0 0.5' --set camera.fov=20 ";
   EXPECT_THAT(place.rend(line + beside).err, HasSubstr("the camera sees no body"));
   EXPECT_THAT(place.rend(line + beside + "--size 256x48").err, testing::Not(HasSubstr("sees no body")));
@@ -377,7 +377,8 @@ TEST_F(Program, HasNoArrayForWhatIsNotAskedFor) {
               R"(<scene name="still"><body><sheet cells="6 6" size="1 1"/><mass total="0.1"/>)"
               R"(<springs><stretch k="60"/></springs></body><time step="auto" duration="1"/></scene>)");
   const Outcome info = place.rend("info still.xml");
-  EXPECT_THAT(info.out, AllOf(HasSubstr("left out"), HasSubstr("tearing: the body has no <tear>"), HasSubstr("auto: 0.9 of")));
+  EXPECT_THAT(info.out, AllOf(HasSubstr("left out"), HasSubstr("tearing: the body has no <tear>"),
+                              HasSubstr("auto: 0.9 of")));
   EXPECT_THAT(info.out, testing::Not(HasSubstr("born border")));
 }
 

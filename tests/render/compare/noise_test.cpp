@@ -1,9 +1,10 @@
-// How often rend diff raises a false alarm under a stated noise, and how often it catches a crack that has moved: over
-// 1000 random pictures each.
+// How often rend diff raises a false alarm under a stated noise, and how often it catches a crack that has
+// moved: over 1000 random pictures each.
 //
-// The noise: each channel of each pixel is one level higher or lower with a probability of 5 %, as pictures of other
-// processors were seen to be, and twice as often; and one pixel in 5000 differs by up to 64 levels, as at edges that are
-// sampled otherwise. The crack is a dark line, 1.5 pixels wide and smoothed, that runs across the picture in random turns.
+// The noise: each channel of each pixel is one level higher or lower with a probability of 5 %, as pictures of
+// other processors were seen to be, and twice as often; and one pixel in 5000 differs by up to 64 levels, as at
+// edges that are sampled otherwise. The crack is a dark line, 1.5 pixels wide and smoothed, that runs across
+// the picture in random turns.
 #include "render/compare/limits.h"
 
 #include <algorithm>
