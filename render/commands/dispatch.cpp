@@ -127,6 +127,14 @@ std::string in_plain_words(const CLI::ParseError& error) {
     const std::size_t at = what.find(" is required");
     if (at != std::string::npos) return what.substr(0, at) + " is missing";
   }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && what.ends_with(" missing"))
+    return what.substr(0, what.find(':')) + " needs a value";
+  if (const std::size_t at = what.find(" not in {"); at != std::string::npos && what.ends_with('}')) {
+    std::string choices;
+    for (const char c : what.substr(at + 9, what.size() - at - 10))
+      choices += c == ',' ? ", " : std::string(1, c);
+    return what.substr(0, at) + " is not one of " + choices;
+  }
   return what;
 }
 
