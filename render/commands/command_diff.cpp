@@ -43,6 +43,9 @@ Tolerances tolerances_of(const DiffOptions& options) {
   Tolerances out =
       options.tolerances.empty() ? Tolerances() : Tolerances(options.tolerances, options.allow_path);
   for (const std::string& limit : options.limits) out.add(limit);
+  std::error_code error;
+  if (!options.mask.empty() && !fs::exists(options.mask, error))
+    throw UserError(Exit::NoInput, {options.mask}, "there is no such file", "--mask names a PNG");
   if (!options.mask.empty()) out.mask_all(options.mask);
   return out;
 }

@@ -133,6 +133,38 @@ TEST_F(Program, SaysWhereASetValueIsBad) {
   EXPECT_THAT(outcome.err, StartsWith("rend: error: --set time.step=x: step of <time> is 'x'"));
 }
 
+TEST_F(Program, HasOneExitCodeForAFileThatIsNotThere) {
+  NEEDS_PNG;
+  place.write("one.png", "");
+  for (const char* line : {"render none.xml", "run none.xml", "info none.xml", "batch none.xml",
+                           "batch none --run", "sheet none.xml -o s.png", "check none.xml", "study none.xml",
+                           "mesh info none.msh", "mesh convert none.msh out.moka", "rule check none.xml",
+                           "rule list none.xml", "list none", "diff none one.png", "diff one.png none",
+                           "diff one.png one.png -t none.xml", "diff one.png one.png --mask none.png"}) {
+    const Outcome outcome = place.rend(line);
+    EXPECT_EQ(outcome.code, 66) << line << "\n" << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("none")) << line;
+  }
+}
+
+TEST_F(Program, NamesUnknownOptionsInTheirOrderWithTheNearest) {
+  const Outcome outcome = place.rend("render pulled.xml --sze 3x3 --frmes 2 extra.xml");
+  EXPECT_EQ(outcome.code, 64);
+  EXPECT_THAT(outcome.err, HasSubstr("rend render has no options '--sze', '--frmes'"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("did you mean '--size', '--frames'? rend render --help lists what it takes"));
+  EXPECT_THAT(place.rend("run pulled.xml --frames").err, HasSubstr("--frames needs a value"));
+  EXPECT_THAT(place.rend("run pulled.xml --kernels fast").err, HasSubstr("fast is not one of flat, walk"));
+  EXPECT_THAT(place.rend("render").err, HasSubstr("preset is missing"));
+}
+
+TEST_F(Program, PrintsTheShortHelpWhereNothingIsAsked) {
+  const Outcome outcome = place.rend("");
+  EXPECT_EQ(outcome.code, 64);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("render"), HasSubstr("list"), HasSubstr("rend COMMAND --help")));
+}
+
 TEST_F(Program, SaysThatAPresetIsMissing) {
   NEEDS_PNG;
   const Outcome outcome = place.rend("render puled.xml");
