@@ -58,15 +58,16 @@ bool comes_before(const std::string& a, const std::string& b) {
 }
 
 // "tear/moebius.xml   7.18   20 s   A Moebius band ..."; below each other where the terminal is narrow.
-std::string line_of(const ListedPreset& one, std::size_t longest, std::size_t columns) {
+std::string line_of(const ListedPreset& one, std::size_t longest, std::size_t figures, std::size_t columns) {
   const std::string time = one.seconds ? seconds_in_words(*one.seconds) : "-";
   const std::string figure = one.thesis.empty() ? "-" : one.thesis;
-  const std::size_t before = longest + 2 + 8 + 12;
+  const std::size_t before = longest + 2 + figures + 2 + 12;
   const bool beside = columns >= before + 30;
-  std::string out =
-      beside ? fmt::format("{:<{}}  {:<8}{:<12}", printable(one.file), longest, printable(figure), time)
-             : fmt::format("{}\n  {}, {}\n  ", printable(one.file),
-                           one.thesis.empty() ? "no figure" : "figure " + printable(figure), time);
+  std::string out = beside
+                        ? fmt::format("{:<{}}  {:<{}}  {:<12}", printable(one.file), longest, printable(figure),
+                                      figures, time)
+                        : fmt::format("{}\n  {}, {}\n  ", printable(one.file),
+                                      one.thesis.empty() ? "no figure" : "figure " + printable(figure), time);
   const std::size_t indent = beside ? before : 2;
   const std::vector<std::string> lines = folded(printable(one.about), columns - indent);
   for (std::size_t n = 0; n < lines.size(); ++n)
@@ -91,10 +92,13 @@ Exit list(const ListOptions& options) {
     return Exit::Done;
   }
   const std::size_t columns = text_columns(stdout, 140);
-  std::size_t longest = 0;
-  for (const ListedPreset& one : all) longest = std::max(longest, width(printable(one.file)));
+  std::size_t longest = 0, figures = 1;
+  for (const ListedPreset& one : all) {
+    longest = std::max(longest, width(printable(one.file)));
+    figures = std::max(figures, width(printable(one.thesis)));
+  }
   std::string out;
-  for (const ListedPreset& one : all) out += line_of(one, longest, columns);
+  for (const ListedPreset& one : all) out += line_of(one, longest, figures, columns);
   const std::string closing = fmt::format(
       "{} presets of {}: file, figure or table of the thesis, processor time of rend run on one thread "
       "(measured by presets/measure), and what it shows.",

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace rend {
 namespace {
@@ -64,12 +65,20 @@ Item item_of(const OptionUsage& option, bool positional) {
   return item;
 }
 
+// In the line of usage a list of choices would be too long: TOPIC stands for it.
+std::string placeholder(const OptionUsage& option) {
+  if (option.value.find('|') == std::string::npos) return option.value;
+  std::string name = option.names.front();
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
 std::string synopsis(const CommandUsage& command, const std::string& name) {
   std::string out = "Usage: " + name;
   if (!command.commands.empty()) return out + " COMMAND [options]";
   out += " [options]";
   for (const OptionUsage& option : command.positionals)
-    out += option.required ? " " + option.value : " [" + option.value + "]";
+    out += option.required ? " " + placeholder(option) : " [" + placeholder(option) + "]";
   return out;
 }
 
