@@ -70,14 +70,15 @@ std::string completion(const CLI::App& root, const std::string& name) {
 std::string help_tolerances(const std::optional<std::string>& element, bool colour, std::size_t columns) {
   const std::string opening = "A file of tolerances tells rend diff which differences between pictures are "
                               "allowed: rend diff EXPECTED NOW "
-                              "-t FILE.xml. It is an XML file with one <tolerances>, such as\n"
+                              "-t FILE.xml. It is an XML file with one <tolerances>. What a <case> gives "
+                              "replaces what stands before it; any "
+                              "lifts a limit. Without any limit, pictures must be equal. A single limit for "
+                              "all pictures is given as --limit "
+                              "NAME=VALUE. Example:\n"
                               "<tolerances>\n"
                               "<default max=\"1\" mean=\"0.1\"/>\n"
                               "<case name=\"tear/moebius*\" flip=\"0.002\" max=\"any\"/>\n"
-                              "</tolerances>\n"
-                              "What a <case> gives replaces what stands before it; any lifts a limit. Without "
-                              "any limit, pictures must be "
-                              "equal. A single limit for all pictures is given as --limit NAME=VALUE.";
+                              "</tolerances>";
   return help_elements(tolerances_type(), opening, element, colour, columns);
 }
 
