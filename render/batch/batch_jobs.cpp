@@ -42,7 +42,7 @@ std::vector<Input> presets_of(const std::vector<std::string>& inputs) {
     std::error_code error;
     if (!fs::exists(input, error))
       throw UserError(Exit::NoInput, {input}, "there is no such file or folder",
-                      "nothing of the batch was begun");
+                      "no job was started; correct the name");
     if (fs::is_directory(input, error)) {
       const std::vector<Input> found = presets_in(input);
       all.insert(all.end(), found.begin(), found.end());

@@ -20,7 +20,8 @@ std::string message_of(const BatchResult& result, const std::string& err) {
   if (at == std::string::npos) {
     const int signal = result.code - 128;
     if (!result.ran || signal <= 0 || signal >= NSIG) return {};
-    return fmt::format("it was ended by signal {} ({}), not by this batch", signal, ::strsignal(signal));
+    return fmt::format("it was killed by signal {} ({}), which this batch did not send", signal,
+                       ::strsignal(signal));
   }
   const std::size_t begin = at + mark.size();
   return err.substr(begin, err.find('\n', begin) - begin);
@@ -46,7 +47,9 @@ bool BatchResult::failed() const {
 void take_end(BatchResult& result, const Child& child, bool ran) {
   result.ran = ran;
   result.code = child.code();
-  result.figures = read_figures(child.out());
+  result.printed = child.out();
+  result.log += child.err(); // of earlier tries, too
+  result.figures = read_figures(result.printed);
   result.message = message_of(result, child.err());
 }
 

@@ -19,6 +19,8 @@ struct BatchResult {
   double seconds = 0;   // on the clock, of all its tries
   std::size_t peak = 0; // [bytes]
   std::optional<PrintedFigures> figures; // none: it did not come to printing them
+  std::string printed;                   // what it wrote to stdout: its figures
+  std::string log;                       // what it wrote to stderr
   std::string message;                   // the first line of what it said went wrong; empty: nothing
 
   BatchState state() const;

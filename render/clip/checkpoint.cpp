@@ -43,7 +43,7 @@ template <class T> std::span<const std::uint8_t> bytes_of(const T& plain) {
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what) {
   throw UserError(Exit::BadInput, {path.string()}, what,
-                  "render without --resume to begin anew, which replaces it, or into another folder with -o");
+                  "leave out --resume to start again and replace it, or choose another folder with -o");
 }
 
 std::uint64_t number_of(const std::string& key) {
@@ -113,7 +113,7 @@ std::optional<CheckpointHeader> head_in(std::span<const std::uint8_t> bytes) {
 
 CheckpointHeader head_of(const fs::path& path, std::span<const std::uint8_t> bytes) {
   const auto head = head_in(bytes);
-  if (!head) refuse(path, "this is no checkpoint that this rend can read");
+  if (!head) refuse(path, "this is not a checkpoint that this version of rend can read");
   return *head;
 }
 
@@ -187,7 +187,8 @@ std::optional<CheckpointHeader> read_checkpoint_header(const fs::path& path, con
   if (!source.is_open()) return {};
   const CheckpointHeader head = head_of(path, source.next(head_size));
   if (head.key != number_of(key))
-    refuse(path, "the checkpoint is of another preset, of other settings, or of another rend");
+    refuse(path,
+           "the checkpoint was made from another preset, with other settings, or by another build of rend");
   return head;
 }
 
@@ -210,13 +211,15 @@ std::optional<CheckpointHeader> read_checkpoint(const fs::path& path, const std:
     refuse(path, fmt::format("the checkpoint is damaged, or of another scene: {}", fault.what()));
   }
   while (state.size() > 0 && !state.next().empty()) continue;
-  if (!state.sum_is_right()) refuse(path, "the checkpoint is damaged: its sum is another");
+  if (!state.sum_is_right()) refuse(path, "the checkpoint is damaged: its checksum does not match");
   if (!wanted) return {};
   const FrameClock& clock = session.clock();
   const long done = session.scene().steps_done();
   if (head.next < 0 || clock.step_of(head.next - 1) > done || clock.step_of(head.next) < done)
     refuse(path,
-           fmt::format("the checkpoint says that frame {} is next, and its scene is elsewhere", head.next));
+           fmt::format(
+               "the checkpoint is damaged: it says that frame {} is next, but its scene is at another time",
+               head.next));
   return head;
 }
 

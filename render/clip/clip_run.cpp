@@ -30,7 +30,7 @@ ClipRun::ClipRun(Session& session, const ClipRunOptions& options)
   key_ = checkpoint_key(files.mark);
   options_.resume = options.resume && files.png;
   if (options.resume && !files.png && !session.quiet())
-    print_note("without PNG files there is nothing to go on from: the video is made anew");
+    print_note("--resume has nothing to go on from without PNG files: the video is made again from its start");
   if (options_.resume)
     plan_.skip_existing(files.folder, files.mark, shape_of(session, files), session.threads());
   existing_ = static_cast<long>(plan_.all().size() - plan_.to_make().size());
@@ -58,7 +58,8 @@ void ClipRun::begin() {
   keeps_later_checkpoint_ = own && !is_within_run(own->next);
   if (own && !keeps_later_checkpoint_) last_ = plan_.all().back();
   if (keeps_later_checkpoint_ && !session_.quiet())
-    print_note(fmt::format("{} is of frames beyond these, and stays", checkpoint_.string()));
+    print_note(fmt::format("{} is of a later frame than those asked for: it is kept and not used",
+                           checkpoint_.string()));
   if (!simulates()) return;
   const long first = plan_.to_make().empty() ? plan_.all().back() + 1 : plan_.first();
   for (const FoundCheckpoint& found : find_checkpoints(files.folder, files.name, options_.shard, key_, first)) {
@@ -66,7 +67,7 @@ void ClipRun::begin() {
     if (!head) continue; // removed meanwhile: its shard has completed
     first_ = head->next;
     if (!session_.quiet())
-      print_note(fmt::format("goes on at {:.6g} s, from {}", session_.scene().time(), found.path.string()));
+      print_note(fmt::format("continuing at {:.6g} s, from {}", session_.scene().time(), found.path.string()));
     return;
   }
 }

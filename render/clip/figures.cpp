@@ -1,5 +1,6 @@
 #include "render/clip/figures.h"
 
+#include "sim/fracture/pairs.h"
 #include "sim/scene/memory.h"
 #include "sim/topology/count.h"
 
@@ -94,7 +95,9 @@ std::vector<LawFigures> laws_of(const Scene& scene) {
                      .threshold = law.threshold,
                      .unit = law.unit,
                      .tears = 0,
-                     .first = {}};
+                     .first = {},
+                     .reached = body->tear_laws[n].reached(),
+                     .look_every = body->look_every};
       for (const TearEvent& event : body->events) {
         if (event.law != static_cast<int>(n)) continue;
         if (one.tears++ == 0) one.first = event.time;
@@ -103,6 +106,20 @@ std::vector<LawFigures> laws_of(const Scene& scene) {
     }
   }
   return laws;
+}
+
+// Of a scene whose laws only watch (SceneOptions::reach).
+std::vector<ReachFigures> reach_of(const Scene& scene) {
+  std::vector<ReachFigures> all;
+  for (const auto& body : scene.bodies())
+    for (const TearLaw& law : body->tear_laws) {
+      const LawSettings& settings = law.settings();
+      all.push_back({.body = body->name,
+                     .criterion = NamedCriterion{settings.criterion, settings.kind}.name(),
+                     .unit = settings.unit,
+                     .reached = law.reached()});
+    }
+  return all;
 }
 
 std::vector<SphereFigures> spheres_of(const Scene& scene) {
@@ -135,7 +152,8 @@ SolverFigures adaptive_of(const Scene& scene) {
   return sum;
 }
 
-StateFigures state_of(const Scene& scene) {
+StateFigures state_of(const Session& session) {
+  const Scene& scene = session.scene();
   StateFigures state;
   state.steps = scene.steps_done();
   state.evaluations = scene.evaluations();
@@ -147,7 +165,10 @@ StateFigures state_of(const Scene& scene) {
   }
   state.fragments = scene.fragments();
   state.tears = scene.tears();
-  state.laws = laws_of(scene);
+  if (session.reaches())
+    state.reach = reach_of(scene);
+  else
+    state.laws = laws_of(scene);
   state.energy = scene.energy();
   state.mass = scene.mass();
   state.momentum = scene.momentum();
@@ -173,7 +194,7 @@ Figures figures_of(const Session& session, Stopped stopped, const Costs& costs) 
   figures.integrator = scene.scheme().name;
   figures.step = scene.step_size();
   figures.stopped = stopped;
-  figures.state = state_of(scene);
+  figures.state = state_of(session);
   figures.seconds = scene.seconds();
   figures.step_seconds = session.step_seconds();
   figures.costs = costs;

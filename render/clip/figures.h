@@ -29,6 +29,15 @@ struct LawFigures {
   std::string unit; // of that
   std::size_t tears = 0;
   std::optional<double> first; // [s], of the first tear
+  Reached reached;             // the largest value
+  long look_every = 1;         // steps; of values above the threshold 1
+};
+
+// The largest value of a criterion at the steps at which its law has looked.
+struct ReachFigures {
+  std::string body, criterion; // with the kind of springs
+  std::string unit;
+  Reached reached;
 };
 
 struct ProbeFigures {
@@ -62,6 +71,7 @@ struct StateFigures {
   double time = 0;                 // [s]
   std::size_t vertices = 0, elements = 0, darts = 0, fragments = 0, tears = 0;
   std::vector<LawFigures> laws;
+  std::vector<ReachFigures> reach; // of all criteria; empty unless asked for
   EnergyFigures energy;
   double mass = 0;                              // [kg]
   Vec3 momentum, angular_momentum;              // [kg m/s], [kg m²/s]

@@ -14,6 +14,18 @@ Json json_of(const Vec3& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
 
+Json json_of(const Reached& reached) {
+  if (!(reached.value > 0)) return nullptr;
+  return {{"value", reached.value}, {"time", reached.time}, {"place", json_of(reached.place)}};
+}
+
+Json json_of(const ReachFigures& reach) {
+  return {{"body", reach.body},
+          {"criterion", reach.criterion},
+          {"unit", reach.unit},
+          {"reached", json_of(reach.reached)}};
+}
+
 Json json_of(const LawFigures& law) {
   return {{"body", law.body},
           {"criterion", law.criterion},
@@ -21,7 +33,9 @@ Json json_of(const LawFigures& law) {
           {"threshold", law.threshold},
           {"unit", law.unit},
           {"tears", law.tears},
-          {"first", json_or_null(law.first)}};
+          {"first", json_or_null(law.first)},
+          {"reached", json_of(law.reached)},
+          {"look_every", law.look_every}};
 }
 
 Json json_of(const ProbeFigures& probe) {
@@ -102,6 +116,7 @@ Json json_of(const StateFigures& s) {
              {"angular_momentum", json_of(s.angular_momentum)},
              {"probes", std::move(probes)},
              {"answers", list_of(s.answers)}};
+  if (!s.reach.empty()) state["reach"] = list_of(s.reach);
   if (!s.spheres.empty()) state["spheres"] = list_of(s.spheres);
   state["guard"] = json_of(s.guard);
   state["rows"] = std::move(rows);

@@ -10,7 +10,7 @@ namespace {
 
 std::string guard_in_words(const GuardFigures& guard) {
   if (guard.rejected == 0) return "";
-  return fmt::format("  guard      {} steps rejected, {} parts of steps in their place, of {:.3g} s and more\n",
+  return fmt::format("  guard      {} steps were too large and redone as {} smaller ones, down to {:.3g} s\n",
                      guard.rejected, guard.redone, guard.smallest);
 }
 
@@ -23,13 +23,30 @@ std::string probes_in_words(const std::vector<ProbeFigures>& probes) {
   for (const auto& [name, reading] : probes) {
     out += fmt::format("{}{} ", out.empty() ? "  probes     " : "             ", name);
     if (!reading) {
-      out += "has lost its vertices\n";
+      out += "its vertices have been deleted\n";
       continue;
     }
     out += "at " + triple(reading->position) + " m, displaced by " + triple(reading->displacement) + " m";
     if (reading->reaction) out += ", held by " + triple(*reading->reaction) + " N";
     out += "\n";
   }
+  return out;
+}
+
+std::string place_in_words(const Reached& reached, const std::string& unit) {
+  return fmt::format("{:.6g}{}{} at {:.6g} s near ({:.4g}, {:.4g}, {:.4g}) m", reached.value,
+                     unit.empty() ? "" : " ", printable(unit), reached.time, reached.place.x(),
+                     reached.place.y(), reached.place.z());
+}
+
+std::string reach_in_words(const std::vector<ReachFigures>& all) {
+  if (all.empty()) return "";
+  std::string out =
+      "  reach      largest values, without tearing: with a threshold below such a value, the first tear\n"
+      "             comes no later than at its time; with one above, none comes\n";
+  for (const ReachFigures& one : all)
+    out += fmt::format("             {} of '{}': {}\n", printable(one.criterion), printable(one.body),
+                       one.reached.value > 0 ? place_in_words(one.reached, one.unit) : "nothing");
   return out;
 }
 
@@ -42,6 +59,11 @@ std::string laws_in_words(const std::vector<LawFigures>& laws) {
                        : law.tears == 1 ? "once"
                                         : fmt::format("{} times", law.tears));
     if (law.first) out += fmt::format(", first at {:.6g} s", *law.first);
+    if (law.reached.value > 0)
+      out += fmt::format(
+          "; largest value{} {}",
+          law.look_every > 1 && law.tears == 0 ? fmt::format(" at every {}th step", law.look_every) : "",
+          place_in_words(law.reached, law.unit));
     out += "\n";
   }
   return out;
@@ -53,9 +75,9 @@ std::string answers_in_words(const std::vector<AnswerFigures>& answers) {
     out += fmt::format("{}{} {} at {:.6g} s is {:.9g}", out.empty() ? "  answers    " : "             ",
                        a.probe, a.quantity, a.at, a.value);
     if (!a.holds)
-      out += ": not reached";
+      out += ": its time was not reached";
     else if (!a.measured)
-      out += ": its vertices are gone";
+      out += ": not measured, because its vertices have been deleted";
     else
       out += fmt::format(", measured {:.9g}: {} of {:.2g} {} {:.2g}", *a.measured,
                          a.value != 0 ? "a relative error" : "an error", *a.error,
@@ -78,7 +100,7 @@ std::string schemes_in_words(const StateFigures& state) {
     out += fmt::format("  solver     {} Newton iterations, {} of conjugate gradients, {} factorisations\n",
                        state.solver->all.newton, state.solver->all.cg, state.solver->all.factorisations);
   if (state.adaptive)
-    out += fmt::format("  adaptive   {} parts of steps, {} more rejected for their error\n",
+    out += fmt::format("  adaptive   {} parts of steps; {} more were rejected because of their error\n",
                        state.adaptive->substeps, state.adaptive->rejected);
   return out;
 }
@@ -93,7 +115,7 @@ std::string summary_of(const Figures& f) {
   out += fmt::format("  cells      {} vertices, {} elements, {} darts\n", s.vertices, s.elements, s.darts);
   out +=
       fmt::format("  tearing    {} tears, {} fragment{}\n", s.tears, s.fragments, s.fragments == 1 ? "" : "s");
-  out += laws_in_words(s.laws);
+  out += laws_in_words(s.laws) + reach_in_words(s.reach);
   out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n",
                      s.energy.now.kinetic, s.energy.now.elastic, s.energy.now.gravity);
   out += fmt::format("             {:.6g} J of work done on it, {:.6g} J dissipated, {:.3g} J unexplained\n",
@@ -102,8 +124,8 @@ std::string summary_of(const Figures& f) {
   out += fmt::format("  forces     evaluated {} times\n", s.evaluations);
   out += rows_in_words(s.rows);
   out += schemes_in_words(s);
-  out += fmt::format("  memory     {} for the scene, {} at most in all\n", bytes_in_words(f.bytes.of_scene()),
-                     bytes_in_words(f.bytes.peak));
+  out += fmt::format("  memory     {} for the scene; the program took {} at most\n",
+                     bytes_in_words(f.bytes.of_scene()), bytes_in_words(f.bytes.peak));
   out += fmt::format("  state      {:016x}\n", s.hash);
   if (f.exported)
     out += fmt::format("  exported   {} files ({}) in {}\n", f.exported->files,

@@ -42,7 +42,7 @@ long FrameClock::step_of(long frame) const {
 FrameChoice::FrameChoice(const std::string& text) : all_(false) {
   const auto fail = [&](const std::string& what) {
     throw UserError(Exit::Usage, {}, fmt::format("--frames {}: {}", in_quotes(text), what),
-                    "frames are such as 7, 0-100, 0-100x2 (every second), 10- or 0,5,20-30");
+                    "write frames as 7, 0-100, 0-100x2 (every second), 10- (to the end) or 0,5,20-30");
   };
   for (std::string_view rest = text; !rest.empty() || ranges_.empty();) {
     std::string_view part = rest.substr(0, rest.find(','));
@@ -52,7 +52,7 @@ FrameChoice::FrameChoice(const std::string& text) : all_(false) {
     const std::size_t dash = part.find('-'), times = part.find('x');
     if (times != std::string_view::npos) {
       const auto stride = whole_number(part.substr(times + 1));
-      if (!stride || *stride == 0 || dash == std::string_view::npos) fail(in_quotes(part) + " is no range");
+      if (!stride || *stride == 0 || dash == std::string_view::npos) fail(in_quotes(part) + " is not a range");
       range.stride = *stride;
       part = part.substr(0, times);
     }
@@ -60,7 +60,7 @@ FrameChoice::FrameChoice(const std::string& text) : all_(false) {
     auto last = first;
     if (dash != std::string_view::npos)
       last = dash + 1 == part.size() ? std::numeric_limits<long>::max() : whole_number(part.substr(dash + 1));
-    if (!first || !last) fail(in_quotes(part) + " is no frame and no range");
+    if (!first || !last) fail(in_quotes(part) + " is neither a frame nor a range");
     if (*last < *first) fail(in_quotes(part) + " runs backwards");
     range.first = *first;
     range.last = *last;
@@ -98,8 +98,8 @@ PictureSize parse_size(const std::string& text) {
   const auto height = whole_number(std::string_view(text).substr(std::min(cross + 1, text.size())));
   const auto fits = [](std::optional<long> side) { return side && *side >= 16 && *side <= 8192; };
   if (!fits(width) || !fits(height))
-    throw UserError(Exit::Usage, {}, fmt::format("--size {} is no size of a picture", in_quotes(text)),
-                    "a size is such as 1280x720, each side from 16 to 8192 pixels");
+    throw UserError(Exit::Usage, {}, fmt::format("--size {} is not a picture size", in_quotes(text)),
+                    "write it as 1280x720; each side has 16 to 8192 pixels");
   return {static_cast<int>(*width), static_cast<int>(*height)};
 }
 

@@ -59,7 +59,7 @@ void NamedFiles::reads(const std::string& what, const fs::path& path) {
   const Input input{what, path, name_of(path), without_links(path)};
   for (const Output& output : outputs_)
     if (output.over(input.name) || output.over(input.place))
-      refuse(fmt::format("{} {} would be written over by {}", what, in_quotes(path.string()), output.what));
+      refuse(fmt::format("{} {} would be overwritten by {}", what, in_quotes(path.string()), output.what));
   inputs_.push_back(input);
 }
 
@@ -71,7 +71,7 @@ void NamedFiles::reads_files(const PresetNode& scene) {
 void NamedFiles::add(Output output) {
   for (const Input& input : inputs_)
     if (output.over(input.name) || output.over(input.place))
-      refuse(fmt::format("{} {} would be written over by {}", input.what, in_quotes(input.given.string()),
+      refuse(fmt::format("{} {} would be overwritten by {}", input.what, in_quotes(input.given.string()),
                          output.what));
   for (const Output& other : outputs_) {
     const bool by_this = !other.name.empty() && output.over(other.name);

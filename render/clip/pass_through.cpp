@@ -74,9 +74,10 @@ void PassThrough::look(long frame) {
 
 void PassThrough::tell(const Body& body, long frame, const char* what, const char* remedy) {
   notes_.push_back(
-      fmt::format("body '{}' passes through {}, as frame {} shows first: it has no contact with it "
-                  "(<contact with=\"{}\"/>)",
-                  body.name, what, frame, remedy));
+      body.contact ? fmt::format("'{}' passes through {} from frame {} on: add `{}` to its <contact with>",
+                                 body.name, what, frame, remedy)
+                   : fmt::format("'{}' passes through {} from frame {} on: add <contact with=\"{}\"/> to it",
+                                 body.name, what, frame, remedy));
 }
 
 } // namespace rend

@@ -106,11 +106,11 @@ private:
     if (!body) return;
     const std::vector<CameraKey>& keys = picture_.camera.keys;
     const SettingsSource& source = keys.empty() ? picture_.camera.source : keys.front().source;
-    source.fail("eye",
-                fmt::format("the camera stands inside of the body '{}', and sees nothing of it",
-                            scene_.bodies()[*body]->name),
-                fmt::format("the body is between {} and {} m", in_words(bounds_[*body].min()),
-                            in_words(bounds_[*body].max())));
+    source.fail(
+        "eye",
+        fmt::format("the camera is inside the body '{}', and would see nothing", scene_.bodies()[*body]->name),
+        fmt::format("move the eye out of the body, which lies between {} and {} m, or use frame=\"auto\"",
+                    in_words(bounds_[*body].min()), in_words(bounds_[*body].max())));
   }
 
   // By vertices, which nearly always decides; then by faces, since a face can fill the picture with no vertex
@@ -138,10 +138,9 @@ private:
     for (std::size_t n = 0; n < std::min<std::size_t>(bounds_.size(), 3); ++n)
       where += fmt::format("{}body '{}' is between {} and {} m", n ? ", " : "", scene_.bodies()[n]->name,
                            in_words(bounds_[n].min()), in_words(bounds_[n].max()));
-    notes_.push_back(
-        fmt::format("at the start the camera sees nothing of any body: it is at {} and looks at {}; {}; "
-                    "with frame=\"auto\" it finds them",
-                    in_words(camera.eye), in_words(camera.target), where));
+    notes_.push_back(fmt::format("at the start the camera sees no body: its eye is at {} and its target at {}; "
+                                 "{}; frame=\"auto\" aims it at the bodies",
+                                 in_words(camera.eye), in_words(camera.target), where));
   }
 
   void check_camera_path() {
@@ -151,10 +150,9 @@ private:
       const double time = clock_.time_of(frame);
       const std::optional<std::size_t> body = around(viewpoint_.at(time).eye);
       if (!body) continue;
-      notes_.push_back(
-          fmt::format("at {:.3g} s the camera is where the body '{}' is at the start: inside of it there is "
-                      "nothing to see",
-                      time, scene_.bodies()[*body]->name));
+      notes_.push_back(fmt::format("at {:.3g} s the camera may be inside the body '{}' (it is where the body "
+                                   "is at the start) and see nothing",
+                                   time, scene_.bodies()[*body]->name));
       return;
     }
   }
@@ -164,8 +162,8 @@ private:
       const auto& body = scene_.bodies()[n];
       if (picture_.looks[n].by != ColourBy::Fragment || body->tears()) continue;
       if (count_cells(body->map->map()).fragments > 1) continue;
-      notes_.push_back(fmt::format(
-          "body '{}' is coloured by fragment, and nothing tears it: it stays one, of one colour", body->name));
+      notes_.push_back(
+          fmt::format("body '{}' is coloured by fragment, but has no <tear>: it keeps one colour", body->name));
     }
   }
 

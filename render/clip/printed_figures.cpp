@@ -16,7 +16,7 @@ template <class T> std::optional<T> read(const nlohmann::json& json, const char*
 std::optional<PrintedFigures> read_figures(const std::string& text) {
   try {
     const nlohmann::json json = nlohmann::json::parse(text);
-    return PrintedFigures{.pictures = {json.at("frames").get<long>(), json.at("kept").get<long>()},
+    return PrintedFigures{.pictures = {json.value("frames", 0L), json.value("kept", 0L)},
                           .steps = read<long>(json, "steps"),
                           .time = read<double>(json, "time"),
                           .tears = read<std::size_t>(json, "tears"),

@@ -1,4 +1,5 @@
-// What `rend batch` takes from the figures that `rend render --json` printed in another process (figures.h).
+// What `rend batch` takes from the figures that `rend render --json` or `rend run --json` printed in another
+// process (figures.h). A run has no pictures: made and kept are 0.
 #pragma once
 
 #include <cstddef>

@@ -25,33 +25,36 @@
 namespace rend {
 
 void add_preset_options(CLI::App& app, SessionOptions& options) {
-  app.add_option("preset", options.preset, "the scene, an XML file")->required()->type_name("PRESET");
-  app.add_option("--set", options.sets, "replace an attribute, such as time.step=1e-4 (any number of times)")
+  app.add_option("preset", options.preset, "the preset: a scene, as an XML file")
+      ->required()
+      ->type_name("PRESET");
+  app.add_option("--set", options.sets,
+                 "replace an attribute of the preset, such as time.step=1e-4 (can be repeated)")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the preset's folder, too");
+  app.add_flag("--allow-path", options.allow_path, "allow files outside of the preset's folder");
 }
 
 void add_run_options(CLI::App& app, SessionOptions& options) {
   add_preset_options(app, options);
-  app.add_option("--steps", options.steps, "so many steps instead of the duration")
+  app.add_option("--steps", options.steps, "simulate N steps instead of the preset's duration")
       ->type_name("N")
       ->transform(whole_number(0, 1000000000));
-  app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the preset's")
+  app.add_option("--fps", options.fps, "frames per second of simulated time; default: the preset's")
       ->type_name("N")
       ->transform(real_number(1e-6, 1e6));
   app.add_option("--threads", options.threads,
-                 "threads of the simulation (the result is the same for any number)")
+                 "number of threads (the result is the same for any number); default: as many as help")
       ->type_name("N")
       ->transform(whole_number(1, 256));
   app.add_option("--kernels", options.kernels,
-                 "flat; or walk: every force by walking the map (slow, for comparison)")
+                 "how forces are computed (flat: from arrays; walk: from the mesh, slowly, for comparison); "
+                 "default: flat")
       ->type_name("flat|walk")
       ->check(CLI::IsMember({"flat", "walk"}));
-  app.add_flag(
-      "!--no-guard", options.guard,
-      "stop at a step that goes wrong, in place of redoing it in parts (to find where a step is too large)");
-  app.add_flag("-q,--quiet", options.quiet, "no progress and no notes");
+  app.add_flag("!--no-guard", options.guard,
+               "stop with an error at a step that is too large, instead of repeating it as smaller steps");
+  app.add_flag("-q,--quiet", options.quiet, "print no progress and no notes");
 }
 
 namespace {
@@ -90,6 +93,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
                                                                  .threads = threads(),
                                                                  .count_fragments = options.count_fragments,
                                                                  .guard = options.guard,
+                                                                 .reach = options.reach,
                                                                  .profile = options.profile});
   check_counts();
   const double step = scene_->step_size();
@@ -174,7 +178,7 @@ namespace {
 void note_removed_bodies(const Scene& scene) {
   for (const auto& body : scene.bodies())
     if (body->deleted_at)
-      print_note(fmt::format("body '{}' is gone: every element of it was deleted at {:.6g} s", body->name,
+      print_note(fmt::format("all elements of body '{}' have been deleted, the last at {:.6g} s", body->name,
                              *body->deleted_at));
 }
 
@@ -182,8 +186,7 @@ void note_substeps(const Scene& scene) {
   const GuardFigures& guard = scene.guard();
   if (guard.rejected == 0 || guard.redone == 0) return;
   print_note(fmt::format(
-      "{} steps were thrown away, and {} parts of steps made in place of steps that were too large; "
-      "a step of {:.3g} s would hold",
+      "{} steps were too large and were redone as {} smaller ones; --set time.step={:.3g} avoids that",
       guard.rejected, guard.redone, guard.smallest));
 }
 

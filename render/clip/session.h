@@ -30,6 +30,7 @@ struct SessionOptions {
   bool allow_path = false;      // meshes may lie outside the preset's folder
   bool guard = true;            // bad steps are rolled back and redone in substeps
   bool count_fragments = false; // events record how many fragments there are
+  bool reach = false;           // largest values of all criteria, without tearing
   bool profile = false;         // the time of each stage of the step is measured
 };
 void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set
@@ -56,6 +57,7 @@ public:
   const ImageSettings& image() const { return picture_.image; }
   int threads() const; // that were asked for, or all that the machine has
   bool quiet() const { return options_.quiet; }
+  bool reaches() const { return options_.reach; } // nothing tears: largest values of criteria are looked for
 
   // Callbacks of the time loop.
   struct Callbacks {

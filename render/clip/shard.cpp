@@ -29,7 +29,7 @@ std::optional<long> slurm_number(const char* name) {
   const auto value = number_in(text);
   if (!value)
     throw UserError(Exit::Usage, {}, fmt::format("{} is {}, and should be a number", name, in_quotes(text)),
-                    "say which part is meant with --shard i/n, or --shard 1/1 for all");
+                    "name the part by --shard I/N, or --shard 1/1 for all");
   return value;
 }
 
@@ -42,14 +42,14 @@ std::string Shard::text() const {
 Shard parse_shard(const std::string& text) {
   const auto fail = [&](const std::string& what) {
     throw UserError(Exit::Usage, {}, fmt::format("--shard {}: {}", in_quotes(text), what),
-                    "a shard is such as 2/7, the second of seven");
+                    "write it as 2/7: the second of seven parts");
   };
   const std::size_t slash = std::min(text.find('/'), text.size());
   const auto number = number_in(std::string_view(text).substr(0, slash));
   const auto count = number_in(std::string_view(text).substr(std::min(slash + 1, text.size())));
-  if (!number || !count) fail("it is no shard");
-  if (*count < 1 || *count > most_shards) fail(fmt::format("there can be 1 to {} shards", most_shards));
-  if (*number < 1 || *number > *count) fail(fmt::format("of {} shards there is no number {}", *count, *number));
+  if (!number || !count) fail("it is not of the form I/N");
+  if (*count < 1 || *count > most_shards) fail(fmt::format("there can be 1 to {} parts", most_shards));
+  if (*number < 1 || *number > *count) fail(fmt::format("of {} parts there is no number {}", *count, *number));
   return {*number, *count};
 }
 
@@ -61,8 +61,8 @@ std::optional<Shard> slurm_shard() {
   if (*id < least || (*id - least) / step >= *count)
     throw UserError(
         Exit::Usage, {},
-        fmt::format("Slurm's array task {} is no part of {} that begin with {}", *id, *count, least),
-        "array tasks are to be numbered evenly, or say which part is meant with --shard i/n");
+        fmt::format("Slurm's array task {} is not one of {} tasks numbered from {}", *id, *count, least),
+        "number the array tasks evenly (--array=1-7), or name the part by --shard I/N");
   return Shard{(*id - least) / step + 1, *count};
 }
 

@@ -23,6 +23,7 @@ const std::vector<Command>& all_commands();
 
 Command render_command();
 Command run_command();
+Command list_command();
 Command info_command();
 Command mesh_command();
 Command rule_command();

@@ -17,6 +17,8 @@
 #include "render/files/video_format.h"
 #include "render/help/usage.h"
 #include "render/pages/batch_page.h"
+#include "render/pages/batch_parts.h"
+#include "render/pages/batch_table.h"
 #include "render/picture/scene_preset.h"
 #include "sim/base/printable.h"
 #include "sim/base/threads.h"
@@ -27,6 +29,7 @@
 #include <nlohmann/json.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <memory>
 
 namespace rend {
@@ -39,6 +42,7 @@ struct BatchOptions {
   std::string folder = "out/batch", shard, memory;
   std::string frames, size, fps, video, checkpoint_every;
   int jobs = 0, threads = 0; // 0: not given
+  bool run = false;          // no pictures: figures alone
   bool no_png = false, allow_path = false, resume = false, json = false, quiet = false;
 };
 
@@ -53,8 +57,8 @@ std::size_t parse_memory(const std::string& text) {
   const bool whole = error == std::errc() && (after == end || unit != std::string::npos);
   for (std::size_t n = 0; unit != std::string::npos && n <= unit; ++n) bytes *= 1024;
   if (!whole || !(bytes >= 1 && bytes <= most)) // also refuses nan
-    throw UserError(Exit::Usage, {}, fmt::format("--memory {} is no amount of memory", in_quotes(text)),
-                    "an amount is such as 800M or 4G");
+    throw UserError(Exit::Usage, {}, fmt::format("--memory {} is not an amount of memory", in_quotes(text)),
+                    "write it as 800M or 4G");
   return static_cast<std::size_t>(bytes);
 }
 
@@ -66,11 +70,10 @@ BatchLimits limits_of(const BatchOptions& options) {
 }
 
 // The jobs of this shard. With fewer jobs than shards every shard takes all jobs, and makes its part of their
-// frames.
-std::vector<BatchJob> jobs_of(const BatchOptions& options, const BatchSettings& settings, const Shard& shard,
+// frames; without frames, some shards have nothing to do.
+std::vector<BatchJob> jobs_of(const BatchOptions& options, const std::vector<BatchJob>& all, const Shard& shard,
                               bool& frames_are_shared) {
-  const std::vector<BatchJob> all = batch_jobs(options.inputs, settings.sweeps);
-  frames_are_shared = !shard.whole() && static_cast<long>(all.size()) < shard.count;
+  frames_are_shared = !options.run && !shard.whole() && static_cast<long>(all.size()) < shard.count;
   if (frames_are_shared) return all;
   std::vector<BatchJob> ours;
   for (std::size_t n = 0; n < all.size(); ++n)
@@ -81,9 +84,9 @@ std::vector<BatchJob> jobs_of(const BatchOptions& options, const BatchSettings& 
 std::vector<std::string> arguments_of(const BatchOptions& options, const BatchSettings& settings,
                                       const BatchLimits& limits, const BatchJob& job, const Shard& frames,
                                       bool resume) {
-  std::vector<std::string> words{
-      "render", job.preset, "-o",      (fs::path(options.folder) / job.name).string(),
-      "--json", "-q",       "--shard", frames.text()};
+  std::vector<std::string> words{options.run ? "run" : "render", job.preset, "--json"};
+  if (!options.run)
+    words.insert(words.end(), {"-o", (fs::path(options.folder) / job.name).string(), "--shard", frames.text()});
   const auto pass = [&](const char* name, const std::string& value) {
     if (!value.empty()) words.insert(words.end(), {name, value});
   };
@@ -102,8 +105,20 @@ std::vector<std::string> arguments_of(const BatchOptions& options, const BatchSe
   return words;
 }
 
+void check_run(const BatchOptions& options) {
+  const std::pair<const char*, bool> pictures[]{
+      {"--frames", !options.frames.empty()}, {"--size", !options.size.empty()},
+      {"--video", !options.video.empty()},   {"--no-png", options.no_png},
+      {"--resume", options.resume},          {"--checkpoint-every", !options.checkpoint_every.empty()}};
+  for (const auto& [name, given] : pictures)
+    if (given)
+      throw UserError(Exit::Usage, {}, fmt::format("{} is for pictures, and --run makes none", name),
+                      fmt::format("leave out {} or --run", name));
+}
+
 // Errors that every job would report are reported once, before any job starts.
 void check(const BatchOptions& options) {
+  if (options.run) return check_run(options);
   if (!options.frames.empty()) FrameChoice{options.frames};
   if (!options.size.empty()) parse_size(options.size);
   if (!options.video.empty()) require_video(options.video);
@@ -134,21 +149,62 @@ Exit exit_code_of(const BatchReport& report) {
   return all ? Exit::Done : Exit::CheckFailed;
 }
 
+// "about 3 min 20 s left": as if the other jobs took as long as those that have ended.
+std::string time_left(std::size_t finished, std::size_t all, double since) {
+  if (finished == 0 || finished == all) return "";
+  const double each = (wall_clock() - since) / static_cast<double>(finished);
+  return fmt::format("  about {} left",
+                     seconds_in_words(std::ceil(each * static_cast<double>(all - finished))));
+}
+
+// One job always runs, even if it takes more than all may take together: then it is told.
+class MemoryNote {
+public:
+  explicit MemoryNote(std::size_t memory) : memory_(memory) {}
+  void look_at(const BatchJob& job, const BatchResult& result) {
+    if (told_ || result.peak <= memory_) return;
+    told_ = true;
+    print_note(
+        fmt::format("--memory allows {} for all jobs together, but {} alone took {}: jobs that large run one "
+                    "after another; allow more, or make them smaller",
+                    bytes_in_words(memory_), in_quotes(job.name), bytes_in_words(result.peak)));
+  }
+
+private:
+  std::size_t memory_;
+  bool told_ = false;
+};
+
+void write_log(const BatchReport& report, const BatchJob& job, const BatchResult& result) {
+  const fs::path file = log_file(report, job);
+  const OutputFolder folder(file.parent_path());
+  folder.make();
+  write_atomically(file, result.log);
+}
+
+void write_report(const BatchReport& report, const std::string& name, bool csv) {
+  write_atomically(report.folder / (name + ".html"), batch_page(report));
+  if (csv)
+    write_atomically(report.folder / (name == "index" ? "figures.csv" : name + ".csv"), batch_csv(report));
+}
+
 Exit batch(const BatchOptions& options) {
   const double start = wall_clock();
   check(options);
   const BatchSettings settings = batch_settings(scene_type(), options.sets, options.sweeps);
   const Shard shard = shard_for(options.shard);
+  const std::vector<BatchJob> all = batch_jobs(options.inputs, settings.sweeps);
   bool frames_are_shared = false;
   BatchReport report{
-      options.folder, jobs_of(options, settings, shard, frames_are_shared), {}, limits_of(options), 0};
+      options.folder, jobs_of(options, all, shard, frames_are_shared), {}, limits_of(options), 0};
   if (frames_are_shared && !options.video.empty())
-    throw UserError(Exit::Usage, {},
-                    "there are fewer jobs than shards, so that these share frames; a video is of all",
-                    "use at most as many shards as jobs, or leave --video out");
+    throw UserError(
+        Exit::Usage, {},
+        "there are fewer jobs than parts (--shard), so each part makes some frames of each job, and no video",
+        "use at most as many parts as jobs, or leave out --video");
   const Shard frames = frames_are_shared ? shard : Shard{};
-  const std::string part = shard.whole() ? "" : fmt::format(".{}-of-{}", shard.number, shard.count);
-  const fs::path page = fs::path(options.folder) / ("index" + part + ".html");
+  const std::string name = shard.whole() ? "index" : fmt::format("index.{}-of-{}", shard.number, shard.count);
+  const fs::path page = fs::path(options.folder) / (name + ".html");
   NamedFiles files; // each job checks its own files
   files.writes("the page", page);
   for (const BatchJob& job : report.jobs) files.reads("the preset", job.preset);
@@ -156,6 +212,7 @@ Exit batch(const BatchOptions& options) {
   const GracefulStop graceful_stop;
   folder.make();
   std::size_t finished = 0;
+  MemoryNote memory(report.limits.memory);
   BatchQueue queue(
       report.jobs, report.limits,
       [&](const BatchJob& job, bool again) {
@@ -163,85 +220,106 @@ Exit batch(const BatchOptions& options) {
       },
       [&](std::size_t n, const BatchResult& result) {
         ++finished;
+        write_log(report, report.jobs[n], result);
         if (options.json) print_result(text_of(line_of(report.jobs[n], result)) + "\n");
-        if (!options.quiet)
-          print_progress(fmt::format("{:>3} of {}  {:8}  {:>8}  {}\n", finished, report.jobs.size(),
-                                     name_of(result.state()), seconds_in_words(result.seconds),
-                                     printable(report.jobs[n].name)));
+        if (options.quiet) return;
+        print_progress(fmt::format("{:>3} of {}  {:8}  {:>8}  {}{}\n", finished, report.jobs.size(),
+                                   name_of(result.state()), seconds_in_words(result.seconds),
+                                   printable(report.jobs[n].name),
+                                   time_left(finished, report.jobs.size(), start)));
+        if (!options.memory.empty()) memory.look_at(report.jobs[n], result);
       });
   report.results = queue.run();
   if (queue.processes_were_refused() && !options.quiet)
-    print_note("fewer jobs ran at once than were wanted: the system started no more");
+    print_note("the system could not start as many jobs at once as were allowed");
   report.seconds = wall_clock() - start;
-  write_atomically(page, batch_page(report));
+  write_report(report, name, options.run);
+  if (!shard.whole()) {
+    const std::string key = batch_key(all, options.sets);
+    write_part(report, shard, key);
+    if (const auto whole = whole_batch(options.folder, all, shard.count, key)) {
+      write_report(*whole, "index", options.run);
+      if (!options.quiet)
+        print_note(fmt::format("all {} parts are done; the page of all is {}", shard.count,
+                               in_quotes((fs::path(options.folder) / "index.html").string())));
+    }
+  }
   folder.sync();
   if (!options.json) print_result(closing_words(report, page));
   return exit_code_of(report);
 }
 
 void declare_passed_on(CLI::App& app, BatchOptions& options) {
-  app.add_option("--frames", options.frames, "only these: 7, 0-100, 0-100x5, 10-, or several with commas")
+  app.add_option("--frames", options.frames,
+                 "render only these frames, such as 7, 0-100, 0-100x5 (every fifth), 10- (to the end), or "
+                 "several separated by commas")
       ->type_name("LIST")
       ->check(some_word());
-  app.add_option("--size", options.size, "of the pictures in pixels, instead of the presets'")
+  app.add_option("--size", options.size, "width and height of the pictures in pixels; default: the presets'")
       ->type_name("WxH")
       ->check(some_word());
-  app.add_option("--fps", options.fps, "pictures a second of simulated time, instead of the presets'")
+  app.add_option("--fps", options.fps, "frames per second of simulated time; default: the presets'")
       ->type_name("N")
       ->transform(real_number(1e-6, 1e6));
-  app.add_option("--video", options.video, "also a video of each job")
+  app.add_option("--video", options.video, "also write a video of each job")
       ->type_name(choices(video_format_names()));
-  app.add_flag("--no-png", options.no_png, "the videos alone");
-  app.add_option("--threads", options.threads,
-                 "threads of each simulation; default: one, where jobs run in parallel")
+  app.add_flag("--no-png", options.no_png, "write no PNG files, only the video");
+  app.add_option("--threads", options.threads, "threads of each job; default: 1 where jobs run in parallel")
       ->type_name("N")
       ->transform(whole_number(1, 256));
-  app.add_option("--checkpoint-every", options.checkpoint_every, "as of rend render")
+  app.add_option("--checkpoint-every", options.checkpoint_every,
+                 "seconds between stored states, as for rend render")
       ->type_name("S")
       ->transform(real_number(0, 1e9));
-  app.add_flag("--allow-path", options.allow_path, "read meshes from outside of the presets' folders, too");
+  app.add_flag("--allow-path", options.allow_path, "allow files outside of the presets' folders");
 }
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<BatchOptions>();
-  app.add_option("inputs", options->inputs, "presets, and folders of them")->required()->type_name("PRESET...");
-  app.add_option("-o,--output", options->folder, "folder of all jobs' folders, and of index.html")
+  app.add_option("inputs", options->inputs, "presets, and folders with presets")
+      ->required()
+      ->type_name("PRESET...");
+  app.add_flag("--run", options->run,
+               "make no pictures: simulate as rend run does, and write the figures of all jobs to figures.csv");
+  app.add_option("-o,--output", options->folder,
+                 "folder for the page index.html, one folder per job, and logs/")
       ->type_name("DIR")
       ->capture_default_str();
-  app.add_option(
-         "--set", options->sets,
-         "replace an attribute in all jobs (any number of times); several values with commas are a sweep, "
-         "unless the attribute is a free text")
+  app.add_option("--set", options->sets,
+                 "replace an attribute in all jobs (can be repeated); several values separated by commas make "
+                 "one job each, unless the attribute is free text")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   app.add_option("--sweep", options->sweeps,
-                 "one job for each of these values of an attribute, free texts too; several sweeps are crossed")
+                 "make one job for each of these values of an attribute, free text included; several sweeps "
+                 "make all combinations")
       ->type_name("PATH=V,V,...")
       ->allow_extra_args(false);
-  app.add_option("-j,--jobs", options->jobs, "jobs at once; default: as many as the machine has threads")
+  app.add_option("-j,--jobs", options->jobs,
+                 "run at most N jobs at once; default: the number of the machine's threads")
       ->type_name("N")
       ->transform(whole_number(1, 1024));
   app.add_option("--memory", options->memory,
-                 "that all jobs together may take, such as 4G; default: 80 % of what is available")
+                 "memory for all jobs together, such as 4G; default: 80 % of what is available")
       ->type_name("SIZE")
       ->check(some_word());
-  app.add_option(
-         "--shard", options->shard,
-         "of the jobs only part I of N; default: as Slurm says of an array task. With fewer jobs than shards: "
-         "a part of each job's frames")
+  app.add_option("--shard", options->shard,
+                 "run only part I of N of the jobs; default: the number of the Slurm array task, if there is "
+                 "one. With fewer jobs than parts, each part renders some frames of each job")
       ->type_name("I/N")
       ->check(some_word());
-  app.add_flag("--resume", options->resume, "keep the pictures that are there and whole, and make the rest");
+  app.add_flag("--resume", options->resume, "keep pictures that are complete, and make the missing ones");
   declare_passed_on(app, *options);
-  app.add_flag("--json", options->json, "one JSON object a line for each job, as it ends");
-  app.add_flag("-q,--quiet", options->quiet, "no progress");
+  app.add_flag("--json", options->json,
+               "print one JSON object per job on stdout, one a line, as each job ends");
+  app.add_flag("-q,--quiet", options->quiet, "print no progress");
   return [options] { return batch(*options); };
 }
 
 } // namespace
 
 Command batch_command() {
-  return {"batch", "render many presets in parallel, with a page of what came of them", declare};
+  return {"batch", "render many presets in parallel, and make a page of the results", declare};
 }
 
 } // namespace rend

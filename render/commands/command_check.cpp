@@ -46,7 +46,7 @@ public:
     std::string name = (fs::temp_directory_path() / "rend-check-XXXXXX").string();
     if (!mkdtemp(name.data()))
       throw UserError(Exit::CannotCreate, {},
-                      "no folder can be made in " + in_quotes(fs::temp_directory_path().string()),
+                      "no temporary folder can be made in " + in_quotes(fs::temp_directory_path().string()),
                       "give one with -o");
     path_ = name;
     temporary_.register_path(path_.c_str());
@@ -76,10 +76,10 @@ bool is_wanted(const CheckCase& which, const CheckOptions& options) {
 
 CheckChapter chapter_of(const std::string& preset, const CheckOptions& options) {
   const fs::path path(preset);
-  CheckFamily family{
-      path.stem().string(), preset,
-      "Is it stable as it is, with what margin, at which step does it break, and which scheme would do.",
-      nullptr};
+  CheckFamily family{path.stem().string(), preset,
+                     "Whether the preset is stable as it is, with which margin, at which step it breaks, and "
+                     "which scheme would work.",
+                     nullptr};
   CheckChapter chapter{family, {}, {}};
   for (CheckCase& one : preset_cases(family.name, preset))
     if (is_wanted(one, options)) chapter.cases.push_back(std::move(one));
@@ -98,8 +98,8 @@ void refuse_pipe(const fs::path& preset) {
   std::error_code error;
   const fs::file_status there = fs::status(preset, error);
   if (!fs::exists(there) || fs::is_regular_file(there) || fs::is_directory(there)) return;
-  throw UserError(Exit::NoInput, {preset.string()}, "this is no ordinary file, and is read once for each case",
-                  "copy it to a file");
+  throw UserError(Exit::NoInput, {preset.string()},
+                  "this is not a regular file, but it must be read once for each case", "copy it to a file");
 }
 
 std::vector<CheckChapter> wanted(const CheckOptions& options) {
@@ -119,7 +119,7 @@ std::vector<CheckChapter> wanted(const CheckOptions& options) {
   std::vector<std::string> names;
   for (const CheckFamily& family : all_families()) names.push_back(family.name);
   throw UserError(Exit::Usage, {}, "no case has such a name",
-                  "the families are " + listed(names) + "; --list names all");
+                  "the groups of cases are " + listed(names) + "; --list names all");
 }
 
 // No input may be overwritten.
@@ -222,21 +222,23 @@ Exit check(const CheckOptions& options) {
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<CheckOptions>();
-  app.add_option("presets", options->presets, "scenes to check; none: the suite")->type_name("PRESET...");
+  app.add_option("presets", options->presets, "presets to check; without any, the built-in cases")
+      ->type_name("PRESET...");
   app.add_option("-o,--output", options->folder,
-                 "write index.html, check.json and the presets of all cases there")
+                 "folder for index.html, check.json and the presets of all cases; default: none is written")
       ->type_name("DIR");
-  app.add_option("--only", options->only, "cases whose names hold this (* and ? stand for anything)")
+  app.add_option("--only", options->only, "run only cases whose name contains this (* and ? are wildcards)")
       ->type_name("PATTERN")
       ->allow_extra_args(false);
-  app.add_flag("--allow-path", options->allow_path, "read meshes from outside of the presets' folders, too");
-  app.add_flag("--quick", options->quick, "the few cases that stand for the others");
-  app.add_flag("--list", options->list, "the names of the cases, one a line");
-  app.add_flag("--json", options->json, "the findings as one JSON object");
-  app.add_option("--jobs", options->jobs, "cases at once; default: the threads of the machine")
+  app.add_flag("--allow-path", options->allow_path, "allow files outside of the presets' folders");
+  app.add_flag("--quick", options->quick, "run only a few representative cases");
+  app.add_flag("--list", options->list, "print the names of the cases, one a line, and run none");
+  app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
+  app.add_option("--jobs", options->jobs,
+                 "run at most N cases at once; default: the number of the machine's threads")
       ->type_name("N")
       ->transform(whole_number(1, 256));
-  app.add_flag("-q,--quiet", options->quiet, "no line for each case");
+  app.add_flag("-q,--quiet", options->quiet, "do not print a line for each case");
   return [options] { return check(*options); };
 }
 

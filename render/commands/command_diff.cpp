@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DiffOptions {
-  std::string a, b, folder, junit, tolerances, mask;
+  std::string a, b, folder, junit, gitlab, github, tolerances, mask;
   std::vector<std::string> limits, update;
   bool allow_path = false, json = false, json_lines = false, quiet = false;
   int threads = 0; // 0: as many as the machine has
@@ -43,6 +43,9 @@ Tolerances tolerances_of(const DiffOptions& options) {
   Tolerances out =
       options.tolerances.empty() ? Tolerances() : Tolerances(options.tolerances, options.allow_path);
   for (const std::string& limit : options.limits) out.add(limit);
+  std::error_code error;
+  if (!options.mask.empty() && !fs::exists(options.mask, error))
+    throw UserError(Exit::NoInput, {options.mask}, "there is no such file", "--mask names a PNG");
   if (!options.mask.empty()) out.mask_all(options.mask);
   return out;
 }
@@ -112,8 +115,8 @@ std::vector<std::string> remarks_of(const Cases& cases, const Tolerances& tolera
   for (const CasePaths& one : cases.all) names.push_back(one.name);
   std::vector<std::string> out = tolerances.remarks(names);
   if (cases.left_out > 0)
-    out.push_back(fmt::format("{} file{} in the folders {} not called .png, and left out", cases.left_out,
-                              cases.left_out == 1 ? "" : "s", cases.left_out == 1 ? "is" : "are"));
+    out.push_back(fmt::format("ignored {} non-PNG file{}", cases.left_out, cases.left_out == 1 ? "" : "s",
+                              cases.left_out == 1 ? "is" : "are"));
   return out;
 }
 
@@ -137,11 +140,14 @@ void check_files(const DiffOptions& options, const Cases& cases) {
   for (const char* file : {"index.html", "diff.json"})
     if (!options.folder.empty()) files.writes("the report", fs::path(options.folder) / file);
   if (!options.junit.empty()) files.writes("--junit", resolve_link(options.junit));
+  if (!options.gitlab.empty()) files.writes("--gitlab", resolve_link(options.gitlab));
+  if (!options.github.empty()) files.writes("--github", resolve_link(options.github));
   if (!options.tolerances.empty()) files.reads("the file of tolerances", options.tolerances);
   if (!options.mask.empty()) files.reads("the mask", options.mask);
   for (const CasePaths& one : cases.all)
     for (const fs::path& picture : {one.a, one.b})
-      if (!picture.empty() && !options.junit.empty()) files.reads("the picture", picture);
+      if (!picture.empty() && !(options.junit + options.gitlab + options.github).empty())
+        files.reads("the picture", picture);
 }
 
 // A report within a compared folder would itself be compared the next time, since its difference maps have the
@@ -158,7 +164,7 @@ void check_folder(const fs::path& report, const Cases& cases) {
                       "choose a folder beside it for the report");
     if (lies_in(inputs, report / "maps"))
       throw UserError(Exit::Usage, {},
-                      fmt::format("-o {} has its maps where {} lies, which is compared",
+                      fmt::format("-o {} would write its maps into {}, which is compared",
                                   in_quotes(report.string()), in_quotes(inputs.string())),
                       "choose another folder for the report");
   }
@@ -176,7 +182,7 @@ Exit diff(const DiffOptions& options) {
   report.a = options.a;
   report.b = options.b;
   report.remarks = remarks_of(cases, tolerances);
-  DiffFiles files(options.folder, options.junit);
+  DiffFiles files({options.folder, options.junit, options.gitlab, options.github});
   MemoryBudget memory(MemoryBudget::of_machine(available_memory()));
   report.cases = compare_all(cases.all, tolerances, options, memory);
   if (report.cases.empty()) {
@@ -184,10 +190,12 @@ Exit diff(const DiffOptions& options) {
     return exit_code_of_signal();
   }
   report.updated.assign(report.cases.size(), false);
-  for (const std::size_t n : chosen) report.updated[n] = true;
+  const std::set<std::size_t> changed = updatable(report.cases, chosen, memory);
+  for (const std::size_t n : changed) report.updated[n] = true;
+  report.clips = clips_of(report.cases);
   // made before the update: it shows the old expected pictures
   const std::string page = options.folder.empty() ? "" : diff_page(report);
-  update_expected(report.cases, chosen, options.a, memory);
+  update_expected(report.cases, changed, options.a);
   files.write(page, report);
   if (!options.quiet)
     for (const std::string& remark : report.remarks) print_note(remark);
@@ -195,12 +203,13 @@ Exit diff(const DiffOptions& options) {
   return exit_of(report);
 }
 
-// An input that cannot be compared gives exit code 2 (trouble), as in diff(1).
+// An input that cannot be compared gives exit code 2 (trouble), as in diff(1). A file that is not there has the
+// exit code that it has everywhere.
 Exit run(const DiffOptions& options) {
   try {
     return diff(options);
   } catch (const UserError& error) {
-    if (error.code != Exit::BadInput && error.code != Exit::NoInput) throw;
+    if (error.code != Exit::BadInput) throw;
     print_error(error.what(), error.hint);
     return Exit::DiffError;
   }
@@ -208,36 +217,50 @@ Exit run(const DiffOptions& options) {
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<DiffOptions>();
-  app.add_option("expected", options->a, "a PNG picture, or a folder of them")
+  app.add_option("expected", options->a, "the expected picture (PNG), or a folder of pictures")
       ->required()
       ->type_name("EXPECTED");
-  app.add_option("now", options->b, "what is compared with it: of a folder, pictures of the same names")
+  app.add_option("now", options->b,
+                 "the picture to compare with it, or a folder with pictures of the same names")
       ->required()
       ->type_name("NOW");
-  app.add_option("-t,--tolerances", options->tolerances, "what may differ, by picture; without it nothing may")
+  app.add_option("-t,--tolerances", options->tolerances,
+                 "which differences are allowed, by picture (rend help tolerances); without it, none")
       ->type_name("FILE.xml");
   app.add_option("--limit", options->limits,
-                 "one such limit for all pictures: max=1, flip=0.002, share=any, threshold=4")
+                 "set one limit for all pictures, such as max=1, flip=0.002, share=any or threshold=4 (can be "
+                 "repeated)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--mask", options->mask, "a PNG: white counts, black does not")->type_name("FILE.png");
-  app.add_flag("--allow-path", options->allow_path,
-               "let the tolerances name masks outside of their folder, too");
-  app.add_option("-o,--output", options->folder, "write index.html, diff.json and maps of what differs there")
+  app.add_option("--mask", options->mask,
+                 "a PNG of the same size: white pixels are compared, black ones are not")
+      ->type_name("FILE.png");
+  app.add_flag("--allow-path", options->allow_path, "allow masks outside of the folder of the tolerances");
+  app.add_option(
+         "-o,--output", options->folder,
+         "folder for a report: index.html, diff.json and maps of the differences; default: none is written")
       ->type_name("DIR");
-  app.add_option("--junit", options->junit, "write the findings as JUnit XML there")->type_name("FILE.xml");
-  auto* json = app.add_flag("--json", options->json, "the findings as one JSON object");
-  app.add_flag("--json-lines", options->json_lines, "one JSON object a picture, each as soon as it is known")
+  app.add_option("--gitlab", options->gitlab,
+                 "also write the failures as a GitLab Code Quality report to this file")
+      ->type_name("FILE.json");
+  app.add_option("--github", options->github,
+                 "also write the failures as GitHub annotations (workflow commands) to this file")
+      ->type_name("FILE");
+  app.add_option("--junit", options->junit, "also write the results as JUnit XML to this file")
+      ->type_name("FILE.xml");
+  auto* json = app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
+  app.add_flag("--json-lines", options->json_lines,
+               "print one JSON object per picture on stdout, one a line, each as soon as it is known")
       ->excludes(json);
   app.add_option("--update", options->update,
-                 "these pictures (or folders of them) are right as they are now: make "
-                 "them what is expected")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  app.add_option("--threads", options->threads, "threads; default: all that the machine has")
+                 "accept what there is now: names of pictures or folders, or patterns such as 'tear/*' or '*'; "
+                 "new pictures are added to what is expected, and missing ones are removed from it")
+      ->type_name("NAME...")
+      ->expected(1, -1);
+  app.add_option("--threads", options->threads, "number of threads; default: as many as the machine has")
       ->transform(whole_number(1, 256));
-  app.add_flag("-q,--quiet", options->quiet, "nothing but the exit code, JSON and files");
-  app.footer("Ends with 0 where all pictures match, 1 where one does not, 2 where one cannot be compared.");
+  app.add_flag("-q,--quiet", options->quiet, "print nothing but JSON and errors");
+  app.footer("Exit code: 0 if all pictures match, 1 if one does not, 2 if one cannot be compared.");
   return [options] { return run(*options); };
 }
 

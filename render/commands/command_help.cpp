@@ -1,6 +1,8 @@
 // rend help: commands, the preset's vocabulary and schema, where laws tear, the manual, and completions.
 #include "render/commands/command.h"
+#include "render/compare/tolerances.h"
 #include "render/console/console.h"
+#include "render/console/terminal.h"
 #include "render/help/completion.h"
 #include "render/help/help.h"
 #include "render/help/manual.h"
@@ -27,7 +29,8 @@ struct HelpOptions {
 };
 
 const std::vector<std::string>& topics() {
-  static const std::vector<std::string> all{"preset", "rule", "tear", "schema", "man", "completion"};
+  static const std::vector<std::string> all{"preset", "rule", "tear",      "tolerances",
+                                            "schema", "man",  "completion"};
   return all;
 }
 
@@ -37,14 +40,14 @@ void check_words(const HelpOptions& options) {
     if (command.name != "rule") known.push_back(command.name); // a topic already
   if (!options.topic.empty() && std::find(known.begin(), known.end(), options.topic) == known.end())
     throw UserError(Exit::Usage, {}, fmt::format("there is no help on {}", in_quotes(options.topic)),
-                    suggestion(options.topic, known, "there is on"));
-  if (options.element.empty() || options.topic == "preset" || options.topic == "completion" ||
-      (options.topic == "man" && options.element == "preset"))
+                    suggestion(options.topic, known, "topics"));
+  if (options.element.empty() || options.topic == "preset" || options.topic == "tolerances" ||
+      options.topic == "completion" || (options.topic == "man" && options.element == "preset"))
     return;
-  throw UserError(Exit::Usage, {}, fmt::format("help on {} takes no second word", in_quotes(options.topic)),
+  throw UserError(Exit::Usage, {}, fmt::format("help on {} takes no further word", in_quotes(options.topic)),
                   options.topic == "man"
                       ? "rend help man prints rend(1), rend help man preset rend-preset(5)"
-                      : "rend help preset " + options.element + " tells about an element of a preset");
+                      : "rend help preset " + options.element + " explains an element of a preset");
 }
 
 std::string man_page(const CLI::App& root, bool of_presets) {
@@ -64,13 +67,33 @@ std::string completion(const CLI::App& root, const std::string& name) {
   return shell->script(source);
 }
 
+std::string help_tolerances(const std::optional<std::string>& element, bool colour, std::size_t columns) {
+  const std::string opening = "A file of tolerances tells rend diff which differences between pictures are "
+                              "allowed: rend diff EXPECTED NOW "
+                              "-t FILE.xml. It is an XML file with one <tolerances>. What a <case> gives "
+                              "replaces what stands before it; any "
+                              "lifts a limit. Without any limit, pictures must be equal. A single limit for "
+                              "all pictures is given as --limit "
+                              "NAME=VALUE. Example:\n"
+                              "<tolerances>\n"
+                              "<default max=\"1\" mean=\"0.1\"/>\n"
+                              "<case name=\"tear/moebius*\" flip=\"0.002\" max=\"any\"/>\n"
+                              "</tolerances>";
+  return help_elements(tolerances_type(), opening, element, colour, columns);
+}
+
 std::string page(const CLI::App& root, const HelpOptions& options) {
+  const std::size_t columns = text_columns(stdout, page_columns);
   if (options.topic == "preset") {
     const auto element = options.element.empty() ? std::nullopt : std::optional(options.element);
-    return help_preset(scene_type(), element, wants_colour(stdout));
+    return help_preset(scene_type(), element, wants_colour(stdout), columns);
   }
-  if (options.topic == "rule") return rule_page();
-  if (options.topic == "tear") return tear_table(wants_colour(stdout));
+  if (options.topic == "tolerances") {
+    const auto element = options.element.empty() ? std::nullopt : std::optional(options.element);
+    return help_tolerances(element, wants_colour(stdout), columns);
+  }
+  if (options.topic == "rule") return fitted(rule_page(), columns);
+  if (options.topic == "tear") return tear_table(wants_colour(stdout), columns);
   if (options.topic == "schema") return schema(scene_type());
   if (options.topic == "man") return man_page(root, !options.element.empty());
   if (options.topic == "completion") return completion(root, options.element);
@@ -88,15 +111,22 @@ Exit help(const CLI::App& root, const HelpOptions& options) {
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<HelpOptions>();
-  app.add_option(
-         "topic", options->topic,
-         "preset: what a preset may hold; rule: how rules are written; tear: every criterion with every "
-         "change; schema: the same as an XML schema; man: the manual, for man; "
-         "completion: a script for a shell; or a command")
+  app.add_option("topic", options->topic,
+                 "one of\n"
+                 "preset: the elements and attributes of a preset\n"
+                 "rule: how rules are written\n"
+                 "tear: every criterion of <tear> with every change\n"
+                 "tolerances: which differences rend diff may allow\n"
+                 "schema: presets as an XML schema\n"
+                 "man: the manual, for man\n"
+                 "completion: a script for a shell\n"
+                 "or a command, such as render")
       ->type_name(choices(topics()) + "|COMMAND");
-  app.add_option("element", options->element,
-                 "an element of a preset, such as stretch or body.springs; of man: preset; of completion: " +
-                     listed(shell_names()))
+  app.add_option(
+         "element", options->element,
+         "after preset or tolerances: one element, such as stretch or body.springs; after man: preset; after "
+         "completion: " +
+             listed(shell_names()))
       ->type_name("ELEMENT");
   return [options, root = app.get_parent()] { return help(*root, *options); };
 }
@@ -104,7 +134,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command help_command() {
-  return {"help", "tell what a command or a preset may hold", declare};
+  return {"help", "explain commands, presets, rules and tolerances", declare};
 }
 
 } // namespace rend

@@ -28,14 +28,14 @@ Exit info(InfoOptions options) {
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<InfoOptions>();
   add_preset_options(app, options->session);
-  app.add_flag("--json", options->json, "the same as one JSON object");
+  app.add_flag("--json", options->json, "print the same as one JSON object on stdout");
   return [options] { return info(*options); };
 }
 
 } // namespace
 
 Command info_command() {
-  return {"info", "tell what a preset builds, and what it leaves out", declare};
+  return {"info", "show what a preset builds, and what it leaves out and why", declare};
 }
 
 } // namespace rend

@@ -35,15 +35,16 @@ Exit convert(const MeshOptions& options) {
   const std::filesystem::path out = options.out;
   const bool moka = out.extension() == ".moka";
   if (!moka && out.extension() != ".msh")
-    throw UserError(Exit::Usage, {}, fmt::format("{} is no format that can be written", in_quotes(options.out)),
-                    "a name that ends in .moka or .msh tells the format");
+    throw UserError(Exit::Usage, {},
+                    fmt::format("{} is not a format that rend can write", in_quotes(options.out)),
+                    "end the name in .moka or .msh");
   const std::filesystem::path file = resolve_link(out);
   NamedFiles files;
   files.reads("the mesh", options.in);
   files.writes("the new one", file);
   const MeshBody body = sew(read_mesh(std::filesystem::path(options.in)));
   for (const std::string& note : body.notes) print_note(note);
-  if (moka && !body.groups.empty()) print_note("groups are left out: .moka has none");
+  if (moka && !body.groups.empty()) print_note("the groups of the mesh were left out: .moka cannot hold them");
   const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
   const GracefulStop graceful_stop;
   write_atomically(file, text);
@@ -55,13 +56,15 @@ std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<MeshOptions>();
   auto chosen = std::make_shared<Exit (*)(const MeshOptions&)>(nullptr);
   app.require_subcommand(1);
-  CLI::App* tell = app.add_subcommand("info", "cells, sizes and groups of a mesh");
+  CLI::App* tell = app.add_subcommand("info", "show the cells, sizes and groups of a mesh");
   tell->add_option("file", options->in, "a mesh")->required()->type_name("FILE");
-  tell->add_flag("--json", options->json, "the same as one JSON object");
+  tell->add_flag("--json", options->json, "print the same as one JSON object on stdout");
   tell->callback([chosen] { *chosen = info; });
-  CLI::App* change = app.add_subcommand("convert", "write a mesh as .moka, or as .msh 2.2");
+  CLI::App* change = app.add_subcommand("convert", "convert a mesh to .moka, or to .msh 2.2");
   change->add_option("in", options->in, "a mesh")->required()->type_name("IN");
-  change->add_option("out", options->out, "the new file")->required()->type_name("OUT");
+  change->add_option("out", options->out, "the file to write; its ending tells the format")
+      ->required()
+      ->type_name("OUT");
   change->callback([chosen] { *chosen = convert; });
   return [options, chosen] { return (*chosen)(*options); };
 }
@@ -69,7 +72,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command mesh_command() {
-  return {"mesh", "look at a mesh, or convert it", declare};
+  return {"mesh", "show what is in a mesh file, or convert it", declare};
 }
 
 } // namespace rend

@@ -50,8 +50,8 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   out.samples = session.image().samples;
   if (session.image().transparent() && !options.video.empty())
     throw UserError(Exit::Usage, session.image().source.place("background"),
-                    "a transparent background is for PNG files: rend writes videos without alpha",
-                    "leave --video out, or add --set image.background=#ffffff");
+                    "videos cannot have a transparent background",
+                    "leave out --video, or add --set image.background=#ffffff");
   out.fps = session.image().fps;
   out.png = !options.no_png;
   out.video = !options.video.empty();
@@ -66,7 +66,7 @@ std::string closing_words(const ClipRun& clip_run, const PipelineOptions& files,
   if (files.video)
     out +=
         (files.png ? ", and " : " in ") + printable((files.folder / (files.name + files.extension)).string());
-  if (clip_run.frames_kept() > 0) out += fmt::format("; {} were there already", clip_run.frames_kept());
+  if (clip_run.frames_kept() > 0) out += fmt::format("; {} were already there", clip_run.frames_kept());
   return out + fmt::format(", in {}\n", seconds_in_words(seconds));
 }
 
@@ -79,9 +79,9 @@ void check_output(const RenderOptions& options) {
   if (!options.frames.empty()) FrameChoice{options.frames};
   if (!options.size.empty()) parse_size(options.size);
   if (!shard_for(options.shard).whole() && !options.video.empty())
-    throw UserError(Exit::Usage, {}, "a shard makes pictures, and a video is of all of them",
-                    "leave --video out; when all shards are done, --shard 1/1 --resume --video " +
-                        options.video + " makes the video of what they made");
+    throw UserError(Exit::Usage, {}, "--shard makes some of the pictures, but a video needs all of them",
+                    "leave out --video; when all parts are done, --shard 1/1 --resume --video " +
+                        options.video + " makes the video");
 }
 
 ClipRunOptions clip_run_options(const RenderOptions& options, const Session& session) {
@@ -92,8 +92,9 @@ ClipRunOptions clip_run_options(const RenderOptions& options, const Session& ses
   out.resume = options.resume;
   out.checkpoint_every = options.checkpoint_every;
   if (!out.shard.whole() && options.shard.empty() && !session.quiet())
-    print_note(fmt::format("makes part {} of the frames, as Slurm says of its array task (--shard 1/1: all)",
-                           out.shard.text()));
+    print_note(fmt::format(
+        "rendering part {} of the frames, by the number of this Slurm array task (--shard 1/1: all)",
+        out.shard.text()));
   return out;
 }
 
@@ -137,7 +138,7 @@ Exit render(const RenderOptions& options) {
   print_figures(options, session, clip_run, stopped, wanted.files, wall_clock() - start);
   const Exit end = exit_code_of(session, stopped);
   if (clip_run.left_checkpoint() && !session.quiet())
-    print_note("the same command with --resume goes on from here");
+    print_note("to go on from here, repeat the command with --resume");
   return end;
 }
 
@@ -151,38 +152,41 @@ std::string video_formats_in_words() {
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   add_run_options(app, options->session);
-  app.add_option("-o,--output", options->folder, "folder of the pictures; default: out/ and the scene's name")
+  app.add_option("-o,--output", options->folder, "folder for the pictures and the video; default: out/SCENE")
       ->type_name("DIR");
-  app.add_option("--frames", options->frames, "only these: 7, 0-100, 0-100x2, 10-, or several with commas")
+  app.add_option("--frames", options->frames,
+                 "render only these frames, such as 7, 0-100, 0-100x2 (every second), 10- (to the end), or "
+                 "several separated by commas")
       ->type_name("LIST")
       ->check(some_word());
-  app.add_option("--size", options->size, "of the pictures in pixels, instead of the preset's")
+  app.add_option("--size", options->size, "width and height of the pictures in pixels; default: the preset's")
       ->type_name("WxH")
       ->check(some_word());
-  app.add_option("--video", options->video, "also a video, called as the scene is: " + video_formats_in_words())
+  app.add_option("--video", options->video,
+                 "also write SCENE.mp4 (or another format): " + video_formats_in_words())
       ->type_name(choices(video_format_names()));
-  app.add_flag("--no-png", options->no_png, "the video alone");
+  app.add_flag("--no-png", options->no_png, "write no PNG files, only the video");
   app.add_flag("--resume", options->resume,
-               "keep the pictures that are there and whole, and go on from where a run was stopped");
+               "keep pictures that are complete, and go on from where an earlier run was stopped");
   app.add_option(
          "--shard", options->shard,
-         "of the frames only part I of N that follow each other; default: as Slurm says of an array task")
+         "render only block I of N of the frames; default: the number of the Slurm array task, if there is one")
       ->type_name("I/N")
       ->check(some_word());
-  app.add_option(
-         "--checkpoint-every", options->checkpoint_every,
-         "seconds on the clock after which the run's state is stored for --resume; 0: only when a signal comes")
+  app.add_option("--checkpoint-every", options->checkpoint_every,
+                 "store the run's state for --resume every S seconds of real time; 0: only when the run is "
+                 "stopped by a signal")
       ->type_name("S")
       ->transform(real_number(0, 1e9))
       ->capture_default_str();
-  app.add_flag("--json", options->json, "the figures as one JSON object, instead of the closing words");
+  app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
   return [options] { return render(*options); };
 }
 
 } // namespace
 
 Command render_command() {
-  return {"render", "simulate a preset and make pictures of it", declare};
+  return {"render", "simulate a preset and make pictures and a video of it", declare};
 }
 
 } // namespace rend

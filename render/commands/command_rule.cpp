@@ -86,8 +86,9 @@ Exit draw_rule(const RuleOptions& options) {
   const std::filesystem::path out = options.out;
   const bool png = out.extension() == ".png";
   if (!png && out.extension() != ".svg")
-    throw UserError(Exit::Usage, {}, fmt::format("{} is no format that can be written", in_quotes(options.out)),
-                    "a name that ends in .svg or .png tells the format");
+    throw UserError(Exit::Usage, {},
+                    fmt::format("{} is not a format that rend can write", in_quotes(options.out)),
+                    "end the name in .svg or .png");
   if (png) require_png();
   const RuleBook book = book_of(options);
   std::string from;
@@ -97,7 +98,7 @@ Exit draw_rule(const RuleOptions& options) {
   NamedFiles files;
   if (!options.file.empty()) files.reads("the rules", options.file);
   files.writes("the drawing", file);
-  if (!shown.sample) print_note("no small map was found where the rule applies: its graphs are drawn alone");
+  if (!shown.sample) print_note("no small map was found to which the rule applies: only its graphs are drawn");
   const Drawing drawing = diagram_of(rule, shown);
   const GracefulStop graceful_stop;
   if (png)
@@ -120,8 +121,7 @@ CLI::App* subcommand(CLI::App& app, const char* name, const char* what, const Ch
 
 void add_file(CLI::App& app, const Options& options, const char* name) {
   app.add_option(name, options->file, "a preset, or a file of rules")->type_name("FILE");
-  app.add_flag("--allow-path", options->allow_path,
-               "read files that the preset names from outside of its folder, too");
+  app.add_flag("--allow-path", options->allow_path, "allow files outside of the preset's folder");
 }
 
 void add_rule(CLI::App& app, const Options& options) {
@@ -135,18 +135,18 @@ std::function<Exit()> declare(CLI::App& app) {
   app.require_subcommand(1);
   app.footer("rend help rule tells how rules are written.");
   const auto json = [&](CLI::App* to, const char* what) { to->add_flag("--json", options->json, what); };
-  CLI::App* listing = subcommand(app, "list", "the rules of the house, and those of a file", chosen, list);
+  CLI::App* listing = subcommand(app, "list", "list the built-in rules, and those of a file", chosen, list);
   add_file(*listing, options, "file");
-  json(listing, "the same as a JSON array");
-  CLI::App* showing = subcommand(app, "show", "one rule: its text, and what it does", chosen, show_rule);
+  json(listing, "print the same as a JSON array on stdout");
+  CLI::App* showing = subcommand(app, "show", "show the text of one rule, and what it does", chosen, show_rule);
   add_rule(*showing, options);
-  json(showing, "the same as one JSON object");
-  CLI::App* checking =
-      subcommand(app, "check", "whether all rules of a file are well formed; without one, those of the house",
-                 chosen, check);
+  json(showing, "print the same as one JSON object on stdout");
+  CLI::App* checking = subcommand(
+      app, "check", "check that all rules of a file are well formed; without a file, the built-in ones", chosen,
+      check);
   add_file(*checking, options, "file");
-  CLI::App* drawing =
-      subcommand(app, "draw", "its two graphs, and a small map before and after", chosen, draw_rule);
+  CLI::App* drawing = subcommand(app, "draw", "draw the two graphs of a rule, and a small map before and after",
+                                 chosen, draw_rule);
   add_rule(*drawing, options);
   drawing->add_option("-o,--output", options->out, "the picture")->required()->type_name("FILE.svg|FILE.png");
   std::vector<std::string> samples;
@@ -159,7 +159,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command rule_command() {
-  return {"rule", "look at rules: changes of the map, for <apply> and <tear>", declare};
+  return {"rule", "list, show, check and draw rules: changes of the mesh, for <apply> and <tear>", declare};
 }
 
 } // namespace rend

@@ -33,12 +33,15 @@ struct RunOptions {
 
 // Reports errors before anything slow is done.
 void check_export(const RunOptions& options) {
+  if (options.session.reach && !options.events.empty())
+    throw UserError(Exit::Usage, {}, "--events lists tears, but nothing tears with --reach",
+                    "leave out one of them");
   if (!options.format.empty()) {
     export_format(options.format);
     return;
   }
   if (!options.folder.empty() || !options.frames.empty())
-    throw UserError(Exit::Usage, {}, "-o and --frames say where and when states are exported, and none are",
+    throw UserError(Exit::Usage, {}, "-o and --frames are for exported files, but there is no --export",
                     "add --export vtu (or ply, or obj), or make pictures with rend render");
 }
 
@@ -136,20 +139,27 @@ std::string export_formats_in_words() {
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   add_run_options(app, options->session);
-  app.add_flag("--json", options->json, "the figures as one JSON object");
+  app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
+  app.add_flag(
+      "--reach", options->session.reach,
+      "do not tear: print the largest value that each criterion of tearing reaches, when and where, to "
+      "choose a threshold by");
   app.add_flag("--profile", options->session.profile,
-               "as well where time and bytes went, by stage and by interaction, and what the machine can do");
-  app.add_option("--diagnostics", options->diagnostics, "energies, momenta and counts at every frame, as CSV")
+               "also print where the time and the memory traffic went, by stage and by interaction");
+  app.add_option("--diagnostics", options->diagnostics,
+                 "also write energies, momenta and counts at every frame to this file, as CSV")
       ->type_name("FILE");
-  app.add_option("--events", options->events, "every topological change, one JSON object a line")
+  app.add_option("--events", options->events, "also write every tear to this file, one JSON object a line")
       ->type_name("FILE");
   app.add_option("--export", options->format,
-                 "the state at every frame as a file for other programs: " + export_formats_in_words())
+                 "also write the state at every frame to a file for other programs: " +
+                     export_formats_in_words())
       ->type_name(choices(export_format_names()));
-  app.add_option("-o,--output", options->folder, "folder of these files; default: out/ and the scene's name")
+  app.add_option("-o,--output", options->folder, "folder for the exported files; default: out/SCENE")
       ->type_name("DIR");
   app.add_option("--frames", options->frames,
-                 "export only these: 7, 0-100, 0-100x2, 10-, or several with commas")
+                 "export only these frames, such as 7, 0-100, 0-100x2 (every second), 10- (to the end), or "
+                 "several separated by commas")
       ->type_name("LIST")
       ->check(some_word());
   return [options] { return run(*options); };
@@ -158,7 +168,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command run_command() {
-  return {"run", "simulate a preset and print its figures", declare};
+  return {"run", "simulate a preset without pictures, and print its results", declare};
 }
 
 } // namespace rend

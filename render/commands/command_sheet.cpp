@@ -101,8 +101,9 @@ void paste(const Image& tile, int x, int y, Image& sheet) {
 Exit make_sheet(const SheetOptions& options) {
   require_png(); // before anything slow
   if (std::filesystem::path(options.file).extension() != ".png")
-    throw UserError(Exit::Usage, {}, fmt::format("-o {}: a contact sheet is a PNG", in_quotes(options.file)),
-                    "a name that ends in .png");
+    throw UserError(Exit::Usage, {},
+                    fmt::format("-o {}: a contact sheet is one PNG file", in_quotes(options.file)),
+                    "give a name that ends in .png");
   const PictureSize size = parse_size(options.size);
   const std::filesystem::path file = resolve_link(options.file);
   NamedFiles files;
@@ -142,26 +143,30 @@ Exit make_sheet(const SheetOptions& options) {
 
 std::function<Exit()> declare(CLI::App& app) {
   auto options = std::make_shared<SheetOptions>();
-  app.add_option("presets", options->presets, "one row each; with --ends one picture each")
+  app.add_option("presets", options->presets,
+                 "presets; each makes one row of pictures (with --ends, one picture)")
       ->required()
       ->type_name("PRESET...");
-  app.add_option("-o,--output", options->file, "the picture to write")->required()->type_name("FILE.png");
-  app.add_option("--size", options->size, "of each picture in pixels")
+  app.add_option("-o,--output", options->file, "file of the contact sheet (a file, not a folder)")
+      ->required()
+      ->type_name("FILE.png");
+  app.add_option("--size", options->size, "width and height of each picture in pixels")
       ->type_name("WxH")
       ->check(some_word())
       ->default_val("480x270");
-  app.add_option("--ends", options->ends, "one picture of each preset, its end, and so many in a row")
+  app.add_option("--ends", options->ends, "show only the end of each preset, N pictures in a row")
       ->transform(whole_number(1, 64));
-  app.add_option("--threads", options->session.threads, "threads; default: all that the machine has")
+  app.add_option("--threads", options->session.threads,
+                 "number of threads; default: as many as the machine has")
       ->transform(whole_number(1, 256));
-  app.add_flag("-q,--quiet", options->session.quiet, "no progress and no notes");
+  app.add_flag("-q,--quiet", options->session.quiet, "print no progress and no notes");
   return [options] { return make_sheet(*options); };
 }
 
 } // namespace
 
 Command sheet_command() {
-  return {"sheet", "make a contact sheet of presets: how they start, tear and end", declare};
+  return {"sheet", "make one picture that shows how presets start, tear and end", declare};
 }
 
 } // namespace rend

@@ -204,7 +204,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command study_command() {
-  return {"study", "measure the error of every scheme against its run time", declare};
+  return {"study", "measure the error of each time scheme against its run time", declare};
 }
 
 } // namespace rend

@@ -3,6 +3,9 @@
 #include "render/console/console.h"
 #include "render/console/fatal_errors.h"
 #include "render/console/signals.h"
+#include "render/console/terminal.h"
+#include "render/help/command_page.h"
+#include "render/help/folding.h"
 #include "sim/base/check.h"
 #include "sim/base/simd_width.h"
 #include "sim/base/wording.h"
@@ -22,21 +25,38 @@
 namespace rend {
 
 const std::vector<Command>& all_commands() {
-  static const std::vector<Command> commands{render_command(), batch_command(), run_command(),   info_command(),
-                                             mesh_command(),   rule_command(),  sheet_command(), diff_command(),
-                                             study_command(),  check_command(), help_command()};
+  static const std::vector<Command> commands{
+      render_command(), batch_command(), run_command(),  info_command(),  mesh_command(),  rule_command(),
+      list_command(),   sheet_command(), diff_command(), study_command(), check_command(), help_command()};
   return commands;
 }
 
 namespace {
 
+// Pages of help as rend writes them, in place of CLI11's.
+class Pages : public CLI::Formatter {
+public:
+  std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
+    std::string name = app->get_name();
+    for (const CLI::App* at = app->get_parent(); at != nullptr; at = at->get_parent())
+      name = at->get_name() + " " + name;
+    CommandUsage usage = usage_of(*app);
+    usage.footer = app->get_footer();
+    return command_page(usage, name, text_columns(stdout, page_columns));
+  }
+};
+
 std::unique_ptr<CLI::App> make_app(std::function<Exit()>& chosen) {
-  auto app = std::make_unique<CLI::App>("rend: pictures of things that tear and break.", "rend");
-  app->set_version_flag("--version", version_in_words, "print the version, its commit, and those of libraries");
-  app->set_help_flag("-h,--help", "print this page");
+  auto app = std::make_unique<CLI::App>(
+      "rend: simulates things that tear and break, and makes pictures of them.", "rend");
+  app->set_version_flag("--version", version_in_words,
+                        "print the version, the commit and the versions of libraries");
+  app->set_help_flag("-h,--help", "print this help");
   app->require_subcommand(1);
-  app->footer("rend COMMAND --help tells a command's options; rend help preset, what a preset may hold.");
-  app->get_formatter()->column_width(34);
+  app->footer(
+      "rend COMMAND --help lists the options of a command. rend help preset explains what a preset may hold, "
+      "rend help tolerances what rend diff may allow. Results go to stdout, progress and notes to stderr.");
+  app->formatter(std::make_shared<Pages>());
   for (const Command& command : all_commands()) {
     CLI::App* sub = app->add_subcommand(command.name, command.what);
     sub->callback([&chosen, run = command.declare(*sub)] { chosen = run; });
@@ -49,26 +69,84 @@ void check_command(int count, const char* const* arguments) {
   std::vector<std::string> names;
   for (const Command& command : all_commands()) names.push_back(command.name);
   const std::string first = count > 1 ? arguments[1] : "";
-  if (first.empty())
-    throw UserError(Exit::Usage, {}, "no command is given",
-                    "there are: " + listed(names) + "; rend --help says more");
   const std::string extension = std::filesystem::path(first).extension().string();
   if (first.front() != '-' && (extension == ".xml" || is_mesh_name(first)))
-    throw UserError(
-        Exit::Usage, {}, "no command is given, only " + in_quotes(first),
-        extension == ".xml"
-            ? fmt::format("rend render {0} makes pictures of it, rend run {0} its figures", in_quotes(first))
-            : fmt::format("rend mesh info {} tells about it", in_quotes(first)));
+    throw UserError(Exit::Usage, {}, "a command is missing before " + in_quotes(first),
+                    extension == ".xml"
+                        ? fmt::format("rend render {0} makes pictures of it, rend run {0} prints its results",
+                                      in_quotes(first))
+                        : fmt::format("rend mesh info {} shows what is in it", in_quotes(first)));
   if (first.front() != '-' && std::find(names.begin(), names.end(), first) == names.end())
     throw UserError(Exit::Usage, {}, "there is no command " + in_quotes(first),
                     suggestion(first, names, "there are"));
 }
 
+// Options and words that the command does not take, as they were typed.
+[[noreturn]] void refuse_extras(const CLI::App& app, const CLI::App& command, const std::string& which,
+                                int count, const char* const* arguments) {
+  std::vector<std::string> left = app.remaining(true), options, words, known;
+  for (int n = 1; n < count; ++n) {
+    const auto found = std::find(left.begin(), left.end(), arguments[n]);
+    if (found == left.end()) continue;
+    (found->size() > 1 && found->front() == '-' ? options : words).push_back(*found);
+    left.erase(found);
+  }
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  const std::string all = which + " --help lists what it takes";
+  if (options.empty())
+    throw UserError(Exit::Usage, {},
+                    fmt::format("{} does not take {}", which, in_quotes(words.empty() ? "" : words.front())),
+                    all);
+  std::string named, near;
+  for (const std::string& option : options) {
+    named += (named.empty() ? "" : ", ") + in_quotes(option);
+    const std::string best = nearest(option.substr(0, option.find('=')), known);
+    if (!best.empty()) near += (near.empty() ? "did you mean " : ", ") + in_quotes(best);
+  }
+  throw UserError(Exit::Usage, {},
+                  fmt::format("{} has no option{} {}", which, options.size() == 1 ? "" : "s", named),
+                  (near.empty() ? "" : near + "? ") + all);
+}
+
+// The command that was parsed, and what it is called with its parents.
+const CLI::App* parsed_command(const CLI::App& app, std::string& which) {
+  const CLI::App* at = &app;
+  which = "rend";
+  while (!at->get_subcommands().empty()) {
+    at = at->get_subcommands().front();
+    which += " " + at->get_name();
+  }
+  return at;
+}
+
+// CLI11 puts the name of the type behind that of an option, and does not say what is wrong with it.
+std::string in_plain_words(const CLI::ParseError& error) {
+  std::string what = error.what();
+  if (dynamic_cast<const CLI::RequiredError*>(&error)) {
+    const std::size_t at = what.find(" is required");
+    if (at != std::string::npos) return what.substr(0, at) + " is missing";
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && what.ends_with(" missing"))
+    return what.substr(0, what.find(':')) + " needs a value";
+  if (const std::size_t at = what.find(" not in {"); at != std::string::npos && what.ends_with('}')) {
+    std::string choices;
+    for (const char c : what.substr(at + 9, what.size() - at - 10))
+      choices += c == ',' ? ", " : std::string(1, c);
+    return what.substr(0, at) + " is not one of " + choices;
+  }
+  return what;
+}
+
 Exit run_command_line(int count, const char* const* arguments) {
   simd_width(); // refuses a wrong REND_SIMD before anything is done
-  check_command(count, arguments);
   std::function<Exit()> chosen;
   const std::unique_ptr<CLI::App> app = make_app(chosen);
+  if (count < 2) {
+    print_progress(short_help(usage_of(*app), text_columns(stderr, page_columns)));
+    return Exit::Usage;
+  }
+  check_command(count, arguments);
   try {
     app->parse(count, arguments);
   } catch (const CLI::ParseError& error) {
@@ -77,9 +155,10 @@ Exit run_command_line(int count, const char* const* arguments) {
       print_result(out.str());
       return Exit::Done;
     }
-    const auto subs = app->get_subcommands();
-    const std::string which = subs.empty() ? "rend" : "rend " + subs.front()->get_name();
-    throw UserError(Exit::Usage, {}, error.what(), which + " --help tells what there is");
+    std::string which;
+    const CLI::App* command = parsed_command(*app, which);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error)) refuse_extras(*app, *command, which, count, arguments);
+    throw UserError(Exit::Usage, {}, in_plain_words(error), which + " --help lists what it takes");
   }
   return chosen();
 }

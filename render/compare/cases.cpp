@@ -34,7 +34,7 @@ private:
     const fs::path real = fs::canonical(folder, error);
     if (std::find(above_.begin(), above_.end(), real) != above_.end())
       throw UserError(Exit::DiffError, {folder.string()},
-                      "this link leads back to a folder that it is in, " + in_quotes(real.string()),
+                      "this link leads back to a folder that contains it, " + in_quotes(real.string()),
                       "links to other folders are followed; remove this one");
     above_.push_back(real);
     cases_.folders.push_back(real);
@@ -67,7 +67,7 @@ private:
 bool is_folder(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw UserError(Exit::DiffError, {path.string()}, "there is no such file or folder");
+  if (!fs::exists(status)) throw UserError(Exit::NoInput, {path.string()}, "there is no such file or folder");
   return fs::is_directory(status);
 }
 
@@ -90,8 +90,8 @@ Cases cases_of(const fs::path& a, const fs::path& b) {
   Walk(b, &CasePaths::b, cases, found);
   for (auto& [name, one] : found) cases.all.push_back(std::move(one));
   if (cases.all.empty())
-    throw UserError(Exit::DiffError, {}, "there is no picture in either folder",
-                    "pictures are files called .png, in the folders or below them");
+    throw UserError(Exit::DiffError, {}, "neither folder has a picture",
+                    "pictures are files whose names end in .png, in the folders or below");
   return cases;
 }
 

@@ -21,9 +21,9 @@ struct Cases {
 };
 
 // Folders are searched recursively, links to folders included; names are compared as bytes, and every file that
-// ends in .png (or .PNG) counts. Throws UserError (DiffError) where one does not exist, for a folder against a
-// file, where neither folder contains a picture, where a folder cannot be read, and for a link to a folder that
-// contains it.
+// ends in .png (or .PNG) counts. Throws UserError: NoInput where one does not exist; DiffError for a folder
+// against a file, where neither folder contains a picture, where a folder cannot be read, and for a link to a
+// folder that contains it.
 Cases cases_of(const std::filesystem::path& a, const std::filesystem::path& b);
 
 } // namespace rend

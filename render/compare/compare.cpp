@@ -47,11 +47,11 @@ void check_room(std::size_t bytes, const fs::path& path, const PngInfo& head, co
   const Place place{path.string()};
   if (!head.is_plausible())
     throw UserError(Exit::BadInput, place,
-                    fmt::format("it says that it has {} x {} pixels, and its {} bytes cannot hold them",
-                                head.width, head.height, head.file_bytes));
+                    fmt::format("its header says {} x {} pixels, but its {} bytes cannot hold them", head.width,
+                                head.height, head.file_bytes));
   throw UserError(Exit::DiffError, place,
-                  fmt::format("it has {} x {} pixels in {} bytes: that would take {:.3g} GB of memory, and "
-                              "there are {:.3g} GB for it",
+                  fmt::format("it has {} x {} pixels in {} bytes: comparing it takes {:.3g} GB of memory, and "
+                              "{:.3g} GB are available",
                               head.width, head.height, head.file_bytes, static_cast<double>(bytes) / 1e9,
                               static_cast<double>(memory.whole()) / 1e9));
 }
@@ -79,7 +79,7 @@ struct Side {
   static std::vector<std::uint8_t> bytes_of(const fs::path& path, const PngInfo& head) {
     std::vector<std::uint8_t> bytes = file_bytes(path);
     if (png_info(bytes, path.string()) != head)
-      throw UserError(Exit::BadInput, {path.string()}, "it changes while it is read");
+      throw UserError(Exit::BadInput, {path.string()}, "it changed while it was read");
     return bytes;
   }
 
@@ -124,7 +124,7 @@ PngInfo head_of_mask(const fs::path& path, const PngInfo& picture) {
   const PngInfo head = png_info(path);
   if (!same_size(head, picture))
     throw UserError(Exit::BadInput, {path.string()},
-                    fmt::format("the mask has {} x {} pixels, and the pictures have {} x {}", head.width,
+                    fmt::format("the mask has {} x {} pixels, but the pictures have {} x {}", head.width,
                                 head.height, picture.width, picture.height));
   return head;
 }
@@ -145,9 +145,13 @@ void judge(Sides& sides, bool equal, const PngInfo& mask_head, const CompareOpti
   Picture a = taken(sides[0].image);
   Picture b = equal ? a : taken(sides[1].image);
   Metrics metrics = measure(std::move(a), std::move(b), mask,
-                            {options.tolerance.threshold, options.tolerance.window_side, options.threads});
+                            {options.tolerance.threshold, options.tolerance.window_side, options.threads,
+                             options.tolerance.leave_out_smoothed});
   for (const Excess& excess : excesses(options.tolerance, metrics)) out.why.push_back(excess.text());
   if (metrics.difference.counted == 0) out.notes.emplace_back("the mask leaves no pixel to compare");
+  if (metrics.smoothed > 0)
+    out.notes.push_back(fmt::format("{} pixel{} left out as smoothed edges", metrics.smoothed,
+                                    metrics.smoothed == 1 ? "" : "s"));
   out.state = out.why.empty() ? CaseState::Match : CaseState::Differ;
   if (options.heat && out.state == CaseState::Differ && !metrics.flip_map.empty())
     out.heat = encode_png(heat_of(metrics.flip_map, out.width, out.height, mask));
@@ -187,8 +191,8 @@ void compare_both(const CompareOptions& options, MemoryBudget& memory, CaseResul
   note_kinds(sides[0].image, sides[equal ? 0 : 1].image, out);
   if (!same) {
     out.state = CaseState::Size;
-    out.why = {fmt::format("{} x {} pixels are expected, and there are {} x {}", a.width, a.height, b.width,
-                           b.height)};
+    out.why = {
+        fmt::format("{} x {} pixels are expected, but it has {} x {}", a.width, a.height, b.width, b.height)};
     return;
   }
   judge(sides, equal, mask, options, out);
@@ -198,7 +202,8 @@ void compare_or_throw(const CompareOptions& options, MemoryBudget& memory, CaseR
   if (!out.paths.a.empty() && !out.paths.b.empty()) return compare_both(options, memory, out);
   const bool is_new = out.paths.a.empty();
   out.state = is_new ? CaseState::New : CaseState::Missing;
-  out.why = {is_new ? "nothing is expected of this name" : "it is expected, and not there"};
+  out.why = {is_new ? "there is no expected picture of this name; --update adds it"
+                    : "it is expected, but missing; --update removes it from what is expected"};
   look_at_one(is_new ? out.paths.b : out.paths.a, memory, out);
 }
 

@@ -29,6 +29,7 @@ const Limit* find_limit(const std::string& name); // null if there is none
 struct Tolerance {
   double threshold = 0;                 // [levels] see MeasureOptions
   int window_side = 16;                 // [pixels]
+  bool leave_out_smoothed = false;      // edges that are smoothed differently (antialiasing.h)
   std::map<std::string, double> limits; // by name
   bool lifted = false; // "any" was given for a limit: if no other limit is left, anything matches
 };

@@ -1,5 +1,6 @@
 #include "render/compare/metrics.h"
 
+#include "render/compare/antialiasing.h"
 #include "render/compare/flip.h"
 #include "render/compare/percentile.h"
 #include "render/compare/ssim.h"
@@ -31,14 +32,25 @@ FlipFigures flip_figures(const Levels& map, const Mask& mask) {
 
 } // namespace
 
-Metrics measure(Picture a, Picture b, const Mask& mask, const MeasureOptions& options) {
+namespace {
+
+// By what is seen: over white, as pixelmatch does.
+Mask compared_pixels(const Picture& a, const Picture& b, const Mask& mask, Metrics& out) {
+  if (!a.alpha && !b.alpha) return without_smoothed(a, b, mask, out.smoothed);
+  return without_smoothed(over_white(a), over_white(b), mask, out.smoothed);
+}
+
+} // namespace
+
+Metrics measure(Picture a, Picture b, const Mask& given, const MeasureOptions& options) {
   CHECK(a.width == b.width && a.height == b.height);
   if (a.alpha || b.alpha) {
     add_alpha(a);
     add_alpha(b);
   }
-  mask_out(mask, a, b);
   Metrics out;
+  const Mask mask = options.leave_out_smoothed ? compared_pixels(a, b, given, out) : given;
+  mask_out(mask, a, b);
   out.difference = difference_of(a, b, mask, options.threads);
   out.over = over_threshold(out.difference, a.width, a.height, options.threshold, options.window_side);
   if (out.difference.differing == 0) return out; // equal pictures: SSIM is 1, FLIP 0

@@ -13,31 +13,40 @@ namespace {
 
 std::vector<AttributeType> settings() {
   std::vector<AttributeType> out{
-      number("threshold", "levels", "above it a pixel counts for share and window; 0 without it")
+      number("threshold", "levels",
+             "for share and window: a pixel counts if it differs by more than this; default 0")
           .at_least(0)
           .at_most(255),
-      integer("window-size", "sides of the window [pixels]; 16 without it").at_least(1).at_most(4096)};
+      integer("window-size", "for window: the side of the window [pixels]; default 16")
+          .at_least(1)
+          .at_most(4096)};
+  out.push_back(
+      word("antialiased", {"count", "ignore"},
+           "ignore: pixels that differ only because an edge is smoothed differently are left out (the "
+           "rule of pixelmatch; it may also leave out a crack one pixel wide); default count"));
   for (const Limit& limit : all_limits())
     out.push_back(number_or(limit.name, {"any"}, limit.unit,
                             limit.what + (limit.kind == LimitKind::AtLeast ? ", at least" : ", at most"))
                       .at_least(limit.low)
                       .at_most(limit.high));
-  out.push_back(text(
-      "mask", "a PNG of the pictures' size, in this file's folder or below: white counts, black does not"));
+  out.push_back(text("mask", "a PNG of the pictures' size, in this file's folder or below: white pixels are "
+                             "compared, black ones are not"));
   return out;
 }
 
 const ElementType& default_type() {
-  static const ElementType type{"default", "what holds for every picture", settings(), {}};
+  static const ElementType type{"default", "limits for every picture", settings(), {}};
   return type;
 }
 
 const ElementType& case_type() {
   static const ElementType type = [] {
     std::vector<AttributeType> attributes = settings();
-    attributes.insert(attributes.begin(),
-                      text("name", "which pictures: a name within the folders, with * and ?").is_required());
-    return ElementType{"case", "what holds for the pictures of a name", attributes, {}};
+    attributes.insert(
+        attributes.begin(),
+        text("name", "which pictures: the path within the folders; * and ? are wildcards").is_required());
+    return ElementType{
+        "case", "limits for the pictures of a name; later cases replace earlier ones", attributes, {}};
   }();
   return type;
 }
@@ -49,6 +58,7 @@ bool fits(const PresetNode& one, const std::string& name) {
 void apply(const PresetNode& node, const std::filesystem::path& folder, CompareOptions& options) {
   if (node.given("threshold")) options.tolerance.threshold = node.number("threshold");
   if (node.given("window-size")) options.tolerance.window_side = node.integer("window-size");
+  if (node.given("antialiased")) options.tolerance.leave_out_smoothed = node.text("antialiased") == "ignore";
   if (node.given("mask")) options.mask = node.text("mask").empty() ? "" : folder / node.text("mask");
   for (const Limit& limit : all_limits()) {
     if (!node.given(limit.name)) continue;
@@ -104,8 +114,8 @@ std::unique_ptr<PresetNode> node_of(const std::string& name, const std::string& 
 const ElementType& tolerances_type() {
   static const ElementType type{
       "tolerances",
-      "what pictures may differ by and still match; without a limit they must be equal",
-      {word("version", {"1"}, "of this format").otherwise("1")},
+      "the differences that are allowed between pictures; without a limit they must be equal",
+      {word("version", {"1"}, "version of this format").otherwise("1")},
       {{&default_type(), 0, 1}, {&case_type(), 0, -1}}};
   return type;
 }
@@ -120,7 +130,7 @@ void Tolerances::add(const std::string& setting) {
   const std::size_t at = setting.find('=');
   if (at == std::string::npos)
     throw UserError(Exit::Usage, {}, "--limit: " + in_quotes(setting) + " has no '='",
-                    "say what and how much: --limit share=0.001");
+                    "write NAME=VALUE, such as --limit share=0.001");
   settings_.push_back({setting.substr(0, at), setting.substr(at + 1)});
   node_of(settings_.back().first, settings_.back().second);
 }
@@ -138,12 +148,12 @@ CompareOptions Tolerances::of(const std::string& name) const {
 std::vector<std::string> Tolerances::remarks(const std::vector<std::string>& names) const {
   std::vector<std::string> out;
   for (const std::string& pattern : unused(names))
-    out.emplace_back("the tolerances name " + in_quotes(pattern) + ", and no picture is called so");
+    out.emplace_back("the tolerances have a case " + in_quotes(pattern) + ", but no picture has that name");
   const auto look_at = [&](const PresetNode& node, const std::string& where) {
     if (has_no_effect(*this, node, "threshold", {"share", "window"}, names))
-      out.push_back(where + " gives a threshold, which changes nothing without a limit on share or window");
+      out.push_back(where + " gives a threshold, which has no effect without a limit on share or window");
     if (has_no_effect(*this, node, "window-size", {"window"}, names))
-      out.push_back(where + " gives a window-size, which changes nothing without a limit on window");
+      out.push_back(where + " gives a window-size, which has no effect without a limit on window");
   };
   if (file_)
     for (const auto& child : file_->children()) look_at(*child, child->place().text());

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fnmatch.h>
 #include <map>
 #include <utility>
 
@@ -22,7 +24,8 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
     bool found = false;
     for (std::size_t n = 0; n < cases.size(); ++n) {
       const std::string& one = cases[n].name;
-      if (one != name && one != name + ".png" && !one.starts_with(folder)) continue;
+      const bool fits = fnmatch(name.c_str(), one.c_str(), 0) == 0;
+      if (!fits && one != name && one != name + ".png" && !one.starts_with(folder)) continue;
       out.insert(n);
       found = true;
     }
@@ -32,20 +35,30 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
     const std::string near = nearest(name, all);
     throw UserError(Exit::Usage, {},
                     "--update: no picture is called " + in_quotes(name) + ", and no folder of them",
-                    near.empty() ? "name one as it is reported" : "did you mean " + in_quotes(near) + "?");
+                    near.empty() ? "name one as it is reported, or a pattern such as 'tear/*'"
+                                 : "did you mean " + in_quotes(near) + "?");
   }
   return out;
 }
 
 namespace {
 
-// Checks the source of one copy; all are checked before anything is written.
-void check_source(const CaseResult& one, MemoryBudget& memory) {
-  if (one.paths.b.empty())
-    throw UserError(Exit::DiffError, {one.paths.a.string()},
-                    fmt::format("--update: there is no {} now", one.paths.name),
-                    "if it is not expected any more, remove that file yourself; nothing was updated");
-  check_picture(one.paths.b, memory);
+// Whether the current picture can take the place of the expected one.
+bool is_well(const CaseResult& one, MemoryBudget& memory) {
+  try {
+    check_picture(one.paths.b, memory);
+    return true;
+  } catch (const UserError&) { // reported as the state of this case
+    return false;
+  }
+}
+
+// A render that failed altogether must not empty what is expected.
+void check_that_some_are_there(const std::vector<CaseResult>& results) {
+  const auto is_there = [](const CaseResult& one) { return !one.paths.b.empty(); };
+  if (std::any_of(results.begin(), results.end(), is_there)) return;
+  throw UserError(Exit::DiffError, {}, "--update would remove every expected picture, for not one is there now",
+                  "check the folder NOW; to remove them all, delete the folder of expected pictures yourself");
 }
 
 // Temporary copies beside the files that they will replace; removed if not committed. Their descriptors are
@@ -79,6 +92,10 @@ public:
     file.write(bytes);
     file.commit();
   }
+  void remove(const fs::path& path) {
+    removed_.push_back(path);
+    folders_.insert(fs::weakly_canonical(path).parent_path());
+  }
   // Allocates no memory, so that even when none is left all files are replaced or none.
   void commit() {
     for (; !all_.empty(); all_.erase(all_.begin())) {
@@ -86,6 +103,11 @@ public:
       std::error_code error;
       fs::rename(all_.begin()->second.part, path, error);
       if (error) throw UserError(Exit::ReadWrite, {path.string()}, "it cannot be replaced: " + error.message());
+    }
+    for (const fs::path& path : removed_) {
+      std::error_code error;
+      fs::remove(path, error);
+      if (error) throw UserError(Exit::ReadWrite, {path.string()}, "it cannot be removed: " + error.message());
     }
     for (const fs::path& folder : folders_) sync_folder(folder);
   }
@@ -96,19 +118,32 @@ private:
     fs::path from, part;
     TemporaryPath temporary{part.c_str()};
   };
-  std::map<fs::path, Part> all_; // by the path that is replaced, with links resolved
-  std::set<fs::path> folders_;   // the folders of these files
+  std::map<fs::path, Part> all_;  // by the path that is replaced, with links resolved
+  std::vector<fs::path> removed_; // expected pictures that are missing now
+  std::set<fs::path> folders_;    // the folders of these files
 };
 
 } // namespace
 
+std::set<std::size_t> updatable(const std::vector<CaseResult>& results, const std::set<std::size_t>& which,
+                                MemoryBudget& memory) {
+  std::set<std::size_t> out;
+  if (!which.empty()) check_that_some_are_there(results);
+  for (const std::size_t n : which)
+    if (results[n].state != CaseState::Match && (results[n].paths.b.empty() || is_well(results[n], memory)))
+      out.insert(n);
+  return out;
+}
+
 void update_expected(const std::vector<CaseResult>& results, const std::set<std::size_t>& which,
-                     const fs::path& expected, MemoryBudget& memory) {
-  for (const std::size_t n : which) check_source(results[n], memory);
+                     const fs::path& expected) {
   PendingCopies parts;
   for (const std::size_t n : which) {
     const CasePaths& paths = results[n].paths;
-    parts.add(paths.a.empty() ? expected / paths.name : paths.a, paths.b);
+    if (paths.b.empty())
+      parts.remove(paths.a);
+    else
+      parts.add(paths.a.empty() ? expected / paths.name : paths.a, paths.b);
   }
   parts.commit();
 }

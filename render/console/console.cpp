@@ -70,7 +70,7 @@ void print_progress(std::string_view text) {
 }
 
 void note_fewer_threads() {
-  print_note("not all threads could be started that were wanted; with fewer this takes longer");
+  print_note("the system could not start all threads; with fewer, this takes longer");
 }
 
 std::string seconds_in_words(double seconds) {

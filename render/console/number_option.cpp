@@ -27,7 +27,7 @@ template <class T> CLI::Validator number_between(T low, T high, const char* kind
   const auto read = [=](std::string& text) -> std::string {
     const std::optional<T> value = number_in<T>(text);
     if (!value || !(*value >= low && *value <= high)) // also refuses nan
-      return fmt::format("{} is no {} from {} to {}", in_quotes(text), what, low, high);
+      return fmt::format("{} is not a {} from {} to {}", in_quotes(text), what, low, high);
     text = fmt::format("{}", *value);
     return {};
   };
@@ -45,7 +45,7 @@ CLI::Validator real_number(double low, double high) {
 }
 
 CLI::Validator some_word() {
-  return {[](std::string& text) { return std::string(text.empty() ? "'' says nothing" : ""); }, ""};
+  return {[](std::string& text) { return std::string(text.empty() ? "the value is empty" : ""); }, ""};
 }
 
 } // namespace rend

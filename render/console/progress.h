@@ -1,10 +1,21 @@
-// Progress of a run on stderr: a bar on a terminal, a line every few seconds elsewhere, nothing if quiet.
+// Progress of a run on stderr: a bar on a terminal, a line every ten seconds elsewhere, nothing if quiet.
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <string>
+#include <vector>
 
 namespace rend {
+
+// What a bar tells, the most important first; what does not fit is left out.
+struct ProgressParts {
+  double share = 0;                // of the steps, 0 to 1
+  std::vector<std::string> pieces; // "12 s left", "0.10 of 4.00 s", ...
+};
+
+// A bar with its pieces in at most `columns`, which are at least 4; `colour` adds codes, which take no columns.
+std::string bar_line(const ProgressParts& parts, std::size_t columns, bool colour);
 
 class Progress {
 public:
@@ -23,7 +34,7 @@ private:
     double at = 0; // wall clock [s]
     long step = 0, frame = 0;
   };
-  std::string line(const Sample& now, double time) const;
+  ProgressParts parts(const Sample& now, double time) const;
 
   bool quiet_, terminal_, colour_;
   long steps_, frames_;

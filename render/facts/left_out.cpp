@@ -9,9 +9,7 @@ namespace {
 void add_folded(const Body& body, std::vector<std::string>& out) {
   const Program& program = *body.program;
   if (program.folded().empty()) {
-    out.push_back(
-        "rows of parallel springs folded into one: a law asks for the forces of each element, and the scheme "
-        "evaluates but those");
+    out.push_back("merging of parallel springs: a <tear> needs the force of each element");
     return;
   }
   if (!program.options().fold) return;
@@ -25,10 +23,9 @@ void add_folded(const Body& body, std::vector<std::string>& out) {
     });
     const std::size_t rows = binder.rows().live_count();
     if (units > rows)
-      out.push_back(
-          fmt::format("rows of parallel springs: {} of {} act between particles that others join, and share "
-                      "a row",
-                      units - rows, binder.interaction()->name));
+      out.push_back(fmt::format(
+          "parallel springs: {} of {} act between vertices that another one joins, and are merged with it",
+          units - rows, binder.interaction()->name));
   }
 }
 
@@ -36,27 +33,26 @@ void add_undamped(const Body& body, std::vector<std::string>& out) {
   std::string names;
   for (const auto& interaction : body.interactions)
     if (!interaction->damped) names += (names.empty() ? "" : ", ") + interaction->name;
-  if (!names.empty()) out.push_back(fmt::format("velocities in forces: no damping of {}", names));
+  if (!names.empty()) out.push_back(fmt::format("damping: none of {}", names));
 }
 
 void add_laws(const Body& body, std::vector<std::string>& out) {
   if (body.corner_force.empty())
-    out.push_back(
-        "forces on element corners, and rows for them: no law compares the forces of single elements");
+    out.push_back("forces of single elements: no <tear> compares them");
   else if (body.view().corner_buffer)
     out.push_back(
-        "forces on element corners in every step: sums of sizes tell where none can exceed the threshold");
+        "forces of single elements in most steps: an upper bound tells when none can exceed the threshold");
   if (!body.fragment_counter)
-    out.emplace_back("births of fragments at each change: asked for by rend run --events alone");
+    out.emplace_back("fragments counted at each tear: only rend run --events needs it");
 }
 
 void add_contact(const Scene& scene, const Body& body, std::vector<std::string>& out) {
   if (!body.floor_contact && !scene.world().floor)
-    out.emplace_back("contact with the floor: the world has none");
+    out.emplace_back("contact with the floor: there is no floor");
   if (!body.contact || !body.contact->faces())
-    out.emplace_back("contact of faces: the body is in contact with neither obstacles nor fragments");
+    out.emplace_back("contact of faces: the body collides with neither obstacles nor fragments");
   else if (!body.contact->fragments)
-    out.emplace_back("contact between fragments and bodies: <contact> does not name them");
+    out.emplace_back("contact between fragments and bodies: not in <contact with>");
 }
 
 } // namespace
@@ -68,10 +64,9 @@ std::vector<std::string> left_out_of(const Scene& scene, const Body& body) {
   add_laws(body, out);
   add_contact(scene, body, out);
   if (!body.assembly)
-    out.push_back(fmt::format("matrix of stiffness and its solver: '{}' does not solve", scene.scheme().name));
+    out.push_back(fmt::format("stiffness matrix and solver: '{}' solves no system", scene.scheme().name));
   if (body.integrator->bytes() == 0)
-    out.push_back(
-        fmt::format("arrays of the scheme: '{}' needs none besides the two states", scene.scheme().name));
+    out.push_back(fmt::format("arrays of the scheme: '{}' needs none", scene.scheme().name));
   if (body.probes.empty()) out.emplace_back("probes and answers: none");
   return out;
 }
@@ -81,10 +76,10 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   const World& world = scene.world();
   if (world.gravity.isZero(0)) out.emplace_back("gravity: none");
   if (!world.wind) out.emplace_back("wind: none");
-  if (!world.has_obstacles()) out.emplace_back("obstacles: neither sphere nor box");
-  if (!world.floor) out.emplace_back("floor: none is drawn, and so no shadow on it");
-  if (!scene.contacts()) out.emplace_back("contacts beyond a body's own with the floor: no body asks for any");
-  out.emplace_back("surfaces, and all that draws: rend render makes them, rend run does not");
+  if (!world.has_obstacles()) out.emplace_back("obstacles: none");
+  if (!world.floor) out.emplace_back("floor: none, and so no shadow on it");
+  if (!scene.contacts()) out.emplace_back("contact other than with the floor: no body asks for it");
+  out.emplace_back("surfaces and drawing: only rend render makes them");
   return out;
 }
 

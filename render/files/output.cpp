@@ -91,9 +91,10 @@ void check_what_is_there(const fs::path& path, const fs::file_status& there) {
     throw UserError(Exit::CannotCreate, {path.string()}, "a folder of this name is in the way.",
                     "Choose another name for the output.");
   if (fs::is_other(there) && there.type() != fs::file_type::unknown) // unknown: opening it will report why
-    throw UserError(
-        Exit::CannotCreate, {path.string()}, "this is no ordinary file, and would be replaced by one.",
-        "Name a file; what is written appears whole or not at all, which a pipe or device cannot do.");
+    throw UserError(Exit::CannotCreate, {path.string()},
+                    "this is not a regular file, and would be replaced by one.",
+                    "Name a regular file; rend writes a file completely or not at all, which pipes and devices "
+                    "do not allow.");
 }
 
 } // namespace
@@ -104,8 +105,9 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
     : path_(path), base_temporary_(temporary.empty() ? path.string() + ".part"
                                                      : (path.parent_path() / temporary.filename()).string()) {
   if (path_ == "-")
-    throw UserError(Exit::Usage, {}, "'-' is no file, and what is written there appears whole or not at all",
-                    "name a file; ./- is one of that name");
+    throw UserError(Exit::Usage, {},
+                    "'-' (standard output) is not possible here: rend writes a file completely or not at all",
+                    "name a file; a file called - is written as ./-");
   std::error_code error;
   const fs::file_status there = fs::symlink_status(path_, error);
   if (!fs::is_symlink(there)) check_what_is_there(path_, there);

@@ -117,7 +117,7 @@ bool png_available() {
 }
 void require_png() {
   throw UserError(Exit::Usage, {}, "this rend was built without PNG",
-                  "ask for a video alone (--video mp4 --no-png), or build with -DREND_PNG=ON");
+                  "make only a video (--video mp4 --no-png), or build rend with -DREND_PNG=ON");
 }
 std::vector<std::uint8_t> encode_png(const Image&, const PngText&) {
   require_png();

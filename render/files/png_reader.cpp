@@ -24,9 +24,9 @@ File opened(const std::filesystem::path& path) {
   const Place place{path.string()};
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
-    throw UserError(Exit::NoInput, place, "this is a folder, and no picture");
+    throw UserError(Exit::NoInput, place, "this is a folder, not a picture");
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-    throw UserError(Exit::NoInput, place, "this is no ordinary file");
+    throw UserError(Exit::NoInput, place, "this is not a regular file");
   File file(std::fopen(path.c_str(), "rb"));
   if (!file)
     throw UserError(Exit::NoInput, place, fmt::format("it cannot be opened: {}", std::strerror(errno)));
@@ -220,7 +220,7 @@ void check_signature(std::span<const std::uint8_t> bytes, const Place& place) {
   if (has_png_signature(bytes)) return;
   const std::string other = other_kind(bytes);
   throw UserError(Exit::BadInput, place,
-                  other.empty() ? "this is no PNG" : "this is " + other + ", and no PNG");
+                  other.empty() ? "this is not a PNG file" : "this is " + other + ", not a PNG file");
 }
 
 // Pixels as libpng returns them: RGB or RGBA, 8 bits a channel, or 16 bits in native byte order.
@@ -233,7 +233,7 @@ struct Decoded {
 void check_pixels(std::size_t width, std::size_t height, const Place& place) {
   if (width * height > static_cast<std::size_t>(max_png_pixels))
     throw UserError(Exit::BadInput, place,
-                    fmt::format("it says that it has {} x {} pixels, and at most {} are read", width, height,
+                    fmt::format("its header says {} x {} pixels, but rend reads at most {}", width, height,
                                 max_png_pixels));
 }
 
@@ -250,10 +250,10 @@ void check_data(const Reader& reader, std::span<const std::uint8_t> bytes, const
                          png_get_interlace_type(reader.png, reader.info)};
   const PngData data = png_data(bytes);
   if (png_rows_bytes(header) <= most_inflated * data.bytes) return;
-  const std::string why = data.cut_off ? "it is cut off"
-                                       : fmt::format("it says that it has {} x {} pixels, and its {} bytes of "
-                                                     "data cannot hold them",
-                                                     width, height, data.bytes);
+  const std::string why =
+      data.cut_off ? "it is cut off"
+                   : fmt::format("its header says {} x {} pixels, but its {} bytes of data cannot hold them",
+                                 width, height, data.bytes);
   throw UserError(Exit::BadInput, place, "the PNG cannot be read: " + why);
 }
 

@@ -173,13 +173,14 @@ void require_encoder(const VideoFormat& format) {
   throw UserError(
       Exit::CannotCreate, {},
       fmt::format("this machine's FFmpeg libraries cannot write {}: they lack {}", format.name, format.encoder),
-      others.empty() ? "install libavcodec with it, or make PNG files alone"
-                     : "install libavcodec with it, or take one that they can write: " + listed(others));
+      others.empty()
+          ? "install a libavcodec that has it, or make only PNG files"
+          : "install a libavcodec that has it, or choose a format that it can write: " + listed(others));
 }
 
 void require_video(const std::string& name) {
   if (const VideoFormat* format = find_video_format(name)) return require_encoder(*format);
-  throw UserError(Exit::Usage, {}, fmt::format("{} is no kind of video that is known here", in_quotes(name)),
+  throw UserError(Exit::Usage, {}, fmt::format("rend writes no videos of the format {}", in_quotes(name)),
                   suggestion(name, video_format_names(), "there are"));
 }
 

@@ -43,7 +43,8 @@ std::string joined_by_blanks(const std::vector<std::string>& words) {
 }
 
 std::string first_phrase(const std::string& what) {
-  return what.substr(0, std::min({what.find(": "), what.find("; "), what.find(" ("), what.size()}));
+  return what.substr(
+      0, std::min({what.find(": "), what.find("; "), what.find(" ("), what.find('\n'), what.size()}));
 }
 
 const std::vector<Shell>& all_shells() {

@@ -11,10 +11,9 @@
 namespace rend {
 namespace {
 
-constexpr std::size_t page_width = 100; // columns
-
 struct Style {
   bool colour;
+  std::size_t columns;
   std::string strong(std::string_view text) const { return wrap("\033[1m", text); }
   std::string faint(std::string_view text) const { return wrap("\033[2m", text); }
 
@@ -40,21 +39,28 @@ std::string value_text(const AttributeType& attribute) {
   return out + (attribute.fallback->empty() ? "; default empty" : "; default " + *attribute.fallback);
 }
 
+// "    name  " and `lines` beside it, or below it where the page is narrow.
+void print_item(const std::string& name, std::size_t longest, const std::string& what, const std::string& value,
+                const Style& style, std::string& out) {
+  const bool beside = style.columns >= longest + 36;
+  const std::size_t indent = beside ? 4 + longest + 2 : 6;
+  out += "    " + style.strong(name) + (beside ? std::string(longest + 2 - width(name), ' ') : "\n");
+  std::string gap = beside ? "" : std::string(indent, ' ');
+  for (const std::string& line : folded(what, style.columns - indent)) {
+    out += gap + line + '\n';
+    gap.assign(indent, ' ');
+  }
+  if (value.empty()) return;
+  for (const std::string& line : folded(value, style.columns - indent))
+    out += std::string(indent, ' ') + style.faint(line) + '\n';
+}
+
 // A row per attribute: name, description and type, aligned after the column of names.
 void print_attributes(const ElementType& type, const Style& style, std::string& out) {
   std::size_t longest = 8;
   for (const AttributeType& attribute : type.attributes) longest = std::max(longest, width(attribute.name));
-  const std::size_t indent = 4 + longest + 2;
-  for (const AttributeType& attribute : type.attributes) {
-    out += "    " + style.strong(attribute.name) + std::string(longest + 2 - width(attribute.name), ' ');
-    std::string gap;
-    for (const std::string& line : folded(attribute.what, page_width - indent)) {
-      out += gap + line + '\n';
-      gap.assign(indent, ' ');
-    }
-    for (const std::string& line : folded(value_text(attribute), page_width - indent))
-      out += std::string(indent, ' ') + style.faint(line) + '\n';
-  }
+  for (const AttributeType& attribute : type.attributes)
+    print_item(attribute.name, longest, attribute.what, value_text(attribute), style, out);
 }
 
 void print_entry(const TableEntry& entry, const Style& style, std::string& out) {
@@ -63,7 +69,7 @@ void print_entry(const TableEntry& entry, const Style& style, std::string& out) 
     const std::string count = is_root ? "the root" : multiplicity(place.at_least, place.at_most);
     out += style.strong(place.path) + style.faint("  (" + count + ")") + '\n';
   }
-  for (const std::string& line : folded(entry.type->what, page_width - 2)) out += "  " + line + '\n';
+  for (const std::string& line : folded(entry.type->what, style.columns - 2)) out += "  " + line + '\n';
   if (!entry.type->attributes.empty()) {
     out += "  Attributes:\n";
     print_attributes(*entry.type, style, out);
@@ -72,16 +78,10 @@ void print_entry(const TableEntry& entry, const Style& style, std::string& out) 
   std::size_t longest = 8;
   for (const ChildType& child : entry.type->children) longest = std::max(longest, width(child.type->name));
   out += "  Elements:\n";
-  for (const ChildType& child : entry.type->children) {
-    out += "    " + style.strong(child.type->name) + std::string(longest + 2 - width(child.type->name), ' ');
-    const std::string what =
-        fmt::format("{} ({})", child.type->what, multiplicity(child.at_least, child.at_most));
-    std::string gap;
-    for (const std::string& line : folded(what, page_width - (4 + longest + 2))) {
-      out += gap + line + '\n';
-      gap.assign(4 + longest + 2, ' ');
-    }
-  }
+  for (const ChildType& child : entry.type->children)
+    print_item(child.type->name, longest,
+               fmt::format("{} ({})", child.type->what, multiplicity(child.at_least, child.at_most)), {}, style,
+               out);
 }
 
 // Whether `asked` is the entry's name or one of its paths, with or without the root's name.
@@ -96,18 +96,24 @@ bool matches(const TableEntry& entry, const std::string& root, const std::string
 
 std::string introduction(const ElementType& root) {
   return fmt::format(
-      "A preset is an XML file with one <{0}>. Elements may stand in any order. Units are SI; vectors "
-      "are numbers separated by blanks. On the command line, --set PATH=VALUE replaces an attribute; "
-      "a path is written as below without \"{0}.\", and ends with the attribute's name.",
+      "A preset is an XML file with one <{0}>. Elements may be in any order. Units are SI; vectors are numbers "
+      "separated by spaces. On the command line, --set PATH=VALUE replaces an attribute: write the path as "
+      "below, without \"{0}.\", and end it with the attribute's name, as in --set time.step=1e-4.",
       root.name);
 }
 
-std::string help_preset(const ElementType& root, const std::optional<std::string>& element, bool colour) {
-  const Style style{colour};
+std::string help_preset(const ElementType& root, const std::optional<std::string>& element, bool colour,
+                        std::size_t columns) {
+  return help_elements(root, introduction(root), element, colour, columns);
+}
+
+std::string help_elements(const ElementType& root, const std::string& opening,
+                          const std::optional<std::string>& element, bool colour, std::size_t columns) {
+  const Style style{colour, columns};
   const std::vector<TableEntry> entries = table_entries(root);
   std::string out;
   if (!element) {
-    for (const std::string& line : folded(introduction(root), page_width)) out += line + '\n';
+    for (const std::string& line : folded(opening, columns)) out += line + '\n';
   }
   bool found = false;
   for (const TableEntry& entry : entries) {
@@ -120,7 +126,9 @@ std::string help_preset(const ElementType& root, const std::optional<std::string
   std::set<std::string> names;
   for (const TableEntry& entry : entries) names.insert(entry.type->name);
   const std::vector<std::string> list(names.begin(), names.end());
-  throw UserError(Exit::Usage, {}, fmt::format("a preset has no element {}", in_quotes(*element)),
+  throw UserError(Exit::Usage, {},
+                  fmt::format("{} has no element {}", root.name == "scene" ? "a preset" : "<" + root.name + ">",
+                              in_quotes(*element)),
                   suggestion(*element, list, "there are"));
 }
 

@@ -12,13 +12,15 @@
 namespace rend {
 namespace {
 
-// Escapes text for troff: a dot or quote at the start of a line would be a request, and a minus must stay
-// ASCII.
+// Escapes text for troff: a dot or quote at the start of a line would be a request, a minus must stay ASCII,
+// and a line end is to be seen.
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if ((out.empty() || out.back() == '\n') && (c == '.' || c == '\'')) out += "\\&";
-    if (c == '\\')
+    if (c == '\n')
+      out += "\n.br\n";
+    else if (c == '\\')
       out += "\\e";
     else if (c == '-')
       out += "\\-";

@@ -1,5 +1,6 @@
 #include "render/help/rule_page.h"
 
+#include "render/help/folding.h"
 #include "sim/expression/functions.h"
 #include "sim/rules/rule_values.h"
 
@@ -10,8 +11,6 @@
 
 namespace rend {
 namespace {
-
-constexpr std::size_t page_columns = 100; // columns
 
 constexpr const char* page_language =
     R"page(A rule changes the map of a body: where its left graph matches, its right graph takes the place.
@@ -24,7 +23,7 @@ reached from a dart by some of the links is an orbit, and cells are orbits: vert
 <0,2,3>, face <0,1,3>, the same of one volume (or of a sheet) <0,1>, volume <0,1,2>, component
 <0,1,2,3>. A hole's border is none: a rule matches it dart by dart, or edge by edge.
 
-GRAPHS. left="..." and right="..." hold items in any order, separated by blanks:
+GRAPHS. left="..." and right="..." hold items in any order, separated by spaces:
   a*(0,1)  a hook: it stands for all darts of an orbit at once, here for those of one face. Each
            connected part of the left graph has one hook, and the right graph has none.
   b(_,2)   a node: one dart beside each dart of the hook's orbit. Position k of its label tells what
@@ -90,18 +89,11 @@ constexpr const char* page_examples =
 </rules>
 )page";
 
-// Columns of UTF-8 text.
-std::size_t columns_of(const std::string& text) {
-  std::size_t count = 0;
-  for (char c : text) count += (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
-  return count;
-}
-
 // Items one after another, on lines that are indented by two.
 std::string folded_items(const std::vector<std::string>& items, const std::string& indent) {
   std::string out, line;
   for (const std::string& item : items) {
-    if (!line.empty() && columns_of(line) + 1 + columns_of(item) > page_columns) {
+    if (!line.empty() && width(line) + 1 + width(item) > page_columns) {
       out += line + "\n";
       line.clear();
     }

@@ -1,5 +1,6 @@
 #include "render/help/schema.h"
 
+#include "render/help/folding.h"
 #include "render/help/table.h"
 #include "sim/base/check.h"
 #include "sim/base/markup.h"
@@ -49,7 +50,8 @@ private:
   }
   void documentation(std::string_view text) {
     if (text.empty()) return;
-    line(fmt::format("<xs:annotation><xs:documentation>{}</xs:documentation></xs:annotation>", escaped(text)));
+    line(fmt::format("<xs:annotation><xs:documentation>{}</xs:documentation></xs:annotation>",
+                     escaped(on_one_line(text))));
   }
 
   // Excludes INF and NaN, which xs:double allows and presets do not.

@@ -11,10 +11,11 @@
 namespace rend {
 namespace {
 
-constexpr std::size_t page_width = 100, first_width = 22, gap = 2; // columns
+constexpr std::size_t first_width = 22, gap = 2; // columns
 
 struct Style {
   bool colour;
+  std::size_t columns;
   std::string strong(const std::string& text) const { return colour ? "\033[1m" + text + "\033[0m" : text; }
 };
 
@@ -64,18 +65,37 @@ void print_side_by_side(const std::vector<std::vector<std::string>>& texts, std:
   }
 }
 
-void print_table(int dimension, const Style& style, std::string& out) {
+void print_head(int dimension, const Style& style, std::string& out) {
+  const std::string text =
+      fmt::format("{}: the elements are {}s, and their borders {}s", dimension == 2 ? "Sheets" : "Solids",
+                  name_of(Cell::Elements, dimension), name_of(Cell::Borders, dimension));
+  for (const std::string& line : folded(text, style.columns)) out += style.strong(line) + '\n';
+  out += '\n';
+}
+
+// For narrow pages: under each group of criteria a paragraph for each change.
+void print_list(int dimension, const Style& style, std::string& out) {
+  const auto print = [&](const std::string& text, std::size_t indent) {
+    for (const std::string& line : folded(text, style.columns - indent))
+      out += std::string(indent, ' ') + line + '\n';
+  };
+  for (const Row& row : rows_of(dimension)) {
+    const bool one = row.answers.size() == 1;
+    print(listed(row.criteria) + (one ? "" : " (of each " + name_of(row.cell, dimension) + ")"), 0);
+    for (std::size_t n = 0; n < row.answers.size(); ++n)
+      print((one ? "" : all_changes()[n].name + ": ") + row.answers[n], 2);
+    out += '\n';
+  }
+}
+
+void print_table(int dimension, std::string& out) {
   const std::size_t changes = all_changes().size();
-  const std::size_t columns = (page_width - first_width) / changes - gap;
-  out += style.strong(fmt::format("{}: the elements are {}s, and their borders {}s",
-                                  dimension == 2 ? "Sheets" : "Solids", name_of(Cell::Elements, dimension),
-                                  name_of(Cell::Borders, dimension))) +
-         "\n\n";
+  const std::size_t columns = (page_columns - first_width) / changes - gap;
   std::vector<std::vector<std::string>> heads{{"criterion"}};
   for (const ChangeType& change : all_changes()) heads.push_back({change.name});
   print_side_by_side(heads, columns, out);
   for (const Row& row : rows_of(dimension)) {
-    out += std::string(page_width, '-') + '\n';
+    out += std::string(page_columns, '-') + '\n';
     std::vector<std::vector<std::string>> texts{row.criteria};
     const bool one = row.answers.size() == 1;
     const std::size_t room = one ? changes * (columns + gap) - gap : columns;
@@ -87,27 +107,28 @@ void print_table(int dimension, const Style& style, std::string& out) {
 
 } // namespace
 
-std::string tear_table(bool colour) {
-  const Style style{colour};
+std::string tear_table(bool colour, std::size_t columns) {
+  const Style style{colour, columns};
   std::string out;
   const std::string opening =
-      "Any criterion of <tear> goes with any change. The table says at which cell the change is made when a "
-      "cell "
-      "exceeds the threshold. \"Pulls\" and \"is opened\" are said of the forces of each element by itself; "
-      "where "
-      "the table says \"itself\", they are not computed for the change. A word after a criterion is its kind.";
-  for (const std::string& line : folded(opening, page_width)) out += line + '\n';
+      "Any criterion of <tear> goes with any change. When the criterion of a cell exceeds the threshold, the "
+      "change is made at the cell that the table names. \"Pulls\" and \"is opened\" refer to the forces of "
+      "single elements, which are computed for that; \"itself\" needs none of them. A word after a criterion "
+      "is the kind of its springs.";
+  for (const std::string& line : folded(opening, columns)) out += line + '\n';
   out += '\n';
   for (const ChangeType& change : all_changes()) {
-    std::string head = fmt::format("{:<16}", change.name);
-    for (const std::string& line : folded(change.what, page_width - 16)) {
+    const std::size_t indent = columns < page_columns ? 2 : 16;
+    std::string head = columns < page_columns ? change.name + "\n  " : fmt::format("{:<16}", change.name);
+    for (const std::string& line : folded(change.what, columns - indent)) {
       out += head + line + '\n';
-      head.assign(16, ' ');
+      head.assign(indent, ' ');
     }
   }
   for (int dimension : {2, 3}) {
     out += '\n';
-    print_table(dimension, style, out);
+    print_head(dimension, style, out);
+    columns < page_columns ? print_list(dimension, style, out) : print_table(dimension, out);
   }
   return out;
 }

@@ -78,12 +78,22 @@ Cell number_cell(const BatchResult& result, const std::optional<std::size_t>& nu
   return {escaped(number ? std::to_string(*number) : "–")};
 }
 
+// Progress is worth less than what comes last.
+std::string last_lines(const std::string& log) {
+  constexpr std::size_t most = 4000; // [bytes] of the page
+  if (log.size() <= most) return log;
+  const std::size_t end = log.find('\n', log.size() - most);
+  return "...\n" + (end == std::string::npos ? "" : log.substr(end + 1));
+}
+
 std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
   const BatchJob& job = report.jobs[n];
   const BatchResult& result = report.results[n];
   const PrintedFigures figures = result.figures.value_or(PrintedFigures{});
   Html words = link(address_of(job.name) + "/", job.name) + Html{"<br>"} + muted(job.preset);
   if (!result.message.empty()) words += paragraph(escaped(result.message));
+  if (!result.log.empty())
+    words += details(escaped("log"), escaped_lines(last_lines(result.log)), Details::Closed);
   return {{thumbnail(report.folder / job.name, job.name), job.name},
           {words, job.name},
           {badge(tone_of(result.state()), name_of(result.state()))},
@@ -95,6 +105,10 @@ std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
 }
 
 } // namespace
+
+fs::path log_file(const BatchReport& report, const BatchJob& job) {
+  return report.folder / "logs" / (job.name + ".log");
+}
 
 Json line_of(const BatchJob& job, const BatchResult& result) {
   Json line{{"job", job.name},           {"preset", job.preset},
@@ -140,9 +154,8 @@ std::string batch_page(const BatchReport& report) {
                       number_column("memory")},
           .rows = {},
           .sortable = true,
-          .caption =
-              "Failures first; a click on a column's name sorts by it. Frames were made now, kept ones were "
-              "there."};
+          .caption = "Failures first; a click on a column's name sorts by it. \"frames\" were made now, "
+                     "\"kept\" ones were already there."};
   for (std::size_t n : order) t.rows.push_back(row_of(report, n));
   body += table(t) + heading(2, "Made on") + facts_of(provenance_of_build());
   return page("rend batch", body);

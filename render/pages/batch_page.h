@@ -19,6 +19,9 @@ struct BatchReport {
   double seconds = 0; // wall clock, of the whole batch
 };
 
+// logs/JOB.log in the batch's folder: what a job wrote to stderr.
+std::filesystem::path log_file(const BatchReport& report, const BatchJob& job);
+
 nlohmann::ordered_json line_of(const BatchJob& job, const BatchResult& result);
 std::string batch_page(const BatchReport& report);
 

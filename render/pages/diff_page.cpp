@@ -155,6 +155,30 @@ Html Chapters::chapter(std::size_t n) {
   return out;
 }
 
+// FLIP over the frames, as a drawing of its own; the worst frame is marked.
+Html curve_of(const ClipDifference& clip) {
+  constexpr double width = 640, height = 120, rim = 4; // [pixels]
+  const double most = std::max(clip.flip[clip.worst], 1e-9);
+  const auto x = [&](std::size_t n) {
+    return rim + (width - 2 * rim) * static_cast<double>(n) /
+                     static_cast<double>(std::max<std::size_t>(clip.flip.size() - 1, 1));
+  };
+  const auto y = [&](double flip) { return height - rim - (height - 2 * rim) * flip / most; };
+  std::string points;
+  for (std::size_t n = 0; n < clip.flip.size(); ++n)
+    points += fmt::format("{:.1f},{:.1f} ", x(n), y(clip.flip[n]));
+  return Html{
+      fmt::format("<svg class=\"curve\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\">"
+                  "<polyline points=\"{2}\" fill=\"none\" stroke=\"#0072b2\" stroke-width=\"1.5\"/>"
+                  "<circle cx=\"{3:.1f}\" cy=\"{4:.1f}\" r=\"3\" fill=\"#d55e00\"/></svg>\n",
+                  width, height, points, x(clip.worst), y(clip.flip[clip.worst]))};
+}
+
+Html clip_chapter(const DiffReport& report, const ClipDifference& clip) {
+  return heading(2, fmt::format("Over time: {}", clip.name)) + paragraph(escaped(clip_text(report, clip))) +
+         curve_of(clip);
+}
+
 Html counts_of(const DiffReport& report) {
   std::vector<Tile> all;
   for (const CaseState state : all_states()) {
@@ -188,6 +212,7 @@ std::string diff_page(const DiffReport& report) {
     body += paragraph(strong("Every picture is as it should be."));
   else
     body += heading(2, "What is not as expected", "failures") + table(failures);
+  for (const ClipDifference& clip : report.clips) body += clip_chapter(report, clip);
   if (!pictures.text.empty()) body += heading(2, "Pictures", "pictures") + pictures;
   if (!rest.rows.empty())
     body += heading(2, "As expected", "matches") +
@@ -196,15 +221,17 @@ std::string diff_page(const DiffReport& report) {
   return page("rend diff", body, compare_style, compare_script);
 }
 
-DiffFiles::DiffFiles(const std::string& folder, const std::string& junit) {
-  if (!folder.empty()) {
-    folder_.emplace(folder);
+DiffFiles::DiffFiles(const DiffFileNames& names) {
+  if (!names.folder.empty()) {
+    folder_.emplace(names.folder);
     maps_.emplace(folder_->path() / "maps");
     folder_->make();
     json_.emplace(folder_->path() / "diff.json");
     page_.emplace(folder_->path() / "index.html");
   }
-  if (!junit.empty()) junit_.emplace(resolve_link(junit));
+  if (!names.junit.empty()) junit_.emplace(resolve_link(names.junit));
+  if (!names.gitlab.empty()) gitlab_.emplace(resolve_link(names.gitlab));
+  if (!names.github.empty()) github_.emplace(resolve_link(names.github));
 }
 
 void DiffFiles::write_maps(const DiffReport& report) const {
@@ -229,6 +256,8 @@ void DiffFiles::write(const std::string& page, const DiffReport& report) {
     sync_folder(file.path().parent_path());
   };
   if (junit_) write(*junit_, diff_junit(report));
+  if (gitlab_) write(*gitlab_, diff_gitlab(report));
+  if (github_) write(*github_, diff_github(report));
   if (!folder_) return;
   write_maps(report);
   write(*json_, text_of(diff_json(report), 2) + "\n");

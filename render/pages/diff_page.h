@@ -15,12 +15,19 @@ namespace rend {
 // so).
 std::string diff_page(const DiffReport& report);
 
-// The output files: a folder with index.html, diff.json, and maps/NAME.png for cases that differ; and JUnit
-// XML. That they are writable is tested before anything is compared; each is written atomically.
+// Names of output files; empty: not written.
+struct DiffFileNames {
+  std::string folder; // of the page
+  std::string junit;  // JUnit XML
+  std::string gitlab; // Code Quality report of GitLab
+  std::string github; // annotations of GitHub
+};
+
+// The output files: a folder with index.html, diff.json, and maps/NAME.png for cases that differ; and reports
+// for other programs. That they are writable is tested before anything is compared; each is written atomically.
 class DiffFiles {
 public:
-  // An empty name: not written. Throws UserError: CannotCreate.
-  DiffFiles(const std::string& folder, const std::string& junit);
+  explicit DiffFiles(const DiffFileNames& names); // throws UserError: CannotCreate
   // `page`: from diff_page(). Throws UserError: CannotCreate, ReadWrite.
   void write(const std::string& page, const DiffReport& report);
 
@@ -28,7 +35,7 @@ private:
   void write_maps(const DiffReport& report) const;
 
   std::optional<OutputFolder> folder_, maps_;
-  std::optional<OutputFile> json_, page_, junit_;
+  std::optional<OutputFile> json_, page_, junit_, gitlab_, github_;
 };
 
 } // namespace rend

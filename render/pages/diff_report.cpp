@@ -1,6 +1,7 @@
 #include "render/pages/diff_report.h"
 
 #include "render/report/page.h"
+#include "sim/base/hash.h"
 #include "sim/base/printable.h"
 
 #include <fmt/format.h>
@@ -132,14 +133,38 @@ Json case_json(const CaseResult& one, Expectation expectation) {
   return out;
 }
 
+namespace {
+
+Json clip_json(const DiffReport& report, const ClipDifference& clip) {
+  Json curve = Json::array();
+  for (std::size_t n = 0; n < clip.cases.size(); ++n)
+    curve.push_back({{"name", report.cases[clip.cases[n]].paths.name}, {"flip", clip.flip[n]}});
+  return {{"name", clip.name},
+          {"frames", clip.cases.size()},
+          {"first", report.cases[clip.cases[clip.first]].paths.name},
+          {"worst", report.cases[clip.cases[clip.worst]].paths.name},
+          {"curve", curve}};
+}
+
+} // namespace
+
 Json diff_json(const DiffReport& report) {
   Json counts, cases = Json::array();
   for (const CaseState state : all_states()) counts[name_of(state)] = count(report, state);
   counts["updated"] = updated(report);
   for (std::size_t n = 0; n < report.cases.size(); ++n)
     cases.push_back(case_json(report.cases[n], report.expectation(n)));
-  return {{"expected", report.a}, {"now", report.b},           {"exit", static_cast<int>(exit_of(report))},
-          {"counts", counts},     {"remarks", report.remarks}, {"cases", cases}};
+  Json out{{"expected", report.a}, {"now", report.b},           {"exit", static_cast<int>(exit_of(report))},
+           {"counts", counts},     {"remarks", report.remarks}, {"cases", cases}};
+  for (const ClipDifference& clip : report.clips) out["clips"].push_back(clip_json(report, clip));
+  return out;
+}
+
+std::string clip_text(const DiffReport& report, const ClipDifference& clip) {
+  const auto name = [&](std::size_t n) { return report.cases[clip.cases[n]].paths.name; };
+  return fmt::format("{}: {} frames; the first that does not match is {}, the worst {} (mean of FLIP {:.4g})",
+                     clip.name.empty() ? "clip" : clip.name, clip.cases.size(), name(clip.first),
+                     name(clip.worst), clip.flip[clip.worst]);
 }
 
 std::string diff_text(const DiffReport& report) {
@@ -151,6 +176,8 @@ std::string diff_text(const DiffReport& report) {
     for (const std::string& note : one.notes) out += "  " + printable(note) + "\n";
     return one.metrics ? out + figures_text(*one.metrics) : out;
   }
+  for (const ClipDifference& clip : report.clips)
+    out += "clip        " + printable(clip_text(report, clip)) + "\n";
   out += fmt::format("{} pictures:", report.cases.size());
   std::string counts;
   for (const CaseState state : all_states())
@@ -188,6 +215,54 @@ std::string diff_junit(const DiffReport& report) {
                      "errors=\"{2}\">\n  <testsuite name=\"rend diff\" tests=\"{0}\" failures=\"{1}\" "
                      "errors=\"{2}\">\n{3}  </testsuite>\n</testsuites>\n",
                      report.cases.size(), failures, errors, cases);
+}
+
+namespace {
+
+// The file that a reviewer knows: the expected picture, or the new one.
+std::string file_of(const CaseResult& one) {
+  return (one.paths.a.empty() ? one.paths.b : one.paths.a).string();
+}
+
+// As workflow commands take it: in properties ':' and ',' have a meaning, too.
+std::string github_text(const std::string& text, bool property) {
+  std::string out;
+  for (const char c : text) {
+    const bool special = c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ','));
+    out += special ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
+  }
+  return out;
+}
+
+} // namespace
+
+std::string diff_gitlab(const DiffReport& report) {
+  Json issues = Json::array();
+  for (const std::size_t n : failures_first(report)) {
+    const CaseResult& one = report.cases[n];
+    if (!failed(report, n)) continue;
+    const std::string what =
+        fmt::format("{}: {}: {}", one.paths.name, name_of(one.state), reasons_text(one.why));
+    issues.push_back(
+        {{"description", printable(what)},
+         {"check_name", fmt::format("rend diff: {}", name_of(one.state))},
+         {"fingerprint", fmt::format("{:016x}", hash_bytes(one.paths.name.data(), one.paths.name.size()))},
+         {"severity", one.state == CaseState::Unreadable ? "blocker" : "major"},
+         {"location", {{"path", file_of(one)}, {"lines", {{"begin", 1}}}}}});
+  }
+  return text_of(issues, 2) + "\n";
+}
+
+std::string diff_github(const DiffReport& report) {
+  std::string out;
+  for (const std::size_t n : failures_first(report)) {
+    const CaseResult& one = report.cases[n];
+    if (failed(report, n))
+      out += fmt::format("::error file={},title={}::{}\n", github_text(printable(file_of(one)), true),
+                         github_text(fmt::format("rend diff: {}", name_of(one.state)), true),
+                         github_text(printable(one.paths.name + ": " + reasons_text(one.why)), false));
+  }
+  return out;
 }
 
 } // namespace rend

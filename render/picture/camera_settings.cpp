@@ -6,26 +6,29 @@ template <> const Fields<CameraKey>& fields_of() {
   using S = CameraKey;
   static const Fields<S> fields{
       field(&S::at, number("at", "s", "when").at_least(0).is_required()),
-      field(&S::eye, numbers("eye", 3, "m", "where the camera stands").is_required()),
-      field(&S::target, numbers("target", 3, "m", "what it looks at; default: the camera's")),
-      field(&S::fov, number("fov", "degrees", "default: the camera's").at_least(1).at_most(170))};
+      field(&S::eye, numbers("eye", 3, "m", "position of the camera").is_required()),
+      field(&S::target, numbers("target", 3, "m", "the point that it looks at; default: that of the camera")),
+      field(&S::fov, number("fov", "degrees", "angle of view from bottom to top; default: that of the camera")
+                         .at_least(1)
+                         .at_most(170))};
   return fields;
 }
 
 template <> const Fields<CameraSettings>& fields_of() {
   using S = CameraSettings;
   static const Fields<S> fields{
-      field(&S::eye, numbers("eye", 3, "m", "where the camera stands")),
-      field(&S::target,
-            numbers("target", 3, "m", "what it looks at; default: the middle of the bodies at the start")),
-      field(&S::up, numbers("up", 3, "", "what is up in the picture")),
-      field(&S::fov,
-            number("fov", "degrees", "the angle from bottom to top of the picture").at_least(1).at_most(170)),
-      field(&S::turn, number("turn", "degrees", "how far it goes around the target over the clip")),
-      field(&S::frame, word("frame", {"auto", "given", "follow"},
-                            "auto: as near as the bodies allow, seen from the direction of the eye; default "
-                            "where there is no "
-                            "eye; follow: after the bodies, never losing one out of sight"))};
+      field(&S::eye, numbers("eye", 3, "m", "position of the camera")),
+      field(&S::target, numbers("target", 3, "m",
+                                "the point that it looks at; default: the middle of the bodies at the start")),
+      field(&S::up, numbers("up", 3, "", "the direction that is up in the picture")),
+      field(&S::fov, number("fov", "degrees", "angle of view from bottom to top").at_least(1).at_most(170)),
+      field(&S::turn,
+            number("turn", "degrees", "the angle by which the camera moves around the target during the clip")),
+      field(&S::frame,
+            word("frame", {"auto", "given", "follow"},
+                 "how the camera is placed\nauto: in the direction of the eye, so near that all bodies at the "
+                 "start fill the picture; the default without an eye\ngiven: exactly at the eye; the default "
+                 "with an eye\nfollow: it moves along with the bodies, and keeps all of them in the picture"))};
   return fields;
 }
 
@@ -33,9 +36,10 @@ void check_framing(const CameraSettings& camera) {
   if (camera.up.norm() == 0)
     camera.source.fail("up", "the camera's up has no direction", "up=\"0 0 1\" is usual");
   if (!camera.keys.empty() && camera.frame && camera.frame != Framing::Given)
-    camera.source.fail("frame", "a camera with keys goes where they say", "leave frame out, or the keys");
+    camera.source.fail("frame", "frame cannot be used together with <key>: the keys place the camera",
+                       "leave out frame, or the keys");
   if (!camera.eye && camera.frame == Framing::Given)
-    camera.source.fail("frame", "a given frame needs an eye", "eye=\"0 -3 1\", or frame=\"auto\"");
+    camera.source.fail("frame", "frame=\"given\" needs an eye", "add eye=\"0 -3 1\", or use frame=\"auto\"");
   if (camera.eye && camera.target && *camera.eye == *camera.target)
     camera.source.fail("eye", "the camera's eye stands at its target", "move it away from there");
 }

@@ -57,8 +57,8 @@ Colour colour_of(const PresetNode& node, std::string_view attribute) {
   if (!colour)
     node.fail(attribute,
               std::string(attribute) + " of <" + node.name() + "> is " + in_quotes(text) +
-                  ", which is no colour",
-              "a colour is #rrggbb, such as #2a7f8e");
+                  ", which is not a colour",
+              "write a colour as #rrggbb, such as #2a7f8e");
   return *colour;
 }
 

@@ -25,11 +25,11 @@ template <> const Fields<HudSettings>& fields_of() {
       field(&S::show,
             words_of(
                 "show", {"title", "time", "energy", "tears", "legend", "cost"},
-                "any of: the title; the simulated time; curves of the energies; how many tears and fragments "
-                "there are; the scale of the bodies' colours; what a step costs (it differs from run to "
-                "run)")),
-      field(&S::title, text("title", "default: the scene's name")),
-      field(&S::subtitle, text("subtitle", "a line below it"))};
+                "what is written over the picture\ntitle: title and subtitle\ntime: the simulated "
+                "time\nenergy: curves of the energies\ntears: the numbers of tears and fragments\nlegend: the "
+                "scale of the bodies' colours\ncost: the run time of a step (it differs from run to run)")),
+      field(&S::title, text("title", "title of the clip; default: the scene's name")),
+      field(&S::subtitle, text("subtitle", "a line below the title"))};
   return fields;
 }
 

@@ -36,7 +36,7 @@ BodyPicture::BodyPicture(Body& body, LookSettings look)
   if (!solid_) body.boundary().sheet(); // that of a solid is there
   if (look_.as == DrawStyle::Darts && body.map->map().dart_count() > most_drawn_darts)
     look_.source.fail("as",
-                      fmt::format("the body has {} darts, and a picture of more than {} tells nothing",
+                      fmt::format("the body has {} darts; at most {} can be drawn",
                                   body.map->map().dart_count(), most_drawn_darts),
                       "draw fewer cells, or as=\"exploded\"");
 }

@@ -12,20 +12,23 @@ namespace rend {
 namespace {
 
 const ElementType& camera_type() {
-  static const ElementType key{
-      "key", "where the camera is at a time; between keys it moves smoothly", attributes_of<CameraKey>(), {}};
+  static const ElementType key{"key",
+                               "the position of the camera at a time; between keys it moves smoothly",
+                               attributes_of<CameraKey>(),
+                               {}};
   static const ElementType type{
-      "camera", "where the picture is taken from", attributes_of<CameraSettings>(), {{&key, 0, -1}}};
+      "camera", "position and direction of the camera", attributes_of<CameraSettings>(), {{&key, 0, -1}}};
   return type;
 }
 
 const ElementType& image_type() {
-  static const ElementType type{"image", "the pictures", attributes_of<ImageSettings>(), {}};
+  static const ElementType type{
+      "image", "size, rate and quality of the pictures", attributes_of<ImageSettings>(), {}};
   return type;
 }
 
 const ElementType& hud_type() {
-  static const ElementType type{"hud", "what is written over the pictures", attributes_of<HudSettings>(), {}};
+  static const ElementType type{"hud", "text over the pictures", attributes_of<HudSettings>(), {}};
   return type;
 }
 
@@ -66,16 +69,17 @@ const ElementType& drawn_world_type() {
 // Refuses names that contain a path, give a hidden file, or contain terminal control characters.
 void check_name(const PresetNode& scene) {
   const std::string& name = scene.text("name");
-  const char* hint = "pictures and videos are called by it: letters, digits and - do";
+  const char* hint = "pictures and videos get this name: use letters, digits and -";
   if (name.find_first_not_of(" \t\r\n") == std::string::npos)
     scene.fail("name", "the name of the scene is empty", hint);
   if (name.front() == '.')
     scene.fail("name", "the name of the scene begins with a dot: " + in_quotes(name), hint);
   if (name.front() == '-')
     scene.fail("name", "the name of the scene begins with a dash: " + in_quotes(name),
-               "other programs would take its files for options");
+               "other programs would take such file names for options: put another character first");
   if (name.find_first_of("/\\") != std::string::npos || printable(name) != name)
-    scene.fail("name", "the name of the scene holds what no file name may: " + in_quotes(name), hint);
+    scene.fail("name", "the name of the scene has a character that file names cannot have: " + in_quotes(name),
+               hint);
   if (name.size() > 200) scene.fail("name", "the name of the scene is too long: " + in_quotes(name), hint);
 }
 
@@ -102,13 +106,12 @@ void check_colours(const PresetNode& body, const PresetNode& look) {
   const std::string name = in_quotes(body.text("name"));
   if (by == "stress" && !elements)
     look.fail("by",
-              "the body " + name + " has no stress to be shown: " +
-                  (springs ? "it is made of springs, and has no elements that know theirs"
-                           : "nothing of it is elastic"),
+              "the body " + name + " has no stress to show: " +
+                  (springs ? "it is made of springs, which have no stress" : "nothing of it is elastic"),
               springs ? "springs have by=\"strain\" and by=\"force\"; elements come with <elasticity>"
                       : "give it <elasticity>");
   if ((by == "strain" || by == "force") && !springs && !elements)
-    look.fail("by", "the body " + name + " has no " + by + " to be shown: nothing of it is elastic",
+    look.fail("by", "the body " + name + " has no " + by + " to show: it has neither springs nor <elasticity>",
               "give it <springs> or <elasticity>, or show by=\"fragment\" or \"plain\"");
 }
 
@@ -133,19 +136,20 @@ std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
 } // namespace
 
 const ElementType& scene_type() {
-  static const ElementType type{"scene",
-                                "a scene: bodies, what surrounds them, and how it is shown",
-                                {text("name", "of its pictures").is_required(),
-                                 text("thesis", "the figure or table of the thesis that it reproduces"),
-                                 word("version", {"1"}, "of this format").otherwise("1")},
-                                {{&rules_type(), 0, -1},
-                                 {&rule_type(), 0, -1},
-                                 {&drawn_body_type(), 1, -1},
-                                 {&drawn_world_type(), 0, 1},
-                                 {&time_type(), 1, 1},
-                                 {&camera_type(), 0, 1},
-                                 {&image_type(), 0, 1},
-                                 {&hud_type(), 0, 1}}};
+  static const ElementType type{
+      "scene",
+      "a scene: bodies, what surrounds them, and how it is shown",
+      {text("name", "name of the scene; pictures, videos and output folders are named after it").is_required(),
+       text("thesis", "the figure or table of the thesis that it reproduces"),
+       word("version", {"1"}, "version of this format").otherwise("1")},
+      {{&rules_type(), 0, -1},
+       {&rule_type(), 0, -1},
+       {&drawn_body_type(), 1, -1},
+       {&drawn_world_type(), 0, 1},
+       {&time_type(), 1, 1},
+       {&camera_type(), 0, 1},
+       {&image_type(), 0, 1},
+       {&hud_type(), 0, 1}}};
   return type;
 }
 

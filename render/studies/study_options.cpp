@@ -47,7 +47,7 @@ std::vector<std::string> integrators_of(const StudyOptions& options) {
   std::vector<std::string> chosen = split(options.integrators, option);
   for (const std::string& name : chosen) {
     if (name == "static")
-      refuse(option, "'static' knows no time, and so no error against steps",
+      refuse(option, "'static' has no time steps to study",
              "study " + listed(all) + "; how a static answer depends on the mesh, 'rend run' tells");
     if (std::find(all.begin(), all.end(), name) == all.end())
       refuse(option, "there is no integrator " + in_quotes(name), suggestion(name, all, "there are"));
@@ -90,7 +90,7 @@ Setting refinement_of(const PresetNode& body, std::size_t number, int factor, co
   for (const char* shape : {"sheet", "bar", "tube"})
     if (const PresetNode* node = body.child(shape))
       return {fmt::format("body[{}].{}.cells", number, shape), multiplied(node->integers("cells"), factor)};
-  refuse(option, fmt::format("the mesh of body {} is of a file, and cannot be made finer", number),
+  refuse(option, fmt::format("the mesh of body {} comes from a file, and cannot be made finer", number),
          "a <sheet>, <bar> or <tube> can; or study presets with coarser and finer files one by one");
 }
 
@@ -101,7 +101,7 @@ Values values_of_refine(const PresetNode& preset, const std::string& refine) {
     int factor = 0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), factor);
     if (read.ec != std::errc() || read.ptr != text.data() + text.size() || factor < 1 || factor > 64)
-      refuse(option, in_quotes(text) + " is no factor", "whole numbers from 1 to 64, such as 1,2,4");
+      refuse(option, in_quotes(text) + " is not a factor", "whole numbers from 1 to 64, such as 1,2,4");
     StudyGroup group{fmt::format("mesh × {}", factor), {}};
     const auto bodies = preset.all("body");
     if (factor > 1)
@@ -162,34 +162,38 @@ std::shared_ptr<Scene> build(const Source& source, const Variant& variant) {
 void declare_study(CLI::App& app, StudyOptions& options) {
   add_preset_options(app, options.session);
   app.get_option("preset")->required(false); // --lean has built-in scenes
-  app.add_option("further", options.further, "more presets, with --lean")->type_name("PRESET...");
-  app.add_option("-o,--output", options.folder, "where page, plots and tables go; default: out/NAME-study")
+  app.add_option("further", options.further, "more presets; only with --lean")->type_name("PRESET...");
+  app.add_option("-o,--output", options.folder, "folder for page, plots and tables; default: out/SCENE-study")
       ->type_name("DIR");
-  app.add_option("--integrators", options.integrators, "the schemes to compare; default: all that move in time")
+  app.add_option("--integrators", options.integrators,
+                 "time schemes to compare, separated by commas; default: all but static")
       ->type_name(choices(schemes_that_move()) + ",...");
-  app.add_option("--steps", options.steps, "steps of each scheme below its limit, over two decades")
+  app.add_option(
+         "--steps", options.steps,
+         "number of time steps to try for each scheme, from its largest stable one down to a hundredth of it")
       ->type_name("N")
       ->capture_default_str()
       ->transform(whole_number(3, 64));
-  app.add_option("--duration", options.duration, "how much of the clip; default: what it needs, some 0.2 s")
+  app.add_option("--duration", options.duration,
+                 "how much of the clip is simulated; default: chosen for the scene, about 0.2 s")
       ->type_name("SECONDS")
       ->transform(real_number(1e-12, 1e9));
-  app.add_option("--refine", options.refine, "sheets, bars and tubes so many times finer, such as 1,2,4")
+  app.add_option("--refine", options.refine, "also study finer sheets, bars and tubes; factors such as 1,2,4")
       ->type_name("a,b,c")
       ->check(some_word());
-  app.add_option("--sweep", options.sweeps, "an attribute to be varied as well (any number of times)")
+  app.add_option("--sweep", options.sweeps, "also study these values of an attribute (can be repeated)")
       ->type_name("PATH=a,b,c")
       ->allow_extra_args(false);
-  app.add_option("--reruns", options.reruns, "timed runs of each; fewer where one takes over a second")
+  app.add_option("--reruns", options.reruns, "timed runs of each case; fewer if one takes over a second")
       ->type_name("N")
       ->capture_default_str()
       ->transform(whole_number(1, 1000));
-  app.add_flag("--quick", options.quick, "a first look: four steps of each scheme, three timed runs");
-  app.add_flag(
-      "--lean", options.lean,
-      "instead: each feature off against on, on scenes of its own or on the presets: time, bytes, pixels");
-  app.add_flag("--json", options.json, "all numbers as one JSON object on stdout, too");
-  app.add_flag("-q,--quiet", options.session.quiet, "no progress");
+  app.add_flag("--quick", options.quick, "quicker and less exact: four steps of each scheme, three timed runs");
+  app.add_flag("--lean", options.lean,
+               "instead of schemes, measure what each feature of rend costs in time, bytes and pixels, on "
+               "built-in scenes or on the presets");
+  app.add_flag("--json", options.json, "print all numbers as one JSON object on stdout");
+  app.add_flag("-q,--quiet", options.session.quiet, "print no progress");
 }
 
 StudyTask study_task(const StudyOptions& options) {

@@ -140,7 +140,7 @@ std::string expected(const AttributeType& type) {
   case AttributeKind::Word:
     return (type.words.size() > 1 ? "one of " : "") + listed(type.words);
   case AttributeKind::Words:
-    return "any of " + listed(type.words) + ", separated by blanks";
+    return "any of " + listed(type.words) + ", separated by spaces";
   case AttributeKind::Flag:
     return "yes or no";
   case AttributeKind::Text:

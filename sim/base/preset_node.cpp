@@ -75,7 +75,7 @@ struct PresetNode::Reading {
     if (error != std::errc()) {
       const bool comma = token.find(',') != std::string_view::npos;
       fail(subject(token) + " is not a number",
-           comma ? "the decimal point is '.', and numbers are separated by blanks" : "");
+           comma ? "the decimal point is '.', and numbers are separated by spaces" : "");
     }
     if (!std::isfinite(out)) fail(subject(token) + " is not a finite number");
     check_bounds(token, out);
@@ -283,7 +283,8 @@ void PresetNode::check_complete() const {
   for (const AttributeType& attribute : type_->attributes) {
     if (!attribute.required || has(attribute.name)) continue;
     throw UserError(Exit::BadInput, place_, fmt::format("<{}> needs {}", name(), attribute.name),
-                    fmt::format("{}: {}; expected {}", attribute.name, attribute.what, expected(attribute)));
+                    fmt::format("{}: {}; expected {}", attribute.name,
+                                attribute.what.substr(0, attribute.what.find('\n')), expected(attribute)));
   }
   for (const ChildType& allowed : type_->children) {
     const std::vector<const PresetNode*> present = all(allowed.type->name);

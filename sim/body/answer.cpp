@@ -10,15 +10,20 @@ template <> const Fields<AnswerSettings>& fields_of() {
       field(&S::probe, text("probe", "its name").is_required()),
       field(&S::quantity,
             word("quantity", probe_quantities(),
-                 "position; displacement (d: its length); force of the support (reaction: its size); mean "
-                 "stress of the elements there")
+                 "what is compared\nx, y, z: the mean position\ndx, dy, dz, d: the mean displacement, and its "
+                 "length\nreaction-x, reaction-y, reaction-z, reaction: the force of the supports, and its "
+                 "size\nstress-xx ... stress-xz: the mean stress of the elements there")
                 .is_required()),
-      field(&S::at, number_or("at", {"end"}, "s", "when: at the first step from then on").at_least(0)),
-      field(&S::value, number("value", "m, N or Pa", "the known answer").is_required()),
-      field(&S::tolerance,
-            number("tolerance", "", "error / |value| that still holds; the error itself where the value is 0")
+      field(&S::at,
+            number_or("at", {"end"}, "s",
+                      "the time of the measurement: the first step at or after it; end: the end of the clip")
                 .at_least(0)),
-      field(&S::known_from, text("source", "where the answer comes from"))};
+      field(&S::value, number("value", "m, N or Pa", "the known answer").is_required()),
+      field(&S::tolerance, number("tolerance", "",
+                                  "the largest relative error |measured - value| / |value|; where value is 0, "
+                                  "the largest error itself")
+                               .at_least(0)),
+      field(&S::known_from, text("source", "where the known answer comes from; it is only printed"))};
   return fields;
 }
 

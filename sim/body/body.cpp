@@ -3,10 +3,12 @@
 #include "sim/base/archive.h"
 #include "sim/base/profile.h"
 #include "sim/embedding/reorder.h"
+#include "sim/fracture/pairs.h"
 #include "sim/integrate/rigid_motions.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rend {
 namespace {
@@ -189,6 +191,24 @@ CriterionRequest Body::request_for(const LawSettings& law) const {
   return {*map, interactions, *mass, law.kind, law.compression};
 }
 
+void Body::watch_all_criteria() {
+  tear_laws.clear();
+  const int dimension = map->dimension();
+  for (const NamedCriterion& criterion : named_criteria()) {
+    LawSettings law{.criterion = criterion.type,
+                    .threshold = std::numeric_limits<double>::infinity(),
+                    .kind = criterion.kind,
+                    .cell = criterion.cell()};
+    const CriterionRequest request = request_for(law);
+    const bool merged = cumulated == Cumulated::Yes && criterion.type->elementary;
+    if (merged || !criterion.without_meaning(dimension).empty() || !criterion.type->lacking(request).empty())
+      continue;
+    law.change = &default_change(law.cell);
+    law.unit = criterion.type->unit_there ? criterion.type->unit_there(request) : criterion.type->unit;
+    tear_laws.emplace_back(request, law);
+  }
+}
+
 int Body::tear(double time, long number, const std::function<void()>& sound) {
   const std::size_t before = events.size();
   int made = 0;
@@ -202,7 +222,7 @@ int Body::tear(double time, long number, const std::function<void()>& sound) {
 
 int Body::apply_law(std::size_t number, double time, long step, const std::function<void()>& sound) {
   const ForceView now = view();
-  if (tear_laws[number].find(now).empty()) return 0;
+  if (tear_laws[number].find_and_note(now, time, step % look_every == 0).empty()) return 0;
   sound();
   if (change_observer) change_observer(WitnessAt::BeforeChanges);
   const int made = make_changes(number, now, time, step);
@@ -305,6 +325,7 @@ void Body::store(Archive& archive, long done, double step) {
   for (double& number : numbers) archive.unbounded(number);
   for (Answer& answer : answers) archive(answer.asked, answer.measured);
   if (work_meter) work_meter->store(archive, map->cells(Vertex).slots());
+  for (TearLaw& law : tear_laws) law.store(archive, static_cast<double>(done) * step);
   if (!archive.reading()) return;
   check_read(done, step);
   refuse_unless(integrator->restore_state(numbers), "what its steps hand on is nothing that they would");

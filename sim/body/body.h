@@ -48,6 +48,7 @@ struct Body final : System {
   Constraints constraints;
   Loads loads;
   std::vector<TearLaw> tear_laws;
+  long look_every = 1; // steps between looks at the largest values that the laws have reached
   std::optional<ContactSettings> contact; // as given by the preset
   std::optional<FloorContact> floor_contact;
   std::vector<Probe> probes;
@@ -71,6 +72,10 @@ struct Body final : System {
 
   ~Body() override;
   bool tears() const { return !tear_laws.empty(); }
+
+  // In place of its laws: every criterion that fits this body, with a threshold that nothing reaches. To be
+  // called before prepare().
+  void watch_all_criteria();
 
   // Builds the program and all that the time loop needs. To be called once, when everything is declared.
   void prepare(const Scheme& scheme, const RunSettings& settings = {});

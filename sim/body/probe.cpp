@@ -14,7 +14,9 @@ namespace rend {
 template <> const Fields<ProbeSettings>& fields_of() {
   using S = ProbeSettings;
   static const Fields<S> fields =
-      Fields<S>{field(&S::name, text("name", "of letters, digits, - and _; must differ").is_required())} +
+      Fields<S>{
+          field(&S::name,
+                text("name", "letters, digits, - and _; each probe of the scene has its own").is_required())} +
       fields_of_part(&S::where);
   return fields;
 }

@@ -37,7 +37,7 @@ void describe_stiffness(AttributeType& k, const std::vector<const InteractionTyp
   }
   k.unit = joined(units, " or ");
   if (by_formula.empty()) return;
-  k.what += "; or by formula from young" + (all ? "" : " (" + joined(by_formula, ", ") + ")");
+  k.what += "; or computed from young" + (all ? "" : " (" + joined(by_formula, ", ") + ")");
 }
 
 // <stretch>, <shear>, <bend>: one element for all interactions of that name, which differ by `kind` and
@@ -50,18 +50,18 @@ ElementType spring_element(const std::string& name) {
     if (interaction.element != name) continue;
     interactions.push_back(&interaction);
     const std::string which = variant_of(interaction);
-    type.what += (type.what.empty() ? "" : "; ") + (which.empty() ? "" : which + ": ") + interaction.what;
+    type.what += (type.what.empty() ? "" : "\n") + (which.empty() ? "" : which + ": ") + interaction.what;
     add_once(kinds, interaction.kind);
     add_once(places, interaction.where);
     add_once(damping_units, interaction.damping_unit());
   }
   if (!kinds.empty()) {
     const std::string first = kinds.front();
-    type.attributes.push_back(word("kind", kinds, "which one").otherwise(first));
+    type.attributes.push_back(word("kind", kinds, "which kind of spring").otherwise(first));
   }
   if (!places.empty()) {
     const std::string first = places.front();
-    type.attributes.push_back(word("where", places, "in faces, or in hexahedra").otherwise(first));
+    type.attributes.push_back(word("where", places, "face: in faces; volume: in hexahedra").otherwise(first));
   }
   for (AttributeType attribute : attributes_of<SpringSettings>()) {
     if (attribute.name == "k") describe_stiffness(attribute, interactions);
@@ -76,7 +76,7 @@ const ElementType& springs_type() {
   static const ElementType shear = spring_element("shear");
   static const ElementType bend = spring_element("bend");
   static const ElementType type{"springs",
-                                "masses and springs",
+                                "springs between the vertices, which carry the mass",
                                 attributes_of<SpringsSettings>(),
                                 {{&stretch, 0, 1}, {&shear, 0, -1}, {&bend, 0, -1}}};
   return type;
@@ -86,7 +86,7 @@ const ElementType& springs_type() {
 
 std::vector<ChildType> shape_types() {
   static const ElementType place =
-      element<Placement>("place", "where the body is at rest: scaled, then rotated, then moved");
+      element<Placement>("place", "where the body is at rest: it is scaled, then rotated, then moved");
   static const ElementType mass = element<MassSettings>("mass", "the mass of the body");
   std::vector<ChildType> types;
   for (const ShapeType& shape : all_shapes()) types.push_back({&shape.type(), 0, 1});
@@ -101,38 +101,41 @@ std::vector<ChildType> matter_types() {
   static const ElementType elasticity = element<ElasticitySettings>(
       "elasticity",
       "a continuum: finite elements on triangles, quads, tetrahedra, hexahedra, prisms and pyramids");
-  static const ElementType viscosity =
-      element<ViscositySettings>("viscosity", "ambient viscosity: a force -value v");
+  static const ElementType viscosity = element<ViscositySettings>(
+      "viscosity", "drag of the surroundings: a force of -value times the velocity on each vertex");
   return {{&springs_type(), 0, 1}, {&elasticity, 0, 1}, {&viscosity, 0, 1}};
 }
 
 std::vector<ChildType> motion_types() {
-  static const ElementType fix = element<FixSettings>("fix", "vertices that stay where they are at rest");
-  static const ElementType drive = element<DriveSettings>("drive", "vertices that move as prescribed");
+  static const ElementType fix =
+      element<FixSettings>("fix", "holds the selected vertices where they are at rest");
+  static const ElementType drive = element<DriveSettings>("drive", "moves the selected vertices as prescribed");
   static const ElementType load = element<LoadSettings>(
       "load",
-      "a force from outside on the selected boundary: by area on the outer faces of a solid, by length "
-      "on the border of a sheet; in equal parts on the vertices where no whole face or edge is selected");
+      "an external force on the selected boundary: spread by area over the outer faces of a solid, by length "
+      "along the border of a sheet; where no whole face or edge is selected, in equal parts over the vertices");
   return {{&fix, 0, -1}, {&drive, 0, -1}, {&load, 0, -1}};
 }
 
 std::vector<ChildType> law_types() {
-  static const ElementType tear =
-      element<LawSettings>("tear", "a law: where the criterion exceeds the threshold, the change is made");
+  static const ElementType tear = element<LawSettings>(
+      "tear", "a law of tearing: wherever the criterion exceeds the threshold, the change is made");
   return {{&tear, 0, -1}};
 }
 
 std::vector<ChildType> probe_types() {
   static const ElementType probe = element<ProbeSettings>(
-      "probe", "measures the selected vertices: their mean position and displacement, and the force that "
-               "supports those that are fixed or driven, and the mean stress of the elements there");
-  static const ElementType answer = element<AnswerSettings>(
-      "answer", "what a probe should measure; `rend run` compares, and ends with 1 where it does not hold");
+      "probe", "measures at the selected vertices: their mean position and displacement, the force of the "
+               "supports where they are fixed or driven, and the mean stress of the elements there");
+  static const ElementType answer =
+      element<AnswerSettings>("answer", "the value that a probe should measure; `rend run` compares them, and "
+                                        "exits with 1 if they differ by more than the tolerance");
   return {{&probe, 0, -1}, {&answer, 0, -1}};
 }
 
 const ElementType& contact_type() {
-  static const ElementType type = element<ContactSettings>("contact", "what the body does not pass through");
+  static const ElementType type = element<ContactSettings>(
+      "contact", "what the body collides with; without it, the body passes through everything");
   return type;
 }
 

@@ -11,7 +11,7 @@ namespace rend {
 
 template <> const Fields<BodySettings>& fields_of() {
   using S = BodySettings;
-  static const Fields<S> fields{field(&S::name, text("name", "to tell bodies apart; must differ"))};
+  static const Fields<S> fields{field(&S::name, text("name", "name of the body; each body has its own"))};
   return fields;
 }
 
@@ -24,7 +24,7 @@ std::unique_ptr<Body> build_body(const BodySettings& settings, const World& worl
   build_motion(*body, settings);
   build_laws(*body, settings);
   if (body->interactions.empty())
-    body->notes.emplace_back("nothing holds this body together: it has neither <springs> nor <elasticity>");
+    body->notes.emplace_back("nothing holds this body together: add <springs> or <elasticity>");
   build_contact(*body, settings, world);
   build_probes(*body, settings);
   if (world.wind) body->loads.set(WindLoad(*body->map, *world.wind));

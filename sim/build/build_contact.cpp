@@ -15,11 +15,13 @@ void say_what_it_passes(Body& body, const World& world, const std::optional<Cont
   const bool floor = contact && contact->floor, obstacles = contact && contact->obstacles;
   const bool through_floor = world.floor && !floor, through_obstacles = world.has_obstacles() && !obstacles;
   if (!through_floor && !through_obstacles) return;
-  body.left_out.push_back(fmt::format("contact: {} drawn, and this body passes through ({})",
-                                      through_floor && through_obstacles ? "floor, spheres and boxes are"
-                                      : through_floor                    ? "the floor is"
-                                                                         : "spheres and boxes are",
-                                      contact ? "with of its <contact> names other things" : "no <contact>"));
+  body.left_out.push_back(fmt::format(
+      "contact: '{}' will pass through {}: {}", body.name,
+      through_floor && through_obstacles ? "the floor, spheres and boxes"
+      : through_floor                    ? "the floor"
+                                         : "spheres and boxes",
+      !contact ? fmt::format("add <contact with=\"{}\"/>", through_obstacles ? "obstacles" : "floor")
+               : fmt::format("add `{}` to its <contact with>", through_obstacles ? "obstacles" : "floor")));
 }
 
 // Vertices that start below the floor are put onto it in the first step, which strains the body.
@@ -29,9 +31,10 @@ void say_what_starts_below(Body& body, double height) {
     if (body.map->cells(Vertex).alive(v)) lowest = std::min(lowest, body.map->rest()[v].z);
   const double depth = height - lowest;
   if (depth <= 1e-6 * std::abs(height) + 1e-9) return;
-  body.notes.push_back(fmt::format("contact: it starts {:.3g} m below where the floor holds it (thickness "
-                                   "counted), and is lifted there at once, which strains it: place it higher",
-                                   depth));
+  body.notes.push_back(
+      fmt::format("contact: the body starts {:.3g} m too low for the floor and the thickness of its <contact>: "
+                  "the first step lifts it, which strains it; move it up by <place translate>",
+                  depth));
 }
 
 void check_world(const ContactSettings& contact, const World& world) {

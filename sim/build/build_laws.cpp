@@ -30,12 +30,11 @@ LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) 
   check_settings(law);
   const SettingsSource& source = law.source;
   if (!law.kind.empty() && law.criterion->kinds.empty())
-    source.fail("kind", fmt::format("a kind means nothing to the criterion '{}'", law.criterion->name),
-                "atomic-spring and strain look at springs of a kind");
+    source.fail("kind", fmt::format("the criterion '{}' does not use kind", law.criterion->name),
+                "leave kind out: only atomic-spring and strain measure springs of one kind");
   if (law.compression && !law.criterion->takes_compression)
-    source.fail("compression",
-                fmt::format("compression means nothing to the criterion '{}'", law.criterion->name),
-                "forces count by magnitude; stresses and strains have a sign");
+    source.fail("compression", fmt::format("the criterion '{}' does not use compression", law.criterion->name),
+                "leave it out: only stresses and strains have a sign");
   const CriterionRequest request = body.request_for(law);
   const NamedCriterion criterion{law.criterion, law.kind};
   law.cell = criterion.cell();
@@ -47,7 +46,7 @@ LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) 
   if (const std::string lacking = law.criterion->lacking(request); !lacking.empty())
     source.fail("criterion", fmt::format("'{}' {}", law.criterion->name, lacking));
   law.unit = law.criterion->unit_there ? law.criterion->unit_there(request) : law.criterion->unit;
-  if (law.until < law.from) source.fail("until", "the law ends before it starts");
+  if (law.until < law.from) source.fail("until", "the law ends before it starts: until is less than from");
   return law;
 }
 
@@ -70,13 +69,11 @@ bool wholly_fixed(const Body& body) {
 
 void build_laws(Body& body, const BodySettings& settings) {
   if (settings.tears.empty()) {
-    body.left_out.emplace_back("tearing: no law, so no criterion is bound and no border is remembered");
+    body.left_out.emplace_back("tearing: the body has no <tear>");
     return;
   }
   if (wholly_fixed(body))
-    body.notes.push_back(
-        "tearing: every vertex is fixed, so that nothing moves and a law sees the same forces in "
-        "every step");
+    body.notes.push_back("tearing: every vertex is fixed, so nothing moves and the forces never change");
   body.border = &body.map->add(InitialBorder(body.map->dimension()));
   for (const LawSettings& asked : settings.tears) {
     const LawSettings law = completed(asked, body, settings.rules);
@@ -85,9 +82,9 @@ void build_laws(Body& body, const BodySettings& settings) {
     if (!body.tear_laws.back().elementary() || body.cumulated != Cumulated::Yes) continue;
     law.source.fail(law.criterion->elementary ? "criterion" : "change",
                     law.criterion->elementary
-                        ? "looks at each element by itself, and cumulated=\"yes\" folds what they do"
-                        : "is made where single elements pull most, and cumulated=\"yes\" folds what they do",
-                    "leave cumulated at auto");
+                        ? "measures each element separately, but cumulated=\"yes\" merges their springs"
+                        : "needs the force of each element separately, but cumulated=\"yes\" merges them",
+                    "remove cumulated=\"yes\"");
   }
 }
 

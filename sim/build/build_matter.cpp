@@ -19,22 +19,21 @@ void note_exactness(Body& body, const SpringMaterial& material) {
   });
   const double nu = material.poisson;
   if (quads && std::abs(nu - 1.0 / 3) > 1e-3)
-    body.notes.push_back(fmt::format(
-        "springs on rectangles keep the shear modulus, but behave as with poisson {:.4g} and young {:.4g} "
-        "(exact at poisson 1/3 alone)",
-        1 / (3 * nu + 2), 3 * material.young * (1 + 3 * nu) / (2 * (2 + 3 * nu))));
-  if (triangles)
     body.notes.push_back(
-        "springs on triangles give young and poisson back for equilateral ones at poisson 1/3 alone: squares "
-        "halved "
-        "along one diagonal then behave, along their sides, as with poisson 0 and 1.125 times young");
+        fmt::format("springs on rectangles have the right shear modulus, but otherwise behave as with poisson "
+                    "{:.4g} and young {:.4g} (only poisson 1/3 is exact); for other materials use <elasticity>",
+                    1 / (3 * nu + 2), 3 * material.young * (1 + 3 * nu) / (2 * (2 + 3 * nu))));
+  if (triangles)
+    body.notes.push_back("springs on triangles reproduce young and poisson only on equilateral triangles with "
+                         "poisson 1/3; on squares cut along one diagonal they behave, along the sides, as with "
+                         "poisson 0 and 1.125 times young; for exact materials use <elasticity>");
 }
 
 std::optional<SpringMaterial> spring_material(Body& body, const SpringsSettings& springs) {
   std::optional<SpringMaterial> material;
   if (springs.young) {
     if (body.map->dimension() == 3)
-      springs.source.fail("young", "no formula gives the springs of a solid their stiffness",
+      springs.source.fail("young", "the springs of a solid cannot be computed from young",
                           "give each its k, or use <elasticity> for a material");
     if (!springs.thickness)
       springs.source.fail("young", "stiffness from young needs the thickness of the sheet",
@@ -87,7 +86,7 @@ void check_flat(const Body& body, const BodySettings& settings) {
   if (flat && held_along(settings.motions, static_cast<int>(axis))) return;
   elasticity.source.fail(
       "model",
-      fmt::format("'{}' gives a sheet no stiffness out of its plane",
+      fmt::format("model '{}' gives a sheet no stiffness out of its plane",
                   elasticity.model == ContinuumModel::Linear ? "linear" : "mass-tensor"),
       flat ? fmt::format("keep it there with <fix all=\"yes\" axes=\"{}\"/>, or take "
                          "model=\"corotational\"",
@@ -108,8 +107,7 @@ void build_elasticity(Body& body, const BodySettings& settings) {
   body.uniform_drag += elasticity.damping_mass;
   if (!says_cumulated(elasticity)) return;
   if (settings.springs && says_cumulated(*settings.springs) && elasticity.cumulated != body.cumulated)
-    elasticity.source.fail("cumulated", "differs from that of <springs>",
-                           "a body folds all of its interactions or none");
+    elasticity.source.fail("cumulated", "differs from that of <springs>", "give both the same value");
   body.cumulated = elasticity.cumulated;
 }
 
@@ -132,7 +130,7 @@ void build_matter(Body& body, const BodySettings& settings) {
   if (settings.springs) build_springs(body, *settings.springs);
   if (settings.elasticity) build_elasticity(body, settings);
   if (settings.viscosity) build_viscosity(body, *settings.viscosity);
-  if (!body.drag) body.left_out.emplace_back("viscosity per particle: none, so no array of it");
+  if (!body.drag) body.left_out.emplace_back("viscosity per particle: none");
 }
 
 } // namespace rend

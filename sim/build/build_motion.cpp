@@ -38,15 +38,13 @@ Load load_of(Body& body, const LoadSettings& settings) {
   if (settings.kind() == Kind::Pressure) {
     Patch patch = Patch::faces(*body.map, name, vertices);
     if (patch.cells().size() == 0)
-      settings.source.fail("pressure", "no face has all its vertices among those selected",
-                           "select more of the body");
+      settings.source.fail("pressure", "no face has all of its vertices selected", "select more of the body");
     return {*body.map, settings, std::move(patch)};
   }
   Load load(*body.map, settings, Patch::boundary(*body.map, name, vertices));
   if (settings.kind() == Kind::Moment && !load.possible(*body.map))
-    settings.source.fail("moment",
-                         "forces on a point, or on a straight line of vertices, give no moment about it",
-                         "select more than a line: the last row of cells, not their border alone");
+    settings.source.fail("moment", "a moment needs vertices that do not all lie on one straight line",
+                         "select more of them, such as the whole last row of cells instead of its border");
   return load;
 }
 

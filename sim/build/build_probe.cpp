@@ -19,10 +19,13 @@ Answer answer_of(const Body& body, const AnswerSettings& settings) {
                 names.empty() ? "<probe name=\"tip\" near=\"1 0 0\"/> is one"
                               : suggestion(answer.probe, names, "its probes"));
   if (answer.quantity.starts_with("reaction") && !body.probes[answer.number].on_support(body))
-    source.fail("quantity", fmt::format("nothing supports the vertices of probe '{}'", answer.probe),
-                "a reaction needs fixed or driven vertices");
+    source.fail("quantity",
+                fmt::format("the vertices of probe '{}' are neither fixed nor driven, so there is no reaction",
+                            answer.probe),
+                "select fixed or driven vertices, or compare another quantity");
   if (answer.quantity.starts_with("stress") && !has_stress(body))
-    source.fail("quantity", "no element of the body knows its stress", "<elasticity> makes finite elements");
+    source.fail("quantity", "the body has no elements with a stress",
+                "add <elasticity>, which makes finite elements");
   return answer;
 }
 

@@ -17,7 +17,7 @@ void check_reach(const Body& body, const SettingsSource& shape) {
     for (double component : {x.x, x.y, x.z})
       if (!(std::abs(component) <= farthest))
         shape.fail("",
-                   fmt::format("a vertex lies {:g} m from the origin, and at most {:g} m are reckoned with",
+                   fmt::format("a vertex lies {:g} m from the origin; at most {:g} m are allowed",
                                std::abs(component), farthest),
                    "scale and translate of <place>, and the sizes of the shape, are in metres");
 }

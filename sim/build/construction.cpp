@@ -300,11 +300,14 @@ template <> const Fields<ApplySettings>& fields_of() {
   using S = ApplySettings;
   static const Fields<S> fields =
       Fields<S>{
-          field(&S::with, word("with", {"nothing", "touching"},
-                               "for rules with two hooks: the second one is the dart at the same place")),
-          field(&S::rule, text("rule", "a rule of the scene or of the house: rend rule list").is_required()),
-          field(&S::times,
-                integer("times", "how often, on what the time before has left").at_least(1).at_most(1000))} +
+          field(&S::with,
+                word("with", {"nothing", "touching"},
+                     "for rules with two hooks: touching: the second hook is the dart at the same place")),
+          field(&S::rule,
+                text("rule", "a rule of this scene, or a built-in one (rend rule list)").is_required()),
+          field(&S::times, integer("times", "how many times; each time on the result of the time before")
+                               .at_least(1)
+                               .at_most(1000))} +
       fields_of_part(&S::where);
   return fields;
 }
@@ -315,7 +318,7 @@ const ElementType& apply_type() {
                      "a rule that constructs: it is applied wherever all vertices are selected",
                      attributes_of<ApplySettings>(),
                      {}};
-    made.attributes.push_back(word("to", {"all"}, "everywhere; so it is without a selector"));
+    made.attributes.push_back(word("to", {"all"}, "all: apply the rule everywhere, as without a selector"));
     made.further = "an argument of the rule: an expression of numbers";
     return made;
   }();
@@ -326,7 +329,7 @@ const ElementType& subdivide_type() {
   static const ElementType type{
       "subdivide",
       "each face of a sheet becomes one quad per corner, each volume of a solid one hexahedron per corner",
-      {integer("times", "how often").at_least(1).at_most(20).otherwise("1")},
+      {integer("times", "how many times").at_least(1).at_most(20).otherwise("1")},
       {}};
   return type;
 }

@@ -6,28 +6,33 @@ namespace rend {
 namespace {
 
 const ElementType& floor_type() {
-  static const ElementType type{"floor", "a floor, drawn below the bodies", attributes_of<Floor>(), {}};
+  static const ElementType type{
+      "floor", "a horizontal floor; bodies with <contact> rest on it", attributes_of<Floor>(), {}};
   return type;
 }
 
 const ElementType& wind_type() {
   static const ElementType type{
       "wind",
-      "air that pushes faces along their normals: drag x area x the square of its speed against them",
+      "wind: it pushes each face along its normal with the force drag x area x (air speed across the face)^2",
       attributes_of<Wind>(),
       {}};
   return type;
 }
 
 const ElementType& sphere_type() {
-  static const ElementType type{
-      "sphere", "a rigid sphere, for bodies with <contact>", attributes_of<SphereSettings>(), {}};
+  static const ElementType type{"sphere",
+                                "a rigid sphere, which bodies with <contact> collide with",
+                                attributes_of<SphereSettings>(),
+                                {}};
   return type;
 }
 
 const ElementType& box_type() {
-  static const ElementType type{
-      "box", "a rigid box that stands still, for bodies with <contact>", attributes_of<Box>(), {}};
+  static const ElementType type{"box",
+                                "a rigid box that stands still, which bodies with <contact> collide with",
+                                attributes_of<Box>(),
+                                {}};
   return type;
 }
 
@@ -36,7 +41,7 @@ const ElementType& box_type() {
 const ElementType& world_type() {
   static const ElementType type{
       "world",
-      "what surrounds the bodies",
+      "gravity, floor, obstacles and wind",
       attributes_of<World>(),
       {{&floor_type(), 0, 1}, {&sphere_type(), 0, -1}, {&box_type(), 0, -1}, {&wind_type(), 0, 1}}};
   return type;

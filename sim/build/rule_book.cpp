@@ -29,7 +29,7 @@ bool has(const RuleBook& book, const std::string& name) {
 void add(RuleBook& book, const PresetNode& node) {
   RuleSettings settings = read_rule(node);
   if (find_house_rule(settings.name))
-    node.fail("name", fmt::format("there is a rule {} of the house", in_quotes(settings.name)),
+    node.fail("name", fmt::format("{} is the name of a built-in rule", in_quotes(settings.name)),
               "give it another name; rend rule show " + settings.name + " shows that one");
   if (has(book, settings.name))
     node.fail("name", fmt::format("two rules are called {}", in_quotes(settings.name)), "give each its own");

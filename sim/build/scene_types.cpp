@@ -19,7 +19,8 @@ const ElementType& body_type() {
 }
 
 const ElementType& time_type() {
-  static const ElementType type{"time", "how time goes", attributes_of<TimeSettings>(), {}};
+  static const ElementType type{
+      "time", "time step, integrator and duration", attributes_of<TimeSettings>(), {}};
   return type;
 }
 

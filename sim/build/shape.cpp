@@ -26,9 +26,10 @@ Eigen::Matrix3d rotation_about(int axis, double degrees) {
 
 template <> const Fields<Placement>& fields_of() {
   using S = Placement;
-  static const Fields<S> fields{field(&S::scale, number("scale", "", "factor").above(0)),
-                                field(&S::rotate, numbers("rotate", 3, "degrees", "about x, then y, then z")),
-                                field(&S::translate, numbers("translate", 3, "m", "moved by, last"))};
+  static const Fields<S> fields{
+      field(&S::scale, number("scale", "", "factor").above(0)),
+      field(&S::rotate, numbers("rotate", 3, "degrees", "angles about x, then y, then z")),
+      field(&S::translate, numbers("translate", 3, "m", "displacement; applied last"))};
   return fields;
 }
 

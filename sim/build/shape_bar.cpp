@@ -17,15 +17,15 @@ const ElementType& bar_type() {
 void make_map(Body& body, const BarShape& shape, const Placement& place) {
   check_settings(shape);
   if (static_cast<double>(shape.nx) * shape.ny * shape.nz * bar_darts_per_box >= Dart::none_value)
-    shape.source.fail("cells", fmt::format("{} x {} x {} boxes are more than a map of 2^32 darts holds",
-                                           shape.nx, shape.ny, shape.nz));
+    shape.source.fail(
+        "cells", fmt::format("{} x {} x {} boxes are too many for one body", shape.nx, shape.ny, shape.nz));
   CellMesh mesh = bar_cells(shape);
   place.apply(mesh.points);
   try {
     body.map = solid_from(mesh);
   } catch (const MeshFault& fault) { // sizes that round to nothing
     shape.source.fail("size", fmt::format("a cell of the bar {}", fault.flaw),
-                      "make its sides less unlike, or larger");
+                      "make the sides of the cells more equal, or larger");
   }
 }
 

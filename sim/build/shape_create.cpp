@@ -6,16 +6,16 @@ namespace {
 
 const ElementType& create_type() {
   static const ElementType type{
-      "create", "nothing, for rules to begin with: <apply>", attributes_of<CreateSettings>(), {}};
+      "create", "an empty shape, which the rules of <apply> build up", attributes_of<CreateSettings>(), {}};
   return type;
 }
 
 } // namespace
 
 template <> const Fields<CreateSettings>& fields_of() {
-  static const Fields<CreateSettings> fields{
-      field(&CreateSettings::dimension,
-            integer("dimension", "2: of a sheet, 3: of a solid").at_least(2).at_most(3).is_required())};
+  static const Fields<CreateSettings> fields{field(
+      &CreateSettings::dimension,
+      integer("dimension", "2: the rules build a sheet; 3: a solid").at_least(2).at_most(3).is_required())};
   return fields;
 }
 

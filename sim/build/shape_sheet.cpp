@@ -15,15 +15,14 @@ void check(const SheetShape& shape) {
   check_settings(shape);
   const SettingsSource& source = shape.source;
   if (24.0 * shape.nx * shape.ny >= Dart::none_value) // the most darts that a cell can have
-    source.fail("cells",
-                fmt::format("{} x {} cells are more than a map of 2^32 darts holds", shape.nx, shape.ny));
+    source.fail("cells", fmt::format("{} x {} cells are too many for one body", shape.nx, shape.ny));
   if (shape.size.has_value() == shape.corners.has_value())
     source.fail("",
                 shape.size ? "<sheet> has both a size and corners" : "<sheet> has neither a size nor corners",
                 "give one of them: size=\"1 1\"");
   const bool band = shape.closure != SheetClosure::None;
   if (band && shape.corners)
-    source.fail("corners", "a band has no corners", "give its size: around and across");
+    source.fail("corners", "a band (close) cannot be given by corners", "give its size: around and across");
   if (band && shape.nx < 3) source.fail("cells", "a band needs at least 3 cells around");
 }
 

@@ -19,11 +19,12 @@ void check(const TubeShape& shape) {
   check_settings(shape);
   if (shape.around % 4 != 0)
     shape.source.fail(
-        "cells", fmt::format("{} cells around do not put a border at each corner of the tube", shape.around),
+        "cells",
+        fmt::format("the number of cells around the tube must be a multiple of 4, and {} is not", shape.around),
         "take a multiple of 4");
   if (48.0 * shape.around * shape.along >= Dart::none_value)
-    shape.source.fail("cells", fmt::format("{} x {} cells are more than a map of 2^32 darts holds",
-                                           shape.around, shape.along));
+    shape.source.fail("cells",
+                      fmt::format("{} x {} cells are too many for one body", shape.around, shape.along));
   if (2 * shape.wall >= std::min(shape.size.x(), shape.size.y()))
     shape.source.fail(
         "wall",
@@ -41,7 +42,7 @@ void make_map(Body& body, const TubeShape& shape, const Placement& place) {
     body.map = solid_from(mesh);
   } catch (const MeshFault& fault) { // sizes that round to nothing
     shape.source.fail("size", fmt::format("a cell of the tube {}", fault.flaw),
-                      "make its sides less unlike, or larger");
+                      "make the sides of the cells more equal, or larger");
   }
 }
 

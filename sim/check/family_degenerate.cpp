@@ -96,9 +96,9 @@ CheckCase odd_case(const Odd& odd) {
   sketch.time = time_of("symplectic", "auto", 1);
   CheckCase one;
   one.name = "degenerate/" + odd.name;
-  one.expectation =
-      "refused, with the place and what would work; or simulated: shaken (set on the scene), 2000 steps, all "
-      "numbers finite and no more than 19 times the energy";
+  one.expectation = "refused, with the place and what would work; or simulated: shaken (not in the preset "
+                    "file), 2000 steps, all "
+                    "numbers finite and no more than 19 times the energy";
   one.preset = sketch.text();
   one.row = odd.name;
   if (!odd.file.first.empty()) one.files.push_back(odd.file);

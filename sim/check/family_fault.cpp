@@ -74,7 +74,8 @@ std::vector<CheckCase> fault_cases() {
 
 CheckFamily fault_family() {
   return {"fault", "A number that is none",
-          "A NaN is put into each stage of one step of a loaded bar above a floor (on the scene). Once: the "
+          "A NaN is put into each stage of one step of a loaded bar above a floor (not in the preset file). "
+          "Once: the "
           "guard must redo "
           "the step and nothing is lost. At every try: the run must stop and say where, with its state whole.",
           fault_cases};

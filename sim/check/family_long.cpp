@@ -26,7 +26,7 @@ CheckCase long_case(const Matter& matter, const Scheme& scheme, long steps) {
   const bool keeps = scheme.name == "symplectic" || scheme.name == "verlet";
   const bool turns = matter.model == "springs" || matter.name == "corotational tetrahedra";
   one.expectation = fmt::format(
-      "free and shaken (set on the scene{}) with a hundredth of its speed of sound, {:g} steps of {}: "
+      "free and shaken (not in the preset file{}) with a hundredth of its speed of sound, {:g} steps of {}: "
       "the mean energy of the last tenth {}; momentum to 1e-9{}",
       matter.small_strain()
           ? ", without drift and turn, which small strain takes for a displacement and for swelling"

@@ -64,7 +64,8 @@ CheckCase shaken(const Matter& matter, double poisson) {
   CheckCase one;
   one.name = fmt::format("poisson/shaken/{}/{}", matter.name, poisson);
   one.expectation =
-      "free, each vertex pushed at random (set on the scene), 3000 steps of the automatic size: the energy "
+      "free, each vertex pushed at random (not in the preset file), 3000 steps of the automatic size: the "
+      "energy "
       "stays below (1 + 0.9)/(1 - 0.9) = 19 times its start, as symplectic Euler has it at 0.9 of 2/omega, "
       "and the momentum is kept";
   one.preset = sketch.text();

@@ -105,10 +105,10 @@ CheckCase shape_case(const Matter& matter, const std::string& shape) {
                      : matter.dimension == 2 && matter.model != "springs"
                          ? "a shape without strain energy (without bending it may stay folded)"
                          : "its shape (within 1e-3 of its size, wherever it is and however turned)";
-  one.expectation =
-      fmt::format("{} (on the scene, {}): no energy appears beyond that of the start, or of the body as a "
-                  "point, and the body comes back to {}",
-                  shape, what, rest);
+  one.expectation = fmt::format(
+      "{} (not in the preset file, {}): no energy appears beyond that of the start, or of the body as a "
+      "point, and the body comes back to {}",
+      shape, what, rest);
   one.preset = sketch.text();
   one.row = matter.name;
   one.column = shape;

@@ -98,8 +98,9 @@ CheckCase linear_case(const Specimen& specimen, const std::string& damping, cons
   CheckCase one;
   one.name = fmt::format("step-limit/{}/{}/{}", specimen.name, damping, scheme.name);
   one.expectation =
-      "the predicted limit lies within 1 % of the largest step whose runs (from small random velocities, set "
-      "on the scene; 4000 steps) do not grow; step=\"auto\" lies below, or is refused with what would work";
+      "the predicted limit lies within 1 % of the largest step whose runs (4000 steps, from small random "
+      "velocities that are not in the preset file) do not grow; step=\"auto\" lies below, or is refused with "
+      "what would work";
   one.preset = sketch.text();
   one.row = specimen.name + ", " + damping;
   one.column = scheme.name;

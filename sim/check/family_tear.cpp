@@ -125,7 +125,7 @@ CheckCase tear_case(const Pulled& body, const ForceLaw& law, const Strain& strai
   one.expectation = fmt::format(
       "pulled by its ends{} until it tears: the map obeys its axioms, all numbers are finite, the mass "
       "is {}, and what flies off is no faster than 10 times sound and pull",
-      strain.scrambled ? " and scrambled by half a cell (set on the scene)" : "",
+      strain.scrambled ? " and scrambled by half a cell (not in the preset file)" : "",
       deletes ? "not more" : "the same");
   one.preset = preset_of(body, law, strain);
   one.row = body.name + ": " + what;

@@ -172,7 +172,7 @@ std::vector<CheckCase> preset_cases(const std::string& name, const std::string& 
   for (const StepStage stage :
        {StepStage::Forces, StepStage::Loads, StepStage::Integration, StepStage::Contact})
     all.push_back(made(name, path, fmt::format("fault in {}", name_of(stage)),
-                       "a NaN in step 20 (set on the scene): redone, and nothing of it is left",
+                       "a NaN in step 20 (put there by the check): redone, and nothing of it is left",
                        [stage](const Bench& bench, Finding& finding) { with_fault(stage, bench, finding); }));
   all.push_back(made(name, path, "threads", "one thread and two give the same bytes", same_on_threads));
   all.push_back(made(name, path, "tears", "every tear has a finite value and place", tears_finite));

@@ -64,7 +64,8 @@ private:
 
 ExportFormat obj_format() {
   return {.name = "obj",
-          .what = "the surface as polygons, an object per body, a group per fragment, text; one file a frame",
+          .what =
+              "the surface as polygons, an object per body and a group per fragment; text, one file per frame",
           .extension = ".obj",
           .index_extension = "",
           .every_frame = true,

@@ -143,7 +143,7 @@ private:
 
 ExportFormat ply_format() {
   return {.name = "ply",
-          .what = "the surface as polygons, with velocities, fragments and stress, binary; one file a frame",
+          .what = "the surface as polygons, with velocities, fragments and stress; binary, one file per frame",
           .extension = ".ply",
           .index_extension = ".ply.series",
           .every_frame = true,

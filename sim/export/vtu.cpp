@@ -126,8 +126,7 @@ private:
 
 ExportFormat vtu_format() {
   return {.name = "vtu",
-          .what =
-              "VTK's unstructured grids, cells whole, with all that is known of them; a .pvd lists the files",
+          .what = "VTK unstructured grids: whole cells with all their data; a .pvd lists the files",
           .extension = ".vtu",
           .index_extension = ".pvd",
           .every_frame = false,

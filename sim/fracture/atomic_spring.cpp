@@ -32,7 +32,7 @@ private:
 CriterionType atomic_spring() {
   return {
       .name = "atomic-spring",
-      .what = "the force of each single spring of the kind given, of an angular bend its moment [N.m]",
+      .what = "the force of each single spring of the given kind; of an angular bend, its moment [N.m]",
       .unit = "N",
       .cell = &cell_of_kind,
       .lacking = [](const CriterionRequest& request) { return lacking_for_springs(request); },

@@ -122,7 +122,8 @@ private:
 
 CriterionType atomic_vertex() {
   return {.name = "atomic-vertex",
-          .what = "the largest single force on the vertex, of a spring or an element; the plane across it",
+          .what = "the largest single force that a spring or an element applies to the vertex; splits along "
+                  "the plane across it",
           .unit = "N",
           .cell = [](std::string_view) { return Cell::Vertices; },
           .lacking = [](const CriterionRequest&) { return std::string(); },

@@ -27,7 +27,7 @@ private:
 
 CriterionType cumulative_vertex() {
   return {.name = "cumulative-vertex",
-          .what = "|sum of the internal forces on the vertex|; the plane across it",
+          .what = "the size of the sum of the internal forces on the vertex; splits along the plane across it",
           .unit = "N",
           .cell = [](std::string_view) { return Cell::Vertices; },
           .lacking = [](const CriterionRequest&) { return std::string(); },

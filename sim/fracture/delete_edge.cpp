@@ -5,15 +5,13 @@
 namespace rend {
 
 ChangeType delete_edge() {
-  return {
-      "delete-edge",
-      "every element that holds the edge is gone; its other variant is split-vertex, which splits one of the "
-      "edge's ends",
-      Cell::Edges, [](Edit& edit, const ForceView&, const Vec3&, std::span<const Dart> darts) {
-        for (Dart d : darts)
-          if (edit.map().alive(d)) remove_element_of(edit, d);
-        return true;
-      }};
+  return {"delete-edge",
+          "every element at the edge is deleted (split-vertex splits one end of the edge instead)", Cell::Edges,
+          [](Edit& edit, const ForceView&, const Vec3&, std::span<const Dart> darts) {
+            for (Dart d : darts)
+              if (edit.map().alive(d)) remove_element_of(edit, d);
+            return true;
+          }};
 }
 
 } // namespace rend

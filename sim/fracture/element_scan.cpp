@@ -212,7 +212,7 @@ std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request,
 
 std::string lacking_for_stress(const CriterionRequest& request) {
   if (!Continuum(request.map, request.interactions).empty()) return {};
-  return "looks at the elements of a continuum, and this body has no <elasticity>";
+  return "measures finite elements, but this body has no <elasticity>";
 }
 
 } // namespace rend

@@ -50,10 +50,10 @@ bool apply_in(RuleRunner& runner, Edit& edit, std::span<const Dart> cell) {
 
 std::string misfit_of(const Rule& rule, int dimension) {
   if (rule.plan.hooks.size() != 1)
-    return fmt::format("has {} hooks, and a law finds the darts of one", rule.plan.hooks.size());
+    return fmt::format("has {} hooks, but a <tear> finds the darts of one only", rule.plan.hooks.size());
   if (!cell_of(rule.hook_orbit(), dimension))
-    return "changes a whole component, and a law acts on single cells";
-  if (dimension == 2 && rule.plan.links_volumes) return "links volumes, and this is a sheet";
+    return "changes a whole component, but a <tear> acts on single cells";
+  if (dimension == 2 && rule.plan.links_volumes) return "links volumes, but this body is a sheet";
   if (const std::string name = rule.quantity_of_law(); !name.empty())
     return "asks for " + name + ", which its expressions do not know yet";
   return {};

@@ -5,7 +5,7 @@
 namespace rend {
 
 ChangeType separate() {
-  return {"separate", "the two elements at the border let go of each other", Cell::Borders,
+  return {"separate", "the two elements on either side of the border are separated", Cell::Borders,
           [](Edit& edit, const ForceView&, const Vec3&, std::span<const Dart> darts) {
             return unsew(edit, edit.map().dimension(), darts.front());
           }};

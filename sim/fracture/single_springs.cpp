@@ -78,12 +78,12 @@ std::string lacking_for_springs(const CriterionRequest& request) {
   }
   std::string list;
   for (const std::string& kind : there) list += (list.empty() ? "" : ", ") + kind;
-  if (there.empty()) return "looks at springs, and this body has none";
-  if (request.kind.empty()) return "looks at springs of one kind: say kind, one of " + list;
+  if (there.empty()) return "measures springs, but this body has none";
+  if (request.kind.empty()) return "measures springs of one kind: give kind, one of " + list;
   if (!hinges && !straight)
-    return fmt::format("looks at springs of kind '{}', and this body has none: it has {}", request.kind, list);
+    return fmt::format("measures springs of kind '{}', but this body has only {}", request.kind, list);
   if (hinges && straight)
-    return "would compare forces and moments with one threshold: this body bends by both kinds";
+    return "would compare forces and moments with one threshold, because this body has both kinds of <bend>";
   return {};
 }
 

@@ -62,11 +62,12 @@ bool split(Edit& edit, const ForceView& view, std::span<const Dart> darts, const
 } // namespace
 
 ChangeType split_vertex() {
-  return {"split-vertex", "the elements at the vertex part where the plane across the force runs between them",
-          Cell::Vertices,
-          [](Edit& edit, const ForceView& view, const Vec3& normal, std::span<const Dart> darts) {
-            return split(edit, view, darts, normal);
-          }};
+  return {
+      "split-vertex",
+      "the elements at the vertex are separated into two groups, on either side of the plane across the force",
+      Cell::Vertices, [](Edit& edit, const ForceView& view, const Vec3& normal, std::span<const Dart> darts) {
+        return split(edit, view, darts, normal);
+      }};
 }
 
 } // namespace rend

@@ -32,12 +32,13 @@ private:
 std::string lacking(const CriterionRequest& request) {
   if (request.kind.empty()) {
     if (lacking_for_stress(request).empty()) return {};
-    if (const std::string springs = lacking_for_springs(request); springs.starts_with("looks at springs of"))
+    if (const std::string springs = lacking_for_springs(request); springs.starts_with("measures springs of"))
       return springs;
-    return "looks at springs or at the elements of <elasticity>, and this body has neither";
+    return "measures springs or finite elements, but this body has neither <springs> nor <elasticity>";
   }
   if (turns(request))
-    return "looks at elongations, which an angular bend does not have: atomic-spring takes its moment";
+    return "measures elongations, which an angular bend does not have; use atomic-spring, which measures its "
+           "moment";
   return lacking_for_springs(request);
 }
 
@@ -45,7 +46,7 @@ std::string lacking(const CriterionRequest& request) {
 
 CriterionType strain() {
   return {.name = "strain",
-          .what = "the elongation ratio of each spring of the kind given; without a kind, the largest "
+          .what = "the relative elongation of each spring of the given kind; without a kind, the largest "
                   "principal strain of each element",
           .unit = "",
           .cell = [](std::string_view kind) { return kind.empty() ? Cell::Elements : cell_of_kind(kind); },

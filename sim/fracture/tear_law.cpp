@@ -1,17 +1,19 @@
 #include "sim/fracture/tear_law.h"
 
+#include "sim/base/archive.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 
 namespace {
 
-// "name: what; name: what"
+// A line for each: "name: what".
 template <class T> std::string told(const std::vector<T>& all) {
   std::string out;
-  for (const T& each : all) out += (out.empty() ? "" : "; ") + each.name + ": " + each.what;
+  for (const T& each : all) out += (out.empty() ? "" : "\n") + each.name + ": " + each.what;
   return out;
 }
 
@@ -21,24 +23,28 @@ template <> const Fields<LawSettings>& fields_of() {
   using S = LawSettings;
   constexpr bool required = true;
   static const Fields<S> fields{
-      field(&S::criterion, all_criteria(), "criterion", told(all_criteria()), required),
+      field(&S::criterion, all_criteria(), "criterion", "what is measured\n" + told(all_criteria()), required),
       field(&S::threshold,
             number("threshold", "",
-                   "the value above which it tears, in newtons, of stresses in pascals, of strains a ratio; a "
-                   "low one and rend run --events tell what is reached")
+                   "the body tears where the criterion's value is larger than this: a force [N], a stress [Pa] "
+                   "or a strain (a ratio); rend run PRESET --reach tells which values are reached")
                 .above(0)
                 .is_required()),
-      field(&S::kind, word("kind", {"stretch", "shear", "bend"}, "of springs: which of them are measured")),
+      field(&S::kind, word("kind", {"stretch", "shear", "bend"},
+                           "which springs are measured: for atomic-spring and strain")),
       field(&S::compression,
-            flag("compression", "principal stresses and strains count in compression as well")),
+            flag("compression", "yes: compression counts as well as tension (for stresses and strains)")),
       field(&S::change, all_changes(), "change",
-            "what is done, any with any criterion (rend help tear says where); default: that of the cell which "
-            "the criterion measures; " +
+            "what happens where it tears; every change goes with every criterion (rend help tear says where it "
+            "is made); default: the first of these that acts on what the criterion measures\n" +
                 told(all_changes())),
-      field(&S::rule, text("rule", "a rule of the scene or of the house, instead of a change: rend rule list")),
-      field(&S::from, number("from", "s", "not before").at_least(0)),
-      field(&S::until, number("until", "s", "not after").at_least(0)),
-      field(&S::max_per_step, integer("max-per-step", "the worst so many a step; 0: all").at_least(0))};
+      field(&S::rule,
+            text("rule",
+                 "a rule to apply instead of a change: one of this scene, or a built-in one (rend rule list)")),
+      field(&S::from, number("from", "s", "start time; nothing tears before it").at_least(0)),
+      field(&S::until, number("until", "s", "end time; without it, to the end of the clip").at_least(0)),
+      field(&S::max_per_step,
+            integer("max-per-step", "at most N changes per step, worst first; 0 = unlimited").at_least(0))};
   return fields;
 }
 
@@ -49,10 +55,57 @@ TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
 const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   candidates_.clear();
   criterion_->find(view, settings_.threshold, candidates_);
+  sort_candidates();
+  return candidates_;
+}
+
+const std::vector<Candidate>& TearLaw::find_and_note(const ForceView& view, double time, bool look) {
+  candidates_.clear();
+  if (look && reached_.value < settings_.threshold)
+    find_largest(view);
+  else
+    criterion_->find(view, settings_.threshold, candidates_);
+  if (candidates_.empty()) return candidates_;
+  note_reached(view, time);
+  std::erase_if(candidates_, [&](const Candidate& one) { return !(one.value > settings_.threshold); });
+  sort_candidates();
+  return candidates_;
+}
+
+void TearLaw::sort_candidates() {
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     return a.value != b.value ? a.value > b.value : a.dart < b.dart;
   });
-  return candidates_;
+}
+
+// Those above the largest value so far. Where nothing has been reached yet, from the threshold downwards: with
+// 0 every cell would be a candidate.
+void TearLaw::find_largest(const ForceView& view) {
+  if (reached_.value > 0 || std::isinf(settings_.threshold))
+    return criterion_->find(view, reached_.value, candidates_);
+  constexpr int most_looks = 10;
+  constexpr double factor = 1.0 / 8;
+  double above = settings_.threshold;
+  for (int n = 0; n < most_looks && candidates_.empty(); ++n, above *= factor)
+    criterion_->find(view, above, candidates_);
+}
+
+void TearLaw::note_reached(const ForceView& view, double time) {
+  const auto largest =
+      std::max_element(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+        return a.value != b.value ? a.value < b.value : b.dart < a.dart;
+      });
+  if (!(largest->value > reached_.value)) return;
+  left_.clear();
+  collect(view.map.map(), orbit_of(settings_.cell, view.map.dimension()), largest->dart, left_);
+  reached_ = {largest->value, time, middle_of(view.map, view.position, left_)};
+}
+
+void TearLaw::store(Archive& archive, double now) {
+  archive(reached_.value, reached_.time, reached_.place);
+  if (archive.reading())
+    refuse_unless(reached_.value >= 0 && reached_.time >= 0 && reached_.time <= now,
+                  "a law has reached less than nothing, or later than now");
 }
 
 int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,

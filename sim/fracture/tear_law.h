@@ -1,6 +1,11 @@
 // A fracture law: a criterion, a threshold and a change, combined freely (thesis 7.1). Where the criterion
 // measures cells of another kind than the change acts on, transfer.h says at which.
 //
+// A law also remembers the largest value that its criterion has reached, so that a threshold can be chosen: at
+// the steps at which it is told to look, it asks the criterion for what exceeds the largest value so far
+// instead of the threshold, which a criterion's bounds keep cheap (criterion.h: find()). What exceeds the
+// threshold is known at every step anyway.
+//
 // All candidates of a law, and the places where they would change the map, are found on the unchanged map; then
 // the changes are made in order, the largest value first, ties by smallest dart, each checked again for being
 // possible; and the embeddings are updated once.
@@ -36,6 +41,13 @@ struct LawSettings {
 
 template <> const Fields<LawSettings>& fields_of();
 
+// The largest value of a criterion at the steps at which its law has looked.
+struct Reached {
+  double value = 0;          // in the criterion's unit; 0: nothing above 0 was found
+  double time = 0;           // [s]
+  Vec3 place = Vec3::Zero(); // [m], the middle of the cell
+};
+
 class TearLaw {
 public:
   TearLaw(const CriterionRequest& request, const LawSettings& settings);
@@ -49,6 +61,11 @@ public:
 
   // The candidates above the threshold, sorted. Changes nothing.
   const std::vector<Candidate>& find(const ForceView& view);
+  // The same at a time [s] of the run: what is above the largest value so far is noted. `look`: also where that
+  // is below the threshold.
+  const std::vector<Candidate>& find_and_note(const ForceView& view, double time, bool look);
+  const Reached& reached() const { return reached_; }
+  void store(Archive& archive, double now); // what was reached; nothing is reached later than now [s]
 
   // Makes the changes at the candidates of find(). Returns how many were made; appends an event for each, and
   // notes it in `fragment_counter` if given.
@@ -62,6 +79,9 @@ public:
   }
 
 private:
+  void sort_candidates();
+  void find_largest(const ForceView& view);
+  void note_reached(const ForceView& view, double time);
   void note_cells(const GMap& map);
   void note_places(const ForceView& view);
   std::span<const Dart> cell(std::size_t candidate) const;
@@ -71,6 +91,7 @@ private:
   const Transfer* transfer_;
   std::unique_ptr<Criterion> criterion_;
   std::vector<Candidate> candidates_;
+  Reached reached_;
   std::vector<Dart> darts_;        // of the candidates' cells before the edit, cell by cell
   std::vector<std::size_t> begin_; // first entry of each candidate in darts_
   Places places_;                  // of all candidates, before the edit; empty if the cells are the places

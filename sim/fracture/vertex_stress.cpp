@@ -44,17 +44,16 @@ private:
 } // namespace
 
 CriterionType vertex_stress_criterion() {
-  return {
-      .name = "vertex-stress",
-      .what =
-          "the largest principal value of the mean stress of the elements at the vertex; the plane across it",
-      .unit = "Pa",
-      .cell = [](std::string_view) { return Cell::Vertices; },
-      .lacking = [](const CriterionRequest& request) { return lacking_for_stress(request); },
-      .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
-        return std::make_unique<VertexStressCriterion>(request);
-      },
-      .takes_compression = true};
+  return {.name = "vertex-stress",
+          .what = "the largest principal value of the mean stress of the elements at the vertex; splits along "
+                  "the plane across it",
+          .unit = "Pa",
+          .cell = [](std::string_view) { return Cell::Vertices; },
+          .lacking = [](const CriterionRequest& request) { return lacking_for_stress(request); },
+          .make = [](const CriterionRequest& request) -> std::unique_ptr<Criterion> {
+            return std::make_unique<VertexStressCriterion>(request);
+          },
+          .takes_compression = true};
 }
 
 } // namespace rend

@@ -7,7 +7,7 @@ namespace rend {
 
 Scheme explicit_euler() {
   return {.name = "explicit",
-          .what = "explicit Euler: stable through damping alone",
+          .what = "explicit Euler: only stable with damping",
           .order = 1,
           .evaluations = 1,
           .limit = &limit_by_drag,

@@ -162,11 +162,12 @@ double linear_tolerance(const Residual& residual) {
 }
 
 [[noreturn]] void give_up(const Residual& residual, int iterations) {
-  throw NotConverged(residual.finite()
-                         ? fmt::format("Newton's method left {:.2g} of the forces after {} iterations",
-                                       residual.norm / residual.terms, iterations)
-                         : "forces are not finite",
-                     "a smaller step changes less at once");
+  throw NotConverged(
+      residual.finite()
+          ? fmt::format("Newton's method did not converge: {:.2g} of the forces are left after {} iterations",
+                        residual.norm / residual.terms, iterations)
+          : "forces are not finite",
+      "use a smaller step");
 }
 
 void ImplicitEuler::solve(const Step& step) {
@@ -181,8 +182,7 @@ void ImplicitEuler::solve(const Step& step) {
     ++newton_;
     load_tangent_.at(step.system, step.end, position_, velocity_, held_, {step.size, 1, step.size});
     if (!load_tangent_.solve(linear_, before_, update_, linear_tolerance(residual)))
-      throw NotConverged("the linear system of the step could not be solved",
-                         "a smaller step is easier to solve");
+      throw NotConverged("the linear system of the step could not be solved", "use a smaller step");
     const Residual last = residual;
     const bool moved = search(step, residual);
     if (!moved) {
@@ -238,7 +238,7 @@ void ImplicitEuler::advance(System& system, double time, double size, const Stat
 
 Scheme implicit_euler() {
   return {.name = "implicit",
-          .what = "implicit Euler, by Newton's method: stable at any step, damps what is fast",
+          .what = "implicit Euler, by Newton's method: stable with every step; damps fast motion",
           .order = 1,
           .evaluations = 2,
           .limit = &no_limit,

@@ -106,7 +106,7 @@ std::optional<std::string> free_translation_of(const BlockPattern& pattern, cons
     std::string names;
     for (unsigned axis = 0; axis < 3; ++axis)
       if (!(axes >> axis & 1)) names += (names.empty() ? "" : ", ") + std::string(1, "xyz"[axis]);
-    drift = fmt::format("nothing holds a piece of {} {} along {}", piece.size(),
+    drift = fmt::format("a piece of {} {} is free to move along {}", piece.size(),
                         piece.size() == 1 ? "vertex" : "vertices", names);
     return true;
   });
@@ -221,12 +221,10 @@ void SupportState::check(System& system, double time, const Records& position, c
     return;
   }
   if (drift)
-    throw NotConverged(*drift + ", and a static solve needs that",
-                       "add <fix>, or use implicit, which needs no hold");
+    throw NotConverged(*drift + ", so it has no equilibrium", "add <fix>, or use integrator=\"implicit\"");
   if (stiff_to_turns)
-    throw NotConverged(
-        "what is held lets the body turn as a whole, and a model of small displacements resists no turn",
-        "fix more than a point or a line, or use a co-rotational model");
+    throw NotConverged("the body can turn as a whole, which a model for small displacements does not resist",
+                       "fix more than a point or a line, or use model=\"corotational\"");
 }
 
 } // namespace rend

@@ -263,9 +263,9 @@ void RungeKutta45::make_substep(System& system, Substep& part, double left, doub
     next_size_ = proposed;
     if (next_size_ < shortest * step)
       throw NotConverged(
-          std::isfinite(error) ? "the error is above the tolerance in parts of a millionth of the step"
+          std::isfinite(error) ? "the error stays above the tolerance, even in parts of a millionth of the step"
                                : "forces are not finite",
-          "a shorter step of the preset, a larger tolerance, or implicit for what is very stiff");
+          "use a shorter step, a larger tolerance, or, if the body is very stiff, integrator=\"implicit\"");
   }
 }
 
@@ -294,7 +294,7 @@ void RungeKutta45::advance(System& system, double time, double step, const State
 
 Scheme runge_kutta_45() {
   return {.name = "rk45",
-          .what = "the pair of Dormand and Prince: steps are cut into parts by their error (tolerance)",
+          .what = "Dormand-Prince: each step is cut into parts, so that the error stays below tolerance",
           .order = 5,
           .evaluations = stages,
           .limit = &no_limit,

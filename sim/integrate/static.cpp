@@ -358,9 +358,9 @@ void StaticSolve::give_up() const {
   const std::string left =
       fmt::format("no equilibrium was found: {:.2g} of the forces are left after {} iterations", norm_ / terms_,
                   newton_ - (last_ - most_solved));
-  throw NotConverged(turns ? left + ", and what is held lets the body turn as a whole" : left,
+  throw NotConverged(turns ? left + ", and the body can turn as a whole" : left,
                      turns ? "fix more than a point or a line"
-                           : "let loads and drives grow over more steps, or use implicit with viscosity");
+                           : "let loads and drives grow over more steps, or use implicit with <viscosity>");
 }
 
 void StaticSolve::advance(System& system, double time, double step, const StateView& now, const Record*,
@@ -370,8 +370,7 @@ void StaticSolve::advance(System& system, double time, double step, const StateV
   prepare(system, now);
   evaluate(start_);
   if (!std::isfinite(terms_))
-    throw NotConverged("the forces are larger than numbers go",
-                       "look for a mass, load or stiffness that is too large");
+    throw NotConverged("the forces overflow", "look for a mass, load or stiffness that is too large");
   first_sum_ = sum_;
   if (!in_parts_of_the_way() && !loads_first() && !relax(1) && !without_rotations(now)) give_up();
   system.constrain(end_, position_.data(), trial_.data()); // exact to the last bit
@@ -383,7 +382,7 @@ void StaticSolve::advance(System& system, double time, double step, const StateV
 
 Scheme static_solve() {
   return {.name = "static",
-          .what = "each step an equilibrium, by Newton's method",
+          .what = "no motion: each step is an equilibrium, by Newton's method",
           .order = 1,
           .evaluations = 2,
           .limit = &no_limit,

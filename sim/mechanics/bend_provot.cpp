@@ -37,8 +37,8 @@ std::unique_ptr<Interaction> make_provot(EmbeddedMap& map, const InteractionRequ
 } // namespace
 
 InteractionType bend_provot() {
-  return {"bend", "provot", "springs between the far ends of the edges that continue across an edge", "N/m",
-          make_provot};
+  return {"bend", "provot", "springs across two edges that lie one behind the other, between their far ends",
+          "N/m", make_provot};
 }
 
 } // namespace rend

@@ -158,23 +158,24 @@ ElasticMaterial material_of(const ElasticitySettings& settings, int dimension) {
 template <> const Fields<ElasticitySettings>& fields_of() {
   using S = ElasticitySettings;
   static const Fields<S> fields{
-      field(&S::model,
-            word("model", {"linear", "corotational", "mass-tensor"},
-                 "linear: small displacements; corotational: large ones, each element in its own frame; "
-                 "mass-tensor: linear, stored on vertices and edges")),
+      field(
+          &S::model,
+          word("model", {"linear", "corotational", "mass-tensor"},
+               "kind of finite element\nlinear: for small displacements\ncorotational: for large ones; each "
+               "element turns with its own frame\nmass-tensor: the linear one, stored on vertices and edges")),
       field(&S::young, number("young", "Pa", "Young's modulus").above(0).is_required()),
       field(&S::poisson, number("poisson", "", "Poisson's ratio").at_least(0).at_most(0.4999)),
-      field(&S::thickness, number("thickness", "m", "of a sheet").above(0)),
+      field(&S::thickness, number("thickness", "m", "thickness of the sheet").above(0)),
       field(&S::rotation, word("rotation", {"polar", "qr"},
-                               "corotational: the closest rotation, or Gram-Schmidt of the edges")),
+                               "corotational: how the rotation of an element is found\npolar: the closest "
+                               "rotation\nqr: Gram-Schmidt of its edges")),
       field(&S::damping_mass,
             number("damping-mass", "1/s", "Rayleigh damping: a force -value m v").at_least(0)),
       field(&S::damping_stiffness,
             number("damping-stiffness", "s", "Rayleigh damping: a force -value K v").at_least(0)),
-      field(&S::cumulated,
-            word("cumulated", {"auto", "yes", "no"},
-                 "mass-tensor: fold tensors between the same particles into one: auto folds unless a law looks "
-                 "at each element by itself"))};
+      field(&S::cumulated, word("cumulated", {"auto", "yes", "no"},
+                                "mass-tensor: whether tensors between the same two vertices are merged into "
+                                "one; auto: yes, unless a <tear> measures each element separately"))};
   return fields;
 }
 

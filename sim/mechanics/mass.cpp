@@ -11,9 +11,11 @@ namespace rend {
 template <> const Fields<MassSettings>& fields_of() {
   using S = MassSettings;
   static const Fields<S> fields{
-      field(&S::total, number("total", "kg", "of the whole body, spread by area or volume").above(0)),
-      field(&S::density, number("density", "kg/m3", "instead; needs the thickness of a sheet").above(0)),
-      field(&S::thickness, number("thickness", "m", "of a sheet").above(0))};
+      field(&S::total, number("total", "kg", "mass of the whole body, spread by area or volume").above(0)),
+      field(&S::density,
+            number("density", "kg/m3", "density, instead of total; a sheet needs its thickness as well")
+                .above(0)),
+      field(&S::thickness, number("thickness", "m", "thickness of the sheet").above(0))};
   return fields;
 }
 
@@ -21,8 +23,9 @@ template <> const Fields<ViscositySettings>& fields_of() {
   using S = ViscositySettings;
   static const Fields<S> fields{
       field(&S::value, number("value", "N.s/m", "the coefficient").at_least(0).is_required()),
-      field(&S::per,
-            word("per", {"particle", "body"}, "each particle's, or shared by the body as its mass is"))};
+      field(&S::per, word("per", {"particle", "body"},
+                          "particle: each vertex has this coefficient; body: it is shared among the vertices "
+                          "as the mass is"))};
   return fields;
 }
 

@@ -95,7 +95,7 @@ InteractionType shear_face_isotropic() {
 InteractionType shear_face_anisotropic() {
   return {.element = "shear",
           .kind = "anisotropic",
-          .what = "a spring across each corner, each with its own stiffness",
+          .what = "a spring across each corner, each with a stiffness of its own",
           .k_unit = "N/m",
           .make = make_anisotropic_face,
           .where = "face",

@@ -36,8 +36,8 @@ std::string place_of(const EmbeddedMap& map, Dart d) {
 template <> const Fields<SpringSettings>& fields_of() {
   using S = SpringSettings;
   static const Fields<S> fields{
-      field(&S::k, number("k", "", "stiffness of each one").above(0)), // units: those of each interaction
-      field(&S::damping, number("damping", "", "damping of each one").at_least(0))};
+      field(&S::k, number("k", "", "stiffness of each spring").above(0)), // units: those of each interaction
+      field(&S::damping, number("damping", "", "damping of each spring").at_least(0))};
   return fields;
 }
 

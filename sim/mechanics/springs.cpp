@@ -5,16 +5,20 @@ namespace rend {
 template <> const Fields<SpringsSettings>& fields_of() {
   using S = SpringsSettings;
   static const Fields<S> fields{
-      field(&S::young,
-            number("young", "Pa", "stiffness of stretch and shear by formula instead of k").above(0)),
-      field(&S::poisson, number("poisson", "", "Poisson's ratio, for young").at_least(0).at_most(0.5)),
-      field(&S::thickness, number("thickness", "m", "for young").above(0)),
+      field(
+          &S::young,
+          number(
+              "young", "Pa",
+              "Young's modulus, from which the stiffness of stretch and shear is computed where they give no k")
+              .above(0)),
+      field(&S::poisson, number("poisson", "", "Poisson's ratio, used with young").at_least(0).at_most(0.5)),
+      field(&S::thickness, number("thickness", "m", "thickness of the sheet, used with young").above(0)),
       field(&S::cumulated, word("cumulated", {"auto", "yes", "no"},
-                                "fold springs between the same particles into one: auto folds unless a law "
-                                "looks at each by itself")),
+                                "whether springs between the same two vertices are merged into one; auto: yes, "
+                                "unless a <tear> measures each separately")),
       field(&S::on, word("on", {"all", "surface"},
-                         "surface: only on the faces that are on the surface at the start (springs over finite "
-                         "elements)"))};
+                         "all: everywhere; surface: only on faces that are on the surface at the start, as a "
+                         "skin over finite elements"))};
   return fields;
 }
 

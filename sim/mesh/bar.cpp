@@ -74,11 +74,11 @@ template <> const Fields<BarShape>& fields_of() {
   using S = BarShape;
   static const Fields<S> fields{
       field(&S::pattern, word("pattern", {"hexahedra", "tetrahedra", "prisms", "mixed"},
-                              "cells: boxes; each box cut in six along its diagonal; each cut in two, parallel "
-                              "to z; slices of boxes, of prisms, and of pyramids and tetrahedra by turns along "
-                              "x")),
+                              "how the bar is divided\nhexahedra: boxes\ntetrahedra: each box cut in six along "
+                              "its diagonal\nprisms: each box cut in two, parallel to z\nmixed: slices of "
+                              "boxes, of prisms, and of pyramids with tetrahedra, in turn along x")),
       field(std::array{&S::nx, &S::ny, &S::nz},
-            integers("cells", 3, "how many boxes along x, y and z").at_least(1).at_most(20000).is_required()),
+            integers("cells", 3, "number of boxes along x, y and z").at_least(1).at_most(20000).is_required()),
       field(&S::size, numbers("size", 3, "m", "lengths along x, y and z").above(0).is_required())};
   return fields;
 }

@@ -87,7 +87,7 @@ struct Cells {
     for (std::size_t c = 0; c < mesh.cells(); ++c) {
       const CellShape& shape = shape_of(mesh.kinds[c]);
       darts += static_cast<std::uint64_t>(shape.darts);
-      if (darts >= Dart::none_value) refuse(mesh, c, "is one more than a map of 2^32 darts holds");
+      if (darts >= Dart::none_value) refuse(mesh, c, "is one too many: a mesh holds at most 2^32 darts");
       dart[c + 1] = static_cast<std::uint32_t>(darts);
       check_corners(mesh, c);
       if (!inside_out(mesh, c)) continue;

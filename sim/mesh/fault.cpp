@@ -16,7 +16,7 @@ std::string flaw_of_extent(const char* what, const char* unit, double extent, do
   if (extent == 0) return fmt::format("has no {}", what);
   if (!std::isfinite(extent) || !std::isfinite(length))
     return fmt::format("has too large a length or {} for a number of 64 bits", what);
-  return fmt::format("has proportions too extreme to reckon with: {:.3g} {} at a length of {:.3g} m",
+  return fmt::format("is too long and thin to compute with: {:.3g} {} at a length of {:.3g} m",
                      std::abs(extent), unit, length);
 }
 

@@ -77,7 +77,7 @@ void MshContent::add_element(const MshType& type, const Origin& origin, std::spa
   origins_.push_back(origin);
   corners_.insert(corners_.end(), points.begin(), points.begin() + nodes.size());
   if (corners_.size() >= Dart::none_value)
-    file_.source.fail(origin.offset, "the elements are more than a map holds");
+    file_.source.fail(origin.offset, "there are too many elements: a mesh holds at most 2^32 darts");
 }
 
 // Version 2.2 lists an element once for each of its groups: which elements are repetitions.
@@ -154,10 +154,10 @@ void MshContent::check_faces(const CellMesh& cells) const {
   for (std::size_t n = 0; n < faces.size(); ++n) {
     if (found[n]) continue;
     const std::uint32_t e = faces[n].second;
-    file_.source.fail(origins_[e].offset,
-                      fmt::format("{} {} dangles: it is no face of a solid of this file",
-                                  elements_[e].type->name, origins_[e].tag),
-                      "sheets and solids are bodies of their own: put them into two files");
+    file_.source.fail(
+        origins_[e].offset,
+        fmt::format("{} {} is not a face of any solid of this file", elements_[e].type->name, origins_[e].tag),
+        "a body is either a sheet or a solid: put them into two files, for two bodies");
   }
 }
 
@@ -165,7 +165,8 @@ void MshContent::finish() {
   const bool solid =
       std::any_of(elements_.begin(), elements_.end(), [](const Element& e) { return e.type->dimension == 3; });
   if (elements_.empty())
-    file_.source.fail("holds no solids, triangles or quads", "mesh its surfaces or volumes first");
+    file_.source.fail("holds no solids, triangles or quads",
+                      "in Gmsh, mesh the surfaces or volumes before saving (gmsh -2 or -3)");
   const int dimension = solid ? 3 : 2;
   const std::vector<bool> repeat = repeats(dimension);
   CellMesh cells;

@@ -8,18 +8,21 @@ namespace rend {
 template <> const Fields<SheetShape>& fields_of() {
   using S = SheetShape;
   static const Fields<S> fields{
-      field(
-          &S::pattern,
-          word("pattern", {"quads", "triangles", "crossed", "mixed"},
-               "cells: quads; each quad cut along a diagonal; cut in four around its centre; every second one "
-               "so")),
+      field(&S::pattern, word("pattern", {"quads", "triangles", "crossed", "mixed"},
+                              "how the sheet is divided\nquads: quads\ntriangles: each quad cut in two along a "
+                              "diagonal\ncrossed: each quad cut in four around its centre\nmixed: every second "
+                              "quad cut in four, the others whole")),
       field(std::array{&S::nx, &S::ny},
-            integers("cells", 2, "how many along x and y").at_least(1).at_most(20000).is_required()),
-      field(&S::size, numbers("size", 2, "m", "lengths along x and y (of a band: around and across)").above(0)),
-      field(&S::corners,
-            numbers("corners", 12, "m", "the four corners instead, around the sheet; points are bilinear")),
+            integers("cells", 2, "number of quads along x and y").at_least(1).at_most(20000).is_required()),
+      field(&S::size,
+            numbers("size", 2, "m", "lengths along x and y (of a band: around it and across it)").above(0)),
+      field(
+          &S::corners,
+          numbers("corners", 12, "m",
+                  "instead of size: the four corners, in order around the sheet; points between are bilinear")),
       field(&S::closure, word("close", {"none", "loop", "twist"},
-                              "join the ends x = 0 and x = lx: a band, a Moebius band"))};
+                              "joins the ends x = 0 and x = lx\nnone: a flat sheet\nloop: a closed "
+                              "band\ntwist: a Moebius band"))};
   return fields;
 }
 

@@ -25,14 +25,15 @@ template <> const Fields<TubeShape>& fields_of() {
   using S = TubeShape;
   static const Fields<S> fields{
       field(std::array{&S::around, &S::along},
-            integers("cells", 2, "how many around, a multiple of 4, and along")
+            integers("cells", 2, "number of cells around (a multiple of 4) and along z")
                 .at_least(1)
                 .at_most(20000)
                 .is_required()),
       field(&S::size, numbers("size", 3, "m", "outer lengths along x, y and z").above(0).is_required()),
-      field(&S::wall, number("wall", "m", "how thick it is: less than half of the outer lengths along x and y")
-                          .above(0)
-                          .is_required())};
+      field(&S::wall,
+            number("wall", "m", "thickness of the wall: less than half of the outer lengths along x and y")
+                .above(0)
+                .is_required())};
   return fields;
 }
 

@@ -23,7 +23,7 @@ bool holds(Axes axes, int axis) {
 namespace {
 
 AttributeType axes_attribute() {
-  return word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates");
+  return word("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}, "which coordinates are prescribed");
 }
 
 std::array<bool, 3> held_by(Axes axes) {
@@ -44,17 +44,22 @@ template <> const Fields<DriveSettings>& fields_of() {
       fields_of_part(&S::where) +
       Fields<S>{
           field(&S::velocity, numbers("velocity", 3, "m/s", "constant velocity")),
-          field(&S::displacement,
-                numbers("displacement", 3, "m",
-                        "moved by so much between from and until (at once, if until is absent)")),
-          field(&S::gradient,
-                numbers("gradient", 9, "", "u = G X, row after row, reached between from and until")),
+          field(
+              &S::displacement,
+              numbers("displacement", 3, "m",
+                      "displacement reached at until, growing evenly from `from` on; without until, at once")),
+          field(
+              &S::gradient,
+              numbers("gradient", 9, "",
+                      "displacement gradient G, row by row: u = G X at until, growing evenly from `from` on")),
           field(&S::rotate, numbers("rotate", 4, "degrees/s",
-                                    "turned about the axis x y z at the rate that follows, from `from` on")),
-          field(&S::centre, numbers("centre", 3, "m", "a point of the axis of rotate")),
-          field(&S::from, number("from", "s", "held before").at_least(0)),
-          field(&S::until, number("until", "s", "for ever, if absent").at_least(0)),
-          field(&S::then, word("then", {"hold", "free"}, "after until")),
+                                    "axis x y z, then the speed of rotation about it, from `from` on")),
+          field(&S::centre, numbers("centre", 3, "m", "a point on the axis of rotate")),
+          field(&S::from, number("from", "s", "start time; before it the vertices are held").at_least(0)),
+          field(&S::until, number("until", "s", "end time; without it the motion goes on").at_least(0)),
+          field(&S::then,
+                word("then", {"hold", "free"},
+                     "what follows until: hold: the vertices stay where they are; free: they are released")),
           field(&S::axes, axes_attribute())};
   return fields;
 }

@@ -12,12 +12,14 @@ template <> const Fields<ContactSettings>& fields_of() {
                 {"fragments", &S::fragments},
                 {"self", &S::self}},
                "with",
-               "any of: the floor; obstacles: floor, spheres and boxes; fragments: other fragments, and other "
-               "bodies that say so too; self: all of its own faces as well"),
-      field(&S::thickness, number("thickness", "m", "kept from it").at_least(0)),
-      field(
-          &S::friction,
-          number("friction", "", "Coulomb's coefficient, where the obstacle has none of its own").at_least(0))};
+               "what it collides with\nfloor: the floor\nobstacles: the floor, spheres and boxes\nfragments: "
+               "other fragments, and other bodies whose contact has fragments as well\nself: fragments, and "
+               "all faces of its own"),
+      field(&S::thickness,
+            number("thickness", "m", "the distance that is kept from what it touches").at_least(0)),
+      field(&S::friction,
+            number("friction", "", "Coulomb's coefficient of friction, where the obstacle has none of its own")
+                .at_least(0))};
   return fields;
 }
 

@@ -24,18 +24,21 @@ template <> const Fields<LoadSettings>& fields_of() {
   static const Fields<S> fields =
       fields_of_part(&S::where) +
       Fields<S>{
-          field(&S::force, numbers("force", 3, "N", "in total")),
+          field(&S::force, numbers("force", 3, "N", "total force")),
           field(&S::moment,
-                numbers("moment", 3, "N m", "about the middle of the boundary, without a force in total")),
-          field(&S::pressure,
-                number("pressure", "Pa",
-                       "on the selected faces, inwards (of a sheet: from where its cells are seen "
-                       "counterclockwise; +z, before it is placed)")),
-          field(&S::follows, word("follows", {"world", "body"},
-                                  "whether force and moment keep their direction, or turn with the boundary")),
-          field(&S::from, number("from", "s", "nothing before").at_least(0)),
+                numbers("moment", 3, "N m",
+                        "total moment about the middle of the selected boundary; the total force is zero")),
+          field(&S::pressure, number("pressure", "Pa",
+                                     "pressure on the selected faces, inwards; on a sheet it acts on the side "
+                                     "from which the cells run counterclockwise, which is +z before <place>")),
+          field(&S::follows,
+                word("follows", {"world", "body"},
+                     "world: force and moment keep their direction; body: they turn with the boundary")),
+          field(&S::from, number("from", "s", "start time; no load before it").at_least(0)),
           field(&S::until,
-                number("until", "s", "grows from `from` to here; all at once, if absent").at_least(0))};
+                number("until", "s",
+                       "the load grows evenly from `from` until this time; without it, it acts in full at once")
+                    .at_least(0))};
   return fields;
 }
 
@@ -49,7 +52,7 @@ void check_load(const LoadSettings& load) {
   if (load.pressure && load.source.given("follows"))
     load.source.fail("follows", "a pressure always acts along the normals of the body's faces", "leave it out");
   if (load.until < load.from && !std::isinf(load.until))
-    load.source.fail("until", "the load is whole before it starts");
+    load.source.fail("until", "the load has grown before it starts: until is less than from");
 }
 
 double LoadSettings::share(double time) const {

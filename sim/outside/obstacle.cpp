@@ -9,18 +9,21 @@
 namespace rend {
 
 AttributeType friction_attribute() {
-  return number("friction", "",
-                "Coulomb's coefficient of all that slides on it; absent: that of each body's <contact>")
+  return number("friction", "", "Coulomb's coefficient of friction; default: that of each body's <contact>")
       .at_least(0);
 }
 
 template <> const Fields<SphereSettings>& fields_of() {
   using S = SphereSettings;
   static const Fields<S> fields{
-      field(&S::centre, numbers("centre", 3, "m", "at the start").is_required()),
+      field(&S::centre, numbers("centre", 3, "m", "position of its centre at the start").is_required()),
       field(&S::radius, number("radius", "m", "its size").above(0).at_most(1e30).is_required()),
-      field(&S::velocity, numbers("velocity", 3, "m/s", "constant; with a mass: at the start")),
-      field(&S::mass, number("mass", "kg", "if given, it falls, and is pushed back by what it meets").above(0)),
+      field(&S::velocity,
+            numbers("velocity", 3, "m/s", "velocity: constant, or with a mass the one at the start")),
+      field(&S::mass,
+            number("mass", "kg",
+                   "with a mass the sphere falls and is pushed by what it hits; without, it keeps its velocity")
+                .above(0)),
       field(&S::friction, friction_attribute())};
   return fields;
 }
@@ -28,8 +31,8 @@ template <> const Fields<SphereSettings>& fields_of() {
 template <> const Fields<Box>& fields_of() {
   using S = Box;
   static const Fields<S> fields{
-      field(&S::low, numbers("low", 3, "m", "the corner of least x, y, z").is_required()),
-      field(&S::high, numbers("high", 3, "m", "the corner opposite to it").is_required()),
+      field(&S::low, numbers("low", 3, "m", "the corner with the smallest x, y and z").is_required()),
+      field(&S::high, numbers("high", 3, "m", "the corner with the largest x, y and z").is_required()),
       field(&S::friction, friction_attribute())};
   return fields;
 }

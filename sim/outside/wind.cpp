@@ -11,7 +11,7 @@ namespace rend {
 template <> const Fields<Wind>& fields_of() {
   using S = Wind;
   static const Fields<S> fields{
-      field(&S::velocity, numbers("velocity", 3, "m/s", "of the air").is_required()),
+      field(&S::velocity, numbers("velocity", 3, "m/s", "velocity of the air").is_required()),
       field(&S::drag, number("drag", "kg/m3", "half its density times the drag coefficient").at_least(0))};
   return fields;
 }

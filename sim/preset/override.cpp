@@ -66,7 +66,7 @@ private:
       const std::size_t end = std::min(path.find_first_of(".[]"), path.size());
       part.name = path.substr(0, end);
       if (part.name.empty())
-        fail("a name is missing in the path", "a path is such as body[left].tear[2].threshold");
+        fail("the path has an empty name", "a path is such as body[left].tear[2].threshold");
       path.remove_prefix(end);
       if (path.starts_with('[')) {
         const std::size_t close = path.find(']');

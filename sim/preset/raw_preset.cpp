@@ -174,7 +174,7 @@ private:
   void refuse_utf16() {
     const bool marked = text_.starts_with("\xFF\xFE") || text_.starts_with("\xFE\xFF");
     if (marked || text_.substr(0, 2).find('\0') != std::string_view::npos)
-      fail(0, "this is no text in UTF-8", "write the preset in UTF-8 (this looks like UTF-16)");
+      fail(0, "this is not UTF-8 text", "write the preset in UTF-8 (this looks like UTF-16)");
   }
 
   void open(std::string_view name, const char** attributes) {
@@ -199,7 +199,7 @@ private:
     if (const ElementType* type = child_type(parent, name)) return *type;
     std::vector<std::string> parents;
     collect_parents(root_type_, name, parents);
-    std::string hint = parents.empty() ? "" : fmt::format("it belongs into {}. ", listed(parents));
+    std::string hint = parents.empty() ? "" : fmt::format("it belongs in {}. ", listed(parents));
     hint += parent.children.empty()
                 ? fmt::format("<{}> holds no elements", parent.name)
                 : suggestion(name, child_names(parent), "in <" + parent.name + "> may stand");

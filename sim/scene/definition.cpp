@@ -4,23 +4,34 @@
 
 namespace rend {
 
+namespace {
+
+std::string told_schemes() {
+  std::string out = "the time scheme";
+  for (const Scheme& scheme : all_schemes()) out += "\n" + scheme.name + ": " + scheme.what;
+  return out;
+}
+
+} // namespace
+
 template <> const Fields<TimeSettings>& fields_of() {
   using S = TimeSettings;
   static const Fields<S> fields{
-      field(&S::step,
-            number_or("step", {"auto"}, "s",
-                      "auto: 0.9 of what is stable (under rk45: with symplectic; under static: the duration)")
-                .above(0)),
-      field(&S::scheme, all_schemes(), "integrator", "the scheme"),
+      field(&S::step, number_or("step", {"auto"}, "s",
+                                "length of a time step; auto: 0.9 of the largest stable one (rk45: of that of "
+                                "symplectic; static: the whole duration)")
+                          .above(0)),
+      field(&S::scheme, all_schemes(), "integrator", told_schemes()),
       field(&S::tolerance,
             number("tolerance", "",
-                   "of rk45, which cuts each step into parts until what one part has wrong, in the mean over "
-                   "the body's mass, is below this share of the body's size (a velocity's error counts with "
-                   "the step's length)")
+                   "rk45 only: the error that each part of a step may have, relative to the size of the body "
+                   "(root mean square over its mass; an error of velocity counts times the length of the part)")
                 .at_least(1e-14)
                 .at_most(0.1)),
       field(&S::duration,
-            number("duration", "s", "of the clip; only static does without, and then it is 1").at_least(0))};
+            number("duration", "s",
+                   "length of the clip in simulated time; required, except with static, where the default is 1")
+                .at_least(0))};
   return fields;
 }
 

@@ -27,6 +27,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   for (auto& body : bodies_) {
     body->profile = profile_.get();
     body->parallel_small_bodies = options.parallel_small_bodies;
+    if (options.reach) body->watch_all_criteria();
     if (options.count_fragments) body->fragment_counter = std::make_unique<FragmentCounter>();
   }
   check_contact();
@@ -34,6 +35,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   const RunSettings run{options.walk, options.threads, checked_tolerance()};
   for (auto& body : bodies_) body->prepare(scheme(), run);
   set_step();
+  set_looks(options.reach);
   guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
   set_answers();
   bind_seconds_ = wall_clock() - start;
@@ -47,26 +49,23 @@ void Scene::check_contact() {
   if (!scheme().solves) return;
   for (const auto& body : bodies_) {
     if (scheme().name == "static" && body->tears())
-      body->notes.push_back(
-          "static: what tears off and nothing holds keeps its place, without its weight and loads; "
-          "under implicit it falls");
+      body->notes.push_back("static: a piece that tears off and is held by nothing stays where it is, without "
+                            "its weight and loads; with implicit it falls");
     if (!body->contact) continue;
     if (scheme().name == "static")
-      time_.source.fail("integrator", "the static solve knows no contact",
-                        "leave <contact> out, or let it come to rest with symplectic and viscosity");
-    body->notes.emplace_back(
-        "contact: what rests on the floor under 'implicit' is pressed too much, the more the "
-        "stiffer it is and the larger the step; symplectic does not have this");
+      time_.source.fail(
+          "integrator", "integrator 'static' does not support <contact>",
+          "leave <contact> out, or use symplectic with <viscosity>, and let the body come to rest");
+    body->notes.emplace_back("contact: with 'implicit' a body that rests on the floor is compressed too much, "
+                             "more so if it is stiff or the step is large; take a smaller step, or symplectic");
   }
 }
 
 double Scene::checked_tolerance() const {
   const bool given = time_.source.given("tolerance") || time_.tolerance != TimeSettings{}.tolerance;
   if (given && !scheme().adaptive)
-    time_.source.fail(
-        "tolerance",
-        fmt::format("the tolerance belongs to rk45, which chooses its steps by it, not to '{}'", scheme().name),
-        "leave it out, or write integrator=\"rk45\"");
+    time_.source.fail("tolerance", fmt::format("tolerance is used by rk45 alone, not by '{}'", scheme().name),
+                      "leave it out, or write integrator=\"rk45\"");
   return time_.tolerance;
 }
 
@@ -78,12 +77,23 @@ void Scene::set_step() {
   if (automatic_step() && duration > 0)
     step_ = duration / std::ceil(duration / step_); // the last step ends with the clip
   if (const double limit = stability_limit(); !automatic_step() && step_ > limit)
-    notes_.push_back(
-        fmt::format("the step of {:.3g} s is above {:.3g} s, up to which '{}' is surely stable here", step_,
-                    limit, scheme().name));
+    notes_.push_back(fmt::format("the step of {:.3g} s may be too large: up to {:.3g} s '{}' is certainly "
+                                 "stable here (step=\"auto\" takes 0.9 of that)",
+                                 step_, limit, scheme().name));
   if (duration / step_ > 1e12)
     time_.source.fail("step",
                       fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration, step_));
+}
+
+// Looking for the largest value that a law has reached takes longer than looking for what exceeds its
+// threshold: up to half a step for atomic-border. So it is done at every 16th step, in short clips more often;
+// a step that solves takes so long that it is done at every one.
+void Scene::set_looks(bool every_step) {
+  constexpr double least_looks = 64, longest = 16; // looks in a clip; steps from one to the next
+  const double steps = duration_ / step_;
+  const bool each = every_step || scheme().solves;
+  const long every = each ? 1 : std::lround(std::clamp(std::floor(steps / least_looks), 1.0, longest));
+  for (auto& body : bodies_) body->look_every = every;
 }
 
 double Scene::stability_limit() const {
@@ -105,18 +115,18 @@ double Scene::stable_step() const {
   if (scheme().name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
   const double limit = stability_limit(scheme().adaptive ? *find_scheme("symplectic") : scheme());
   if (limit <= 0)
-    time_.source.fail("step",
-                      fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the "
-                                  "surroundings damps every motion",
-                                  scheme().name),
-                      "use symplectic, verlet or rk4, or add viscosity");
+    time_.source.fail(
+        "step",
+        fmt::format("no step is stable with the integrator '{}' here, because some motions are not damped",
+                    scheme().name),
+        "use symplectic, verlet or rk4, or add <viscosity>");
   if (std::isinf(limit))
     time_.source.fail(
         "step",
         scheme().solves
-            ? fmt::format("with '{}' the step is a matter of accuracy, and there is no automatic one",
+            ? fmt::format("step=\"auto\" is not possible with '{}', which is stable with every step",
                           scheme().name)
-            : "nothing in the scene limits the step",
+            : "step=\"auto\" is not possible: nothing in the scene limits the step",
         scheme().solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
   return 0.9 * limit;
 }
@@ -132,8 +142,9 @@ void Scene::set_answers() {
     for (Answer& answer : body->answers) {
       if (std::isinf(answer.at)) answer.at = duration_;
       if (answer.at > duration_ + slack)
-        notes_.push_back(fmt::format("{}: the clip ends at {:g} s, before this answer at {:g} s is asked for",
-                                     answer.source.place("at").text(), duration_, answer.at));
+        notes_.push_back(fmt::format(
+            "{}: the clip ends at {:g} s, before the time of this answer, {:g} s: it is not checked",
+            answer.source.place("at").text(), duration_, answer.at));
       next_answer_ = std::min(next_answer_, answer.at - slack);
     }
   }

@@ -16,6 +16,7 @@ struct SceneOptions {
   bool count_fragments = false; // events count fragments
   bool guard = true; // false: failed steps are not redone; a state that is not finite still stops the run
   std::optional<Fault> fault = {};
+  bool reach = false;                 // no body tears: the largest values of all criteria are found instead
   bool profile = false;               // every step is timed (base/profile.h)
   bool parallel_small_bodies = false; // ProgramOptions
 };
@@ -95,6 +96,7 @@ public:
 private:
   EnergyState energy_state() const;
   void set_step();
+  void set_looks(bool every_step);
   void set_answers();
   void measure_answers();
   void forget_answers();   // those later than the current time

@@ -204,20 +204,22 @@ void Scene::fail_step(StepFailure failure, long entry) {
     most = pair->rate;
     body = each.get();
     const Vec3 at = body->map->position()[pair->a];
-    what = fmt::format("; vertices {} and {}, joined by {}, near ({:.4g}, {:.4g}, {:.4g}) m, part fastest",
-                       pair->a, pair->b, pair->joined, at.x(), at.y(), at.z());
+    what = fmt::format(
+        "; fastest-separating pair: vertices {} and {}, joined by {}, near ({:.4g}, {:.4g}, {:.4g}) m", pair->a,
+        pair->b, pair->joined, at.x(), at.y(), at.z());
   }
   if (guard_->on()) {
     return_to(guard_->restore_start());
     while (steps_done_ < entry && try_step() == StepFailure::None) continue;
   }
-  const std::string parts = guard_->on() ? ", in 1024 parts of the step as well" : "";
+  const std::string parts = guard_->on() ? ", even with the step divided by 1024" : "";
   if (failure == StepFailure::NotFinite && not_converged_)
     stop(*body, not_converged_->what() + parts, not_converged_->hint);
   if (failure == StepFailure::NotFinite) what = find_non_finite(body) + parts;
   if (failure == StepFailure::Energy)
-    what = "its energy grows beyond what gravity, loads and drives give it" + parts + what;
-  if (failure == StepFailure::PassThrough) what = "neighbours pass each other within a step" + parts + what;
+    what = "its energy grows by more than gravity, loads and drives supply" + parts + what;
+  if (failure == StepFailure::PassThrough)
+    what = "neighbouring vertices pass each other within one step" + parts + what;
   stop(*body, what);
 }
 
@@ -229,8 +231,9 @@ std::string Scene::find_non_finite(const Body*& whose) {
       if (body.program->inverse_mass()[i] == 0 || (x[i].vec().allFinite() && y[i].vec().allFinite())) continue;
       const Vec3 at = body.map->position()[static_cast<Slot>(i)];
       whose = &body;
-      found = fmt::format("after {}, a number of vertex {}, at ({:.4g}, {:.4g}, {:.4g}) m, is not finite",
-                          name_of(stage), i, at.x(), at.y(), at.z());
+      found =
+          fmt::format("after {}, vertex {}, near ({:.4g}, {:.4g}, {:.4g}) m, has a number that is not finite",
+                      name_of(stage), i, at.x(), at.y(), at.z());
     }
   };
   if (fault_ && fault_->step == steps_done_) arm_fault();
@@ -253,7 +256,7 @@ void Scene::check_sound() const {
   for (const auto& body : bodies_) {
     const auto pair = fastest_neighbours(*body, body->map->velocity().values().data());
     if (pair && pair->rate * step_ > most_rest_lengths)
-      stop(*body, "neighbours joined by " + pair->joined + " pass each other within a step");
+      stop(*body, "neighbouring vertices joined by " + pair->joined + " pass each other within one step");
   }
 }
 
@@ -276,7 +279,9 @@ void Scene::stop(const Body& body, const std::string& what) const {
   if (limit <= 0)
     hint = fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme().name);
   else if (guard_->on() && tried < limit)
-    hint = fmt::format("no smaller step would have held: parts of {:.3g} s did not", tried);
+    hint = fmt::format("a smaller step does not help: steps of {:.3g} s failed as well; look near that place "
+                       "for elements that are very stiff, light or flat",
+                       tried);
   else if (!std::isinf(limit))
     hint = fmt::format("at rest, steps up to {:.3g} s are stable with '{}' (step=\"auto\" takes 0.9 of it)",
                        limit, scheme().name);

@@ -187,6 +187,88 @@ TEST_F(Batch, shards_share_jobs_and_where_there_are_too_few_their_frames) {
   }
 }
 
+// The fields of a line of CSV without quotes.
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, ',');) out.push_back(field);
+  return out;
+}
+
+TEST_F(Batch, runs_without_pictures_make_one_table_of_all_figures) {
+  const Outcome outcome =
+      place.rend("batch presets/a.xml --run --sweep body.tear.threshold=1,2,1e9 -o runs --jobs 2");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(" left\n"));
+  EXPECT_TRUE(pictures("runs").empty());
+  std::istringstream table(content(place.path() / "runs/figures.csv"));
+  std::string line;
+  std::getline(table, line);
+  const std::vector<std::string> head = fields(line);
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(head.begin(), head.end(), name) - head.begin());
+  };
+  int rows = 0;
+  for (; std::getline(table, line); ++rows) {
+    const std::vector<std::string> row = fields(line);
+    const std::string threshold = row.at(column("body.tear.threshold"));
+    const nlohmann::json one =
+        place.rend("run presets/a.xml --json -q --set body.tear.threshold=" + threshold).json();
+    EXPECT_EQ(row.at(column("hash")), one["hash"]);
+    EXPECT_EQ(row.at(column("tears")), one["tears"].dump());
+    EXPECT_EQ(row.at(column("energy.kinetic")), one["energy"]["kinetic"].dump());
+    EXPECT_EQ(row.at(column("laws.0.reached.value")), one["laws"][0]["reached"]["value"].dump());
+  }
+  EXPECT_EQ(rows, 3);
+  EXPECT_EQ(place.rend("batch presets/a.xml --run --video mp4").code, 64);
+}
+
+TEST_F(Batch, what_a_job_says_stands_in_its_log_and_on_the_page) {
+  place.write("presets/bad.xml", "<scene name=\"bad\"></scene>");
+  EXPECT_EQ(place.rend("batch presets --run -o said -q").code, 1);
+  EXPECT_THAT(content(place.path() / "said/logs/bad.log"), HasSubstr("rend: error: "));
+  EXPECT_TRUE(fs::exists(place.path() / "said/logs/more/b.log"));
+  EXPECT_THAT(content(place.path() / "said/index.html"), HasSubstr("needs a &lt;body&gt;"));
+}
+
+TEST_F(Batch, the_shard_that_ends_last_writes_the_page_of_all) {
+  EXPECT_EQ(place.rend("batch presets --run -o whole -q").code, 0);
+  for (int n : {2, 1, 3}) { // the third has no job
+    EXPECT_FALSE(fs::exists(place.path() / "parts/index.html")) << n;
+    EXPECT_EQ(place.rend(fmt::format("batch presets --run -o parts -q --shard {}/3", n)).code, 0);
+  }
+  const std::string page = content(place.path() / "parts/index.html");
+  EXPECT_THAT(page, AllOf(HasSubstr("more/b"), HasSubstr("a.xml")));
+  const auto without_costs =
+      [&](const std::string& folder) { // job, preset, state, code; hash at the end of a state
+        std::istringstream table(content(place.path() / folder / "figures.csv"));
+        std::vector<std::string> rows;
+        std::string line;
+        std::getline(table, line);
+        const std::vector<std::string> head = fields(line);
+        while (std::getline(table, line)) {
+          const std::vector<std::string> row = fields(line);
+          const auto hash =
+              static_cast<std::size_t>(std::find(head.begin(), head.end(), "hash") - head.begin());
+          rows.push_back(row.at(0) + " " + row.at(2) + " " + row.at(hash));
+        }
+        return rows;
+      };
+  EXPECT_EQ(without_costs("parts"), without_costs("whole"));
+  EXPECT_EQ(without_costs("parts").size(), 2u);
+  // Parts of another batch do not count.
+  EXPECT_EQ(place.rend("batch presets/a.xml --run -o other -q --shard 1/2").code, 0);
+  EXPECT_EQ(place.rend("batch presets --run -o other -q --shard 2/2").code, 0);
+  EXPECT_FALSE(fs::exists(place.path() / "other/index.html"));
+}
+
+TEST_F(Batch, says_that_one_job_takes_more_than_all_may) {
+  const Outcome outcome = place.rend("batch presets --run -o tight --memory 1M");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("note: --memory allows 1.0 MB"), HasSubstr("alone took ")));
+  EXPECT_THAT(place.rend("batch presets --run -o wide --memory 4G").err, testing::Not(HasSubstr("alone took")));
+}
+
 TEST_F(Batch, a_budget_that_nothing_fits_into_runs_one_job_after_another) {
   NEEDS_PNG;
   const Outcome outcome = place.rend("batch presets -o tight -q --jobs 4 --memory 1M");

@@ -76,7 +76,7 @@ TEST_F(Checkpoint, fewer_frames_leave_the_checkpoint_of_a_later_one_alone) {
   fs::remove(place.path() / "c/00000.png");
   EXPECT_EQ(place.rend(line + " -q --checkpoint-every 1e-9").code, 0);
   EXPECT_TRUE(in("c") == before) << "what was missing is there again, and nothing else is touched";
-  EXPECT_THAT(place.rend("render clip.xml --resume -o c").err, HasSubstr("goes on at"));
+  EXPECT_THAT(place.rend("render clip.xml --resume -o c").err, HasSubstr("continuing at"));
   expect_same(in("c"), all, "");
 }
 

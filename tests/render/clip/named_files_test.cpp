@@ -75,13 +75,13 @@ TEST_F(NamedFiles, nothing_is_written_where_standard_output_goes) {
 }
 
 TEST_F(NamedFiles, a_preset_and_its_meshes_are_not_written_over) {
-  const std::string preset = "the preset 'pulled.xml' would be written over by";
+  const std::string preset = "the preset 'pulled.xml' would be overwritten by";
   expect_refused("run pulled.xml --diagnostics pulled.xml", preset);
   expect_refused("run pulled.xml --events preset.csv", preset);
   expect_refused("run preset.csv --diagnostics pulled.xml", "the preset 'preset.csv'");
   expect_refused("run d/mesh.xml --diagnostics same/00001.obj", "the mesh 'd/00001.obj'");
   expect_refused("run d/mesh.xml --export obj -o d",
-                 "the mesh 'd/00001.obj' would be written over by --export");
+                 "the mesh 'd/00001.obj' would be overwritten by --export");
   EXPECT_EQ(place.rend("run d/mesh.xml --export obj -o d --frames 0,2 -q").code, 0) << "by no other frame";
   EXPECT_EQ(content(place.path() / "d/00001.obj"), triangle);
 }
@@ -101,16 +101,16 @@ TEST_F(NamedFiles, reports_and_pictures_are_not_written_over_presets) {
   NEEDS_PNG;
   for (const char* name : {"d/00002.png", "d/pulled.checkpoint", "d/pulled.mp4", "d/index.html", "d/study.csv"})
     place.write(name, program::pulled);
-  expect_refused("render d/00002.png -o d", "would be written over by a picture");
-  expect_refused("render d/pulled.checkpoint -o same", "would be written over by the stored state");
+  expect_refused("render d/00002.png -o d", "would be overwritten by a picture");
+  expect_refused("render d/pulled.checkpoint -o same", "would be overwritten by the stored state");
   if (video_available())
-    expect_refused("render d/pulled.mp4 -o d --video mp4 --no-png", "would be written over by the video");
+    expect_refused("render d/pulled.mp4 -o d --video mp4 --no-png", "would be overwritten by the video");
   expect_refused("sheet pulled.xml d/00002.png -o same/00002.png",
-                 "would be written over by the contact sheet");
-  expect_refused("batch d/index.html -o d", "would be written over by the page");
-  expect_refused("check d/index.html -o d --quick", "would be written over by the report");
-  expect_refused("study d/study.csv -o d --quick", "would be written over by the study");
-  expect_refused("study --lean d/index.html -o d --quick", "would be written over by the study");
+                 "would be overwritten by the contact sheet");
+  expect_refused("batch d/index.html -o d", "would be overwritten by the page");
+  expect_refused("check d/index.html -o d --quick", "would be overwritten by the report");
+  expect_refused("study d/study.csv -o d --quick", "would be overwritten by the study");
+  expect_refused("study --lean d/index.html -o d --quick", "would be overwritten by the study");
 }
 
 class NamedFilesOfDiff : public NamedFiles {
@@ -142,8 +142,8 @@ TEST_F(NamedFilesOfDiff, a_report_lies_outside_of_what_is_compared) {
 }
 
 TEST_F(NamedFilesOfDiff, findings_are_not_written_over_what_is_read) {
-  expect_refused("diff a b --junit a/2.png", "the picture 'a/2.png' would be written over by --junit");
-  expect_refused("diff a b --junit to-a/in/1.png", "would be written over by --junit");
+  expect_refused("diff a b --junit a/2.png", "the picture 'a/2.png' would be overwritten by --junit");
+  expect_refused("diff a b --junit to-a/in/1.png", "would be overwritten by --junit");
   expect_refused("diff a b -t t.xml --junit d/../t.xml", "the file of tolerances");
   expect_refused("diff a b --mask a/2.png --junit a/2.png", "the mask");
   expect_refused("diff a b -o r --junit r/index.html", "would both be written to");

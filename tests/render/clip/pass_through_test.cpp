@@ -62,10 +62,10 @@ TEST(PassThrough, is_printed_by_render_and_listed_by_info_as_left_out) {
   place.write("falling.xml", falling("", R"(<floor z="0"/>)", R"(<image size="64 48" fps="20" samples="1"/>)"));
   EXPECT_THAT(place.rend("render falling.xml --frames 0-6").err, testing::Not(HasSubstr("note:")));
   EXPECT_THAT(place.rend("render falling.xml --frames 0,8-9").err,
-              HasSubstr("note: body 'sheet' passes through the floor, as frame 8 shows first"));
+              HasSubstr("note: 'sheet' passes through the floor from frame 8 on: add"));
   EXPECT_THAT(place.rend("render falling.xml --frames 0,8 --quiet").err, IsEmpty());
   const auto body = place.rend("info falling.xml --json").json()["bodies"][0];
-  EXPECT_THAT(body["left_out"].dump(), HasSubstr("the floor is drawn, and this body passes through"));
+  EXPECT_THAT(body["left_out"].dump(), HasSubstr("contact: 'sheet' will pass through the floor: add"));
   EXPECT_THAT(body["notes"], IsEmpty());
 }
 

@@ -56,7 +56,7 @@ TEST_F(Resume, a_signal_leaves_a_checkpoint_and_going_on_equals_never_having_sto
       EXPECT_EQ(first.code, by_term ? 143 : 130) << first.err;
       EXPECT_THAT(first.err, HasSubstr("--resume"));
       const Outcome last = place.rend(line);
-      EXPECT_THAT(last.err, HasSubstr("goes on at")) << "not from the start";
+      EXPECT_THAT(last.err, HasSubstr("continuing at")) << "not from the start";
       EXPECT_EQ(last.code, 0) << last.err;
     } else {
       EXPECT_EQ(place.rend(line).code, 0); // it was building the scene, or done
@@ -66,7 +66,7 @@ TEST_F(Resume, a_signal_leaves_a_checkpoint_and_going_on_equals_never_having_sto
   stop_midway("surely");
   expect_part_of(in("surely"), all, "");
   const Outcome last = place.rend("render clip.xml --resume -o surely");
-  EXPECT_THAT(last.err, HasSubstr("goes on at"));
+  EXPECT_THAT(last.err, HasSubstr("continuing at"));
   EXPECT_EQ(last.code, 0);
   expect_same(in("surely"), all, "");
 }
@@ -79,7 +79,7 @@ TEST_F(Resume, a_signal_after_the_first_picture_leaves_a_checkpoint) {
   EXPECT_EQ(first.code, 143) << first.err;
   EXPECT_TRUE(in("c").contains("clip.checkpoint"));
   expect_part_of(in("c"), in("alone"), "");
-  EXPECT_THAT(place.rend(line + "c").err, HasSubstr("goes on at"));
+  EXPECT_THAT(place.rend(line + "c").err, HasSubstr("continuing at"));
   expect_same(in("c"), in("alone"), "");
 }
 

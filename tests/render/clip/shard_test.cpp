@@ -38,7 +38,7 @@ TEST_F(Shards, a_shard_without_frames_leaves_the_checkpoint_of_one_that_has_some
   EXPECT_EQ(none.code, 0) << none.err;
   EXPECT_THAT(none.out, HasSubstr("no frame was written"));
   EXPECT_TRUE(in("c") == before);
-  EXPECT_THAT(place.rend(line + " --resume").err, HasSubstr("goes on at"));
+  EXPECT_THAT(place.rend(line + " --resume").err, HasSubstr("continuing at"));
 }
 
 TEST_F(Shards, a_shard_is_what_slurm_says_of_its_task) {

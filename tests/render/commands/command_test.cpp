@@ -44,7 +44,7 @@ TEST_F(Program, ExplainsPresets) {
 
 TEST_F(Program, RefusesABadCommandLine) {
   for (const char* line :
-       {"", "rnder pulled.xml", "render", "render pulled.xml other.xml", "render pulled.xml --frame 3",
+       {"rnder pulled.xml", "render", "render pulled.xml other.xml", "render pulled.xml --frame 3",
         "run pulled.xml --steps -1", "run pulled.xml --steps 1.5", "run pulled.xml --kernels fast",
         "run pulled.xml --threads 0", "run pulled.xml --fps 0", "render pulled.xml --size 12",
         "render pulled.xml --frames 5-3", "render pulled.xml --frames 100-200", "render pulled.xml --video avi",
@@ -71,7 +71,7 @@ TEST_F(Program, TellsWhatWasMeantByAFileInAWrongPlace) {
   for (const char* option : {"--events", "--diagnostics"}) {
     const Outcome outcome = place.rend(std::string("run pulled.xml --steps 1 ") + option + " -");
     EXPECT_EQ(outcome.code, 64);
-    EXPECT_THAT(outcome.err, HasSubstr("'-' is no file"));
+    EXPECT_THAT(outcome.err, HasSubstr("'-' (standard output) is not possible here"));
   }
   EXPECT_EQ(place.files(), (std::vector<std::string>{"box.obj", "pulled.xml"}));
 }
@@ -99,14 +99,14 @@ TEST_F(Program, NotesThatPicturesWillShowNothing) {
   NEEDS_PNG;
   const std::string line = "render pulled.xml --steps 0 -o frames ";
   const std::string away = "--set camera.eye='0 0 3' --set camera.target='0 0 6'";
-  EXPECT_THAT(place.rend(line + away).err, AllOf(HasSubstr("the camera sees nothing of any body"),
-                                                 HasSubstr("body 'cloth' is between (0, ")));
+  EXPECT_THAT(place.rend(line + away).err,
+              AllOf(HasSubstr("the camera sees no body"), HasSubstr("body 'cloth' is between (0, ")));
   const std::string beside = "--set camera.eye='2 -3 0.5' --set camera.target='2 0 0.5' --set camera.fov=20 ";
-  EXPECT_THAT(place.rend(line + beside).err, HasSubstr("the camera sees nothing of any body"));
-  EXPECT_THAT(place.rend(line + beside + "--size 256x48").err, testing::Not(HasSubstr("sees nothing")));
+  EXPECT_THAT(place.rend(line + beside).err, HasSubstr("the camera sees no body"));
+  EXPECT_THAT(place.rend(line + beside + "--size 256x48").err, testing::Not(HasSubstr("sees no body")));
   const std::string near =
       "--set camera.eye='0.45 0.01 0.45' --set camera.target='0.45 0 0.45'"; // within a cell
-  EXPECT_THAT(place.rend(line + near).err, testing::Not(HasSubstr("sees nothing")));
+  EXPECT_THAT(place.rend(line + near).err, testing::Not(HasSubstr("sees no body")));
   EXPECT_EQ(place.rend(line + away + " --quiet").err, "");
 }
 
@@ -131,6 +131,38 @@ TEST_F(Program, SaysWhereASetValueIsBad) {
   const Outcome outcome = place.rend("run pulled.xml --set time.step=x");
   EXPECT_EQ(outcome.code, 65);
   EXPECT_THAT(outcome.err, StartsWith("rend: error: --set time.step=x: step of <time> is 'x'"));
+}
+
+TEST_F(Program, HasOneExitCodeForAFileThatIsNotThere) {
+  NEEDS_PNG;
+  place.write("one.png", "");
+  for (const char* line : {"render none.xml", "run none.xml", "info none.xml", "batch none.xml",
+                           "batch none --run", "sheet none.xml -o s.png", "check none.xml", "study none.xml",
+                           "mesh info none.msh", "mesh convert none.msh out.moka", "rule check none.xml",
+                           "rule list none.xml", "list none", "diff none one.png", "diff one.png none",
+                           "diff one.png one.png -t none.xml", "diff one.png one.png --mask none.png"}) {
+    const Outcome outcome = place.rend(line);
+    EXPECT_EQ(outcome.code, 66) << line << "\n" << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("none")) << line;
+  }
+}
+
+TEST_F(Program, NamesUnknownOptionsInTheirOrderWithTheNearest) {
+  const Outcome outcome = place.rend("render pulled.xml --sze 3x3 --frmes 2 extra.xml");
+  EXPECT_EQ(outcome.code, 64);
+  EXPECT_THAT(outcome.err, HasSubstr("rend render has no options '--sze', '--frmes'"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("did you mean '--size', '--frames'? rend render --help lists what it takes"));
+  EXPECT_THAT(place.rend("run pulled.xml --frames").err, HasSubstr("--frames needs a value"));
+  EXPECT_THAT(place.rend("run pulled.xml --kernels fast").err, HasSubstr("fast is not one of flat, walk"));
+  EXPECT_THAT(place.rend("render").err, HasSubstr("preset is missing"));
+}
+
+TEST_F(Program, PrintsTheShortHelpWhereNothingIsAsked) {
+  const Outcome outcome = place.rend("");
+  EXPECT_EQ(outcome.code, 64);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("render"), HasSubstr("list"), HasSubstr("rend COMMAND --help")));
 }
 
 TEST_F(Program, SaysThatAPresetIsMissing) {
@@ -377,7 +409,8 @@ TEST_F(Program, HasNoArrayForWhatIsNotAskedFor) {
               R"(<scene name="still"><body><sheet cells="6 6" size="1 1"/><mass total="0.1"/>)"
               R"(<springs><stretch k="60"/></springs></body><time step="auto" duration="1"/></scene>)");
   const Outcome info = place.rend("info still.xml");
-  EXPECT_THAT(info.out, AllOf(HasSubstr("left out"), HasSubstr("tearing: no law"), HasSubstr("auto: 0.9 of")));
+  EXPECT_THAT(info.out, AllOf(HasSubstr("left out"), HasSubstr("tearing: the body has no <tear>"),
+                              HasSubstr("auto: 0.9 of")));
   EXPECT_THAT(info.out, testing::Not(HasSubstr("born border")));
 }
 

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <map>
+#include <set>
 
 namespace rend {
 namespace {
@@ -139,8 +140,8 @@ TEST_F(Diff, refuses_what_cannot_be_compared) {
   EXPECT_EQ(diff("empty empty").code, 2);
   EXPECT_EQ(diff("a empty").code, 1); // missing
   EXPECT_EQ(diff("empty a").code, 1); // new
-  EXPECT_EQ(diff("a nowhere").code, 2);
-  EXPECT_EQ(diff("nowhere.png a/one.png").code, 2);
+  EXPECT_EQ(diff("a nowhere").code, 66);
+  EXPECT_EQ(diff("nowhere.png a/one.png").code, 66);
   EXPECT_EQ(diff("a").code, 64);
   EXPECT_EQ(diff("a b --limit shore=1").code, 64);
   EXPECT_THAT(diff("a b --limit shore=1").err, HasSubstr("share"));
@@ -256,7 +257,7 @@ TEST_F(Diff, refuses_bad_tolerances_with_their_place) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("bad.xml:2:"));
   EXPECT_THAT(outcome.err, HasSubstr("share"));
-  EXPECT_EQ(diff("a b --tolerances none.xml").code, 2);
+  EXPECT_EQ(diff("a b --tolerances none.xml").code, 66);
   put("small.png", picture(0, 8, 8));
   const Outcome small = diff("a b --mask small.png");
   EXPECT_EQ(small.code, 2);
@@ -311,12 +312,103 @@ TEST_F(Diff, updates_the_named_pictures_alone) {
   EXPECT_EQ(states("a b", 2).at("differ.png"), "match");
 }
 
+// A picture that cannot be read hinders no other; a missing one is not expected any more.
+TEST_F(Diff, updates_by_patterns_what_there_is_and_what_there_is_not) {
+  make_all_states();
+  EXPECT_EQ(diff("a b --update torn 'in/*'").code, 2);
+  EXPECT_FALSE(fs::exists(place.path() / "a/in/missing.png"));
+  EXPECT_EQ(content(place.path() / "a/in/new.png"), content(place.path() / "b/in/new.png"));
+  EXPECT_NE(content(place.path() / "a/differ.png"), content(place.path() / "b/differ.png"));
+  const Outcome all = diff("a b --update '*' --json");
+  EXPECT_EQ(all.code, 2) << "torn.png stays";
+  EXPECT_EQ(all.json()["counts"]["unreadable"], 1);
+  EXPECT_EQ(all.json()["counts"]["updated"], 2); // differ, size
+  fs::remove(place.path() / "b/torn.png");
+  EXPECT_EQ(diff("a b --update '*'").code, 0);
+  EXPECT_EQ(diff("a b").code, 0);
+}
+
+TEST_F(Diff, never_removes_all_that_is_expected) {
+  put("a/one.png", picture());
+  fs::create_directories(place.path() / "b");
+  const Outcome outcome = diff("a b --update '*'");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("would remove every expected picture"));
+  EXPECT_TRUE(fs::exists(place.path() / "a/one.png"));
+}
+
+TEST_F(Diff, tells_of_a_clip_its_first_and_its_worst_frame) {
+  for (const char* side : {"a", "b"}) fs::create_directories(place.path() / side / "bowl");
+  for (int n = 0; n < 5; ++n) {
+    put("a/bowl/0000" + std::to_string(n) + ".png", picture());
+    put("b/bowl/0000" + std::to_string(n) + ".png", n < 2 ? picture() : touched(n));
+  }
+  const Outcome outcome = diff("a b --json");
+  const nlohmann::json clip = outcome.json()["clips"][0];
+  EXPECT_EQ(clip["name"], "bowl");
+  EXPECT_EQ(clip["frames"], 5);
+  EXPECT_EQ(clip["first"], "bowl/00002.png");
+  double most = 0;
+  std::string worst;
+  for (const auto& one : outcome.json()["cases"])
+    if (one["figures"]["flip"]["mean"] > most) {
+      most = one["figures"]["flip"]["mean"];
+      worst = one["name"];
+    }
+  EXPECT_EQ(clip["worst"], worst);
+  EXPECT_EQ(clip["curve"][0]["flip"], 0);
+  EXPECT_THAT(diff("a b").out, HasSubstr("bowl: 5 frames; the first that does not match is bowl/00002.png"));
+  EXPECT_EQ(diff("a b --update '*' -o page").code, 0);
+  EXPECT_THAT(content(place.path() / "page/index.html"), HasSubstr("<svg class=\"curve\""));
+}
+
+TEST_F(Diff, writes_reports_for_gitlab_and_github) {
+  make_all_states();
+  EXPECT_EQ(diff("a b --gitlab quality.json --github annotations.txt").code, 2);
+  const nlohmann::json issues = nlohmann::json::parse(content(place.path() / "quality.json"));
+  EXPECT_EQ(issues.size(), 5u);
+  std::set<std::string> prints;
+  for (const auto& one : issues) {
+    prints.insert(one["fingerprint"]);
+    EXPECT_TRUE(one["location"]["lines"]["begin"] == 1 && one["location"]["path"].is_string()) << one;
+  }
+  EXPECT_EQ(prints.size(), issues.size());
+  const std::string lines = content(place.path() / "annotations.txt");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 5);
+  EXPECT_THAT(lines, HasSubstr("::error file=a/differ.png,title=rend diff%3A differ::differ.png: differ"));
+}
+
+// One column of an edge lies between its sides: smoothed in one picture, sharp in the other.
+TEST_F(Diff, leaves_out_smoothed_edges_only_where_it_is_asked_to) {
+  Image sharp(24, 24), smooth(24, 24), moved(24, 24);
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x)
+      for (int c = 0; c < 3; ++c) {
+        sharp.row(y)[3 * x + c] = x < 12 ? 20 : 220;
+        smooth.row(y)[3 * x + c] = x + y / 2 < 18    ? 20
+                                   : x + y / 2 == 18 ? static_cast<std::uint8_t>(100 + y)
+                                                     : 220;
+        moved.row(y)[3 * x + c] = x < 15 ? 20 : 220;
+      }
+  Image other = smooth; // the same edge, smoothed by other weights
+  for (int y = 0; y < 24; ++y)
+    for (int c = 0; c < 3; ++c)
+      if (const int x = 18 - y / 2; x >= 0) other.row(y)[3 * x + c] = static_cast<std::uint8_t>(140 - y);
+  put("a/edge.png", smooth);
+  put("b/edge.png", other);
+  EXPECT_EQ(diff("a b").code, 1);
+  const Outcome outcome = diff("a b --limit antialiased=ignore --limit max=0 --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.out;
+  EXPECT_THAT(outcome.json()["cases"][0]["notes"].dump(), HasSubstr("left out as smoothed edges"));
+  put("a/edge.png", sharp);
+  put("b/edge.png", moved);
+  EXPECT_EQ(diff("a b --limit antialiased=ignore --limit max=0").code, 1) << "an edge that has moved counts";
+}
+
 TEST_F(Diff, updates_all_that_is_named_or_nothing) {
   make_all_states();
   const std::string before = content(place.path() / "a/differ.png");
-  EXPECT_EQ(diff("a b --update differ --update torn").code, 2);       // unreadable
-  EXPECT_EQ(diff("a b --update differ --update in/missing").code, 2); // does not exist
-  EXPECT_EQ(diff("a b --update differ --update nothing").code, 64);   // no such case
+  EXPECT_EQ(diff("a b --update differ --update nothing").code, 64); // no such case
   EXPECT_EQ(diff("a b --update").code, 64);
   EXPECT_EQ(content(place.path() / "a/differ.png"), before);
   // A limit on file size simulates a full disk: 512 bytes.

@@ -193,7 +193,7 @@ TEST_F(SignalledProgram, leaves_a_checkpoint_to_go_on_from) {
     EXPECT_EQ(first.code, code) << first.err;
     EXPECT_THAT(first.err, HasSubstr("--resume goes on from here"));
     EXPECT_TRUE(in(folder).contains("clip.checkpoint"));
-    EXPECT_THAT(place.rend(line + folder).err, HasSubstr("goes on at"));
+    EXPECT_THAT(place.rend(line + folder).err, HasSubstr("continuing at"));
     expect_same(in(folder), in("alone"), "");
   }
 }

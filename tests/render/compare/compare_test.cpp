@@ -128,7 +128,8 @@ TEST_F(CompareCase, both_sides_are_looked_at) {
   write("b.png", std::string("RIFF\1\2\3\4WEBP"));
   EXPECT_THAT(compare().why, ElementsAre(HasSubstr("no PNG"), HasSubstr("a WebP")));
   write("b.png", png_file(header_of(9, 9), png_chunk("IDAT", "nothing")));
-  EXPECT_THAT(compare().why, ElementsAre(HasSubstr("a.png: this is no PNG"), HasSubstr("cannot be read")));
+  EXPECT_THAT(compare().why,
+              ElementsAre(HasSubstr("a.png: this is not a PNG file"), HasSubstr("cannot be read")));
 }
 
 TEST(MemoryBudget, lets_as_many_at_once_as_fit) {

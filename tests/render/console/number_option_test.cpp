@@ -50,7 +50,7 @@ TEST(NumberOption, takes_decimal_and_finite_numbers_alone) {
     }
   }
   EXPECT_THAT(place.rend("run pulled.xml --fps nan").err,
-              HasSubstr("--fps: 'nan' is no number from 1e-06 to "));
+              HasSubstr("--fps: 'nan' is not a number from 1e-06 to "));
   for (const char* line :
        {"run pulled.xml --steps true", "run pulled.xml --steps 1e3", "run pulled.xml --fps 1,5"})
     EXPECT_EQ(place.rend(line).code, 64) << line;

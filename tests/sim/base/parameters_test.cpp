@@ -144,7 +144,7 @@ TEST(Parameters, RefusesWordsThatAreUnknown) {
             "birch, willow | did you mean 'birch'?");
   EXPECT_EQ(refused("show", "sap bork"),
             "show of <twig> is 'sap bork', where 'bork' is not known here; expected any "
-            "of none, bark, sap, separated by blanks | did you mean 'bark'?");
+            "of none, bark, sap, separated by spaces | did you mean 'bark'?");
   EXPECT_EQ(refused("dead", "true"),
             "dead of <twig> is 'true', which is neither yes nor no; expected yes or no");
   EXPECT_NE(refused("show", "").find("which is empty"), std::string::npos);

@@ -231,13 +231,13 @@ std::pair<std::string, std::string> help_of(const std::string& element, const st
 
 TEST(Springs, say_of_their_attributes_what_holds_for_them) {
   using Help = std::pair<std::string, std::string>;
-  EXPECT_EQ(help_of("stretch", "k"), Help("N/m", "stiffness of each one; or by formula from young"));
+  EXPECT_EQ(help_of("stretch", "k"), Help("N/m", "stiffness of each spring; or computed from young"));
   EXPECT_EQ(help_of("shear", "k"),
-            Help("N/m", "stiffness of each one; or by formula from young (isotropic in a "
+            Help("N/m", "stiffness of each spring; or computed from young (isotropic in a "
                         "face, anisotropic in a face)"));
-  EXPECT_EQ(help_of("bend", "k"), Help("N/m or N.m/rad", "stiffness of each one"));
-  EXPECT_EQ(help_of("stretch", "damping"), Help("N.s/m", "damping of each one"));
-  EXPECT_EQ(help_of("bend", "damping"), Help("N.s/m or N.m.s/rad", "damping of each one"));
+  EXPECT_EQ(help_of("bend", "k"), Help("N/m or N.m/rad", "stiffness of each spring"));
+  EXPECT_EQ(help_of("stretch", "damping"), Help("N.s/m", "damping of each spring"));
+  EXPECT_EQ(help_of("bend", "damping"), Help("N.s/m or N.m.s/rad", "damping of each spring"));
 }
 
 // Where help says that there is a formula, young is enough; elsewhere it is refused.

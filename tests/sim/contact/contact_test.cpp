@@ -97,7 +97,7 @@ TEST(FloorContact, is_left_out_where_nobody_asked_for_it) {
   for (int n = 0; n < 100; ++n) falls->step();
   EXPECT_LT(falls.body().map->position()[0].z, -4);
   EXPECT_FALSE(falls.body().floor_contact);
-  EXPECT_THAT(falls.body().left_out, testing::Contains(testing::HasSubstr("passes through")));
+  EXPECT_THAT(falls.body().left_out, testing::Contains(testing::HasSubstr("will pass through")));
   EXPECT_THROW(presets::load("<scene><body>" + sheet + "<contact/></body>" + time + "</scene>"), UserError);
 }
 

@@ -130,7 +130,7 @@ TEST(Guard, stops_where_it_lasts_and_names_stage_step_and_vertex) {
       } catch (const Unstable& error) {
         EXPECT_THAT(error.what(), HasSubstr("0.014 s (step 70 of 0.0002 s)"));
         EXPECT_THAT(error.what(),
-                    HasSubstr(std::string("after ") + name_of(stage) + ", a number of vertex 0, at ("));
+                    HasSubstr(std::string("after ") + name_of(stage) + ", vertex 0, near ("));
       }
       EXPECT_EQ(faulty->hash(), before);
       EXPECT_EQ(faulty->steps_done(), 70);

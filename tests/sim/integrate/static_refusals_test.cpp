@@ -30,7 +30,7 @@ TEST(StaticSolve, refuses_what_nothing_holds) {
   };
   const std::string springs =
       R"(<stretch k="100"/><shear kind="isotropic" k="50"/><bend kind="provot" k="50"/>)";
-  EXPECT_THAT(refusal("", springs), HasSubstr("nothing holds a piece of 20 vertices along x, y, z"));
+  EXPECT_THAT(refusal("", springs), HasSubstr("a piece of 20 vertices is free to move along x, y, z"));
   EXPECT_THAT(refusal(R"(<fix all="yes" axes="xy"/>)", springs), HasSubstr("along z"));
   EXPECT_THAT(refusal(R"(<fix near="0 0 0"/>)", springs),
               testing::AnyOf(HasSubstr("turn"), HasSubstr("not refused")));
@@ -61,7 +61,7 @@ TEST(StaticSolve, refuses_small_displacements_of_what_may_turn) {
   for (const char* model : {"linear", "mass-tensor"})
     for (const char* pattern : {"hexahedra", "prisms", "tetrahedra", "mixed"})
       EXPECT_THAT(refusal_of_step(heavy_bar(pattern, model, 1000, R"(<fix near="0 0 0"/>)")),
-                  HasSubstr("lets the body turn as a whole"))
+                  HasSubstr("can turn as a whole"))
           << model << ", " << pattern;
   EXPECT_EQ(refusal_of_step(heavy_bar("hexahedra", "linear", 1, R"(<fix side="-x"/>)")), "not refused");
 }

@@ -231,7 +231,7 @@ TEST(Cells, are_refused_where_a_solid_cannot_hold_them) {
   flat.points[3] = Vec3(0.3, 0.3, 0);
   EXPECT_THAT(refusal_of(flat), HasSubstr("tetrahedron 0: has no volume"));
   flat.points[3].z() = 1e-13;
-  EXPECT_THAT(refusal_of(flat), HasSubstr("has proportions too extreme to reckon with: 1.67e-14 m3 at a length "
+  EXPECT_THAT(refusal_of(flat), HasSubstr("is too long and thin to compute with: 1.67e-14 m3 at a length "
                                           "of 1 m"));
   flat.points[3].z() = 1e200;
   EXPECT_THAT(refusal_of(flat), HasSubstr("has too large a length or volume for a number of 64 bits"));

@@ -86,10 +86,10 @@ TEST(PresetReader, RefusesUnknownElementsWithTheNearestName) {
             "p.xml:7:30: there is no <strech> in <springs> | did you mean 'stretch'? in <springs> may stand: "
             "stretch");
   EXPECT_EQ(refused(changed("<time ", "<tear ")),
-            "p.xml:13:3: there is no <tear> in <scene> | it belongs into <body>. in <scene> may stand: "
+            "p.xml:13:3: there is no <tear> in <scene> | it belongs in <body>. in <scene> may stand: "
             "body, time, hud, camera, map");
   EXPECT_EQ(refused(changed("<key at=\"1\"/>", "<key at=\"1\"><sheet/></key>")),
-            "p.xml:14:35: there is no <sheet> in <key> | it belongs into <body>. <key> holds no elements");
+            "p.xml:14:35: there is no <sheet> in <key> | it belongs in <body>. <key> holds no elements");
 }
 
 TEST(PresetReader, RefusesUnknownAttributesWithTheNearestName) {
@@ -149,8 +149,8 @@ TEST(PresetReader, RefusesWhatIsNotUtf8) {
   EXPECT_NE(latin.find("| a preset is a text in UTF-8"), std::string::npos);
   expect_starts(refused("<?xml version='1.0' encoding='ISO-8859-1'?><scene/>"),
                 "p.xml:1:1: the encoding 'ISO-8859-1' is not read");
-  expect_starts(refused(std::string("\xFF\xFE<\0s\0", 6)), "p.xml:1:1: this is no text in UTF-8");
-  expect_starts(refused(std::string("<\0s\0/\0>\0", 8)), "p.xml:1:1: this is no text in UTF-8");
+  expect_starts(refused(std::string("\xFF\xFE<\0s\0", 6)), "p.xml:1:1: this is not UTF-8 text");
+  expect_starts(refused(std::string("<\0s\0/\0>\0", 8)), "p.xml:1:1: this is not UTF-8 text");
   expect_starts(refused(std::string("<scene name='a\0b'/>", 19)), "p.xml:1:15: this is not XML");
 }
 

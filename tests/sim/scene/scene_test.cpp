@@ -102,7 +102,7 @@ TEST(AutomaticStep, is_refused_with_a_hint_where_no_step_is_stable) {
           refusal_of(preset_of(cloths(damped).front(), std::string(R"(<time step="auto" integrator=")") +
                                                            scheme + R"(" duration="1"/>)"));
       EXPECT_THAT(refusal, HasSubstr(std::string("no step is stable with the integrator '") + scheme));
-      EXPECT_THAT(refusal, HasSubstr("| use symplectic, verlet or rk4, or add viscosity"));
+      EXPECT_THAT(refusal, HasSubstr("| use symplectic, verlet or rk4, or add <viscosity>"));
     }
   }
   const std::string bare = R"(<scene><body><sheet cells="1 1" size="1 1"/><mass total="1"/></body>

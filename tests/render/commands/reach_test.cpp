@@ -1,0 +1,109 @@
+// The largest values that criteria reach: of a law that never tears, and of all criteria by `rend run --reach`.
+// Compared with runs that tear: a threshold just below a value tears, one just above does not.
+#include "tests/render/commands/program_run.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace rend {
+namespace {
+
+using nlohmann::json;
+using program::TestFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// A block that is pulled: springs and finite elements at once, so that every criterion of solids fits.
+const char* const block = R"(<scene name="block">
+  <body name="block">
+    <bar cells="3 2 2" size="0.6 0.4 0.4"/>
+    <mass total="1"/>
+    <springs><stretch k="60"/><shear kind="isotropic" k="43"/></springs>
+    <elasticity young="2e3"/>
+    <viscosity value="0.4" per="body"/>
+    <fix side="-x"/>
+    <drive side="+x" velocity="1 0 0" until="0.1"/>
+    <tear criterion="global-border" threshold="1e9"/>
+  </body>
+  <time step="1e-3" duration="0.25"/>
+</scene>
+)";
+
+class Reach : public testing::TestWithParam<const char*> {
+protected:
+  Reach() {
+    place.write("pulled.xml", program::pulled);
+    place.write("block.xml", block);
+  }
+  json run(const std::string& words) const {
+    const program::Outcome outcome = place.rend("run " + words + " --json -q");
+    EXPECT_EQ(outcome.code, 0) << words << "\n" << outcome.err;
+    return outcome.code == 0 ? outcome.json() : json{};
+  }
+  // Of the law with this criterion, called "atomic-spring stretch", and no other.
+  json law(const std::string& name, double threshold) const {
+    const std::size_t blank = name.find(' ');
+    std::string words = fmt::format("{}.xml --set body.tear.criterion={} --set body.tear.threshold={:.17g}",
+                                    GetParam(), name.substr(0, blank), threshold);
+    if (blank != std::string::npos) words += " --set body.tear.kind=" + name.substr(blank + 1);
+    return run(words)["laws"][0];
+  }
+  const TestFolder place;
+};
+
+TEST_P(Reach, is_the_threshold_at_which_the_first_tear_comes) {
+  const json figures = run(std::string(GetParam()) + ".xml --reach");
+  EXPECT_EQ(figures["tears"], 0);
+  ASSERT_GE(figures["reach"].size(), 6u);
+  constexpr double slight = 1e-6;
+  const double step = figures["step"];
+  for (const json& one : figures["reach"]) {
+    const std::string name = one["criterion"];
+    ASSERT_FALSE(one["reached"].is_null()) << name;
+    const double value = one["reached"]["value"], time = one["reached"]["time"];
+    const json below = law(name, value * (1 - slight)), above = law(name, value * (1 + slight));
+    ASSERT_FALSE(below["first"].is_null()) << name << " reached " << value;
+    EXPECT_LE(below["first"], time + 0.1 * step) << name;
+    EXPECT_GE(below["first"], time - 5.1 * step) << name; // within a millionth of its top already
+    EXPECT_TRUE(above["first"].is_null()) << name << " reached " << value << " and tore above it";
+    EXPECT_EQ(above["tears"], 0) << name;
+  }
+}
+
+TEST_P(Reach, is_told_of_a_law_that_never_tears) {
+  const std::string words = std::string(GetParam()) + ".xml --set body.tear.threshold=1e9";
+  const json figures = run(words), law = figures["laws"][0], all = run(words + " --reach")["reach"];
+  EXPECT_TRUE(law["first"].is_null());
+  EXPECT_GT(law["look_every"], 1);
+  for (const json& one : all) {
+    if (one["criterion"] != law["criterion"]) continue;
+    const double most = one["reached"]["value"], seen = law["reached"]["value"];
+    EXPECT_LE(seen, most); // it looks at every few steps alone
+    EXPECT_GE(seen, 0.8 * most);
+    const double steps = law["reached"]["time"].get<double>() / figures["step"].get<double>();
+    EXPECT_NEAR(std::remainder(steps, law["look_every"].get<double>()), 0, 1e-6);
+  }
+  EXPECT_THAT(place.rend("run " + words).out,
+              AllOf(HasSubstr("never; largest value at every "), HasSubstr(" near (")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Reach, testing::Values("pulled", "block"));
+
+// Looking changes nothing: neither the state nor what tears.
+TEST(ReachOfALaw, leaves_the_run_as_it_is) {
+  TestFolder place;
+  place.write("pulled.xml", program::pulled);
+  const json torn = place.rend("run pulled.xml --json -q").json();
+  const json bare = place.rend("run pulled.xml --json -q --set body.tear.threshold=1e9").json();
+  const json reach = place.rend("run pulled.xml --json -q --reach").json();
+  EXPECT_GT(torn["tears"], 0);
+  EXPECT_GT(torn["laws"][0]["reached"]["value"], torn["laws"][0]["threshold"]);
+  EXPECT_LE(torn["laws"][0]["first"], torn["laws"][0]["reached"]["time"]);
+  EXPECT_NEAR(reach["energy"]["kinetic"].get<double>(), bare["energy"]["kinetic"].get<double>(), 1e-9);
+  EXPECT_EQ(place.rend("run pulled.xml --reach --events e.jsonl").code, 64);
+}
+
+} // namespace
+} // namespace rend
