@@ -24,7 +24,7 @@ CheckCase long_case(const Matter& matter, const Scheme& scheme, long steps) {
   CheckCase one;
   one.name = fmt::format("long/{}/{}", matter.name, scheme.name);
   const bool keeps = scheme.name == "symplectic" || scheme.name == "verlet";
-  const bool turns = matter.model == "springs" || matter.name == "corotational tetrahedra";
+  const bool turns = !matter.small_strain();
   one.expectation = fmt::format(
       "free and shaken (not in the preset file{}) with a hundredth of its speed of sound, {:g} steps of {}: "
       "the mean energy of the last tenth {}; momentum to 1e-9{}",
@@ -71,8 +71,9 @@ CheckCase long_case(const Matter& matter, const Scheme& scheme, long steps) {
 std::vector<CheckCase> long_cases() {
   std::vector<CheckCase> all;
   for (const Matter& matter : all_matters("1 1 1", "1 0.8 0.9", "1 1", "1 0.8")) {
-    if (matter.name.ends_with("mixed") || matter.model == "corotational-qr") continue;
+    if (matter.name.ends_with("mixed")) continue;
     for (const Scheme& scheme : all_schemes()) {
+      if (matter.model == "corotational-qr" && scheme.name != "symplectic") continue; // as with the other frame
       if (!scheme.solves && !scheme.adaptive && scheme.limit({1, 0, 0}) > 0)
         all.push_back(long_case(matter, scheme, 1000000));
       if (scheme.name == "implicit" && (matter.model == "springs" || matter.model == "corotational"))
@@ -90,7 +91,7 @@ CheckFamily long_family() {
           "neither driven "
           "nor damped, for a million steps. Symplectic schemes must keep the energy, the others must not make "
           "any; momentum "
-          "stays, and angular momentum where the forces have no moment.",
+          "stays, and angular momentum where the model knows rotations.",
           long_cases};
 }
 

@@ -127,9 +127,9 @@ void run_kind(ElementKind kind, const Scan& scan) {
   case ElementKind::Hexahedron:
     return at_width<run<HexahedronLanes>>(scan);
   case ElementKind::Prism:
-    return at_width<run<TableLanes<ElementKind::Prism, 6, 6>>>(scan);
+    return at_width<run<PrismLanes>>(scan);
   case ElementKind::Pyramid:
-    return at_width<run<TableLanes<ElementKind::Pyramid, 5, 8>>>(scan);
+    return at_width<run<PyramidLanes>>(scan);
   }
 }
 

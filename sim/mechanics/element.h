@@ -8,8 +8,9 @@
 // so that an element stores only J⁻¹ and w, ten numbers for a tetrahedron. The ∇̂N_n are the same for all
 // elements of a kind. Reference elements (with corners in the order of the words): [0,1]² and [0,1]³ for quads
 // and hexahedra, the unit triangle and tetrahedron, their product with [0,1] for a prism. A pyramid is a cube
-// whose top is collapsed to the apex: rational shape functions of 5 nodes, for which 2 × 2 × 2 points are exact
-// on every pyramid with a planar parallelogram as base.
+// whose top is collapsed to the apex: rational shape functions of 5 nodes, whose F is constant on each line
+// through the apex. 2 × 2 points of the base stand for 2 × 2 × 2, and are exact on every pyramid with a planar
+// parallelogram as base.
 //
 // If the corners are numbered with the opposite orientation, det J is negative and the gradients are the same.
 #pragma once
@@ -40,7 +41,7 @@ struct ElementShape {
   int darts; // of the whole element
   // words to the corners, one list for each non-equivalent position of the first dart
   std::vector<std::vector<Word>> units;
-  std::vector<ReferencePoint> points; // 2 × 2 × 2 points: ξ varies fastest
+  std::vector<ReferencePoint> points; // of squares and cubes: ξ varies fastest
   int values() const { return static_cast<int>(points.size()) * (dimension * dimension + 1); }
 };
 

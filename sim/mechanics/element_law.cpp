@@ -44,12 +44,16 @@ public:
   void forces(const double* unit, const UnitState& s, Vec3* force) const override {
     const State at(*this, unit, s);
     for (int n = 0; n < N; ++n) force[n].setZero();
-    for (std::size_t g = 0; g < at.element.points.size(); ++g) {
-      const auto& point = at.element.points[g];
-      const Matrix3d& R = at.frame(g);
-      const Matrix3d stress =
-          point.weight * R * stress_of(strain_of(R.transpose() * (at.moving * point.gradient.transpose())));
-      for (int n = 0; n < N; ++n) force[n] -= stress * point.gradient.col(n);
+    for (std::size_t f = 0; f < frames; ++f) {
+      Matrix3d moment = Matrix3d::Zero();
+      if (moment_of_frame()) moment = Turning(*this, at, f).moment.Z;
+      for (std::size_t g = f; g < end_of(f); ++g) {
+        const auto& point = at.element.points[g];
+        const Matrix3d& R = at.frame(g);
+        const Matrix3d turned = stress_of(strain_of(R.transpose() * (at.moving * point.gradient.transpose())));
+        const Matrix3d stress = point.weight * R * (turned - moment);
+        for (int n = 0; n < N; ++n) force[n] -= stress * point.gradient.col(n);
+      }
     }
   }
 
@@ -75,7 +79,8 @@ public:
       D = material().damping * K;
     else
       D.setZero();
-    if (tangent == Tangent::Exact && model() == ElasticModel::Corotational) K += rotation_stiffness(at);
+    if (tangent == Tangent::Exact && model() == ElasticModel::Corotational)
+      for (std::size_t f = 0; f < frames; ++f) K += rotation_stiffness(at, Turning(*this, at, f));
   }
 
   void bound(const double* unit, const Vec3*, const double* mass, double* stiffness,
@@ -102,6 +107,18 @@ private:
   using Turns = Eigen::Matrix<double, 3 * N, 3>;
 
   static constexpr bool by_point = rotates_per_point(Dim, Points);
+
+  // Frame f is that of the points f .. end_of(f) − 1: of one point, or of all.
+  static constexpr std::size_t frames = by_point ? static_cast<std::size_t>(Points) : 1;
+  static constexpr std::size_t end_of(std::size_t f) {
+    return by_point ? f + 1 : static_cast<std::size_t>(Points);
+  }
+
+  // Whether the energy changes when R alone turns. It does not if R is the polar rotation of the only F that it
+  // turns: RᵀF is then symmetric and σ commutes with it.
+  bool moment_of_frame() const {
+    return model() == ElasticModel::Corotational && (rotation() == Rotation::Qr || (Points > 1 && !by_point));
+  }
 
   struct State {
     Decoded<N, Dim, Points> element;
@@ -132,6 +149,39 @@ private:
           R_at[g] = law.turn(unit, x * element.points[g].gradient.transpose());
     }
   };
+
+  // How a frame turns, and the moment on it: t·ω = Z : Rᵀ dF̄ is what the energy loses when R turns by ω.
+  struct Turning {
+    std::size_t frame;
+    Corners gradient; // Ḡ
+    Matrix3d R, U;    // U = Rᵀ F̄
+    RotationDerivative derivative;
+    RotationDerivative::Moment moment{Vec3::Zero(), Matrix3d::Zero()}; // per volume [Pa]
+
+    Turning(const ElementOf& law, const State& at, std::size_t f)
+        : frame(f), gradient(by_point ? at.element.points[f].gradient : at.gradient), R(at.frame(f)),
+          U(R.transpose() * (at.x * gradient.transpose())), derivative(law.rotation(), R, R * U) {
+      if (!law.moment_of_frame()) return;
+      Vec3 t = Vec3::Zero();
+      for (std::size_t g = f; g < end_of(f); ++g) {
+        const auto& point = at.element.points[g];
+        const Matrix3d at_point = R.transpose() * (at.x * point.gradient.transpose());
+        t += point.weight * axial(law.stress_of(strain_of(at_point)) * at_point.transpose());
+      }
+      moment = derivative.moment(t / volume(at));
+    }
+    double volume(const State& at) const {
+      return by_point ? at.element.points[frame].weight : at.element.volume;
+    }
+  };
+
+  // a with [ω]× : M = a·ω.
+  static Vec3 axial(const Matrix3d& M) { return {M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1)}; }
+  static Matrix3d crossing(const Vec3& v) {
+    Matrix3d M;
+    M << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+    return M;
+  }
 
   Matrix3d turn(const double* unit, const Matrix3d& mean) const {
     if (model() == ElasticModel::Linear) {
@@ -195,45 +245,63 @@ private:
         K.template block<3, 3>(3 * j, 3 * i) = K.template block<3, 3>(3 * i, 3 * j).transpose();
   }
 
-  // −∂f/∂R : ∂R/∂x. If R rotates by ω, −f_n changes by Z_n ω; a displacement of corner m rotates R by L(Ḡ_m)
-  // Rᵀ.
-  Whole rotation_stiffness(const State& at) const {
-    Turns Z = Turns::Zero();
-    if constexpr (by_point) {
-      Whole sum = Whole::Zero();
-      for (std::size_t g = 0; g < at.element.points.size(); ++g) {
-        Z.setZero();
-        const Corners& gradient = at.element.points[g].gradient;
-        add_rotation_stiffness(at, g, Z);
-        sum += Z.lazyProduct(rotation_derivatives(at.R_at[g], at.x * gradient.transpose(), gradient));
-      }
-      return sum;
-    }
-    for (std::size_t g = 0; g < at.element.points.size(); ++g) add_rotation_stiffness(at, g, Z);
-    return Z.lazyProduct(rotation_derivatives(
-        at.R, at.mean, at.gradient)); // a plain loop: Eigen's blocked product is for larger matrices
-  }
-
-  // The contribution of one point to Z.
-  void add_rotation_stiffness(const State& at, std::size_t g, Turns& Z) const {
-    const auto& point = at.element.points[g];
-    const Matrix3d& R = at.frame(g);
-    const Matrix3d U = R.transpose() * (at.moving * point.gradient.transpose());
-    const Matrix3d sigma = stress_of(strain_of(U));
-    for (int axis = 0; axis < 3; ++axis) {
-      const Matrix3d change =
-          point.weight * R * (turned_about(axis, sigma) - stress_of(symmetric(turned_about(axis, U))));
-      for (int n = 0; n < N; ++n) Z.template block<3, 1>(3 * n, axis) += change * point.gradient.col(n);
-    }
-  }
-
-  // L(G_m) Rᵀ for every corner.
-  Eigen::Matrix<double, 3, 3 * N> rotation_derivatives(const Matrix3d& R, const Matrix3d& F,
-                                                       const Corners& gradient) const {
+  // −∂f/∂R : ∂R/∂x, and the change of the moment's forces. If R turns by ω, −f_n changes by Z_n ω; a displacement
+  // of corner m turns R by L(Ḡ_m) Rᵀ.
+  Whole rotation_stiffness(const State& at, const Turning& frame) const {
     Eigen::Matrix<double, 3, 3 * N> W;
-    const RotationDerivative spin(rotation(), R, F);
-    for (int m = 0; m < N; ++m) W.template block<3, 3>(0, 3 * m) = spin.of(gradient.col(m)) * R.transpose();
-    return W;
+    for (int m = 0; m < N; ++m)
+      W.template block<3, 3>(0, 3 * m) = frame.derivative.of(frame.gradient.col(m)) * frame.R.transpose();
+    const Turns turns = by_turning(at, at.moving, frame);
+    Whole K = turns.lazyProduct(W); // a plain loop: Eigen's blocked product is for larger matrices
+    if (!moment_of_frame()) return K;
+    // The moment t changes by −Z_nᵀ (without damping) when corner n moves, and as R turns.
+    const Turns elastic = material().damping > 0 ? by_turning(at, at.x, frame) : turns;
+    const Eigen::Matrix<double, 3, 3 * N> change =
+        moment_by_turning(at, frame).lazyProduct(W) - Eigen::Matrix<double, 3, 3 * N>(elastic.transpose());
+    const double volume = frame.volume(at);
+    for (int column = 0; column < 3 * N; ++column) {
+      const Matrix3d spin = crossing(W.col(column));
+      const Matrix3d dU =
+          frame.R.row(column % 3).transpose() * frame.gradient.col(column / 3).transpose() - spin * frame.U;
+      const Matrix3d dZ = spin * frame.moment.Z +
+                          frame.derivative.moment_change(frame.moment.z, change.col(column) / volume, dU);
+      const Matrix3d turned = volume * frame.R * dZ;
+      for (int n = 0; n < N; ++n) K.template block<3, 1>(3 * n, column) -= turned * frame.gradient.col(n);
+    }
+    return K;
+  }
+
+  // Z_n: −f_n, without the moment's forces, by a turn of R.
+  Turns by_turning(const State& at, const Corners& moving, const Turning& frame) const {
+    Turns Z = Turns::Zero();
+    const Matrix3d& R = frame.R;
+    for (std::size_t g = frame.frame; g < end_of(frame.frame); ++g) {
+      const auto& point = at.element.points[g];
+      const Matrix3d U = R.transpose() * (moving * point.gradient.transpose());
+      const Matrix3d sigma = stress_of(strain_of(U));
+      for (int axis = 0; axis < 3; ++axis) {
+        const Matrix3d change =
+            point.weight * R * (turned_about(axis, sigma) - stress_of(symmetric(turned_about(axis, U))));
+        for (int n = 0; n < N; ++n) Z.template block<3, 1>(3 * n, axis) += change * point.gradient.col(n);
+      }
+    }
+    return Z;
+  }
+
+  // The change of the moment t by a turn of R.
+  Matrix3d moment_by_turning(const State& at, const Turning& frame) const {
+    Matrix3d change = Matrix3d::Zero();
+    for (std::size_t g = frame.frame; g < end_of(frame.frame); ++g) {
+      const auto& point = at.element.points[g];
+      const Matrix3d U = frame.R.transpose() * (at.x * point.gradient.transpose());
+      const Matrix3d sigma = stress_of(strain_of(U));
+      for (int axis = 0; axis < 3; ++axis) {
+        const Matrix3d dU = -turned_about(axis, U);
+        change.col(axis) +=
+            point.weight * axial(stress_of(symmetric(dU)) * U.transpose() + sigma * dU.transpose());
+      }
+    }
+    return change;
   }
 };
 
@@ -312,7 +380,7 @@ std::shared_ptr<const ElementLaw> element_law(ElementKind kind, ElasticModel mod
   case ElementKind::Prism:
     return made.template operator()<6, 3, 6>();
   case ElementKind::Pyramid:
-    return made.template operator()<5, 3, 8>();
+    return made.template operator()<5, 3, 4>();
   }
   return nullptr;
 }

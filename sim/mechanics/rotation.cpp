@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rend {
@@ -91,17 +92,41 @@ Matrix3d gram_schmidt(const Matrix3d& F, int dimension) {
 
 RotationDerivative::RotationDerivative(Rotation rotation, const Matrix3d& R, const Matrix3d& F)
     : rotation_(rotation) {
-  const Matrix3d U = R.transpose() * F;
+  Matrix3d U = R.transpose() * F;
   const double size = U.norm();
   if (rotation == Rotation::Qr) {
-    matrix_ = U;
     turns_ = U(0, 0) > lost * size && U(1, 1) > lost * size;
+    if (turns_) inverse_ = system(U).inverse();
+    U(0, 0) = std::max(U(0, 0), least_qr);
+    U(1, 1) = std::max(U(1, 1), least_qr);
+    bounded_ = system(U).inverse();
     return;
   }
-  const Matrix3d S = 0.5 * (U + U.transpose());
-  const Matrix3d H = S.trace() * Matrix3d::Identity() - S;
-  turns_ = H.determinant() > 1e-9 * size * size * size;
-  if (turns_) matrix_ = H.inverse();
+  const Matrix3d H = system(0.5 * (U + U.transpose()));
+  const double determinant = H.determinant();
+  const Matrix3d adjugate = cofactors(H); // H is symmetric
+  turns_ = determinant > 1e-9 * size * size * size;
+  if (turns_) inverse_ = H.inverse();
+  bounded_ = adjugate / std::max(determinant, least_polar);
+}
+
+Matrix3d RotationDerivative::system(const Matrix3d& U) const {
+  if (rotation_ == Rotation::Polar) return U.trace() * Matrix3d::Identity() - U;
+  Matrix3d H = Matrix3d::Zero();
+  H(0, 0) = U(1, 1);
+  H(0, 1) = -U(0, 1);
+  H(1, 1) = -U(0, 0);
+  H(2, 2) = U(0, 0);
+  return H;
+}
+
+Matrix3d RotationDerivative::back(const Vec3& z) const {
+  Matrix3d Z = Matrix3d::Zero();
+  Z(2, 1) = z.x();
+  Z(2, 0) = rotation_ == Rotation::Polar ? -z.y() : z.y();
+  Z(1, 0) = z.z();
+  if (rotation_ == Rotation::Polar) Z -= Matrix3d(Z.transpose());
+  return Z;
 }
 
 Matrix3d RotationDerivative::of(const Vec3& b) const {
@@ -109,13 +134,21 @@ Matrix3d RotationDerivative::of(const Vec3& b) const {
   if (!turns_) return L;
   if (rotation_ == Rotation::Polar) {
     L << 0, -b.z(), b.y(), b.z(), 0, -b.x(), -b.y(), b.x(), 0;
-    return matrix_ * L;
+  } else {
+    L(0, 2) = b.y();
+    L(1, 2) = b.x();
+    L(2, 1) = b.x();
   }
-  const Matrix3d& U = matrix_;
-  L(0, 2) = (b.y() - b.x() * U(0, 1) / U(0, 0)) / U(1, 1);
-  L(1, 2) = -b.x() / U(0, 0);
-  L(2, 1) = b.x() / U(0, 0);
-  return L;
+  return inverse_ * L;
+}
+
+RotationDerivative::Moment RotationDerivative::moment(const Vec3& t) const {
+  const Vec3 z = bounded_.transpose() * t;
+  return {z, back(z)};
+}
+
+Matrix3d RotationDerivative::moment_change(const Vec3& z, const Vec3& dt, const Matrix3d& dU) const {
+  return back(bounded_.transpose() * (dt - system(dU).transpose() * z));
 }
 
 } // namespace rend

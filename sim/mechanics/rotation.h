@@ -10,9 +10,15 @@
 // For a sheet the third column of F is 0 and that of R is normal to the sheet; the first two columns of R are
 // the 3 × 2 rotation.
 //
-// The derivative of R: dR = R [ω]×, for dF = a bᵀ with ω = L(b) Rᵀa,
-//   polar   (tr S I − S) ω = b × Rᵀa with S = RᵀF
-//   QR      from the entries of RᵀdF below the diagonal, with U = RᵀF
+// The derivative of R: dR = R [ω]×, where ω solves a linear system that F alone decides. With U = RᵀF and
+// A = Rᵀ dF,
+//
+//   H(U) ω = a(A)     polar   H = tr U I − U,  a = (A21 − A12, A02 − A20, A10 − A01)
+//                     QR      rows (U11, −U01, 0), (0, −U00, 0), (0, 0, U00),  a = (A21, A20, A10)
+//
+// A potential U(F, R) whose R turns by ω changes by −t·ω. The moment t then belongs to F: t·ω = Z : A with
+// Z = aᵀ(z), Hᵀ z = t, for which polar gives Z = [z]×. Near a flip of R (H singular: an element is inverted, or
+// flat) z grows without bound, and R jumps; H⁻¹ is bounded there, so that forces stay finite.
 #pragma once
 
 #include "sim/base/record.h"
@@ -25,17 +31,31 @@ Eigen::Matrix3d closest_rotation(const Eigen::Matrix3d& F);       // finite and 
 Eigen::Matrix3d closest_sheet_rotation(const Eigen::Matrix3d& F); // the same for a third column of 0
 Eigen::Matrix3d gram_schmidt(const Eigen::Matrix3d& F, int dimension); // the same; for a sheet `dimension` is 2
 
-// The derivative of R by F. It is taken as 0 where it does not exist (F is rank-deficient, or R is about to
+// Bounds of H⁻¹ in the moment: the least det H (8 at rest) and, for QR, the least U00 and U11 (1 at rest).
+constexpr double least_polar = 1e-2, least_qr = 5e-2;
+
+// The derivative of R by F. ω is taken as 0 where it does not exist (F is rank-deficient, or R is about to
 // flip).
 class RotationDerivative {
 public:
   RotationDerivative(Rotation rotation, const Eigen::Matrix3d& R, const Eigen::Matrix3d& F);
-  Eigen::Matrix3d of(const Vec3& b) const; // L(b)
+  Eigen::Matrix3d of(const Vec3& b) const; // L(b): dF = a bᵀ turns R by ω = L(b) Rᵀa
+
+  struct Moment {
+    Vec3 z;
+    Eigen::Matrix3d Z;
+  };
+  Moment moment(const Vec3& t) const;
+  // The change of Z if t changes by dt and U by dU; the bound of H⁻¹ is taken as constant.
+  Eigen::Matrix3d moment_change(const Vec3& z, const Vec3& dt, const Eigen::Matrix3d& dU) const;
 
 private:
+  Eigen::Matrix3d system(const Eigen::Matrix3d& U) const; // H
+  Eigen::Matrix3d back(const Vec3& z) const;              // aᵀ
+
   Rotation rotation_;
   bool turns_;
-  Eigen::Matrix3d matrix_; // polar: (tr S I − S)⁻¹; QR: U
+  Eigen::Matrix3d inverse_, bounded_; // H⁻¹; bounded for the moment
 };
 
 } // namespace rend

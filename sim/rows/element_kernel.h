@@ -2,8 +2,9 @@
 //
 // For each kind of element, with or without rotation and damping: positions are gathered and transposed into
 // lanes, F is computed at each integration point, R from the average F (for a quad of a sheet, at each point),
-// and P = w R σ is mapped by J⁻ᵀ to forces on the corners. Only J⁻¹ and w are read: 80 bytes for a tetrahedron,
-// 640 for a hexahedron (its 24 × 24 stiffness matrix would be 4608). The points of a hexahedron are read twice,
+// and P = w R (σ − Z) is mapped by J⁻ᵀ to forces on the corners; where there is a Z, P stays in the frame and the
+// forces are turned by R at last. Only J⁻¹ and w are read: 80 bytes for a tetrahedron, 640 for a hexahedron (its
+// 24 × 24 stiffness matrix would be 4608). The points of a hexahedron are read twice,
 // the second time from the L1 cache.
 #pragma once
 
@@ -81,6 +82,54 @@ REND_INLINE Matrix<Dim> stretched_stress(const Matrix<Dim>& R, const Matrix<Dim>
   return P;
 }
 
+// w σ of the strain sym(U) − I with U = RᵀF, in the rotated frame: its diagonal, and off[n] in the plane normal to
+// axis n. `skew`: twice the skew part of U, as a vector. `triangular`: the entries of U below the diagonal are 0.
+struct TurnedStress {
+  Double4 on[3], off[3], skew[3];
+};
+
+template <bool triangular>
+REND_INLINE TurnedStress turned_stress(const Matrix<3>& R, const Matrix<3>& F, const Double4& weight,
+                                       double lambda, double mu) {
+  TurnedStress s;
+  for (int c = 0; c < 3; ++c) s.on[c] = dot(R.column[c], F.column[c]);
+  const Double4 trace = (lambda * weight) * (s.on[0] + s.on[1] + s.on[2] - 3.0);
+  const Double4 once = mu * weight, twice = 2.0 * once;
+  for (int c = 0; c < 3; ++c) s.on[c] = twice * (s.on[c] - 1.0) + trace;
+  for (int n = 0; n < 3; ++n) {
+    const int r = (n + 1) % 3, c = (n + 2) % 3;
+    if constexpr (triangular) {
+      const Double4 above = r < c ? dot(R.column[r], F.column[c]) : dot(R.column[c], F.column[r]);
+      s.off[n] = once * above;
+      s.skew[n] = r < c ? -above : above;
+    } else {
+      const Double4 rc = dot(R.column[r], F.column[c]), cr = dot(R.column[c], F.column[r]);
+      s.off[n] = once * (rc + cr);
+      s.skew[n] = cr - rc;
+    }
+  }
+  return s;
+}
+
+// −t of one point: the moment of σUᵀ is −(tr σ I − σ) ω, where [ω]× is the skew part of U, since σ commutes with
+// the strain.
+REND_INLINE Vector moment_against(const TurnedStress& s) {
+  const Double4 x = s.on[1] + s.on[2], y = s.on[0] + s.on[2], z = s.on[0] + s.on[1];
+  const Double4 half = splat(0.5);
+  return half * Vector{x * s.skew[0] - s.off[2] * s.skew[1] - s.off[1] * s.skew[2],
+                       y * s.skew[1] - s.off[2] * s.skew[0] - s.off[0] * s.skew[2],
+                       z * s.skew[2] - s.off[1] * s.skew[0] - s.off[0] * s.skew[1]};
+}
+
+// The same on the frame of a point of a sheet, by QR: what the stress loses in its entry (1, 0), times w.
+REND_INLINE Double4 sheet_moment(const Matrix<2>& R, const Matrix<2>& F, const Double4& weight, double lambda,
+                                 double mu) {
+  const Vector &r0 = R.column[0], &r1 = R.column[1];
+  const Double4 U00 = dot(r0, F.column[0]), U11 = dot(r1, F.column[1]);
+  const Double4 skew = dot(r1, F.column[0]) - dot(r0, F.column[1]);
+  return ((lambda + mu) * weight) * (2.0 - U00 - U11) * skew / at_least(U00, least_qr);
+}
+
 // Two properties are tested at run time: whether a block writes outside its part's vertices, and, for elements
 // with several points, whether the material is damped. The cost is not measurable, and the compiler would
 // otherwise generate a kernel for each case.
@@ -92,6 +141,8 @@ template <class Shape, FrameRotation turning, Damping damping> struct ElementLan
       turning == FrameRotation::None && Dim == 2; // a linear sheet stores its rest axes
   static constexpr bool turned = turning != FrameRotation::None;
   static constexpr Rotation rotation = turning == FrameRotation::Qr ? Rotation::Qr : Rotation::Polar;
+  // whether the energy changes when a frame alone turns (element_law.cpp)
+  static constexpr bool moments = turned && (rotation == Rotation::Qr || (Dim == 3 && Shape::points > 1));
   static constexpr int frames = turned && rotates_per_point(Dim, Shape::points) ? Shape::points : 1;
 
   // Forces on the corners of the rows at .. at + 3.
@@ -105,7 +156,7 @@ template <class Shape, FrameRotation turning, Damping damping> struct ElementLan
       for (int c = 0; c < 2; ++c, values += 12)
         R[0].column[c] = {load_four(values), load_four(values + 4), load_four(values + 8)};
     }
-    Vector x[N], D[Shape::columns_count];
+    Vector x[N], D[Shape::columns_count], H[Shape::columns_count] = {};
     from_first_corner(a.position, a, at, x);
     Matrix<Dim> F[Shape::points], mean;
     Double4 volume{};
@@ -116,32 +167,75 @@ template <class Shape, FrameRotation turning, Damping damping> struct ElementLan
     }
     if constexpr (turned)
       for (int g = 0; g < frames; ++g) rotations_of<rotation, Dim>(frames == 1 ? mean : F[g], volume, R[g]);
+    TurnedStress elastic[moments && Dim == 3 ? Shape::points : 1];
+    Vector z;
+    if constexpr (moments && Dim == 3) z = stresses(m, values, R[0], F, mean, volume, elastic);
     if (damped) {
       Vector v[N];
       from_first_corner(a.velocity, a, at, v);
       for (int n = 1; n < N; ++n) x[n] = x[n] + splat(m.damping) * v[n];
       Shape::columns(x, D);
     }
-    Vector H[Shape::columns_count] = {};
     for (int g = 0; g < Shape::points; ++g) {
       const Inverse<Dim> inverse(values + static_cast<std::size_t>(g) * Inverse<Dim>::stride);
+      Double4 sheet_z;
+      if constexpr (moments && Dim == 2) sheet_z = sheet_moment(R[g], F[g], inverse.weight, m.lambda, m.mu);
       if (damped) F[g] = gradient_at<Shape, Dim>(g, D, inverse);
       Matrix<Dim> P;
-      if constexpr (Dim == 3 && !turned)
+      if constexpr (moments && Dim == 3) {
+        if (damped) elastic[g] = turned_stress<false>(R[0], F[g], inverse.weight, m.lambda, m.mu);
+        P = with_moment(elastic[g], inverse.weight, z);
+      } else if constexpr (Dim == 3 && !turned)
         P = stress(F[g], inverse.weight, m.lambda, m.mu);
       else if constexpr (Shape::points == 1 && turning == FrameRotation::Polar && damping == Damping::No)
         P = stretched_stress<Dim>(R[0], F[0], inverse.weight, m.lambda, m.mu);
       else
         P = rotated_stress<Dim>(R[frames == 1 ? 0 : g], F[g], inverse.weight, m.lambda, m.mu);
+      if constexpr (moments && Dim == 2) P.column[0] = P.column[0] - sheet_z * R[g].column[1];
       for (int r = 0; r < Dim; ++r) {
         Vector& sum = H[Shape::column(g, r)];
         for (int c = 0; c < Dim; ++c) sum = sum + inverse.A[r][c] * P.column[c];
       }
     }
-    Shape::corners(H, f);
+    if constexpr (moments && Dim == 3) {                 // P was in the rotated frame
+      constexpr bool columns = Shape::columns_count < N; // turned are the columns or the corners, what is less
+      if constexpr (columns) turn(R[0], H, Shape::columns_count);
+      Shape::corners(H, f);
+      if constexpr (!columns) turn(R[0], f, N);
+    } else {
+      Shape::corners(H, f);
+    }
   }
 
 private:
+  static REND_INLINE void turn(const Matrix<3>& R, Vector* v, int count) {
+    for (int n = 0; n < count; ++n) v[n] = v[n].x * R.column[0] + v[n].y * R.column[1] + v[n].z * R.column[2];
+  }
+
+  // w σ at each point, in the rotated frame, and z of the moment on the frame, per volume.
+  static REND_INLINE Vector stresses(const ElasticMaterial& m, const double* values, const Matrix<3>& R,
+                                     const Matrix<3>* F, const Matrix<3>& mean, const Double4& volume,
+                                     TurnedStress* stress) {
+    Vector against{};
+    for (int g = 0; g < Shape::points; ++g) {
+      const Double4 weight = load_four(values + (static_cast<std::size_t>(g) + 1) * Inverse<3>::stride - 4);
+      stress[g] =
+          turned_stress < rotation == Rotation::Qr && Shape::points == 1 > (R, F[g], weight, m.lambda, m.mu);
+      against = against + moment_against(stress[g]);
+    }
+    const Double4 share = volume > 0.0 ? -1.0 / volume : Double4{};
+    return moment_of<rotation>(R, mean, share * against);
+  }
+
+  // σ − Z.
+  static REND_INLINE Matrix<3> with_moment(const TurnedStress& s, const Double4& weight, const Vector& moment) {
+    const Vector z = weight * moment;
+    const Double4 &yz = s.off[0], &xz = s.off[1], &xy = s.off[2];
+    if constexpr (rotation == Rotation::Qr)
+      return {{{s.on[0], xy - z.z, xz - z.y}, {xy, s.on[1], yz - z.x}, {xz, yz, s.on[2]}}};
+    return {{{s.on[0], xy - z.z, xz + z.y}, {xy + z.z, s.on[1], yz - z.x}, {xz - z.y, yz + z.x, s.on[2]}}};
+  }
+
   static REND_INLINE void from_first_corner(const Record* records, const KernelArguments& a, std::size_t at,
                                             Vector* x) {
     const Vector first = gather(records, a.rows.index(0) + at);

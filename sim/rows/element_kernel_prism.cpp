@@ -2,16 +2,12 @@
 
 namespace rend::lanes {
 
-namespace {
-using Prism = TableLanes<ElementKind::Prism, 6, 6>;
-}
-
 void prisms(const KernelArguments& a) {
-  at_width<run_elements<Prism, false>>(a);
+  at_width<run_elements<PrismLanes, false>>(a);
 }
 
 void prism_corners(const KernelArguments& a) {
-  at_width<run_elements<Prism, true>>(a);
+  at_width<run_elements<PrismLanes, true>>(a);
 }
 
 } // namespace rend::lanes

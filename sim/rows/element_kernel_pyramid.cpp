@@ -2,16 +2,12 @@
 
 namespace rend::lanes {
 
-namespace {
-using Pyramid = TableLanes<ElementKind::Pyramid, 5, 8>;
-}
-
 void pyramids(const KernelArguments& a) {
-  at_width<run_elements<Pyramid, false>>(a);
+  at_width<run_elements<PyramidLanes, false>>(a);
 }
 
 void pyramid_corners(const KernelArguments& a) {
-  at_width<run_elements<Pyramid, true>>(a);
+  at_width<run_elements<PyramidLanes, true>>(a);
 }
 
 } // namespace rend::lanes

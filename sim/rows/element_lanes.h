@@ -94,26 +94,62 @@ struct HexahedronLanes {
   }
 };
 
-// Any kind of element, column by column from the table of its shape functions.
-template <ElementKind kind, int Corners, int Points> struct TableLanes {
-  static constexpr int N = Corners, dim = 3, points = Points, columns_count = 3 * Points;
-  static constexpr int column(int g, int axis) { return 3 * g + axis; }
-  static double coefficient(int k, int n) {
-    static const ElementShape& shape = shape_of(kind);
-    return shape.points[static_cast<std::size_t>(k / 3)]
-        .gradient[static_cast<std::size_t>(n)][static_cast<std::size_t>(k % 3)];
-  }
+// Along the edges of the triangles two columns each, at both heights of points; along the axis three, at the
+// points of a triangle, whose shares of the corners are 2/3, 1/6, 1/6.
+struct PrismLanes {
+  static constexpr int N = 6, dim = 3, points = 6, columns_count = 7;
+  static constexpr int column(int g, int axis) { return axis == 2 ? 4 + g % 3 : 2 * axis + g / 3; }
   static REND_INLINE void columns(const Vector* x, Vector* D) {
-    for (int k = 0; k < columns_count; ++k) {
-      D[k] = splat(coefficient(k, 1)) * x[1];
-      for (int n = 2; n < N; ++n) D[k] = D[k] + splat(coefficient(k, n)) * x[n];
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vector a = x[1 + axis] - x[0], b = x[4 + axis] - x[3];
+      D[2 * axis] = splat(near_end) * a + splat(far_end) * b;
+      D[2 * axis + 1] = splat(far_end) * a + splat(near_end) * b;
     }
+    Vector up[3];
+    for (int n = 0; n < 3; ++n) up[n] = x[3 + n] - x[n];
+    shares(up, D + 4);
   }
   static REND_INLINE void corners(const Vector* H, Vector* f) {
-    for (int n = 0; n < N; ++n) {
-      f[n] = splat(-coefficient(0, n)) * H[0];
-      for (int k = 1; k < columns_count; ++k) f[n] = f[n] - splat(coefficient(k, n)) * H[k];
+    shares(H + 4, f);
+    for (int n = 0; n < 3; ++n) f[3 + n] = Vector{} - f[n];
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vector a = splat(near_end) * H[2 * axis] + splat(far_end) * H[2 * axis + 1];
+      const Vector b = splat(far_end) * H[2 * axis] + splat(near_end) * H[2 * axis + 1];
+      f[0] = f[0] + a;
+      f[1 + axis] = f[1 + axis] - a;
+      f[3] = f[3] + b;
+      f[4 + axis] = f[4 + axis] - b;
     }
+  }
+
+private:
+  // From values at the corners of a triangle to those at its points; equal to its transpose.
+  static REND_INLINE void shares(const Vector* from, Vector* to) {
+    const Vector sixth = splat(1.0 / 6) * (from[0] + from[1] + from[2]);
+    for (int n = 0; n < 3; ++n) to[n] = sixth + splat(0.5) * from[n];
+  }
+};
+
+// Along the edges of the base two columns each, as in a quad; towards the apex one at each point of the base.
+struct PyramidLanes {
+  static constexpr int N = 5, dim = 3, points = 4, columns_count = 8;
+  static constexpr int column(int g, int axis) { return axis == 2 ? 4 + g : QuadLanes::column(g, axis); }
+  static REND_INLINE void columns(const Vector* x, Vector* D) {
+    QuadLanes::columns(x, D);
+    const Vector base[4] = {x[0], x[1], x[3], x[2]}; // in the order of the points
+    Vector at[4];
+    HexahedronLanes::means(base, at);
+    for (int g = 0; g < 4; ++g) D[4 + g] = x[4] - at[g];
+  }
+  static REND_INLINE void corners(const Vector* H, Vector* f) {
+    QuadLanes::corners(H, f);
+    Vector base[4];
+    HexahedronLanes::means(H + 4, base);
+    f[0] = f[0] + base[0];
+    f[1] = f[1] + base[1];
+    f[3] = f[3] + base[2];
+    f[2] = f[2] + base[3];
+    f[4] = Vector{} - (H[4] + H[5] + H[6] + H[7]);
   }
 };
 

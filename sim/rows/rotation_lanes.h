@@ -45,6 +45,10 @@ REND_INLINE bool any(const Long4& mask) {
   return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 }
 
+REND_INLINE Double4 at_least(const Double4& value, double bound) {
+  return value > bound ? value : splat(bound);
+}
+
 // Returns the lanes that succeeded.
 REND_INLINE Long4 gram_schmidt_lanes(const Matrix<3>& F, Matrix<3>& R) {
   const Vector &f0 = F.column[0], &f1 = F.column[1];
@@ -134,6 +138,27 @@ REND_INLINE void rotations_of(const Matrix<Columns>& F, const Double4& weight, M
   if (all(done)) return;
   for (int lane = 0; lane < 4; ++lane)
     if (!done[lane]) rotation_of_lane<rotation, Columns>(R, F, weight, lane);
+}
+
+// The moment's part of the stress, Z of mechanics/rotation.h: z of the moment t on a frame R of the mean gradient F.
+template <Rotation rotation>
+REND_INLINE Vector moment_of(const Matrix<3>& R, const Matrix<3>& F, const Vector& t) {
+  const Vector &r0 = R.column[0], &r1 = R.column[1], &r2 = R.column[2];
+  const Vector &f0 = F.column[0], &f1 = F.column[1], &f2 = F.column[2];
+  if constexpr (rotation == Rotation::Qr) {
+    const Double4 U00 = at_least(dot(r0, f0), least_qr), U11 = at_least(dot(r1, f1), least_qr);
+    const Double4 x = t.x / U11;
+    return {x, -(t.y + dot(r0, f1) * x) / U00, t.z / U00};
+  } else {
+    const Double4 u0 = dot(r0, f0), u1 = dot(r1, f1), u2 = dot(r2, f2);
+    const Double4 a = u1 + u2, b = u0 + u2, c = u0 + u1; // H = (a −h −g; −h b −f; −g −f c)
+    const Double4 f = 0.5 * (dot(r1, f2) + dot(r2, f1)), g = 0.5 * (dot(r0, f2) + dot(r2, f0)),
+                  h = 0.5 * (dot(r0, f1) + dot(r1, f0));
+    const Vector x{b * c - f * f, f * g + h * c, h * f + b * g}; // adj H, row by row
+    const Double4 yy = a * c - g * g, yz = a * f + g * h, zz = a * b - h * h;
+    const Double4 inverse = 1.0 / at_least(a * x.x - h * x.y - g * x.z, least_polar);
+    return inverse * Vector{dot(x, t), x.y * t.x + yy * t.y + yz * t.z, x.z * t.x + yz * t.y + zz * t.z};
+  }
 }
 
 } // namespace rend::lanes

@@ -39,8 +39,8 @@ struct Derivatives {
 };
 
 Derivatives derivatives_of(const ElementShape& shape) {
-  constexpr double mean = 2 * scale + add, means = 8 * mean; // averages of two, of four
-  const double n = shape.corners, columns = 3 * static_cast<double>(shape.points.size());
+  constexpr double mean = 2 * scale + add, means = 8 * mean;     // averages of two, of four
+  constexpr double shares = 2 * add + scale + 3 * (scale + add); // at the points of a triangle
   switch (shape.kind) {
   case ElementKind::Triangle:
     return {0, add};
@@ -51,10 +51,11 @@ Derivatives derivatives_of(const ElementShape& shape) {
   case ElementKind::Hexahedron:
     return {3 * (4 * add + means), 3 * (means + 8 * add)};
   case ElementKind::Prism:
+    return {2 * (2 * add + 2 * mean) + 3 * add + shares, shares + 3 * add + 2 * (2 * mean + 4 * add)};
   case ElementKind::Pyramid:
-    break;
+    return {2 * (2 * add + 2 * mean) + means + 4 * add, 2 * (2 * mean + 4 * add) + means + 8 * add};
   }
-  return {columns * ((n - 1) * scale + (n - 2) * add), n * (columns * scale + (columns - 1) * add)};
+  return {};
 }
 
 double rotation_operations(Rotation rotation, int dimension) { // rotation_lanes.h
@@ -67,6 +68,22 @@ double rotation_operations(Rotation rotation, int dimension) { // rotation_lanes
   constexpr double invariants = 3 * cross + 7 * dot + 4, halley = 23; // of F; per iteration for s
   constexpr double weights = 12 + 3 * (dot + 1), column = 2 + 4 * scale + 3 * add;
   return invariants + iterations * halley + weights + 3 * column;
+}
+
+// The moment on a frame (rotation_lanes.h), at each point, and once for each frame. A solid's forces are turned at
+// its corners.
+struct MomentOperations {
+  double points, once;
+};
+MomentOperations moment_operations(const ElementShape& shape, Rotation rotation) {
+  const double points = static_cast<double>(shape.points.size());
+  if (shape.dimension == 2) return {points * (4 * dot + 8 + scale + add), 0};
+  const bool triangular = rotation == Rotation::Qr && points == 1; // U has nothing below its diagonal
+  const double stress = (triangular ? 6 * dot + 3 : 9 * dot + 2 * 3) + 2 + 5 + 3 * 3;
+  const double moment = (triangular ? 2 : 3) + 24, turned = points == 1 ? 3 : shape.corners;
+  const double z = rotation == Rotation::Qr ? 3 * dot + 8 : 9 * dot + 6 + 3 + 18 + 7 + 3 * dot + scale;
+  const double sum = 3 + (rotation == Rotation::Qr ? 3 : 6);
+  return {points * (stress + moment + sum), 1 + scale + z + turned * (3 * scale + 2 * add)};
 }
 
 // As in element_kernel.h.
@@ -83,11 +100,15 @@ double element_operations(const ElementLaw& law, bool damped) {
   const double stress = plain       ? 22
                         : stretched ? d * dot + (d - 1) + 5 + d * (2 * scale + add)
                                     : d * d * dot + (d - 1) + 5 + d * (3 + scale + (d - 1) * (2 + scale + add));
+  const bool moments = turned && (law.rotation() == Rotation::Qr || (shape.dimension == 3 && points > 1));
+  const MomentOperations moment = moments ? moment_operations(shape, law.rotation()) : MomentOperations{0, 0};
+  const double stresses = moments && shape.dimension == 3 ? moment.points : points * stress + moment.points;
   const double back = points * d * d * (scale + add);
   double sum = (n - 1) * add + derivatives.there + gradient + mean;
   if (turned) sum += frames * rotation_operations(law.rotation(), shape.dimension);
   if (damped) sum += (n - 1) * (2 * add + scale) + (turned ? derivatives.there + gradient : 0);
-  return sum + points * stress + back + derivatives.back + n * add;
+  if (damped && moments && shape.dimension == 3) sum += points * (9 * dot + 2 + 5 + 3 * 3 + 3 * 2 + 3);
+  return sum + stresses + moment.once + back + derivatives.back + n * add;
 }
 
 // The number of distinct records in these index columns.

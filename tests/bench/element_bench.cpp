@@ -10,8 +10,8 @@ namespace {
 
 using namespace elements;
 
-void forces(benchmark::State& state, BarPattern pattern, int nx, const Elastic& recipe) {
-  const auto body = elastic_body(solid_from(warped_bar(pattern, nx, 10, 10, 0.1, 1)), recipe);
+void forces_of(benchmark::State& state, const CellMesh& mesh, const Elastic& recipe) {
+  const auto body = elastic_body(solid_from(mesh), recipe);
   meshes::shake(*body, 0.05, 2);
   std::vector<Record> force(body->program->vertices());
   for (auto _ : state) body->program->forces(meshes::positions(*body), meshes::velocities(*body), force.data());
@@ -19,6 +19,12 @@ void forces(benchmark::State& state, BarPattern pattern, int nx, const Elastic& 
   state.counters["elements"] = elements;
   state.counters["per element"] =
       benchmark::Counter(elements, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+void forces(benchmark::State& state, BarPattern pattern, int nx, const Elastic& recipe) {
+  forces_of(state, warped_bar(pattern, nx, 10, 10, 0.1, 1), recipe);
+}
+void pyramids(benchmark::State& state, const Elastic& recipe) {
+  forces_of(state, in_pyramids(warped_bar(BarPattern::Hexahedra, 17, 10, 10, 0.1, 1)), recipe);
 }
 const auto tetrahedra = BarPattern::Tetrahedra;
 BENCHMARK_CAPTURE(forces, tetrahedra_linear, tetrahedra, 34, {"linear"});
@@ -35,7 +41,10 @@ BENCHMARK_CAPTURE(forces, hexahedra_polar, hexahedra, 100, {"corotational"});
 BENCHMARK_CAPTURE(forces, hexahedra_tensors, hexahedra, 100, {"mass-tensor"});
 BENCHMARK_CAPTURE(forces, hexahedra_tensors_elementary, hexahedra, 100,
                   {"mass-tensor", "polar", 0, Cumulated::No});
+BENCHMARK_CAPTURE(forces, hexahedra_polar_damped, hexahedra, 100, {"corotational", "polar", 0.01});
 BENCHMARK_CAPTURE(forces, prisms_polar, BarPattern::Prisms, 50, {"corotational"});
+BENCHMARK_CAPTURE(forces, prisms_qr, BarPattern::Prisms, 50, {"corotational", "qr"});
+BENCHMARK_CAPTURE(pyramids, polar, {"corotational"});
 
 // A symplectic step of 20,400 tetrahedra held at a stretch of 1 %, and what a tearing law adds to it. Far: all
 // stresses are far below the threshold; near: two thirds of it, everywhere.

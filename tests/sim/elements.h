@@ -123,6 +123,25 @@ inline CellMesh warped_bar(BarPattern pattern, int nx, int ny, int nz, double am
   return mesh;
 }
 
+// Each hexahedron as six pyramids around the mean of its corners.
+inline CellMesh in_pyramids(CellMesh mesh) {
+  CellMesh pyramids;
+  pyramids.points = std::move(mesh.points);
+  const CellShape& shape = shape_of(CellKind::Hexahedron);
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    const auto corners = mesh.corners_of(cell);
+    Vec3 sum = Vec3::Zero();
+    for (std::uint32_t p : corners) sum += pyramids.points[p];
+    const auto apex = static_cast<std::uint32_t>(pyramids.points.size());
+    pyramids.points.push_back(sum / 8);
+    for (const auto& ring : shape.ring) {
+      const auto at = [&](std::size_t n) { return corners[static_cast<std::size_t>(ring[n])]; };
+      pyramids.add(CellKind::Pyramid, {at(0), at(1), at(2), at(3), apex});
+    }
+  }
+  return pyramids;
+}
+
 struct Elastic {
   std::string model = "corotational", rotation = "polar";
   double beta = 0;
@@ -168,6 +187,7 @@ inline std::vector<NamedMap> irregular_maps(double amount = 0.15) {
   all.push_back({"hexahedra", solid_from(warped_bar(BarPattern::Hexahedra, 3, 2, 3, amount, 1))});
   all.push_back({"tetrahedra", solid_from(warped_bar(BarPattern::Tetrahedra, 3, 2, 2, 0.6 * amount, 2))});
   all.push_back({"prisms", solid_from(warped_bar(BarPattern::Prisms, 3, 2, 2, amount, 3))});
+  all.push_back({"pyramids", solid_from(in_pyramids(warped_bar(BarPattern::Hexahedra, 2, 2, 1, amount, 8)))});
   all.push_back({"mixed", solid_from(warped_bar(BarPattern::Mixed, 6, 2, 2, 0.6 * amount, 4))});
   all.push_back(
       {"triangles", sheet_from(meshes::warped(meshes::sheet(SheetPattern::Triangles, 4, 4), amount, 5))});

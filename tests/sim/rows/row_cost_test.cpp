@@ -33,14 +33,16 @@ TEST(RowCost, of_a_spring_is_23_operations_and_34_with_damping) {
   EXPECT_EQ(operations_of(*spring_law(), true), 23 + 3 + 5 + 3);
 }
 
-// Edges: 9; F: 45; R of Gram and Schmidt: 53; RᵀF, ε, σ and P: 118; back: 54 and 6; to four vertices: 12.
+// Edges: 9; F: 45; R of Gram and Schmidt: 53; RᵀF, a triangular matrix: 30, its trace: 2, σ: 17, its
+// skew part: 2, the moment of the frame: 24, taken from σ: 6; z: 1 + 3 + 23; back: 54 and 6; turned: 45; to four vertices: 12.
 TEST(RowCost, of_a_tetrahedron_is_what_its_formulas_take) {
   const auto law = element_law(ElementKind::Tetrahedron, ElasticModel::Corotational, Rotation::Qr,
                                ElasticMaterial::of(1000, 0.3, 3));
-  EXPECT_EQ(operations_of(*law, false), 9 + 45 + 53 + 118 + 54 + 6 + 12);
+  EXPECT_EQ(operations_of(*law, false),
+            9 + 45 + 53 + (30 + 2 + 17 + 2 + 24 + 6) + (1 + 3 + 23) + 54 + 6 + 45 + 12);
   // Polar: three cross products, 27, and seven dot products, 35, with 4 to sum them; three iterations of 23; 30
-  // for the weights and 3 × 23 for the columns. tr RᵀF: 17; weights: 5; w (2μ F + ...): 27. Damped, its stress
-  // is that of Qr.
+  // for the weights and 3 × 23 for the columns. tr RᵀF: 17; weights: 5; w (2μ F + ...): 27. Damped, RᵀF, ε, σ
+  // and P: 118.
   const auto polar = element_law(ElementKind::Tetrahedron, ElasticModel::Corotational, Rotation::Polar,
                                  ElasticMaterial::of(1000, 0.3, 3));
   EXPECT_EQ(operations_of(*polar, false), 9 + 45 + (66 + 69 + 30 + 69) + 49 + 54 + 6 + 12);
