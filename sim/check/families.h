@@ -16,5 +16,6 @@ CheckFamily speed_family();
 CheckFamily size_family();
 CheckFamily tear_family();
 CheckFamily fault_family();
+CheckFamily energy_family();
 
 } // namespace rend
