@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-constexpr double factor = 4; // allowed ratio of energies
+constexpr double factor = 2; // allowed ratio of energies, and of S within the last steps
 constexpr long period = Rollback::longest;
 constexpr long exact_period = 4096; // steps between reductions of B
 // steps between tests of neighbours, unless speeds alone rule out that they pass each other

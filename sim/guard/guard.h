@@ -3,7 +3,7 @@
 //
 // Every `period` steps, and at each change of topology, it saves the state: a new stretch begins (rollback.h).
 // In each step it tests S = Σ |v|², which the integration accumulates (State::put): S is not finite if a number
-// of the state is not, and only if S exceeds four times its values in the last steps, the energy is tested. A body
+// of the state is not, and only if S exceeds twice its values in the last steps, the energy is tested. A body
 // may have
 //
 //   K + U ≤ factor · ( B + work done on it since the start of the stretch + headroom )
