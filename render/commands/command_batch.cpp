@@ -101,7 +101,7 @@ std::vector<std::string> arguments_of(const BatchOptions& options, const BatchSe
   if (threads > 0) pass("--threads", std::to_string(threads));
   if (options.no_png) words.emplace_back("--no-png");
   if (options.allow_path) words.emplace_back("--allow-path");
-  if (resume) words.emplace_back("--resume");
+  if (resume && !options.run) words.emplace_back("--resume");
   return words;
 }
 
