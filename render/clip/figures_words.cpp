@@ -42,8 +42,9 @@ std::string place_in_words(const Reached& reached, const std::string& unit) {
 std::string reach_in_words(const std::vector<ReachFigures>& all) {
   if (all.empty()) return "";
   std::string out =
-      "  reach      largest values, without tearing: with a threshold below such a value, the first tear\n"
-      "             comes no later than at its time; with one above, none comes\n";
+      "  reach      largest values, without tearing. A threshold slightly below such a value tears first at\n"
+      "             that time, if the change is possible there (a vertex of one element alone cannot be\n"
+      "             split); one above it never tears\n";
   for (const ReachFigures& one : all)
     out += fmt::format("             {} of '{}': {}\n", printable(one.criterion), printable(one.body),
                        one.reached.value > 0 ? place_in_words(one.reached, one.unit) : "nothing");

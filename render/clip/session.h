@@ -31,6 +31,7 @@ struct SessionOptions {
   bool guard = true;            // bad steps are rolled back and redone in substeps
   bool count_fragments = false; // events record how many fragments there are
   bool reach = false;           // largest values of all criteria, without tearing
+  long reach_every = 1;         // steps between looks at them
   bool profile = false;         // the time of each stage of the step is measured
 };
 void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set

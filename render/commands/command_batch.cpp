@@ -101,15 +101,17 @@ std::vector<std::string> arguments_of(const BatchOptions& options, const BatchSe
   if (threads > 0) pass("--threads", std::to_string(threads));
   if (options.no_png) words.emplace_back("--no-png");
   if (options.allow_path) words.emplace_back("--allow-path");
-  if (resume) words.emplace_back("--resume");
+  if (resume && !options.run) words.emplace_back("--resume");
   return words;
 }
 
+// --resume is no mistake: presets/slurm always gives it.
 void check_run(const BatchOptions& options) {
-  const std::pair<const char*, bool> pictures[]{
-      {"--frames", !options.frames.empty()}, {"--size", !options.size.empty()},
-      {"--video", !options.video.empty()},   {"--no-png", options.no_png},
-      {"--resume", options.resume},          {"--checkpoint-every", !options.checkpoint_every.empty()}};
+  const std::pair<const char*, bool> pictures[]{{"--frames", !options.frames.empty()},
+                                                {"--size", !options.size.empty()},
+                                                {"--video", !options.video.empty()},
+                                                {"--no-png", options.no_png},
+                                                {"--checkpoint-every", !options.checkpoint_every.empty()}};
   for (const auto& [name, given] : pictures)
     if (given)
       throw UserError(Exit::Usage, {}, fmt::format("{} is for pictures, and --run makes none", name),
@@ -308,7 +310,8 @@ std::function<Exit()> declare(CLI::App& app) {
                  "one. With fewer jobs than parts, each part renders some frames of each job")
       ->type_name("I/N")
       ->check(some_word());
-  app.add_flag("--resume", options->resume, "keep pictures that are complete, and make the missing ones");
+  app.add_flag("--resume", options->resume,
+               "keep pictures that are complete, and make the missing ones; with --run jobs begin anew");
   declare_passed_on(app, *options);
   app.add_flag("--json", options->json,
                "print one JSON object per job on stdout, one a line, as each job ends");

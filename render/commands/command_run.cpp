@@ -144,6 +144,11 @@ std::function<Exit()> declare(CLI::App& app) {
       "--reach", options->session.reach,
       "do not tear: print the largest value that each criterion of tearing reaches, when and where, to "
       "choose a threshold by");
+  app.add_option("--reach-every", options->session.reach_every,
+                 "with --reach: look at every Nth step only, which is quicker; values may come out too low")
+      ->type_name("N")
+      ->capture_default_str()
+      ->transform(whole_number(1, 1000000));
   app.add_flag("--profile", options->session.profile,
                "also print where the time and the memory traffic went, by stage and by interaction");
   app.add_option("--diagnostics", options->diagnostics,

@@ -61,6 +61,7 @@ const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
 
 const std::vector<Candidate>& TearLaw::find_and_note(const ForceView& view, double time, bool look) {
   candidates_.clear();
+  if (!look && std::isinf(settings_.threshold)) return candidates_;
   if (look && reached_.value < settings_.threshold)
     find_largest(view);
   else
@@ -83,7 +84,7 @@ void TearLaw::sort_candidates() {
 void TearLaw::find_largest(const ForceView& view) {
   if (reached_.value > 0 || std::isinf(settings_.threshold))
     return criterion_->find(view, reached_.value, candidates_);
-  constexpr int most_looks = 10;
+  constexpr int most_looks = 24; // down to 2e-22 of the threshold
   constexpr double factor = 1.0 / 8;
   double above = settings_.threshold;
   for (int n = 0; n < most_looks && candidates_.empty(); ++n, above *= factor)

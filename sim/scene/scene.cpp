@@ -85,11 +85,11 @@ void Scene::set_step() {
                       fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration, step_));
 }
 
-// Looking for the largest value that a law has reached takes longer than looking for what exceeds its
-// threshold: up to half a step for atomic-border. So it is done at every 16th step, in short clips more often;
-// a step that solves takes so long that it is done at every one.
+// Looking for the largest value that a law has reached can take as long as a step or two, where looking for
+// what exceeds its threshold takes little. So it is done at every 256th step, in short clips more often; a step
+// that solves takes so long that it is done at every one.
 void Scene::set_looks(bool every_step) {
-  constexpr double least_looks = 64, longest = 16; // looks in a clip; steps from one to the next
+  constexpr double least_looks = 32, longest = 256; // looks in a clip; steps from one to the next
   const double steps = duration_ / step_;
   const bool each = every_step || scheme().solves;
   const long every = each ? 1 : std::lround(std::clamp(std::floor(steps / least_looks), 1.0, longest));
