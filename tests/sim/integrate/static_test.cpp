@@ -132,8 +132,8 @@ TEST(StaticSolve, bends_a_bar_that_keeps_its_volume) {
   EXPECT_LT(lowest(s, 2), -0.3);
 }
 
-// The tangent is not positive on the way, and at 0.4999 Newton's method does not get there: relaxation does. Where the
-// bar hangs is also where symplectic Euler with viscosity brings it to rest (within 1e-6, in 6 s).
+// The tangent is not positive on the way, and at 0.4999 Newton's method does not get there: relaxation does.
+// Where the bar hangs is also where symplectic Euler with viscosity brings it to rest (within 1e-6, in 6 s).
 TEST(StaticSolve, lets_finer_bars_hang_that_keep_their_volume) {
   struct Hanging {
     const char* poisson;

@@ -15,8 +15,8 @@ using namespace elements;
 using Eigen::Matrix3d;
 
 // The energy of an element from its corners alone: R of the average F, or of each point's own F in a sheet, and
-// Σ w (μ|ε|² + λ/2 (tr ε)²) at the points, in long double, with R from a singular value decomposition. It shares
-// with the law only the table of shape functions and J⁻¹.
+// Σ w (μ|ε|² + λ/2 (tr ε)²) at the points, in long double, with R from a singular value decomposition. It
+// shares with the law only the table of shape functions and J⁻¹.
 using Long = long double;
 using LongMatrix = Eigen::Matrix<Long, 3, 3>;
 
@@ -91,8 +91,8 @@ Long long_energy(const Element& e) {
   return sum;
 }
 
-// Whether a frame is so close to a flip that the moment on it is bounded (rotation.h): the force is finite there
-// instead of the gradient.
+// Whether a frame is so close to a flip that the moment on it is bounded (rotation.h): the force is finite
+// there instead of the gradient.
 bool about_to_flip(const Element& e) {
   if (e.law->model() == ElasticModel::Linear) return false;
   const LongPoints points = long_points(e);
