@@ -76,10 +76,8 @@ std::string reason(const Matter& matter, const std::string& shape) {
            "from all but tangles.";
   if (matter.model == "corotational-qr")
     return "The frame of Gram and Schmidt depends on the order of the corners, and jumps where the first edge "
-           "or "
-           "face of a frame has no size: a body that is inside out or tangled may gain energy there, or be "
-           "stopped "
-           "as unstable. rotation=\"polar\", the default, gains none.";
+           "or face of a frame has no size: a body that is inside out or tangled may gain energy there, or be "
+           "stopped as unstable. rotation=\"polar\", the default, gains none.";
   if (shape == "scrambled" || shape == "point" ||
       (matter.dimension == 2 && shape != "inside out" && !matter.small_strain()))
     return "A tangle may be an equilibrium of its own: elements that are inside out hold each other so, at an "

@@ -74,8 +74,8 @@ std::vector<ReferencePoint> prism_points() {
   return points;
 }
 
-// 2 × 2 points of the base, where the four upper corners of a cube are one, the apex. F does not change along the
-// line from a point to the apex, and (1 − ζ)² of the volume is integrated in closed form: 1/3.
+// 2 × 2 points of the base, where the four upper corners of a cube are one, the apex. F does not change along
+// the line from a point to the apex, and (1 − ζ)² of the volume is integrated in closed form: 1/3.
 std::vector<ReferencePoint> pyramid_points() {
   std::vector<ReferencePoint> points = box_points(2);
   for (std::size_t g = 0; g < points.size(); ++g) {

@@ -245,8 +245,8 @@ private:
         K.template block<3, 3>(3 * j, 3 * i) = K.template block<3, 3>(3 * i, 3 * j).transpose();
   }
 
-  // −∂f/∂R : ∂R/∂x, and the change of the moment's forces. If R turns by ω, −f_n changes by Z_n ω; a displacement
-  // of corner m turns R by L(Ḡ_m) Rᵀ.
+  // −∂f/∂R : ∂R/∂x, and the change of the moment's forces. If R turns by ω, −f_n changes by Z_n ω; a
+  // displacement of corner m turns R by L(Ḡ_m) Rᵀ.
   Whole rotation_stiffness(const State& at, const Turning& frame) const {
     Eigen::Matrix<double, 3, 3 * N> W;
     for (int m = 0; m < N; ++m)

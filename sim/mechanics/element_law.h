@@ -7,20 +7,20 @@
 //
 // which for the linear element is −K(x − x0), and for the co-rotational one −R K (Rᵀx − x0), without assembling
 // K (2.33 of the thesis has the wrong sign), and with what the thesis leaves out: R itself depends on x. The
-// force is −∇U, U = Σ w (μ|ε|² + λ/2 (tr ε)²), so that it keeps energy and angular momentum. If R alone turns by
-// ω, U changes by −t·ω,
+// force is −∇U, U = Σ w (μ|ε|² + λ/2 (tr ε)²), so that it keeps energy and angular momentum. If R alone turns
+// by ω, U changes by −t·ω,
 //
 //   t = Σ_g w axial(σ Uᵀ) of U = RᵀF,   Z = aᵀ(H⁻ᵀ t) / Σ w    (rotation.h)
 //
 // (Chao, Pinkall, Sanan and Schröder 2010 take the R that minimises U, for which t = 0.) Without Z a hexahedron
 // that spins for 10⁶ steps gains energy, up to 100 % with the QR of the thesis. Z = 0 where R is the polar
 // rotation of a single F: RᵀF is then symmetric and σ commutes with it. Damping is that of the frame as it
-// stands, −β R K Rᵀv: it dissipates, but where the element is strained it also brakes its rotation, by a share of
-// the order of the strain.
+// stands, −β R K Rᵀv: it dissipates, but where the element is strained it also brakes its rotation, by a
+// share of the order of the strain.
 //
 // A sheet has two rest axes, R is 3 × 2, and σ is that of plane stress, λ' = Eν/(1 − ν²). A quad of a sheet has
-// its own R at each point: with one average rotation (as for hexahedra) a warped quad, which bends freely, would
-// have its warp count as compression. The stiffness, with g_n = R G_n and P = R Rᵀ,
+// its own R at each point: with one average rotation (as for hexahedra) a warped quad, which bends freely,
+// would have its warp count as compression. The stiffness, with g_n = R G_n and P = R Rᵀ,
 //
 //   K_ij = Σ_g w (λ g_i g_jᵀ + μ g_j g_iᵀ + μ (g_i·g_j) P)  + ∂f/∂R : ∂R/∂x + ∂f/∂Z : ∂Z/∂x
 //

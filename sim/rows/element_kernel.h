@@ -2,10 +2,10 @@
 //
 // For each kind of element, with or without rotation and damping: positions are gathered and transposed into
 // lanes, F is computed at each integration point, R from the average F (for a quad of a sheet, at each point),
-// and P = w R (σ − Z) is mapped by J⁻ᵀ to forces on the corners; where there is a Z, P stays in the frame and the
-// forces are turned by R at last. Only J⁻¹ and w are read: 80 bytes for a tetrahedron, 640 for a hexahedron (its
-// 24 × 24 stiffness matrix would be 4608). The points of a hexahedron are read twice,
-// the second time from the L1 cache.
+// and P = w R (σ − Z) is mapped by J⁻ᵀ to forces on the corners; where there is a Z, P stays in the frame and
+// the forces are turned by R at last. Only J⁻¹ and w are read: 80 bytes for a tetrahedron, 640 for a
+// hexahedron (its 24 × 24 stiffness matrix would be 4608). The points of a hexahedron are read twice, the
+// second time from the L1 cache.
 #pragma once
 
 #include "sim/mechanics/element_law.h"
@@ -82,8 +82,9 @@ REND_INLINE Matrix<Dim> stretched_stress(const Matrix<Dim>& R, const Matrix<Dim>
   return P;
 }
 
-// w σ of the strain sym(U) − I with U = RᵀF, in the rotated frame: its diagonal, and off[n] in the plane normal to
-// axis n. `skew`: twice the skew part of U, as a vector. `triangular`: the entries of U below the diagonal are 0.
+// w σ of the strain sym(U) − I with U = RᵀF, in the rotated frame: its diagonal, and off[n] in the plane
+// normal to axis n. `skew`: twice the skew part of U, as a vector. `triangular`: the entries of U below the
+// diagonal are 0.
 struct TurnedStress {
   Double4 on[3], off[3], skew[3];
 };
@@ -111,8 +112,8 @@ REND_INLINE TurnedStress turned_stress(const Matrix<3>& R, const Matrix<3>& F, c
   return s;
 }
 
-// −t of one point: the moment of σUᵀ is −(tr σ I − σ) ω, where [ω]× is the skew part of U, since σ commutes with
-// the strain.
+// −t of one point: the moment of σUᵀ is −(tr σ I − σ) ω, where [ω]× is the skew part of U, since σ commutes
+// with the strain.
 REND_INLINE Vector moment_against(const TurnedStress& s) {
   const Double4 x = s.on[1] + s.on[2], y = s.on[0] + s.on[2], z = s.on[0] + s.on[1];
   const Double4 half = splat(0.5);

@@ -140,7 +140,8 @@ REND_INLINE void rotations_of(const Matrix<Columns>& F, const Double4& weight, M
     if (!done[lane]) rotation_of_lane<rotation, Columns>(R, F, weight, lane);
 }
 
-// The moment's part of the stress, Z of mechanics/rotation.h: z of the moment t on a frame R of the mean gradient F.
+// The moment's part of the stress, Z of mechanics/rotation.h: z of the moment t on a frame R of the mean
+// gradient F.
 template <Rotation rotation>
 REND_INLINE Vector moment_of(const Matrix<3>& R, const Matrix<3>& F, const Vector& t) {
   const Vector &r0 = R.column[0], &r1 = R.column[1], &r2 = R.column[2];

@@ -70,8 +70,8 @@ double rotation_operations(Rotation rotation, int dimension) { // rotation_lanes
   return invariants + iterations * halley + weights + 3 * column;
 }
 
-// The moment on a frame (rotation_lanes.h), at each point, and once for each frame. A solid's forces are turned at
-// its corners.
+// The moment on a frame (rotation_lanes.h), at each point, and once for each frame. A solid's forces are
+// turned at its corners.
 struct MomentOperations {
   double points, once;
 };

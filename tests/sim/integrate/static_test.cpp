@@ -132,14 +132,16 @@ TEST(StaticSolve, bends_a_bar_that_keeps_its_volume) {
   EXPECT_LT(lowest(s, 2), -0.3);
 }
 
-// The symmetrised tangent is not even positive where the bar hangs, and it hangs there all the same: implicit
-// with viscosity comes to rest at the same place (0.499: within 1e-6, in 200 steps of 0.05 s).
+// The tangent is not positive on the way, and at 0.4999 Newton's method does not get there: relaxation does.
+// Where the bar hangs is also where symplectic Euler with viscosity brings it to rest (within 1e-6, in 6 s).
 TEST(StaticSolve, lets_finer_bars_hang_that_keep_their_volume) {
   struct Hanging {
     const char* poisson;
     double x, z; // [m], where the end comes to
+    int most;    // iterations
   };
-  for (const Hanging& bar : {Hanging{"0.499", -0.235164, -0.660415}, Hanging{"0.4999", -0.064886, -0.407914}}) {
+  for (const Hanging& bar :
+       {Hanging{"0.499", -0.221200, -0.643578, 20}, Hanging{"0.4999", -0.068198, -0.414650, 300}}) {
     const auto s = presets::load(
         scene(fmt::format(R"(<body><bar pattern="hexahedra" cells="20 6 6" size="1 0.3 0.3"/>)"
                           R"(<mass density="1000"/><elasticity young="1e5" poisson="{}"/><fix side="-x"/>)"
@@ -150,7 +152,7 @@ TEST(StaticSolve, lets_finer_bars_hang_that_keep_their_volume) {
     const Vec3 moved = s.body().probes[0].read(s.body())->displacement;
     EXPECT_NEAR(moved.x(), bar.x, 1e-5) << bar.poisson;
     EXPECT_NEAR(moved.z(), bar.z, 1e-5) << bar.poisson;
-    EXPECT_LT(s.body().integrator->solver().newton, 20) << bar.poisson;
+    EXPECT_LT(s.body().integrator->solver().newton, bar.most) << bar.poisson;
   }
 }
 

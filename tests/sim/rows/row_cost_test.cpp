@@ -34,7 +34,8 @@ TEST(RowCost, of_a_spring_is_23_operations_and_34_with_damping) {
 }
 
 // Edges: 9; F: 45; R of Gram and Schmidt: 53; RᵀF, a triangular matrix: 30, its trace: 2, σ: 17, its
-// skew part: 2, the moment of the frame: 24, taken from σ: 6; z: 1 + 3 + 23; back: 54 and 6; turned: 45; to four vertices: 12.
+// skew part: 2, the moment of the frame: 24, taken from σ: 6; z: 1 + 3 + 23; back: 54 and 6; turned: 45; to
+// four vertices: 12.
 TEST(RowCost, of_a_tetrahedron_is_what_its_formulas_take) {
   const auto law = element_law(ElementKind::Tetrahedron, ElasticModel::Corotational, Rotation::Qr,
                                ElasticMaterial::of(1000, 0.3, 3));

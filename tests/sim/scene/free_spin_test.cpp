@@ -1,5 +1,6 @@
-// Free bodies of turned elements, spinning about an oblique axis: their forces are a gradient, so that a symplectic
-// scheme keeps the angular momentum to round-off and the energy without drift, for as long as one likes.
+// Free bodies of turned elements, spinning about an oblique axis: their forces are a gradient, so that a
+// symplectic scheme keeps the angular momentum to round-off and the energy without drift, for as long as one
+// likes.
 #include "sim/presets.h"
 
 #include <fmt/format.h>
