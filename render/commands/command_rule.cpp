@@ -1,4 +1,5 @@
-// rend rule: the rules and scripts of the house, of a preset, or of a file of rules: listed, shown, checked, drawn.
+// rend rule: the rules and scripts of the house, of a preset, or of a file of rules: listed, shown, checked,
+// drawn.
 #include "render/clip/named_files.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"

@@ -3,8 +3,8 @@
 //
 //   <scene name="..."> <rules file="my-rules.xml"/> <rule name="..." left="..." right="..."/> ... </scene>
 //
-// A file of rules holds <rules> with any number of <rule> and <script>, or a single one of them. Names differ; a
-// preset may not redefine a rule of the house. A script may apply what stands after it.
+// A file of rules holds <rules> with any number of <rule> and <script>, or a single one of them. Names
+// differ; a preset may not redefine a rule of the house. A script may apply what stands after it.
 #pragma once
 
 #include "sim/base/error.h"

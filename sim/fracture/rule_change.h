@@ -1,9 +1,10 @@
 // Changes that are rules or scripts: <tear criterion="..." rule="NAME"/>.
 //
 // What the hook of a rule stands for is the kind of cell that the rule changes: an edge, a border between two
-// elements, a vertex or an element. So a criterion is a precondition of the rule (thesis 7.1, p. 180): where it
-// exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook
-// first, until it applies. Its expressions know `across`, the normal of the plane along which a vertex would be split.
+// elements, a vertex or an element. So a criterion is a precondition of the rule (thesis 7.1, p. 180): where
+// it exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook
+// first, until it applies. Its expressions know `across`, the normal of the plane along which a vertex would
+// be split.
 #pragma once
 
 #include "sim/fracture/change.h"

@@ -1,5 +1,6 @@
-// Two pyramids that share their base: tetrahedra around the axis, which goes from the hook's apex to the other one.
-// An octahedron is one with a base of four sides, along any of its three axes; the shortest one is taken.
+// Two pyramids that share their base: tetrahedra around the axis, which goes from the hook's apex to the
+// other one. An octahedron is one with a base of four sides, along any of its three axes; the shortest one is
+// taken.
 //
 // The middle of the volume is that of its base and of its apexes. So the distances from there compare the axes.
 #include "sim/house_rules/house_rules.h"

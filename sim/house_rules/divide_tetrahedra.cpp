@@ -1,6 +1,7 @@
-// Tetrahedra into eight, all of a component, so that they fit to each other (Bey 1995): each edge is halved, the four
-// corners are cut off, and the octahedron that is left is divided into four along its shortest axis. Of axes that are
-// equally long, the first one in the order of darts is taken: it lies inside, and no neighbour sees it.
+// Tetrahedra into eight, all of a component, so that they fit to each other (Bey 1995): each edge is halved,
+// the four corners are cut off, and the octahedron that is left is divided into four along its shortest axis.
+// Of axes that are equally long, the first one in the order of darts is taken: it lies inside, and no
+// neighbour sees it.
 //
 // The corners are those of the vertices that were there before; the octahedra have new darts alone.
 #include "sim/house_rules/house_scripts.h"

@@ -1,5 +1,6 @@
-// A layer of volumes around a body: one on each face of its hull, sewn to each other at the hull's edges. How many
-// volumes lie around such an edge inside does not matter: the two new sides there are the only open ones.
+// A layer of volumes around a body: one on each face of its hull, sewn to each other at the hull's edges. How
+// many volumes lie around such an edge inside does not matter: the two new sides there are the only open
+// ones.
 #include "sim/house_rules/house_scripts.h"
 
 namespace rend {

@@ -1,5 +1,6 @@
-// The scripts that rend knows by itself, each in a file of its own. To add one: a file with a function that returns
-// its ScriptSettings, and its name in house_script_settings() (house_scripts.cpp), after those that it applies.
+// The scripts that rend knows by itself, each in a file of its own. To add one: a file with a function that
+// returns its ScriptSettings, and its name in house_script_settings() (house_scripts.cpp), after those that
+// it applies.
 #pragma once
 
 #include "sim/house_rules/house_rules.h"

@@ -1,5 +1,5 @@
-// Volumes of any shapes become tetrahedra that fit to each other: first a star in each face that is no triangle, for
-// both of its volumes, then one in each volume that was no tetrahedron.
+// Volumes of any shapes become tetrahedra that fit to each other: first a star in each face that is no
+// triangle, for both of its volumes, then one in each volume that was no tetrahedron.
 #include "sim/house_rules/house_scripts.h"
 
 namespace rend {

@@ -1,9 +1,10 @@
-// Applying a rule or a script everywhere in a map: to all orbits of its hook's kind, in the order of their smallest darts.
+// Applying a rule or a script everywhere in a map: to all orbits of its hook's kind, in the order of their
+// smallest darts.
 //
 // One round visits each orbit once. What an application has matched or made is used up for the rest of the
 // round, so that the order of orbits decides where matches overlap, and a round ends. All applications of a
-// round share one edit, and their expressions read the points from before it. A script uses up what its rules have
-// matched or made; it may match what is used up, but for its hook's orbit.
+// round share one edit, and their expressions read the points from before it. A script uses up what its rules
+// have matched or made; it may match what is used up, but for its hook's orbit.
 #pragma once
 
 #include "sim/rules/script_run.h"

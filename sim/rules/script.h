@@ -6,8 +6,8 @@
 //   </script>
 //
 // One rule sees one node per dart of its hook's orbit: what lies around may vary in number, not in shape. A
-// script goes over the cells of an orbit, and applies a rule to each: so it divides meshes whose elements are of
-// several kinds, and changes a cell whose neighbours are there or not.
+// script goes over the cells of an orbit, and applies a rule to each: so it divides meshes whose elements are
+// of several kinds, and changes a cell whose neighbours are there or not.
 //
 // Its hook is that of a rule with one node. Its steps follow each other; how they run, and what is a part of
 // the hook's orbit after the first of them, is told in script_run.h. Expressions are those of rules
@@ -62,8 +62,8 @@ struct Script {
   struct Step {
     std::optional<Orbit> cell; // none: once
     RuleOrScript what;
-    // Changes nothing: its nodes are the hook and the cell, as single darts, those that there are; its condition
-    // is the test, and its arguments are those of the script.
+    // Changes nothing: its nodes are the hook and the cell, as single darts, those that there are; its
+    // condition is the test, and its arguments are those of the script.
     Rule scope;
     std::vector<Argument> arguments;
   };

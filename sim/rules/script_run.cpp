@@ -181,8 +181,8 @@ bool ScriptRunner::look(const Edit& edit, Step& step, Dart cell) const {
   return !find_match(step.step.scope, edit.map(), hooks, step.match);
 }
 
-// The last cell in cells_; with the values of the arguments there, of which those that do not vary are the same as
-// at the first one.
+// The last cell in cells_; with the values of the arguments there, of which those that do not vary are the
+// same as at the first one.
 void ScriptRunner::choose(const Edit& edit, Step& step, std::span<const Dart> cell) {
   const bool first = first_.size() == 1;
   first_.push_back(cells_.size());

@@ -5,16 +5,16 @@
 // hook. So the parts of a cell that was divided or cut apart are all of the hook.
 //
 // A step finds its cells, the orbits of that kind that hold a dart of the hook, asks its test of each, and
-// evaluates its arguments, before it changes anything; it visits them in the order of a walk from the hook's dart.
-// There it applies its rule. If the rule's hook stands for a part of the cell, it is tried from one dart after another
-// until it applies, as a law does (sim/fracture/rule_change.h); if it has two hooks, with any two darts. A cell
-// whose darts are all gone is passed by.
+// evaluates its arguments, before it changes anything; it visits them in the order of a walk from the hook's
+// dart. There it applies its rule. If the rule's hook stands for a part of the cell, it is tried from one
+// dart after another until it applies, as a law does (sim/fracture/rule_change.h); if it has two hooks, with
+// any two darts. A cell whose darts are all gone is passed by.
 //
 // Expressions of a step read points as the step before has left them.
 //
-// A script applies as a whole or not at all: where a step does not apply as often as it must, where no step applies
-// anywhere, and where the map grows beyond bounds, the edit is rolled back to where the script began, and the reason
-// is kept.
+// A script applies as a whole or not at all: where a step does not apply as often as it must, where no step
+// applies anywhere, and where the map grows beyond bounds, the edit is rolled back to where the script began,
+// and the reason is kept.
 #pragma once
 
 #include "sim/rules/apply.h"
@@ -91,8 +91,8 @@ public:
   bool apply(Edit& edit, const Hooks& hooks) {
     return rule_ ? rule_->apply(edit, hooks) : script_->apply(edit, hooks);
   }
-  // At one dart after another, one for each orbit of its hook, until it applies; with two hooks, at one pair after
-  // another.
+  // At one dart after another, one for each orbit of its hook, until it applies; with two hooks, at one pair
+  // after another.
   bool apply_at_first(Edit& edit, std::span<const Dart> darts);
   std::string sentence() const; // why the last call returned false
 

@@ -1,5 +1,5 @@
-// The changes of laws as functions of sim/fracture, and as rules and scripts of the house: per change, with the closing
-// of the edit that all of an iteration share.
+// The changes of laws as functions of sim/fracture, and as rules and scripts of the house: per change, with
+// the closing of the edit that all of an iteration share.
 #include "sim/elements.h"
 #include "sim/fracture/rule_change.h"
 #include "sim/house_rules/house_scripts.h"

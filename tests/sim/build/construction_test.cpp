@@ -139,7 +139,8 @@ TEST(Construction, scripts_construct) {
   EXPECT_EQ(count_cells(by_script.body().map->map()).volumes, 2u * 24);
   expect_same_shape(*by_script.body().map, *by_rules.body().map);
   const std::string own = R"xml(<script name="twice" hook="a*(0,1,2,3)"><where name="t" value="0.1"/>
-      <for each="e*(0,1,2,3)" apply="extrude-hull" t="t"/><for each="e*(0,1,2,3)" apply="extrude-hull" t="2*t"/></script>)xml";
+      <for each="e*(0,1,2,3)" apply="extrude-hull" t="t"/>
+      <for each="e*(0,1,2,3)" apply="extrude-hull" t="2*t"/></script>)xml";
   const auto layers = body_of(cube + R"xml(<apply rule="twice" t="0.5"/>)xml", own);
   EXPECT_EQ(count_cells(layers.body().map->map()).volumes, 2u + 10 + 10);
   EXPECT_TRUE(says(refusal_of(cube + R"xml(<apply rule="divide-tetrahedra"/>)xml"),

@@ -1,5 +1,5 @@
-// The four changes of a law, as rules and scripts: on random cells of all kinds of meshes, and in whole runs, they
-// give the same states as the functions.
+// The four changes of a law, as rules and scripts: on random cells of all kinds of meshes, and in whole runs,
+// they give the same states as the functions.
 #include "sim/fracture/rule_change.h"
 #include "sim/house_rules/house_scripts.h"
 #include "sim/mesh/bar.h"
@@ -36,7 +36,8 @@ std::vector<std::unique_ptr<EmbeddedMap>> meshes_of(int dimension) {
   return made;
 }
 
-// The same links, slots and values at the same darts. Only the order in which removed darts are remembered may differ.
+// The same links, slots and values at the same darts. Only the order in which removed darts are remembered
+// may differ.
 void expect_same(const EmbeddedMap& one, const EmbeddedMap& other) {
   ASSERT_EQ(assets::links(one.map()), assets::links(other.map()));
   std::size_t differing = 0;

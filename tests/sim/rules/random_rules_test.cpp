@@ -1,6 +1,6 @@
-// Random legal rules and scripts over random maps: none breaks an axiom, all darts of a vertex agree where it is,
-// and a script that is refused leaves every byte as it was. 20,000 applications of rules and 4,000 of scripts;
-// 1,000,000 and 200,000 with REND_WHOLE=1.
+// Random legal rules and scripts over random maps: none breaks an axiom, all darts of a vertex agree where it
+// is, and a script that is refused leaves every byte as it was. 20,000 applications of rules and 4,000 of
+// scripts; 1,000,000 and 200,000 with REND_WHOLE=1.
 #include "sim/base/archive.h"
 #include "sim/rules/rule_values.h"
 #include "sim/rules/script_run.h"

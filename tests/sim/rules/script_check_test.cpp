@@ -1,4 +1,5 @@
-// Scripts that are refused before anything runs, and why: a UserError with code 65 and the place of one attribute.
+// Scripts that are refused before anything runs, and why: a UserError with code 65 and the place of one
+// attribute.
 #include "sim/build/rule_book.h"
 
 #include <fmt/format.h>

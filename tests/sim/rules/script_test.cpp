@@ -150,7 +150,8 @@ TEST(Script, chooses_cells_and_hooks_by_tests) {
     EXPECT_EQ(faces(*body), 12 + 3 * chosen);
   }
   const auto large = made(R"xml(<script name="s" hook="a*(0,1)">
-      <when test="size(a, face) > 4" otherwise="it has few sides"/><for each="e*(0,1)" apply="star-face"/></script>)xml");
+      <when test="size(a, face) > 4" otherwise="it has few sides"/>
+      <for each="e*(0,1)" apply="star-face"/></script>)xml");
   EXPECT_TRUE(says(run(large, *assets::grid(2, 1), first).reason, "it has few sides"));
 }
 
@@ -169,8 +170,8 @@ TEST(Script, passes_arguments_on) {
   });
 }
 
-// Each step reads what the one before has left, and a vertex that has moved may be parted afterwards: as in edits
-// of their own.
+// Each step reads what the one before has left, and a vertex that has moved may be parted afterwards: as in
+// edits of their own.
 TEST(Script, is_its_steps_one_after_another) {
   const std::string lift = R"xml(<rule name="lift" left="a*(1,2,3)" right="a(1,2,3)">
       <set node="a" position="a + point(0, 0, 0.1*x(a) + 1)" velocity="point(0, 1, 0)"/></rule>)xml";
@@ -246,8 +247,7 @@ TEST(Script, is_printed_and_read_back_equal) {
                                .print();
   EXPECT_EQ(made(text).print(), text);
   EXPECT_TRUE(says(text, R"xml(hook="a*(0,1)")xml")) << text;
-  EXPECT_TRUE(
-      says(text, R"xml(which="old" where="length(e) &gt; t" at="any" apply="unsew-edge" at-least="one")xml"))
+  EXPECT_TRUE(says(text, R"xml(where="length(e) &gt; t" at="any" apply="unsew-edge" at-least="one")xml"))
       << text;
 }
 
