@@ -231,7 +231,8 @@ TEST(Script, creates_out_of_nothing) {
 // A face whose neighbour was parted from it holds used darts, and waits for the next round.
 TEST(Script, in_rounds_takes_orbits_that_are_not_used_up) {
   const auto script = made(R"xml(<script name="s" hook="a*(0,1)">
-      <for each="e*(0)" apply="unsew-edge" at-least="none"/><for each="e*(0,1)" apply="star-face"/></script>)xml");
+      <for each="e*(0)" apply="unsew-edge" at-least="none"/>
+      <for each="e*(0,1)" apply="star-face"/></script>)xml");
   RuleOrScriptRunner runner(script);
   const auto sheet = assets::grid(3, 3);
   const RoundResult result = apply_round(*sheet, runner);
