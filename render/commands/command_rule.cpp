@@ -1,4 +1,5 @@
-// rend rule: the rules of the house, of a preset, or of a file of rules: listed, shown, checked, drawn.
+// rend rule: the rules and scripts of the house, of a preset, or of a file of rules: listed, shown, checked,
+// drawn.
 #include "render/clip/named_files.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"
@@ -13,13 +14,14 @@
 #include "render/picture/scene_preset.h"
 #include "sim/base/wording.h"
 #include "sim/build/rule_book.h"
-#include "sim/house_rules/house_rules.h"
+#include "sim/house_rules/house_scripts.h"
 #include "sim/preset/paths.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace rend {
@@ -31,33 +33,35 @@ struct RuleOptions {
 };
 
 // Of a preset, or of a file of rules.
-RuleBook book_of(const RuleOptions& options) {
+RuleBook book_of(const RuleOptions& options, RuleFaults* faults = nullptr) {
   if (options.file.empty()) return {};
   const std::string text = read_preset_file(options.file); // once: it may be a pipe
-  if (is_rules_text(text)) return read_rules_text(text, options.file);
+  if (is_rules_text(text)) return read_rules_text(text, options.file, faults);
   const auto scene = load_scene_text(text, options.file);
   if (!options.allow_path) check_paths(*scene);
-  return read_rules(*scene);
+  return read_rules(*scene, faults);
 }
 
-const Rule& chosen_rule(const RuleOptions& options, const RuleBook& book, std::string& from) {
+RuleOrScript chosen_rule(const RuleOptions& options, const RuleBook& book, std::string& from) {
   std::vector<std::string> names;
-  for (const auto& rule : book) {
-    names.push_back(rule->name());
+  for (const RuleOrScript& each : book) {
+    names.push_back(each.name());
     from = options.file;
-    if (rule->name() == options.name) return *rule;
+    if (each.name() == options.name) return each;
   }
   from = "house";
-  if (const Rule* found = find_house_rule(options.name)) return *found;
+  if (const auto found = find_house_rule_or_script(options.name)) return *found;
   for (const Rule& rule : house_rules()) names.push_back(rule.name());
+  for (const Script& script : house_scripts()) names.push_back(script.name());
   throw UserError(Exit::Usage, {}, fmt::format("there is no rule {}", in_quotes(options.name)),
                   suggestion(options.name, names, "there are"));
 }
 
 Exit list(const RuleOptions& options) {
   std::vector<RuleFacts> all;
-  for (const auto& rule : book_of(options)) all.push_back(rule_facts(*rule, options.file));
+  for (const RuleOrScript& each : book_of(options)) all.push_back(rule_facts(each, options.file));
   for (const Rule& rule : house_rules()) all.push_back(rule_facts(rule, "house"));
+  for (const Script& script : house_scripts()) all.push_back(rule_facts(script, "house"));
   if (!options.json) {
     print_result(list_in_words(all));
     return Exit::Done;
@@ -76,9 +80,26 @@ Exit show_rule(const RuleOptions& options) {
   return Exit::Done;
 }
 
+std::string counted(std::size_t count, const char* one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+// All that are refused are told, the last one by the caller.
 Exit check(const RuleOptions& options) {
-  const std::size_t count = options.file.empty() ? house_rules().size() : book_of(options).size();
-  print_result(fmt::format("{} {} well formed\n", count, count == 1 ? "rule is" : "rules are"));
+  std::size_t rules = house_rules().size(), scripts = house_scripts().size();
+  if (!options.file.empty()) {
+    RuleFaults faults;
+    const RuleBook book = book_of(options, &faults);
+    for (std::size_t n = 0; n + 1 < faults.size(); ++n) print_error(faults[n].what(), faults[n].hint);
+    if (!faults.empty()) throw faults.back();
+    rules = static_cast<std::size_t>(
+        std::count_if(book.begin(), book.end(), [](const RuleOrScript& each) { return each.rule != nullptr; }));
+    scripts = book.size() - rules;
+  }
+  const std::string both = scripts == 0 ? counted(rules, "rule")
+                           : rules == 0 ? counted(scripts, "script")
+                                        : counted(rules, "rule") + " and " + counted(scripts, "script");
+  print_result(fmt::format("{} {} well formed\n", both, rules + scripts == 1 ? "is" : "are"));
   return Exit::Done;
 }
 
@@ -92,7 +113,11 @@ Exit draw_rule(const RuleOptions& options) {
   if (png) require_png();
   const RuleBook book = book_of(options);
   std::string from;
-  const Rule& rule = chosen_rule(options, book, from);
+  const RuleOrScript chosen = chosen_rule(options, book, from);
+  if (chosen.script)
+    throw UserError(Exit::Usage, {}, fmt::format("script {} has no graphs to draw", in_quotes(options.name)),
+                    "the rules that it applies have: rend rule show " + options.name);
+  const Rule& rule = *chosen.rule;
   const RuleShown shown = show(rule, options.on);
   const std::filesystem::path file = resolve_link(out);
   NamedFiles files;
@@ -125,7 +150,7 @@ void add_file(CLI::App& app, const Options& options, const char* name) {
 }
 
 void add_rule(CLI::App& app, const Options& options) {
-  app.add_option("name", options->name, "a rule: rend rule list")->required()->type_name("NAME");
+  app.add_option("name", options->name, "a rule or script: rend rule list")->required()->type_name("NAME");
   add_file(app, options, "--in");
 }
 
@@ -135,14 +160,14 @@ std::function<Exit()> declare(CLI::App& app) {
   app.require_subcommand(1);
   app.footer("rend help rule tells how rules are written.");
   const auto json = [&](CLI::App* to, const char* what) { to->add_flag("--json", options->json, what); };
-  CLI::App* listing = subcommand(app, "list", "list the built-in rules, and those of a file", chosen, list);
+  CLI::App* listing = subcommand(app, "list", "list the built-in rules and scripts, and those of a file", chosen, list);
   add_file(*listing, options, "file");
   json(listing, "print the same as a JSON array on stdout");
-  CLI::App* showing = subcommand(app, "show", "show the text of one rule, and what it does", chosen, show_rule);
+  CLI::App* showing = subcommand(app, "show", "show the text of one rule or script, and what it does", chosen, show_rule);
   add_rule(*showing, options);
   json(showing, "print the same as one JSON object on stdout");
   CLI::App* checking = subcommand(
-      app, "check", "check that all rules of a file are well formed; without a file, the built-in ones", chosen,
+      app, "check", "check that all rules and scripts of a file are well formed; without a file, the built-in ones", chosen,
       check);
   add_file(*checking, options, "file");
   CLI::App* drawing = subcommand(app, "draw", "draw the two graphs of a rule, and a small map before and after",
@@ -159,7 +184,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command rule_command() {
-  return {"rule", "list, show, check and draw rules: changes of the mesh, for <apply> and <tear>", declare};
+  return {"rule", "list, show, check and draw rules and scripts: changes of the mesh, for <apply> and <tear>", declare};
 }
 
 } // namespace rend

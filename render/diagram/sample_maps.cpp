@@ -3,7 +3,8 @@
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 #include "sim/base/wording.h"
-#include "sim/house_rules/house_rules.h"
+#include "sim/house_rules/house_scripts.h"
+#include "sim/rules/script_run.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
@@ -98,6 +99,18 @@ Map tetrahedra(int count, double gap) {
   const Vec3 by = gap * Vec3(1, 1, 1);
   if (count > 1) run(*map, "create-tetrahedron", {}, corners({right + by, far + by, back + by, top + by}));
   sew_what_meets(*map);
+  return map;
+}
+
+// The first steps of the script that divides it into eight.
+Map cut_tetrahedron(std::size_t steps) {
+  ScriptSettings settings = divide_tetrahedra();
+  settings.steps.resize(steps);
+  const Script cut(settings,
+                   [](const ScriptStepSettings& step) { return *find_house_rule_or_script(step.apply); });
+  Map map = tetrahedra(1, 0);
+  ScriptRunner runner(cut);
+  map->edit([&](Edit& edit) { CHECK_NOTE(runner.apply(edit, Dart{0u}), runner.reason()); });
   return map;
 }
 
@@ -237,6 +250,10 @@ const std::vector<SampleMap>& sample_maps() {
       {"tetrahedron", "a tetrahedron", [] { return tetrahedra(1, 0); }},
       {"two-cubes", "two cubes, not sewn", [] { return cubes(2, 1.4); }, true},
       {"two-tetrahedra", "two tetrahedra, not sewn", [] { return tetrahedra(2, 0.25); }, true},
+      {"cut-tetrahedron", "a tetrahedron with a triangle cut off each corner of its faces",
+       [] { return cut_tetrahedron(2); }},
+      {"octahedron", "an octahedron with a tetrahedron on every second face",
+       [] { return cut_tetrahedron(3); }},
       {"face", "a face of a solid that has no volume yet", face},
       {"edge", "an edge", edge},
       {"vertex", "a vertex", vertex}};
@@ -244,7 +261,7 @@ const std::vector<SampleMap>& sample_maps() {
 }
 
 RuleShown show(const Rule& rule, const std::string& sample) {
-  if (!rule.quantity_of_law().empty()) return {}; // known only where a law applies it
+  if (!rule.quantities_of_law().empty()) return {}; // known only where a law applies it
   std::vector<std::string> names;
   for (const SampleMap& each : sample_maps()) names.push_back(each.name);
   if (!sample.empty() && std::find(names.begin(), names.end(), sample) == names.end())

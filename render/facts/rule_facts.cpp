@@ -19,6 +19,25 @@ bool needs_a_solid(const Rule& rule) {
                      [](const RuleNode& node) { return node.links[3].kind == RuleLink::Kind::Arc; });
 }
 
+// Every one of its steps does.
+bool fits_sheets(const Script& script) {
+  return std::all_of(script.steps.begin(), script.steps.end(), [](const Script::Step& step) {
+    return step.what.rule ? !needs_a_solid(*step.what.rule) : fits_sheets(*step.what.script);
+  });
+}
+
+// Of a script: those of its hook.
+RuleFacts facts_of_left(const Rule& rule, const std::string& from) {
+  RuleFacts facts{.name = rule.name(), .about = rule.settings.about, .from = from};
+  for (std::size_t n = 0; n < rule.plan.hooks.size(); ++n) {
+    const Orbit orbit = rule.hook_orbit(n);
+    facts.hooks.push_back({rule.left[rule.plan.hooks[n]].name, to_string(orbit), cell_in_words(orbit)});
+  }
+  for (const RuleWhereSettings& where : rule.settings.wheres)
+    facts.arguments.push_back({where.name, where.value});
+  return facts;
+}
+
 std::string list_or(const std::vector<std::string>& names, const char* none) {
   return names.empty() ? none : listed(names);
 }
@@ -58,22 +77,32 @@ std::string cell_in_words(Orbit orbit) {
 }
 
 RuleFacts rule_facts(const Rule& rule, const std::string& from) {
-  RuleFacts facts{.name = rule.name(), .about = rule.settings.about, .from = from};
-  for (std::size_t n = 0; n < rule.plan.hooks.size(); ++n) {
-    const Orbit orbit = rule.hook_orbit(n);
-    facts.hooks.push_back({rule.left[rule.plan.hooks[n]].name, to_string(orbit), cell_in_words(orbit)});
-  }
-  for (const RuleWhereSettings& where : rule.settings.wheres)
-    facts.arguments.push_back({where.name, where.value});
+  RuleFacts facts = facts_of_left(rule, from);
   for (const RuleNode& node : rule.right.nodes)
     (rule.left.find(node.name) < 0 ? facts.creates : facts.keeps).push_back(node.name);
   for (const RuleNode& node : rule.left.nodes)
     if (rule.right.find(node.name) < 0) facts.removes.push_back(node.name);
   facts.fits_sheets = !needs_a_solid(rule);
   facts.folds = rule.settings.may_fold;
-  facts.asks_for = rule.quantity_of_law();
+  if (const auto quantities = rule.quantities_of_law(); !quantities.empty()) facts.asks_for = quantities[0];
   facts.text = rule.print();
   return facts;
+}
+
+RuleFacts rule_facts(const Script& script, const std::string& from) {
+  RuleFacts facts = facts_of_left(script.scope, from);
+  facts.script = true;
+  facts.fits_sheets = fits_sheets(script);
+  for (const Script::Step& step : script.steps)
+    if (std::find(facts.applies.begin(), facts.applies.end(), step.what.name()) == facts.applies.end())
+      facts.applies.push_back(step.what.name());
+  if (const auto quantities = script.quantities_of_law(); !quantities.empty()) facts.asks_for = quantities[0];
+  facts.text = script.print();
+  return facts;
+}
+
+RuleFacts rule_facts(const RuleOrScript& what, const std::string& from) {
+  return what.rule ? rule_facts(*what.rule, from) : rule_facts(*what.script, from);
 }
 
 nlohmann::ordered_json json_of(const RuleFacts& facts) {
@@ -81,12 +110,23 @@ nlohmann::ordered_json json_of(const RuleFacts& facts) {
   for (const RuleFacts::Hook& hook : facts.hooks)
     hooks.push_back({{"node", hook.node}, {"orbit", hook.orbit}, {"cell", hook.cell}});
   for (const RuleFacts::Argument& argument : facts.arguments) arguments[argument.name] = argument.value;
-  nlohmann::ordered_json out{{"name", facts.name},   {"about", facts.about},     {"from", facts.from},
-                             {"hooks", hooks},       {"arguments", arguments},   {"creates", facts.creates},
-                             {"keeps", facts.keeps}, {"removes", facts.removes}, {"sheets", facts.fits_sheets},
-                             {"solids", true},       {"may_fold", facts.folds}};
+  nlohmann::ordered_json out{{"name", facts.name},
+                             {"about", facts.about},
+                             {"from", facts.from},
+                             {"hooks", hooks},
+                             {"arguments", arguments}};
+  if (facts.script) {
+    out["applies"] = facts.applies;
+  } else {
+    out["creates"] = facts.creates;
+    out["keeps"] = facts.keeps;
+    out["removes"] = facts.removes;
+  }
+  out["sheets"] = facts.fits_sheets;
+  out["solids"] = true;
+  if (!facts.script) out["may_fold"] = facts.folds;
   if (!facts.asks_for.empty()) out["asks_for"] = facts.asks_for;
-  out["rule"] = facts.text;
+  out[facts.script ? "script" : "rule"] = facts.text;
   return out;
 }
 
@@ -101,9 +141,13 @@ std::string facts_in_words(const RuleFacts& facts) {
     arguments.push_back(argument.name + " = " + argument.value);
   row("hook", hooks_in_words(facts, true));
   row("arguments", list_or(arguments, "none"));
-  row("keeps", list_or(facts.keeps, "nothing"));
-  row("creates", list_or(facts.creates, "nothing"));
-  row("removes", list_or(facts.removes, "nothing"));
+  if (facts.script) {
+    row("applies", listed(facts.applies));
+  } else {
+    row("keeps", list_or(facts.keeps, "nothing"));
+    row("creates", list_or(facts.creates, "nothing"));
+    row("removes", list_or(facts.removes, "nothing"));
+  }
   row("fits", facts.fits_sheets ? "sheets and solids" : "solids");
   if (facts.folds) row("may fold", "it also matches where darts of the left graph coincide");
   if (!facts.asks_for.empty()) row("asks for", facts.asks_for + ", which laws of tearing alone know");

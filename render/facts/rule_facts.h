@@ -1,7 +1,7 @@
-// What `rend rule list` and `rend rule show` tell about a rule.
+// What `rend rule list` and `rend rule show` tell about a rule or a script.
 #pragma once
 
-#include "sim/rules/rule.h"
+#include "sim/rules/script.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -25,10 +25,14 @@ struct RuleFacts {
   std::vector<std::string> creates = {}, keeps = {}, removes = {}; // nodes
   bool fits_sheets = true;                                         // solids always
   bool folds = false;
-  std::string asks_for = {}; // what only laws of tearing know, such as "stress"; empty: nothing
-  std::string text = {};     // the element <rule>
+  std::string asks_for = {};             // what only laws of tearing know, such as "stress"; empty: nothing
+  std::string text = {};                 // the element <rule> or <script>
+  bool script = false;                   // then it has no nodes but its hook, and
+  std::vector<std::string> applies = {}; // what its steps apply, each once
 };
 RuleFacts rule_facts(const Rule& rule, const std::string& from);
+RuleFacts rule_facts(const Script& script, const std::string& from);
+RuleFacts rule_facts(const RuleOrScript& what, const std::string& from);
 
 nlohmann::ordered_json json_of(const RuleFacts& facts);
 std::string facts_in_words(const RuleFacts& facts);

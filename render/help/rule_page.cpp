@@ -56,7 +56,13 @@ is, and a, which is one of its two ends, is not. A name is that of a node, then 
 )page";
 
 constexpr const char* page_use = R"page(
-USE. Rules stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> in the scene.
+SCRIPTS apply rules to one cell after another, as one change: all of it is done, or nothing.
+  <script name="s" hook="a*(0,1)"> <for each="e*(0)" where="length(e) > 1" apply="NAME"/> </script>
+is for each side e of face a, or of what steps before have made of it, if a test of a and e holds.
+at="any|all": at darts of e. which="old|new": e has darts from before the script, or none. at-least
+="one|none": NAME need not apply at all of them. Other attributes are arguments, such as v="e - a".
+
+USE. Rules and scripts stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> there.
   <apply rule="raise" times="2" h="0.3"/>   in a <body>, after its shape: h is an argument; where
       all vertices of the hook's orbit are selected, as by side="+x"; to="all": everywhere
   <create dimension="2"/>   a shape with nothing in it, with which rules begin: create-quad ...
@@ -81,6 +87,10 @@ constexpr const char* page_examples =
     <where name="t" value="0.3"/>
     <set node="a" position="lerp(a, mean(a, edge), 2*t)"/>
   </rule>
+  <script name="cut-in-half" about="a triangle off each corner of all faces" hook="a*(0,1,2,3)">
+    <for each="e*(0,2,3)" apply="insert-vertex"/>
+    <for each="e*(1,3)" which="old" apply="cut-face-corner"/>
+  </script>
   <!-- Nothing is linked anew: the graphs are the same, and the vertex moves. -->
   <rule name="raise" about="each vertex goes up by h" left="a*(1,2,3)" right="a(1,2,3)">
     <where name="h" value="0.1"/>
@@ -112,6 +122,15 @@ std::vector<std::string> words_of(const std::string& text) {
   return out;
 }
 
+// Those of numbers mean what they always do, or tell their arguments in words.
+std::string told(const ExpressionFunction& function) {
+  const bool of_numbers = function.result == ValueType::Scalar &&
+                          std::all_of(function.arguments.begin(), function.arguments.end(),
+                                      [](ValueType type) { return type == ValueType::Scalar; });
+  if (!of_numbers) return signature(function) + ": " + function.about;
+  return function.about.starts_with(function.name + "(") ? function.about : function.name;
+}
+
 std::string functions_on_page() {
   std::string out;
   for (const ExpressionFunction& function : rule_vocabulary({}, {})) {
@@ -121,9 +140,8 @@ std::string functions_on_page() {
   }
   std::vector<std::string> known;
   for (const BuiltIn& each : built_ins())
-    for (const std::string& word : words_of(signature(each.declared) + ": " + each.declared.about + ";"))
-      known.push_back(word);
-  known.front() = "  " + known.front();
+    for (const std::string& word : words_of(told(each.declared) + ";")) known.push_back(word);
+  known.front() = "  Angles are in radians: " + known.front();
   known.back().pop_back();
   return out + folded_items(known, "  ");
 }

@@ -144,6 +144,7 @@ const ElementType& scene_type() {
        word("version", {"1"}, "version of this format").otherwise("1")},
       {{&rules_type(), 0, -1},
        {&rule_type(), 0, -1},
+       {&script_type(), 0, -1},
        {&drawn_body_type(), 1, -1},
        {&drawn_world_type(), 0, 1},
        {&time_type(), 1, 1},

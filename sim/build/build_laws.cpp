@@ -18,10 +18,10 @@ void let_grow(Body& body) {
 
 void take_rule(LawSettings& law, const RuleBook& rules, int dimension) {
   if (law.change) law.source.fail("rule", "<tear> has both a change and a rule", "give one of them");
-  const std::shared_ptr<const Rule> rule = find_rule(rules, law.rule, law.source, "rule");
-  if (const std::string misfit = misfit_of(*rule, dimension); !misfit.empty())
-    law.source.fail("rule", fmt::format("rule '{}' {}", rule->name(), misfit));
-  law.by_rule = change_by(rule, dimension);
+  const RuleOrScript what = find_rule(rules, law.rule, law.source, "rule");
+  if (const std::string misfit = misfit_of(what, dimension); !misfit.empty())
+    law.source.fail("rule", fmt::format("{} '{}' {}", what.kind(), what.name(), misfit));
+  law.by_rule = change_by(what, dimension);
   law.change = law.by_rule.get();
 }
 

@@ -97,11 +97,11 @@ public:
 
   void apply(const ApplySettings& settings) {
     check_settings(settings);
-    const std::shared_ptr<const Rule> rule = rule_of(settings);
-    check_hooks(*rule, settings);
-    check_quantities(*rule, settings);
-    RuleRunner runner(*rule, context_of(*rule, arguments_of(*rule, settings)));
-    for (int n = 0; n < settings.times; ++n) round(runner, settings);
+    const RuleOrScript what = rule_of(settings);
+    check_hooks(what, settings);
+    check_quantities(what, settings);
+    RuleOrScriptRunner runner(what, {.wheres = arguments_of(what, settings)});
+    for (int n = 0; n < settings.times; ++n) round(what, runner, settings);
   }
 
   // The body's map, as if it came from a file.
@@ -131,15 +131,15 @@ public:
   }
 
 private:
-  std::shared_ptr<const Rule> rule_of(const ApplySettings& settings) const {
+  RuleOrScript rule_of(const ApplySettings& settings) const {
     if (settings.rule == subdivision)
       return find_rule({}, body_.map->dimension() == 2 ? "quarter-faces" : "divide-volumes", settings.source,
                        "");
     return find_rule(rules_, settings.rule, settings.source, "rule");
   }
 
-  void check_hooks(const Rule& rule, const ApplySettings& settings) const {
-    const std::size_t hooks = rule.plan.hooks.size();
+  void check_hooks(const RuleOrScript& rule, const ApplySettings& settings) const {
+    const std::size_t hooks = rule.hooks();
     const bool with = settings.with == ApplySettings::With::Touching;
     if (hooks > 2 || (hooks == 2 && !with))
       settings.source.fail("rule", fmt::format("rule '{}' has {} hooks", rule.name(), hooks),
@@ -149,40 +149,45 @@ private:
       settings.source.fail("with", fmt::format("rule '{}' has no second hook", rule.name()), "leave it out");
   }
 
-  void check_quantities(const Rule& rule, const ApplySettings& settings) const {
-    if (const std::string name = rule.quantity_of_law(); !name.empty())
-      settings.source.fail("rule", fmt::format("rule '{}' asks for {}", rule.name(), name),
+  void check_quantities(const RuleOrScript& rule, const ApplySettings& settings) const {
+    if (const std::vector<std::string> names = rule.quantities_of_law(); !names.empty())
+      settings.source.fail("rule", fmt::format("{} '{}' asks for {}", rule.kind(), rule.name(), names[0]),
                            "which only a <tear> knows");
   }
 
-  static Value value_of(const Rule& rule, const Rule::Where& where, const std::string& text,
+  static Value value_of(const RuleOrScript& rule, const Rule::Where& where, const std::string& text,
                         const ApplySettings& settings) {
     try {
       return Expression(text, {}, where.type).evaluate();
     } catch (const ExpressionError& error) {
       settings.source.fail(where.name,
-                           fmt::format("{} of rule '{}': {} (character {} of {})", where.name, rule.name(),
-                                       error.flaw, error.column, in_quotes(text)),
+                           fmt::format("{} of {} '{}': {} (character {} of {})", where.name, rule.kind(),
+                                       rule.name(), error.flaw, error.column, in_quotes(text)),
                            error.hint);
     }
   }
 
-  static RuleArguments arguments_of(const Rule& rule, const ApplySettings& settings) {
-    RuleArguments arguments;
+  static std::vector<Value> arguments_of(const RuleOrScript& rule, const ApplySettings& settings) {
+    const std::vector<Rule::Where>& wheres = rule.wheres();
+    std::vector<Value> values;
     std::vector<std::string> names;
-    for (const Rule::Where& where : rule.wheres) names.push_back(where.name);
-    for (const auto& [name, text] : settings.arguments) {
-      const auto where = std::find_if(rule.wheres.begin(), rule.wheres.end(),
-                                      [&, &name = name](const Rule::Where& each) { return each.name == name; });
-      if (where == rule.wheres.end())
-        settings.source.fail(name, fmt::format("rule '{}' has no argument {}", rule.name(), in_quotes(name)),
-                             names.empty() ? "it takes none" : suggestion(name, names, "it has"));
-      arguments.push_back({name, value_of(rule, *where, text, settings)});
+    for (const Rule::Where& where : wheres) {
+      names.push_back(where.name);
+      values.push_back(where.value);
     }
-    return arguments;
+    for (const auto& [name, text] : settings.arguments) {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end())
+        settings.source.fail(
+            name, fmt::format("{} '{}' has no argument {}", rule.kind(), rule.name(), in_quotes(name)),
+            names.empty() ? "it takes none" : suggestion(name, names, "it has"));
+      const auto n = static_cast<std::size_t>(found - names.begin());
+      values[n] = value_of(rule, wheres[n], text, settings);
+    }
+    return values;
   }
 
-  void round(RuleRunner& runner, const ApplySettings& settings) {
+  void round(const RuleOrScript& rule, RuleOrScriptRunner& runner, const ApplySettings& settings) {
     EmbeddedMap& map = *body_.map;
     std::vector<bool> chosen;
     if (settings.where.given()) {
@@ -191,16 +196,16 @@ private:
         chosen[v] = true;
     }
     const auto selected = [&](Dart d) { return chosen[map.vertex(d)]; };
-    const bool pairs = runner.rule().plan.hooks.size() == 2;
+    const bool pairs = rule.hooks() == 2;
     const Touching touching(map, pairs);
-    const bool sides = pairs && runner.rule().hook_orbit().has(1);
+    const bool sides = pairs && rule.hook_orbit().has(1);
     const Partners partners = [&](Dart d) { return touching.darts_at(d, sides); };
     const RoundResult result = apply_round(
         map, runner, chosen.empty() ? std::function<bool(Dart)>() : std::function<bool(Dart)>(selected),
         pairs ? partners : Partners());
     if (result.applied == 0)
       settings.source.fail("",
-                           fmt::format("rule '{}' applies nowhere{}", runner.rule().name(),
+                           fmt::format("{} '{}' applies nowhere{}", rule.kind(), rule.name(),
                                        result.reason.empty() ? "" : ": " + result.reason),
                            result.reason.empty() ? "nothing was selected that its hook stands for" : "");
     if (map.map().dart_count() > most_darts)

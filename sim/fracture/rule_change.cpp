@@ -1,8 +1,7 @@
 #include "sim/fracture/rule_change.h"
 
 #include "sim/base/check.h"
-#include "sim/rules/apply.h"
-#include "sim/topology/walk.h"
+#include "sim/rules/script_run.h"
 
 #include <fmt/format.h>
 
@@ -30,46 +29,47 @@ std::optional<Cell> cell_of(Orbit hook, int dimension) {
   return hook.has(1) ? Cell::Vertices : Cell::Elements;
 }
 
-// One hook's orbit after the other, from its smallest dart.
-bool apply_in(RuleRunner& runner, Edit& edit, std::span<const Dart> cell) {
-  std::vector<Dart> darts(cell.begin(), cell.end()), orbit;
-  std::sort(darts.begin(), darts.end());
-  IndexSet tried;
-  const Orbit hook = runner.rule().hook_orbit();
-  for (Dart d : darts) {
-    if (tried.contains(d.value)) continue;
-    if (runner.apply(edit, d)) return true;
-    orbit.clear();
-    collect(edit.map(), hook, d, orbit);
-    for (Dart e : orbit) tried.insert(e.value);
-  }
-  return false;
-}
+// What a law tells: misfit_of() refuses what it cannot.
+class LawQuantities final : public RuleQuantities {
+public:
+  double stress(Dart) const override { CHECK(false); }
+  double strain(Dart) const override { CHECK(false); }
+};
+
+struct Acting {
+  explicit Acting(const RuleOrScript& what_) : what(what_), runner(what) {}
+  RuleOrScript what;
+  RuleOrScriptRunner runner;
+  LawQuantities quantities;
+  std::vector<Dart> darts; // scratch
+};
 
 } // namespace
 
-std::string misfit_of(const Rule& rule, int dimension) {
-  if (rule.plan.hooks.size() != 1)
-    return fmt::format("has {} hooks, but a <tear> finds the darts of one only", rule.plan.hooks.size());
-  if (!cell_of(rule.hook_orbit(), dimension))
+std::string misfit_of(const RuleOrScript& what, int dimension) {
+  if (what.hooks() != 1) return fmt::format("has {} hooks, but a <tear> finds the darts of one only", what.hooks());
+  if (!cell_of(what.hook_orbit(), dimension))
     return "changes a whole component, but a <tear> acts on single cells";
-  if (dimension == 2 && rule.plan.links_volumes) return "links volumes, but this body is a sheet";
-  if (const std::string name = rule.quantity_of_law(); !name.empty())
-    return "asks for " + name + ", which its expressions do not know yet";
+  if (dimension == 2 && what.links_volumes()) return "links volumes, but this body is a sheet";
+  for (const std::string& name : what.quantities_of_law())
+    if (name != "across") return "asks for " + name + ", which its expressions do not know yet";
   return {};
 }
 
-std::shared_ptr<const ChangeType> change_by(std::shared_ptr<const Rule> rule, int dimension) {
-  CHECK_NOTE(misfit_of(*rule, dimension).empty(), rule->name());
+std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimension) {
+  CHECK_NOTE(misfit_of(what, dimension).empty(), what.name());
   auto change = std::make_shared<ChangeType>();
-  change->name = rule->name();
-  change->what = rule->settings.about;
-  change->cell = *cell_of(rule->hook_orbit(), dimension);
-  change->grows = true;
-  const auto runner = std::make_shared<RuleRunner>(*rule);
-  change->apply = [rule, runner](Edit& edit, const ForceView&, const Vec3&, std::span<const Dart> darts) {
-    runner->context().sides.reset();
-    return apply_in(*runner, edit, darts);
+  change->name = what.name();
+  change->what = what.about();
+  change->cell = *cell_of(what.hook_orbit(), dimension);
+  change->grows = what.grows();
+  const auto acting = std::make_shared<Acting>(what);
+  change->apply = [acting](Edit& edit, const ForceView&, const Vec3& normal, std::span<const Dart> darts) {
+    acting->quantities.across = normal;
+    acting->runner.context() = {{}, &acting->quantities, {}};
+    acting->darts.assign(darts.begin(), darts.end());
+    std::sort(acting->darts.begin(), acting->darts.end());
+    return acting->runner.apply_at_first(edit, acting->darts);
   };
   return change;
 }

@@ -1,13 +1,14 @@
-// Changes that are rules: <tear criterion="..." rule="NAME"/>.
+// Changes that are rules or scripts: <tear criterion="..." rule="NAME"/>.
 //
 // What the hook of a rule stands for is the kind of cell that the rule changes: an edge, a border between two
-// elements, a vertex or an element. So a criterion is a precondition of the rule (thesis 7.1, p. 180): where it
-// exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook
-// first, until it applies.
+// elements, a vertex or an element. So a criterion is a precondition of the rule (thesis 7.1, p. 180): where
+// it exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook
+// first, until it applies. Its expressions know `across`, the normal of the plane along which a vertex would
+// be split.
 #pragma once
 
 #include "sim/fracture/change.h"
-#include "sim/rules/rule.h"
+#include "sim/rules/script.h"
 
 #include <memory>
 #include <optional>
@@ -16,9 +17,9 @@
 namespace rend {
 
 // Why a rule cannot be a change of a body of that dimension, as a sentence; empty: it can.
-std::string misfit_of(const Rule& rule, int dimension);
+std::string misfit_of(const RuleOrScript& what, int dimension);
 
 // CHECK: it has no misfit.
-std::shared_ptr<const ChangeType> change_by(std::shared_ptr<const Rule> rule, int dimension);
+std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimension);
 
 } // namespace rend

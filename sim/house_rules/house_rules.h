@@ -25,6 +25,7 @@ RuleSettings extrude_edge();
 RuleSettings extrude_face();
 RuleSettings extrude_side();
 RuleSettings extrude_border();
+RuleSettings extrude_away();
 RuleSettings create_triangle();
 RuleSettings create_quad();
 RuleSettings create_tetrahedron();
@@ -35,6 +36,8 @@ RuleSettings sew_edges();
 RuleSettings sew_faces();
 RuleSettings unsew_edge();
 RuleSettings unsew_face();
+RuleSettings part_faces();
+RuleSettings part_volumes();
 // Refinement.
 RuleSettings insert_vertex_border();
 RuleSettings insert_vertex();
@@ -48,6 +51,9 @@ RuleSettings quarter_faces();
 RuleSettings divide_volumes();
 RuleSettings halve_tetrahedra();
 RuleSettings sponge();
+RuleSettings cut_face_corner();
+RuleSettings cut_volume_corner();
+RuleSettings divide_bipyramid();
 // Removal.
 RuleSettings remove_isolated_face();
 RuleSettings remove_inner_face();

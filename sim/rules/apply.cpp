@@ -16,9 +16,9 @@ constexpr std::uint32_t no_point = IndexMap::none, no_family = IndexMap::none;
 class Rewriter {
 public:
   Rewriter(const Rule& rule, const Match& match, Edit& edit, std::vector<Dart>& darts,
-           std::vector<std::uint32_t>& points)
-      : rule_(rule), match_(match), edit_(edit), nodes_(rule.right.nodes.size()), darts_(darts),
-        point_(points) {}
+           std::vector<std::uint32_t>& points, std::vector<std::pair<Dart, Point>>& moved)
+      : rule_(rule), match_(match), edit_(edit), nodes_(rule.right.nodes.size()), darts_(darts), point_(points),
+        moved_(moved) {}
 
   // First, since expressions read the map as it was matched. ExpressionError.
   void place_vertices(const RuleValues& values);
@@ -44,6 +44,7 @@ private:
   std::size_t nodes_;                 // of the right graph
   std::vector<Dart>& darts_;          // [instance][right node]
   std::vector<std::uint32_t>& point_; // of the edit, [instance][right node]; kept nodes that do not move: none
+  std::vector<std::pair<Dart, Point>>& moved_;
   std::vector<std::uint32_t> family_of_; // likewise: of the edit's lineage, of new vertices
   std::vector<Parent> parents_;          // scratch
   std::uint32_t family_ = no_family;     // of the vertex that is being placed
@@ -81,6 +82,7 @@ void Rewriter::place(const RuleValues& values, int node) {
     const Point point = values.moved(values_of, k, was);
     if (kept >= 0) {
       edit_.move(match_.dart(k, kept), point);
+      moved_.push_back({match_.dart(k, kept), point});
     } else if (edit_.inherits()) {
       values.parents(values_of, k, parents_);
       family_ = parents_.empty() ? no_family : edit_.add_family(Vertex, parents_);
@@ -177,6 +179,13 @@ void Rewriter::link(const RulePlan::Link& link) {
 
 } // namespace
 
+bool RuleRunner::may_begin(const Edit& edit, int hook, Dart d) const {
+  const int node = rule_.plan.hooks[static_cast<std::size_t>(hook)];
+  for (const RulePlan::Test& test : rule_.plan.first_tests)
+    if (test.node == node && edit.map().is_free(test.link, d) != (test.kind == Kind::Loop)) return false;
+  return true;
+}
+
 bool RuleRunner::matches(const Edit& edit, const Hooks& hooks) {
   mismatch_ = find_match(rule_, edit.map(), hooks, match_);
   if (mismatch_) return false;
@@ -199,7 +208,8 @@ bool RuleRunner::apply(Edit& edit, const Hooks& hooks) {
 }
 
 bool RuleRunner::rewrite(Edit& edit) {
-  Rewriter rewriter(rule_, match_, edit, darts_, point_);
+  moved_.clear();
+  Rewriter rewriter(rule_, match_, edit, darts_, point_, moved_);
   const bool may_fail = rule_.creates() || !rule_.sets.empty();
   const std::optional<Edit::Savepoint> start = may_fail ? std::optional(edit.savepoint()) : std::nullopt;
   try {

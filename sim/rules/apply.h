@@ -23,6 +23,8 @@ public:
   const Rule& rule() const { return rule_; }
   RuleContext& context() { return context_; }
 
+  // Whether the links that it asks of a hook itself are free there, or are not.
+  bool may_begin(const Edit& edit, int hook, Dart d) const;
   // Whether it matches there and its conditions hold. Changes nothing.
   bool matches(const Edit& edit, const Hooks& hooks);
   // Rewrites what matches() has found; false: the map is as before.
@@ -36,6 +38,8 @@ public:
   // After apply(): [instance][node of the right graph].
   const std::vector<Dart>& darts() const { return darts_; }
   const Match& match() const { return match_; }
+  // After apply(): vertices that were there before it, a dart of each, and where they moved.
+  const std::vector<std::pair<Dart, Point>>& moved() const { return moved_; }
 
 private:
   const Rule& rule_;
@@ -44,6 +48,7 @@ private:
   Mismatch mismatch_;
   std::vector<Dart> darts_;
   std::vector<std::uint32_t> point_; // of the edit, [instance][node of the right graph]
+  std::vector<std::pair<Dart, Point>> moved_;
 };
 
 struct Applied {

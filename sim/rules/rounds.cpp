@@ -10,17 +10,18 @@ namespace {
 
 class Round {
 public:
-  Round(RuleRunner& runner, Edit& edit, const std::function<bool(Dart)>& selected, const Partners& partners)
+  Round(RuleOrScriptRunner& runner, Edit& edit, const std::function<bool(Dart)>& selected,
+        const Partners& partners)
       : runner_(runner), edit_(edit), selected_(selected), partners_(partners), darts_(edit.map().capacity()),
         used_(darts_), seen_(darts_) {}
 
   RoundResult run() {
     runner_.context().sides.reset();
-    if (runner_.rule().only_creates()) {
+    if (runner_.hooks() == 0) {
       visit({});
       return result_;
     }
-    const Orbit orbit = runner_.rule().hook_orbit();
+    const Orbit orbit = runner_.hook_orbit();
     for (std::uint32_t n = 0; n < darts_; ++n) {
       if (!edit_.map().alive(Dart{n}) || used_[n] || seen_[n]) continue;
       orbit_.clear();
@@ -49,23 +50,34 @@ private:
   }
 
   bool visit(const Hooks& hooks) {
-    if (!runner_.matches(edit_, hooks)) return refuse();
-    const std::vector<Dart>& matched = runner_.match().darts;
+    return runner_.rule() ? visit(*runner_.rule(), hooks) : visit_by_script(hooks);
+  }
+
+  bool visit(RuleRunner& rule, const Hooks& hooks) {
+    if (!rule.matches(edit_, hooks)) return refuse();
+    const std::vector<Dart>& matched = rule.match().darts;
     if (std::any_of(matched.begin(), matched.end(), [&](Dart d) { return used(d); })) return false;
-    if (!runner_.rewrite(edit_)) return refuse();
+    if (!rule.rewrite(edit_)) return refuse();
     ++result_.applied;
     use(matched);
-    use(runner_.darts()); // a removed dart's number may have been taken again
+    use(rule.darts()); // a removed dart's number may have been taken again
+    return true;
+  }
+
+  bool visit_by_script(const Hooks& hooks) {
+    if (!runner_.apply(edit_, hooks)) return refuse();
+    ++result_.applied;
+    use(runner_.script()->used());
     return true;
   }
 
   bool refuse() {
     ++result_.refused;
-    if (result_.reason.empty()) result_.reason = runner_.mismatch().sentence(runner_.rule());
+    if (result_.reason.empty()) result_.reason = runner_.sentence();
     return false;
   }
 
-  RuleRunner& runner_;
+  RuleOrScriptRunner& runner_;
   Edit& edit_;
   const std::function<bool(Dart)>& selected_;
   const Partners& partners_;
@@ -77,9 +89,9 @@ private:
 
 } // namespace
 
-RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected,
+RoundResult apply_round(EmbeddedMap& map, RuleOrScriptRunner& runner, const std::function<bool(Dart)>& selected,
                         const Partners& partners) {
-  CHECK(runner.rule().plan.hooks.size() <= (partners ? 2 : 1));
+  CHECK(runner.hooks() <= (partners ? 2 : 1));
   RoundResult result;
   map.edit([&](Edit& edit) { result = Round(runner, edit, selected, partners).run(); });
   return result;

@@ -1,11 +1,13 @@
-// Applying a rule everywhere in a map: to all orbits of its hook's kind, in the order of their smallest darts.
+// Applying a rule or a script everywhere in a map: to all orbits of its hook's kind, in the order of their
+// smallest darts.
 //
 // One round visits each orbit once. What an application has matched or made is used up for the rest of the
 // round, so that the order of orbits decides where matches overlap, and a round ends. All applications of a
-// round share one edit, and their expressions read the points from before it.
+// round share one edit, and their expressions read the points from before it. A script uses up what its rules
+// have matched or made; it may match what is used up, but for its hook's orbit.
 #pragma once
 
-#include "sim/rules/apply.h"
+#include "sim/rules/script_run.h"
 
 #include <functional>
 
@@ -23,7 +25,7 @@ using Partners = std::function<std::vector<Dart>(Dart)>;
 // Which orbits: those all of whose darts are `selected`; empty: all. It is asked for darts of the map as it is
 // when the round begins. `partners`, for rules with two hooks: the darts to try for the second one; it must be
 // given for them, and the rule is applied with the first that matches. Other numbers of hooks: CHECK.
-RoundResult apply_round(EmbeddedMap& map, RuleRunner& runner, const std::function<bool(Dart)>& selected = {},
-                        const Partners& partners = {});
+RoundResult apply_round(EmbeddedMap& map, RuleOrScriptRunner& runner,
+                        const std::function<bool(Dart)>& selected = {}, const Partners& partners = {});
 
 } // namespace rend

@@ -29,7 +29,7 @@ bool same(const Value& a, const Value& b) {
 
 class Builder {
 public:
-  explicit Builder(Rule& rule) : rule_(rule), settings_(rule.settings) {}
+  Builder(Rule& rule, const char* kind) : rule_(rule), settings_(rule.settings), kind_(kind) {}
 
   void run() {
     check_settings(settings_);
@@ -53,7 +53,7 @@ private:
                                     ? fmt::format(" (character {} of {})", fault.column, name_of(fault.side))
                                     : std::string();
       settings_.source.fail(name_of(fault.side),
-                            fmt::format("rule {}: {}{}", in_quotes(rule_.name()), fault.what(), where),
+                            fmt::format("{} {}: {}{}", kind_, in_quotes(rule_.name()), fault.what(), where),
                             fault.hint);
     }
   }
@@ -65,7 +65,7 @@ private:
 
   [[noreturn]] void fail(const SettingsSource& source, std::string_view attribute, const std::string& what,
                          const std::string& hint = {}) const {
-    source.fail(attribute, fmt::format("rule {}: {}", in_quotes(rule_.name()), what), hint);
+    source.fail(attribute, fmt::format("{} {}: {}", kind_, in_quotes(rule_.name()), what), hint);
   }
 
   Expression expression(const SettingsSource& source, const char* attribute, const std::string& text,
@@ -274,12 +274,13 @@ private:
 
   Rule& rule_;
   const RuleSettings& settings_;
+  const char* kind_;
 };
 
 } // namespace
 
-Rule::Rule(RuleSettings settings_) : settings(std::move(settings_)) {
-  Builder(*this).run();
+Rule::Rule(RuleSettings settings_, const char* kind) : settings(std::move(settings_)) {
+  Builder(*this, kind).run();
   forget_places(); // the preset need not outlive the rule
 }
 
@@ -296,17 +297,20 @@ Orbit Rule::hook_orbit(std::size_t hook) const {
   return orbit;
 }
 
-std::string Rule::quantity_of_law() const {
-  std::vector<const Expression*> expressions;
+std::vector<std::string> Rule::quantities_of_law() const {
+  std::vector<std::string> out;
   for (const Set& set : sets)
     for (const auto* each : {&set.position, &set.rest, &set.velocity})
-      if (*each) expressions.push_back(&**each);
-  for (const When& when : whens) expressions.push_back(&when.test);
-  for (const Expression* expression : expressions)
-    for (const ExpressionCall& call : expression->calls())
-      if (call.function >= static_cast<std::size_t>(RuleFunction::Stress) && call.function < rule_functions)
-        return call.name;
-  return {};
+      if (*each) add_quantities_of_law(**each, out);
+  for (const When& when : whens) add_quantities_of_law(when.test, out);
+  return out;
+}
+
+void add_quantities_of_law(const Expression& expression, std::vector<std::string>& out) {
+  for (const ExpressionCall& call : expression.calls())
+    if (call.function >= static_cast<std::size_t>(RuleFunction::Stress) && call.function < rule_functions &&
+        std::find(out.begin(), out.end(), call.name) == out.end())
+      out.push_back(call.name);
 }
 
 bool Rule::creates() const {

@@ -46,8 +46,9 @@ struct RulePlan {
 };
 
 struct Rule {
-  // UserError (65) with the place of the attribute: everything that `rend rule check` refuses.
-  explicit Rule(RuleSettings settings);
+  // UserError (65) with the place of the attribute: everything that `rend rule check` refuses. `kind`: what
+  // messages call it, which may be a part of a script.
+  explicit Rule(RuleSettings settings, const char* kind = "rule");
   Rule(Rule&&) = default;
 
   // The values of a vertex; empty where they follow the position.
@@ -71,8 +72,8 @@ struct Rule {
   bool only_creates() const { return left.nodes.empty(); }
   bool creates() const; // some dart
   bool removes() const { return !plan.removed.empty(); }
-  // The first of stress, strain, value and time that its expressions ask for; empty: none.
-  std::string quantity_of_law() const;
+  // Those of stress, strain, value, across and time that its expressions ask for, each once.
+  std::vector<std::string> quantities_of_law() const;
   // As the element <rule> of a preset, in a normal form: read, it makes the same rule.
   std::string print() const;
 
@@ -90,5 +91,8 @@ struct Rule {
 private:
   void forget_places();
 };
+
+// Adds those that an expression of a rule asks for, and that are not there yet.
+void add_quantities_of_law(const Expression& expression, std::vector<std::string>& out);
 
 } // namespace rend

@@ -75,30 +75,23 @@ std::vector<ExpressionFunction> rule_vocabulary(const RuleGraph& left, std::span
   using enum ValueType;
   std::vector<ExpressionFunction> all{
       {"copy", {Name}, Vector, "the point of a node"},
-      {"mean",
-       {Name, Name},
-       Vector,
-       "the mean of the vertices of a node's vertex, edge, face, volume, component"},
+      {"mean", {Name, Name}, Vector, "the mean of the vertices of its vertex, edge, face, volume, component"},
       {"lerp", {Vector, Vector, Scalar}, Vector, "(1 - t) u + t v"},
       {"along",
        {Name, Name, Scalar},
        Vector,
        "a node's point, moved along the normal of its vertex (normal), of its face (face), or along its edge "
        "(edge) [m]"},
-      {"size",
-       {Name, Name},
-       Scalar,
-       "how many vertices an edge, face, volume or component has; edges at a vertex"},
+      {"size", {Name, Name}, Scalar, "how many vertices its edge, face ... has; of a vertex: how many edges"},
       {"length", {Name}, Scalar, "of a node's edge, at rest [m]"},
       {"area", {Name}, Scalar, "of a node's face, at rest [m2]"},
       {"volume", {Name}, Scalar, "of a node's volume, at rest [m3]"},
-      {"stress",
-       {Name},
-       Scalar,
-       "the largest eigenvalue of the stress at a node's vertex [Pa]; of laws of tearing"},
-      {"strain", {Name}, Scalar, "the largest principal strain of a node's element; of laws of tearing"},
-      {"value", {}, Scalar, "what the criterion found, in its unit; of laws of tearing"},
-      {"time", {}, Scalar, "the time [s]; of laws of tearing"},
+      {"free", {Name, Scalar}, Condition, "whether that link of a node is free"},
+      {"stress", {Name}, Scalar, "the largest principal stress at a node's vertex [Pa]; of <tear>"},
+      {"strain", {Name}, Scalar, "the largest principal strain of a node's element; of <tear>"},
+      {"value", {}, Scalar, "what the criterion found, in its unit; of <tear>"},
+      {"across", {}, Vector, "the normal of the plane that would split a vertex; of <tear>"},
+      {"time", {}, Scalar, "the time [s]; of <tear>"},
   };
   CHECK(all.size() == rule_functions);
   for (const RuleNode& node : left.nodes) all.push_back({node.name, {}, Vector, "the point of this node"});
@@ -182,7 +175,8 @@ Vec3 RuleValues::direction(Dart d, std::string_view which, PointPart part) const
 
 Value RuleValues::quantity(RuleFunction function, Dart d) const {
   const RuleQuantities* from = context_.quantities;
-  if (!from) throw ExpressionError(1, "stress, strain, value and time are known to laws of tearing alone");
+  if (!from)
+    throw ExpressionError(1, "stress, strain, value, across and time are known to laws of tearing alone");
   switch (function) {
   case RuleFunction::Stress:
     return scalar_value(from->stress(d));
@@ -190,6 +184,8 @@ Value RuleValues::quantity(RuleFunction function, Dart d) const {
     return scalar_value(from->strain(d));
   case RuleFunction::Found:
     return scalar_value(from->value);
+  case RuleFunction::Across:
+    return to_value(from->across);
   default:
     return scalar_value(from->time);
   }
@@ -248,6 +244,12 @@ Value RuleValues::call(const ExpressionCall& call, std::span<const Value> argume
     return scalar_value(face_vector(edit_, d).norm());
   case RuleFunction::VolumeOf:
     return scalar_value(std::abs(volume_at_rest(edit_, d)));
+  case RuleFunction::Free: {
+    const double link = arguments[0].scalar();
+    for (int i = 0; i < 4; ++i)
+      if (link == i) return condition_value(map.is_free(i, d));
+    throw ExpressionError(1, fmt::format("{} is no link: 0, 1, 2 and 3 are", link));
+  }
   default:
     return quantity(function, d);
   }
@@ -294,14 +296,14 @@ void RuleValues::parents(const Rule::Set& set, std::size_t instance, std::vector
   for (Parent& parent : out) parent.weight = 1 / static_cast<double>(out.size());
 }
 
+Value RuleValues::value(const Expression& expression, std::size_t instance) const {
+  return expression.evaluate([&](const ExpressionCall& each, std::size_t, std::span<const Value> arguments) {
+    return call(each, arguments, instance, PointPart::Position, false);
+  });
+}
+
 bool RuleValues::holds(const Rule::When& when) const {
-  const auto at = [&](std::size_t instance) {
-    return when.test
-        .evaluate([&](const ExpressionCall& each, std::size_t, std::span<const Value> arguments) {
-          return call(each, arguments, instance, PointPart::Position, false);
-        })
-        .condition();
-  };
+  const auto at = [&](std::size_t instance) { return value(when.test, instance).condition(); };
   if (when.at == RuleWhenSettings::At::Hook) return at(0);
   const bool all = when.at == RuleWhenSettings::At::All;
   for (std::size_t k = 0; k < match_.instances; ++k)

@@ -7,7 +7,8 @@
 //   along(a, normal, h)  a, moved by h [m] along the normal of its vertex; of its face; or along its edge
 //   size(a, face)        how many vertices; of a vertex: how many edges
 //   length(a), area(a), volume(a)   of its edge, face, volume, at rest [m, m², m³]
-//   stress(a), strain(a), value, time   where a law of tearing applies the rule
+//   free(a, 3)           whether α3 of a is free
+//   stress(a), strain(a), value, across, time   where a law of tearing applies the rule
 //
 // The position is the value of the expression over positions; the rest position that over rest positions; the
 // velocity its derivative in time where points move with their velocities: f(v) − f(0) for an affine
@@ -35,9 +36,11 @@ enum class RuleFunction : std::size_t {
   LengthOf,
   AreaOf,
   VolumeOf,
+  Free,
   Stress,
   Strain,
   Found,
+  Across,
   Time
 };
 constexpr std::size_t rule_functions = static_cast<std::size_t>(RuleFunction::Time) + 1;
@@ -58,6 +61,7 @@ public:
   virtual double stress(Dart d) const = 0; // [Pa], the largest eigenvalue at the vertex of d
   virtual double strain(Dart d) const = 0; // the largest principal strain of the element of d
   double value = 0;                        // what the criterion found, in its unit
+  Vec3 across = Vec3::Zero();              // unit normal of the plane along which a vertex would be split
   double time = 0;                         // [s]
 };
 
@@ -66,6 +70,7 @@ struct RuleContext {
   std::vector<Value> wheres = {};             // the rule's arguments; empty: their defaults
   const RuleQuantities* quantities = nullptr; // null: there is no law
   mutable std::optional<Sides> sides = {};    // of the map when it was first asked for
+  std::size_t most_darts = 1u << 30;          // that a script may let the map have
 };
 
 enum class PointPart { Position, Rest, Velocity };
@@ -81,6 +86,7 @@ public:
   Point moved(const Rule::Set& set, std::size_t instance,
               const Point& was) const; // keeps what has no expression
   bool holds(const Rule::When& when) const;
+  Value value(const Expression& expression, std::size_t instance) const; // over positions
   // The vertices that the position is made of, with equal weights; none: it is made of numbers.
   void parents(const Rule::Set& set, std::size_t instance, std::vector<Parent>& out) const;
 

@@ -20,6 +20,7 @@ inline const ElementType& scene_type() {
                                 {text("name", "").otherwise("test")},
                                 {{&rules_type(), 0, -1},
                                  {&rule_type(), 0, -1},
+                                 {&script_type(), 0, -1},
                                  {&body_type(), 1, -1},
                                  {&world_type(), 0, 1},
                                  {&time_type(), 1, 1}}};

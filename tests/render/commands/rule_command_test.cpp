@@ -1,7 +1,7 @@
 // rend rule and rend help rule, as a user runs them.
 #include "render/files/png.h"
 #include "sim/expression/functions.h"
-#include "sim/house_rules/house_rules.h"
+#include "sim/house_rules/house_scripts.h"
 #include "sim/rules/rule_values.h"
 #include "tests/render/commands/program_run.h"
 
@@ -34,37 +34,49 @@ std::string scene(const std::string& shape) {
          "<mass total=\"1\"/></body><time step=\"1e-3\" integrator=\"symplectic\" duration=\"0\"/></scene>";
 }
 
-TEST(RuleCommand, lists_all_rules_of_the_house) {
+std::size_t known() {
+  return house_rules().size() + house_scripts().size();
+}
+
+TEST(RuleCommand, lists_all_rules_and_scripts_of_the_house) {
   const TestFolder place;
   const std::vector<std::string> lines = lines_of(place.rend("rule list").out);
   const auto json = place.rend("rule list --json").json();
-  ASSERT_EQ(lines.size(), house_rules().size());
-  ASSERT_EQ(json.size(), house_rules().size());
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    EXPECT_THAT(lines[n], StartsWith(house_rules()[n].name() + " "));
-    EXPECT_THAT(lines[n], HasSubstr(house_rules()[n].settings.about));
-    EXPECT_EQ(json[n]["name"], house_rules()[n].name());
-    EXPECT_EQ(json[n]["rule"], house_rules()[n].print());
-  }
+  ASSERT_EQ(lines.size(), known());
+  ASSERT_EQ(json.size(), known());
+  const auto expect = [&](std::size_t n, const auto& each, const char* kind) {
+    EXPECT_THAT(lines[n], StartsWith(each.name() + " "));
+    EXPECT_THAT(lines[n], HasSubstr(each.settings.about));
+    EXPECT_EQ(json[n]["name"], each.name());
+    EXPECT_EQ(json[n][kind], each.print());
+  };
+  for (std::size_t n = 0; n < house_rules().size(); ++n) expect(n, house_rules()[n], "rule");
+  for (std::size_t n = 0; n < house_scripts().size(); ++n)
+    expect(house_rules().size() + n, house_scripts()[n], "script");
 }
 
 TEST(RuleCommand, shows_rules_that_can_be_read_again) {
   const TestFolder place;
   std::string file = "<?xml version=\"1.0\"?>\n<!-- <scene> -->\n<rules>\n";
   for (const auto& rule : place.rend("rule list --json").json()) {
-    std::string text = rule["rule"];
+    std::string text = rule.contains("rule") ? rule["rule"] : rule["script"];
     file += text.insert(text.find("name=\"") + 6, "my-");
   }
   place.write("mine.xml", file + "</rules>\n");
-  EXPECT_EQ(place.rend("rule check mine.xml").out,
-            fmt::format("{} rules are well formed\n", house_rules().size()));
+  EXPECT_EQ(place.rend("rule check mine.xml").out, fmt::format("{} rules and {} scripts are well formed\n",
+                                                               house_rules().size(), house_scripts().size()));
   const auto read = place.rend("rule list mine.xml --json").json();
-  ASSERT_EQ(read.size(), 2 * house_rules().size());
+  ASSERT_EQ(read.size(), 2 * known());
   for (std::size_t n = 0; n < house_rules().size(); ++n) {
     std::string text = house_rules()[n].print();
     text.insert(text.find("name=\"") + 6, "my-");
     EXPECT_EQ(read[n]["rule"], text);
     EXPECT_EQ(read[n]["from"], "mine.xml");
+  }
+  for (std::size_t n = 0; n < house_scripts().size(); ++n) {
+    std::string text = house_scripts()[n].print();
+    text.insert(text.find("name=\"") + 6, "my-");
+    EXPECT_EQ(read[house_rules().size() + n]["script"], text);
   }
   EXPECT_THAT(place.rend("rule show my-star-face --in mine.xml").out,
               StartsWith("my-star-face: a triangle on"));
@@ -81,6 +93,50 @@ TEST(RuleCommand, tells_what_a_rule_does) {
   EXPECT_EQ(inner["sheets"], true);
   EXPECT_EQ(place.rend("rule show unsew-face --json").json()["sheets"], false); // it needs a neighbour by α3
   EXPECT_EQ(place.rend("rule show move --json").json()["arguments"]["v"], "point(0, 0, 0)");
+}
+
+TEST(RuleCommand, tells_what_a_script_does) {
+  const TestFolder place;
+  const auto script = place.rend("rule show divide-tetrahedra --json").json();
+  EXPECT_EQ(script["hooks"][0]["orbit"], "<0,1,2,3>");
+  EXPECT_EQ(script["applies"],
+            nlohmann::json({"insert-vertex", "cut-face-corner", "cut-volume-corner", "divide-bipyramid"}));
+  EXPECT_EQ(script["sheets"], false);
+  EXPECT_EQ(place.rend("rule show delete-face --json").json()["sheets"], true);
+  EXPECT_EQ(place.rend("rule show split-vertex-of-sheet --json").json()["asks_for"], "across");
+  EXPECT_THAT(place.rend("rule show extrude-hull").out, HasSubstr("applies    extrude-away, sew-faces"));
+  const Outcome drawn = place.rend("rule draw delete-face -o a.svg");
+  EXPECT_EQ(drawn.code, 64);
+  EXPECT_THAT(drawn.err, HasSubstr("script 'delete-face' has no graphs to draw"));
+}
+
+TEST(RuleCommand, checks_a_whole_file) {
+  const TestFolder place;
+  place.write("bad.xml", R"xml(<rules>
+  <rule name="r" left="a*(0,1)" right="a(0,1) b(0,1)"/>
+  <rule name="good" left="a*(0)" right="a(0)"/>
+  <rule name="s" left="a*(0,1)" right="a(0)"/>
+  <script name="t" hook="a*(0,1)"><for each="e*(0)" apply="gone"/></script>
+</rules>)xml");
+  const Outcome bad = place.rend("rule check bad.xml");
+  EXPECT_EQ(bad.code, 65);
+  for (const char* words :
+       {"bad.xml:2:40: rule 'r'", "bad.xml:4:40: rule 's'", "bad.xml:5:60: there is no rule 'gone'"})
+    EXPECT_THAT(bad.err, HasSubstr(words));
+  EXPECT_THAT(bad.err, testing::Not(HasSubstr("bad.xml:3")));
+  EXPECT_EQ(bad.out, "");
+}
+
+TEST(RuleCommand, reads_a_file_that_is_one_rule) {
+  const TestFolder place;
+  place.write("one.xml", "<?xml version=\"1.0\"?>\n<rule name=\"r\" left=\"a*(0)\" right=\"a(0)\"/>\n");
+  EXPECT_EQ(place.rend("rule check one.xml").out, "1 rule is well formed\n");
+  place.write("two.xml",
+              "<rule name=\"r\" left=\"a*(0)\" right=\"a(0)\"/>\n<rule name=\"s\" left=\"a*\" right=\"a\"/>\n");
+  const Outcome two = place.rend("rule check two.xml");
+  EXPECT_EQ(two.code, 65);
+  EXPECT_THAT(two.err, HasSubstr("two.xml:2"));
+  EXPECT_THAT(two.err, HasSubstr("<rules>"));
 }
 
 TEST(RuleCommand, refuses_by_the_table_of_exit_codes) {
@@ -107,7 +163,7 @@ TEST(RuleCommand, reads_the_rules_of_presets) {
   const std::string ball = std::string(REND_ROOT) + "/presets/rules/ball.xml";
   EXPECT_EQ(place.rend("rule check " + ball).out, "1 rule is well formed\n");
   const std::vector<std::string> lines = lines_of(place.rend("rule list " + ball).out);
-  ASSERT_EQ(lines.size(), house_rules().size() + 1);
+  ASSERT_EQ(lines.size(), known() + 1);
   EXPECT_THAT(lines[0], StartsWith("round"));
   place.write("s.xml", "<scene name=\"s\"><rules file=\"../mine.xml\"/></scene>");
   EXPECT_EQ(place.rend("rule check s.xml").code, 65);
@@ -143,7 +199,7 @@ TEST(RulePage, fits_on_a_page_and_names_all_functions) {
 TEST(RulePage, has_examples_that_work) {
   const TestFolder place;
   place.write("mine.xml", examples_of(place.rend("help rule").out));
-  ASSERT_EQ(place.rend("rule check mine.xml").out, "3 rules are well formed\n");
+  ASSERT_EQ(place.rend("rule check mine.xml").out, "3 rules and 1 script are well formed\n");
   const auto build = [&](const std::string& shape) {
     place.write("s.xml", scene(shape));
     const Outcome outcome = place.rend("run s.xml --export obj -o out --json");
@@ -168,6 +224,10 @@ TEST(RulePage, has_examples_that_work) {
   EXPECT_EQ(count(cut, "f "), 1);
   EXPECT_EQ(count(cut, "v 0.3 "), 2);
   EXPECT_EQ(count(cut, "v 0.7 "), 2);
+  // Of each of the four corners of two quads a triangle, and a quad in their middle.
+  const auto halved = build("<sheet cells=\"2 1\" size=\"2 1\"/><apply rule=\"cut-in-half\" to=\"all\"/>");
+  EXPECT_EQ(count(halved, "v "), 6 + 7);
+  EXPECT_EQ(count(halved, "f "), 2 * 5);
   const auto raised =
       build("<sheet cells=\"2 2\" size=\"1 1\"/><apply rule=\"raise\" side=\"+x\" h=\"0.25\"/>");
   const auto high = std::count_if(raised.begin(), raised.end(), [](const std::string& line) {

@@ -130,6 +130,33 @@ TEST(Construction, rules_of_the_preset_and_their_arguments_move_vertices) {
   });
 }
 
+// Scripts stand where rules may, and what they make is what as many rules make, one after another.
+TEST(Construction, scripts_construct) {
+  const std::string cube = R"xml(<bar pattern="hexahedra" cells="2 1 1" size="2 1 1"/>)xml";
+  const auto by_script = body_of(cube + R"xml(<apply rule="split-into-tetrahedra"/>)xml");
+  const auto by_rules =
+      body_of(cube + R"xml(<apply rule="star-face-both-sides"/><apply rule="star-volume"/>)xml");
+  EXPECT_EQ(count_cells(by_script.body().map->map()).volumes, 2u * 24);
+  expect_same_shape(*by_script.body().map, *by_rules.body().map);
+  const std::string own = R"xml(<script name="twice" hook="a*(0,1,2,3)"><where name="t" value="0.1"/>
+      <for each="e*(0,1,2,3)" apply="extrude-hull" t="t"/>
+      <for each="e*(0,1,2,3)" apply="extrude-hull" t="2*t"/></script>)xml";
+  const auto layers = body_of(cube + R"xml(<apply rule="twice" t="0.5"/>)xml", own);
+  EXPECT_EQ(count_cells(layers.body().map->map()).volumes, 2u + 10 + 10);
+  EXPECT_TRUE(says(refusal_of(cube + R"xml(<apply rule="divide-tetrahedra"/>)xml"),
+                   "script 'divide-tetrahedra' applies nowhere: step 4"));
+  EXPECT_TRUE(says(refusal_of(cube + R"xml(<apply rule="twice" s="1"/>)xml", own), "has no argument 's'"));
+  EXPECT_TRUE(says(refusal_of(cube + R"xml(<apply rule="split-vertex-of-solid"/>)xml"), "asks for across"));
+}
+
+TEST(Construction, scripts_pass_on_mass_and_rest) {
+  const auto divided = body_of(R"xml(<bar pattern="tetrahedra" cells="2 1 1" size="2 1 1"/>
+      <apply rule="divide-tetrahedra" times="2"/>)xml");
+  const EmbeddedMap& map = *divided.body().map;
+  EXPECT_NEAR(total_mass(map, *divided.body().mass), 1, 1e-13);
+  map.map().for_each_dart([&](Dart d) { EXPECT_EQ(map.position_of(d), map.rest_of(d)); });
+}
+
 TEST(Construction, refuses_what_is_no_body_in_a_sentence) {
   EXPECT_TRUE(says(refusal_of(R"xml(<create dimension="2"/>)xml"), "leave nothing of the body"));
   EXPECT_TRUE(
@@ -202,6 +229,9 @@ TEST(LawByRule, refuses_what_a_law_cannot_do) {
   EXPECT_TRUE(says(refused(R"xml(rule="quarter-faces")xml"), "whole component"));
   EXPECT_TRUE(says(refused(R"xml(rule="sew-edges")xml"), "2 hooks"));
   EXPECT_TRUE(says(refused(R"xml(rule="unsew-edge" change="separate")xml"), "both a change and a rule"));
+  EXPECT_TRUE(
+      says(refused(R"xml(rule="split-into-triangles")xml"), "script 'split-into-triangles' changes a whole"));
+  EXPECT_TRUE(says(refused(R"xml(rule="delete-volume")xml"), "changes a whole component"));
 }
 
 } // namespace

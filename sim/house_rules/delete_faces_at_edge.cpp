@@ -1,0 +1,13 @@
+// The change delete-edge of a sheet (sim/fracture/delete_edge.cpp).
+#include "sim/house_rules/house_scripts.h"
+
+namespace rend {
+
+ScriptSettings delete_faces_at_edge() {
+  return {.name = "delete-faces-at-edge",
+          .about = "the faces of a sheet that hold an edge are gone",
+          .hook = "a*(0,2)",
+          .steps = {{.each = "e*(0,1)", .apply = "delete-face"}}};
+}
+
+} // namespace rend

@@ -1,0 +1,13 @@
+// The change delete-edge of a solid (sim/fracture/delete_edge.cpp).
+#include "sim/house_rules/house_scripts.h"
+
+namespace rend {
+
+ScriptSettings delete_volumes_at_edge() {
+  return {.name = "delete-volumes-at-edge",
+          .about = "the volumes that hold an edge are gone",
+          .hook = "a*(0,2,3)",
+          .steps = {{.each = "e*(0,1,2)", .apply = "delete-volume"}}};
+}
+
+} // namespace rend
