@@ -213,7 +213,7 @@ void Body::advance(double time, double step) {
   if (next.large) fence_streams(); // for schemes that write their state on this thread
   if (!floor_contact) return;
   const PhaseScope contact_within(profile, Phase::Contact);
-  floor_contact->apply(next, step);
+  floor_contact->apply(now.position, next, step);
   constrain(time + step, next.position.data(), next.velocity.data()); // prescribed vertices ignore the floor
 }
 

@@ -24,7 +24,7 @@ void Contacts::advance(double time, double step) {
   obstacles_.advance(bodies_, time, step);
   for (auto& each : bodies_) {
     Body& body = *each->body;
-    if (body.floor_contact) body.floor_contact->apply(body.next, step);
+    if (body.floor_contact) body.floor_contact->apply(body.map->position().values().data(), body.next, step);
     body.constrain(time + step, body.next.position.data(), body.next.velocity.data());
   }
 }

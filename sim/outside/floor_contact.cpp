@@ -2,6 +2,8 @@
 
 #include "sim/outside/impact.h"
 
+#include <algorithm>
+
 namespace rend {
 
 template <> const Fields<ContactSettings>& fields_of() {
@@ -17,16 +19,21 @@ template <> const Fields<ContactSettings>& fields_of() {
       field(&S::thickness, number("thickness", "m", "kept from it").at_least(0)),
       field(
           &S::friction,
-          number("friction", "", "Coulomb's coefficient, where the obstacle has none of its own").at_least(0))};
+          number("friction", "", "Coulomb's coefficient, where the obstacle has none of its own").at_least(0)),
+      field(&S::overlap,
+            word("overlap", {"refuse", "push"},
+                 "what starts inside something: is refused; or is moved out of it as a whole before the first "
+                 "step, without gaining energy"))};
   return fields;
 }
 
-void FloorContact::apply(State& next, double step) const {
+void FloorContact::apply(const Record* from, State& next, double step) const {
   for (std::size_t i = 0; i < next.position.size(); ++i) {
     Record &x = next.position[i], &v = next.velocity[i];
     if (!(x.z < height)) continue;
     const Impulse change = impact(v, Vec3::UnitZ(), friction, Vec3::Ones());
-    x = Record(x.x + step * change.friction.x(), x.y + step * change.friction.y(), height);
+    const double least = height - way_out(height - from[i].z, step);
+    x = Record(x.x + step * change.friction.x(), x.y + step * change.friction.y(), std::max(x.z, least));
     v = Record(v.vec() + change.whole());
   }
 }

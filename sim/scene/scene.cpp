@@ -3,6 +3,7 @@
 #include "sim/base/archive.h"
 #include "sim/base/hash.h"
 #include "sim/base/wall_clock.h"
+#include "sim/contact/start_overlap.h"
 #include "sim/guard/guard.h"
 #include "sim/rows/frequency.h"
 #include "sim/topology/count.h"
@@ -31,6 +32,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   check_contact();
   contacts_ = Contacts::of(world_, bodies_);
   const RunSettings run{options.walk, options.threads, checked_tolerance()};
+  clear_start(world_, bodies_);
   for (auto& body : bodies_) body->prepare(scheme(), run);
   set_step();
   guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
