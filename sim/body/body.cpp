@@ -84,6 +84,7 @@ void Body::forces_in_ranges(double time, const Record* position, const Record* v
 }
 
 void Body::update_loads(double time, const Record* position, const Record* velocity) {
+  if (changing_gravity) gravity = Record(changing_gravity(time));
   const PhaseScope within(loads.empty() ? nullptr : profile, Phase::Loads);
   load = loads.evaluate(*map, time, position, velocity);
   if (load && faulty.armed(StepStage::Loads))

@@ -40,6 +40,7 @@ struct Body final : System {
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
   Loads loads;
+  std::function<Vec3(double time)> changing_gravity; // [m/s²] at time [s]; empty: `gravity` is constant
   std::vector<TearLaw> tear_laws;
   std::optional<ContactSettings> contact; // as given by the preset
   std::optional<FloorContact> floor_contact;

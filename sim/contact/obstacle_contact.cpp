@@ -149,7 +149,7 @@ void stop(Sphere& sphere, const Vec3& normal, double friction) {
 
 void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& bodies, double time,
                               double step) {
-  for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity);
+  for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity_at(time));
   exchange_momentum(bodies, step);
   for (const auto& body : bodies) {
     if (!body->settings().obstacles) continue;

@@ -72,7 +72,8 @@ private:
   void add_loads(Body& body, const Start& start, Account& sum) const;
   void add_drives(const Body& body, const Start& start, Account& sum) const;
   void add_pushes(const Body& body, const Start& start, Account& sum) const;
-  const Record* from(const Body& body, const Start& start) const; // [m], positions at the start
+  double of_gravity(double whole, double from, double until) const; // [J]
+  const Record* from(const Body& body, const Start& start) const;   // [m], positions at the start
   bool pushed(const Body& body) const;
 
   World& world_;

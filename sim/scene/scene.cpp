@@ -224,9 +224,10 @@ double Scene::elastic_energy() const {
   return sum;
 }
 double Scene::gravity_energy() const {
+  const Vec3 gravity = world_.gravity_at(time());
   double sum = 0;
-  for (const auto& body : bodies_) sum += rend::gravity_energy(*body->map, *body->mass, world_.gravity);
-  for (const Sphere& s : world_.spheres) sum -= s.mass * world_.gravity.dot(s.centre);
+  for (const auto& body : bodies_) sum += rend::gravity_energy(*body->map, *body->mass, gravity);
+  for (const Sphere& s : world_.spheres) sum -= s.mass * gravity.dot(s.centre);
   return sum;
 }
 double Scene::mass() const {

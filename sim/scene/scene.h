@@ -72,7 +72,7 @@ public:
   // Of bodies, and of falling spheres.
   double kinetic_energy() const;
   double elastic_energy() const;
-  double gravity_energy() const;
+  double gravity_energy() const; // in the gravity of the current time
   double mass() const;
   Vec3 momentum() const;
   Vec3 angular_momentum() const;
