@@ -62,9 +62,10 @@ struct StateFigures {
   double time = 0;                 // [s]
   std::size_t vertices = 0, elements = 0, darts = 0, fragments = 0, tears = 0;
   std::vector<LawFigures> laws;
-  double kinetic = 0, elastic = 0, gravity = 0; // [J]
-  double mass = 0;                              // [kg]
-  Vec3 momentum, angular_momentum;              // [kg m/s], [kg m²/s]
+  double kinetic = 0, elastic = 0, gravity = 0;           // [J]
+  double mass = 0;                                        // [kg]
+  std::vector<std::pair<std::string, double>> added_mass; // [kg], of each body that mass scaling made heavier
+  Vec3 momentum, angular_momentum;                        // [kg m/s], [kg m²/s]
   std::vector<ProbeFigures> probes;
   std::vector<AnswerFigures> answers;
   std::vector<SphereFigures> spheres; // those that move, in the order of the preset

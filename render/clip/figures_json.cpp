@@ -90,6 +90,7 @@ Json json_of(const StateFigures& s) {
              {"angular_momentum", json_of(s.angular_momentum)},
              {"probes", std::move(probes)},
              {"answers", list_of(s.answers)}};
+  for (const auto& [name, added] : s.added_mass) state["added_mass"][name] = added;
   if (!s.spheres.empty()) state["spheres"] = list_of(s.spheres);
   state["guard"] = json_of(s.guard);
   state["rows"] = std::move(rows);

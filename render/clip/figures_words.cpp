@@ -96,6 +96,9 @@ std::string summary_of(const Figures& f) {
   out += laws_in_words(s.laws);
   out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n", s.kinetic,
                      s.elastic, s.gravity);
+  for (const auto& [name, added] : s.added_mass)
+    out += fmt::format("  mass       {} is heavier by {:.4g} kg for larger steps, in {:.6g} kg of all bodies\n",
+                       printable(name), added, s.mass);
   out += guard_in_words(s.guard);
   out += fmt::format("  forces     evaluated {} times\n", s.evaluations);
   out += rows_in_words(s.rows);

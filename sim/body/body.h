@@ -41,6 +41,7 @@ struct Body final : System {
   Constraints constraints;
   Loads loads;
   std::function<Vec3(double time)> changing_gravity; // [m/s²] at time [s]; empty: `gravity` is constant
+  double added_mass = 0;                             // [kg], by mass scaling (scene/mass_scaling.h)
   std::vector<TearLaw> tear_laws;
   std::optional<ContactSettings> contact; // as given by the preset
   std::optional<FloorContact> floor_contact;

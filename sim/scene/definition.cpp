@@ -20,7 +20,14 @@ template <> const Fields<TimeSettings>& fields_of() {
                 .at_least(1e-14)
                 .at_most(0.1)),
       field(&S::duration,
-            number("duration", "s", "of the clip; only static does without, and then it is 1").at_least(0))};
+            number("duration", "s", "of the clip; only static does without, and then it is 1").at_least(0)),
+      field(&S::mass_scaling,
+            number(
+                "mass-scaling", "",
+                "makes the elements that limit the step heavier, as long as no body gains more than this share "
+                "of its mass: larger steps, and other inertia and weight where the mesh is finest")
+                .above(0)
+                .at_most(1))};
   return fields;
 }
 

@@ -6,6 +6,8 @@
 #include "sim/contact/start_overlap.h"
 #include "sim/guard/guard.h"
 #include "sim/rows/frequency.h"
+#include "sim/scene/element_steps.h"
+#include "sim/scene/mass_scaling.h"
 #include "sim/topology/count.h"
 
 #include <fmt/format.h>
@@ -33,6 +35,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   contacts_ = Contacts::of(world_, bodies_);
   const RunSettings run{options.walk, options.threads, checked_tolerance()};
   clear_start(world_, bodies_);
+  scale_masses();
   for (auto& body : bodies_) body->prepare(scheme(), run);
   set_step();
   guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
@@ -59,6 +62,18 @@ void Scene::check_contact() {
         "contact: what rests on the floor under 'implicit' is pressed too much, the more the "
         "stiffer it is and the larger the step; symplectic does not have this");
   }
+}
+
+void Scene::scale_masses() {
+  if (!time_.mass_scaling) return;
+  if (scheme().solves)
+    time_.source.fail(
+        "mass-scaling",
+        fmt::format("nothing limits the step of '{}', and no element need be heavier", scheme().name),
+        "leave it out");
+  const Scheme& limiting = scheme().adaptive ? *find_scheme("symplectic") : scheme();
+  if (!rend::scale_masses(bodies_, limiting, *time_.mass_scaling, time_.step))
+    notes_.emplace_back("mass scaling: no element is heavier, since the step would hardly be larger");
 }
 
 double Scene::checked_tolerance() const {
@@ -102,9 +117,15 @@ double Scene::stability_limit(const Scheme& scheme) const {
   return limit;
 }
 
-double Scene::stable_step() const {
+double Scene::stable_step() {
   if (scheme().name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
-  const double limit = stability_limit(scheme().adaptive ? *find_scheme("symplectic") : scheme());
+  const Scheme& limiting = scheme().adaptive ? *find_scheme("symplectic") : scheme();
+  std::vector<ElementSteps> steps;
+  double limit = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies_) {
+    steps.emplace_back(*body).add_damping(body->loads.damping_rate(*body->map, body->program->inverse_mass()));
+    limit = std::min(limit, steps.back().least(limiting));
+  }
   if (limit <= 0)
     time_.source.fail("step",
                       fmt::format("no step is stable with the integrator '{}' here, where no viscosity of the "
@@ -119,6 +140,7 @@ double Scene::stable_step() const {
                           scheme().name)
             : "nothing in the scene limits the step",
         scheme().solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
+  if (const std::string what = what_limits(steps, limiting, limit); !what.empty()) notes_.push_back(what);
   return 0.9 * limit;
 }
 

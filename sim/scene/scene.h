@@ -93,7 +93,8 @@ private:
   void forget_answers();   // those later than the current time
   void check_read() const; // throws ArchiveError
   void check_contact();
-  double stable_step() const;
+  void scale_masses();
+  double stable_step();
   double checked_tolerance() const;
   double stability_limit() const; // [s]
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
