@@ -9,6 +9,7 @@
 #include "sim/base/wording.h"
 #include "sim/mesh/moka.h"
 #include "sim/mesh/msh_writer.h"
+#include "sim/mesh/repair.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace {
 
 struct MeshOptions {
   std::string in, out;
-  bool json = false;
+  bool json = false, repair = false;
 };
 
 Exit info(const MeshOptions& options) {
@@ -41,7 +42,9 @@ Exit convert(const MeshOptions& options) {
   NamedFiles files;
   files.reads("the mesh", options.in);
   files.writes("the new one", file);
-  const MeshBody body = sew(read_mesh(std::filesystem::path(options.in)));
+  MeshFile read = read_mesh(std::filesystem::path(options.in));
+  if (options.repair) print_note(in_words(repair(read)));
+  const MeshBody body = sew(std::move(read));
   for (const std::string& note : body.notes) print_note(note);
   if (moka && !body.groups.empty()) print_note("groups are left out: .moka has none");
   const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
@@ -62,6 +65,9 @@ std::function<Exit()> declare(CLI::App& app) {
   CLI::App* change = app.add_subcommand("convert", "write a mesh as .moka, or as .msh 2.2");
   change->add_option("in", options->in, "a mesh")->required()->type_name("IN");
   change->add_option("out", options->out, "the new file")->required()->type_name("OUT");
+  change->add_flag(
+      "--repair", options->repair,
+      "of a sheet: merge corners at the same point, drop polygons without area and copies of others");
   change->callback([chosen] { *chosen = convert; });
   return [options, chosen] { return (*chosen)(*options); };
 }
