@@ -162,6 +162,7 @@ StateFigures state_of(const Session& session) {
     state.vertices += body->map->cells(Vertex).count();
     state.elements += elements_of(*body);
     state.darts += body->map->map().dart_count();
+    if (body->added_mass > 0) state.added_mass.emplace_back(body->name, body->added_mass);
   }
   state.fragments = scene.fragments();
   state.tears = scene.tears();

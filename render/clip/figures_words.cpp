@@ -121,6 +121,9 @@ std::string summary_of(const Figures& f) {
                      s.energy.now.kinetic, s.energy.now.elastic, s.energy.now.gravity);
   out += fmt::format("             {:.6g} J of work done on it, {:.6g} J dissipated, {:.3g} J unexplained\n",
                      s.energy.now.work.sum(), s.energy.dissipated, s.energy.balance);
+  for (const auto& [name, added] : s.added_mass)
+    out += fmt::format("  mass       {} is heavier by {:.4g} kg for larger steps, in {:.6g} kg of all bodies\n",
+                       printable(name), added, s.mass);
   out += guard_in_words(s.guard);
   out += fmt::format("  forces     evaluated {} times\n", s.evaluations);
   out += rows_in_words(s.rows);

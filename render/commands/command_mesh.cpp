@@ -9,6 +9,7 @@
 #include "sim/base/wording.h"
 #include "sim/mesh/moka.h"
 #include "sim/mesh/msh_writer.h"
+#include "sim/mesh/repair.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace {
 
 struct MeshOptions {
   std::string in, out;
-  bool json = false;
+  bool json = false, repair = false;
 };
 
 Exit info(const MeshOptions& options) {
@@ -42,7 +43,9 @@ Exit convert(const MeshOptions& options) {
   NamedFiles files;
   files.reads("the mesh", options.in);
   files.writes("the new one", file);
-  const MeshBody body = sew(read_mesh(std::filesystem::path(options.in)));
+  MeshFile read = read_mesh(std::filesystem::path(options.in));
+  if (options.repair) print_note(in_words(repair(read)));
+  const MeshBody body = sew(std::move(read));
   for (const std::string& note : body.notes) print_note(note);
   if (moka && !body.groups.empty()) print_note("the groups of the mesh were left out: .moka cannot hold them");
   const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
@@ -65,6 +68,9 @@ std::function<Exit()> declare(CLI::App& app) {
   change->add_option("out", options->out, "the file to write; its ending tells the format")
       ->required()
       ->type_name("OUT");
+  change->add_flag(
+      "--repair", options->repair,
+      "of a sheet: merge corners at the same point, drop polygons without area and copies of others");
   change->callback([chosen] { *chosen = convert; });
   return [options, chosen] { return (*chosen)(*options); };
 }

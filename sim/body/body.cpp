@@ -56,7 +56,7 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
 // An equilibrium has no account of work.
 void Body::make_work_meter(const Scheme& scheme) {
   const bool touched = floor_contact || (contact && contact->faces());
-  if (integrator->has_inertia() && (constraints.drives() || !loads.empty() || touched || tears()))
+  if (integrator->has_inertia() && (constraints.drives() || !loads.empty() || touched || tears() || changing_gravity))
     work_meter = std::make_unique<WorkMeter>(scheme.shadow);
 }
 
@@ -99,6 +99,7 @@ void Body::forces_in_ranges(double time, const Record* position, const Record* v
 }
 
 void Body::update_loads(double time, const Record* position, const Record* velocity) {
+  if (changing_gravity) gravity = Record(changing_gravity(time));
   const PhaseScope within(loads.empty() ? nullptr : profile, Phase::Loads);
   load = loads.evaluate(*map, time, position, velocity);
   if (load && faulty.armed(StepStage::Loads))
@@ -280,7 +281,7 @@ void Body::move(double time, double step) {
 void Body::touch_floor(double time, double step) {
   const PhaseScope within(profile, Phase::Contact);
   touched_.clear();
-  floor_contact->apply(next, step, touched_);
+  floor_contact->apply(map->position().values().data(), next, step, touched_);
   constrain(time, next.position.data(), next.velocity.data());
   if (work_meter && !touched_.empty()) work_meter->after_contact(metered(), step, next, touched_);
 }
@@ -351,7 +352,19 @@ void Body::check_read(long done, double step) const {
   }
 }
 
+// Where gravity grows, what is in it changes without motion.
+void Body::measure_gravity() {
+  const Vec3 change = changing_gravity(next_time_) - changing_gravity(time_);
+  if (change.isZero(0)) return;
+  double sum = 0;
+  for (std::size_t i = 0; i < vertices(); ++i)
+    if (inverse_mass[i] > 0)
+      sum -= change.dot(map->position().values()[i].vec() + next.position[i].vec()) / (2 * inverse_mass[i]);
+  work_meter->change(sum);
+}
+
 void Body::commit() {
+  if (changing_gravity && work_meter) measure_gravity();
   map->position().values().swap(next.position);
   map->velocity().values().swap(next.velocity);
   time_ = next_time_;

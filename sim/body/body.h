@@ -47,6 +47,8 @@ struct Body final : System {
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
   Loads loads;
+  std::function<Vec3(double time)> changing_gravity; // [m/s²] at time [s]; empty: `gravity` is constant
+  double added_mass = 0;                             // [kg], by mass scaling (scene/mass_scaling.h)
   std::vector<TearLaw> tear_laws;
   long look_every = 1; // steps between looks at the largest values that the laws have reached
   std::optional<ContactSettings> contact; // as given by the preset
@@ -133,6 +135,7 @@ private:
   void make_work_meter(const Scheme& scheme);
   void move(double time, double step);
   void touch_floor(double time, double step);
+  void measure_gravity();
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   int make_changes(std::size_t number, const ForceView& now, double time, long step);
   void follow_changes();

@@ -12,7 +12,8 @@
 // pressed against an obstacle takes no work. Sums are of the order of the scheme's, two at most. An adaptive
 // scheme is measured over the whole step.
 //
-//   changes  Δ of the potential in gravity            of matter that a change of the map takes away or adds
+//   changes  Δ of the potential in gravity, of matter that a change of the map takes away or adds, and where
+//            gravity grows
 //
 // F' is known once the forces of the next step are: until then it is pending. A body on which nothing does work
 // has no meter.
@@ -60,7 +61,7 @@ public:
                      const std::vector<TouchedVertex>& before);
 
   void rebind() { listed_ = false; }                         // after a change of the map ...
-  void change(double energy) { settled_.changes += energy; } // [J] ... by which gravity has so much more
+  void change(double energy) { settled_.changes += energy; } // [J] ... or of gravity: it has so much more
 
   // Since the start. Of `body`, forces and loads are those of the current state; without it, those of the state
   // before stand in for what is pending.

@@ -19,6 +19,10 @@ std::unique_ptr<Body> build_body(const BodySettings& settings, const World& worl
   auto body = std::make_unique<Body>();
   body->name = settings.name;
   body->gravity = Record(world.gravity);
+  if (world.over > 0)
+    body->changing_gravity = [whole = world.gravity, over = world.over](double time) {
+      return Vec3(ramp(time, over) * whole);
+    };
   build_shape(*body, settings);
   build_matter(*body, settings);
   build_motion(*body, settings);

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace rend {
 
 namespace {
@@ -22,19 +19,6 @@ void say_what_it_passes(Body& body, const World& world, const std::optional<Cont
                                          : "spheres and boxes",
       !contact ? fmt::format("add <contact with=\"{}\"/>", through_obstacles ? "obstacles" : "floor")
                : fmt::format("add `{}` to its <contact with>", through_obstacles ? "obstacles" : "floor")));
-}
-
-// Vertices that start below the floor are put onto it in the first step, which strains the body.
-void say_what_starts_below(Body& body, double height) {
-  double lowest = height;
-  for (Slot v = 0; v < body.map->cells(Vertex).slots(); ++v)
-    if (body.map->cells(Vertex).alive(v)) lowest = std::min(lowest, body.map->rest()[v].z);
-  const double depth = height - lowest;
-  if (depth <= 1e-6 * std::abs(height) + 1e-9) return;
-  body.notes.push_back(
-      fmt::format("contact: the body starts {:.3g} m too low for the floor and the thickness of its <contact>: "
-                  "the first step lifts it, which strains it; move it up by <place translate>",
-                  depth));
 }
 
 void check_world(const ContactSettings& contact, const World& world) {
@@ -64,7 +48,6 @@ void build_contact(Body& body, const BodySettings& settings, const World& world)
   if (contact.floor && world.floor)
     body.floor_contact =
         FloorContact{world.floor->z + contact.thickness, world.floor->friction.value_or(contact.friction)};
-  if (body.floor_contact) say_what_starts_below(body, body.floor_contact->height);
   body.contact = contact;
 }
 

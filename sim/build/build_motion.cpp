@@ -1,5 +1,8 @@
 #include "sim/build/build_motion.h"
 
+#include "sim/base/math.h"
+#include "sim/mechanics/mass.h"
+
 #include <fmt/format.h>
 
 namespace rend {
@@ -53,11 +56,34 @@ void build_loads(Body& body, const std::vector<LoadSettings>& loads) {
   if (body.loads.empty()) body.left_out.emplace_back("external forces: no load");
 }
 
+void start_moving(Body& body, const Placement& place) {
+  if (place.velocity.isZero(0) && place.spin.isZero(0)) return;
+  EmbeddedMap& map = *body.map;
+  const CellIndex& cells = map.cells(Vertex);
+  const auto mass_of = [&](Slot v) {
+    return sum_at_vertex(map, body.mass->orbit(), body.mass->values(), cells.first_dart(v));
+  };
+  Vec3 centre = Vec3::Zero();
+  double whole = 0;
+  for (Slot v = 0; v < cells.slots(); ++v) {
+    if (!cells.alive(v)) continue;
+    const double m = mass_of(v);
+    centre += m * map.position()[v].vec();
+    whole += m;
+  }
+  centre /= whole;
+  const Vec3 spin = place.spin * (pi / 180);
+  for (Slot v = 0; v < cells.slots(); ++v)
+    if (cells.alive(v))
+      map.velocity().values()[v] = Record(place.velocity + spin.cross(map.position()[v].vec() - centre));
+}
+
 } // namespace
 
 void build_motion(Body& body, const BodySettings& settings) {
   build_constraints(body, settings.motions);
   build_loads(body, settings.loads);
+  start_moving(body, settings.place);
 }
 
 } // namespace rend

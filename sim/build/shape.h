@@ -15,11 +15,18 @@
 
 namespace rend {
 
-// Where a body is at rest: scaled, then rotated about x, y, z, then moved.
+// Where a body is at rest: scaled, then rotated about x, y, z, then moved. And how it starts: as a rigid body
+// that moves and turns about its centre of mass c,
+//
+//   v = velocity + ω × (x − c)
+//
+// What <fix> and <drive> prescribe at time 0 starts as they say.
 struct Placement {
   double scale = 1;
   Vec3 rotate = Vec3::Zero();    // [degrees]
   Vec3 translate = Vec3::Zero(); // [m]
+  Vec3 velocity = Vec3::Zero();  // [m/s], at time 0
+  Vec3 spin = Vec3::Zero();      // ω, at time 0: along the axis, as long as its rate [degrees/s]
   SettingsSource source = {};
 
   void apply(std::vector<Vec3>& points) const; // [m]

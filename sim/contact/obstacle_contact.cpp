@@ -7,11 +7,9 @@ namespace rend {
 namespace {
 
 constexpr int obstacle_sweeps = 8;
-constexpr int passes = 2;                    // over faces: moving one out may move its neighbour in
-constexpr double touching = 1e-9;            // [m]
-constexpr double obstacle_relaxation = 0.05; // [s], for what was inside at the start of the step
-constexpr double fastest = 0.1;              // [m/s], for the same
-constexpr double own_friction = 0.5;         // between obstacles without a friction of their own
+constexpr int passes = 2;            // over faces: moving one out may move its neighbour in
+constexpr double touching = 1e-9;    // [m]
+constexpr double own_friction = 0.5; // between obstacles without a friction of their own
 
 using Bounds = Eigen::AlignedBox3d;
 
@@ -96,11 +94,6 @@ void for_each_face(const Shape& shape, const ContactBody& body, const std::vecto
   }
 }
 
-// The allowed penetration [m] at the end of a step of a point that was `before` deep at its start.
-double allowed_depth(double before, double step) {
-  return before > 0 ? before - std::min(before * std::min(1.0, step / obstacle_relaxation), fastest * step) : 0;
-}
-
 // On positions only, leaving the penetration `kept` [m].
 void move_out(const ContactPoint& point, const Plane& plane, double kept) {
   const double gap = plane.normal.dot(point.position()) - plane.offset + kept;
@@ -125,7 +118,7 @@ void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outs
                    double step, Momentum momentum) {
   const Vec3 velocity = shape.velocity();
   const auto act = [&](const ContactPoint& point, const Plane& plane, double before) {
-    const double kept = allowed_depth(before, step);
+    const double kept = way_out(before, step);
     if (momentum == Momentum::Taken) return keep_out(point, plane, velocity, friction, kept, step);
     if (!point.held(plane.normal)) move_out(point, plane, kept);
   };
@@ -156,7 +149,7 @@ void stop(Sphere& sphere, const Vec3& normal, double friction) {
 
 void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& bodies, double time,
                               double step) {
-  for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity);
+  for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity_at(time));
   exchange_momentum(bodies, step);
   for (const auto& body : bodies) {
     if (!body->settings().obstacles) continue;

@@ -14,8 +14,8 @@
 // points, and the remaining penetration is removed from positions only.
 //
 // A point that was inside at the start of the step, because a body starts around an obstacle or was released
-// inside one, is moved out over `relaxation` and no faster than `fastest`: at once, the elastic forces of so
-// large a deformation would throw it out. Only penetration that is new in the step is removed within it.
+// inside one, is moved out gradually (way_out() in impact.h). Only penetration that is new in the step is
+// removed within it.
 //
 // Limits: several contacts of a heavy sphere are solved only as far as the iterations reach; obstacles respond
 // to nothing else; a sphere much smaller than the faces should move less than its diameter in a step.

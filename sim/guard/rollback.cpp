@@ -76,7 +76,8 @@ Rollback::Account Rollback::account() const {
     const Sphere& sphere = world_.spheres[s];
     if (!sphere.falls()) continue;
     sum.kinetic += 0.5 * sphere.mass * sphere.velocity.squaredNorm();
-    sum.work += sphere.mass * world_.gravity.dot(sphere.centre - spheres_[s].centre);
+    sum.work += of_gravity(sphere.mass * world_.gravity.dot(sphere.centre - spheres_[s].centre),
+                           starts_.front().time, bodies_.front()->time());
     sum.headroom += 2 * sphere.mass * (step_ * world_.gravity).squaredNorm();
   }
   sum.work += measured_work();
@@ -115,6 +116,11 @@ double Rollback::elastic_energy() const {
   return sum;
 }
 
+// The most that gravity can have done: all of it at the share at the start, or at the end.
+double Rollback::of_gravity(double whole, double from, double until) const {
+  return std::max(whole * world_.gravity_share(from), whole * world_.gravity_share(until));
+}
+
 const Record* Rollback::from(const Body& body, const Start& start) const {
   return aside_ ? start.state.position.data() : body.map->position().values().data();
 }
@@ -138,7 +144,7 @@ void Rollback::add(const Body& body, const Start& start, Account& sum) const {
   }
   sum.kinetic += 0.5 * sum3(motion);
   sum.squared_speeds += sum3(speeds);
-  sum.work += sum3(fall);
+  sum.work += of_gravity(sum3(fall), start.time, body.time());
   sum.heaviest = heaviest;
   sum.mass += mass;
   sum.headroom += 2 * mass * (step_ * world_.gravity).squaredNorm();

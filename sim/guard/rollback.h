@@ -66,6 +66,7 @@ private:
   void add(const Body& body, const Start& start, Account& sum) const;
   void add_loads(const Body& body, Account& sum) const;
   double measured_work() const;                                   // [J], since the start, of all but gravity
+  double of_gravity(double whole, double from, double until) const; // [J]
   const Record* from(const Body& body, const Start& start) const; // [m], positions at the start
 
   World& world_;

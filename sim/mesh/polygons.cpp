@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 namespace rend {
 
@@ -12,6 +13,22 @@ void PolygonMesh::add(std::initializer_list<std::uint32_t> polygon) {
   if (first.empty()) first.push_back(0);
   corners.insert(corners.end(), polygon.begin(), polygon.end());
   first.push_back(static_cast<std::uint32_t>(corners.size()));
+}
+
+PolygonExtent extent_of(const PolygonMesh& mesh, std::size_t p) {
+  const std::span<const std::uint32_t> corners(mesh.corners.data() + mesh.first[p],
+                                               mesh.first[p + 1] - mesh.first[p]);
+  Vec3 centre = Vec3::Zero();
+  for (const std::uint32_t c : corners) centre += mesh.points[c];
+  centre /= static_cast<double>(corners.size());
+  PolygonExtent extent;
+  for (std::size_t n = 0; n < corners.size(); ++n) {
+    const Vec3 a = mesh.points[corners[n]] - centre,
+               b = mesh.points[corners[(n + 1) % corners.size()]] - centre;
+    extent.area += 0.5 * a.cross(b).norm();
+    extent.square = std::max(extent.square, a.squaredNorm());
+  }
+  return extent;
 }
 
 namespace {

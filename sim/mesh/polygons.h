@@ -24,6 +24,14 @@ struct PolygonMesh {
   void add(std::initializer_list<std::uint32_t> polygon);
 };
 
+// The area [m²] of the triangles from the middle of its corners, and the square of the largest distance of a
+// corner from there [m²].
+struct PolygonExtent {
+  double area = 0, square = 0;
+  bool has_area() const { return area > 1e-12 * square; } // below it is round-off
+};
+PolygonExtent extent_of(const PolygonMesh& mesh, std::size_t polygon);
+
 struct SewnSheet {
   std::unique_ptr<EmbeddedMap> map; // of dimension 2
   std::vector<std::uint32_t> point; // the index of the point that each vertex slot came from

@@ -53,22 +53,11 @@ namespace {
   file.source.fail(origin.offset, fmt::format("{} {} {}", kind, origin.tag, flaw));
 }
 
-// Refuses areas below 1e-12 of the polygon's length squared, which are round-off.
+// Refuses areas that are round-off.
 void check_areas(const MeshFile& file, const PolygonMesh& mesh) {
   for (std::size_t p = 0; p < mesh.polygons(); ++p) {
-    const std::span<const std::uint32_t> corners(mesh.corners.data() + mesh.first[p],
-                                                 mesh.first[p + 1] - mesh.first[p]);
-    Vec3 centre = Vec3::Zero();
-    for (const std::uint32_t c : corners) centre += mesh.points[c];
-    centre /= static_cast<double>(corners.size());
-    double area = 0, square = 0;
-    for (std::size_t n = 0; n < corners.size(); ++n) {
-      const Vec3 a = mesh.points[corners[n]] - centre,
-                 b = mesh.points[corners[(n + 1) % corners.size()]] - centre;
-      area += 0.5 * a.cross(b).norm();
-      square = std::max(square, a.squaredNorm());
-    }
-    if (!(area > 1e-12 * square)) refuse(file, "polygon", p, flaw_of_area(area, std::sqrt(square)));
+    const PolygonExtent extent = extent_of(mesh, p);
+    if (!extent.has_area()) refuse(file, "polygon", p, flaw_of_area(extent.area, std::sqrt(extent.square)));
   }
 }
 

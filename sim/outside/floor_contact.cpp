@@ -2,6 +2,8 @@
 
 #include "sim/outside/impact.h"
 
+#include <algorithm>
+
 namespace rend {
 
 template <> const Fields<ContactSettings>& fields_of() {
@@ -19,17 +21,23 @@ template <> const Fields<ContactSettings>& fields_of() {
             number("thickness", "m", "the distance that is kept from what it touches").at_least(0)),
       field(&S::friction,
             number("friction", "", "Coulomb's coefficient of friction, where the obstacle has none of its own")
-                .at_least(0))};
+                .at_least(0)),
+      field(&S::overlap,
+            word("overlap", {"refuse", "push"},
+                 "what starts inside something: is refused; or is moved out of it as a whole before the first "
+                 "step, without gaining energy"))};
   return fields;
 }
 
-void FloorContact::apply(State& next, double step, std::vector<TouchedVertex>& touched) const {
+void FloorContact::apply(const Record* from, State& next, double step,
+                         std::vector<TouchedVertex>& touched) const {
   for (std::size_t i = 0; i < next.position.size(); ++i) {
     Record &x = next.position[i], &v = next.velocity[i];
     if (!(x.z < height)) continue;
     touched.push_back({static_cast<Slot>(i), x, v});
     const Impulse change = impact(v, Vec3::UnitZ(), friction, Vec3::Ones());
-    x = Record(x.x + step * change.friction.x(), x.y + step * change.friction.y(), height);
+    const double least = height - way_out(height - from[i].z, step);
+    x = Record(x.x + step * change.friction.x(), x.y + step * change.friction.y(), std::max(x.z, least));
     v = Record(v.vec() + change.whole());
   }
 }

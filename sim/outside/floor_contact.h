@@ -4,6 +4,9 @@
 //
 //   v_n' = max(v_n, 0),   v_t' = v_t max(0, 1 − μ (v_n' − v_n)/|v_t|),   x_t' = x_t + step (v_t' − v_t)
 //
+// A vertex that was lower at the start of the step, because it starts on the floor itself or was released
+// below, is lifted gradually (way_out() in impact.h), without velocity.
+//
 // The last keeps sticking vertices in place. Each impulse dissipates energy. A vertex at rest on the floor gets
 // the impulse g × step in each step, so that friction is μ times the weight, up to one step's motion.
 #pragma once
@@ -21,8 +24,10 @@ struct ContactSettings {
   bool self = false;        // faces of the same fragment as well; and `fragments`
   double thickness = 0.002; // [m], kept from all of them
   double friction = 0.5;    // coefficient, where the obstacle has none of its own
+  enum class Overlap { Refuse, Push } overlap = Overlap::Refuse; // what starts inside something
   SettingsSource source = {};
 
+  bool push() const { return overlap == Overlap::Push; }
   bool faces() const { return obstacles || fragments || self; } // more than the floor
 };
 template <> const Fields<ContactSettings>& fields_of();
@@ -37,8 +42,9 @@ struct FloorContact {
   double height = 0;   // [m], the floor's plus the body's thickness
   double friction = 0; // coefficient
 
-  // step [s]; vertices that it changes are added to `touched`, as they were before
-  void apply(State& next, double step, std::vector<TouchedVertex>& touched) const;
+  // `from` [m]: at the start of the step, one per vertex slot; step [s]. Vertices that it changes are added to
+  // `touched`, as they were before.
+  void apply(const Record* from, State& next, double step, std::vector<TouchedVertex>& touched) const;
 };
 
 } // namespace rend

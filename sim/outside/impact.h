@@ -28,4 +28,9 @@ inline double inverse_mass_along(const Vec3& normal, const Vec3& inverse_masses)
   return normal.dot(inverse_masses.cwiseProduct(normal));
 }
 
+// The depth [m] that a point may still have at the end of a step that was `before` deep at its start, because a
+// body starts around an obstacle or was released inside one: it is moved out over 0.05 s, and no faster than
+// 0.1 m/s. At once, the elastic forces of so large a deformation would throw it out. 0: it was outside.
+double way_out(double before, double step);
+
 } // namespace rend

@@ -38,7 +38,9 @@ template <> const Fields<LoadSettings>& fields_of() {
           field(&S::until,
                 number("until", "s",
                        "the load grows evenly from `from` until this time; without it, it acts in full at once")
-                    .at_least(0))};
+                    .at_least(0)),
+      field(&S::over,
+                number("over", "s", "instead of until: grows linearly from `from`, over so long").at_least(0))};
   return fields;
 }
 
@@ -51,12 +53,15 @@ void check_load(const LoadSettings& load) {
                      given == 0 ? "force=\"0 0 -1\"" : "write a <load> for each");
   if (load.pressure && load.source.given("follows"))
     load.source.fail("follows", "a pressure always acts along the normals of the body's faces", "leave it out");
+  if (load.over && !std::isinf(load.until))
+    load.source.fail("over", "<load> has both until and over: either says when it is whole", "leave one out");
   if (load.until < load.from && !std::isinf(load.until))
     load.source.fail("until", "the load has grown before it starts: until is less than from");
 }
 
 double LoadSettings::share(double time) const {
   if (time < from) return 0;
+  if (over) return ramp(time - from, *over);
   return until > from ? std::min(1.0, (time - from) / (until - from)) : 1;
 }
 

@@ -20,6 +20,12 @@
 
 namespace rend {
 
+// A linear ramp: what share of the whole acts at `time` [s], if it grows from 0 over so many seconds; 1 from
+// the start, if over no time.
+inline double ramp(double time, double over) {
+  return time >= over ? 1 : time > 0 ? time / over : 0;
+}
+
 // Exactly one of force, moment, pressure.
 struct LoadSettings {
   enum class Kind { Force, Moment, Pressure };
@@ -30,6 +36,7 @@ struct LoadSettings {
   enum class Follows { World, Body } follows = Follows::World;
   double from = 0;                                         // [s]
   double until = -std::numeric_limits<double>::infinity(); // [s]; grows from `from` to `until`, if later
+  std::optional<double> over = {};                         // [s]; the same by its length: until = from + over
   SettingsSource source = {};
 
   Kind kind() const { return pressure ? Kind::Pressure : moment ? Kind::Moment : Kind::Force; }

@@ -62,11 +62,12 @@ void Sphere::store(Archive& archive) {
 }
 
 // Its motion without contact is symplectic Euler's, whose shadow term is counted (WorkMeter).
-void Sphere::commit(double step, const Vec3& gravity) {
+void Sphere::commit(double step, const Vec3& gravity, const Vec3& later) {
   if (falls()) {
     const Vec3 change = next_velocity - velocity;
     const Vec3 mean = 0.5 * (velocity + next_velocity + step * gravity);
     contact_work += mass * (mean.dot(change) - gravity.dot(next_centre - centre));
+    contact_work -= 0.5 * mass * (later - gravity).dot(centre + next_centre);
   }
   centre = next_centre;
   velocity = next_velocity;

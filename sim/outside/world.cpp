@@ -11,7 +11,12 @@ template <> const Fields<Floor>& fields_of() {
 
 template <> const Fields<World>& fields_of() {
   using S = World;
-  static const Fields<S> fields{field(&S::gravity, numbers("gravity", 3, "m/s2", "its acceleration"))};
+  static const Fields<S> fields{
+      field(&S::gravity, numbers("gravity", 3, "m/s2", "its acceleration")),
+      field(&S::over, number("over", "s",
+                             "gravity grows linearly from 0 at the start to its whole "
+                             "over so long")
+                          .at_least(0))};
   return fields;
 }
 

@@ -57,11 +57,13 @@ void for_each_bounded_unit(const EmbeddedMap& map,
 
 } // namespace
 
-FrequencyBounds frequency_bounds(const EmbeddedMap& map,
-                                 const std::vector<std::unique_ptr<Interaction>>& interactions,
-                                 const MassColumn& mass, const DragColumn* drag) {
+CornerBounds corner_bounds(const EmbeddedMap& map,
+                           const std::vector<std::unique_ptr<Interaction>>& interactions,
+                           const MassColumn& mass) {
   const CellIndex& corners = map.cells(mass.orbit());
-  std::vector<double> stiffness(corners.slots(), 0), damping(corners.slots(), 0); // one per corner slot
+  CornerBounds sums;
+  sums.stiffness.assign(corners.slots(), 0);
+  sums.damping.assign(corners.slots(), 0);
   std::array<Vec3, most_particles> rest;
   std::array<double, most_particles> weight{}, s{}, c{};
   const auto add = [&](const Interaction& interaction, Slot owner, Dart d, std::size_t unit) {
@@ -75,18 +77,24 @@ FrequencyBounds frequency_bounds(const EmbeddedMap& map,
     }
     interaction.law->bound(interaction.unit(owner, unit), rest.data(), weight.data(), s.data(), c.data());
     for (std::size_t n = 0; n < words.size(); ++n) {
-      stiffness[at[n]] += s[n];
-      damping[at[n]] += c[n];
+      sums.stiffness[at[n]] += s[n];
+      sums.damping[at[n]] += c[n];
     }
   };
   for_each_bounded_unit(map, interactions, add);
+  return sums;
+}
+
+FrequencyBounds frequency_bounds(const CornerBounds& sums, const EmbeddedMap& map, const MassColumn& mass,
+                                 const DragColumn* drag) {
+  const CellIndex& corners = map.cells(mass.orbit());
   FrequencyBounds bounds{0, 0, 1e300};
   for (Slot corner = 0; corner < corners.slots(); ++corner) {
     const double m = corners.alive(corner) ? mass[corner] : 0;
     if (m <= 0) continue;
     const double own = drag ? (*drag)[corner] : 0;
-    bounds.omega_squared = std::max(bounds.omega_squared, stiffness[corner] / m);
-    bounds.damping_rate = std::max(bounds.damping_rate, (damping[corner] + own) / m);
+    bounds.omega_squared = std::max(bounds.omega_squared, sums.stiffness[corner] / m);
+    bounds.damping_rate = std::max(bounds.damping_rate, (sums.damping[corner] + own) / m);
     bounds.least_drag_rate = std::min(bounds.least_drag_rate, own / m);
   }
   return bounds;

@@ -21,8 +21,20 @@ struct FrequencyBounds {
   double least_drag_rate = 0; // [1/s], the smallest rate of ambient viscosity alone
 };
 
-FrequencyBounds frequency_bounds(const EmbeddedMap& map,
-                                 const std::vector<std::unique_ptr<Interaction>>& interactions,
-                                 const MassColumn& mass, const DragColumn* drag);
+// The diagonals, summed at each element corner: one per corner slot.
+struct CornerBounds {
+  std::vector<double> stiffness, damping; // [N/m], [N·s/m]
+};
+CornerBounds corner_bounds(const EmbeddedMap& map,
+                           const std::vector<std::unique_ptr<Interaction>>& interactions,
+                           const MassColumn& mass);
+
+FrequencyBounds frequency_bounds(const CornerBounds& bounds, const EmbeddedMap& map, const MassColumn& mass,
+                                 const DragColumn* drag);
+inline FrequencyBounds frequency_bounds(const EmbeddedMap& map,
+                                        const std::vector<std::unique_ptr<Interaction>>& interactions,
+                                        const MassColumn& mass, const DragColumn* drag) {
+  return frequency_bounds(corner_bounds(map, interactions, mass), map, mass, drag);
+}
 
 } // namespace rend

@@ -31,7 +31,14 @@ template <> const Fields<TimeSettings>& fields_of() {
       field(&S::duration,
             number("duration", "s",
                    "length of the clip in simulated time; required, except with static, where the default is 1")
-                .at_least(0))};
+                .at_least(0)),
+      field(&S::mass_scaling,
+            number(
+                "mass-scaling", "",
+                "makes the elements that limit the step heavier, as long as no body gains more than this share "
+                "of its mass: larger steps, and other inertia and weight where the mesh is finest")
+                .above(0)
+                .at_most(1))};
   return fields;
 }
 

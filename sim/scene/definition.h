@@ -18,6 +18,8 @@ struct TimeSettings {
   const Scheme* scheme = find_scheme("symplectic");
   double tolerance = SchemeSettings{}.tolerance; // of rk45, which chooses its steps by it
   std::optional<double> duration = {};           // [s]
+  std::optional<double> mass_scaling =
+      {}; // the largest share of a body's mass to add (mass_scaling.h); none: 0
   SettingsSource source = {};
 };
 template <> const Fields<TimeSettings>& fields_of();

@@ -3,9 +3,12 @@
 #include "sim/base/archive.h"
 #include "sim/base/hash.h"
 #include "sim/base/wall_clock.h"
+#include "sim/contact/start_overlap.h"
 #include "sim/guard/guard.h"
 #include "sim/integrate/rigid_motions.h"
 #include "sim/rows/frequency.h"
+#include "sim/scene/element_steps.h"
+#include "sim/scene/mass_scaling.h"
 #include "sim/topology/count.h"
 
 #include <fmt/format.h>
@@ -33,6 +36,8 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   check_contact();
   contacts_ = Contacts::of(world_, bodies_);
   const RunSettings run{options.walk, options.threads, checked_tolerance()};
+  clear_start(world_, bodies_);
+  scale_masses();
   for (auto& body : bodies_) body->prepare(scheme(), run);
   set_step();
   set_looks(options.reach);
@@ -59,6 +64,18 @@ void Scene::check_contact() {
     body->notes.emplace_back("contact: with 'implicit' a body that rests on the floor is compressed too much, "
                              "more so if it is stiff or the step is large; take a smaller step, or symplectic");
   }
+}
+
+void Scene::scale_masses() {
+  if (!time_.mass_scaling) return;
+  if (scheme().solves)
+    time_.source.fail(
+        "mass-scaling",
+        fmt::format("nothing limits the step of '{}', and no element need be heavier", scheme().name),
+        "leave it out");
+  const Scheme& limiting = scheme().adaptive ? *find_scheme("symplectic") : scheme();
+  if (!rend::scale_masses(bodies_, limiting, *time_.mass_scaling, time_.step))
+    notes_.emplace_back("mass scaling: no element is heavier, since the step would hardly be larger");
 }
 
 double Scene::checked_tolerance() const {
@@ -111,9 +128,15 @@ double Scene::stability_limit(const Scheme& scheme) const {
   return limit;
 }
 
-double Scene::stable_step() const {
+double Scene::stable_step() {
   if (scheme().name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
-  const double limit = stability_limit(scheme().adaptive ? *find_scheme("symplectic") : scheme());
+  const Scheme& limiting = scheme().adaptive ? *find_scheme("symplectic") : scheme();
+  std::vector<ElementSteps> steps;
+  double limit = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies_) {
+    steps.emplace_back(*body).add_damping(body->loads.damping_rate(*body->map, body->program->inverse_mass()));
+    limit = std::min(limit, steps.back().least(limiting));
+  }
   if (limit <= 0)
     time_.source.fail(
         "step",
@@ -128,6 +151,7 @@ double Scene::stable_step() const {
                           scheme().name)
             : "step=\"auto\" is not possible: nothing in the scene limits the step",
         scheme().solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
+  if (const std::string what = what_limits(steps, limiting, limit); !what.empty()) notes_.push_back(what);
   return 0.9 * limit;
 }
 
@@ -234,9 +258,10 @@ double Scene::elastic_energy() const {
   return sum;
 }
 double Scene::gravity_energy() const {
+  const Vec3 gravity = world_.gravity_at(time());
   double sum = 0;
-  for (const auto& body : bodies_) sum += rend::gravity_energy(*body->map, *body->mass, world_.gravity);
-  for (const Sphere& s : world_.spheres) sum -= s.mass * world_.gravity.dot(s.centre);
+  for (const auto& body : bodies_) sum += rend::gravity_energy(*body->map, *body->mass, gravity);
+  for (const Sphere& s : world_.spheres) sum -= s.mass * gravity.dot(s.centre);
   return sum;
 }
 EnergyFigures Scene::energy() const {
@@ -269,7 +294,7 @@ EnergyState Scene::energy_state() const {
   }
   for (const Sphere& s : world_.spheres) {
     if (!s.falls()) continue;
-    sum.shadow += 0.5 * step_ * s.mass * s.velocity.dot(world_.gravity);
+    sum.shadow += 0.5 * step_ * s.mass * s.velocity.dot(world_.gravity_at(time()));
     sum.work.contact += s.contact_work;
   }
   return sum;

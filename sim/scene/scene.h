@@ -77,7 +77,7 @@ public:
   // Of bodies, and of falling spheres.
   double kinetic_energy() const;
   double elastic_energy() const;
-  double gravity_energy() const;
+  double gravity_energy() const; // in the gravity of the current time
   // Evaluates forces and elastic energy of all bodies, without counting them. Changes nothing.
   EnergyFigures energy() const;
   double mass() const;
@@ -102,7 +102,8 @@ private:
   void forget_answers();   // those later than the current time
   void check_read() const; // throws ArchiveError
   void check_contact();
-  double stable_step() const;
+  void scale_masses();
+  double stable_step();
   double checked_tolerance() const;
   double stability_limit() const; // [s]
   [[noreturn]] void stop(const Body& body, const std::string& what) const;

@@ -125,8 +125,10 @@ void Scene::apply_contacts(double time, double step) {
 }
 
 void Scene::commit(double step) {
+  const double time = bodies_.front()->time();
+  for (Sphere& sphere : world_.spheres)
+    sphere.commit(step, world_.gravity_at(time), world_.gravity_at(time + step));
   for (auto& body : bodies_) body->commit();
-  for (Sphere& sphere : world_.spheres) sphere.commit(step, world_.gravity);
 }
 
 // Arms or disarms the fault for the current step.

@@ -25,6 +25,19 @@ std::string preset(const std::string& file, const std::string& more = "") {
          "duration=\"0.01\"/></scene>";
 }
 
+// Two triangles, and one without area between them.
+TEST(MeshCommand, repairs_polygons_without_area) {
+  const TestFolder place;
+  place.write("seam.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nf 1 2 4\nf 5 3 4\nf 2 5 4\n");
+  EXPECT_EQ(place.rend("mesh convert seam.obj whole.msh").code, 65);
+  const Outcome outcome = place.rend("mesh convert seam.obj whole.msh --repair");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err,
+              HasSubstr("of 3 polygons 1 without area and 0 copies of others are dropped; 1 point"));
+  EXPECT_EQ(place.rend("mesh info whole.msh --json").json()["vertices"], 4);
+  EXPECT_EQ(place.rend("mesh convert " + organ.string() + " other.msh --repair").code, 65);
+}
+
 TEST(MeshCommand, tells_what_a_mesh_holds) {
   const TestFolder place;
   const Outcome outcome = place.rend("mesh info " + organ.string() + " --json");

@@ -95,7 +95,7 @@ TEST(ScriptCheck, refuses_with_place_and_reason) {
       {"<script name='s' hook='a*(0,1)'><for each='e*(0)' apply='unsew-edge' which=\n'older'/></script>",
        "which"},
       {"<script name=\n'delete-face' hook='a*(0,1)'><for each='e*(0)' apply='unsew-edge'/></script>",
-       "there is a rule 'delete-face' of the house"},
+       "'delete-face' is the name of a built-in rule"},
       {"<rule name='s' left='a*' right='a'/><script name=\n's' hook='a*(0,1)'><for each='e*(0)' "
        "apply='unsew-edge'/>"
        "</script>",

@@ -1,0 +1,118 @@
+#include "sim/scene/element_steps.h"
+
+#include "sim/topology/walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+constexpr double matters = 4; // the gain from which the worst elements are named
+
+const char* shape_name(int dimension, std::size_t corners) {
+  if (dimension == 2) return corners == 3 ? "triangle" : corners == 4 ? "quad" : "face";
+  switch (corners) {
+  case 4:
+    return "tetrahedron";
+  case 5:
+    return "pyramid";
+  case 6:
+    return "prism";
+  case 8:
+    return "hexahedron";
+  default:
+    return "cell";
+  }
+}
+
+} // namespace
+
+ElementSteps::ElementSteps(const Body& body)
+    : body_(&body), elements_(body.map->map(), element_orbit(body.map->dimension())) {
+  const CellIndex& corners = body.map->cells(body.mass->orbit());
+  std::vector<std::vector<Slot>> of(elements_.slots());
+  for (Slot c = 0; c < corners.slots(); ++c)
+    if (corners.alive(c)) of[elements_.slot(corners.first_dart(c))].push_back(c);
+  first_.push_back(0);
+  for (const std::vector<Slot>& each : of) {
+    corners_.insert(corners_.end(), each.begin(), each.end());
+    first_.push_back(corners_.size());
+  }
+  update();
+}
+
+void ElementSteps::update() {
+  const MassColumn& mass = *body_->mass;
+  const DragColumn* drag = body_->drag;
+  const CornerBounds sums = corner_bounds(*body_->map, body_->interactions, mass);
+  whole_ = frequency_bounds(sums, *body_->map, mass, drag);
+  bounds_.assign(elements_.slots(), {0, 0, 1e300});
+  mass_.assign(elements_.slots(), 0);
+  for (Slot e = 0; e < count(); ++e) {
+    FrequencyBounds& b = bounds_[e];
+    for_each_corner(e, [&](Slot c) {
+      const double m = mass[c], own = drag ? (*drag)[c] : 0;
+      if (m <= 0) return;
+      mass_[e] += m;
+      b.omega_squared = std::max(b.omega_squared, sums.stiffness[c] / m);
+      b.damping_rate = std::max(b.damping_rate, (sums.damping[c] + own) / m);
+      b.least_drag_rate = std::min(b.least_drag_rate, own / m);
+    });
+  }
+}
+
+double ElementSteps::step(const Scheme& scheme, Slot element, double heavier) const {
+  const FrequencyBounds& b = bounds_[element];
+  return scheme.limit({b.omega_squared / heavier,
+                       b.damping_rate / heavier + more_damping_ + body_->uniform_drag,
+                       b.least_drag_rate / heavier + body_->uniform_drag});
+}
+
+double ElementSteps::least(const Scheme& scheme) const {
+  return scheme.limit({whole_.omega_squared, whole_.damping_rate + more_damping_ + body_->uniform_drag,
+                       whole_.least_drag_rate + body_->uniform_drag});
+}
+
+std::string ElementSteps::name(Slot element) const {
+  const EmbeddedMap& map = *body_->map;
+  std::vector<Slot> vertices;
+  for_each_corner(
+      element, [&](Slot c) { vertices.push_back(map.vertex(map.cells(body_->mass->orbit()).first_dart(c))); });
+  Vec3 middle = Vec3::Zero();
+  for (Slot v : vertices) middle += map.rest()[v].vec() / static_cast<double>(vertices.size());
+  return fmt::format("the {} {} near ({:.4g}, {:.4g}, {:.4g}) m", shape_name(map.dimension(), vertices.size()),
+                     element, middle.x(), middle.y(), middle.z());
+}
+
+std::string what_limits(const std::vector<ElementSteps>& bodies, const Scheme& scheme, double limit) {
+  struct One {
+    double step; // [s]
+    std::size_t body;
+    Slot element;
+    bool operator<(const One& other) const {
+      return std::tie(step, body, element) < std::tie(other.step, other.body, other.element);
+    }
+  };
+  std::vector<One> all;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (Slot e = 0; e < bodies[b].count(); ++e)
+      if (bodies[b].mass(e) > 0) all.push_back({bodies[b].step(scheme, e), b, e});
+  const std::size_t thousandth = (all.size() + 999) / 1000, hundredth = (all.size() + 99) / 100;
+  if (all.size() <= hundredth) return {};
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(hundredth), all.end());
+  const double without_hundredth = all[hundredth].step;
+  if (!(without_hundredth >= matters * limit) || std::isinf(without_hundredth)) return {};
+  std::sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(hundredth));
+  const ElementSteps& worst = bodies[all.front().body];
+  return fmt::format(
+      "step=\"auto\": {} of body '{}' limits the step to {:.3g} s; without the worst {} of {} elements "
+      "it would be {:.3g} s, without the worst {}, {:.3g} s: mend the mesh there, or allow "
+      "<time mass-scaling=\"0.01\">",
+      worst.name(all.front().element), worst.body().name, limit, thousandth, all.size(), all[thousandth].step,
+      hundredth, without_hundredth);
+}
+
+} // namespace rend
