@@ -73,9 +73,9 @@ struct StateFigures {
   std::vector<LawFigures> laws;
   std::vector<ReachFigures> reach; // of all criteria; empty unless asked for
   EnergyFigures energy;
-  double mass = 0;                              // [kg]
+  double mass = 0;                                        // [kg]
   std::vector<std::pair<std::string, double>> added_mass; // [kg], of each body that mass scaling made heavier
-  Vec3 momentum, angular_momentum;              // [kg m/s], [kg m²/s]
+  Vec3 momentum, angular_momentum;                        // [kg m/s], [kg m²/s]
   std::vector<ProbeFigures> probes;
   std::vector<AnswerFigures> answers;
   std::vector<SphereFigures> spheres; // those that move, in the order of the preset

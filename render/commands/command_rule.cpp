@@ -160,14 +160,17 @@ std::function<Exit()> declare(CLI::App& app) {
   app.require_subcommand(1);
   app.footer("rend help rule tells how rules are written.");
   const auto json = [&](CLI::App* to, const char* what) { to->add_flag("--json", options->json, what); };
-  CLI::App* listing = subcommand(app, "list", "list the built-in rules and scripts, and those of a file", chosen, list);
+  CLI::App* listing =
+      subcommand(app, "list", "list the built-in rules and scripts, and those of a file", chosen, list);
   add_file(*listing, options, "file");
   json(listing, "print the same as a JSON array on stdout");
-  CLI::App* showing = subcommand(app, "show", "show the text of one rule or script, and what it does", chosen, show_rule);
+  CLI::App* showing =
+      subcommand(app, "show", "show the text of one rule or script, and what it does", chosen, show_rule);
   add_rule(*showing, options);
   json(showing, "print the same as one JSON object on stdout");
   CLI::App* checking = subcommand(
-      app, "check", "check that all rules and scripts of a file are well formed; without a file, the built-in ones", chosen,
+      app, "check",
+      "check that all rules and scripts of a file are well formed; without a file, the built-in ones", chosen,
       check);
   add_file(*checking, options, "file");
   CLI::App* drawing = subcommand(app, "draw", "draw the two graphs of a rule, and a small map before and after",
@@ -184,7 +187,8 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command rule_command() {
-  return {"rule", "list, show, check and draw rules and scripts: changes of the mesh, for <apply> and <tear>", declare};
+  return {"rule", "list, show, check and draw rules and scripts: changes of the mesh, for <apply> and <tear>",
+          declare};
 }
 
 } // namespace rend

@@ -56,7 +56,8 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
 // An equilibrium has no account of work.
 void Body::make_work_meter(const Scheme& scheme) {
   const bool touched = floor_contact || (contact && contact->faces());
-  if (integrator->has_inertia() && (constraints.drives() || !loads.empty() || touched || tears() || changing_gravity))
+  if (integrator->has_inertia() &&
+      (constraints.drives() || !loads.empty() || touched || tears() || changing_gravity))
     work_meter = std::make_unique<WorkMeter>(scheme.shadow);
 }
 

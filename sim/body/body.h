@@ -103,8 +103,8 @@ struct Body final : System {
   // of the current state in `load`.
   BodyEnergy energy(double shadow_step, std::vector<Record>& scratch);
   Work work(std::vector<Record>& scratch); // CHECK: it has a meter
-  void evaluate();     // evaluates force and corner_force in the current state
-  void defer_forces(); // leaves the evaluation to advance(): if they are not needed before
+  void evaluate();                         // evaluates force and corner_force in the current state
+  void defer_forces();                     // leaves the evaluation to advance(): if they are not needed before
   bool may_defer_forces() const;
   ForceView view() const; // of the evaluated state
   MeteredBody metered() const { return metered(force.data()); }

@@ -28,7 +28,8 @@ void Contacts::advance(double time, double step) {
   for (auto& each : bodies_) {
     Body& body = *each->body;
     touched_.clear();
-    if (body.floor_contact) body.floor_contact->apply(body.map->position().values().data(), body.next, step, touched_);
+    if (body.floor_contact)
+      body.floor_contact->apply(body.map->position().values().data(), body.next, step, touched_);
     body.constrain(time + step, body.next.position.data(), body.next.velocity.data());
     if (body.work_meter) body.work_meter->after_contact(body.metered(), step, body.next);
   }

@@ -47,7 +47,8 @@ struct Acting {
 } // namespace
 
 std::string misfit_of(const RuleOrScript& what, int dimension) {
-  if (what.hooks() != 1) return fmt::format("has {} hooks, but a <tear> finds the darts of one only", what.hooks());
+  if (what.hooks() != 1)
+    return fmt::format("has {} hooks, but a <tear> finds the darts of one only", what.hooks());
   if (!cell_of(what.hook_orbit(), dimension))
     return "changes a whole component, but a <tear> acts on single cells";
   if (dimension == 2 && what.links_volumes()) return "links volumes, but this body is a sheet";

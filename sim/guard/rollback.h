@@ -65,9 +65,9 @@ private:
   void check_read(long done) const; // throws ArchiveError
   void add(const Body& body, const Start& start, Account& sum) const;
   void add_loads(const Body& body, Account& sum) const;
-  double measured_work() const;                                   // [J], since the start, of all but gravity
+  double measured_work() const;                                     // [J], since the start, of all but gravity
   double of_gravity(double whole, double from, double until) const; // [J]
-  const Record* from(const Body& body, const Start& start) const; // [m], positions at the start
+  const Record* from(const Body& body, const Start& start) const;   // [m], positions at the start
 
   World& world_;
   const Bodies& bodies_;

@@ -39,7 +39,7 @@ template <> const Fields<LoadSettings>& fields_of() {
                 number("until", "s",
                        "the load grows evenly from `from` until this time; without it, it acts in full at once")
                     .at_least(0)),
-      field(&S::over,
+          field(&S::over,
                 number("over", "s", "instead of until: grows linearly from `from`, over so long").at_least(0))};
   return fields;
 }

@@ -60,7 +60,7 @@ struct Sphere {
   // Its motion without contact; `time` [s] at the end of the step.
   void predict(double time, double step, const Vec3& gravity);
   void commit(double step, const Vec3& gravity, const Vec3& later); // gravity at its start and end
-  void store(Archive& archive); // the members that change
+  void store(Archive& archive);                                     // the members that change
 
   // For a point that moved from → to [m] in the step, relative to the sphere's centre at its start and end;
   // `reach` [m] is the radius plus the distance to keep. nullopt: no contact.
