@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -78,6 +79,13 @@ template <ElementKind kind>
 std::unique_ptr<Interaction> made_of(EmbeddedMap& map, const std::shared_ptr<const ElementLaw>& law,
                                      double thickness, const Place& place) {
   using enum ElasticModel;
+  using enum Formulation;
+  if constexpr (can_be_enhanced(kind)) {
+    if (law->formulation() == Enhanced && law->model() == Linear)
+      return made<unit_values(kind, Linear, Enhanced)>(map, law, thickness, place);
+    if (law->formulation() == Enhanced)
+      return made<unit_values(kind, Corotational, Enhanced)>(map, law, thickness, place);
+  }
   if (law->model() == Linear) return made<unit_values(kind, Linear)>(map, law, thickness, place);
   return made<unit_values(kind, Corotational)>(map, law, thickness, place);
 }
@@ -153,6 +161,57 @@ ElasticMaterial material_of(const ElasticitySettings& settings, int dimension) {
   return material;
 }
 
+// How much too stiff a single layer of plain rectangles or boxes bends, of length a along it and height b: they
+// shear where they should curve, and cannot become narrower on one side,
+//
+//   sheet 1/(1 − ν²) + (a/b)²/(2 (1 + ν)),   solid (1 − ν)/((1 + ν)(1 − 2ν)) + (a/b)²/(2 (1 + ν))
+//
+// from the energy of u = κxy beside that of pure bending; n layers: 1 + (this − 1)/n².
+double bending_excess(double aspect, double poisson, int dimension) {
+  const double held =
+      dimension == 2 ? 1 / (1 - poisson * poisson) : (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+  return held + aspect * aspect / (2 * (1 + poisson));
+}
+
+// The largest ratio of two edges of one quad or hexahedron.
+double largest_aspect(const EmbeddedMap& map) {
+  const CellIndex& elements = map.cells(element_orbit(map.dimension()));
+  double most = 1;
+  for (Slot e = 0; e < elements.slots(); ++e) {
+    if (!elements.alive(e)) continue;
+    const Dart d = elements.first_dart(e);
+    const auto at = element_at(map.map(), d);
+    if (!at || !can_be_enhanced(at->kind)) continue;
+    const std::vector<Vec3> rest = rest_positions(map, d, shape_of(at->kind).units[at->unit]);
+    double longest = 0, shortest = HUGE_VAL;
+    for (std::size_t n = 1; n < rest.size();
+         n += n == 1 ? 2 : 1) { // the neighbours of the first corner: 1, 3, 4
+      if (n > 4) break;
+      longest = std::max(longest, (rest[n] - rest[0]).norm());
+      shortest = std::min(shortest, (rest[n] - rest[0]).norm());
+    }
+    most = std::max(most, longest / shortest);
+  }
+  return most;
+}
+
+void note_bending(const EmbeddedMap& map, const ElasticitySettings& settings, const Census& census,
+                  std::vector<std::string>& notes) {
+  constexpr double bearable = 2;
+  if (settings.formulation == Formulation::Enhanced) return;
+  if (census.of_kind[static_cast<std::size_t>(map.dimension() == 2 ? ElementKind::Quad
+                                                                   : ElementKind::Hexahedron)] == 0)
+    return;
+  const double aspect = largest_aspect(map);
+  const double excess = bending_excess(aspect, settings.poisson, map.dimension());
+  if (excess < bearable) return;
+  notes.push_back(
+      fmt::format("a single layer of these {} (edges up to 1 : {:.3g}, Poisson's ratio {:g}) bends {:.2g} "
+                  "times too stiffly{}",
+                  map.dimension() == 2 ? "quads in their plane" : "hexahedra", aspect, settings.poisson, excess,
+                  settings.model == ContinuumModel::MassTensor ? "" : ": formulation=\"enhanced\" does not"));
+}
+
 } // namespace
 
 template <> const Fields<ElasticitySettings>& fields_of() {
@@ -169,6 +228,10 @@ template <> const Fields<ElasticitySettings>& fields_of() {
       field(&S::rotation, word("rotation", {"polar", "qr"},
                                "corotational: how the rotation of an element is found\npolar: the closest "
                                "rotation\nqr: Gram-Schmidt of its edges")),
+      field(&S::formulation, word("formulation", {"plain", "enhanced"},
+                                  "of quads and hexahedra\nplain: the displacement element, too stiff in "
+                                  "bending\nenhanced: with inner "
+                                  "modes for bending, which take longer")),
       field(&S::damping_mass,
             number("damping-mass", "1/s", "Rayleigh damping: a force -value m v").at_least(0)),
       field(&S::damping_stiffness,
@@ -221,6 +284,9 @@ std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, cons
                     dimension == 2 ? "triangles or quads" : "tetrahedra, hexahedra, prisms or pyramids"));
   std::vector<std::unique_ptr<Interaction>> all;
   if (settings.model == ContinuumModel::MassTensor) {
+    if (settings.formulation == Formulation::Enhanced)
+      settings.source.fail("formulation", "mass-tensors have no inner modes",
+                           "model=\"corotational\" or model=\"linear\", or leave formulation out");
     all = make_mass_tensors(map, {material, thickness, place});
   } else {
     const ElasticModel model =
@@ -228,9 +294,11 @@ std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, cons
     for (std::size_t kind = 0; kind < census.of_kind.size(); ++kind)
       if (census.of_kind[kind] > 0)
         all.push_back(make_one(map,
-                               element_law(static_cast<ElementKind>(kind), model, settings.rotation, material),
+                               element_law(static_cast<ElementKind>(kind), model, settings.rotation, material,
+                                           settings.formulation),
                                thickness, place));
   }
+  note_bending(map, settings, census, notes);
   if (all.empty()) settings.source.fail("", "no cell of this body is an element that elasticity fits");
   return all;
 }

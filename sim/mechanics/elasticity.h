@@ -17,9 +17,10 @@ enum class ContinuumModel { Linear, Corotational, MassTensor };
 
 struct ElasticitySettings {
   ContinuumModel model = ContinuumModel::Corotational;
-  double young = 0;                     // E [Pa]
-  double poisson = 0.3;                 // ν
-  std::optional<double> thickness = {}; // [m], of a sheet
+  Formulation formulation = Formulation::Plain; // of quads and hexahedra
+  double young = 0;                             // E [Pa]
+  double poisson = 0.3;                         // ν
+  std::optional<double> thickness = {};         // [m], of a sheet
   Rotation rotation = Rotation::Polar;
   double damping_mass = 0;      // Rayleigh's α [1/s]
   double damping_stiffness = 0; // Rayleigh's β [s]

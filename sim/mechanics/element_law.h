@@ -18,6 +18,9 @@
 // stands, −β R K Rᵀv: it dissipates, but where the element is strained it also brakes its rotation, by a
 // share of the order of the strain.
 //
+// `Formulation::Enhanced` adds modes to ε of quads and hexahedra (enhanced_modes.h); σ then does not commute
+// with RᵀF, and Z is there for every kind of frame.
+//
 // A sheet has two rest axes, R is 3 × 2, and σ is that of plane stress, λ' = Eν/(1 − ν²). A quad of a sheet has
 // its own R at each point: with one average rotation (as for hexahedra) a warped quad, which bends freely,
 // would have its warp count as compression. The stiffness, with g_n = R G_n and P = R Rᵀ,
@@ -27,12 +30,19 @@
 // (the last terms in the exact tangent only).
 #pragma once
 
-#include "sim/mechanics/element.h"
+#include "sim/mechanics/enhanced_modes.h"
 #include "sim/mechanics/rotation.h"
 
 namespace rend {
 
 enum class ElasticModel { Linear, Corotational };
+enum class Formulation { Plain, Enhanced }; // enhanced: quads and hexahedra with modes (enhanced_modes.h)
+
+struct ElementSettings {
+  ElasticModel model = ElasticModel::Corotational;
+  Rotation rotation = Rotation::Polar;
+  Formulation formulation = Formulation::Plain;
+};
 
 // Whether each integration point has its own R instead of that of the average F.
 constexpr bool rotates_per_point(int dimension, int points) {
@@ -40,15 +50,17 @@ constexpr bool rotates_per_point(int dimension, int points) {
 }
 
 // The number of values of a unit: 3 × 3 and a weight for each integration point, for a sheet 2 × 2 and a
-// weight; a linear sheet has its rest axes before them.
-constexpr int unit_values(ElementKind kind, ElasticModel model) {
+// weight; a linear sheet has its rest axes before them, an enhanced element its modes behind them.
+constexpr int unit_values(ElementKind kind, ElasticModel model, Formulation formulation = Formulation::Plain) {
   using enum ElementKind;
   const bool sheet = kind == Triangle || kind == Quad;
   const int points = kind == Triangle || kind == Tetrahedron ? 1
                      : kind == Hexahedron                    ? 8
                      : kind == Prism                         ? 6
                                                              : 4;
-  return points * (sheet ? 5 : 10) + (sheet && model == ElasticModel::Linear ? 6 : 0);
+  const int modes =
+      formulation == Formulation::Enhanced && can_be_enhanced(kind) ? enhanced_values(sheet ? 2 : 3) : 0;
+  return points * (sheet ? 5 : 10) + (sheet && model == ElasticModel::Linear ? 6 : 0) + modes;
 }
 
 struct ElasticMaterial {
@@ -62,32 +74,37 @@ public:
   const ElementShape& shape() const { return *shape_; }
   ElasticModel model() const { return model_; }
   Rotation rotation() const { return rotation_; }
+  Formulation formulation() const { return formulation_; }
   const ElasticMaterial& material() const { return material_; }
 
   // Writes the values of a unit: for a linear sheet its rest axes (3 × 2, column by column), then J⁻¹ and w of
-  // each point. False: the element has no volume.
+  // each point, for an enhanced element its modes. False: the element has no volume.
   bool write_unit(const Vec3* rest, double thickness, double* unit) const;
-  // index of the first integration point's values
-  int first_point() const { return values() - shape_->values(); }
+  // indices of the values of the first integration point and of the modes
+  int first_point() const { return model() == ElasticModel::Linear && shape_->dimension == 2 ? 6 : 0; }
+  int first_mode() const { return first_point() + shape_->values(); }
 
   // Volume averages, of elasticity without damping, in world axes. For a sheet: in its plane.
   virtual Eigen::Matrix3d stress(const double* unit, const UnitState& s) const = 0; // σ [Pa]
   virtual Eigen::Matrix3d strain(const double* unit, const UnitState& s) const = 0; // ε
 
-  bool acts(const double* unit, const std::uint32_t*) const override { return unit[values() - 1] != 0; }
+  bool acts(const double* unit, const std::uint32_t*) const override { return unit[first_mode() - 1] != 0; }
 
 protected:
-  ElementLaw(const ElementShape& shape, ElasticModel model, Rotation rotation, const ElasticMaterial& material);
+  ElementLaw(const ElementShape& shape, const ElementSettings& settings, const ElasticMaterial& material);
 
 private:
   const ElementShape* shape_;
   ElasticModel model_;
   Rotation rotation_;
   ElasticMaterial material_;
+  Formulation formulation_;
 };
 
+// Kinds without modes are plain.
 std::shared_ptr<const ElementLaw> element_law(ElementKind kind, ElasticModel model, Rotation rotation,
-                                              const ElasticMaterial& material);
+                                              const ElasticMaterial& material,
+                                              Formulation formulation = Formulation::Plain);
 
 // λmax of K [N/m] of an element whose point values (J⁻¹ and w) are given; with masses, of M^(−1/2) K M^(−1/2)
 // [1/s²], with corners without mass held fixed.

@@ -5,7 +5,10 @@ namespace {
 
 using namespace lanes;
 void (*kernel_of_kind(const KernelArguments& a, bool corners))(const KernelArguments&) {
-  switch (static_cast<const ElementLaw&>(a.law).shape().kind) {
+  const auto& law = static_cast<const ElementLaw&>(a.law);
+  if (law.formulation() == Formulation::Enhanced)
+    return corners ? &enhanced_hexahedron_corners : &enhanced_hexahedra;
+  switch (law.shape().kind) {
   case ElementKind::Triangle:
     return corners ? &triangle_corners : &triangles;
   case ElementKind::Quad:
@@ -25,7 +28,11 @@ void (*kernel_of_kind(const KernelArguments& a, bool corners))(const KernelArgum
 } // namespace
 
 Kernel element_kernel() {
-  return {[](const ForceLaw& law) { return dynamic_cast<const ElementLaw*>(&law) != nullptr; },
+  return {[](const ForceLaw& law) { // enhanced quads have none: they run by the plain kernel
+            const auto* element = dynamic_cast<const ElementLaw*>(&law);
+            return element && (element->formulation() == Formulation::Plain ||
+                               element->shape().kind == ElementKind::Hexahedron);
+          },
           [](const KernelArguments& a) { kernel_of_kind(a, false)(a); },
           [](const KernelArguments& a) { kernel_of_kind(a, true)(a); }};
 }

@@ -136,14 +136,16 @@ REND_INLINE Double4 sheet_moment(const Matrix<2>& R, const Matrix<2>& F, const D
 // otherwise generate a kernel for each case.
 enum class Damping { No, Yes, Asked };
 
-template <class Shape, FrameRotation turning, Damping damping> struct ElementLanes {
+template <class Shape, FrameRotation turning, Damping damping, bool enhanced = false> struct ElementLanes {
   static constexpr int N = Shape::N, Dim = Shape::dim;
   static constexpr bool flat =
       turning == FrameRotation::None && Dim == 2; // a linear sheet stores its rest axes
   static constexpr bool turned = turning != FrameRotation::None;
   static constexpr Rotation rotation = turning == FrameRotation::Qr ? Rotation::Qr : Rotation::Polar;
   // whether the energy changes when a frame alone turns (element_law.cpp)
-  static constexpr bool moments = turned && (rotation == Rotation::Qr || (Dim == 3 && Shape::points > 1));
+  static constexpr bool moments =
+      turned && (rotation == Rotation::Qr || (Dim == 3 && Shape::points > 1) || enhanced);
+  static constexpr bool framed = Dim == 3 && (moments || enhanced); // P is computed in the rotated frame
   static constexpr int frames = turned && rotates_per_point(Dim, Shape::points) ? Shape::points : 1;
 
   // Forces on the corners of the rows at .. at + 3.
@@ -168,23 +170,35 @@ template <class Shape, FrameRotation turning, Damping damping> struct ElementLan
     }
     if constexpr (turned)
       for (int g = 0; g < frames; ++g) rotations_of<rotation, Dim>(frames == 1 ? mean : F[g], volume, R[g]);
-    TurnedStress elastic[moments && Dim == 3 ? Shape::points : 1];
-    Vector z;
-    if constexpr (moments && Dim == 3) z = stresses(m, values, R[0], F, mean, volume, elastic);
+    TurnedStress elastic[framed ? Shape::points : 1];
+    Vector z{};
+    if constexpr (framed && !turned) {
+      const Double4 one = splat(1), zero{};
+      R[0].column[0] = {one, zero, zero}, R[0].column[1] = {zero, one, zero},
+      R[0].column[2] = {zero, zero, one};
+    }
+    if constexpr (framed)
+      if (turned || !damped) z = stresses(m, values, R[0], F, mean, volume, elastic);
     if (damped) {
       Vector v[N];
       from_first_corner(a.velocity, a, at, v);
       for (int n = 1; n < N; ++n) x[n] = x[n] + splat(m.damping) * v[n];
       Shape::columns(x, D);
+      if constexpr (framed && enhanced) {
+        for (int g = 0; g < Shape::points; ++g)
+          F[g] = gradient_at<Shape, Dim>(
+              g, D, Inverse<Dim>(values + static_cast<std::size_t>(g) * Inverse<Dim>::stride));
+        enhanced_stresses(m, values, R[0], F, elastic);
+      }
     }
     for (int g = 0; g < Shape::points; ++g) {
       const Inverse<Dim> inverse(values + static_cast<std::size_t>(g) * Inverse<Dim>::stride);
       Double4 sheet_z;
       if constexpr (moments && Dim == 2) sheet_z = sheet_moment(R[g], F[g], inverse.weight, m.lambda, m.mu);
-      if (damped) F[g] = gradient_at<Shape, Dim>(g, D, inverse);
+      if (damped && !enhanced) F[g] = gradient_at<Shape, Dim>(g, D, inverse);
       Matrix<Dim> P;
-      if constexpr (moments && Dim == 3) {
-        if (damped) elastic[g] = turned_stress<false>(R[0], F[g], inverse.weight, m.lambda, m.mu);
+      if constexpr (framed) {
+        if (damped && !enhanced) elastic[g] = turned_stress<false>(R[0], F[g], inverse.weight, m.lambda, m.mu);
         P = with_moment(elastic[g], inverse.weight, z);
       } else if constexpr (Dim == 3 && !turned)
         P = stress(F[g], inverse.weight, m.lambda, m.mu);
@@ -198,14 +212,11 @@ template <class Shape, FrameRotation turning, Damping damping> struct ElementLan
         for (int c = 0; c < Dim; ++c) sum = sum + inverse.A[r][c] * P.column[c];
       }
     }
-    if constexpr (moments && Dim == 3) {                 // P was in the rotated frame
-      constexpr bool columns = Shape::columns_count < N; // turned are the columns or the corners, what is less
-      if constexpr (columns) turn(R[0], H, Shape::columns_count);
-      Shape::corners(H, f);
-      if constexpr (!columns) turn(R[0], f, N);
-    } else {
-      Shape::corners(H, f);
-    }
+    // What was computed in the rotated frame is turned: the columns or the corners, what is less.
+    constexpr bool columns = Shape::columns_count < N;
+    if constexpr (framed && turned && columns) turn(R[0], H, Shape::columns_count);
+    Shape::corners(H, f);
+    if constexpr (framed && turned && !columns) turn(R[0], f, N);
   }
 
 private:
@@ -218,7 +229,11 @@ private:
                                      const Matrix<3>* F, const Matrix<3>& mean, const Double4& volume,
                                      TurnedStress* stress) {
     Vector against{};
-    for (int g = 0; g < Shape::points; ++g) {
+    if constexpr (enhanced) {
+      against = enhanced_stresses(m, values, R, F, stress);
+      if constexpr (!turned) return Vector{};
+    }
+    for (int g = 0; !enhanced && g < Shape::points; ++g) {
       const Double4 weight = load_four(values + (static_cast<std::size_t>(g) + 1) * Inverse<3>::stride - 4);
       stress[g] =
           turned_stress < rotation == Rotation::Qr && Shape::points == 1 > (R, F[g], weight, m.lambda, m.mu);
@@ -226,6 +241,82 @@ private:
     }
     const Double4 share = volume > 0.0 ? -1.0 / volume : Double4{};
     return moment_of<rotation>(R, mean, share * against);
+  }
+
+  // w σ at each point with the share of enhanced modes (mechanics/enhanced_modes.h). Returns −t: to that of σ
+  // without them, axial(E σ) of their strain E is added.
+  static REND_INLINE Vector enhanced_stresses(const ElasticMaterial& m, const double* values,
+                                              const Matrix<3>& R, const Matrix<3>* F, TurnedStress* stress) {
+    const Double4 one = splat(1), half = splat(0.5);
+    for (int g = 0; g < Shape::points; ++g) stress[g] = turned_stress<false>(R, F[g], one, m.lambda, m.mu);
+    const double* modes = values + Shape::points * Inverse<3>::stride;
+    Vector H[3], r[3];
+    for (int a = 0; a < 3; ++a, modes += 12)
+      H[a] = {load_four(modes), load_four(modes + 4), load_four(modes + 8)};
+    for (int a = 0; a < 3; ++a) {
+      TurnedStress sum{};
+      for (int g = 0; g < Shape::points; ++g) add_signed(sum, stress[g], g >> a & 1);
+      r[a] = {sum.on[0] * H[a].x + sum.off[2] * H[a].y + sum.off[1] * H[a].z,
+              sum.off[2] * H[a].x + sum.on[1] * H[a].y + sum.off[0] * H[a].z,
+              sum.off[1] * H[a].x + sum.off[0] * H[a].y + sum.on[2] * H[a].z};
+    }
+    amplify(modes, r);
+    TurnedStress share[3]; // strain of each mode
+    for (int a = 0; a < 3; ++a) {
+      const Vector &h = H[a], &alpha = r[a];
+      share[a] = {{alpha.x * h.x, alpha.y * h.y, alpha.z * h.z},
+                  {half * (alpha.y * h.z + alpha.z * h.y), half * (alpha.x * h.z + alpha.z * h.x),
+                   half * (alpha.x * h.y + alpha.y * h.x)},
+                  {}};
+    }
+    Vector against{};
+    for (int g = 0; g < Shape::points; ++g) {
+      TurnedStress E{};
+      for (int a = 0; a < 3; ++a) add_signed(E, share[a], g >> a & 1);
+      against = against - axial_product(E, stress[g]);
+      const Double4 weight = load_four(values + (static_cast<std::size_t>(g) + 1) * Inverse<3>::stride - 4);
+      const Double4 trace = m.lambda * (E.on[0] + E.on[1] + E.on[2]);
+      for (int n = 0; n < 3; ++n) {
+        stress[g].on[n] = weight * stress[g].on[n] + (2 * m.mu) * E.on[n] + trace;
+        stress[g].off[n] = weight * stress[g].off[n] + (2 * m.mu) * E.off[n];
+      }
+      against = against + moment_against(stress[g]);
+    }
+    return against;
+  }
+
+  static REND_INLINE void add_signed(TurnedStress& sum, const TurnedStress& of, bool plus) {
+    for (int n = 0; n < 3; ++n) {
+      sum.on[n] = plus ? sum.on[n] + of.on[n] : sum.on[n] - of.on[n];
+      sum.off[n] = plus ? sum.off[n] + of.off[n] : sum.off[n] - of.off[n];
+    }
+  }
+
+  // r becomes α = −D⁻¹ r; `inverse`: its upper triangle, row by row.
+  static REND_INLINE void amplify(const double* inverse, Vector* r) {
+    Double4 from[9], to[9] = {};
+    for (int a = 0; a < 3; ++a) from[3 * a] = r[a].x, from[3 * a + 1] = r[a].y, from[3 * a + 2] = r[a].z;
+    for (int i = 0; i < 9; ++i) {
+      for (int j = i; j < 9; ++j, inverse += 4) {
+        const Double4 d = load_four(inverse);
+        to[i] -= d * from[j];
+        if (j != i) to[j] -= d * from[i];
+      }
+    }
+    for (int a = 0; a < 3; ++a) r[a] = {to[3 * a], to[3 * a + 1], to[3 * a + 2]};
+  }
+
+  // axial(A B) of two symmetric tensors.
+  static REND_INLINE Vector axial_product(const TurnedStress& A, const TurnedStress& B) {
+    const auto entry = [](const TurnedStress& S, int i, int j) -> const Double4& {
+      return i == j ? S.on[i] : S.off[3 - i - j];
+    };
+    Double4 v[3] = {};
+    for (int k = 0; k < 3; ++k) {
+      const int r = (k + 1) % 3, c = (k + 2) % 3;
+      for (int j = 0; j < 3; ++j) v[k] += entry(A, c, j) * entry(B, j, r) - entry(A, r, j) * entry(B, j, c);
+    }
+    return {v[0], v[1], v[2]};
   }
 
   // σ − Z.
@@ -300,6 +391,16 @@ REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMateri
     run_blocks<ElementLanes<Shape, turning, Damping::No>, corners>(a, m);
 }
 
+template <class Shape, bool corners> REND_INLINE void run_enhanced_elements(const KernelArguments& a) {
+  const auto& law = static_cast<const ElementLaw&>(a.law);
+  if (law.model() == ElasticModel::Linear)
+    run_blocks<ElementLanes<Shape, FrameRotation::None, Damping::Asked, true>, corners>(a, law.material());
+  else if (law.rotation() == Rotation::Qr)
+    run_blocks<ElementLanes<Shape, FrameRotation::Qr, Damping::Asked, true>, corners>(a, law.material());
+  else
+    run_blocks<ElementLanes<Shape, FrameRotation::Polar, Damping::Asked, true>, corners>(a, law.material());
+}
+
 // Chooses the loop for a law; run by at_width.
 template <class Shape, bool corners> REND_INLINE void run_elements(const KernelArguments& a) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
@@ -325,5 +426,7 @@ void tetrahedron_corners(const KernelArguments& a);
 void hexahedron_corners(const KernelArguments& a);
 void prism_corners(const KernelArguments& a);
 void pyramid_corners(const KernelArguments& a);
+void enhanced_hexahedra(const KernelArguments& a);
+void enhanced_hexahedron_corners(const KernelArguments& a);
 
 } // namespace rend::lanes

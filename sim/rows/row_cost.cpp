@@ -128,7 +128,8 @@ std::optional<double> operations_of(const ForceLaw& law, bool damped) {
   if (&law == hinge_law().get()) return hinge_operations(damped);
   if (const auto* tensor = dynamic_cast<const MassTensorLaw*>(&law))
     return tensor_operations(tensor->particles(), damped);
-  if (const auto* element = dynamic_cast<const ElementLaw*>(&law)) return element_operations(*element, damped);
+  if (const auto* element = dynamic_cast<const ElementLaw*>(&law))
+    if (element->formulation() == Formulation::Plain) return element_operations(*element, damped);
   return {};
 }
 

@@ -42,6 +42,8 @@ BENCHMARK_CAPTURE(forces, hexahedra_tensors, hexahedra, 100, {"mass-tensor"});
 BENCHMARK_CAPTURE(forces, hexahedra_tensors_elementary, hexahedra, 100,
                   {"mass-tensor", "polar", 0, Cumulated::No});
 BENCHMARK_CAPTURE(forces, hexahedra_polar_damped, hexahedra, 100, {"corotational", "polar", 0.01});
+BENCHMARK_CAPTURE(forces, hexahedra_enhanced, hexahedra, 100,
+                  {"corotational", "polar", 0, Cumulated::Auto, false, Formulation::Enhanced});
 BENCHMARK_CAPTURE(forces, prisms_polar, BarPattern::Prisms, 50, {"corotational"});
 BENCHMARK_CAPTURE(forces, prisms_qr, BarPattern::Prisms, 50, {"corotational", "qr"});
 BENCHMARK_CAPTURE(pyramids, polar, {"corotational"});

@@ -58,11 +58,16 @@ struct Model {
   std::string name;
   ElasticModel model;
   Rotation rotation;
+  Formulation formulation = Formulation::Plain;
 };
 inline const std::vector<Model>& every_model() {
-  static const std::vector<Model> all{{"linear", ElasticModel::Linear, Rotation::Polar},
-                                      {"qr", ElasticModel::Corotational, Rotation::Qr},
-                                      {"polar", ElasticModel::Corotational, Rotation::Polar}};
+  static const std::vector<Model> all{
+      {"linear", ElasticModel::Linear, Rotation::Polar},
+      {"qr", ElasticModel::Corotational, Rotation::Qr},
+      {"polar", ElasticModel::Corotational, Rotation::Polar},
+      {"enhanced linear", ElasticModel::Linear, Rotation::Polar, Formulation::Enhanced},
+      {"enhanced qr", ElasticModel::Corotational, Rotation::Qr, Formulation::Enhanced},
+      {"enhanced polar", ElasticModel::Corotational, Rotation::Polar, Formulation::Enhanced}};
   return all;
 }
 
@@ -77,7 +82,7 @@ struct Element {
       : rest(std::move(corners)), x(rest), v(rest.size(), Vec3::Zero()) {
     ElasticMaterial material = ElasticMaterial::of(100, poisson, shape_of(kind).dimension);
     material.damping = beta;
-    law = element_law(kind, model.model, model.rotation, material);
+    law = element_law(kind, model.model, model.rotation, material, model.formulation);
     unit.resize(static_cast<std::size_t>(law->values()));
     if (!law->write_unit(rest.data(), 0.1, unit.data())) unit.clear();
   }
@@ -147,6 +152,7 @@ struct Elastic {
   double beta = 0;
   Cumulated cumulated = Cumulated::Auto;
   bool elementary = false;
+  Formulation formulation = Formulation::Plain;
 };
 
 inline void add_elasticity(Body& body, const Elastic& recipe) {
@@ -155,6 +161,7 @@ inline void add_elasticity(Body& body, const Elastic& recipe) {
                    : recipe.model == "mass-tensor" ? ContinuumModel::MassTensor
                                                    : ContinuumModel::Corotational;
   settings.rotation = recipe.rotation == "qr" ? Rotation::Qr : Rotation::Polar;
+  settings.formulation = recipe.formulation;
   settings.young = 1000;
   if (body.map->dimension() == 2) settings.thickness = 0.1;
   settings.damping_stiffness = recipe.beta;

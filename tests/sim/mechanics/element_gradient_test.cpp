@@ -13,6 +13,7 @@ namespace rend {
 namespace {
 
 using namespace elements;
+using Eigen::Matrix3d;
 
 // The energy of an element from its corners alone: R of the average F, or of each point's own F in a sheet, and
 // Σ w (μ|ε|² + λ/2 (tr ε)²) at the points, in long double, with R from a singular value decomposition. It
@@ -75,20 +76,64 @@ LongPoints long_points(const Element& e) {
   return points;
 }
 
+using LongVector = Eigen::Matrix<Long, Eigen::Dynamic, 1>;
+
+// Strains of unit amplitudes of the enhanced modes at each point: sym(e_c H_aᵀ) ± 1/w with H_a = J₀⁻ᵀ e_a.
+std::vector<std::vector<LongMatrix>> mode_strains(const Element& e, const LongPoints& points) {
+  const ElementShape& shape = e.law->shape();
+  const Eigen::Index dim = shape.dimension;
+  const bool own =
+      dim == 2 || (e.law->model() == ElasticModel::Corotational && e.law->rotation() == Rotation::Qr);
+  const Matrix3d frame = own ? rest_frame(shape, e.rest.data()) : Matrix3d(Matrix3d::Identity());
+  LongMatrix J = LongMatrix::Zero();
+  for (std::size_t n = 0; n < e.corners(); ++n)
+    for (const ReferencePoint& point : shape.points)
+      J += (frame.transpose() * e.rest[n] * Eigen::Map<const Eigen::RowVector3d>(point.gradient[n].data()))
+               .cast<Long>();
+  if (dim == 2) J.row(2) << 0, 0, 1;
+  const LongMatrix inverse = J.inverse();
+  std::vector<std::vector<LongMatrix>> all(points.F.size());
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    for (Eigen::Index a = 0; a < dim; ++a) {
+      for (Eigen::Index c = 0; c < dim; ++c) {
+        LongMatrix M = LongMatrix::Zero();
+        M.row(c) = (g >> a & 1 ? 1 : -1) / points.weight[g] * inverse.row(a);
+        all[g].push_back((M + M.transpose()) / 2);
+      }
+    }
+  }
+  return all;
+}
+
+// Σ w ψ(ε), the least of all amplitudes of the modes.
 Long long_energy(const Element& e) {
   const LongPoints points = long_points(e);
   const Eigen::Index size = e.law->shape().dimension;
+  const ElasticMaterial& m = e.law->material();
+  const auto product = [&](const LongMatrix& a, const LongMatrix& b) { // a : C b
+    return 2 * m.mu * a.cwiseProduct(b).sum() + m.lambda * a.trace() * b.trace();
+  };
+  std::vector<std::vector<LongMatrix>> modes;
+  if (e.law->formulation() == Formulation::Enhanced) modes = mode_strains(e, points);
+  const auto count = static_cast<Eigen::Index>(modes.empty() ? 0 : modes[0].size());
+  Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic> D =
+      Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>::Zero(count, count);
+  LongVector r = LongVector::Zero(count);
   Long sum = 0;
   for (std::size_t g = 0; g < points.F.size(); ++g) {
     const LongMatrix U = points.R[g].transpose() * points.F[g];
     LongMatrix strain = (U + U.transpose()) / 2;
     if (size == 2) strain.row(2).setZero(), strain.col(2).setZero();
     for (Eigen::Index c = 0; c < size; ++c) strain(c, c) -= 1;
-    const Long trace = strain.trace();
-    sum += points.weight[g] *
-           (e.law->material().mu * strain.squaredNorm() + e.law->material().lambda / 2 * trace * trace);
+    sum += points.weight[g] / 2 * product(strain, strain);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const LongMatrix& mode = modes[g][static_cast<std::size_t>(i)];
+      r[i] += points.weight[g] * product(mode, strain);
+      for (Eigen::Index j = 0; j < count; ++j)
+        D(i, j) += points.weight[g] * product(mode, modes[g][static_cast<std::size_t>(j)]);
+    }
   }
-  return sum;
+  return count == 0 ? sum : sum - r.dot(LongVector(D.ldlt().solve(r))) / 2;
 }
 
 // Whether a frame is so close to a flip that the moment on it is bounded (rotation.h): the force is finite

@@ -214,7 +214,10 @@ TEST(ElementLaw, the_bound_is_the_frequency_of_the_element_itself) {
     e.law->bound(e.unit.data(), e.rest.data(), mass.data(), s.data(), d.data());
     const double square = brute_frequency(e, mass);
     for (std::size_t n = 0; n < e.corners(); ++n) {
-      EXPECT_NEAR(s[n] / mass[n], square, 1e-10 * square);
+      EXPECT_LT(square, (1 + 1e-10) * s[n] / mass[n]);
+      if (e.law->formulation() == Formulation::Plain) {
+        EXPECT_NEAR(s[n] / mass[n], square, 1e-10 * square);
+      }
       EXPECT_NEAR(d[n], 0.03 * s[n], 1e-12 * s[n]);
     }
   });

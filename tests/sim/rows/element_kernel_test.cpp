@@ -21,7 +21,9 @@ const std::vector<Elastic>& recipes() {
                                             {"corotational", "qr"},
                                             {"corotational", "polar"},
                                             {"mass-tensor", "polar"}})
-        list.push_back({model, rotation, beta, Cumulated::Auto, true});
+        for (const Formulation formulation : {Formulation::Plain, Formulation::Enhanced})
+          if (model != std::string("mass-tensor") || formulation == Formulation::Plain)
+            list.push_back({model, rotation, beta, Cumulated::Auto, true, formulation});
     return list;
   }();
   return all;
@@ -70,7 +72,10 @@ TEST(ElementKernel, agrees_with_the_plain_kernel_row_by_row) {
       };
       run(kernel_of(*binder.interaction()->law), fast);
       run(plain_kernel(), plain);
-      EXPECT_NE(kernel_of(*binder.interaction()->law).forces, plain_kernel().forces);
+      if (!binder.interaction()->name.starts_with("enhanced") ||
+          !binder.interaction()->name.ends_with("quad")) {
+        EXPECT_NE(kernel_of(*binder.interaction()->law).forces, plain_kernel().forces);
+      }
       EXPECT_LT(difference(fast, plain), 1e-12);
     }
   });

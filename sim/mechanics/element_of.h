@@ -1,0 +1,406 @@
+// The law of element_law.h, with the numbers of corners, rest axes and integration points known at compile
+// time: its force, its energy and its two tangents. Only element_law.cpp includes it.
+#pragma once
+
+#include "sim/mechanics/element_law.h"
+#include "sim/mechanics/enhanced_modes.h"
+
+#include <array>
+#include <optional>
+
+namespace rend {
+
+// An element's gradients at one integration point; for a sheet the third row is 0.
+template <int N> struct PointOf {
+  Eigen::Matrix<double, 3, N> gradient; // [1/m]
+  double weight;                        // [m³]
+};
+
+template <int N, int Dim, int Points> struct Decoded {
+  std::array<PointOf<N>, static_cast<std::size_t>(Points)> points;
+  double volume = 0; // [m³]
+
+  Decoded(const ElementShape& shape, const double* values) {
+    for (std::size_t g = 0; g < points.size(); ++g, values += Dim * Dim + 1) {
+      using Inverse = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
+      const Eigen::Map<const Inverse> inverse(values);
+      points[g].gradient.setZero();
+      for (int n = 0; n < N; ++n) {
+        const double* reference = shape.points[g].gradient[static_cast<std::size_t>(n)].data();
+        points[g].gradient.col(n).template head<Dim>() =
+            inverse.transpose() * Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(reference);
+      }
+      points[g].weight = values[Dim * Dim];
+      volume += points[g].weight;
+    }
+  }
+};
+
+// The law with sizes known at compile time: N corners, Dim rest axes, Points integration points.
+template <int N, int Dim, int Points> class ElementOf final : public ElementLaw {
+  using Matrix3d = Eigen::Matrix3d;
+
+public:
+  ElementOf(ElementKind kind, const ElementSettings& settings, const ElasticMaterial& material)
+      : ElementLaw(shape_of(kind), settings, material) {}
+
+  void forces(const double* unit, const UnitState& s, Vec3* force) const override {
+    const State at(*this, unit, s);
+    const Tensors strain = strains(at, at.moving);
+    for (int n = 0; n < N; ++n) force[n].setZero();
+    for (std::size_t f = 0; f < frames; ++f) {
+      Matrix3d moment = Matrix3d::Zero();
+      if (moment_of_frame())
+        moment = Turning(*this, at, f, material().damping > 0 ? strains(at, at.x) : strain).moment.Z;
+      for (std::size_t g = f; g < end_of(f); ++g) {
+        const auto& point = at.element.points[g];
+        const Matrix3d stress = point.weight * at.frame(g) * (stress_of(strain[g]) - moment);
+        for (int n = 0; n < N; ++n) force[n] -= stress * point.gradient.col(n);
+      }
+    }
+  }
+
+  double energy(const double* unit, const UnitState& s) const override {
+    const State at(*this, unit, s);
+    const Tensors strain = strains(at, at.x);
+    double sum = 0;
+    for (std::size_t g = 0; g < at.element.points.size(); ++g) {
+      sum += 0.5 * at.element.points[g].weight * stress_of(strain[g]).cwiseProduct(strain[g]).sum();
+    }
+    return sum;
+  }
+
+  void stiffness(const double* unit, const UnitState& s, Tangent tangent, UnitMatrix& by_position,
+                 UnitMatrix& by_velocity) const override {
+    const State at(*this, unit, s);
+    by_position.resize(3 * N, 3 * N);
+    by_velocity.resize(3 * N, 3 * N);
+    Eigen::Map<Whole> K(by_position.data()), D(by_velocity.data());
+    turned_stiffness(at, K);
+    if constexpr (enhanceable)
+      if (at.modes) {
+        const Coupling L = coupling(at);
+        K -= L.transpose().lazyProduct(Coupling(at.modes->inverse.lazyProduct(L)));
+      }
+    if (material().damping > 0)
+      D = material().damping * K;
+    else
+      D.setZero();
+    if (tangent == Tangent::Exact && model() == ElasticModel::Corotational) K += rotation_stiffness(at);
+  }
+
+  void bound(const double* unit, const Vec3*, const double* mass, double* stiffness,
+             double* damping) const override {
+    const double square = largest_stiffness(shape(), unit + first_point(), material(), mass);
+    for (int n = 0; n < N; ++n) {
+      stiffness[n] = square * mass[n];
+      damping[n] = material().damping * square * mass[n];
+    }
+  }
+
+  Matrix3d stress(const double* unit, const UnitState& s) const override {
+    const State at(*this, unit, s);
+    return at.R * stress_of(strain_of(at.R.transpose() * at.mean)) * at.R.transpose();
+  }
+  Matrix3d strain(const double* unit, const UnitState& s) const override {
+    const State at(*this, unit, s);
+    return at.R * strain_of(at.R.transpose() * at.mean) * at.R.transpose();
+  }
+
+private:
+  using Whole = Eigen::Matrix<double, 3 * N, 3 * N>;
+  using Corners = Eigen::Matrix<double, 3, N>;
+  using Turns = Eigen::Matrix<double, 3 * N, 3>;
+
+  using Tensors = std::array<Matrix3d, static_cast<std::size_t>(Points)>; // at each point, in the rotated frame
+
+  static constexpr bool by_point = rotates_per_point(Dim, Points);
+  static constexpr bool enhanceable = N == 4 * (Dim - 1) && Points == N;
+  using Modes = EnhancedModes<Dim, Points>;
+  using Coupling = Eigen::Matrix<double, Modes::modes, 3 * N>;
+  using TurnCoupling = Eigen::Matrix<double, Modes::modes, 3>;
+
+  // Frame f is that of the points f .. end_of(f) − 1: of one point, or of all.
+  static constexpr std::size_t frames = by_point ? static_cast<std::size_t>(Points) : 1;
+  static constexpr std::size_t end_of(std::size_t f) {
+    return by_point ? f + 1 : static_cast<std::size_t>(Points);
+  }
+
+  // Whether the energy changes when R alone turns. It does not if R is the polar rotation of the only F that it
+  // turns: RᵀF is then symmetric and σ commutes with it, unless enhanced modes have a share in σ.
+  bool moment_of_frame() const {
+    return model() == ElasticModel::Corotational &&
+           (rotation() == Rotation::Qr || (Points > 1 && !by_point) || formulation() == Formulation::Enhanced);
+  }
+
+  struct State {
+    Decoded<N, Dim, Points> element;
+    Corners x, moving; // [m], relative to the first corner: positions, and positions + β velocities
+    Corners gradient;  // volume averages
+    Matrix3d mean, R;  // F of the average gradients
+    std::array<Matrix3d, by_point ? Points : 0> R_at;
+    std::optional<Modes> modes; // of an enhanced element
+
+    const Matrix3d& frame(std::size_t g) const {
+      if constexpr (by_point) return R_at[g];
+      return R;
+    }
+
+    State(const ElementOf& law, const double* unit, const UnitState& s)
+        : element(law.shape(), unit + law.first_point()) {
+      for (int n = 0; n < N; ++n) {
+        x.col(n) = s.position[n] - s.position[0];
+        moving.col(n) = x.col(n);
+        if (law.material().damping > 0)
+          moving.col(n) += law.material().damping * (s.velocity[n] - s.velocity[0]);
+      }
+      gradient.setZero();
+      for (const auto& point : element.points) gradient += point.weight / element.volume * point.gradient;
+      mean.noalias() = x * gradient.transpose();
+      R = law.turn(unit, mean);
+      if constexpr (by_point)
+        for (std::size_t g = 0; g < R_at.size(); ++g)
+          R_at[g] = law.turn(unit, x * element.points[g].gradient.transpose());
+      if (enhanceable && law.formulation() == Formulation::Enhanced) modes.emplace(unit + law.first_mode());
+    }
+  };
+
+  // How a frame turns, and the moment on it: t·ω = Z : Rᵀ dF̄ is what the energy loses when R turns by ω.
+  struct Turning {
+    std::size_t frame;
+    Corners gradient; // Ḡ
+    Matrix3d R, U;    // U = Rᵀ F̄
+    RotationDerivative derivative;
+    RotationDerivative::Moment moment{Vec3::Zero(), Matrix3d::Zero()}; // per volume [Pa]
+
+    Turning(const ElementOf& law, const State& at, std::size_t f, const Tensors& strain)
+        : frame(f), gradient(by_point ? at.element.points[f].gradient : at.gradient), R(at.frame(f)),
+          U(R.transpose() * (at.x * gradient.transpose())), derivative(law.rotation(), R, R * U) {
+      if (!law.moment_of_frame()) return;
+      Vec3 t = Vec3::Zero();
+      for (std::size_t g = f; g < end_of(f); ++g) {
+        const auto& point = at.element.points[g];
+        const Matrix3d at_point = R.transpose() * (at.x * point.gradient.transpose());
+        t += point.weight * axial(law.stress_of(strain[g]) * at_point.transpose());
+      }
+      moment = derivative.moment(t / volume(at));
+    }
+    double volume(const State& at) const {
+      return by_point ? at.element.points[frame].weight : at.element.volume;
+    }
+  };
+
+  // a with [ω]× : M = a·ω.
+  static Vec3 axial(const Matrix3d& M) { return {M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1)}; }
+  static Matrix3d crossing(const Vec3& v) {
+    Matrix3d M;
+    M << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+    return M;
+  }
+
+  Matrix3d turn(const double* unit, const Matrix3d& mean) const {
+    if (model() == ElasticModel::Linear) {
+      if (Dim == 3) return Matrix3d::Identity();
+      const Vec3 a(unit[0], unit[1], unit[2]), b(unit[3], unit[4], unit[5]);
+      Matrix3d R;
+      R << a, b, a.cross(b);
+      return R;
+    }
+    if (rotation() == Rotation::Qr) return gram_schmidt(mean, Dim);
+    return Dim == 3 ? closest_rotation(mean) : closest_sheet_rotation(mean);
+  }
+
+  // [e_axis]× M.
+  static Matrix3d turned_about(int axis, const Matrix3d& M) {
+    Matrix3d turned;
+    turned.row(axis).setZero();
+    turned.row((axis + 1) % 3) = -M.row((axis + 2) % 3);
+    turned.row((axis + 2) % 3) = M.row((axis + 1) % 3);
+    return turned;
+  }
+
+  // ε at each point, of enhanced modes too.
+  Tensors strains(const State& at, const Corners& x) const {
+    Tensors e;
+    for (std::size_t g = 0; g < e.size(); ++g)
+      e[g] = strain_of(at.frame(g).transpose() * (x * at.element.points[g].gradient.transpose()));
+    if constexpr (enhanceable)
+      if (at.modes) {
+        Tensors sigma;
+        for (std::size_t g = 0; g < e.size(); ++g) sigma[g] = stress_of(e[g]);
+        const auto alpha = at.modes->of(sigma);
+        for (std::size_t g = 0; g < e.size(); ++g)
+          e[g] += at.modes->strain(g, at.element.points[g].weight, alpha);
+      }
+    return e;
+  }
+
+  // ε from RᵀF, or the change of ε from a change of RᵀF.
+  static Matrix3d symmetric(const Matrix3d& turned) {
+    Matrix3d e = Matrix3d::Zero();
+    e.topLeftCorner<Dim, Dim>() =
+        0.5 * (turned.topLeftCorner<Dim, Dim>() + turned.topLeftCorner<Dim, Dim>().transpose());
+    return e;
+  }
+  static Matrix3d strain_of(const Matrix3d& turned) {
+    Matrix3d e = symmetric(turned);
+    e.diagonal().template head<Dim>().array() -= 1;
+    return e;
+  }
+  Matrix3d stress_of(const Matrix3d& e) const {
+    Matrix3d sigma = 2 * material().mu * e;
+    sigma.diagonal().template head<Dim>().array() += material().lambda * e.trace();
+    return sigma;
+  }
+
+  void turned_stiffness(const State& at, Eigen::Map<Whole>& K) const {
+    K.setZero();
+    for (std::size_t p = 0; p < at.element.points.size(); ++p) {
+      const auto& point = at.element.points[p];
+      const Matrix3d& R = at.frame(p);
+      const Matrix3d across = R.template leftCols<Dim>() * R.template leftCols<Dim>().transpose();
+      const Corners g = R * point.gradient;
+      const double lambda = point.weight * material().lambda, mu = point.weight * material().mu;
+      for (int j = 0; j < N; ++j) {
+        const Vec3 lj = lambda * g.col(j), mj = mu * g.col(j);
+        for (int i = 0; i <= j; ++i) {
+          const double both = mj.dot(g.col(i));
+          for (int c = 0; c < 3; ++c)
+            for (int r = 0; r < 3; ++r)
+              K(3 * i + r, 3 * j + c) += g(r, i) * lj(c) + mj(r) * g(c, i) + both * across(r, c);
+        }
+      }
+    }
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < j; ++i)
+        K.template block<3, 3>(3 * j, 3 * i) = K.template block<3, 3>(3 * i, 3 * j).transpose();
+  }
+
+  using Spins = Eigen::Matrix<double, 3, 3 * N>; // ω, or a moment, by positions
+
+  // −∂f/∂R : ∂R/∂x, and the change of the moments' forces. If R turns by ω, −f_n changes by Z_n ω; a
+  // displacement of corner m turns R by L(Ḡ_m) Rᵀ. Amplitudes of modes follow both.
+  Whole rotation_stiffness(const State& at) const {
+    const Tensors strain = strains(at, at.x), moving = strains(at, at.moving);
+    std::array<Spins, frames> spins;
+    Coupling modes = Coupling::Zero(), moving_modes = Coupling::Zero(); // D⁻¹ ∂r/∂x
+    for (std::size_t f = 0; f < frames; ++f) spins[f] = turning_of(Turning(*this, at, f, strain));
+    if constexpr (enhanceable)
+      if (at.modes) {
+        for (std::size_t f = 0; f < frames; ++f) {
+          modes += coupling_by_turning(at, at.x, f).lazyProduct(spins[f]);
+          moving_modes += coupling_by_turning(at, at.moving, f).lazyProduct(spins[f]);
+        }
+        modes = at.modes->inverse.lazyProduct(Coupling(modes + coupling(at))).eval();
+        moving_modes = at.modes->inverse.lazyProduct(moving_modes).eval();
+      }
+    Whole K = Whole::Zero();
+    for (std::size_t f = 0; f < frames; ++f) {
+      const Turning frame(*this, at, f, strain);
+      const Turns turns = by_turning(at, at.moving, moving, frame);
+      // a plain loop: Eigen's blocked product is for larger matrices
+      K += turns.lazyProduct(spins[f]);
+      if (!moment_of_frame()) continue;
+      // The moment t changes by −Z_nᵀ (without damping) when corner n moves, and as R turns.
+      const Turns elastic = material().damping > 0 ? by_turning(at, at.x, strain, frame) : turns;
+      Spins change = moment_by_turning(at, strain, frame).lazyProduct(spins[f]) - Spins(elastic.transpose());
+      if constexpr (enhanceable)
+        if (at.modes) change += coupling_by_turning(at, at.x, f).transpose().lazyProduct(modes);
+      subtract_moment_forces(at, frame, spins[f], change, K);
+    }
+    if constexpr (enhanceable)
+      if (at.modes) K -= coupling(at).transpose().lazyProduct(moving_modes);
+    return K;
+  }
+
+  Spins turning_of(const Turning& frame) const {
+    Spins W;
+    for (int m = 0; m < N; ++m)
+      W.template block<3, 3>(0, 3 * m) = frame.derivative.of(frame.gradient.col(m)) * frame.R.transpose();
+    return W;
+  }
+
+  // Subtracts the change of the forces R Z Ḡ_n, where a displacement turns R by `spins` and changes t by
+  // `change`.
+  void subtract_moment_forces(const State& at, const Turning& frame, const Spins& spins, const Spins& change,
+                              Whole& K) const {
+    const double volume = frame.volume(at);
+    for (int column = 0; column < 3 * N; ++column) {
+      const Matrix3d spin = crossing(spins.col(column));
+      const Matrix3d dU =
+          frame.R.row(column % 3).transpose() * frame.gradient.col(column / 3).transpose() - spin * frame.U;
+      const Matrix3d dZ = spin * frame.moment.Z +
+                          frame.derivative.moment_change(frame.moment.z, change.col(column) / volume, dU);
+      const Matrix3d turned = volume * frame.R * dZ;
+      for (int n = 0; n < N; ++n) K.template block<3, 1>(3 * n, column) -= turned * frame.gradient.col(n);
+    }
+  }
+
+  // ∂r/∂x of the modes (enhanced_modes.h), R held.
+  Coupling coupling(const State& at) const {
+    Coupling L = Coupling::Zero();
+    const double lambda = material().lambda, mu = material().mu;
+    for (std::size_t g = 0; g < at.element.points.size(); ++g) {
+      const Matrix3d turned = at.frame(g).transpose();
+      for (int a = 0; a < Dim; ++a) {
+        const Vec3 W = at.modes->at(g, a);
+        for (int n = 0; n < N; ++n) {
+          const Vec3 G = at.element.points[g].gradient.col(n);
+          const Matrix3d block =
+              mu * (G.dot(W) * Matrix3d::Identity() + G * W.transpose()) + lambda * W * G.transpose();
+          L.template block<Dim, 3>(Dim * a, 3 * n) += (block * turned).template topRows<Dim>();
+        }
+      }
+    }
+    return L;
+  }
+
+  // ∂r by a turn of frame f.
+  TurnCoupling coupling_by_turning(const State& at, const Corners& x, std::size_t f) const {
+    TurnCoupling L = TurnCoupling::Zero();
+    for (std::size_t g = f; g < end_of(f); ++g) {
+      const Matrix3d U = at.frame(g).transpose() * (x * at.element.points[g].gradient.transpose());
+      for (int axis = 0; axis < 3; ++axis) {
+        const Matrix3d sigma = stress_of(symmetric(turned_about(axis, U)));
+        for (int a = 0; a < Dim; ++a)
+          L.template block<Dim, 1>(Dim * a, axis) -= (sigma * at.modes->at(g, a)).template head<Dim>();
+      }
+    }
+    return L;
+  }
+
+  // Z_n: −f_n, without the moment's forces, by a turn of R, with the amplitudes of modes held.
+  Turns by_turning(const State& at, const Corners& x, const Tensors& strain, const Turning& frame) const {
+    Turns Z = Turns::Zero();
+    const Matrix3d& R = frame.R;
+    for (std::size_t g = frame.frame; g < end_of(frame.frame); ++g) {
+      const auto& point = at.element.points[g];
+      const Matrix3d U = R.transpose() * (x * point.gradient.transpose());
+      const Matrix3d sigma = stress_of(strain[g]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Matrix3d change =
+            point.weight * R * (turned_about(axis, sigma) - stress_of(symmetric(turned_about(axis, U))));
+        for (int n = 0; n < N; ++n) Z.template block<3, 1>(3 * n, axis) += change * point.gradient.col(n);
+      }
+    }
+    return Z;
+  }
+
+  // The change of the moment t by a turn of R, with the amplitudes of modes held.
+  Matrix3d moment_by_turning(const State& at, const Tensors& strain, const Turning& frame) const {
+    Matrix3d change = Matrix3d::Zero();
+    for (std::size_t g = frame.frame; g < end_of(frame.frame); ++g) {
+      const auto& point = at.element.points[g];
+      const Matrix3d U = frame.R.transpose() * (at.x * point.gradient.transpose());
+      const Matrix3d sigma = stress_of(strain[g]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Matrix3d dU = -turned_about(axis, U);
+        change.col(axis) +=
+            point.weight * axial(stress_of(symmetric(dU)) * U.transpose() + sigma * dU.transpose());
+      }
+    }
+    return change;
+  }
+};
+
+} // namespace rend
