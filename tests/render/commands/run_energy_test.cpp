@@ -1,0 +1,64 @@
+// The energy account as commands print it, and the exit code of a run that gains energy without a cause.
+#include "tests/render/commands/program_run.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace rend {
+namespace {
+
+using program::Outcome;
+using program::TestFolder;
+using testing::HasSubstr;
+
+std::string bar(const std::string& time) {
+  return R"(<scene name="bar"><body><bar pattern="hexahedra" cells="4 2 2" size="1 0.3 0.3"/><mass total="1"/>)"
+         R"(<elasticity model="corotational" young="1e4" poisson="0.3"/><fix side="-x"/>)"
+         R"(<drive side="+x" velocity="0 0 0.2"/></body><world gravity="0 0 -5"/>)" +
+         time + "</scene>";
+}
+
+TEST(RunEnergy, adds_up_in_json_and_in_the_diagnostics) {
+  const TestFolder place;
+  place.write("bar.xml", bar(R"(<time integrator="verlet" step="auto" duration="0.5"/>)"));
+  const Outcome run = place.rend("run bar.xml --json -q --diagnostics bar.csv --fps 10");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto e = run.json()["energy"];
+  const auto number = [&](const char* key) { return e[key].get<double>(); };
+  const double now = number("kinetic") + number("elastic") + number("gravity");
+  const double drives = e["work_of"]["drives"].get<double>();
+  EXPECT_EQ(number("work"), drives); // nothing else acts
+  EXPECT_GT(drives, 0);
+  // at the start there is what the driven side moves with, and the weight
+  std::istringstream csv(program::content(place.path() / "bar.csv"));
+  std::string header, first;
+  std::getline(csv, header);
+  std::getline(csv, first);
+  EXPECT_THAT(header, HasSubstr("kinetic,elastic,gravity,work,dissipated,balance,"));
+  std::vector<double> cells;
+  std::istringstream row(first);
+  for (std::string cell; std::getline(row, cell, ',') && cells.size() < 9;) cells.push_back(std::stod(cell));
+  ASSERT_EQ(cells.size(), 9U);
+  const double start = cells[3] + cells[4] + cells[5];
+  EXPECT_NEAR(now, start + number("work") - number("dissipated") + number("balance"), 1e-9 * std::abs(drives));
+}
+
+// Explicit Euler without viscosity.
+TEST(RunEnergy, that_nothing_gave_ends_with_76) {
+  const TestFolder place;
+  place.write(
+      "sheet.xml",
+      R"(<scene name="sheet"><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/><springs><stretch k="60"/>)"
+      R"(<shear k="40"/></springs><fix side="-x"/></body><time integrator="explicit" step="2e-4" )"
+      R"(duration="2"/></scene>)");
+  const Outcome run = place.rend("run sheet.xml --no-guard");
+  EXPECT_EQ(run.code, 76);
+  EXPECT_THAT(run.err, HasSubstr("J of energy appeared"));
+  EXPECT_THAT(run.err, HasSubstr("another integrator"));
+  const Outcome sound = place.rend("run sheet.xml --set time.integrator=symplectic");
+  EXPECT_EQ(sound.code, 0) << sound.err;
+}
+
+} // namespace
+} // namespace rend
