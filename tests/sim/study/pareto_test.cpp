@@ -10,7 +10,7 @@
 namespace rend {
 namespace {
 
-bool beats(const Work& a, const Work& b) {
+bool beats(const WorkPrecision& a, const WorkPrecision& b) {
   return a.seconds <= b.seconds && a.error <= b.error && (a.seconds < b.seconds || a.error < b.error);
 }
 
@@ -19,10 +19,10 @@ TEST(ParetoFront, is_what_nothing_beats) {
   for (int trial = 0; trial < 300; ++trial) {
     std::uniform_int_distribution<int> few(1, 9); // small integers, so that ties are common
     std::vector<WorkPrecision> runs(static_cast<std::size_t>(trial % 40));
-    for (Work& run : runs) run = {static_cast<double>(few(random)), static_cast<double>(few(random))};
+    for (WorkPrecision& run : runs) run = {static_cast<double>(few(random)), static_cast<double>(few(random))};
     std::vector<std::size_t> front = pareto_front(runs), expected;
     for (std::size_t n = 0; n < runs.size(); ++n)
-      if (std::none_of(runs.begin(), runs.end(), [&](const Work& other) { return beats(other, runs[n]); }))
+      if (std::none_of(runs.begin(), runs.end(), [&](const WorkPrecision& other) { return beats(other, runs[n]); }))
         expected.push_back(n);
     EXPECT_TRUE(std::is_sorted(front.begin(), front.end(), [&](std::size_t a, std::size_t b) {
       return runs[a].seconds < runs[b].seconds;
