@@ -5,6 +5,7 @@
 #include "sim/embedding/reorder.h"
 #include "sim/fracture/pairs.h"
 #include "sim/integrate/rigid_motions.h"
+#include "sim/topology/walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,18 @@ std::size_t open_darts(const GMap& map) {
   std::size_t count = 0;
   map.for_each_dart([&](Dart d) { count += map.is_free(map.dimension(), d); });
   return count;
+}
+
+// The scratch of walks grows when it is first used: here, and not in the step in which a criterion first finds
+// something.
+void reserve_walks(const GMap& map) {
+  Dart first;
+  bool any = false;
+  map.for_each_dart([&](Dart d) {
+    if (!any) first = d;
+    any = true;
+  });
+  if (any) smallest_dart(map, Vertex, first);
 }
 
 } // namespace
@@ -73,6 +86,7 @@ Boundary& Body::boundary() {
 }
 
 void Body::reserve_for_separations() {
+  reserve_walks(map->map());
   map->reserve_for_separations();
   program->reserve_for_separations();
   for (TearLaw& law : tear_laws) law.reserve_for_separations();

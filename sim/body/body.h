@@ -99,8 +99,8 @@ struct Body final : System {
                      double by_velocity, BlockMatrix& out) override;
   void mark_prescribed(double time, std::uint8_t* axes) override;
 
-  // `shadow_step` [s]: weight of the shadow term × step; `scratch`: one record per vertex slot. Leaves the loads
-  // of the current state in `load`.
+  // `shadow_step` [s]: weight of the shadow term × step; `scratch`: one record per vertex slot. Leaves the
+  // loads of the current state in `load`.
   BodyEnergy energy(double shadow_step, std::vector<Record>& scratch);
   Work work(std::vector<Record>& scratch); // CHECK: it has a meter
   void evaluate();                         // evaluates force and corner_force in the current state

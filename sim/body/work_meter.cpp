@@ -157,7 +157,6 @@ void WorkMeter::Entry::store(Archive& archive) {
 
 void WorkMeter::store(Archive& archive, std::size_t most) {
   archive.unbounded(settled_.loads, settled_.drives, settled_.contact, settled_.changes);
-  archive(listed_);
   const auto all = [&](std::vector<Entry>& entries) {
     archive.list(entries, most, "work is done on more vertices than the body has");
     if (!archive.reading()) return;

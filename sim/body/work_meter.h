@@ -2,7 +2,7 @@
 // (sim/scene/energy_account.h).
 //
 // A step takes a vertex of mass m from x, v to x', v'. With Δx = x' − x, its load L, and the forces F at the
-// start and F' at the end of the step, of which each is internal force + load + weight, by the trapezoidal rule:
+// start and F' at the end of the step, each of them internal force + load + weight, by the trapezoidal rule:
 //
 //   loads    Σ ½ (L + L')·Δx
 //   drives   Σ Δ(½ m v²) − ½ (F + F')·Δx + m γ v'·Δx       along prescribed coordinates; γ: ambient drag

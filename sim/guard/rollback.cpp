@@ -9,7 +9,6 @@
 namespace rend {
 Rollback::Rollback(World& world, const Bodies& bodies, double step)
     : world_(world), bodies_(bodies), step_(step), starts_(bodies.size()), spheres_(world.spheres.size()) {
-  for (const Sphere& sphere : world.spheres) pushed_ = pushed_ || (!sphere.falls() && sphere.moves());
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (bodies[b]->work_meter) starts_[b].meter = *bodies[b]->work_meter;
 }
@@ -94,7 +93,7 @@ double Rollback::measured_work() const {
   }
   for (std::size_t s = 0; s < spheres_.size(); ++s)
     work.contact += world_.spheres[s].contact_work - spheres_[s].contact_work;
-  return work.loads + work.drives + (pushed_ ? work.contact : std::min(work.contact, 0.0));
+  return work.loads + work.drives + work.contact;
 }
 
 double Rollback::pending_work() const {
@@ -104,8 +103,7 @@ double Rollback::pending_work() const {
     if (!body->work_meter) continue;
     force.resize(body->vertices());
     const Work exact = body->work(force), known = body->work_meter->work();
-    sum += exact.loads + exact.drives - known.loads - known.drives;
-    if (pushed_) sum += exact.contact - known.contact;
+    sum += exact.sum() - known.sum();
   }
   return sum;
 }

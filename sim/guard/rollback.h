@@ -8,8 +8,7 @@
 //
 //   Σ m g·Δx                     Δx: displacement since the start
 //
-// and the rest is measured (WorkMeter). Contact with what does not move can only dissipate: of its work nothing
-// above 0 counts. Headroom is the velocity gained in two steps under gravity and loads.
+// and the rest is measured (WorkMeter). Headroom is the velocity gained in two steps under gravity and loads.
 #pragma once
 
 #include "sim/body/body.h"
@@ -72,7 +71,6 @@ private:
   World& world_;
   const Bodies& bodies_;
   double step_;         // [s]
-  bool pushed_ = false; // some sphere moves as prescribed
   long first_ = 0;
   bool aside_ = false;        // whether the start is in starts_, and no longer the current state
   std::vector<Start> starts_; // one per body

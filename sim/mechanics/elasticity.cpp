@@ -197,7 +197,7 @@ double largest_aspect(const EmbeddedMap& map) {
 
 void note_bending(const EmbeddedMap& map, const ElasticitySettings& settings, const Census& census,
                   std::vector<std::string>& notes) {
-  constexpr double bearable = 2;
+  constexpr double bearable = 3;
   if (settings.formulation == Formulation::Enhanced) return;
   if (census.of_kind[static_cast<std::size_t>(map.dimension() == 2 ? ElementKind::Quad
                                                                    : ElementKind::Hexahedron)] == 0)

@@ -64,6 +64,7 @@ std::vector<MemoryEntry> footprint_of(const Body& body) {
   to.add("state", "the state at the end of the step", "vertex", body.next.bytes());
   to.add("constraints", "motions, and vertices that obey them", "", body.constraints.bytes());
   to.add("loads", "patches, and the sum of loads", "", body.loads.bytes());
+  if (body.work_meter) to.add("guard", "work of loads, drives and contact", "vertex", body.work_meter->bytes());
   return std::move(to.all);
 }
 

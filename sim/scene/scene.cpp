@@ -283,6 +283,7 @@ EnergyState Scene::energy_state() const {
   EnergyState sum;
   sum.kinetic = kinetic_energy();
   sum.gravity = gravity_energy();
+  sum.round_off = 1e-12 * std::abs(sum.gravity);
   static thread_local std::vector<Record> force;
   for (const auto& body : bodies_) {
     force.resize(body->vertices());

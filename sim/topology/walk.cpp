@@ -31,7 +31,9 @@ std::vector<Dart> darts_of(const GMap& map, Orbit orbit, Dart d) {
 }
 
 Dart smallest_dart(const GMap& map, Orbit orbit, Dart d) {
-  const std::vector<Dart> darts = darts_of(map, orbit, d);
+  thread_local std::vector<Dart> darts; // keeps its capacity, since criteria call this in every step
+  darts.clear();
+  collect(map, orbit, d, darts);
   return *std::min_element(darts.begin(), darts.end());
 }
 

@@ -29,8 +29,9 @@ TEST_F(Checkpoint, a_checkpoint_of_something_else_is_refused_and_nothing_is_lost
   for (const char* other : {"--set body[cloth].mass.total=0.2", "--size 80x60", "--kernels walk", "--fps 50"}) {
     const Outcome outcome = place.rend(std::string("render clip.xml -q --resume -o c ") + other);
     EXPECT_EQ(outcome.code, 65) << other;
-    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("c/clip.checkpoint"), HasSubstr("of another preset"),
-                                            HasSubstr("without --resume")));
+    EXPECT_THAT(outcome.err,
+                testing::AllOf(HasSubstr("c/clip.checkpoint"), HasSubstr("made from another preset"),
+                               HasSubstr("leave out --resume")));
     EXPECT_TRUE(in("c") == before) << other;
   }
   std::string damaged = before.at("clip.checkpoint");
@@ -57,7 +58,7 @@ TEST_F(Checkpoint, another_build_of_the_same_commit_keeps_pictures_and_no_state)
   const Files before = in("stopped");
   const Outcome refused = place.shell("./other render clip.xml -q --resume -o stopped");
   EXPECT_EQ(refused.code, 65);
-  EXPECT_THAT(refused.err, HasSubstr("another rend"));
+  EXPECT_THAT(refused.err, HasSubstr("another build of rend"));
   expect_same(in("stopped"), before, "");
 }
 
@@ -69,7 +70,7 @@ TEST_F(Checkpoint, fewer_frames_leave_the_checkpoint_of_a_later_one_alone) {
   const std::string line = "render clip.xml --resume -o c --frames 0";
   const Outcome there = place.rend(line + " --json");
   EXPECT_EQ(there.code, 0) << there.err;
-  EXPECT_THAT(there.err, HasSubstr("clip.checkpoint is of frames beyond these"));
+  EXPECT_THAT(there.err, HasSubstr("clip.checkpoint is of a later frame than those asked for"));
   EXPECT_EQ(there.json()["kept"], 1);
   EXPECT_TRUE(there.json()["steps"].is_null()) << "no state is told, least of all that of another frame";
   EXPECT_TRUE(in("c") == before);

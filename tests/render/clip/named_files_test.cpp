@@ -91,7 +91,7 @@ TEST_F(NamedFiles, a_mesh_is_not_converted_onto_itself) {
   fs::create_symlink("m.msh", place.path() / "link.msh");
   for (const char* line : {"mesh convert m.msh m.msh", "mesh convert m.msh d/../m.msh",
                            "mesh convert m.msh link.msh", "mesh convert link.msh m.msh"})
-    expect_refused(line, "would be written over");
+    expect_refused(line, "would be overwritten");
   fs::create_hard_link(place.path() / "m.msh", place.path() / "hard.msh");
   EXPECT_EQ(place.rend("mesh convert m.msh hard.msh").code, 0) << "two names, two files";
   EXPECT_EQ(fs::hard_link_count(place.path() / "m.msh"), 1u);
@@ -135,8 +135,8 @@ TEST_F(NamedFilesOfDiff, a_report_lies_outside_of_what_is_compared) {
   ASSERT_EQ(place.rend("diff a/2.png b/2.png --limit max=0 -o report").code, 0);
   fs::create_directories(place.path() / "report/maps");
   fs::rename(place.path() / "b", place.path() / "report/maps/b");
-  expect_refused("diff a report/maps/b -o report", "has its maps where");
-  expect_refused("diff a/2.png report/maps/b/2.png -o report", "has its maps where");
+  expect_refused("diff a report/maps/b -o report", "would write its maps into");
+  expect_refused("diff a/2.png report/maps/b/2.png -o report", "would write its maps into");
   EXPECT_EQ(place.rend("diff a/2.png report/maps/b/2.png -o a/in/report").code, 0) << "two pictures, no folder";
   EXPECT_EQ(place.rend("diff a/in elsewhere -o a/report").code, 1) << "beside them";
 }

@@ -323,7 +323,7 @@ TEST_F(Program, WritesIntoAFolderCalledAsTheScene) {
 TEST_F(Program, WritesARowForEveryFrame) {
   ASSERT_EQ(place.rend("run pulled.xml --diagnostics d.csv").code, 0);
   const std::string csv = content(place.path() / "d.csv");
-  EXPECT_THAT(csv, StartsWith("frame,step,time,kinetic,elastic,gravity,momentum_x,"));
+  EXPECT_THAT(csv, StartsWith("frame,step,time,kinetic,elastic,gravity,work,dissipated,balance,momentum_x,"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 8);
   EXPECT_THAT(csv, HasSubstr("\n6,300,0.3,"));
 }

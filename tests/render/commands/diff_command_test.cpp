@@ -100,9 +100,9 @@ TEST_F(Diff, names_what_is_wrong_with_a_picture) {
   std::string flipped = whole;
   flipped[whole.size() / 2] = static_cast<char>(flipped[whole.size() / 2] ^ 0x40);
   const std::pair<std::string, std::string> bad[] = {{"", "empty"},
-                                                     {"some text", "no PNG"},
+                                                     {"some text", "not a PNG file"},
                                                      {"\xff\xd8\xff\xe0 JFIF", "JPEG"},
-                                                     {whole.substr(0, 4), "no PNG"},
+                                                     {whole.substr(0, 4), "not a PNG file"},
                                                      {whole.substr(0, whole.size() / 2), "cut off"},
                                                      {whole.substr(0, whole.size() - 12), "cut off"},
                                                      {flipped, "cannot be read"}};
@@ -214,8 +214,8 @@ TEST_F(Diff, notes_thresholds_that_nothing_is_measured_by) {
   put("b/one.png", touched(5));
   const Outcome idle = diff("a b --limit threshold=255 --limit window-size=8");
   EXPECT_EQ(idle.code, 1);
-  EXPECT_THAT(idle.err, HasSubstr("--limit gives a threshold, which changes nothing"));
-  EXPECT_THAT(idle.err, HasSubstr("--limit gives a window-size, which changes nothing"));
+  EXPECT_THAT(idle.err, HasSubstr("--limit gives a threshold, which has no effect"));
+  EXPECT_THAT(idle.err, HasSubstr("--limit gives a window-size, which has no effect"));
   EXPECT_EQ(diff("a b --limit threshold=255 --limit window-size=8 --limit window=0").err, "");
   EXPECT_THAT(diff("a b --limit window-size=8 --limit share=0").err, HasSubstr("window-size"));
   place.write("t.xml",
@@ -344,13 +344,13 @@ TEST_F(Diff, tells_of_a_clip_its_first_and_its_worst_frame) {
     put("b/bowl/0000" + std::to_string(n) + ".png", n < 2 ? picture() : touched(n));
   }
   const Outcome outcome = diff("a b --json");
-  const nlohmann::json clip = outcome.json()["clips"][0];
+  const nlohmann::json report = outcome.json(), clip = report["clips"][0];
   EXPECT_EQ(clip["name"], "bowl");
   EXPECT_EQ(clip["frames"], 5);
   EXPECT_EQ(clip["first"], "bowl/00002.png");
   double most = 0;
   std::string worst;
-  for (const auto& one : outcome.json()["cases"])
+  for (const auto& one : report["cases"])
     if (one["figures"]["flip"]["mean"] > most) {
       most = one["figures"]["flip"]["mean"];
       worst = one["name"];
@@ -375,7 +375,9 @@ TEST_F(Diff, writes_reports_for_gitlab_and_github) {
   EXPECT_EQ(prints.size(), issues.size());
   const std::string lines = content(place.path() / "annotations.txt");
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 5);
-  EXPECT_THAT(lines, HasSubstr("::error file=a/differ.png,title=rend diff%3A differ::differ.png: differ"));
+  EXPECT_THAT(
+      lines,
+      HasSubstr("::error file=a/differ.png,title=rend diff%3A differ::differ.png: max 5, at most 0 levels"));
 }
 
 // One column of an edge lies between its sides: smoothed in one picture, sharp in the other.

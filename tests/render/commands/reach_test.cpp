@@ -85,7 +85,7 @@ TEST_P(Reach, is_told_of_a_law_that_never_tears) {
   for (const json& one : all) {
     if (one["criterion"] != law["criterion"]) continue;
     const double most = one["reached"]["value"], seen = law["reached"]["value"];
-    EXPECT_LE(seen, most); // it looks at every few steps alone
+    EXPECT_LE(seen, most * (1 + 1e-12)); // it looks at every few steps alone
     EXPECT_GT(seen, 0.1 * most);
     const double steps = law["reached"]["time"].get<double>() / figures["step"].get<double>();
     EXPECT_NEAR(std::remainder(steps, law["look_every"].get<double>()), 0, 1e-6);

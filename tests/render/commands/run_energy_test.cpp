@@ -49,7 +49,8 @@ TEST(RunEnergy, that_nothing_gave_ends_with_76) {
   const TestFolder place;
   place.write(
       "sheet.xml",
-      R"(<scene name="sheet"><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/><springs><stretch k="60"/>)"
+      R"(<scene name="sheet"><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/><springs>)"
+              R"(<stretch k="60"/>)"
       R"(<shear k="40"/></springs><fix side="-x"/></body><time integrator="explicit" step="2e-4" )"
       R"(duration="2"/></scene>)");
   const Outcome run = place.rend("run sheet.xml --no-guard");

@@ -118,12 +118,12 @@ TEST(StudyCommand, refuses_before_it_runs) {
   };
   refused("--integrators rk4,verlett", 64, "did you mean 'verlet'?");
   refused("--integrators rk4,rk4", 64, "there twice");
-  refused("--integrators static", 64, "knows no time");
+  refused("--integrators static", 64, "has no time steps to study");
   refused("--sweep body.springs.cumulated", 64, "PATH=a,b,c");
   refused("--sweep body.springs.cumulatd=yes,no", 64, "cumulated");
   refused("--sweep time.step=1,2", 64, "--steps");
   refused("--sweep body.springs.cumulated=yes,maybe", 65, "maybe");
-  refused("--refine 0", 64, "no factor");
+  refused("--refine 0", 64, "is not a factor");
   refused("--duration 2", 64, "1 s only");
   refused("--steps 1", 64, "--steps");
   refused("-o hanging.xml", 73, "hanging.xml");
@@ -138,7 +138,8 @@ TEST(StudyCommand, refuses_before_it_runs) {
   for (const char* factors : {"1,2", "3"}) {
     const Outcome made = place.rend(std::string("study file.xml --quick -q --refine ") + factors);
     EXPECT_EQ(made.code, 64) << made.err;
-    EXPECT_THAT(made.err, AllOf(HasSubstr(std::string("--refine ") + factors), HasSubstr("body 1 is of a file"),
+    EXPECT_THAT(made.err, AllOf(HasSubstr(std::string("--refine ") + factors),
+                                HasSubstr("the mesh of body 1 comes from a file"),
                                 HasSubstr("<sheet>, <bar> or <tube>")));
     EXPECT_EQ(made.out, "");
   }

@@ -14,7 +14,7 @@ using program::Outcome;
 using program::TestFolder;
 using testing::HasSubstr;
 
-constexpr const char* fewer = "note: not all threads could be started";
+constexpr const char* fewer = "note: the system could not start all threads";
 
 class ThreadStarts : public testing::Test {
 protected:
@@ -134,7 +134,7 @@ TEST_F(ThreadStarts, a_batch_goes_on_with_as_many_programs_as_there_are) {
   const Outcome outcome = rend("REND_FORK_THAT_FAILS=2", line);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("3 of 3 jobs done"));
-  EXPECT_THAT(outcome.err, HasSubstr("note: fewer jobs ran at once"));
+  EXPECT_THAT(outcome.err, HasSubstr("note: the system could not start as many jobs at once"));
   EXPECT_EQ(rend("REND_FORK_THAT_FAILS=1", line).code, 75);
 }
 

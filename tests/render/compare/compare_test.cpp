@@ -46,7 +46,7 @@ TEST_F(CompareCase, wants_no_more_memory_than_it_is_given) {
   const CaseResult small = compare(1'000'000);
   EXPECT_EQ(small.state, CaseState::Unreadable);
   EXPECT_THAT(small.why, ElementsAre(HasSubstr("200 x 100 pixels in")));
-  EXPECT_THAT(small.why[0], HasSubstr("GB of memory, and there are 0.001 GB for it"));
+  EXPECT_THAT(small.why[0], HasSubstr("GB of memory, and 0.001 GB are available"));
   EXPECT_EQ(compare(2'000'000).state, CaseState::Differ);
 }
 
@@ -118,7 +118,7 @@ TEST_F(CompareCase, a_mask_that_does_not_fit_is_the_trouble_of_that_pair) {
   write("mask.png", pattern(10, 20));
   EXPECT_THAT(compare(plenty, "mask.png").why, ElementsAre(HasSubstr("10 x 20")));
   write("mask.png", std::string("RIFF"));
-  EXPECT_THAT(compare(plenty, "mask.png").why, ElementsAre(HasSubstr("no PNG")));
+  EXPECT_THAT(compare(plenty, "mask.png").why, ElementsAre(HasSubstr("not a PNG file")));
   EXPECT_THAT(compare(plenty, "none.png").why, ElementsAre(HasSubstr("none.png")));
   EXPECT_EQ(compare(plenty, "none.png").state, CaseState::Unreadable);
 }
@@ -126,7 +126,7 @@ TEST_F(CompareCase, a_mask_that_does_not_fit_is_the_trouble_of_that_pair) {
 TEST_F(CompareCase, both_sides_are_looked_at) {
   write("a.png", std::string("RIFF"));
   write("b.png", std::string("RIFF\1\2\3\4WEBP"));
-  EXPECT_THAT(compare().why, ElementsAre(HasSubstr("no PNG"), HasSubstr("a WebP")));
+  EXPECT_THAT(compare().why, ElementsAre(HasSubstr("not a PNG file"), HasSubstr("a WebP")));
   write("b.png", png_file(header_of(9, 9), png_chunk("IDAT", "nothing")));
   EXPECT_THAT(compare().why,
               ElementsAre(HasSubstr("a.png: this is not a PNG file"), HasSubstr("cannot be read")));

@@ -116,9 +116,10 @@ TEST(Inventory, says_why_something_is_not_there) {
   const program::TestFolder place;
   place.write("pulled.xml", program::pulled);
   const Json body = Json::parse(place.rend("info pulled.xml --json").out)["bodies"][0];
-  for (const char* why : {"'rk4' solves no system", "forces of single elements: no <tear> compares them",
-                          "fragments counted at each tear",
-                          "60 of stretch act between particles that others join", "no damping of stretch"})
+  for (const char* why :
+       {"'rk4' solves no system", "forces of single elements: no <tear> compares them",
+        "fragments counted at each tear", "60 of stretch act between vertices that another one joins",
+        "damping: none of stretch"})
     EXPECT_THAT(body["left_out"], Contains(HasSubstr(why)));
   const Json solves =
       Json::parse(place.rend("info pulled.xml --json --set time.integrator=implicit").out)["bodies"][0];

@@ -36,7 +36,7 @@ TEST(Manual, is_lines_of_troff) {
         ".TP\n\\fB\\-n\\fR, \\fB\\-\\-pieces\\fR \\fIN\\fR\n\\&.5 is half; a back\\eslash. Default: "
         "\\fB2\\fR.\n",
         ".TP\n\\fB\\-\\-wet\\fR\nfirst. Required.\n",
-        "Never more than 'twice'.\n\\&.5 sheets\n\\&'or' a part.\n", ".SH EXIT STATUS\n"})
+        "Never more than 'twice'.\n.br\n\\&.5 sheets\n.br\n\\&'or' a part.\n", ".SH EXIT STATUS\n"})
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n" << page;
 }
 

@@ -111,7 +111,7 @@ TEST(StillPictures, refuse_a_word_of_the_hud_that_there_is_not) {
   } catch (const UserError& error) {
     EXPECT_EQ(error.code, Exit::BadInput);
     EXPECT_STREQ(error.what(), "show is 'tittle'; expected any of title, time, energy, tears, legend, cost, "
-                               "separated by blanks");
+                               "separated by spaces");
     EXPECT_EQ(error.hint, "did you mean 'title'?");
   }
   settings.hud->show = {"time", "title"};

@@ -112,7 +112,7 @@ TEST(Parameters, SaysHowManyNumbersThereAre) {
             "cells of <twig> is '1 2 3', which has 3 numbers; expected 2 whole numbers, each of at least 1");
   EXPECT_EQ(refused("tip", "1 x 3"),
             "tip of <twig> is '1 x 3', where 'x' is not a number; expected 3 numbers [m]");
-  EXPECT_NE(refused("tip", "0,0,1").find("separated by blanks"), std::string::npos);
+  EXPECT_NE(refused("tip", "0,0,1").find("separated by spaces"), std::string::npos);
 }
 
 TEST(Parameters, ReadsWholeNumbers) {

@@ -127,7 +127,7 @@ TEST(Answer, is_measured_at_its_time) {
 TEST(Answer, after_the_end_is_never_asked_for_and_that_is_said) {
   const auto scene = cloth(R"(<probe name="p" side="+x"/><answer probe="p" quantity="x" value="1" at="9"/>)");
   ASSERT_EQ(scene->notes().size(), 1u);
-  EXPECT_THAT(scene->notes().front(), HasSubstr("before this answer at 9 s"));
+  EXPECT_THAT(scene->notes().front(), HasSubstr("before the time of this answer, 9 s"));
 }
 
 std::string refusal_of(const std::string& in_body) {
@@ -145,7 +145,7 @@ TEST(Answer, is_refused_where_nothing_can_be_measured) {
   EXPECT_THAT(refusal_of(R"(<probe name="a b" side="+x"/>)"), HasSubstr("holds ' '"));
   EXPECT_THAT(refusal_of(probe + R"(<answer probe="top" quantity="x" value="1"/>)"), HasSubstr("'tip'"));
   EXPECT_THAT(refusal_of(probe + R"(<answer probe="tip" quantity="reaction-x" value="1"/>)"),
-              HasSubstr("nothing supports"));
+              HasSubstr("neither fixed nor driven"));
 }
 
 } // namespace

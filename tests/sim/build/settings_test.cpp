@@ -220,7 +220,7 @@ TEST(Settings, of_time_need_a_duration_and_a_scheme) {
   EXPECT_THAT(refusal({.step = 1e-3, .scheme = find_scheme("eulre"), .duration = 1}),
               HasSubstr("integrator is missing"));
   EXPECT_THAT(refusal({.step = 1e-3, .tolerance = 1e-3, .duration = 1}),
-              HasSubstr("the tolerance belongs to rk45"));
+              HasSubstr("tolerance is used by rk45 alone"));
 }
 
 TEST(Settings, have_the_defaults_that_the_table_of_parameters_tells) {

@@ -60,8 +60,9 @@ bool finite(const presets::Loaded& scene) {
   return true;
 }
 
-// Four times the automatic step is certainly too large. In substeps that are accepted, which may be twice as long
-// where nothing grows yet, the error is that of the scheme at twice its automatic step: 2^order times as large.
+// Four times the automatic step is certainly too large. In substeps that are accepted, which may be twice as
+// long where nothing grows yet, the error is that of the scheme at twice its automatic step: 2^order times as
+// large.
 TEST(Guard, goes_on_with_a_step_that_is_too_large_near_where_small_steps_lead) {
   for (const std::string name : {"cloth", "bar"}) {
     for (const char* scheme : {"symplectic", "verlet", "rk4"}) {

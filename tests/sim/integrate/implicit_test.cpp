@@ -24,7 +24,7 @@ TEST(Steps, of_implicit_are_to_be_given) {
     ADD_FAILURE();
   } catch (const UserError& error) {
     EXPECT_EQ(error.code, Exit::BadInput);
-    EXPECT_THAT(error.what(), HasSubstr("a matter of accuracy"));
+    EXPECT_THAT(error.what(), HasSubstr("is not possible with 'implicit', which is stable with every step"));
     EXPECT_THAT(error.hint, HasSubstr("give a step"));
   }
 }

@@ -299,7 +299,7 @@ TEST(Tolerance, belongs_to_adaptive_schemes) {
       ADD_FAILURE() << scheme.name;
     } catch (const UserError& error) {
       EXPECT_EQ(error.code, Exit::BadInput);
-      EXPECT_THAT(error.what(), HasSubstr("the tolerance belongs to rk45"));
+      EXPECT_THAT(error.what(), HasSubstr("tolerance is used by rk45 alone"));
     }
   }
 }

@@ -92,10 +92,10 @@ TEST(StaticSolve, hangs_a_bar_from_its_corner_or_refuses) {
 
 TEST(StaticSolve, refuses_forces_that_overflow) {
   EXPECT_THAT(refusal_of_step(heavy_bar("hexahedra", "corotational", 1e300, R"(<fix side="-x"/>)")),
-              HasSubstr("larger than numbers go"));
+              HasSubstr("the forces overflow"));
   EXPECT_THAT(refusal_of_step(heavy_bar("hexahedra", "corotational", 1000,
                                         R"(<fix side="-x"/><load side="+x" force="1e300 0 0"/>)")),
-              HasSubstr("larger than numbers go"));
+              HasSubstr("the forces overflow"));
 }
 
 // A sheet of 1 kg under its weight with nothing fixed, and springs to the ground at every vertex; `springs`:
@@ -140,7 +140,7 @@ TEST(StaticSolve, refuses_what_springs_to_the_ground_let_slide) {
     scene.step();
     FAIL() << "not refused";
   } catch (const Unstable& error) {
-    EXPECT_THAT(error.what(), HasSubstr("along x, y, and a static solve"));
+    EXPECT_THAT(error.what(), HasSubstr("is free to move along x, y"));
   }
 }
 

@@ -184,8 +184,9 @@ TEST(BadMesh, elements_that_no_map_holds_are_named) {
   EXPECT_THAT(of("1\n7 4000 0 10 20 30 40 50 60\n"), HasSubstr("does not know"));
   EXPECT_THAT(of("3\n1 4 0 10 20 30 40\n2 4 0 10 20 30 50\n3 4 0 10 20 30 40\n"),
               HasSubstr("a.msh:17:1: tetrahedron 3 shares the face with the points 10 20 30"));
-  EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n2 2 0 20 30 50\n"), HasSubstr("a.msh:16:1: triangle 2 dangles"));
-  EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n2 3 0 10 20 30 40\n"), HasSubstr("quad 2 dangles"));
+  EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n2 2 0 20 30 50\n"),
+              HasSubstr("a.msh:16:1: triangle 2 is not a face of any solid"));
+  EXPECT_THAT(of("2\n1 4 0 10 20 30 40\n2 3 0 10 20 30 40\n"), HasSubstr("quad 2 is not a face of any solid"));
   EXPECT_THAT(of("1\n1 1 0 10 20\n"), HasSubstr("holds no solids, triangles or quads"));
   EXPECT_THAT(of("3\n1 2 0 10 20 30\n2 2 0 10 20 40\n3 2 0 10 20 50\n"),
               HasSubstr("polygon 3 shares the edge between points 10 and 20"));

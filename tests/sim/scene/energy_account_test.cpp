@@ -136,8 +136,10 @@ TEST(EnergyAccount, a_growing_load_does_its_integral) {
 TEST(EnergyAccount, a_falling_sphere_and_a_sheet_share_one_account) {
   const Loaded scene = load(
       R"(<scene><body><sheet pattern="crossed" cells="8 8" size="1 1"/><mass total="0.2"/>)"
-      R"(<springs><stretch k="300"/><shear kind="isotropic" k="100"/></springs><fix side="-x"/><fix side="+x"/>)"
-      R"(<contact with="obstacles"/></body><world><sphere centre="0.5 0.5 0.3" radius="0.15" mass="0.3"/></world>)"
+      R"(<springs><stretch k="300"/><shear kind="isotropic" k="100"/></springs>)"
+      R"(<fix side="-x"/><fix side="+x"/>)"
+      R"(<contact with="obstacles"/></body>)"
+      R"(<world><sphere centre="0.5 0.5 0.3" radius="0.15" mass="0.3"/></world>)"
       R"(<time integrator="symplectic" step="2e-4" duration="1"/></scene>)");
   run(scene, 0.6);
   const EnergyFigures e = scene->energy();

@@ -22,7 +22,8 @@ TEST(ParetoFront, is_what_nothing_beats) {
     for (WorkPrecision& run : runs) run = {static_cast<double>(few(random)), static_cast<double>(few(random))};
     std::vector<std::size_t> front = pareto_front(runs), expected;
     for (std::size_t n = 0; n < runs.size(); ++n)
-      if (std::none_of(runs.begin(), runs.end(), [&](const WorkPrecision& other) { return beats(other, runs[n]); }))
+      if (std::none_of(runs.begin(), runs.end(),
+                       [&](const WorkPrecision& other) { return beats(other, runs[n]); }))
         expected.push_back(n);
     EXPECT_TRUE(std::is_sorted(front.begin(), front.end(), [&](std::size_t a, std::size_t b) {
       return runs[a].seconds < runs[b].seconds;
