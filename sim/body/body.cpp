@@ -63,6 +63,7 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   map->subscribe(changes);
   if (tears()) reserve_for_separations();
   make_work_meter(scheme);
+  if (floor_contact) touched_.reserve(tears() ? map->slots_when_separated(Vertex) : vertices());
   constrain(0, map->position().values().data(), map->velocity().values().data());
 }
 

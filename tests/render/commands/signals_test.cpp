@@ -191,7 +191,7 @@ TEST_F(SignalledProgram, leaves_a_checkpoint_to_go_on_from) {
     const std::string folder = signal;
     const Outcome first = stopped_when("[ -e " + folder + "/00000.png ]", line + folder, signal);
     EXPECT_EQ(first.code, code) << first.err;
-    EXPECT_THAT(first.err, HasSubstr("--resume goes on from here"));
+    EXPECT_THAT(first.err, HasSubstr("repeat the command with --resume"));
     EXPECT_TRUE(in(folder).contains("clip.checkpoint"));
     EXPECT_THAT(place.rend(line + folder).err, HasSubstr("continuing at"));
     expect_same(in(folder), in("alone"), "");
