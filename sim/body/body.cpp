@@ -63,7 +63,8 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   map->subscribe(changes);
   if (tears()) reserve_for_separations();
   make_work_meter(scheme);
-  if (floor_contact) touched_.reserve(tears() ? map->slots_when_separated(Vertex) : vertices());
+  constexpr std::size_t few = 64; // so that a first contact asks for no memory
+  if (floor_contact) touched_.reserve(std::min(few, vertices()));
   constrain(0, map->position().values().data(), map->velocity().values().data());
 }
 

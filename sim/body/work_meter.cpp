@@ -80,7 +80,8 @@ void WorkMeter::list(const MeteredBody& body) {
   };
   become(entries_.loads, loaded_vertices(body.loads));
   become(entries_.drives, body.constraints.drives() ? body.constraints.vertices() : std::vector<Slot>{});
-  entries_.contact.reserve(body.system.vertices()); // so that the first contact asks for no memory
+  constexpr std::size_t few = 64; // so that a first contact asks for no memory
+  entries_.contact.reserve(std::min(few, body.system.vertices()));
   listed_ = true;
 }
 
@@ -118,7 +119,6 @@ void WorkMeter::before_contact(const State& next) {
 void WorkMeter::after_contact(const MeteredBody& body, double step, const State& next) {
   static thread_local std::vector<TouchedVertex> touched;
   touched.clear();
-  touched.reserve(next.position.size());
   for (Slot i = 0; i < next.position.size(); ++i)
     if (!equal(next.position[i], position_before_[i]) || !equal(next.velocity[i], velocity_before_[i]))
       touched.push_back({i, position_before_[i], velocity_before_[i]});

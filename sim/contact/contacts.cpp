@@ -28,7 +28,6 @@ void Contacts::advance(double time, double step) {
   for (auto& each : bodies_) {
     Body& body = *each->body;
     touched_.clear();
-    touched_.reserve(body.next.position.size());
     if (body.floor_contact)
       body.floor_contact->apply(body.map->position().values().data(), body.next, step, touched_);
     body.constrain(time + step, body.next.position.data(), body.next.velocity.data());

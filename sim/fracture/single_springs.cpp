@@ -102,7 +102,7 @@ bool turns(const CriterionRequest& request) {
 
 void keep_largest(std::vector<Candidate>& candidates, std::size_t first) {
   const auto begin = candidates.begin() + static_cast<std::ptrdiff_t>(first);
-  std::stable_sort(begin, candidates.end(), [](const Candidate& a, const Candidate& b) {
+  std::sort(begin, candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.dart != b.dart ? a.dart < b.dart : a.value > b.value;
   });
   candidates.erase(std::unique(begin, candidates.end(),
