@@ -187,7 +187,8 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command rule_command() {
-  return {"rule", "list, show, check and draw rules and scripts: changes of the mesh, for <apply> and <tear>",
+  return {"rule",
+          "list, show and check rules and scripts, and draw rules: changes of the mesh, for <apply> and <tear>",
           declare};
 }
 

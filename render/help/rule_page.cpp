@@ -21,7 +21,7 @@ THE MAP consists of darts. A dart is one end of one side of a face, and has four
 A link that leads nowhere is free: it leads to the dart itself. In a sheet every α3 is free. What is
 reached from a dart by some of the links is an orbit, and cells are orbits: vertex <1,2,3>, edge
 <0,2,3>, face <0,1,3>, the same of one volume (or of a sheet) <0,1>, volume <0,1,2>, component
-<0,1,2,3>. A hole's border is none: a rule matches it dart by dart, or edge by edge.
+<0,1,2,3>. A hole's border is none: to fill it, a face on each side, sew-edges with="touching".
 
 GRAPHS. left="..." and right="..." hold items in any order, separated by spaces:
   a*(0,1)  a hook: it stands for all darts of an orbit at once, here for those of one face. Each

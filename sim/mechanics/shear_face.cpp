@@ -27,8 +27,7 @@ const std::vector<Word> across_corner{"0", "10"};
 
 std::unique_ptr<Interaction> make_isotropic_face(EmbeddedMap& map, const InteractionRequest& request) {
   if (!has_face(map, 4, 4)) {
-    request.notes.push_back(
-        "shear was left out: no face is a quad, and a triangle keeps its angles by its sides");
+    request.notes.push_back("shear was left out: no face is a quad, which is what it acts on");
     return nullptr;
   }
   Pattern pattern{.owner = FaceOfVolume,
