@@ -252,9 +252,11 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
 int Body::make_changes(std::size_t number, const ForceView& now, double time, long step) {
   const PhaseScope within(profile, Phase::Changes);
   const std::size_t before = events.size();
-  const double potential = gravity_energy(*map, *mass, gravity);
+  const bool weighs =
+      work_meter && !tear_laws[number].settings().change->keeps_matter && !Vec3(gravity).isZero(0);
+  const double potential = weighs ? gravity_energy(*map, *mass, gravity) : 0;
   const int made = tear_laws[number].apply(*map, now, events, fragment_counter.get());
-  if (made > 0 && work_meter) work_meter->change(gravity_energy(*map, *mass, gravity) - potential);
+  if (made > 0 && weighs) work_meter->change(gravity_energy(*map, *mass, gravity) - potential);
   for (std::size_t e = before; e < events.size(); ++e) {
     events[e].time = time;
     events[e].step = step;

@@ -117,7 +117,7 @@ void WorkMeter::before_contact(const State& next) {
 }
 
 void WorkMeter::after_contact(const MeteredBody& body, double step, const State& next) {
-  static thread_local std::vector<TouchedVertex> touched;
+  thread_local std::vector<TouchedVertex> touched;
   touched.clear();
   for (Slot i = 0; i < next.position.size(); ++i)
     if (!equal(next.position[i], position_before_[i]) || !equal(next.velocity[i], velocity_before_[i]))
@@ -137,20 +137,22 @@ void WorkMeter::after_contact(const MeteredBody& body, double step, const State&
   }
 }
 
-Work WorkMeter::work(const MeteredBody& body) const {
+template <class Load, class Force> Work WorkMeter::with_pending(const Load& load, const Force& force) const {
   Work sum = settled_;
-  for (const Entry& e : entries_.loads) sum.loads += load_on(body, e.vertex).dot(e.pending.vec());
-  for (const Entry& e : entries_.drives) sum.drives += whole_force(body, e.vertex).dot(e.pending.vec());
-  for (const Entry& e : entries_.contact) sum.contact += whole_force(body, e.vertex).dot(e.pending.vec());
+  for (const Entry& e : entries_.loads) sum.loads += load(e).dot(e.pending.vec());
+  for (const Entry& e : entries_.drives) sum.drives += force(e).dot(e.pending.vec());
+  for (const Entry& e : entries_.contact) sum.contact += force(e).dot(e.pending.vec());
   return sum;
 }
 
+Work WorkMeter::work(const MeteredBody& body) const {
+  return with_pending([&](const Entry& e) -> Vec3 { return load_on(body, e.vertex); },
+                      [&](const Entry& e) -> Vec3 { return whole_force(body, e.vertex); });
+}
+
 Work WorkMeter::work() const {
-  Work sum = settled_;
-  for (const Entry& e : entries_.loads) sum.loads += e.force.vec().dot(e.pending.vec());
-  for (const Entry& e : entries_.drives) sum.drives += e.force.vec().dot(e.pending.vec());
-  for (const Entry& e : entries_.contact) sum.contact += e.force.vec().dot(e.pending.vec());
-  return sum;
+  const auto before = [](const Entry& e) { return e.force.vec(); };
+  return with_pending(before, before);
 }
 
 void WorkMeter::Entry::store(Archive& archive) {
@@ -159,14 +161,14 @@ void WorkMeter::Entry::store(Archive& archive) {
 
 void WorkMeter::store(Archive& archive, std::size_t most) {
   archive.unbounded(settled_.loads, settled_.drives, settled_.contact, settled_.changes);
-  const auto all = [&](std::vector<Entry>& entries) {
-    archive.list(entries, most, "work is done on more vertices than the body has");
+  const auto all = [&](std::vector<Entry>& entries, std::size_t at_most) {
+    archive.list(entries, at_most, "work is done on more vertices than the body has");
     if (!archive.reading()) return;
     for (const Entry& e : entries) refuse_unless(e.vertex < most, "work is done on a vertex that is not there");
   };
-  all(entries_.loads);
-  all(entries_.drives);
-  all(entries_.contact);
+  all(entries_.loads, most);
+  all(entries_.drives, most);
+  all(entries_.contact, 2 * most); // by the floor, and by other contact
 }
 
 std::size_t WorkMeter::bytes() const {

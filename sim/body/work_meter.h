@@ -82,6 +82,8 @@ private:
     std::vector<Entry> loads, drives, contact;
   };
   void list(const MeteredBody& body);
+  // What is settled and what is pending: with F' or L' [N] of an entry.
+  template <class Load, class Force> Work with_pending(const Load& load, const Force& force) const;
 
   double shadow_;
   bool listed_ = false; // loads and drives have the vertices of the current map

@@ -24,7 +24,8 @@ struct ChangeType {
   // those before the edit, links the current ones. `darts`: those of the cell, without removed ones; the cell
   // may have been split since. `normal`: of the plane along which a vertex would be split.
   std::function<bool(Edit&, const ForceView&, const Vec3& normal, std::span<const Dart> darts)> apply;
-  bool grows = false; // it may create darts and links (rule_change.h); the others separate and remove elements
+  bool grows = false;        // it may create darts and links (rule_change.h)
+  bool keeps_matter = false; // it only separates: no element is created or removed
 };
 
 const std::vector<ChangeType>& all_changes();

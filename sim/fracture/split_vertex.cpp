@@ -65,9 +65,12 @@ ChangeType split_vertex() {
   return {
       "split-vertex",
       "the elements at the vertex are separated into two groups, on either side of the plane across the force",
-      Cell::Vertices, [](Edit& edit, const ForceView& view, const Vec3& normal, std::span<const Dart> darts) {
+      Cell::Vertices,
+      [](Edit& edit, const ForceView& view, const Vec3& normal, std::span<const Dart> darts) {
         return split(edit, view, darts, normal);
-      }};
+      },
+      false,
+      true};
 }
 
 } // namespace rend

@@ -64,9 +64,8 @@ public:
     const State at(*this, unit, s);
     const Tensors strain = strains(at, at.x);
     double sum = 0;
-    for (std::size_t g = 0; g < at.element.points.size(); ++g) {
+    for (std::size_t g = 0; g < at.element.points.size(); ++g)
       sum += 0.5 * at.element.points[g].weight * stress_of(strain[g]).cwiseProduct(strain[g]).sum();
-    }
     return sum;
   }
 
@@ -190,14 +189,6 @@ private:
     }
   };
 
-  // a with [ω]× : M = a·ω.
-  static Vec3 axial(const Matrix3d& M) { return {M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1)}; }
-  static Matrix3d crossing(const Vec3& v) {
-    Matrix3d M;
-    M << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-    return M;
-  }
-
   Matrix3d turn(const double* unit, const Matrix3d& mean) const {
     if (model() == ElasticModel::Linear) {
       if (Dim == 3) return Matrix3d::Identity();
@@ -208,15 +199,6 @@ private:
     }
     if (rotation() == Rotation::Qr) return gram_schmidt(mean, Dim);
     return Dim == 3 ? closest_rotation(mean) : closest_sheet_rotation(mean);
-  }
-
-  // [e_axis]× M.
-  static Matrix3d turned_about(int axis, const Matrix3d& M) {
-    Matrix3d turned;
-    turned.row(axis).setZero();
-    turned.row((axis + 1) % 3) = -M.row((axis + 2) % 3);
-    turned.row((axis + 2) % 3) = M.row((axis + 1) % 3);
-    return turned;
   }
 
   // ε at each point, of enhanced modes too.
@@ -326,7 +308,7 @@ private:
                               Whole& K) const {
     const double volume = frame.volume(at);
     for (int column = 0; column < 3 * N; ++column) {
-      const Matrix3d spin = crossing(spins.col(column));
+      const Matrix3d spin = cross_matrix(spins.col(column));
       const Matrix3d dU =
           frame.R.row(column % 3).transpose() * frame.gradient.col(column / 3).transpose() - spin * frame.U;
       const Matrix3d dZ = spin * frame.moment.Z +

@@ -121,24 +121,21 @@ Matrix3d RotationDerivative::system(const Matrix3d& U) const {
 }
 
 Matrix3d RotationDerivative::back(const Vec3& z) const {
+  if (rotation_ == Rotation::Polar) return cross_matrix(z);
   Matrix3d Z = Matrix3d::Zero();
   Z(2, 1) = z.x();
-  Z(2, 0) = rotation_ == Rotation::Polar ? -z.y() : z.y();
+  Z(2, 0) = z.y();
   Z(1, 0) = z.z();
-  if (rotation_ == Rotation::Polar) Z -= Matrix3d(Z.transpose());
   return Z;
 }
 
 Matrix3d RotationDerivative::of(const Vec3& b) const {
+  if (!turns_) return Matrix3d::Zero();
+  if (rotation_ == Rotation::Polar) return inverse_ * cross_matrix(b);
   Matrix3d L = Matrix3d::Zero();
-  if (!turns_) return L;
-  if (rotation_ == Rotation::Polar) {
-    L << 0, -b.z(), b.y(), b.z(), 0, -b.x(), -b.y(), b.x(), 0;
-  } else {
-    L(0, 2) = b.y();
-    L(1, 2) = b.x();
-    L(2, 1) = b.x();
-  }
+  L(0, 2) = b.y();
+  L(1, 2) = b.x();
+  L(2, 1) = b.x();
   return inverse_ * L;
 }
 

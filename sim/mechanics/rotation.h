@@ -34,6 +34,27 @@ Eigen::Matrix3d gram_schmidt(const Eigen::Matrix3d& F, int dimension); // the sa
 // Bounds of H⁻¹ in the moment: the least det H (8 at rest) and, for QR, the least U00 and U11 (1 at rest).
 constexpr double least_polar = 1e-2, least_qr = 5e-2;
 
+// [v]×
+inline Eigen::Matrix3d cross_matrix(const Vec3& v) {
+  Eigen::Matrix3d M;
+  M << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return M;
+}
+
+// [e_axis]× M
+inline Eigen::Matrix3d turned_about(int axis, const Eigen::Matrix3d& M) {
+  Eigen::Matrix3d turned;
+  turned.row(axis).setZero();
+  turned.row((axis + 1) % 3) = -M.row((axis + 2) % 3);
+  turned.row((axis + 2) % 3) = M.row((axis + 1) % 3);
+  return turned;
+}
+
+// a with [ω]× : M = a·ω for every ω
+inline Vec3 axial(const Eigen::Matrix3d& M) {
+  return {M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1)};
+}
+
 // The derivative of R by F. ω is taken as 0 where it does not exist (F is rank-deficient, or R is about to
 // flip).
 class RotationDerivative {

@@ -132,8 +132,9 @@ TEST(StaticSolve, bends_a_bar_that_keeps_its_volume) {
   EXPECT_LT(lowest(s, 2), -0.3);
 }
 
-// The tangent is not positive on the way, and at 0.4999 Newton's method does not get there: relaxation does.
-// Where the bar hangs is also where symplectic Euler with viscosity brings it to rest (within 1e-6, in 6 s).
+// At 0.499 Newton's method gets there. At 0.4999 it finds an equilibrium in seven iterations as well, but one
+// that is unstable from 0.8 of the weight on: it is refused, and relaxation goes a long way to a stable one.
+// Where the bars hang is also where symplectic Euler with viscosity brings them to rest (within 1e-6, in 6 s).
 TEST(StaticSolve, lets_finer_bars_hang_that_keep_their_volume) {
   struct Hanging {
     const char* poisson;
