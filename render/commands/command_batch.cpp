@@ -190,6 +190,14 @@ void write_report(const BatchReport& report, const std::string& name, bool csv) 
     write_atomically(report.folder / (name == "index" ? "figures.csv" : name + ".csv"), batch_csv(report));
 }
 
+// All that tells what the jobs make, besides their presets.
+std::string key_of(const BatchOptions& options, const std::vector<BatchJob>& all) {
+  std::vector<std::string> settings = options.sets;
+  settings.insert(settings.end(), {options.frames, options.size, options.fps, options.video,
+                                   options.run ? "run" : "render", options.no_png ? "no PNG" : "PNG"});
+  return batch_key(all, settings);
+}
+
 Exit batch(const BatchOptions& options) {
   const double start = wall_clock();
   check(options);
@@ -213,6 +221,7 @@ Exit batch(const BatchOptions& options) {
   const OutputFolder folder(options.folder);
   const GracefulStop graceful_stop;
   folder.make();
+  if (!shard.whole()) remove_part(options.folder, shard);
   std::size_t finished = 0;
   MemoryNote memory(report.limits.memory);
   BatchQueue queue(
@@ -237,7 +246,7 @@ Exit batch(const BatchOptions& options) {
   report.seconds = wall_clock() - start;
   write_report(report, name, options.run);
   if (!shard.whole()) {
-    const std::string key = batch_key(all, options.sets);
+    const std::string key = key_of(options, all);
     write_part(report, shard, key);
     if (const auto whole = whole_batch(options.folder, all, shard.count, key)) {
       write_report(*whole, "index", options.run);

@@ -115,8 +115,7 @@ std::vector<std::string> remarks_of(const Cases& cases, const Tolerances& tolera
   for (const CasePaths& one : cases.all) names.push_back(one.name);
   std::vector<std::string> out = tolerances.remarks(names);
   if (cases.left_out > 0)
-    out.push_back(fmt::format("ignored {} non-PNG file{}", cases.left_out, cases.left_out == 1 ? "" : "s",
-                              cases.left_out == 1 ? "is" : "are"));
+    out.push_back(fmt::format("ignored {} non-PNG file{}", cases.left_out, cases.left_out == 1 ? "" : "s"));
   return out;
 }
 

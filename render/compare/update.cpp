@@ -20,7 +20,6 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
   std::set<std::size_t> out;
   for (const std::string& name : names) {
     const std::string folder = name.ends_with('/') ? name : name + "/";
-    const std::size_t before = out.size();
     bool found = false;
     for (std::size_t n = 0; n < cases.size(); ++n) {
       const std::string& one = cases[n].name;
@@ -29,7 +28,7 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
       out.insert(n);
       found = true;
     }
-    if (found || out.size() > before) continue;
+    if (found) continue;
     std::vector<std::string> all;
     for (const CasePaths& one : cases) all.push_back(one.name);
     const std::string near = nearest(name, all);

@@ -44,9 +44,10 @@ std::map<std::string, Measured> times_of(const fs::path& file) {
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> out;
   std::error_code error;
-  fs::recursive_directory_iterator at(folder, fs::directory_options::follow_directory_symlink, error), end;
+  fs::recursive_directory_iterator at(folder, error), end;
   for (; !error && at != end; at.increment(error))
-    if (at->path().extension() == ".xml") out.push_back(at->path());
+    if (std::error_code none; at->path().extension() == ".xml" && at->is_regular_file(none))
+      out.push_back(at->path());
   if (error)
     throw UserError(Exit::ReadWrite, {folder.string()}, "the folder cannot be read: " + error.message());
   std::sort(out.begin(), out.end());

@@ -44,10 +44,23 @@ BatchResult result_of(const Json& json) {
   return out;
 }
 
+int rank(BatchState state) {
+  switch (state) {
+  case BatchState::Done:
+    return 0;
+  case BatchState::Stopped:
+    return 1;
+  case BatchState::Unstable:
+    return 2;
+  case BatchState::Failed:
+    return 3;
+  }
+  return 3;
+}
+
 // Of two parts of one job.
 void add(BatchResult& sum, const BatchResult& part) {
-  const bool worse = part.state() != BatchState::Done && sum.state() == BatchState::Done;
-  if (worse) {
+  if (rank(part.state()) > rank(sum.state())) {
     sum.ran = part.ran;
     sum.code = part.code;
     sum.message = part.message;
@@ -87,11 +100,16 @@ bool take_part(const fs::path& file, const std::string& key, Results& results, d
 
 } // namespace
 
-std::string batch_key(const std::vector<BatchJob>& all, const std::vector<std::string>& sets) {
+std::string batch_key(const std::vector<BatchJob>& all, const std::vector<std::string>& settings) {
   std::string words;
   for (const BatchJob& job : all) words += job.name + '\n' + job.preset + '\n';
-  for (const std::string& set : sets) words += set + '\n';
+  for (const std::string& each : settings) words += each + '\n';
   return fmt::format("{:016x}", hash_bytes(words.data(), words.size()));
+}
+
+void remove_part(const fs::path& folder, const Shard& shard) {
+  std::error_code none;
+  fs::remove(part_file(folder, shard), none);
 }
 
 void write_part(const BatchReport& report, const Shard& shard, const std::string& key) {

@@ -14,7 +14,10 @@
 namespace rend {
 
 // What the shards of one batch have in common: parts of other jobs or settings do not belong together.
-std::string batch_key(const std::vector<BatchJob>& all, const std::vector<std::string>& sets);
+std::string batch_key(const std::vector<BatchJob>& all, const std::vector<std::string>& settings);
+
+// Of an earlier run into the same folder: before the shard begins.
+void remove_part(const std::filesystem::path& folder, const Shard& shard);
 
 // Writes the part of `shard` into the report's folder. Throws UserError: CannotCreate, ReadWrite.
 void write_part(const BatchReport& report, const Shard& shard, const std::string& key);

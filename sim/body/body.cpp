@@ -269,6 +269,7 @@ void Body::follow_changes() {
   const PhaseScope within(profile, Phase::Rebinding);
   if (slots_scattered(*map)) map->renumber();
   rebind();
+  if (work_meter) work_meter->forget_vertices();
   evaluate();
 }
 

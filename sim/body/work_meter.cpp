@@ -70,7 +70,7 @@ Work& Work::operator+=(const Work& other) {
 }
 
 double Work::size() const {
-  return std::abs(loads) + std::abs(drives) + std::abs(contact) + std::abs(changes);
+  return std::abs(loads) + std::abs(drives) + std::abs(contact);
 }
 
 void WorkMeter::list(const MeteredBody& body) {
@@ -83,6 +83,11 @@ void WorkMeter::list(const MeteredBody& body) {
   constexpr std::size_t few = 64; // so that a first contact asks for no memory
   entries_.contact.reserve(std::min(few, body.system.vertices()));
   listed_ = true;
+}
+
+void WorkMeter::forget_vertices() {
+  listed_ = false;
+  for (std::vector<Entry>* each : {&entries_.loads, &entries_.drives, &entries_.contact}) each->clear();
 }
 
 void WorkMeter::settle(const MeteredBody& body) {

@@ -29,7 +29,7 @@ struct Work {
   double loads = 0, drives = 0, contact = 0, changes = 0; // [J]
 
   double sum() const { return loads + drives + contact + changes; }
-  double size() const; // [J], sum of magnitudes
+  double size() const; // [J], sum of magnitudes; without changes, which depend on the origin
   Work& operator+=(const Work& other);
 };
 
@@ -60,8 +60,9 @@ public:
   void after_contact(const MeteredBody& body, double step, const State& next,
                      const std::vector<TouchedVertex>& before);
 
-  void rebind() { listed_ = false; }                         // after a change of the map ...
-  void change(double energy) { settled_.changes += energy; } // [J] ... or of gravity: it has so much more
+  void forget_vertices(); // what is listed is of vertices before a change of the map; nothing is pending
+  void rebind() { listed_ = false; }                         // after a change of the map
+  void change(double energy) { settled_.changes += energy; } // [J], potential that it or gravity added
 
   // Since the start. Of `body`, forces and loads are those of the current state; without it, those of the state
   // before stand in for what is pending.
@@ -75,7 +76,7 @@ private:
   struct Entry {
     Slot vertex = 0;
     Record force = {};   // [N], F or L at the start of the step
-    Record pending = {}; // F'·pending [J] is still to be added
+    Record pending = {}; // [m], ½ Δx, ½ δ or s h Δv: F'·pending [J] is still to be added
     void store(Archive& archive);
   };
   struct Entries {
@@ -89,7 +90,7 @@ private:
   bool listed_ = false; // loads and drives have the vertices of the current map
   Work settled_;
   Entries entries_;
-  std::vector<Record> position_before_, velocity_before_; // scratch of before_contact()
+  std::vector<Record> position_before_, velocity_before_; // [m], [m/s] by slot: scratch of before_contact()
 };
 
 } // namespace rend

@@ -138,6 +138,9 @@ private:
     for (Made& each : made_) {
       if (each.name != step.apply) continue;
       if (each.state == State::Begun) refuse_recursion(script, step);
+      if (path_.size() > Script::deepest)
+        step.source.fail("apply", fmt::format("script {}: scripts apply scripts more than {} deep",
+                                              in_quotes(script), Script::deepest));
       if (each.state == State::Waiting) attempt(each.name, [&] { make(each); });
       if (each.what) return *each.what;
     }

@@ -18,7 +18,7 @@ constexpr std::uint8_t everywhere = 7;
 using Bounds = Eigen::AlignedBox3d;
 using Edge = std::pair<Slot, Slot>; // the smaller slot first
 
-// A body as it starts.
+// A body at the start.
 class Starting {
 public:
   Starting(Body& body_, std::size_t number_) : body(&body_), number(number_) {
@@ -47,6 +47,9 @@ public:
     return false;
   }
   bool pinned(Slot v) const { return held[v] == everywhere; }
+  bool pinned(const ContactFaces::Triangle& t) const {
+    return pinned(t.vertex[0]) && pinned(t.vertex[1]) && pinned(t.vertex[2]);
+  }
 
   void move(const Vec3& by) {
     for (Slot v : alive) {
@@ -170,28 +173,34 @@ std::vector<Edge> edges_of(const ContactFaces& faces) {
   return edges;
 }
 
-// The parts of the edges of a that lie in the solid b.
-void edges_in_solid(const Starting& a, const Starting& b, double least, std::optional<StartOverlap>& worst) {
+// Calls visit(u, v, from, to) for each edge of a whose box meets that of b.
+template <class Visit> void for_edges_near(const Starting& a, const Starting& b, const Visit& visit) {
   std::vector<Edge> edges = edges_of(*a.faces);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (const auto& [u, v] : edges) {
     const Vec3 from = a.at(u), to = a.at(v);
     Bounds box(from);
-    if (!box.extend(to).intersects(b.bounds)) continue;
+    if (box.extend(to).intersects(b.bounds)) visit(u, v, from, to);
+  }
+}
+
+// The parts of the edges of a that lie in the solid b.
+void edges_in_solid(const Starting& a, const Starting& b, double least, std::optional<StartOverlap>& worst) {
+  for_edges_near(a, b, [&](Slot u, Slot v, const Vec3& from, const Vec3& to) {
     double before = 0;
     const auto look_until = [&](double share) {
       const Vec3 x = from + 0.5 * (before + share) * (to - from);
       if (share - before > 1e-12 && b.tree->inside(x)) {
         const SurfaceTree::Nearest near = b.tree->nearest(x);
         const ContactFaces::Triangle& there = b.faces->triangles()[near.triangle];
-        const bool all_pinned = a.pinned(u) && a.pinned(v) && b.pinned(there.vertex[0]);
+        const bool all_pinned = a.pinned(u) && a.pinned(v) && b.pinned(there);
         if (!all_pinned) deepen(worst, near.distance, least, x, near.normal);
       }
       before = share;
     };
     for (const SurfaceTree::Crossing& crossing : b.tree->crossings(from, to)) look_until(crossing.share);
     look_until(1);
-  }
+  });
 }
 
 // The edges of a that go through the sheet b, but not at its border: there they only touch.
@@ -207,22 +216,17 @@ void edges_through_sheet(const Starting& a, const Starting& b, double least,
     }
     return false;
   };
-  std::vector<Edge> edges = edges_of(*a.faces);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  for (const auto& [u, v] : edges) {
-    const Vec3 from = a.at(u), to = a.at(v);
-    Bounds box(from);
-    if (!box.extend(to).intersects(b.bounds)) continue;
+  for_edges_near(a, b, [&](Slot u, Slot v, const Vec3& from, const Vec3& to) {
     for (const SurfaceTree::Crossing& crossing : b.tree->crossings(from, to)) {
       if (on_border(crossing)) continue;
       const Vec3 n = b.tree->normal(crossing.triangle), x = from + crossing.share * (to - from);
       const double above = n.dot(from - x), below = n.dot(to - x);
       const bool short_above = std::abs(above) < std::abs(below);
       const Vec3 way = (short_above ? above : below) > 0 ? Vec3(-n) : n;
-      if (a.pinned(u) && a.pinned(v) && b.pinned(b.faces->triangles()[crossing.triangle].vertex[0])) continue;
+      if (a.pinned(u) && a.pinned(v) && b.pinned(b.faces->triangles()[crossing.triangle])) continue;
       deepen(worst, std::min(std::abs(above), std::abs(below)), least, x, way);
     }
-  }
+  });
 }
 
 std::optional<StartOverlap> in_each_other(const Starting& a, const Starting& b) {
@@ -238,7 +242,7 @@ std::optional<StartOverlap> in_each_other(const Starting& a, const Starting& b) 
       for (Slot v : of.alive) {
         if (!in.bounds.contains(of.at(v)) || !in.tree->inside(of.at(v))) continue;
         const SurfaceTree::Nearest near = in.tree->nearest(of.at(v));
-        if (of.pinned(v) && in.pinned(in.faces->triangles()[near.triangle].vertex[0])) continue;
+        if (of.pinned(v) && in.pinned(in.faces->triangles()[near.triangle])) continue;
         deepen(found, near.distance, least, of.at(v), near.normal);
       }
       edges_in_solid(of, in, least, found);
@@ -336,9 +340,10 @@ void clear_start(const World& world, const std::vector<std::unique_ptr<Body>>& b
   };
   if (std::any_of(overlaps.begin(), overlaps.end(), [&](const auto& each) { return !asked(each); })) {
     std::erase_if(overlaps, asked);
-    refuse(overlaps, bodies,
-           "move it out, by translate of its <place>; or write <contact overlap=\"push\">, and it is moved out "
-           "before the first step, without gaining energy");
+    refuse(
+        overlaps, bodies,
+        "move it by translate of its <place>, or write <contact overlap=\"push\">: it is then moved out before "
+        "the first step");
   }
   for (int round = 0; round < rounds && !overlaps.empty(); ++round) {
     const StartOverlap worst = *std::max_element(
@@ -347,9 +352,10 @@ void clear_start(const World& world, const std::vector<std::unique_ptr<Body>>& b
     overlaps = overlaps_of(world, all);
   }
   if (!overlaps.empty())
-    refuse(overlaps, bodies,
-           "overlap=\"push\" moves a body as a whole, and finds no way out: it has vertices that <fix> or "
-           "<drive> hold, or is held between things; place it elsewhere");
+    refuse(
+        overlaps, bodies,
+        "overlap=\"push\" found no way out: the body has vertices that <fix> or <drive> hold, or is enclosed; "
+        "place it elsewhere");
   for (const auto& one : all)
     if (!one->moved.isZero(0))
       one->body->notes.push_back(fmt::format("contact: it started inside {}, and was moved by ({:.4g}, {:.4g}, "

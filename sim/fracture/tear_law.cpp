@@ -102,11 +102,15 @@ void TearLaw::note_reached(const ForceView& view, double time) {
   reached_ = {largest->value, time, middle_of(view.map, view.position, left_)};
 }
 
+void Reached::store(Archive& archive) {
+  archive(value, time, place);
+}
+
 void TearLaw::store(Archive& archive, double now) {
-  archive(reached_.value, reached_.time, reached_.place);
+  reached_.store(archive);
   if (archive.reading())
     refuse_unless(reached_.value >= 0 && reached_.time >= 0 && reached_.time <= now,
-                  "a law has reached less than nothing, or later than now");
+                  "the largest value of a law is negative, or was reached in the future");
 }
 
 int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,

@@ -46,6 +46,7 @@ struct Reached {
   double value = 0;          // in the criterion's unit; 0: nothing above 0 was found
   double time = 0;           // [s]
   Vec3 place = Vec3::Zero(); // [m], the middle of the cell
+  void store(Archive& archive);
 };
 
 class TearLaw {
@@ -65,6 +66,7 @@ public:
   // is below the threshold.
   const std::vector<Candidate>& find_and_note(const ForceView& view, double time, bool look);
   const Reached& reached() const { return reached_; }
+  void restore_reached(const Reached& before) { reached_ = before; } // of a state that is returned to
   void store(Archive& archive, double now); // what was reached; nothing is reached later than now [s]
 
   // Makes the changes at the candidates of find(). Returns how many were made; appends an event for each, and

@@ -9,8 +9,13 @@
 namespace rend {
 Rollback::Rollback(World& world, const Bodies& bodies, double step)
     : world_(world), bodies_(bodies), step_(step), starts_(bodies.size()), spheres_(world.spheres.size()) {
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b]->work_meter) starts_[b].meter = *bodies[b]->work_meter;
+  for (std::size_t b = 0; b < bodies.size(); ++b) keep_measures(*bodies[b], starts_[b]);
+}
+
+void Rollback::keep_measures(const Body& body, Start& start) {
+  if (body.work_meter) start.meter = *body.work_meter;
+  start.reached.clear();
+  for (const TearLaw& law : body.tear_laws) start.reached.push_back(law.reached());
 }
 
 void Rollback::reserve_for_separations() {
@@ -29,11 +34,11 @@ void Rollback::begin(long step) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = *bodies_[b];
     starts_[b].time = body.time();
-    if (body.work_meter) starts_[b].meter = *body.work_meter;
+    keep_measures(body, starts_[b]);
   }
   for (std::size_t s = 0; s < spheres_.size(); ++s) {
     const Sphere& sphere = world_.spheres[s];
-    spheres_[s] = {sphere.centre, sphere.velocity, sphere.contact_work};
+    spheres_[s] = {sphere.centre, sphere.velocity, sphere.contact_work, sphere.gravity_work};
   }
 }
 
@@ -57,11 +62,14 @@ void Rollback::restore() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     bodies_[b]->restore_state(starts_[b].state, starts_[b].time);
     if (starts_[b].meter) *bodies_[b]->work_meter = *starts_[b].meter;
+    for (std::size_t n = 0; n < starts_[b].reached.size(); ++n)
+      bodies_[b]->tear_laws[n].restore_reached(starts_[b].reached[n]);
   }
   for (std::size_t s = 0; s < spheres_.size(); ++s) {
     world_.spheres[s].centre = spheres_[s].centre;
     world_.spheres[s].velocity = spheres_[s].velocity;
     world_.spheres[s].contact_work = spheres_[s].contact_work;
+    world_.spheres[s].gravity_work = spheres_[s].gravity_work;
   }
 }
 
@@ -157,10 +165,11 @@ void Rollback::Start::store(Archive& archive, std::size_t most) {
   state.store(archive, most);
   archive(time);
   if (meter) meter->store(archive, most);
+  for (Reached& each : reached) each.store(archive);
 }
 
 void Rollback::SphereStart::store(Archive& archive) {
-  archive(centre, velocity, contact_work);
+  archive(centre, velocity, contact_work, gravity_work);
 }
 
 void Rollback::store(Archive& archive, long done) {

@@ -54,13 +54,15 @@ private:
     State state;
     double time = 0;                                // [s]
     std::optional<WorkMeter> meter;                 // none: nothing does work on the body
+    std::vector<Reached> reached;                   // one per law
     void store(Archive& archive, std::size_t most); // of at most `most` vertices
   };
   struct SphereStart {
     Vec3 centre, velocity;
-    double contact_work = 0; // [J]
+    double contact_work = 0, gravity_work = 0; // [J]
     void store(Archive& archive);
   };
+  static void keep_measures(const Body& body, Start& start);
   void check_read(long done) const; // throws ArchiveError
   void add(const Body& body, const Start& start, Account& sum) const;
   void add_loads(const Body& body, Account& sum) const;
@@ -70,7 +72,7 @@ private:
 
   World& world_;
   const Bodies& bodies_;
-  double step_;         // [s]
+  double step_; // [s]
   long first_ = 0;
   bool aside_ = false;        // whether the start is in starts_, and no longer the current state
   std::vector<Start> starts_; // one per body

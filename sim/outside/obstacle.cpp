@@ -56,7 +56,7 @@ void Sphere::predict(double time, double step, const Vec3& gravity) {
 
 void Sphere::store(Archive& archive) {
   const Vec3 prescribed = velocity;
-  archive(centre, velocity, next_centre, next_velocity, contact_work);
+  archive(centre, velocity, next_centre, next_velocity, contact_work, gravity_work);
   if (archive.reading())
     refuse_unless(falls() || velocity == prescribed, "a sphere moves as its preset does not say");
 }
@@ -67,7 +67,7 @@ void Sphere::commit(double step, const Vec3& gravity, const Vec3& later) {
     const Vec3 change = next_velocity - velocity;
     const Vec3 mean = 0.5 * (velocity + next_velocity + step * gravity);
     contact_work += mass * (mean.dot(change) - gravity.dot(next_centre - centre));
-    contact_work -= 0.5 * mass * (later - gravity).dot(centre + next_centre);
+    gravity_work -= 0.5 * mass * (later - gravity).dot(centre + next_centre);
   }
   centre = next_centre;
   velocity = next_velocity;

@@ -52,6 +52,7 @@ struct Sphere {
   explicit Sphere(const SphereSettings& settings); // UserError
 
   double contact_work = 0; // [J], done on it by contact since the start, if it falls
+  double gravity_work = 0; // [J], of its potential, by gravity that grew since the start, if it falls
 
   bool falls() const { return mass > 0; }
   bool moves() const { return falls() || !velocity.isZero(0); }

@@ -22,6 +22,7 @@ public:
 
   const Rule& rule() const { return rule_; }
   RuleContext& context() { return context_; }
+  const RuleContext& context() const { return context_; }
 
   // Whether the links that it asks of a hook itself are free there, or are not.
   bool may_begin(const Edit& edit, int hook, Dart d) const;

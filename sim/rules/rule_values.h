@@ -70,7 +70,7 @@ struct RuleContext {
   std::vector<Value> wheres = {};             // the rule's arguments; empty: their defaults
   const RuleQuantities* quantities = nullptr; // null: there is no law
   mutable std::optional<Sides> sides = {};    // of the map when it was first asked for
-  std::size_t most_darts = 1u << 30;          // that a script may let the map have
+  std::size_t most_darts = 1u << 26;          // that a script may let the map have
 };
 
 enum class PointPart { Position, Rest, Velocity };

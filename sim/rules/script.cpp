@@ -44,7 +44,7 @@ RuleNode node_of(const ScriptSettings& script, const SettingsSource& source, con
   if (!one || std::any_of(graph[0].links.begin(), graph[0].links.end(), is_more))
     fail(script, source, attribute,
          fmt::format("{} is not one node with a star and its orbit", in_quotes(text)),
-         "such as " + example + "; what must be linked to it, rules tell");
+         "such as " + example + "; conditions on its links belong into the rules that it applies");
   return graph[0];
 }
 
@@ -192,9 +192,15 @@ Script::Script(ScriptSettings settings_, const Find& find)
     fail(settings, settings.source, "", fmt::format("it has more than {} steps", most_steps));
   for (const ScriptStepSettings& step : settings.steps) {
     steps.push_back(StepBuilder(settings, scope, step).run(find));
-    if (const auto& script = steps.back().what.script) depth = std::max(depth, script->depth + 1);
+    if (const auto& script = steps.back().what.script) {
+      depth = std::max(depth, script->depth + 1);
+      size += script->size;
+    }
+    if (size > largest)
+      fail(settings, step.source, "apply",
+           fmt::format("it applies more than {} scripts, counted each time", largest));
     if (depth > deepest)
-      fail(settings, step.source, "apply", fmt::format("more than {} scripts apply each other", deepest));
+      fail(settings, step.source, "apply", fmt::format("scripts apply scripts more than {} deep", deepest));
   }
   settings.source = {}; // the preset need not outlive the script
   for (ScriptStepSettings& step : settings.steps) step.source = {};

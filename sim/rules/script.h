@@ -17,6 +17,7 @@
 #include "sim/rules/rule.h"
 #include "sim/rules/script_settings.h"
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -77,12 +78,14 @@ struct Script {
   // As the element <script> of a preset, in a normal form: read, it makes the same script.
   std::string print() const;
 
-  static constexpr int deepest = 20; // scripts that apply each other
+  static constexpr int deepest = 20;            // scripts that apply each other
+  static constexpr std::size_t largest = 10000; // scripts that are applied, each as often as steps name it
 
   ScriptSettings settings;
   Rule scope; // changes nothing: its node is the hook, with the script's conditions and arguments
   std::vector<Step> steps;
-  int depth = 1; // of the scripts that it applies, and itself
+  int depth = 1;        // of the scripts that it applies, and itself
+  std::size_t size = 1; // how many they are, itself included
 };
 
 } // namespace rend

@@ -36,6 +36,7 @@ bool ScriptRunner::apply(Edit& edit, const Hooks& hooks) {
   created_before_ = start.map.created;
   reason_.clear();
   used_.clear();
+  matched_.clear();
   applied_ = 0;
   if (!begin(edit, hooks)) return false;
   for (const auto& step : steps_) {
@@ -105,6 +106,7 @@ bool ScriptRunner::run(Edit& edit, Step& step) {
     if (!step.reason.empty()) reason_ += ": " + step.reason;
     return false;
   };
+  scope_.context().sides.reset(); // the map has changed
   try {
     find_cells(edit, step);
     for (std::size_t n = 0; n + 1 < first_.size(); ++n) {
@@ -161,9 +163,8 @@ bool ScriptRunner::is_chosen(const Edit& edit, Step& step, std::span<const Dart>
   using At = RuleWhenSettings::At;
   if (step.step.scope.whens.empty()) return true;
   const auto holds = [&](Dart d) {
-    const RuleContext context{context_.wheres, context_.quantities, {}};
     return look(edit, step, d) &&
-           RuleValues(step.step.scope, edit, step.match, context).holds(step.step.scope.whens[0]);
+           RuleValues(step.step.scope, edit, step.match, scope_.context()).holds(step.step.scope.whens[0]);
   };
   if (cell.empty()) return holds({});
   if (step.settings.at == At::Hook) return holds(cell[0]);
@@ -190,8 +191,7 @@ void ScriptRunner::choose(const Edit& edit, Step& step, std::span<const Dart> ce
   if (arguments.empty()) return;
   const std::size_t base = values_.size() - (first ? 0 : arguments.size());
   if (!look(edit, step, cell.empty() ? Dart{} : cell[0])) throw ExpressionError(1, "its hook is gone");
-  const RuleContext context{context_.wheres, context_.quantities, {}};
-  const RuleValues scope(step.step.scope, edit, step.match, context);
+  const RuleValues scope(step.step.scope, edit, step.match, scope_.context());
   for (std::size_t n = 0; n < arguments.size(); ++n)
     values_.push_back(first || arguments[n].varies ? scope.value(arguments[n].value, 0) : values_[base + n]);
 }
@@ -221,12 +221,16 @@ void ScriptRunner::note(Step& step) {
   ++applied_;
   if (const ScriptRunner* script = step.runner.script()) {
     used_.insert(used_.end(), script->used_.begin(), script->used_.end());
-    added_.insert(added_.end(), script->of_.begin(), script->of_.end());
+    matched_.insert(matched_.end(), script->matched_.begin(), script->matched_.end());
+    const auto is_of_hook = [&](Dart d) { return is_of_.contains(d.value) || script->made_.contains(d.value); };
+    if (std::all_of(script->matched_.begin(), script->matched_.end(), is_of_hook))
+      added_.insert(added_.end(), script->of_.begin(), script->of_.end());
     return;
   }
   const RuleRunner& rule = *step.runner.rule();
   const std::vector<Dart>&matched = rule.match().darts, &left = rule.darts();
   used_.insert(used_.end(), matched.begin(), matched.end());
+  matched_.insert(matched_.end(), matched.begin(), matched.end());
   used_.insert(used_.end(), left.begin(), left.end());
   moved_.insert(moved_.end(), rule.moved().begin(), rule.moved().end());
   if (!rule.rule().creates()) return;

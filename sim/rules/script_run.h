@@ -64,7 +64,7 @@ private:
   std::vector<std::unique_ptr<Step>> steps_;
 
   // Of the call that runs.
-  Dart hook_;                                 // or, where it is gone, the first dart of the hook
+  Dart hook_;                                 // where it was removed: the first dart left of the hook
   std::vector<Dart> of_;                      // of the hook, in the order of a walk
   IndexSet is_of_;                            // the same
   std::vector<Dart> added_;                   // created by applications within them
@@ -76,7 +76,7 @@ private:
   std::vector<Dart> left_;                    // scratch: the darts of one cell that still exist
   std::vector<std::pair<Dart, Point>> moved_; // by the step
   std::size_t applied_ = 0;
-  std::vector<Dart> used_;
+  std::vector<Dart> used_, matched_; // matched_: without those left in their place
   std::string reason_;
 };
 

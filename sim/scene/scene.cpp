@@ -25,6 +25,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
       bodies_(std::move(definition.bodies)), time_(definition.time), duration_(duration_of(time_)),
       step_place_(time_.source.place("step")), fault_(options.fault) {
   const double start = wall_clock();
+  if (bodies_.empty()) throw UserError(Exit::BadInput, {}, "a scene needs a body", "add a <body>");
   check_world(world_);
   build_seconds_ = definition.build_seconds;
   for (auto& body : bodies_) {
@@ -297,6 +298,7 @@ EnergyState Scene::energy_state() const {
     if (!s.falls()) continue;
     sum.shadow += 0.5 * step_ * s.mass * s.velocity.dot(world_.gravity_at(time()));
     sum.work.contact += s.contact_work;
+    sum.work.changes += s.gravity_work;
   }
   return sum;
 }

@@ -207,7 +207,7 @@ void apply_to_some_maps(const Script& script, Pool& pool, std::mt19937& random, 
     ASSERT_TRUE(applied || bytes_of(body) == before) << script.print();
     tally.applied += applied;
     tally.refused += !applied;
-    tally.taken_back += !applied && runner.reason().find("step 1") == std::string::npos;
+    tally.taken_back += runner.reason().starts_with("step ") && !runner.reason().starts_with("step 1,");
     tally.created += applied && body.map().dart_count() > darts;
     tally.in_solids += applied && body.dimension() == 3;
   }

@@ -122,16 +122,39 @@ TEST(ScriptCheck, refuses_with_place_and_reason) {
   EXPECT_GE(count, 20);
 }
 
-TEST(ScriptCheck, bounds_how_deep_scripts_apply_each_other) {
-  std::string text = "<rules><script name='s0' hook='a*(0)'><for each='e*(0)' apply='unsew-edge'/></script>";
-  for (int n = 1; n <= Script::deepest; ++n)
-    text += fmt::format("<script name='s{}' hook='a*(0)'><for each='e*(0)' apply='s{}'/></script>", n, n - 1);
-  try {
-    read_rules_text(text + "</rules>", "test.xml");
-    ADD_FAILURE() << "it was accepted";
-  } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("more than 20 scripts apply each other"), std::string::npos);
+// Scripts s0, s1 ... each of which applies the one before `times` times; in that order or the reverse.
+std::string chain(int count, int times, bool reversed) {
+  std::string text;
+  for (int n = 0; n < count; ++n) {
+    std::string one = fmt::format("<script name='s{}' hook='a*(0)'>", n);
+    for (int t = 0; t < times; ++t)
+      one += fmt::format("<for each='e*(0)' apply='{}'/>", n == 0 ? "unsew-edge" : fmt::format("s{}", n - 1));
+    one += "</script>";
+    text = reversed ? one + text : text + one;
   }
+  return "<rules>" + text + "</rules>";
+}
+
+std::string refusal_of(const std::string& text) {
+  try {
+    read_rules_text(text, "test.xml");
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(ScriptCheck, bounds_how_deep_scripts_apply_each_other) {
+  for (const bool reversed : {false, true}) {
+    EXPECT_EQ(refusal_of(chain(Script::deepest, 1, reversed)), "none");
+    EXPECT_NE(refusal_of(chain(Script::deepest + 1, 1, reversed)).find("more than 20 deep"), std::string::npos);
+    EXPECT_NE(refusal_of(chain(2000, 1, reversed)).find("more than 20 deep"), std::string::npos);
+  }
+}
+
+TEST(ScriptCheck, bounds_how_many_scripts_apply_each_other) {
+  EXPECT_EQ(refusal_of(chain(8, 3, true)), "none");
+  EXPECT_NE(refusal_of(chain(18, 3, true)).find("more than 10000 scripts"), std::string::npos);
 }
 
 // What stands later may be applied, and what applies something refused is refused, too.

@@ -73,6 +73,25 @@ TEST(Script, visits_what_its_steps_have_divided_and_parted) {
   EXPECT_EQ(count_cells(sheet->map()).fragments, 1u + 12); // the eight quads hold together
 }
 
+// A script inside another one that reaches beyond the hook makes nothing of the hook, as a rule does not.
+TEST(Script, within_another_one_adds_to_the_hook_only_what_it_made_of_it) {
+  const std::string rest = R"xml(<for each="f*(0,1)" apply="star-face"/></script>)xml";
+  const std::string inner =
+      R"xml(<script name="inner" hook="a*(0,2,3)"><for each="e*(0,2,3)" apply="insert-vertex"/></script>)xml";
+  const std::string outer = R"xml(<script name="outer" hook="a*(0,1)"><for each="e*(0,2,3)" apply=")xml";
+  for (const std::string apply : {"insert-vertex", "inner"}) {
+    const auto sheet = assets::grid(3, 3);
+    Dart middle;
+    sheet->map().for_each_dart([&](Dart d) {
+      bool inside = true;
+      for (Dart e : darts_of(sheet->map(), FaceOfVolume, d)) inside = inside && !sheet->map().is_free(2, e);
+      if (inside) middle = d;
+    });
+    EXPECT_TRUE(run(made(inner + outer + apply + R"xml("/>)xml" + rest), *sheet, middle).ok);
+    EXPECT_EQ(faces(*sheet), 8u + 8) << apply;
+  }
+}
+
 TEST(Script, tells_cells_that_it_has_made_from_those_that_were_there) {
   const std::string start =
       R"xml(<script name="s" hook="a*(0,1,2)"><for each="e*(0,2,3)" apply="insert-vertex"/>)xml";
