@@ -1,4 +1,4 @@
-// rend rule: the rules and scripts of the house, of a preset, or of a file of rules: listed, shown, checked,
+// rend rule: the built-in rules and scripts, those of a preset, or of a file of rules: listed, shown, checked,
 // drawn.
 #include "render/clip/named_files.h"
 #include "render/commands/command.h"
@@ -49,7 +49,7 @@ RuleOrScript chosen_rule(const RuleOptions& options, const RuleBook& book, std::
     from = options.file;
     if (each.name() == options.name) return each;
   }
-  from = "house";
+  from = "built-in";
   if (const auto found = find_house_rule_or_script(options.name)) return *found;
   for (const Rule& rule : house_rules()) names.push_back(rule.name());
   for (const Script& script : house_scripts()) names.push_back(script.name());
@@ -60,8 +60,8 @@ RuleOrScript chosen_rule(const RuleOptions& options, const RuleBook& book, std::
 Exit list(const RuleOptions& options) {
   std::vector<RuleFacts> all;
   for (const RuleOrScript& each : book_of(options)) all.push_back(rule_facts(each, options.file));
-  for (const Rule& rule : house_rules()) all.push_back(rule_facts(rule, "house"));
-  for (const Script& script : house_scripts()) all.push_back(rule_facts(script, "house"));
+  for (const Rule& rule : house_rules()) all.push_back(rule_facts(rule, "built-in"));
+  for (const Script& script : house_scripts()) all.push_back(rule_facts(script, "built-in"));
   if (!options.json) {
     print_result(list_in_words(all));
     return Exit::Done;

@@ -1,9 +1,12 @@
 // Where the nodes of a rule's graph are drawn.
 //
-// Two nodes are to be as far from each other as arcs lie between them: the layout minimises the stress Σ (|xi
-// − xj| − dij)² / dij², by moving each node to where its terms want it on average, again and again (Kamada
-// and Kawai 1989; Gansner, Koren and North 2004). Several starts on a circle are tried, in fixed orders; the
-// result with the fewest crossings counts. No random numbers, and only operations that IEEE 754 fixes.
+// Two nodes are to be as far from each other as arcs lie between them. The layout minimises the stress
+//
+//   Σ (|xi − xj| − dij)² / dij²
+//
+// by moving each node in turn to the weighted mean of where its terms place it (Kamada and Kawai 1989; Gansner,
+// Koren and North 2004). Several starts on a circle are tried, in fixed orders; the result with the fewest
+// crossings counts. No random numbers, and only operations that IEEE 754 fixes.
 #pragma once
 
 #include "render/diagram/drawing.h"

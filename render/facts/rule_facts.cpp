@@ -151,7 +151,7 @@ std::string facts_in_words(const RuleFacts& facts) {
   row("fits", facts.fits_sheets ? "sheets and solids" : "solids");
   if (facts.folds) row("may fold", "it also matches where darts of the left graph coincide");
   if (!facts.asks_for.empty()) row("asks for", facts.asks_for + ", which laws of tearing alone know");
-  if (facts.from != "house") row("from", facts.from);
+  if (facts.from != "built-in") row("from", facts.from);
   return out;
 }
 

@@ -19,7 +19,7 @@ struct RuleFacts {
     std::string name, value; // its default, as it is written
   };
   std::string name = {}, about = {};
-  std::string from = {}; // "house", or the file
+  std::string from = {}; // "built-in", or the file
   std::vector<Hook> hooks = {};
   std::vector<Argument> arguments = {};
   std::vector<std::string> creates = {}, keeps = {}, removes = {}; // nodes

@@ -21,7 +21,7 @@ THE MAP consists of darts. A dart is one end of one side of a face, and has four
 A link that leads nowhere is free: it leads to the dart itself. In a sheet every α3 is free. What is
 reached from a dart by some of the links is an orbit, and cells are orbits: vertex <1,2,3>, edge
 <0,2,3>, face <0,1,3>, the same of one volume (or of a sheet) <0,1>, volume <0,1,2>, component
-<0,1,2,3>. A hole's border is none: to fill it, a face on each side, sew-edges with="touching".
+<0,1,2,3>. A hole's border is no cell: fill it with a face per side and sew-edges with="touching".
 
 GRAPHS. left="..." and right="..." hold items in any order, separated by spaces:
   a*(0,1)  a hook: it stands for all darts of an orbit at once, here for those of one face. Each
@@ -58,9 +58,9 @@ is, and a, which is one of its two ends, is not. A name is that of a node, then 
 constexpr const char* page_use = R"page(
 SCRIPTS apply rules to one cell after another, as one change: all of it is done, or nothing.
   <script name="s" hook="a*(0,1)"> <for each="e*(0)" where="length(e) > 1" apply="NAME"/> </script>
-is for each side e of face a, or of what steps before have made of it, if a test of a and e holds.
-at="any|all": at darts of e. which="old|new": e has darts from before the script, or none. at-least
-="one|none": NAME need not apply at all of them. Other attributes are arguments, such as v="e - a".
+applies NAME to each side e of face a, and of what earlier steps made of it, where the test holds;
+at="all|any": at all or any darts of e. which="old|new": only cells with darts from before, or none.
+at-least="one|none": how often it must apply (all). Without each: once. Others: arguments of NAME.
 
 USE. Rules and scripts stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> there.
   <apply rule="raise" times="2" h="0.3"/>   in a <body>, after its shape: h is an argument; where

@@ -1,10 +1,10 @@
 // The rules and scripts that a scene's elements may name: those of the preset, those of files of rules, and the
-// house's.
+// built-in ones.
 //
 //   <scene name="..."> <rules file="my-rules.xml"/> <rule name="..." left="..." right="..."/> ... </scene>
 //
 // A file of rules holds <rules> with any number of <rule> and <script>, or a single one of them. Names
-// differ; a preset may not redefine a rule of the house. A script may apply what stands after it.
+// differ; a preset may not redefine a built-in rule. A script may apply what stands after it.
 #pragma once
 
 #include "sim/base/error.h"
@@ -37,7 +37,7 @@ RuleBook read_rules(const PresetNode& scene, RuleFaults* faults = nullptr);
 RuleBook read_rules_text(std::string_view text, const std::string& file, RuleFaults* faults = nullptr);
 bool is_rules_text(std::string_view text);
 
-// In the book, then in the house. UserError, at the attribute of `source`, with the nearest name.
+// In the book, then built-in. UserError, at the attribute of `source`, with the nearest name.
 RuleOrScript find_rule(const RuleBook& book, const std::string& name, const SettingsSource& source,
                        std::string_view attribute);
 

@@ -30,10 +30,9 @@ template <> const Fields<Placement>& fields_of() {
       field(&S::scale, number("scale", "", "factor").above(0)),
       field(&S::rotate, numbers("rotate", 3, "degrees", "angles about x, then y, then z")),
       field(&S::translate, numbers("translate", 3, "m", "displacement; applied last")),
-      field(&S::velocity, numbers("velocity", 3, "m/s", "at the start")),
+      field(&S::velocity, numbers("velocity", 3, "m/s", "initial velocity")),
       field(&S::spin, numbers("spin", 3, "degrees/s",
-                              "at the start, about its centre of mass: along the axis, as "
-                              "long as its rate"))};
+                              "initial angular velocity about the centre of mass, in world coordinates"))};
   return fields;
 }
 

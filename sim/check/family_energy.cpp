@@ -107,7 +107,7 @@ CheckCase moved(const Cause& cause, const Stuff& stuff, const Scheme& scheme, do
     finding.what = peak.told
                        ? peak.why
                        : fmt::format("{:.3g} J at most, {:.3g} J with small steps", peak.energy, known.energy);
-    finding.at_most("small steps told of", known.told, 0);
+    finding.at_most("notes of the run in small steps", known.told, 0);
     if (peak.told) return;
     const double ratio = peak.energy / known.energy;
     if (ratio > most_ratio && touches && (name == "rk45" || name == "implicit")) {

@@ -2,7 +2,7 @@
 // <contact overlap="push"> asks for it.
 //
 // Contact keeps out what comes in. What starts inside has no side from which it came, and what pushes it out
-// works on it: a bar of 10 kg and 1e5 Pa, 0.1 m deep in the floor, gained 1285 J and flew 6 m high. So a body
+// works on it, and throws it into the air. So a body
 // may touch, but not lie deeper than 1e-9 of its size in the floor, a sphere, a box, or another body that it
 // is in contact with. The distances that contact keeps do not count: between them, `way_out()` (impact.h) acts.
 //
@@ -13,8 +13,8 @@
 //                        distance from the surface
 //   a sheet              of the edges that go through it: what sticks out on the shorter side
 //
-// What is prescribed in all directions passes through everything, and is not asked. Fragments of one body are
-// not either.
+// Not tested: vertices that are prescribed in all directions, which pass through everything, and fragments
+// of one body against each other.
 //
 // With "push", a body is translated as a whole, rest positions as well, until it keeps its distance: along the
 // way out of its deepest point, again for what is then deepest. Two bodies share the way by their masses, so

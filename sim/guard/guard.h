@@ -1,5 +1,4 @@
-// The guard: detects steps that were too large for what happened in them, and redoes them with substeps
-// (rollback).
+// The guard: detects steps that were too large for what happened in them, and redoes them with substeps.
 //
 // Every `period` steps, and at each change of topology, it saves the state: a new stretch begins (rollback.h).
 // In each step it tests S = Σ |v|², which the integration accumulates (State::put): S is not finite if a number

@@ -5,7 +5,7 @@ namespace rend {
 
 ScriptSettings delete_face() {
   return {.name = "delete-face",
-          .about = "a face of a sheet lets go of all its neighbours and is gone",
+          .about = "a face of a sheet is separated from all its neighbours and removed",
           .hook = "a*(0,1)",
           .steps = {{.each = "e*(0)", .apply = "unsew-edge", .at_least = ScriptStepSettings::AtLeast::None},
                     {.each = "e*(0,1)", .apply = "remove-isolated-face"}}};

@@ -5,7 +5,7 @@ namespace rend {
 
 ScriptSettings delete_faces_at_edge() {
   return {.name = "delete-faces-at-edge",
-          .about = "the faces of a sheet that hold an edge are gone",
+          .about = "the faces of a sheet at an edge are removed",
           .hook = "a*(0,2)",
           .steps = {{.each = "e*(0,1)", .apply = "delete-face"}}};
 }

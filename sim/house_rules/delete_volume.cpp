@@ -5,7 +5,7 @@ namespace rend {
 
 ScriptSettings delete_volume() {
   return {.name = "delete-volume",
-          .about = "a volume lets go of all its neighbours and is gone (thesis fig. 7.7)",
+          .about = "a volume is separated from all its neighbours and removed (thesis fig. 7.7)",
           .hook = "a*(0,1,2)",
           .steps = {{.each = "e*(0,1)", .apply = "unsew-face", .at_least = ScriptStepSettings::AtLeast::None},
                     {.each = "e*(0,1,2)", .apply = "remove-isolated-volume"}}};

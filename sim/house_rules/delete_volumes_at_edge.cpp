@@ -5,7 +5,7 @@ namespace rend {
 
 ScriptSettings delete_volumes_at_edge() {
   return {.name = "delete-volumes-at-edge",
-          .about = "the volumes that hold an edge are gone",
+          .about = "the volumes at an edge are removed",
           .hook = "a*(0,2,3)",
           .steps = {{.each = "e*(0,1,2)", .apply = "delete-volume"}}};
 }

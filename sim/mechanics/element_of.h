@@ -135,7 +135,7 @@ private:
   struct State {
     Decoded<N, Dim, Points> element;
     Corners x, moving; // [m], relative to the first corner: positions, and positions + β velocities
-    Corners gradient;  // volume averages
+    Corners gradient;  // [1/m], volume averages
     Matrix3d mean, R;  // F of the average gradients
     std::array<Matrix3d, by_point ? Points : 0> R_at;
     std::optional<Modes> modes; // of an enhanced element

@@ -48,9 +48,8 @@ template <int Dim, int Points> struct EnhancedModes {
   using Amplitudes = Eigen::Matrix<double, modes, 1>;
   using Stresses = std::array<Eigen::Matrix3d, static_cast<std::size_t>(Points)>;
 
-  Eigen::Matrix<double, 3, Dim> H =
-      Eigen::Matrix<double, 3, Dim>::Zero();   // columns; of a sheet the third row is 0
-  Eigen::Matrix<double, modes, modes> inverse; // D⁻¹
+  Eigen::Matrix<double, 3, Dim> H = Eigen::Matrix<double, 3, Dim>::Zero(); // [m², of a sheet m; third row 0]
+  Eigen::Matrix<double, modes, modes> inverse;                             // D⁻¹ [m/N]
 
   explicit EnhancedModes(const double* values) {
     for (int a = 0; a < Dim; ++a)

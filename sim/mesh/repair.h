@@ -24,7 +24,7 @@ struct Repairs {
 // Changes the file's mesh, origins and groups. UserError (65) if it holds no polygons, or none that is left.
 Repairs repair(MeshFile& file);
 
-// "12 polygons of 3400 without area and 1 copy dropped, 14 points merged, 3 corners dropped".
+// One line for a reader: how many polygons were dropped and points merged, or that none needed it.
 std::string in_words(const Repairs& repairs);
 
 } // namespace rend

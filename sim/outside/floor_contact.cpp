@@ -22,10 +22,10 @@ template <> const Fields<ContactSettings>& fields_of() {
       field(&S::friction,
             number("friction", "", "Coulomb's coefficient of friction, where the obstacle has none of its own")
                 .at_least(0)),
-      field(&S::overlap,
-            word("overlap", {"refuse", "push"},
-                 "what starts inside something: is refused; or is moved out of it as a whole before the first "
-                 "step, without gaining energy"))};
+      field(&S::overlap, word("overlap", {"refuse", "push"},
+                              "of a body that starts inside something. refuse: an error; push: it is moved out "
+                              "as a whole before "
+                              "the first step"))};
   return fields;
 }
 

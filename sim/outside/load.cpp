@@ -35,12 +35,13 @@ template <> const Fields<LoadSettings>& fields_of() {
                 word("follows", {"world", "body"},
                      "world: force and moment keep their direction; body: they turn with the boundary")),
           field(&S::from, number("from", "s", "start time; no load before it").at_least(0)),
-          field(&S::until,
-                number("until", "s",
-                       "the load grows evenly from `from` until this time; without it, it acts in full at once")
-                    .at_least(0)),
+          field(&S::until, number("until", "s",
+                                  "the load grows linearly between `from` and this time; default: it acts in "
+                                  "full from `from` on")
+                               .at_least(0)),
           field(&S::over,
-                number("over", "s", "instead of until: grows linearly from `from`, over so long").at_least(0))};
+                number("over", "s", "instead of until: the load grows linearly during this time after `from`")
+                    .at_least(0))};
   return fields;
 }
 

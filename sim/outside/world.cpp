@@ -13,10 +13,9 @@ template <> const Fields<World>& fields_of() {
   using S = World;
   static const Fields<S> fields{
       field(&S::gravity, numbers("gravity", 3, "m/s2", "its acceleration")),
-      field(&S::over, number("over", "s",
-                             "gravity grows linearly from 0 at the start to its whole "
-                             "over so long")
-                          .at_least(0))};
+      field(
+          &S::over,
+          number("over", "s", "gravity grows linearly from 0 to its full value during this time").at_least(0))};
   return fields;
 }
 

@@ -4,8 +4,8 @@
 // 1. Labels: as long as the hook's; a hook drops no link; only the left graph has hooks, one in every connected
 //    part of it, so that a match is unique.
 // 2. Incident arcs: a created dart has each of its four links once; a kept dart has the links that it had on
-// the
-//    left, none gained and none lost; a removed dart has all four on the left, so that nothing is left hanging.
+//    the left, none gained and none lost; a removed dart has all four on the left, so that none is left
+//    open.
 // 3. Cycles: for j >= i+2, αiαj stays an involution wherever αi or αj changes. Two explicit links: the square
 //    closes. One explicit, one implicit: the node across has the implicit one at the same position. Two
 //    implicit: the *hook's* links at those positions commute, whatever they are renamed to.

@@ -37,7 +37,7 @@ EnergyFigures EnergyAccount::figures(const EnergyState& now) const {
 void EnergyAccount::Tally::store(Archive& archive, long done) {
   archive(step);
   archive.unbounded(first, least, gained, scale);
-  refuse_unless(step >= -1 && step <= done, "energy is known of a step to come");
+  refuse_unless(step >= -1 && step <= done, "the energy account was sampled at a later step");
   refuse_unless(least <= first && gained >= 0 && scale >= 0, "an account of energy contradicts itself");
 }
 

@@ -21,7 +21,7 @@ class Archive;
 struct EnergyState {
   double kinetic = 0, elastic = 0, gravity = 0, shadow = 0; // [J]
   Work work;
-  double round_off = 0; // [J]: what less than that is says nothing
+  double round_off = 0; // [J], bound of the round-off in the sums above
 
   double balance() const { return kinetic + elastic + gravity + shadow - work.sum(); }
   double scale() const { return kinetic + std::abs(elastic) + work.size() + round_off; }
@@ -38,7 +38,8 @@ struct EnergyFigures {
   double gained_share() const { return scale > 0 ? gained / scale : 0; }
 };
 
-// Of gained energy in the scale of the account: a run that exceeds it shows a motion that nothing caused.
+// The largest share of gained energy in the scale of the account. A run that exceeds it ends with 76: nothing
+// caused what it shows.
 constexpr double most_gained_share = 0.1;
 
 class EnergyAccount {

@@ -1,9 +1,9 @@
-// Selective mass scaling: the elements that limit the step of an explicit scheme are made heavier, as <time
-// mass-scaling="0.01"> allows.
+// Selective mass scaling: the elements that limit the step of an explicit scheme are made heavier, as
+// <time mass-scaling="0.01"> allows.
 //
 // A mesh from the real world has a few slivers, whose frequencies are many times those of all other elements.
-// An element of mass m and step h(m) (element_steps.h) whose step is below the target H is given the mass f
-// m, with the least f for which h(f m) ≥ H: without damping f = (H/h)². Its corners share what is added, so
+// An element of mass m and step h(m) (element_steps.h) whose step is below the target H is given the mass
+// f m, with the least f for which h(f m) ≥ H: without damping f = (H/h)². Its corners share what is added, so
 // that the vertices around it are heavier, and no element outside it is touched. H is the largest for which
 // no body gains more than the given share of its mass, found by bisection; where the step is given, H is at
 // most that. The step that is taken follows from the masses as they are then: it is stable, whatever H was.

@@ -139,7 +139,7 @@ private:
   std::vector<std::string> notes_;
   double build_seconds_ = 0, bind_seconds_ = 0;
   std::unique_ptr<Guard> guard_;
-  EnergyAccount account_; // never open: equilibria have none
+  EnergyAccount account_; // of scenes without inertia (static): never opened
   // why the last attempt of the step failed; nullopt: it did not, or it is not finite
   std::optional<NotConverged> not_converged_;
   long laws_applied_at_ = -1;  // steps_done() when the laws were last applied

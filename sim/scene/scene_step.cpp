@@ -219,7 +219,7 @@ void Scene::fail_step(StepFailure failure, long entry) {
     stop(*body, not_converged_->what() + parts, not_converged_->hint);
   if (failure == StepFailure::NotFinite) what = find_non_finite(body) + parts;
   if (failure == StepFailure::Energy)
-    what = "its energy grows by more than gravity, loads and drives supply" + parts + what;
+    what = "its energy grows by more than gravity, loads, drives and contact supply" + parts + what;
   if (failure == StepFailure::PassThrough)
     what = "neighbouring vertices pass each other within one step" + parts + what;
   stop(*body, what);

@@ -1,4 +1,4 @@
-// The changes of laws as functions of sim/fracture, and as rules and scripts of the house: per change, with
+// The changes of laws as functions of sim/fracture, and as built-in rules and scripts: per change, with
 // the closing of the edit that all of an iteration share.
 #include "sim/elements.h"
 #include "sim/fracture/rule_change.h"

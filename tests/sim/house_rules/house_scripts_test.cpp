@@ -1,4 +1,4 @@
-// What the scripts of the house make: counts of cells by formulas, and volumes that are kept.
+// What the built-in scripts make: counts of cells by formulas, and volumes that are kept.
 #include "sim/house_rules/house_scripts.h"
 
 #include "sim/mesh/bar.h"
