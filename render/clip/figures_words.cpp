@@ -63,7 +63,7 @@ std::string laws_in_words(const std::vector<LawFigures>& laws) {
     if (law.reached.value > 0)
       out += fmt::format("; largest value{} {}",
                          law.look_every > 1 && law.tears == 0
-                             ? fmt::format(", looked for every {} steps,", law.look_every)
+                             ? fmt::format(", sampled every {} steps:", law.look_every)
                              : "",
                          place_in_words(law.reached, law.unit));
     out += "\n";

@@ -91,7 +91,7 @@ TEST_P(Reach, is_told_of_a_law_that_never_tears) {
     EXPECT_NEAR(std::remainder(steps, law["look_every"].get<double>()), 0, 1e-6);
   }
   EXPECT_THAT(place.rend("run " + words).out,
-              AllOf(HasSubstr("never; largest value at every "), HasSubstr(" near (")));
+              AllOf(HasSubstr("never; largest value, sampled every "), HasSubstr(" near (")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Reach, testing::Values("pulled", "block"));
