@@ -61,6 +61,7 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   integrator = scheme.make({settings.tolerance, size > 0 ? size : 1});
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
   map->subscribe(changes);
+  if (solved_contact) rebind_solved_contact();
   if (tears()) reserve_for_separations();
   make_work_meter(scheme);
   constexpr std::size_t few = 64; // so that a first contact asks for no memory
@@ -104,6 +105,7 @@ void Body::forces(double time, const Record* position, const Record* velocity, R
     program->forces(position, velocity, out);
   }
   ++evaluations;
+  if (solved_contact) solved_contact->add_forces(position, out);
   if (faulty.armed(StepStage::Forces)) faulty.inject(program->inverse_mass(), vertices(), out);
   update_loads(time, position, velocity);
 }
@@ -131,6 +133,15 @@ void Body::add_stiffness(const Record* position, const Record* velocity, Tangent
                          double by_velocity, BlockMatrix& out) {
   const PhaseScope within(profile, Phase::Stiffness);
   assembly->add(position, velocity, tangent, by_position, by_velocity, out);
+  if (solved_contact) solved_contact->add_stiffness(position, by_position, out);
+}
+
+void Body::begin_solve(double end, double step, const StateView& now, const Record* internal) {
+  if (solved_contact) solved_contact->begin(*this, end, step, now, internal);
+}
+
+bool Body::tighten_contact(const Record* position) {
+  return solved_contact && solved_contact->tighten(position);
 }
 
 void Body::mark_prescribed(double time, std::uint8_t* axes) {
@@ -290,11 +301,18 @@ void Body::advance(double time, double step) {
 void Body::move(double time, double step) {
   const StateView now{map->position().values().data(), map->velocity().values().data()};
   if (!forces_deferred_) {
+    if (solved_contact) solved_contact->end(); // of the step before, which may have failed
     integrator->advance(*this, time, step, now, force.data(), next);
+    if (solved_contact) end_solved_contact();
     return;
   }
   integrator->advance_fused(*this, time, step, now, force.data(), next);
   if (work_meter) work_meter->settle(metered());
+}
+
+void Body::end_solved_contact() {
+  if (work_meter) work_meter->contact(solved_contact->work());
+  solved_contact->end();
 }
 
 // Prescribed vertices ignore the floor.
@@ -317,10 +335,17 @@ void Body::inject_into_next() {
   next.probe_all();
 }
 
+void Body::rebind_solved_contact() {
+  bind_program();
+  solved_contact->end();
+  solved_contact->rebind(*this, map->rest().values());
+}
+
 void Body::rebind() {
   if (!changes.any) return;
   program->rebind();
   if (assembly) assembly->rebind();
+  if (solved_contact) rebind_solved_contact();
   if (!corner_force.empty()) corner_force.resize(map->cells(mass->orbit()).slots());
   constraints.rebind(*map, changes);
   loads.rebind(*map);

@@ -10,6 +10,7 @@
 #include "sim/outside/floor_contact.h"
 #include "sim/outside/injected_fault.h"
 #include "sim/outside/load.h"
+#include "sim/outside/solved_contact.h"
 #include "sim/rows/assembly.h"
 
 #include <memory>
@@ -53,6 +54,7 @@ struct Body final : System {
   long look_every = 1; // steps between looks at the largest values that the laws have reached
   std::optional<ContactSettings> contact; // as given by the preset
   std::optional<FloorContact> floor_contact;
+  std::unique_ptr<SolvedContact> solved_contact; // null: the scheme does not solve, or nothing is in its way
   std::vector<Probe> probes;
   std::vector<Answer> answers;
   std::vector<std::string> notes;    // messages for the author of the preset
@@ -98,6 +100,9 @@ struct Body final : System {
   void add_stiffness(const Record* position, const Record* velocity, Tangent tangent, double by_position,
                      double by_velocity, BlockMatrix& out) override;
   void mark_prescribed(double time, std::uint8_t* axes) override;
+  void begin_solve(double end, double step, const StateView& now, const Record* internal) override;
+  bool in_contact() const override { return solved_contact && solved_contact->near(); }
+  bool tighten_contact(const Record* position) override;
 
   // `shadow_step` [s]: weight of the shadow term × step; `scratch`: one record per vertex slot. Leaves the
   // loads of the current state in `load`.
@@ -134,6 +139,7 @@ struct Body final : System {
 private:
   void make_work_meter(const Scheme& scheme);
   void move(double time, double step);
+  void end_solved_contact();
   void touch_floor(double time, double step);
   void measure_gravity();
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
@@ -141,6 +147,7 @@ private:
   void follow_changes();
   void check_read(long done, double step) const; // throws ArchiveError
   void bind_program();
+  void rebind_solved_contact();
   void reserve_for_separations();
   void clear_sums();
   bool forces_deferred_ = false;

@@ -63,6 +63,7 @@ public:
   void forget_vertices(); // what is listed is of vertices before a change of the map; nothing is pending
   void rebind() { listed_ = false; }                         // after a change of the map
   void change(double energy) { settled_.changes += energy; } // [J], potential that it or gravity added
+  void contact(double work) { settled_.contact += work; }    // [J], by contact inside the solve of the step
 
   // Since the start. Of `body`, forces and loads are those of the current state; without it, those of the state
   // before stand in for what is pending.

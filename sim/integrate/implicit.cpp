@@ -66,6 +66,8 @@ private:
   void linearise(const Step& step);
   double round_off(const Step& step) const;
   bool search(const Step& step, Residual& residual);
+  bool search_slope(const Step& step, Residual& residual);
+  void converge(const Step& step, int& iterations);
   void solve(const Step& step);
   void accept_substep(const System& system);
 
@@ -156,6 +158,28 @@ bool ImplicitEuler::search(const Step& step, Residual& residual) {
   return false;
 }
 
+// The same where contact is solved, whose forces have kinks: R at both ends of an update says little of what is
+// between. The potential has decreased where its slope −R·δ has fallen to half: found by bisection.
+bool ImplicitEuler::search_slope(const Step& step, Residual& residual) {
+  constexpr int most_bisections = 30;
+  const double slope = dot(1, before_, update_);
+  double low = 0, high = 1, share = 1;
+  for (int n = 0; n < most_bisections; ++n, share = 0.5 * (low + high)) {
+    trial_ = velocity_;
+    add_scaled(1, share, update_, trial_);
+    residual = evaluate(step, trial_);
+    const double rest = dot(1, momentum_, update_);
+    const bool finite = residual.finite();
+    if (finite && rest > -0.5 * slope && (rest < 0.5 * slope || share == 1)) {
+      velocity_.swap(trial_);
+      before_.swap(momentum_);
+      return true;
+    }
+    (finite && rest > 0 ? low : high) = share;
+  }
+  return false;
+}
+
 // The tolerance of the linear system: 1e-2, or less strict if that already reaches the final tolerance.
 double linear_tolerance(const Residual& residual) {
   return std::clamp(0.3 * newton_digits * residual.terms / residual.norm, most_linear_digits, 0.1);
@@ -170,13 +194,14 @@ double linear_tolerance(const Residual& residual) {
       "use a smaller step");
 }
 
-void ImplicitEuler::solve(const Step& step) {
+// From velocity_ to the solution under the contact forces as they are bounded now.
+void ImplicitEuler::converge(const Step& step, int& n) {
   Residual residual = evaluate(step, velocity_);
   velocity_.swap(trial_); // including prescribed values
   before_.swap(momentum_);
   bool linear = false, here = false; // linear: a matrix exists; here: it is the tangent at velocity_
-  for (int n = 0; residual.norm != 0; ++n) {
-    if (n == most_newton_iterations || !residual.finite()) give_up(residual, n);
+  for (; residual.norm != 0; ++n) {
+    if (n >= most_newton_iterations || !residual.finite()) give_up(residual, n);
     if (!linear) linearise(step);
     here = here || !linear;
     ++newton_;
@@ -184,7 +209,7 @@ void ImplicitEuler::solve(const Step& step) {
     if (!load_tangent_.solve(linear_, before_, update_, linear_tolerance(residual)))
       throw NotConverged("the linear system of the step could not be solved", "use a smaller step");
     const Residual last = residual;
-    const bool moved = search(step, residual);
+    const bool moved = step.system.in_contact() ? search_slope(step, residual) : search(step, residual);
     if (!moved) {
       residual = evaluate(step, velocity_);
       if (residual.norm <= accepted * residual.terms) return;
@@ -196,6 +221,12 @@ void ImplicitEuler::solve(const Step& step) {
   }
 }
 
+void ImplicitEuler::solve(const Step& step) {
+  int iterations = 0;
+  do converge(step, iterations);
+  while (step.system.tighten_contact(position_.data()));
+}
+
 // Accepts a substep: velocity_ and its position become the start of the next.
 void ImplicitEuler::accept_substep(const System& system) {
   for (std::size_t i = 0; i < position_.size(); ++i) {
@@ -205,7 +236,7 @@ void ImplicitEuler::accept_substep(const System& system) {
   }
 }
 
-void ImplicitEuler::advance(System& system, double time, double size, const StateView& now, const Record*,
+void ImplicitEuler::advance(System& system, double time, double size, const StateView& now, const Record* force,
                             State& next) {
   const std::size_t count = system.vertices();
   for (Records* each : {&position_, &force_, &momentum_, &before_, &update_}) each->resize(count);
@@ -217,6 +248,7 @@ void ImplicitEuler::advance(System& system, double time, double size, const Stat
         system, time + size * (gone + part), size * part, {reached_position_.data(), reached_velocity_.data()}};
     hold(system, step.end, held_);
     velocity_ = reached_velocity_;
+    system.begin_solve(step.end, step.size, step.now, gone == 0 ? force : nullptr);
     try {
       solve(step);
     } catch (const NotConverged& unsolved) {

@@ -78,6 +78,8 @@ public:
 
 private:
   void prepare(System& system, const StateView& now);
+  bool solve(const StateView& now);
+  void go_on_from(const Records& position);
   void evaluate(const Records& x);
   double noise(const Records& x) const;
   bool settled() const {
@@ -363,16 +365,31 @@ void StaticSolve::give_up() const {
                            : "let loads and drives grow over more steps, or use implicit with <viscosity>");
 }
 
-void StaticSolve::advance(System& system, double time, double step, const StateView& now, const Record*,
-                          State& next) {
-  end_ = time + step;
-  last_ = newton_ + most_solved;
-  prepare(system, now);
+// From start_ to equilibrium under the contact forces as they are bounded now.
+bool StaticSolve::solve(const StateView& now) {
   evaluate(start_);
   if (!std::isfinite(terms_))
     throw NotConverged("the forces overflow", "look for a mass, load or stiffness that is too large");
   first_sum_ = sum_;
-  if (!in_parts_of_the_way() && !loads_first() && !relax(1) && !without_rotations(now)) give_up();
+  return in_parts_of_the_way() || loads_first() || relax(1) || without_rotations(now);
+}
+
+void StaticSolve::go_on_from(const Records& position) {
+  start_ = position;
+  last_ = newton_ + most_solved;
+}
+
+void StaticSolve::advance(System& system, double time, double step, const StateView& now, const Record* force,
+                          State& next) {
+  end_ = time + step;
+  last_ = newton_ + most_solved;
+  system.begin_solve(end_, step, now, force);
+  prepare(system, now);
+  if (!solve(now)) give_up();
+  while (system.tighten_contact(position_.data())) {
+    go_on_from(position_);
+    if (!solve(now)) give_up();
+  }
   system.constrain(end_, position_.data(), trial_.data()); // exact to the last bit
   for (std::size_t i = 0; i < position_.size(); ++i) next.put(i, load(position_[i]), Double4{});
   supports_.found_equilibrium = true;

@@ -41,4 +41,10 @@ void System::update_loads(double, const Record*, const Record*) {}
 
 void System::mark_prescribed(double, std::uint8_t*) {}
 
+void System::begin_solve(double, double, const StateView&, const Record*) {}
+
+bool System::tighten_contact(const Record*) {
+  return false;
+}
+
 } // namespace rend

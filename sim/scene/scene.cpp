@@ -36,6 +36,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   }
   check_contact();
   contacts_ = Contacts::of(world_, bodies_);
+  solve_contact();
   const RunSettings run{options.walk, options.threads, checked_tolerance()};
   clear_start(world_, bodies_);
   scale_masses();
@@ -58,13 +59,25 @@ void Scene::check_contact() {
       body->notes.push_back("static: a piece that tears off and is held by nothing stays where it is, without "
                             "its weight and loads; with implicit it falls");
     if (!body->contact) continue;
-    if (scheme().name == "static")
-      time_.source.fail(
-          "integrator", "integrator 'static' does not support <contact>",
-          "leave <contact> out, or use symplectic with <viscosity>, and let the body come to rest");
-    body->notes.emplace_back("contact: with 'implicit' a body that rests on the floor is compressed too much, "
-                             "more so if it is stiff or the step is large; take a smaller step, or symplectic");
+    const bool falling = std::any_of(world_.spheres.begin(), world_.spheres.end(),
+                                     [](const Sphere& sphere) { return sphere.falls(); });
+    if (scheme().name == "static" && (body->contact->fragments || falling))
+      time_.source.fail("integrator",
+                        "integrator 'static' supports contact with the floor and with obstacles that do not "
+                        "fall, but not between bodies",
+                        "use implicit, or symplectic with <viscosity>, and let the bodies come to rest");
+    if (body->contact->fragments)
+      body->notes.emplace_back("contact: 'implicit' solves contact with the floor and obstacles; bodies and "
+                               "fragments that rest on each other are compressed too much, more so if they are "
+                               "stiff or the step is large: take a smaller step, or symplectic");
   }
+}
+
+void Scene::solve_contact() {
+  if (!scheme().solves) return;
+  for (auto& body : bodies_)
+    if (body->contact && (body->floor_contact || body->contact->obstacles))
+      body->solved_contact = std::make_unique<SolvedContact>(world_, *body->contact);
 }
 
 void Scene::scale_masses() {

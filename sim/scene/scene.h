@@ -102,6 +102,7 @@ private:
   void forget_answers();   // those later than the current time
   void check_read() const; // throws ArchiveError
   void check_contact();
+  void solve_contact(); // of bodies whose scheme solves
   void scale_masses();
   double stable_step();
   double checked_tolerance() const;
