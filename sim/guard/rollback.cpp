@@ -9,8 +9,10 @@
 namespace rend {
 Rollback::Rollback(World& world, const Bodies& bodies, double step)
     : world_(world), bodies_(bodies), step_(step), starts_(bodies.size()), spheres_(world.spheres.size()) {
-  for (std::size_t b = 0; b < bodies.size(); ++b)
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b]->work_meter) starts_[b].meter = *bodies[b]->work_meter;
+    starts_[b].state.accelerates = bodies[b]->next.accelerates;
+  }
 }
 
 void Rollback::reserve_for_separations() {
@@ -20,6 +22,7 @@ void Rollback::reserve_for_separations() {
     const std::size_t most = body.map->slots_when_separated(Vertex);
     starts_[b].state.position.reserve(most);
     starts_[b].state.velocity.reserve(most);
+    if (body.next.accelerates) starts_[b].state.acceleration.reserve(most);
   }
 }
 
@@ -43,6 +46,7 @@ void Rollback::save_start() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     starts_[b].state.position.swap(bodies_[b]->next.position);
     starts_[b].state.velocity.swap(bodies_[b]->next.velocity);
+    starts_[b].state.acceleration.swap(bodies_[b]->next.acceleration);
   }
 }
 

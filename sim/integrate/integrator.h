@@ -66,8 +66,9 @@ struct StabilityBounds {
 
 // The parameters of a scheme.
 struct SchemeSettings {
-  double tolerance = 1e-6; // adaptive schemes: the error of a substep relative to `size`
-  double size = 1;         // [m], of the body
+  double tolerance = 1e-6;   // adaptive schemes: the error of a substep relative to `size`
+  double size = 1;           // [m], of the body
+  double rho_infinity = 0.8; // generalised-alpha: what a step leaves of motion that it does not resolve, 0 to 1
 };
 
 struct Scheme {
@@ -81,6 +82,8 @@ struct Scheme {
   // The scheme keeps K + U + shadow · h Σ v·F rather than K + U (its shadow Hamiltonian to first order in the
   // step h; exact for linear forces)
   double shadow = 0;
+  bool hands_on_acceleration = false;                   // from step to step: State::acceleration
+  bool takes_rho_infinity = false;                      // SchemeSettings::rho_infinity
   bool has_account() const { return name != "static"; } // of energy: where bodies have inertia
 };
 
@@ -94,6 +97,8 @@ Scheme midpoint();
 Scheme runge_kutta_4();
 Scheme runge_kutta_45();
 Scheme implicit_euler();
+Scheme tr_bdf2();
+Scheme generalised_alpha();
 Scheme static_solve();
 
 // Scheme::make of a scheme that needs no settings.

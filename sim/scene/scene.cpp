@@ -35,7 +35,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   }
   check_contact();
   contacts_ = Contacts::of(world_, bodies_);
-  const RunSettings run{options.walk, options.threads, checked_tolerance()};
+  const RunSettings run{options.walk, options.threads, checked_settings()};
   clear_start(world_, bodies_);
   scale_masses();
   for (auto& body : bodies_) body->prepare(scheme(), run);
@@ -61,8 +61,10 @@ void Scene::check_contact() {
       time_.source.fail(
           "integrator", "integrator 'static' does not support <contact>",
           "leave <contact> out, or use symplectic with <viscosity>, and let the body come to rest");
-    body->notes.emplace_back("contact: with 'implicit' a body that rests on the floor is compressed too much, "
-                             "more so if it is stiff or the step is large; take a smaller step, or symplectic");
+    body->notes.push_back(
+        fmt::format("contact: with '{}' a body that rests on the floor is compressed too much, "
+                    "more so if it is stiff or the step is large; take a smaller step, or symplectic",
+                    scheme().name));
   }
 }
 
@@ -78,12 +80,17 @@ void Scene::scale_masses() {
     notes_.emplace_back("mass scaling: no element is heavier, since the step would hardly be larger");
 }
 
-double Scene::checked_tolerance() const {
+SchemeSettings Scene::checked_settings() const {
   const bool given = time_.source.given("tolerance") || time_.tolerance != TimeSettings{}.tolerance;
   if (given && !scheme().adaptive)
     time_.source.fail("tolerance", fmt::format("tolerance is used by rk45 alone, not by '{}'", scheme().name),
                       "leave it out, or write integrator=\"rk45\"");
-  return time_.tolerance;
+  const bool damps = time_.source.given("rho-infinity") || time_.rho_infinity != TimeSettings{}.rho_infinity;
+  if (damps && !scheme().takes_rho_infinity)
+    time_.source.fail("rho-infinity",
+                      fmt::format("rho-infinity is used by alpha alone, not by '{}'", scheme().name),
+                      "leave it out, or write integrator=\"alpha\"");
+  return {.tolerance = time_.tolerance, .rho_infinity = time_.rho_infinity};
 }
 
 // An adaptive scheme divides the step of the preset: the default is that of symplectic, so that laws are

@@ -104,7 +104,7 @@ private:
   void check_contact();
   void scale_masses();
   double stable_step();
-  double checked_tolerance() const;
+  SchemeSettings checked_settings() const;
   double stability_limit() const; // [s]
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
