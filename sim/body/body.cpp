@@ -58,7 +58,11 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   program = std::make_unique<Program>(*map, interactions, *mass, drag, options);
   if (scheme.solves) assembly = std::make_unique<Assembly>(*map, *program);
   const double size = extent(map->rest().values(), program->inverse_mass());
-  integrator = scheme.make({settings.tolerance, size > 0 ? size : 1});
+  SchemeSettings own = settings.scheme;
+  own.size = size > 0 ? size : 1;
+  integrator = scheme.make(own);
+  if (scheme.hands_on_acceleration) scheme_acceleration = &map->add(VertexAcceleration{});
+  next.accelerates = scheme.hands_on_acceleration;
   if (elementary) corner_force.resize(map->cells(mass->orbit()).slots());
   map->subscribe(changes);
   if (solved_contact) rebind_solved_contact();
@@ -96,6 +100,7 @@ void Body::reserve_for_separations() {
   force.reserve(map->slots_when_separated(Vertex));
   next.position.reserve(map->slots_when_separated(Vertex));
   next.velocity.reserve(map->slots_when_separated(Vertex));
+  if (next.accelerates) next.acceleration.reserve(map->slots_when_separated(Vertex));
   loads.reserve_for_separations(*map);
 }
 
@@ -297,16 +302,20 @@ void Body::advance(double time, double step) {
   if (floor_contact) touch_floor(next_time_, step);
 }
 
+StateView Body::current() const {
+  return {map->position().values().data(), map->velocity().values().data(),
+          scheme_acceleration ? scheme_acceleration->values().data() : nullptr};
+}
+
 // By the scheme. Its fused advance evaluates the forces of the current state, and leaves the loads at them.
 void Body::move(double time, double step) {
-  const StateView now{map->position().values().data(), map->velocity().values().data()};
   if (!forces_deferred_) {
     if (solved_contact) solved_contact->end(); // of the step before, which may have failed
-    integrator->advance(*this, time, step, now, force.data(), next);
+    integrator->advance(*this, time, step, current(), force.data(), next);
     if (solved_contact) end_solved_contact();
     return;
   }
-  integrator->advance_fused(*this, time, step, now, force.data(), next);
+  integrator->advance_fused(*this, time, step, current(), force.data(), next);
   if (work_meter) work_meter->settle(metered());
 }
 
@@ -327,6 +336,10 @@ void Body::touch_floor(double time, double step) {
 void Body::restore_state(const State& start, double time) {
   map->position().values() = start.position;
   map->velocity().values() = start.velocity;
+  if (scheme_acceleration) {
+    scheme_acceleration->values() = start.acceleration;
+    scheme_acceleration->values().resize(vertices()); // none, if the state knows none
+  }
   time_ = time;
 }
 
@@ -412,6 +425,7 @@ void Body::commit() {
   if (changing_gravity && work_meter) measure_gravity();
   map->position().values().swap(next.position);
   map->velocity().values().swap(next.velocity);
+  if (scheme_acceleration) scheme_acceleration->values().swap(next.acceleration);
   time_ = next_time_;
 }
 

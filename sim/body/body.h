@@ -4,6 +4,7 @@
 #include "sim/body/answer.h"
 #include "sim/body/work_meter.h"
 #include "sim/boundary/boundary.h"
+#include "sim/embedding/vertex_acceleration.h"
 #include "sim/fracture/tear_law.h"
 #include "sim/integrate/integrator.h"
 #include "sim/outside/constraint.h"
@@ -26,7 +27,7 @@ class Profile;
 struct RunSettings {
   bool walk = false; // ProgramOptions
   int threads = 1;
-  double tolerance = SchemeSettings{}.tolerance;
+  SchemeSettings scheme = {}; // its `size` follows from the body
 };
 
 // Of the current state.
@@ -42,8 +43,9 @@ struct Body final : System {
   std::unique_ptr<EmbeddedMap> map;
   VertexGroups groups; // at the start
   MassColumn* mass = nullptr;
-  DragColumn* drag = nullptr;     // null: no viscosity per particle
-  BorderColumn* border = nullptr; // null: the body cannot tear
+  DragColumn* drag = nullptr;                        // null: no viscosity per particle
+  BorderColumn* border = nullptr;                    // null: the body cannot tear
+  AccelerationColumn* scheme_acceleration = nullptr; // null: the scheme hands none on
   std::vector<std::unique_ptr<Interaction>> interactions;
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
@@ -142,6 +144,7 @@ private:
   void end_solved_contact();
   void touch_floor(double time, double step);
   void measure_gravity();
+  StateView current() const;
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   int make_changes(std::size_t number, const ForceView& now, double time, long step);
   void follow_changes();

@@ -2,6 +2,7 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/check.h"
+#include "sim/embedding/vertex_acceleration.h"
 #include "sim/topology/validate.h"
 #include "sim/topology/walk.h"
 
@@ -129,6 +130,17 @@ bool same_values(std::span<const std::byte> now, const CellIndex& cells, std::sp
   return true;
 }
 
+// Whether time steps change its values.
+bool hands_on_motion(const ColumnBase& column) {
+  return dynamic_cast<const AccelerationColumn*>(&column) != nullptr;
+}
+
+void refuse_unless_finite_motion(ColumnBase& column) {
+  std::vector<Record> values(column.raw().size() / sizeof(Record));
+  if (!values.empty()) std::memcpy(values.data(), column.raw().data(), column.raw().size());
+  refuse_unless_finite(values);
+}
+
 } // namespace
 
 // `was`: the slots before reading. Fracture gives no embedding another value: fragments keep the value of the
@@ -137,13 +149,14 @@ void EmbeddedMap::store(Archive& archive, ColumnBase& column, const CellIndex* w
   archive.mark(column.name());
   const CellIndex& index = *cells_[column.orbit().mask];
   std::vector<std::byte> then;
-  if (was && !moves(column) && !grows_) then.assign(column.raw().begin(), column.raw().end());
+  const bool in_motion = moves(column) || hands_on_motion(column);
+  if (was && !in_motion && !grows_) then.assign(column.raw().begin(), column.raw().end());
   column.resize(index.slots());
   archive.same(column.bytes(), "bytes of an embedding");
   archive.raw(column.raw().data(), column.raw().size());
   if (!was) return;
-  if (moves(column))
-    refuse_unless_finite(static_cast<const VertexColumn&>(column).values());
+  if (in_motion)
+    refuse_unless_finite_motion(column);
   else if (!grows_)
     refuse_unless(same_values(column.raw(), index, then, *was),
                   "what the scene has from its preset is another");

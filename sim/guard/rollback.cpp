@@ -9,7 +9,10 @@
 namespace rend {
 Rollback::Rollback(World& world, const Bodies& bodies, double step)
     : world_(world), bodies_(bodies), step_(step), starts_(bodies.size()), spheres_(world.spheres.size()) {
-  for (std::size_t b = 0; b < bodies.size(); ++b) keep_measures(*bodies[b], starts_[b]);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    keep_measures(*bodies[b], starts_[b]);
+    starts_[b].state.accelerates = bodies[b]->next.accelerates;
+  }
 }
 
 void Rollback::keep_measures(const Body& body, Start& start) {
@@ -25,6 +28,7 @@ void Rollback::reserve_for_separations() {
     const std::size_t most = body.map->slots_when_separated(Vertex);
     starts_[b].state.position.reserve(most);
     starts_[b].state.velocity.reserve(most);
+    if (body.next.accelerates) starts_[b].state.acceleration.reserve(most);
   }
 }
 
@@ -48,6 +52,7 @@ void Rollback::save_start() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     starts_[b].state.position.swap(bodies_[b]->next.position);
     starts_[b].state.velocity.swap(bodies_[b]->next.velocity);
+    starts_[b].state.acceleration.swap(bodies_[b]->next.acceleration);
   }
 }
 

@@ -17,9 +17,9 @@ bool is_whole_count(double number) {
 }
 
 const std::vector<Scheme>& all_schemes() {
-  static const std::vector<Scheme> schemes{symplectic_euler(), explicit_euler(), velocity_verlet(),
-                                           midpoint(),         runge_kutta_4(),  runge_kutta_45(),
-                                           implicit_euler(),   static_solve()};
+  static const std::vector<Scheme> schemes{symplectic_euler(),  explicit_euler(), velocity_verlet(), midpoint(),
+                                           runge_kutta_4(),     runge_kutta_45(), implicit_euler(),  tr_bdf2(),
+                                           generalised_alpha(), static_solve()};
   return schemes;
 }
 

@@ -66,8 +66,9 @@ struct StabilityBounds {
 
 // The parameters of a scheme.
 struct SchemeSettings {
-  double tolerance = 1e-6; // adaptive schemes: the error of a substep relative to `size`
-  double size = 1;         // [m], of the body
+  double tolerance = 1e-6;   // adaptive schemes: the error of a substep relative to `size`
+  double size = 1;           // [m], of the body
+  double rho_infinity = 0.8; // generalised-alpha: what a step leaves of motion that it does not resolve, 0 to 1
 };
 
 struct Scheme {
@@ -76,11 +77,15 @@ struct Scheme {
   int evaluations = 1;                     // of the forces, per step
   double (*limit)(const StabilityBounds&); // the largest stable step [s]; 0: none is stable; infinity: all are
   std::unique_ptr<Integrator> (*make)(const SchemeSettings& settings);
-  bool solves = false;   // implicit: needs the stiffness matrix; `evaluations` is the minimum per step
+  bool solves = false; // implicit: needs the stiffness matrix; `evaluations` is the minimum per step
+  bool solves_contact =
+      false;             // together with the forces (System::begin_solve); otherwise it acts after the step
   bool adaptive = false; // chooses substeps by their error; `evaluations` is the minimum per step
   // The scheme keeps K + U + shadow · h Σ v·F rather than K + U (its shadow Hamiltonian to first order in the
   // step h; exact for linear forces)
   double shadow = 0;
+  bool hands_on_acceleration = false;                   // from step to step: State::acceleration
+  bool takes_rho_infinity = false;                      // SchemeSettings::rho_infinity
   bool has_account() const { return name != "static"; } // of energy: where bodies have inertia
 };
 
@@ -94,6 +99,8 @@ Scheme midpoint();
 Scheme runge_kutta_4();
 Scheme runge_kutta_45();
 Scheme implicit_euler();
+Scheme tr_bdf2();
+Scheme generalised_alpha();
 Scheme static_solve();
 
 // Scheme::make of a scheme that needs no settings.

@@ -404,7 +404,8 @@ Scheme static_solve() {
           .evaluations = 2,
           .limit = &no_limit,
           .make = &make_integrator<StaticSolve>,
-          .solves = true};
+          .solves = true,
+          .solves_contact = true};
 }
 
 } // namespace rend

@@ -16,10 +16,13 @@ void State::probe_all() {
 void State::store(Archive& archive, std::size_t most) {
   archive.list(position, most, "a state is of more vertices than the body has");
   archive.list(velocity, most, "a state is of more vertices than the body has");
+  if (accelerates) archive.list(acceleration, most, "a state is of more vertices than the body has");
   archive(large);
   archive.raw(&probe, sizeof probe);
   if (!archive.reading()) return;
   refuse_unless(position.size() == velocity.size(), "a state has not as many velocities as positions");
+  refuse_unless(!accelerates || acceleration.size() == position.size(),
+                "a state has not as many accelerations as positions");
   refuse_unless(finite(), "a number of a state is not finite");
 }
 

@@ -15,13 +15,27 @@ namespace rend {
 
 class Archive;
 
+// A state, read-only.
+struct StateView {
+  const Record *position, *velocity;
+  const Record* acceleration = nullptr; // null: none is known
+};
+
 // Positions [m] and velocities [m/s], one per vertex slot.
 struct State {
   std::vector<Record> position, velocity;
+  // [m/s²], one per vertex slot, of a scheme that hands it on (Scheme::hands_on_acceleration); 0: none is known
+  // (VertexAcceleration). Of other schemes it is empty.
+  std::vector<Record> acceleration;
+  bool accelerates = false; // it has accelerations
   void resize(std::size_t vertices) {
     large = vertices > 200000;
     position.resize(vertices);
     velocity.resize(vertices);
+    if (accelerates) acceleration.resize(vertices);
+  }
+  StateView view() const {
+    return {position.data(), velocity.data(), accelerates ? acceleration.data() : nullptr};
   }
 
   // Writes the new state of a vertex, and accumulates |v|² and a test for finiteness: 0 · x is NaN unless x is
@@ -43,15 +57,10 @@ struct State {
   double motion() const { return probe[0] + probe[1] + probe[2]; }
   bool finite() const { return std::isfinite(motion()); }
   void probe_all(); // computes it for a state written without put()
-  std::size_t bytes() const { return bytes_of(position) + bytes_of(velocity); }
+  std::size_t bytes() const { return bytes_of(position) + bytes_of(velocity) + bytes_of(acceleration); }
   void store(Archive& archive, std::size_t most); // of at most `most` vertices
   Double4 probe{};
   bool large = false; // larger than the caches: uses streaming stores
-};
-
-// The same, read-only.
-struct StateView {
-  const Record *position, *velocity;
 };
 
 class System {

@@ -27,7 +27,15 @@
 //
 //   K_ij = Σ_g w (λ g_i g_jᵀ + μ g_j g_iᵀ + μ (g_i·g_j) P)  + ∂f/∂R : ∂R/∂x + ∂f/∂Z : ∂Z/∂x
 //
-// (the last terms in the exact tangent only).
+// (the last terms in the exact tangent only). Where Z = 0 they are known in closed form: with the stretches s_a
+// along the axes q_a of RᵀF and the stresses σ_a there, for each pair of axes a, b and w_n = R (q_a × q_b) × G_n,
+//
+//   Σ_g w ½ (σ_a + σ_b)/(s_a + s_b) w_i w_jᵀ,    in a sheet also  Σ_g w Σ_a σ_a/s_a (q_a·G_i) (q_a·G_j) n nᵀ
+//
+// the modes of twist of an isotropic energy (Smith, de Goes and Kim, "Analytic eigensystems for isotropic
+// distortion energies", 2019). They are orthogonal to all other modes, so that without the negative factors the
+// tangent is the exact one projected to the nearest semi-definite: Tangent::Projected. A membrane under tension
+// has no other stiffness against motion across it.
 #pragma once
 
 #include "sim/mechanics/enhanced_modes.h"

@@ -5,8 +5,12 @@
 #include "sim/mechanics/element_law.h"
 #include "sim/mechanics/enhanced_modes.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <array>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 namespace rend {
 
@@ -85,7 +89,9 @@ public:
       D = material().damping * K;
     else
       D.setZero();
-    if (tangent == Tangent::Exact && model() == ElasticModel::Corotational) K += rotation_stiffness(at);
+    if (model() != ElasticModel::Corotational) return;
+    if (tangent == Tangent::Exact) K += rotation_stiffness(at);
+    if (tangent == Tangent::Projected && !moment_of_frame()) add_tension(at, K);
   }
 
   void bound(const double* unit, const Vec3*, const double* mass, double* stiffness,
@@ -316,6 +322,58 @@ private:
       const Matrix3d turned = volume * frame.R * dZ;
       for (int n = 0; n < N; ++n) K.template block<3, 1>(3 * n, column) -= turned * frame.gradient.col(n);
     }
+  }
+
+  // The positive ones of the modes of twist, of frames that are the polar rotation of a single F.
+  void add_tension(const State& at, Eigen::Map<Whole>& K) const {
+    const Tensors strain = strains(at, at.x);
+    for (std::size_t g = 0; g < at.element.points.size(); ++g) {
+      const auto& point = at.element.points[g];
+      const Matrix3d& R = at.frame(g);
+      const Matrix3d sigma = stress_of(strain[g]);
+      Matrix3d stretch = strain[g];
+      stretch.diagonal().template head<Dim>().array() += 1;
+      const auto [axes, along] = principal(sigma);
+      const auto add = [&](double factor, const Corners& w) {
+        if (!(factor > 0)) return;
+        for (int j = 0; j < N; ++j)
+          for (int i = 0; i < N; ++i)
+            K.template block<3, 3>(3 * i, 3 * j) += (point.weight * factor) * w.col(i) * w.col(j).transpose();
+      };
+      const auto stretch_along = [&](int a) { return axes.col(a).dot(stretch * axes.col(a)); };
+      for (int c = Dim == 2 ? 2 : 0; c < 3; ++c) { // twist about axis c
+        const int a = (c + 1) % 3, b = (c + 2) % 3;
+        const double both = stretch_along(a) + stretch_along(b);
+        const Matrix3d turn = R * cross_matrix(axes.col(c));
+        if (both > 0) add(0.5 * (along[a] + along[b]) / both, turn * point.gradient);
+      }
+      for (int a = 0; Dim == 2 && a < 2; ++a)
+        if (const double s = stretch_along(a); s > 0)
+          add(along[a] / s, R.col(2) * (axes.col(a).transpose() * point.gradient));
+    }
+  }
+
+  // The principal axes of σ and the stresses along them; of a sheet, the third axis is the normal.
+  static std::pair<Matrix3d, Vec3> principal(const Matrix3d& sigma) {
+    if constexpr (Dim == 3) {
+      Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
+      solver.computeDirect(sigma);
+      return {solver.eigenvectors(), solver.eigenvalues()};
+    } else {
+      return principal_in_plane(sigma);
+    }
+  }
+  static std::pair<Matrix3d, Vec3> principal_in_plane(const Matrix3d& sigma) {
+    const double mean = 0.5 * (sigma(0, 0) + sigma(1, 1)), half = 0.5 * (sigma(0, 0) - sigma(1, 1));
+    const double both = sigma(0, 1), radius = std::sqrt(half * half + both * both);
+    // of the two forms of the axis, the one that does not cancel
+    Vec3 axis(half + radius, both, 0);
+    if (half < 0) axis = Vec3(both, radius - half, 0);
+    if (radius == 0) axis = Vec3::UnitX();
+    axis.normalize();
+    Matrix3d axes;
+    axes << axis, Vec3::UnitZ().cross(axis), Vec3::UnitZ();
+    return {axes, Vec3(mean + radius, mean - radius, 0)};
   }
 
   // ∂r/∂x of the modes (enhanced_modes.h), R held.

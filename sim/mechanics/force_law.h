@@ -27,10 +27,11 @@ constexpr int most_particles = 8;
 using UnitMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 * most_particles, 3 * most_particles>;
 
-// Which tangent of the force is wanted: the exact one, or a positive semi-definite approximation (without the
-// negative part of the geometric stiffness under compression, and without the derivative of a co-rotational
-// frame), for solvers that need it.
-enum class Tangent { Exact, SemiDefinite };
+// Which tangent of the force is wanted: the exact one, or a positive semi-definite approximation, for solvers
+// that need it: without the negative part of the geometric stiffness under compression, and without the
+// derivative of a co-rotational frame. Projected keeps of that derivative what tension adds (element_law.h); it
+// is as SemiDefinite for other laws.
+enum class Tangent { Exact, SemiDefinite, Projected };
 
 class ForceLaw {
 public:

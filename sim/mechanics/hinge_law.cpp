@@ -129,7 +129,7 @@ public:
     const double fade = fade_of(p, x);
     by_position = fade * p.k * gradient * gradient.transpose();
     by_velocity = fade * fade * p.damping * gradient * gradient.transpose();
-    if (tangent == Tangent::SemiDefinite) return;
+    if (tangent != Tangent::Exact) return;
     const double h = 1e-6 * (x[1] - x[0]).norm();
     if (!(h > 0)) return;
     const HingePoints v = points_of(s.velocity);

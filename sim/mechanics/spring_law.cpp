@@ -50,7 +50,7 @@ public:
     if (length > 0) {
       along = d * d.transpose() / (length * length);
       double sideways = 1 - p.rest / length;
-      if (tangent == Tangent::SemiDefinite) sideways = std::max(0.0, sideways);
+      if (tangent != Tangent::Exact) sideways = std::max(0.0, sideways);
       whole = p.k * (sideways * (Eigen::Matrix3d::Identity() - along) + along);
       const Vec3 w = s.velocity[1] - s.velocity[0]; // the derivative of the damping force by position
       if (tangent == Tangent::Exact && p.damping > 0)

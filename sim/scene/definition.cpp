@@ -28,6 +28,11 @@ template <> const Fields<TimeSettings>& fields_of() {
                    "(root mean square over its mass; an error of velocity counts times the length of the part)")
                 .at_least(1e-14)
                 .at_most(0.1)),
+      field(&S::rho_infinity,
+            number("rho-infinity", "",
+                   "alpha only: the factor that a step leaves of motion too fast for it; 1: all, 0: none")
+                .at_least(0)
+                .at_most(1)),
       field(&S::duration,
             number("duration", "s",
                    "length of the clip in simulated time; required, except with static, where the default is 1")

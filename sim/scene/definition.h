@@ -16,8 +16,9 @@ namespace rend {
 struct TimeSettings {
   std::optional<double> step = {}; // [s]; none: 0.9 of what is stable
   const Scheme* scheme = find_scheme("symplectic");
-  double tolerance = SchemeSettings{}.tolerance; // of rk45, which chooses its steps by it
-  std::optional<double> duration = {};           // [s]
+  double tolerance = SchemeSettings{}.tolerance;       // of rk45, which chooses its steps by it
+  double rho_infinity = SchemeSettings{}.rho_infinity; // of alpha, 0 to 1
+  std::optional<double> duration = {};                 // [s]
   std::optional<double> mass_scaling =
       {}; // the largest share of a body's mass to add (mass_scaling.h); none: 0
   SettingsSource source = {};

@@ -37,7 +37,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   check_contact();
   contacts_ = Contacts::of(world_, bodies_);
   solve_contact();
-  const RunSettings run{options.walk, options.threads, checked_tolerance()};
+  const RunSettings run{options.walk, options.threads, checked_settings()};
   clear_start(world_, bodies_);
   scale_masses();
   for (auto& body : bodies_) body->prepare(scheme(), run);
@@ -66,15 +66,22 @@ void Scene::check_contact() {
                         "integrator 'static' supports contact with the floor and with obstacles that do not "
                         "fall, but not between bodies",
                         "use implicit, or symplectic with <viscosity>, and let the bodies come to rest");
-    if (body->contact->fragments)
-      body->notes.emplace_back("contact: 'implicit' solves contact with the floor and obstacles; bodies and "
-                               "fragments that rest on each other are compressed too much, more so if they are "
-                               "stiff or the step is large: take a smaller step, or symplectic");
+    if (!scheme().solves_contact)
+      body->notes.push_back(fmt::format("contact: with '{}' a body that rests on the floor is compressed too "
+                                        "much, more so if it is stiff or the step is large; take a smaller "
+                                        "step, or implicit",
+                                        scheme().name));
+    else if (body->contact->fragments)
+      body->notes.push_back(fmt::format(
+          "contact: '{}' solves contact with the floor and obstacles; bodies and fragments that rest on each "
+          "other are compressed too much, more so if they are stiff or the step is large: take a smaller step, "
+          "or symplectic",
+          scheme().name));
   }
 }
 
 void Scene::solve_contact() {
-  if (!scheme().solves) return;
+  if (!scheme().solves_contact) return;
   for (auto& body : bodies_)
     if (body->contact && (body->floor_contact || body->contact->obstacles))
       body->solved_contact = std::make_unique<SolvedContact>(world_, *body->contact);
@@ -92,12 +99,17 @@ void Scene::scale_masses() {
     notes_.emplace_back("mass scaling: no element is heavier, since the step would hardly be larger");
 }
 
-double Scene::checked_tolerance() const {
+SchemeSettings Scene::checked_settings() const {
   const bool given = time_.source.given("tolerance") || time_.tolerance != TimeSettings{}.tolerance;
   if (given && !scheme().adaptive)
     time_.source.fail("tolerance", fmt::format("tolerance is used by rk45 alone, not by '{}'", scheme().name),
                       "leave it out, or write integrator=\"rk45\"");
-  return time_.tolerance;
+  const bool damps = time_.source.given("rho-infinity") || time_.rho_infinity != TimeSettings{}.rho_infinity;
+  if (damps && !scheme().takes_rho_infinity)
+    time_.source.fail("rho-infinity",
+                      fmt::format("rho-infinity is used by alpha alone, not by '{}'", scheme().name),
+                      "leave it out, or write integrator=\"alpha\"");
+  return {.tolerance = time_.tolerance, .rho_infinity = time_.rho_infinity};
 }
 
 // An adaptive scheme divides the step of the preset: the default is that of symplectic, so that laws are

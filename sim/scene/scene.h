@@ -102,10 +102,10 @@ private:
   void forget_answers();   // those later than the current time
   void check_read() const; // throws ArchiveError
   void check_contact();
-  void solve_contact(); // of bodies whose scheme solves
+  void solve_contact(); // of bodies whose scheme solves it
   void scale_masses();
   double stable_step();
-  double checked_tolerance() const;
+  SchemeSettings checked_settings() const;
   double stability_limit() const; // [s]
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
