@@ -61,12 +61,12 @@ private:
 };
 
 // The tolerance of the README: render/README.md, "Comparing pictures".
-Tolerance tolerance() {
+Tolerance documented_tolerance() {
   return {.threshold = 8, .limits = {{"share", 0.002}}};
 }
 
 int alarms(double moved) {
-  const Tolerance allowed = tolerance();
+  const Tolerance allowed = documented_tolerance();
   int count = 0;
   for (int n = 0; n < repeats; ++n) {
     Noisy noisy(static_cast<unsigned>(n));
