@@ -285,7 +285,7 @@ void declare_passed_on(CLI::App& app, BatchOptions& options) {
   app.add_flag("--allow-path", options.allow_path, "allow files outside of the presets' folders");
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_batch(CLI::App& app) {
   auto options = std::make_shared<BatchOptions>();
   app.add_option("inputs", options->inputs, "presets, and folders with presets")
       ->required()
@@ -331,7 +331,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command batch_command() {
-  return {"batch", "render many presets in parallel, and make a page of the results", declare};
+  return {"batch", "render many presets in parallel, and make a page of the results", declare_batch};
 }
 
 } // namespace rend

@@ -220,7 +220,7 @@ Exit check(const CheckOptions& options) {
   return count(chapters).failed > 0 ? Exit::CheckFailed : Exit::Done;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_check(CLI::App& app) {
   auto options = std::make_shared<CheckOptions>();
   app.add_option("presets", options->presets, "presets to check; without any, the built-in cases")
       ->type_name("PRESET...");
@@ -245,7 +245,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command check_command() {
-  return {"check", "check numerical stability on stiff and extreme cases", declare};
+  return {"check", "check numerical stability on stiff and extreme cases", declare_check};
 }
 
 } // namespace rend

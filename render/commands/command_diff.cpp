@@ -214,7 +214,7 @@ Exit run(const DiffOptions& options) {
   }
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_diff(CLI::App& app) {
   auto options = std::make_shared<DiffOptions>();
   app.add_option("expected", options->a, "the expected picture (PNG), or a folder of pictures")
       ->required()
@@ -266,7 +266,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command diff_command() {
-  return {"diff", "compare pictures, or folders of pictures", declare};
+  return {"diff", "compare pictures, or folders of pictures", declare_diff};
 }
 
 } // namespace rend

@@ -109,7 +109,7 @@ Exit help(const CLI::App& root, const HelpOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_help(CLI::App& app) {
   auto options = std::make_shared<HelpOptions>();
   app.add_option("topic", options->topic,
                  "one of\n"
@@ -134,7 +134,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command help_command() {
-  return {"help", "explain commands, presets, rules and tolerances", declare};
+  return {"help", "explain commands, presets, rules and tolerances", declare_help};
 }
 
 } // namespace rend

@@ -25,7 +25,7 @@ Exit info(InfoOptions options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_info(CLI::App& app) {
   auto options = std::make_shared<InfoOptions>();
   add_preset_options(app, options->session);
   app.add_flag("--json", options->json, "print the same as one JSON object on stdout");
@@ -35,7 +35,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command info_command() {
-  return {"info", "show what a preset builds, and what it leaves out and why", declare};
+  return {"info", "show what a preset builds, and what it leaves out and why", declare_info};
 }
 
 } // namespace rend

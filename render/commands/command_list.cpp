@@ -109,7 +109,7 @@ Exit list(const ListOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_list(CLI::App& app) {
   auto options = std::make_shared<ListOptions>();
   app.add_option("folder", options->folder,
                  "folder of presets; default: presets in this folder, or those that rend was installed with")
@@ -122,7 +122,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command list_command() {
-  return {"list", "list presets: what each shows, its figure in the thesis, how long it takes", declare};
+  return {"list", "list presets: what each shows, its figure in the thesis, how long it takes", declare_list};
 }
 
 } // namespace rend

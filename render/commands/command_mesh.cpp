@@ -55,7 +55,7 @@ Exit convert(const MeshOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_mesh(CLI::App& app) {
   auto options = std::make_shared<MeshOptions>();
   auto chosen = std::make_shared<Exit (*)(const MeshOptions&)>(nullptr);
   app.require_subcommand(1);
@@ -78,7 +78,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command mesh_command() {
-  return {"mesh", "show what is in a mesh file, or convert it", declare};
+  return {"mesh", "show what is in a mesh file, or convert it", declare_mesh};
 }
 
 } // namespace rend

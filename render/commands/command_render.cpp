@@ -149,7 +149,7 @@ std::string video_formats_in_words() {
   return out;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_render(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   add_run_options(app, options->session);
   app.add_option("-o,--output", options->folder, "folder for the pictures and the video; default: out/SCENE")
@@ -186,7 +186,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command render_command() {
-  return {"render", "simulate a preset and make pictures and a video of it", declare};
+  return {"render", "simulate a preset and make pictures and a video of it", declare_render};
 }
 
 } // namespace rend

@@ -154,7 +154,7 @@ void add_rule(CLI::App& app, const Options& options) {
   add_file(app, options, "--in");
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_rule(CLI::App& app) {
   auto options = std::make_shared<RuleOptions>();
   auto chosen = std::make_shared<Exit (*)(const RuleOptions&)>(nullptr);
   app.require_subcommand(1);
@@ -189,7 +189,7 @@ std::function<Exit()> declare(CLI::App& app) {
 Command rule_command() {
   return {"rule",
           "list, show and check rules and scripts, and draw rules: changes of the mesh, for <apply> and <tear>",
-          declare};
+          declare_rule};
 }
 
 } // namespace rend

@@ -136,7 +136,7 @@ std::string export_formats_in_words() {
   return out;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   add_run_options(app, options->session);
   app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
@@ -173,7 +173,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command run_command() {
-  return {"run", "simulate a preset without pictures, and print its results", declare};
+  return {"run", "simulate a preset without pictures, and print its results", declare_run};
 }
 
 } // namespace rend

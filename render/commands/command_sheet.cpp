@@ -141,7 +141,7 @@ Exit make_sheet(const SheetOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_sheet(CLI::App& app) {
   auto options = std::make_shared<SheetOptions>();
   app.add_option("presets", options->presets,
                  "presets; each makes one row of pictures (with --ends, one picture)")
@@ -166,7 +166,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command sheet_command() {
-  return {"sheet", "make one picture that shows how presets start, tear and end", declare};
+  return {"sheet", "make one picture that shows how presets start, tear and end", declare_sheet};
 }
 
 } // namespace rend

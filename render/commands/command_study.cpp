@@ -195,7 +195,7 @@ Exit study(const StudyOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare(CLI::App& app) {
+std::function<Exit()> declare_study(CLI::App& app) {
   auto options = std::make_shared<StudyOptions>();
   declare_study(app, *options);
   return [options] { return study(*options); };
@@ -204,7 +204,7 @@ std::function<Exit()> declare(CLI::App& app) {
 } // namespace
 
 Command study_command() {
-  return {"study", "measure the error of each time scheme against its run time", declare};
+  return {"study", "measure the error of each time scheme against its run time", declare_study};
 }
 
 } // namespace rend

@@ -46,8 +46,8 @@ std::string option_line(const OptionUsage& option, const std::string& start, con
   return fmt::format("{} -d {}\n", out, quoted(first_phrase(option.what)));
 }
 
-void add_command(const CommandUsage& command, const std::string& path, const CommandUsage& program,
-                 std::string& out) {
+void add_completions(const CommandUsage& command, const std::string& path, const CommandUsage& program,
+                     std::string& out) {
   const std::string start =
       fmt::format("complete -c rend -n '{}{}'", path.empty() ? "__rend_only" : "__rend_at", path);
   for (const CommandUsage& part : command.commands)
@@ -56,7 +56,7 @@ void add_command(const CommandUsage& command, const std::string& path, const Com
   for (const OptionUsage& positional : command.positionals)
     out += fmt::format("{}{}\n", start, arguments(candidates_for(positional, program)));
   for (const CommandUsage& part : command.commands)
-    add_command(part, fmt::format("{} {}", path, part.name), program, out);
+    add_completions(part, fmt::format("{} {}", path, part.name), program, out);
 }
 
 constexpr const char* fish_functions = R"fish(
@@ -88,7 +88,7 @@ std::string fish_script(const CompletionSource& source) {
   }
   out += fmt::format("\nend\n\nfunction __rend_elements\n  __rend_lines {}\nend\n\n",
                      joined_by_blanks(source.elements));
-  add_command(source.program, "", source.program, out);
+  add_completions(source.program, "", source.program, out);
   return out;
 }
 

@@ -60,10 +60,10 @@ std::string positional_words(const OptionUsage& option, std::size_t number, cons
                      escaped(action(candidates_for(option, program)), ""));
 }
 
-void add_command(const CommandUsage& command, const std::string& function, const CommandUsage& program,
-                 std::string& out) {
+void add_function(const CommandUsage& command, const std::string& function, const CommandUsage& program,
+                  std::string& out) {
   for (const CommandUsage& part : command.commands)
-    add_command(part, fmt::format("{}_{}", function, part.name), program, out);
+    add_function(part, fmt::format("{}_{}", function, part.name), program, out);
   out += function + "() {\n";
   if (!command.commands.empty()) out += "  local line state\n";
   out += command.commands.empty() ? "  _arguments -s" : "  _arguments -C";
@@ -101,7 +101,7 @@ std::string zsh_script(const CompletionSource& source) {
   std::string out = "#compdef rend\n# Completion of rend for zsh, as `rend help completion zsh` prints it.\n\n";
   out += attributes(source.sets);
   out += fmt::format("_rend_elements() {{ compadd {} }}\n\n", joined_by_blanks(source.elements));
-  add_command(source.program, "_rend", source.program, out);
+  add_function(source.program, "_rend", source.program, out);
   return out + "_rend \"$@\"\n";
 }
 

@@ -64,7 +64,7 @@ std::string option_item(const OptionUsage& option) {
   return item(label, text);
 }
 
-std::string synopsis(const CommandUsage& command, const std::string& name) {
+std::string manual_synopsis(const CommandUsage& command, const std::string& name) {
   std::string out = fmt::format("{} [{}]", strong(name), slanted("options"));
   for (const OptionUsage& option : command.positionals)
     out +=
@@ -81,7 +81,7 @@ std::string command_section(const CommandUsage& command, const std::string& name
   std::string out;
   for (const CommandUsage& part : command.commands) out += command_section(part, name + " " + part.name);
   if (!command.commands.empty()) return out;
-  out += fmt::format(".SS {}\n", synopsis(command, name));
+  out += fmt::format(".SS {}\n", manual_synopsis(command, name));
   std::string what = command.what;
   what.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(what.front())));
   out += as_sentence(what) + "\n";

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t first_width = 22, gap = 2; // columns
 
-struct Style {
+struct TableStyle {
   bool colour;
   std::size_t columns;
   std::string strong(const std::string& text) const { return colour ? "\033[1m" + text + "\033[0m" : text; }
@@ -65,7 +65,7 @@ void print_side_by_side(const std::vector<std::vector<std::string>>& texts, std:
   }
 }
 
-void print_head(int dimension, const Style& style, std::string& out) {
+void print_head(int dimension, const TableStyle& style, std::string& out) {
   const std::string text =
       fmt::format("{}: the elements are {}s, and their borders {}s", dimension == 2 ? "Sheets" : "Solids",
                   name_of(Cell::Elements, dimension), name_of(Cell::Borders, dimension));
@@ -74,7 +74,7 @@ void print_head(int dimension, const Style& style, std::string& out) {
 }
 
 // For narrow pages: under each group of criteria a paragraph for each change.
-void print_list(int dimension, const Style& style, std::string& out) {
+void print_list(int dimension, const TableStyle& style, std::string& out) {
   const auto print = [&](const std::string& text, std::size_t indent) {
     for (const std::string& line : folded(text, style.columns - indent))
       out += std::string(indent, ' ') + line + '\n';
@@ -108,7 +108,7 @@ void print_table(int dimension, std::string& out) {
 } // namespace
 
 std::string tear_table(bool colour, std::size_t columns) {
-  const Style style{colour, columns};
+  const TableStyle style{colour, columns};
   std::string out;
   const std::string opening =
       "Any criterion of <tear> goes with any change. When the criterion of a cell exceeds the threshold, the "

@@ -11,7 +11,7 @@
 namespace rend {
 namespace {
 
-constexpr double duration = 0.5; // [s]
+constexpr double simulated_time = 0.5; // [s]
 // of peaks; above the stable step the guard may let energy double some times between two looks
 constexpr double most_ratio = 5, most_above_limit = 40;
 
@@ -63,7 +63,8 @@ struct Peak {
 // At a hundred times of the run: what pictures would show.
 Peak peak_of(Scene& scene) {
   Peak peak;
-  const long steps = std::max(1L, std::lround(duration / scene.step_size())), every = std::max(1L, steps / 100);
+  const long steps = std::max(1L, std::lround(simulated_time / scene.step_size())),
+             every = std::max(1L, steps / 100);
   try {
     for (long n = 0; n < steps; ++n) {
       scene.step();
@@ -83,7 +84,7 @@ CheckCase moved(const Cause& cause, const Stuff& stuff, const Scheme& scheme, do
     sketch.body = stuff.body + cause.body;
     sketch.gravity = cause.gravity;
     sketch.world = cause.world;
-    sketch.time = time_of(integrator, step, duration);
+    sketch.time = time_of(integrator, step, simulated_time);
     return sketch.text();
   };
   CheckCase one;

@@ -9,8 +9,6 @@
 namespace rend {
 namespace {
 
-constexpr ValueType S = ValueType::Scalar, V = ValueType::Vector;
-
 template <double (*function)(double)> Value of_scalar(const Value* a, std::size_t) {
   return scalar_value(function(a->scalar()));
 }
@@ -49,6 +47,7 @@ Value noise_there(const Value* a, std::size_t count) {
 } // namespace
 
 const std::vector<BuiltIn>& built_ins() {
+  constexpr ValueType S = ValueType::Scalar, V = ValueType::Vector;
   static const std::vector<BuiltIn> all = {
       {{"pi", {}, S, "3.14159..."}, [](const Value*, std::size_t) { return scalar_value(pi); }},
       {{"sin", {S}, S, "sine of an angle in radians"}, of_scalar<sine>},

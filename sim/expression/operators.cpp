@@ -7,7 +7,7 @@
 namespace rend {
 namespace {
 
-constexpr ValueType S = ValueType::Scalar, V = ValueType::Vector, C = ValueType::Condition;
+constexpr ValueType C = ValueType::Condition;
 
 Value scaled(const Value& v, double by) {
   return vector_value(v.number[0] * by, v.number[1] * by, v.number[2] * by);
@@ -31,6 +31,7 @@ Value divide_vector(const Value* a, std::size_t) {
 
 const std::vector<ExpressionOperator>& operators() {
   using P = Precedence;
+  constexpr ValueType S = ValueType::Scalar, V = ValueType::Vector;
   static const std::vector<ExpressionOperator> all = {
       {"or", P::Or, {C, C}, C, nullptr},
       {"and", P::And, {C, C}, C, nullptr},

@@ -32,7 +32,7 @@ using program::Outcome;
 using program::TestFolder;
 namespace fs = std::filesystem;
 
-bool whole() {
+bool thorough() {
   return std::getenv("REND_WHOLE") != nullptr;
 }
 
@@ -319,7 +319,7 @@ TEST_P(Forged, is_refused_in_words_or_goes_on) {
   ASSERT_EQ(in_a_process_of_its_own(path, run), 0) << "as it was";
   Forger forger(bytes, later, 17);
   std::map<int, int> ends;
-  for (int n = 0; n < (whole() ? 3000 : 40); ++n) {
+  for (int n = 0; n < (thorough() ? 3000 : 40); ++n) {
     const auto [forged, what] = forger.next();
     place.write("forged.checkpoint", forged);
     const int code = in_a_process_of_its_own(path, run);
@@ -329,7 +329,7 @@ TEST_P(Forged, is_refused_in_words_or_goes_on) {
   std::string figures;
   for (const auto& [code, count] : ends) figures += fmt::format(" {} end with {}", count, code);
   RecordProperty("ends", figures);
-  if (whole()) fmt::print("{}:{}\n", clip.name, figures);
+  if (thorough()) fmt::print("{}:{}\n", clip.name, figures);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Forged, testing::ValuesIn(clips()),
@@ -344,7 +344,7 @@ TEST_F(ForgedClip, ends_a_run_that_goes_on_from_it_in_words_or_not_at_all) {
   stop_midway("c");
   const std::string bytes = in("c").at("clip.checkpoint");
   Forger forger(bytes, bytes, 23);
-  for (int n = 0; n < (whole() ? 100 : 4); ++n) {
+  for (int n = 0; n < (thorough() ? 100 : 4); ++n) {
     const auto [forged, what] = forger.next();
     fs::remove_all(place.path() / "d");
     fs::copy(place.path() / "c", place.path() / "d");

@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-const char* bar = R"(<scene name="bar"><body name="a bar">
+const char* named_bar = R"(<scene name="bar"><body name="a bar">
   <bar pattern="mixed" cells="4 2 2" size="0.8 0.2 0.1"/><mass density="1000"/>
   <elasticity young="1e5" poisson="0.3"/><fix side="-x"/><load side="+x" force="0 0 -1"/>
   <probe name="tip" near="0.8 0.2 0.1"/></body>
@@ -86,8 +86,8 @@ std::vector<double> points_of(const Json& ply) {
 }
 
 TEST_F(SurfaceExport, as_ply_tells_of_its_points_and_faces_what_vtu_tells_of_vertices_and_cells) {
-  run(bar, "--export vtu -o states");
-  run(bar, "--export ply -o states");
+  run(named_bar, "--export vtu -o states");
+  run(named_bar, "--export ply -o states");
   const Json ply = this->ply("states/00002.ply"), vtu = read("vtu_to_json.py", "states/00002.vtu");
   EXPECT_THAT(ply["comments"], ElementsAre("time 0.2 s, lengths in m, z is up", "body 0 is a_bar"));
   std::map<int, std::size_t> row_of; // of the .vtu file
@@ -110,8 +110,8 @@ TEST_F(SurfaceExport, as_ply_tells_of_its_points_and_faces_what_vtu_tells_of_ver
 }
 
 TEST_F(SurfaceExport, as_obj_is_that_of_ply_to_the_last_bit) {
-  const Json figures = run(bar, "--export ply -o states");
-  EXPECT_EQ(run(bar, "--export obj -o states")["hash"], figures["hash"]);
+  const Json figures = run(named_bar, "--export ply -o states");
+  EXPECT_EQ(run(named_bar, "--export obj -o states")["hash"], figures["hash"]);
   for (const char* frame : {"states/00000", "states/00002"}) {
     const Json ply = this->ply(frame + std::string(".ply"));
     const tinyobj::ObjReader obj = this->obj(frame + std::string(".obj"));
@@ -124,7 +124,7 @@ TEST_F(SurfaceExport, as_obj_is_that_of_ply_to_the_last_bit) {
 }
 
 TEST_F(SurfaceExport, keeps_its_form_whatever_a_body_is_called) {
-  std::string named = bar;
+  std::string named = named_bar;
   named.replace(named.find("a bar"), 5, "c&#10;end_header&#10;v 1 1 1&#13;&#9;\u00e9");
   run(named, "--export ply -o states");
   run(named, "--export obj -o states");
@@ -157,12 +157,12 @@ TEST_F(SurfaceExport, as_obj_has_an_object_per_body_and_a_group_per_fragment_of_
 
 TEST_F(SurfaceExport, is_numbered_as_frames_are_and_ply_has_a_list_with_times) {
   const std::string slow = "--set time.step=0.1 --fps 20 --set body.elasticity.young=1 -o states --export ";
-  EXPECT_EQ(run(bar, slow + "obj")["export"]["files"], 5); // frames 1 and 2 show one state, as 3 and 4 do
+  EXPECT_EQ(run(named_bar, slow + "obj")["export"]["files"], 5); // frames 1 and 2 show one state, as 3 and 4 do
   EXPECT_EQ(place.files(),
             (std::vector<std::string>{"scene.xml", "states", "states/00000.obj", "states/00001.obj",
                                       "states/00002.obj", "states/00003.obj", "states/00004.obj"}));
   EXPECT_EQ(content(place.path() / "states/00001.obj"), content(place.path() / "states/00002.obj"));
-  const Json figures = run(bar, slow + "ply --frames 2,4");
+  const Json figures = run(named_bar, slow + "ply --frames 2,4");
   EXPECT_EQ(figures["export"]["index"], "bar.ply.series");
   const Json list = Json::parse(content(place.path() / "states/bar.ply.series"));
   EXPECT_EQ(list["file-series-version"], "1.0");
@@ -180,7 +180,7 @@ TEST_F(SurfaceExport, is_the_same_for_any_number_of_threads) {
 }
 
 TEST_F(SurfaceExport, that_cannot_be_is_refused_before_anything_is_done) {
-  place.write("scene.xml", bar);
+  place.write("scene.xml", named_bar);
   const Outcome unknown = place.rend("run scene.xml --export stl");
   EXPECT_EQ(unknown.code, 64);
   EXPECT_THAT(unknown.err, HasSubstr("vtu, ply, obj"));

@@ -15,26 +15,26 @@
 namespace rend {
 namespace {
 
-constexpr int width = 80, height = 60, repeats = 1000;
+constexpr int frame_width = 80, frame_height = 60, repeats = 1000;
 
 class Noisy {
 public:
   explicit Noisy(unsigned seed) : random_(seed) {
     double x = uniform(20, 60);
-    for (double& at : crack_) at = x = std::clamp(x + uniform(-1.2, 1.2), 6.0, width - 7.0);
+    for (double& at : crack_) at = x = std::clamp(x + uniform(-1.2, 1.2), 6.0, frame_width - 7.0);
   }
 
   // A shaded surface with the crack, moved by some pixels across.
   Picture picture(double moved) const {
-    Picture out{.width = width, .height = height, .alpha = false, .planes = {}};
+    Picture out{.width = frame_width, .height = frame_height, .alpha = false, .planes = {}};
     for (std::size_t c = 0; c < 3; ++c) {
       out.planes[c].resize(out.pixels());
-      for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
+      for (int y = 0; y < frame_height; ++y)
+        for (int x = 0; x < frame_width; ++x) {
           const double from_crack = std::abs(x - crack_[static_cast<std::size_t>(y)] - moved);
           const double share = std::clamp(1.25 - from_crack, 0.0, 1.0); // of the pixel that it covers
           const double shade = 150 + 40 * std::sin(0.06 * x + 0.04 * y) - 20 * static_cast<double>(c);
-          out.planes[c][static_cast<std::size_t>(y * width + x)] =
+          out.planes[c][static_cast<std::size_t>(y * frame_width + x)] =
               static_cast<float>(std::round(shade * (1 - share) + 40 * share));
         }
     }
@@ -57,16 +57,16 @@ private:
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
   std::mt19937 random_;
-  std::array<double, height> crack_{}; // [pixels], x in each row
+  std::array<double, frame_height> crack_{}; // [pixels], x in each row
 };
 
 // The tolerance of the README: render/README.md, "Comparing pictures".
-Tolerance tolerance() {
+Tolerance documented_tolerance() {
   return {.threshold = 8, .limits = {{"share", 0.002}}};
 }
 
 int alarms(double moved) {
-  const Tolerance allowed = tolerance();
+  const Tolerance allowed = documented_tolerance();
   int count = 0;
   for (int n = 0; n < repeats; ++n) {
     Noisy noisy(static_cast<unsigned>(n));

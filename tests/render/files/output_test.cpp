@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::array<std::uint8_t, 3> bytes{'a', 'b', 'c'};
+const std::array<std::uint8_t, 3> abc{'a', 'b', 'c'};
 
 std::string content(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -83,7 +83,7 @@ private:
 TEST_F(OutputAmongOthers, WritesNowhereElseAndWaitsForNoPipe) {
   OutputFile file(folder / "x");
   EXPECT_EQ(file.temporary(), part(7));
-  file.write(bytes);
+  file.write(abc);
   file.commit();
   EXPECT_EQ(content(folder / "x"), "abc");
   expect_all_as_before();
@@ -163,7 +163,7 @@ TEST(OutputFile, SaysWhenItsTemporaryFileBecameAnothers) {
 TEST(OutputFile, AppearsOnlyWhenItIsCommitted) {
   const test::Folder folder;
   OutputFile file(folder / "x");
-  file.write(bytes);
+  file.write(abc);
   EXPECT_FALSE(std::filesystem::exists(folder / "x"));
   file.commit();
   EXPECT_EQ(std::filesystem::file_size(folder / "x"), 3u);
@@ -174,7 +174,7 @@ TEST(OutputFile, LeavesNothingWhenItIsGivenUp) {
   const test::Folder folder;
   {
     OutputFile file(folder / "x");
-    file.write(bytes);
+    file.write(abc);
   }
   EXPECT_EQ(folder.files(), 0);
 }
@@ -182,15 +182,15 @@ TEST(OutputFile, LeavesNothingWhenItIsGivenUp) {
 TEST(OutputFile, TwoThatWriteTheSameFileAtOnceDoNotDisturbEachOther) {
   const test::Folder folder;
   OutputFile first(folder / "x");
-  first.write(bytes);
+  first.write(abc);
   {
     OutputFile second(folder / "x"), third(folder / "x");
     EXPECT_EQ(first.temporary(), folder / "x.part");
     EXPECT_EQ(second.temporary(), folder / "x.2.part");
     EXPECT_EQ(third.temporary(), folder / "x.3.part");
     remove_leftover(folder / "x"); // not a temporary file
-    second.write(bytes);
-    second.write(bytes);
+    second.write(abc);
+    second.write(abc);
     second.commit();
     EXPECT_EQ(std::filesystem::file_size(folder / "x"), 6u);
   }
@@ -229,7 +229,7 @@ TEST(OutputFile, OverwritesWhatAKilledRunLeftBehind) {
   const test::Folder folder;
   for (int run = 0; run < 2; ++run) {
     OutputFile file(folder / "x");
-    file.write(bytes);
+    file.write(abc);
     std::filesystem::copy_file(file.temporary(), folder / "kept",
                                std::filesystem::copy_options::overwrite_existing);
     file.commit();

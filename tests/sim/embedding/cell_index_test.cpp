@@ -45,8 +45,8 @@ std::map<Slot, std::vector<Dart>> orbits(const GMap& map, const CellIndex& cells
   return all;
 }
 
-struct Storm {
-  explicit Storm(unsigned seed) : random(seed) {}
+struct CellStorm {
+  explicit CellStorm(unsigned seed) : random(seed) {}
 
   Dart any() {
     const std::vector<Dart> darts = assets::all_darts(map);
@@ -96,7 +96,7 @@ TEST(CellIndex, numbers_orbits_by_their_smallest_dart) {
 
 TEST(CellIndex, stays_sound_in_a_storm_of_edits_for_every_orbit) {
   for (unsigned seed = 0; seed < 4; ++seed) {
-    Storm storm(seed);
+    CellStorm storm(seed);
     std::vector<CellIndex> indices;
     for (int mask = 0; mask < orbit_kinds; ++mask) indices.emplace_back(storm.map, orbit_of(mask));
     SlotEvents events;
@@ -121,7 +121,7 @@ TEST(CellIndex, stays_sound_in_a_storm_of_edits_for_every_orbit) {
 }
 
 TEST(CellIndex, an_orbit_that_keeps_its_darts_keeps_its_slot_and_moved_names_all_others) {
-  Storm storm(7);
+  CellStorm storm(7);
   for (int n = 0; n < 30; ++n) storm.add_face();
   std::vector<CellIndex> indices;
   for (int mask = 0; mask < orbit_kinds; ++mask) indices.emplace_back(storm.map, orbit_of(mask));

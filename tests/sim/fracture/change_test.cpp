@@ -136,28 +136,29 @@ TEST(Separate, cuts_a_moebius_band_once_without_parting_it) {
 }
 
 // Elements as lists of points.
-struct Lists {
+struct ElementLists {
   std::vector<Vec3> rest;
   std::vector<std::vector<std::uint32_t>> elements;
   int dimension;
 };
 
-Lists lists_of(const PolygonMesh& mesh) {
-  Lists lists{mesh.points, {}, 2};
+ElementLists lists_of(const PolygonMesh& mesh) {
+  ElementLists lists{mesh.points, {}, 2};
   for (std::size_t p = 0; p < mesh.polygons(); ++p)
     lists.elements.emplace_back(mesh.corners.begin() + mesh.first[p], mesh.corners.begin() + mesh.first[p + 1]);
   return lists;
 }
 
-Lists lists_of(const CellMesh& mesh) {
-  Lists lists{mesh.points, {}, 3};
+ElementLists lists_of(const CellMesh& mesh) {
+  ElementLists lists{mesh.points, {}, 3};
   for (std::size_t c = 0; c < mesh.cells(); ++c)
     lists.elements.emplace_back(mesh.corners_of(c).begin(), mesh.corners_of(c).end());
   return lists;
 }
 
 // Into how many fragments the plane splits a point: elements on one side are connected if they share a border.
-int fragments_of(const Lists& lists, const std::vector<Vec3>& x, std::uint32_t point, const Vec3& normal) {
+int fragments_of(const ElementLists& lists, const std::vector<Vec3>& x, std::uint32_t point,
+                 const Vec3& normal) {
   std::vector<std::size_t> at;
   std::vector<bool> above;
   for (std::size_t e = 0; e < lists.elements.size(); ++e) {
@@ -184,7 +185,7 @@ int fragments_of(const Lists& lists, const std::vector<Vec3>& x, std::uint32_t p
   return static_cast<int>(std::set(piece.begin(), piece.end()).size());
 }
 
-void expect_splits_as_lists_say(const Lists& lists,
+void expect_splits_as_lists_say(const ElementLists& lists,
                                 const std::function<std::unique_ptr<EmbeddedMap>()>& build) {
   Noise noise(17);
   int most = 0;

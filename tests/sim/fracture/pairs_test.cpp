@@ -39,7 +39,7 @@ std::string text_of(const Shape& shape, const Pair& pair, double threshold) {
       body, springs, elasticity, pair.criterion.type->name, kind, pair.change->name, threshold);
 }
 
-constexpr int steps = 120;
+constexpr int most_steps = 120;
 
 // A tenth of the largest value of an untorn body half way: some of the worst cells cannot tear, such as
 // vertices at a side that is held, whose elements all lie on one side of the plane.
@@ -49,7 +49,7 @@ double threshold_for(const Shape& shape, const Pair& pair) {
   LawSettings all = body.tear_laws.front().settings();
   all.threshold = 1e-12;
   double most = 0;
-  for (int n = 0; n < steps / 2; ++n) scene->step();
+  for (int n = 0; n < most_steps / 2; ++n) scene->step();
   body.evaluate();
   TearLaw law(body.request_for(all), all);
   for (const Candidate& candidate : law.find(body.view())) most = std::max(most, candidate.value);
@@ -66,7 +66,7 @@ void expect_tears(const Shape& shape, const Pair& pair) {
   Seen seen(body);
   std::size_t looked = 0;
   int looks = 0;
-  for (int n = 0; n < steps && looks < 6 && !body.deleted_at; ++n) {
+  for (int n = 0; n < most_steps && looks < 6 && !body.deleted_at; ++n) {
     one->step();
     two->step();
     if (one->tears() == looked) continue;

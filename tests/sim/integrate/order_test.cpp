@@ -48,7 +48,7 @@ const std::vector<Smooth>& smooth_scenes() {
   return scenes;
 }
 
-constexpr double end = 0.125; // [s]
+constexpr double end_time = 0.125; // [s]
 
 struct Reached {
   std::vector<Record> position, velocity;
@@ -58,7 +58,7 @@ struct Reached {
 Reached reached(const Smooth& smooth, const std::string& scheme, int steps) {
   const auto s = presets::load(fmt::format(
       R"(<scene><body>{}</body><world>{}</world><time step="{:.17g}" integrator="{}" duration="{}"/></scene>)",
-      smooth.body, smooth.world, end / steps, scheme, end));
+      smooth.body, smooth.world, end_time / steps, scheme, end_time));
   for (int n = 0; n < steps; ++n) s->step();
   Reached out{s.body().map->position().values(), s.body().map->velocity().values(), {}};
   for (std::size_t i = 0; i < out.position.size(); ++i)
@@ -68,7 +68,7 @@ Reached reached(const Smooth& smooth, const std::string& scheme, int steps) {
 
 struct Errors {
   double position = 0, velocity = 0; // mass-weighted means [m], [m/s]
-  double both() const { return std::hypot(position / end, velocity); }
+  double both() const { return std::hypot(position / end_time, velocity); }
 };
 
 Errors between(const Reached& a, const Reached& b) {

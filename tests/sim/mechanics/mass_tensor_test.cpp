@@ -26,7 +26,7 @@ TEST(MassTensor, is_the_stiffness_block_by_block) {
   }
 }
 
-std::vector<Record> forces_of(Body& body) {
+std::vector<Record> forces_on(Body& body) {
   meshes::shake(body, 0.3, 4);
   std::vector<Record> forces(body.program->vertices());
   body.program->forces(meshes::positions(body), meshes::velocities(body), forces.data());
@@ -41,9 +41,9 @@ TEST(MassTensor, gives_the_forces_of_linear_elements_on_every_mesh_folded_or_not
       const auto linear = elastic_body(map(), {"linear", "polar", beta});
       const auto folded = elastic_body(map(), {"mass-tensor", "polar", beta});
       const auto unfolded = elastic_body(map(), {"mass-tensor", "polar", beta, Cumulated::No});
-      const std::vector<Record> f = forces_of(*linear);
-      EXPECT_LT(meshes::difference(f, forces_of(*folded)), 1e-12);
-      EXPECT_LT(meshes::difference(f, forces_of(*unfolded)), 1e-12);
+      const std::vector<Record> f = forces_on(*linear);
+      EXPECT_LT(meshes::difference(f, forces_on(*folded)), 1e-12);
+      EXPECT_LT(meshes::difference(f, forces_on(*unfolded)), 1e-12);
       EXPECT_NEAR(linear->program->elastic_energy(meshes::positions(*linear)),
                   folded->program->elastic_energy(meshes::positions(*folded)),
                   1e-11 * linear->program->elastic_energy(meshes::positions(*linear)));
@@ -51,7 +51,7 @@ TEST(MassTensor, gives_the_forces_of_linear_elements_on_every_mesh_folded_or_not
   }
 }
 
-std::size_t live(const Body& body, std::size_t n) {
+std::size_t live_rows(const Body& body, std::size_t n) {
   return body.program->rows()[n].rows().live_count();
 }
 
@@ -62,12 +62,12 @@ TEST(MassTensor, has_one_tensor_for_each_pair_and_each_vertex_when_folded) {
   for (Vec3& x : mesh.points) x += 0.1 * noise.vector();
   const auto folded = elastic_body(solid_from(mesh), {"mass-tensor"});
   const auto unfolded = elastic_body(solid_from(mesh), {"mass-tensor", "polar", 0, Cumulated::No});
-  EXPECT_EQ(live(*folded, 0), 27u);
-  EXPECT_EQ(live(*folded, 1), 54u);
-  EXPECT_EQ(live(*folded, 2), 2 * 36u);
-  EXPECT_EQ(live(*folded, 3), 4 * 8u);
-  EXPECT_EQ(live(*unfolded, 0), 8 * 8u);
-  EXPECT_EQ(live(*unfolded, 1) + live(*unfolded, 2) + live(*unfolded, 3), 8 * 28u);
+  EXPECT_EQ(live_rows(*folded, 0), 27u);
+  EXPECT_EQ(live_rows(*folded, 1), 54u);
+  EXPECT_EQ(live_rows(*folded, 2), 2 * 36u);
+  EXPECT_EQ(live_rows(*folded, 3), 4 * 8u);
+  EXPECT_EQ(live_rows(*unfolded, 0), 8 * 8u);
+  EXPECT_EQ(live_rows(*unfolded, 1) + live_rows(*unfolded, 2) + live_rows(*unfolded, 3), 8 * 28u);
 }
 
 TEST(MassTensor, bounds_the_step_as_the_elements_do) {

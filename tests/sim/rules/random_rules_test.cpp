@@ -177,7 +177,7 @@ TEST(RandomRules, are_printed_and_read_back_equal) {
   }
 }
 
-std::vector<std::uint8_t> bytes_of(EmbeddedMap& body) {
+std::vector<std::uint8_t> stored_bytes(EmbeddedMap& body) {
   Archive archive;
   body.store(archive);
   return archive.bytes();
@@ -194,7 +194,7 @@ void apply_to_some_maps(const Script& script, Pool& pool, std::mt19937& random, 
     if (body.map().capacity() == 0 && script.has_hook()) continue;
     const Hooks hooks =
         script.has_hook() ? Hooks(Dart{static_cast<std::uint32_t>(random() % body.map().capacity())}) : Hooks();
-    const std::vector<std::uint8_t> before = bytes_of(body);
+    const std::vector<std::uint8_t> before = stored_bytes(body);
     const std::size_t darts = body.map().dart_count();
     bool applied = false;
     body.edit([&](Edit& edit) {
@@ -204,7 +204,7 @@ void apply_to_some_maps(const Script& script, Pool& pool, std::mt19937& random, 
     const auto fault = validate(body);
     ASSERT_FALSE(fault) << fault.value_or("") << "\n" << script.print();
     ASSERT_EQ(applied, runner.reason().empty()) << script.print();
-    ASSERT_TRUE(applied || bytes_of(body) == before) << script.print();
+    ASSERT_TRUE(applied || stored_bytes(body) == before) << script.print();
     tally.applied += applied;
     tally.refused += !applied;
     tally.taken_back += runner.reason().starts_with("step ") && !runner.reason().starts_with("step 1,");

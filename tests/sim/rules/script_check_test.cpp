@@ -8,13 +8,13 @@
 namespace rend {
 namespace {
 
-struct Illegal {
+struct IllegalScript {
   const char* text;  // of a file of rules; what is blamed stands first on line 2
   const char* words; // of the message
 };
 
 TEST(ScriptCheck, refuses_with_place_and_reason) {
-  const Illegal all[] = {
+  const IllegalScript all[] = {
       // hooks
       {"<script name='s' hook=\n'a(0,1)'><for each='e*(0)' apply='unsew-edge'/></script>",
        "'a(0,1)' is not one node with a star and its orbit"},
@@ -105,7 +105,7 @@ TEST(ScriptCheck, refuses_with_place_and_reason) {
        "node a is removed"},
   };
   int count = 0;
-  for (const Illegal& each : all) {
+  for (const IllegalScript& each : all) {
     SCOPED_TRACE(each.text);
     const std::string blamed_on_2 = std::string(each.text).find('\n') != std::string::npos ? ":2:" : ":1:";
     try {

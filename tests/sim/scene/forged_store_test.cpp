@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::vector<std::uint8_t> stored(Scene& scene) {
+std::vector<std::uint8_t> stored_bytes(Scene& scene) {
   Archive archive;
   scene.store(archive);
   return archive.bytes();
@@ -98,7 +98,7 @@ class StoredScene {
 public:
   StoredScene(std::string xml, long steps) : xml_(std::move(xml)), loaded_(presets::load(xml_)) {
     while (loaded_->steps_done() < steps) loaded_->step();
-    bytes_ = stored(*loaded_.scene);
+    bytes_ = stored_bytes(*loaded_.scene);
     EXPECT_EQ(refused(*presets::load(xml_).scene, bytes_), "");
   }
   const EmbeddedMap& map() const { return *loaded_.body().map; }
@@ -222,7 +222,7 @@ TEST(ForgedStore, a_body_that_nothing_tears_is_as_it_was_built) {
     unsew(edit, 2, some_dart(edit.map(), [&](Dart d) { return !edit.map().is_free(2, d); }));
   });
   torn.body().rebind();
-  EXPECT_THAT(refused(*presets::load(presets::cloth("quads", 3)).scene, stored(*torn.scene)),
+  EXPECT_THAT(refused(*presets::load(presets::cloth("quads", 3)).scene, stored_bytes(*torn.scene)),
               HasSubstr("that nothing tears"));
 }
 
