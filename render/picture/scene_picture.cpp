@@ -209,7 +209,7 @@ Frame FrameBuilder::draw(long number, double time) {
   for (std::size_t n = 0; n < spheres_.size(); ++n)
     frame.obstacles.push_back(picture_of(world.spheres[n], spheres_[n]));
   for (std::size_t n = 0; n < boxes_.size(); ++n)
-    frame.obstacles.push_back(picture_of(world.boxes[n], boxes_[n]));
+    frame.obstacles.push_back(picture_of(world.boxes[n], boxes_[n], scene_.time()));
   if (world.floor) frame.floor = FrameFloor{world.floor->z};
   frame.camera = viewpoint_.at(time);
   const Colour background = image_.background.value_or(Colour{});

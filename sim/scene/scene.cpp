@@ -352,6 +352,8 @@ void Scene::check_read() const {
     }
   }
   refuse_unless(next_answer_ == next, "an answer is measured at another time");
+  for (const Sphere& sphere : world_.spheres)
+    refuse_unless(sphere.can_be_there(time()), "a sphere is where its keys do not lead");
 }
 
 std::uint64_t Scene::hash() const {
