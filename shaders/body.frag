@@ -1,4 +1,5 @@
 // Cloth and solids under a key light with a shadow, a fill light, the sky and light reflected by the ground.
+// TORN: the colour of torn edges, linear.
 in vec4 to_eye; // see body.vert
 in vec4 across;
 in vec4 albedo;
@@ -47,10 +48,10 @@ void main() {
   vec2 line = lines();
 #if WIRES // lines only, with premultiplied alpha
   float cover = max(line.x, line.y);
-  pixel = vec4(encode(mix(0.6 * surface, vec3(1.0, 0.46, 0.09), line.y / max(cover, 1e-4))) * cover, cover);
+  pixel = vec4(encode(mix(0.6 * surface, TORN, line.y / max(cover, 1e-4))) * cover, cover);
 #else
   surface *= 1.0 - 0.75 * line.x;
-  surface = mix(surface, vec3(1.0, 0.46, 0.09), line.y);
+  surface = mix(surface, TORN, line.y);
 
   float gloss = reach.w, rim_light = slope.w, transmission = start.w, wrap = ink.w;
   float direct = lit();

@@ -15,6 +15,7 @@ uniform vec3 key, fill, sky;  // unit, towards the lights and up
 uniform float shadow_offset;  // shadow bias: offset of a point towards the light [m]
 uniform float line_scale;     // relative to a picture of height 720 pixels
 uniform int cells;            // 1: lines between cells are drawn
+uniform float torn_reach;     // half the width of torn edges [pixels]; 0: they are not drawn
 uniform float hidden_below;   // height below which nothing is visible: under the floor [m]
 uniform vec4 finish;          // finish.h: gloss, rim, transmission, wrap / (1 + wrap)
 uniform vec3 sheen;           // 1 for each squaring of the sheen: once, twice more, four times more
@@ -34,7 +35,8 @@ flat out vec3 squares;  // sheen
 
 // The line of that kind: half width [pixels], slope [1/pixel], start, ink.
 vec4 line_of(uint kind) {
-  if (kind == 3u) return vec4(1.7, 0.0, 1.0, -1.0);  // torn: independent of the triangle's height
+  if (kind == 3u && torn_reach > 0.0)
+    return vec4(torn_reach, 0.0, 1.0, -1.0); // torn: independent of the triangle's height
   if (kind == 2u) return vec4(1.2, 0.25, -0.5, 1.0); // a border
   if (cells == 1 && kind == 4u) return vec4(0.9, 0.25, -0.5, 0.75); // a crease
   if (cells == 1 && kind == 1u) return vec4(0.55, 0.09, -0.4, 0.62); // between cells

@@ -17,12 +17,15 @@ double size_at_rest(const Body& body) {
   return bounds.isEmpty() ? 0 : bounds.diagonal().norm();
 }
 
-// How deep a point lies inside [m]; not above 0: outside.
-double depth_in(const Sphere& sphere, const Vec3& x) {
-  return sphere.radius - (x - sphere.centre).norm();
+// A function of a point: how deep it lies inside [m]; not above 0: outside.
+auto depth_in(const Sphere& sphere, double) {
+  return [&sphere](const Vec3& x) { return sphere.radius - (x - sphere.centre).norm(); };
 }
-double depth_in(const Box& box, const Vec3& x) {
-  return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff());
+auto depth_in(const Box& box, double time) {
+  return [&box, pose = box.pose(time)](const Vec3& there) {
+    const Vec3 x = pose.back(there);
+    return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff());
+  };
 }
 
 // Whether a vertex lies deeper than that; `depth`: of a point.
@@ -34,9 +37,9 @@ template <class F> bool has_vertex_deeper_than(double least, const Body& body, F
 }
 
 template <class Obstacle>
-bool lies_in_one(double least, const Body& body, const std::vector<Obstacle>& obstacles) {
+bool lies_in_one(double least, const Body& body, const std::vector<Obstacle>& obstacles, double time) {
   return std::any_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& one) {
-    return has_vertex_deeper_than(least, body, [&](const Vec3& x) { return depth_in(one, x); });
+    return has_vertex_deeper_than(least, body, depth_in(one, time));
   });
 }
 
@@ -61,11 +64,11 @@ void PassThrough::look(long frame) {
       watched.floor = false;
       tell(body, frame, "the floor", "floor");
     }
-    if (watched.spheres && lies_in_one(watched.hair, body, world.spheres)) {
+    if (watched.spheres && lies_in_one(watched.hair, body, world.spheres, scene_.time())) {
       watched.spheres = false;
       tell(body, frame, "a sphere", "obstacles");
     }
-    if (watched.boxes && lies_in_one(watched.hair, body, world.boxes)) {
+    if (watched.boxes && lies_in_one(watched.hair, body, world.boxes, scene_.time())) {
       watched.boxes = false;
       tell(body, frame, "a box", "obstacles");
     }

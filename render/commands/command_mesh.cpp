@@ -1,8 +1,10 @@
-// rend mesh: facts about a mesh file, and its conversion to another format.
+// rend mesh: facts about a mesh file, its conversion to another format, and solids from closed surfaces.
 #include "render/clip/named_files.h"
 #include "render/commands/command.h"
+#include "render/commands/gmsh.h"
 #include "render/console/console.h"
 #include "render/console/json_text.h"
+#include "render/console/number_option.h"
 #include "render/console/signals.h"
 #include "render/facts/mesh_facts.h"
 #include "render/files/output.h"
@@ -20,9 +22,13 @@
 namespace rend {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct MeshOptions {
   std::string in, out;
   bool json = false, repair = false;
+  double size = 0;           // [m], of a tetrahedron
+  double most_seconds = 600; // for filling
 };
 
 Exit info(const MeshOptions& options) {
@@ -32,26 +38,53 @@ Exit info(const MeshOptions& options) {
   return Exit::Done;
 }
 
-Exit convert(const MeshOptions& options) {
-  const std::filesystem::path out = options.out;
-  const bool moka = out.extension() == ".moka";
-  if (!moka && out.extension() != ".msh")
-    throw UserError(Exit::Usage, {},
-                    fmt::format("{} is not a format that rend can write", in_quotes(options.out)),
+// UserError (Usage): the ending of its name is that of no format.
+void check_format(const std::string& name) {
+  const fs::path extension = fs::path(name).extension();
+  if (extension != ".moka" && extension != ".msh")
+    throw UserError(Exit::Usage, {}, fmt::format("{} is not a format that rend can write", in_quotes(name)),
                     "end the name in .moka or .msh");
-  const std::filesystem::path file = resolve_link(out);
+}
+
+// As the options name it; `file`: where that leads.
+void write(const MeshBody& body, const MeshOptions& options, const fs::path& file) {
+  const bool moka = fs::path(options.out).extension() == ".moka";
+  if (moka && !body.groups.empty()) print_note("the groups of the mesh were left out: .moka cannot hold them");
+  const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
+  write_atomically(file, text);
+  sync_folder(file.parent_path());
+}
+
+Exit convert(const MeshOptions& options) {
+  check_format(options.out);
+  const fs::path file = resolve_link(options.out);
   NamedFiles files;
   files.reads("the mesh", options.in);
   files.writes("the new one", file);
-  MeshFile read = read_mesh(std::filesystem::path(options.in));
+  MeshFile read = read_mesh(fs::path(options.in));
   if (options.repair) print_note(in_words(repair(read)));
   const MeshBody body = sew(std::move(read));
   for (const std::string& note : body.notes) print_note(note);
-  if (moka && !body.groups.empty()) print_note("the groups of the mesh were left out: .moka cannot hold them");
-  const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
   const GracefulStop graceful_stop;
-  write_atomically(file, text);
-  sync_folder(file.parent_path());
+  write(body, options, file);
+  return Exit::Done;
+}
+
+Exit fill(const MeshOptions& options) {
+  check_format(options.out);
+  const fs::path file = resolve_link(options.out);
+  NamedFiles files;
+  files.reads("the surface", options.in);
+  files.writes("the solid", file);
+  ClosedSurface surface = closed_surface(read_mesh(fs::path(options.in)));
+  divide_edges(surface, 1.5 * options.size);
+  const GracefulStop graceful_stop;
+  auto filled =
+      filled_by_gmsh(surface, {options.size, options.most_seconds, [] { return stop_signal() != 0; }});
+  if (!filled) return exit_code_of_signal();
+  const MeshBody body = sew(std::move(*filled));
+  print_note(fmt::format("{} tetrahedra, {:.6g} m3", count_cells(body.map->map()).volumes, surface.volume()));
+  write(body, options, file);
   return Exit::Done;
 }
 
@@ -72,13 +105,27 @@ std::function<Exit()> declare_mesh(CLI::App& app) {
       "--repair", options->repair,
       "of a sheet: merge corners at the same point, drop polygons without area and copies of others");
   change->callback([chosen] { *chosen = convert; });
+  CLI::App* full = app.add_subcommand("fill", "fill a closed surface with tetrahedra, by the program gmsh");
+  full->add_option("file", options->in, "a closed surface: .obj, .off or .msh")->required()->type_name("FILE");
+  full->add_option("--size", options->size, "length of the edges of tetrahedra, about [m]")
+      ->required()
+      ->transform(real_number(1e-9, 1e9))
+      ->type_name("METRES");
+  full->add_option("-o,--output", options->out, "the file to write: .msh or .moka")
+      ->required()
+      ->type_name("FILE");
+  full->add_option("--max-time", options->most_seconds, "give up after so many seconds")
+      ->transform(real_number(0, 1e9))
+      ->capture_default_str()
+      ->type_name("SECONDS");
+  full->callback([chosen] { *chosen = fill; });
   return [options, chosen] { return (*chosen)(*options); };
 }
 
 } // namespace
 
 Command mesh_command() {
-  return {"mesh", "show what is in a mesh file, or convert it", declare_mesh};
+  return {"mesh", "show what is in a mesh file, convert it, or fill a surface", declare};
 }
 
 } // namespace rend

@@ -40,9 +40,17 @@ struct Corner {
 };
 static_assert(sizeof(Corner) == 32);
 
+// Lines along edges exposed by tearing.
+struct TornLine {
+  std::array<float, 3> colour{1.0f, 0.46f, 0.09f}; // linear: an orange
+  float width = 3.4f;                              // [pixels] in a picture of height 720; 0: no line
+  bool operator==(const TornLine&) const = default;
+};
+
 struct FrameBody {
   std::vector<Corner> corners; // three per triangle
   bool edges = true;           // draw lines of cells and creases (torn and border lines are drawn in any case)
+  TornLine torn;
   // a sheet; false: a solid, whose triangles are counter-clockwise seen from outside, with back faces culled
   bool two_sided = true;
   // the back of a sheet is drawn a shade darker; false: front and back alike (a Möbius band)

@@ -268,27 +268,31 @@ void Renderer::draw_bodies(const Frame& frame, const View& view, const Lights& l
   glBindVertexArray(corners_array_.name());
   glEnable(GL_CLIP_DISTANCE0);
   for (const bool filled : {true, false}) { // wire frames last: what is behind them shows through
-    if (std::none_of(draws_.begin(), draws_.end(),
-                     [&](const Draw& draw) { return draw.body->filled == filled; }))
-      continue;
-    const GlProgram& program = body_program(filled);
-    program.use();
-    set_view(program, frame, view);
-    if (filled) set_light(program, lights, light);
-    for (const Draw& draw : draws_)
-      if (draw.body->filled == filled) draw_body(program, draw);
+    const GlProgram* used = nullptr;
+    for (const Draw& draw : draws_) {
+      if (draw.body->filled != filled) continue;
+      if (const GlProgram& program = body_program(*draw.body); &program != used) {
+        used = &program;
+        program.use();
+        set_view(program, frame, view);
+        if (filled) set_light(program, lights, light);
+      }
+      draw_body(*used, draw);
+    }
   }
   glDisable(GL_CULL_FACE);
   glDisable(GL_CLIP_DISTANCE0);
 }
 
-const GlProgram& Renderer::body_program(bool filled) {
-  std::optional<GlProgram>& program = filled ? body_ : wires_;
-  if (!program)
-    program.emplace("body.vert", "body.frag",
-                    fmt::format("#define WIRES {}\n#define SHADOW_SPREAD {}\n", filled ? 0 : 1,
-                                shadow_spread / shadow_side));
-  return *program;
+const GlProgram& Renderer::body_program(const FrameBody& body) {
+  const auto& torn = body.torn.colour;
+  const auto key = std::pair(body.filled, torn);
+  if (const auto at = body_programs_.find(key); at != body_programs_.end()) return at->second;
+  return body_programs_
+      .try_emplace(key, "body.vert", "body.frag",
+                   fmt::format("#define WIRES {}\n#define SHADOW_SPREAD {}\n#define TORN vec3({}, {}, {})\n",
+                               body.filled ? 0 : 1, shadow_spread / shadow_side, torn[0], torn[1], torn[2]))
+      .first->second;
 }
 
 void Renderer::set_view(const GlProgram& program, const Frame& frame, const View& view) const {
@@ -324,6 +328,7 @@ void Renderer::set_finish(const GlProgram& program, const FrameBody& body) {
 void Renderer::draw_body(const GlProgram& program, const Draw& draw) const {
   const FrameBody& body = *draw.body;
   program.set("cells", body.edges ? 1 : 0);
+  program.set("torn_reach", body.torn.width / 2);
   if (body.filled) set_finish(program, body);
   Eigen::Vector4f back(0, 0, 0,
                        body.shades_back ? far_side_tint : 1); // the back's own tint, relative to the front's

@@ -25,8 +25,11 @@
 #include "render/draw/occlusion.h"
 #include "render/files/image.h"
 
+#include <array>
+#include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace rend {
@@ -69,7 +72,7 @@ private:
   void draw_shadow_map(const LightView& light);
   void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
                    const BodyTargets& bodies);
-  const GlProgram& body_program(bool filled); // compiled on first use
+  const GlProgram& body_program(const FrameBody& body); // compiled on first use
   void set_view(const GlProgram& program, const Frame& frame, const View& view) const;
   static void set_light(const GlProgram& program, const Lights& lights, const LightView& light);
   static void set_finish(const GlProgram& program, const FrameBody& body);
@@ -83,7 +86,9 @@ private:
   int samples_per_texel_; // samples per texel: 1 or 4
   bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};
-  std::optional<GlProgram> body_, wires_; // of filled bodies, and of wire frames
+  // of bodies, by whether they are filled, and by the colour of their torn edges: a uniform would cost every
+  // fragment (shaders/body.vert)
+  std::map<std::pair<bool, std::array<float, 3>>, GlProgram> body_programs_;
   FloorShadow floor_shadow_;
   Composite composite_;
   CoverageGrid blocks_;                // of the picture that bodies may cover

@@ -1,5 +1,6 @@
 #include "render/facts/mesh_facts.h"
 
+#include "render/console/json_or_null.h"
 #include "sim/base/enum_words.h"
 #include "sim/base/printable.h"
 #include "sim/base/wording.h"
@@ -9,6 +10,8 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -22,6 +25,38 @@ std::string kind_of(const EmbeddedMap& body, Dart d) {
   for (const CellKind kind : {CellKind::Tetrahedron, CellKind::Hexahedron, CellKind::Prism, CellKind::Pyramid})
     if (!darts_in_shape_order(body.map(), shape_of(kind), d).empty()) return words[kind];
   return "polyhedra";
+}
+
+std::string point(const Vec3& p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
+}
+
+nlohmann::ordered_json json_of(const char* what, const WorstElement& worst) {
+  const auto finite = std::isfinite(worst.value) ? std::optional(worst.value) : std::nullopt;
+  return {{what, json_or_null(finite)},
+          {"element", worst.element},
+          {"kind", worst.kind},
+          {"centre", {worst.centre.x(), worst.centre.y(), worst.centre.z()}}};
+}
+
+nlohmann::ordered_json json_of(const MeshQuality& q) {
+  return {{"least_angle", json_of("degrees", q.least_angle)},
+          {"greatest_angle", json_of("degrees", q.greatest_angle)},
+          {"aspect", json_of("ratio", q.aspect)},
+          {"smallest", json_of("of_mean", q.smallest)},
+          {"largest", json_of("of_mean", q.largest)}};
+}
+
+std::string quality_in_words(const MeshQuality& q, bool solid) {
+  const auto line = [](const std::string& what, const WorstElement& worst) {
+    return fmt::format("  {}: {} {} near {}\n", what, worst.kind, worst.element, point(worst.centre));
+  };
+  const char *angle = solid ? "dihedral angle" : "angle", *size = solid ? "volume" : "area";
+  return line(fmt::format("smallest {} {:.4g} degrees", angle, q.least_angle.value), q.least_angle) +
+         line(fmt::format("largest {} {:.4g} degrees", angle, q.greatest_angle.value), q.greatest_angle) +
+         line(fmt::format("worst aspect ratio {:.3g} (equal sides: 1)", q.aspect.value), q.aspect) +
+         line(fmt::format("smallest {} {:.3g} of the mean", size, q.smallest.value), q.smallest) +
+         line(fmt::format("largest {} {:.3g} of the mean", size, q.largest.value), q.largest);
 }
 
 } // namespace
@@ -39,6 +74,7 @@ MeshFacts mesh_facts(const MeshBody& mesh, const std::string& file) {
     ++facts.elements[kind_of(body, d)];
     facts.extent += facts.solid() ? rest_volume(body, d) : rest_area(body, d);
   }
+  facts.quality = mesh_quality(body);
   facts.low = Vec3::Constant(1e300);
   facts.high = -facts.low;
   for (Slot v = 0; v < body.cells(Vertex).slots(); ++v) {
@@ -66,6 +102,7 @@ nlohmann::ordered_json json_of(const MeshFacts& f) {
           {"low", {f.low.x(), f.low.y(), f.low.z()}},
           {"high", {f.high.x(), f.high.y(), f.high.z()}},
           {f.solid() ? "volume" : "area", f.extent},
+          {"quality", json_of(f.quality)},
           {"groups", std::move(groups)},
           {"notes", f.notes}};
 }
@@ -79,9 +116,9 @@ std::string facts_in_words(const MeshFacts& f) {
   out += fmt::format("  {} fragment{}, Euler characteristic {}\n", n.fragments, n.fragments == 1 ? "" : "s",
                      n.euler);
   for (const auto& [kind, count] : f.elements) out += fmt::format("  {} {}\n", count, kind);
-  const auto point = [](const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); };
   out += fmt::format("  from {} to {} m, {} {:.6g} {}\n", point(f.low), point(f.high),
                      f.solid() ? "volume" : "area", f.extent, f.solid() ? "m3" : "m2");
+  out += quality_in_words(f.quality, f.solid());
   for (const auto& [name, count] : f.groups)
     out += fmt::format("  group {}: {} vertices\n", in_quotes(name), count);
   for (const std::string& note : f.notes) out += fmt::format("  note: {}\n", printable(note));

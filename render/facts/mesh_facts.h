@@ -1,6 +1,7 @@
 // The facts that `rend mesh info` prints about a mesh.
 #pragma once
 
+#include "sim/mechanics/element_quality.h"
 #include "sim/mesh/reader.h"
 #include "sim/topology/count.h"
 
@@ -20,7 +21,8 @@ struct MeshFacts {
   std::map<std::string, std::size_t> elements; // by kind: "quads"
   Vec3 low, high;                              // [m], corners of the bounding box
   double extent = 0;                           // [m²] of a sheet, [m³] of a solid
-  std::map<std::string, std::size_t> groups;   // vertices of each
+  MeshQuality quality;
+  std::map<std::string, std::size_t> groups; // vertices of each
   std::vector<std::string> notes;
 
   bool solid() const { return dimension == 3; }

@@ -3,6 +3,18 @@
 namespace rend {
 namespace {
 
+// A colour, or the word for no line.
+Field<LookSettings> torn() {
+  return {text("torn",
+               "of a sheet: colour of the line along torn edges, #rrggbb, or none for no line; default: "
+               "orange"),
+          [](LookSettings& look, const AttributeValue& value) {
+            look.torn_edges = value.text != "none";
+            look.torn = look.torn_edges ? colour_called(value.text) : std::nullopt;
+          },
+          [](const LookSettings&, const SettingsSource&) {}};
+}
+
 // A name in the table, the numbers that it stands for in a program.
 Field<LookSettings> finish() {
   AttributeType type = text("finish", "material, for the light on it: cloth, matte, rubber, organ or brittle");
@@ -32,6 +44,12 @@ template <> const Fields<LookSettings>& fields_of() {
                              "the clip so far, rounded up")
                           .above(0)),
       field(&S::edges, flag("edges", "whether the edges of cells are drawn")),
+      torn(),
+      field(&S::torn_width,
+            number("torn-width", "",
+                   "width of that line: pixels in a picture of height 720; in others in proportion")
+                .above(0)
+                .at_most(100)),
       field(&S::as, word("as", {"surface", "wires", "exploded", "darts"},
                          "how the body is shown\nsurface: its surface\nwires: only the edges of its "
                          "surface\nexploded: every cell separately, moved away from the middle\ndarts: the "

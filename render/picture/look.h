@@ -20,6 +20,9 @@ struct LookSettings {
   ColourBy by = ColourBy::Plain;   // the largest principal strain or stress [Pa], or force [N]
   std::optional<double> most = {}; // the quantity at the end of the scale; none: the most seen so far
   bool edges = true;               // of cells
+  bool torn_edges = true;          // whether a line is drawn along edges exposed by tearing ...
+  std::optional<Colour> torn = {}; // ... in this colour; none: orange
+  double torn_width = 3.4;         // [pixels] in a picture of height 720
   DrawStyle as = DrawStyle::Surface;
   double apart = 0.4;                 // of exploded cells, in shares of their distance from the middle
   Finish finish = finishes().front(); // one of finishes(), or one of a program's own

@@ -79,11 +79,19 @@ FrameBody picture_of(const Sphere& sphere, const SphereLook& look) {
   return rounded_box(sphere.centre, Vec3::Zero(), sphere.radius, sphere_segments, look.colour);
 }
 
-FrameBody picture_of(const Box& box, const BoxLook& look) {
+FrameBody picture_of(const Box& box, const BoxLook& look, double time) {
   const Vec3 size = box.high - box.low;
   const double radius = rounding * size.minCoeff();
-  return rounded_box(0.5 * (box.low + box.high), 0.5 * size - Vec3::Constant(radius), radius, box_segments,
-                     look.colour);
+  FrameBody picture =
+      rounded_box(box.middle(), 0.5 * size - Vec3::Constant(radius), radius, box_segments, look.colour);
+  if (!box.moves()) return picture;
+  const Pose pose = box.pose(time);
+  const auto as_vector = [](const std::array<float, 3>& v) { return Vec3(v[0], v[1], v[2]); };
+  for (Corner& corner : picture.corners) {
+    corner.position = as_floats(pose.of(as_vector(corner.position)));
+    corner.normal = as_floats(pose.turn * as_vector(corner.normal));
+  }
+  return picture;
 }
 
 } // namespace rend

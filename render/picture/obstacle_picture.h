@@ -27,6 +27,6 @@ template <> const Fields<BoxLook>& fields_of();
 FrameBody rounded_box(const Vec3& centre, const Vec3& core, double radius, int segments, const Colour& colour);
 
 FrameBody picture_of(const Sphere& sphere, const SphereLook& look);
-FrameBody picture_of(const Box& box, const BoxLook& look);
+FrameBody picture_of(const Box& box, const BoxLook& look, double time = 0); // [s]: where it is then
 
 } // namespace rend

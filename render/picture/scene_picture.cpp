@@ -102,6 +102,7 @@ FrameBody BodyPicture::draw() {
   out.shades_back = orientable_;
   out.back = look_.back;
   out.finish = look_.finish;
+  out.torn = torn_line();
   out.filled = look_.as != DrawStyle::Wires;
   if (look_.as == DrawStyle::Darts)
     draw_darts(*body_, out);
@@ -111,6 +112,16 @@ FrameBody BodyPicture::draw() {
   else
     solid_ ? draw_solid(out) : draw_sheet(out);
   return out;
+}
+
+TornLine BodyPicture::torn_line() const {
+  if (!look_.torn_edges) return {.width = 0};
+  TornLine line{.width = static_cast<float>(look_.torn_width)};
+  for (std::size_t c = 0; look_.torn && c < 3; ++c) {
+    const float share = static_cast<float>((*look_.torn)[c]) / 255;
+    line.colour[c] = share * share; // as decode() in shaders/common.glsl
+  }
+  return line;
 }
 
 Colour BodyPicture::colour_at(const CellCorner& at) const {
@@ -198,7 +209,7 @@ Frame FrameBuilder::draw(long number, double time) {
   for (std::size_t n = 0; n < spheres_.size(); ++n)
     frame.obstacles.push_back(picture_of(world.spheres[n], spheres_[n]));
   for (std::size_t n = 0; n < boxes_.size(); ++n)
-    frame.obstacles.push_back(picture_of(world.boxes[n], boxes_[n]));
+    frame.obstacles.push_back(picture_of(world.boxes[n], boxes_[n], scene_.time()));
   if (world.floor) frame.floor = FrameFloor{world.floor->z};
   frame.camera = viewpoint_.at(time);
   const Colour background = image_.background.value_or(Colour{});

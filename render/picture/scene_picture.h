@@ -36,6 +36,7 @@ private:
   void draw_solid(FrameBody& out);
   void label_fragments(std::size_t& fragments_seen);
   void colour_vertices();
+  TornLine torn_line() const;
   Colour colour_at(const CellCorner& at) const;
 
   Body* body_;

@@ -93,6 +93,7 @@ void check_look(const PresetNode& look) {
   colour_of(look, "colour");
   colour_of(look, "inside");
   if (look.given("back")) colour_of(look, "back");
+  if (look.given("torn") && look.text("torn") != "none") colour_of(look, "torn");
   const std::string& finish = look.text("finish");
   const auto names = finish_names();
   if (std::find(names.begin(), names.end(), finish) == names.end())

@@ -52,15 +52,38 @@ Vec3 best_direction(const Bounds& box) {
   return thin == 1 ? Vec3(0.35, -1, 0.25) : Vec3(1, -0.35, 0.25);
 }
 
-Bounds bounds_of(const Sphere& sphere) {
+Bounds bounds_of(const Sphere& sphere, const Vec3& centre) {
   const Vec3 reach = Vec3::Constant(sphere.radius);
-  return {sphere.start - reach, sphere.start + reach};
+  return {centre - reach, centre + reach};
 }
 
-// What the camera should show of a moving sphere: its start, and its path as far as it lies in the bodies' box;
-// all of it would make the bodies small.
+Bounds bounds_of(const Box& box, const Pose& pose) {
+  const Bounds still(box.low, box.high);
+  Bounds around;
+  for (int n = 0; n < 8; ++n) around.extend(pose.of(corner_of(still, n)));
+  return around;
+}
+
+// What the camera should show of an obstacle that moves: its start, and its path as far as it lies in the
+// bodies' box; all of it would make the bodies small. `at`: its bounds at a time [s].
+template <class At> Bounds bounds_of_path(const Bounds& bodies, double duration, At&& at) {
+  constexpr int looks = 32;
+  const Bounds start = at(0);
+  Bounds path = start;
+  for (int n = 1; n <= looks; ++n) path.extend(at(duration * n / looks));
+  return start.merged(bodies.intersection(path));
+}
+
+Bounds bounds_to_frame(const Box& box, const Bounds& bodies, double duration) {
+  return bounds_of_path(bodies, duration, [&](double time) { return bounds_of(box, box.pose(time)); });
+}
+
 Bounds bounds_to_frame(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, double duration) {
-  const Bounds start = bounds_of(sphere);
+  if (sphere.follows_keys())
+    return bounds_of_path(bodies, duration, [&](double time) {
+      return bounds_of(sphere, sphere.motion.at(sphere.start, time).place);
+    });
+  const Bounds start = bounds_of(sphere, sphere.start);
   Vec3 way = duration * sphere.velocity;
   if (sphere.falls()) way += 0.5 * duration * duration * gravity;
   const Bounds end(start.min() + way, start.max() + way);
@@ -84,8 +107,11 @@ Bounds bounds_to_frame(const Scene& scene, double duration) {
     room.extend(bounds_to_frame(*body, duration));
   }
   const World& world = scene.world();
-  for (const Box& box : world.boxes) room.extend(box.low).extend(box.high);
+  for (const Box& box : world.boxes)
+    if (!box.moves()) room.extend(box.low).extend(box.high);
   const Bounds bodies = room;
+  for (const Box& box : world.boxes)
+    if (box.moves()) room.extend(bounds_to_frame(box, bodies, duration));
   for (const Sphere& sphere : world.spheres)
     room.extend(bounds_to_frame(sphere, bodies, world.gravity, duration));
   if (world.floor) room.min().z() = std::max(room.min().z(), std::min(world.floor->z, start.min().z()));

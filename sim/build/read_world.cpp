@@ -20,20 +20,48 @@ const ElementType& wind_type() {
   return type;
 }
 
+const ElementType& key_type() {
+  static const ElementType type{"key",
+                                "where an obstacle is at a time, and how it is turned; between keys it moves "
+                                "smoothly, and is at rest at the "
+                                "first and last one",
+                                attributes_of<ObstacleKey>(),
+                                {}};
+  return type;
+}
+
 const ElementType& sphere_type() {
   static const ElementType type{"sphere",
                                 "a rigid sphere, which bodies with <contact> collide with",
                                 attributes_of<SphereSettings>(),
-                                {}};
+                                {{&key_type(), 0, -1}}};
   return type;
 }
 
 const ElementType& box_type() {
   static const ElementType type{"box",
-                                "a rigid box that stands still, which bodies with <contact> collide with",
+                                "a rigid box, which bodies with <contact> collide with",
                                 attributes_of<Box>(),
-                                {}};
+                                {{&key_type(), 0, -1}}};
   return type;
+}
+
+std::vector<ObstacleKey> read_keys(const PresetNode& obstacle) {
+  std::vector<ObstacleKey> keys;
+  for (const PresetNode* key : obstacle.all("key")) keys.push_back(read_settings<ObstacleKey>(*key));
+  return keys;
+}
+
+Sphere read_sphere(const PresetNode& node) {
+  auto settings = read_settings<SphereSettings>(node);
+  settings.keys = read_keys(node);
+  return Sphere(settings);
+}
+
+Box read_box(const PresetNode& node) {
+  auto box = read_settings<Box>(node);
+  box.motion.keys = read_keys(node);
+  return box;
 }
 
 } // namespace
@@ -52,9 +80,8 @@ World read_world(const PresetNode* node) {
   World world = read_settings<World>(*node);
   if (const PresetNode* floor = node->child("floor")) world.floor = read_settings<Floor>(*floor);
   if (const PresetNode* wind = node->child("wind")) world.wind = read_settings<Wind>(*wind);
-  for (const PresetNode* sphere : node->all("sphere"))
-    world.spheres.emplace_back(read_settings<SphereSettings>(*sphere));
-  for (const PresetNode* box : node->all("box")) world.boxes.push_back(read_settings<Box>(*box));
+  for (const PresetNode* sphere : node->all("sphere")) world.spheres.push_back(read_sphere(*sphere));
+  for (const PresetNode* box : node->all("box")) world.boxes.push_back(read_box(*box));
   check_world(world);
   return world;
 }

@@ -16,7 +16,8 @@ using Bounds = Eigen::AlignedBox3d;
 // A sphere in a step, with the interface that the templates below use.
 struct MovingSphere {
   const Sphere* sphere;
-  Vec3 velocity() const { return sphere->next_velocity; }
+  const RigidStep* turning; // null: it does not turn
+  Vec3 velocity_at(const Vec3& x) const { return turning ? turning->velocity(x) : sphere->next_velocity; }
   Bounds bounds(double margin) const {
     const Vec3 reach = Vec3::Constant(sphere->radius + margin);
     Bounds box(sphere->next_centre - reach, sphere->next_centre + reach);
@@ -36,7 +37,7 @@ struct MovingSphere {
 
 struct StandingBox {
   const Box* box;
-  Vec3 velocity() const { return Vec3::Zero(); }
+  Vec3 velocity_at(const Vec3&) const { return Vec3::Zero(); }
   Bounds bounds(double margin) const {
     return {box->low - Vec3::Constant(margin), box->high + Vec3::Constant(margin)};
   }
@@ -47,6 +48,37 @@ struct StandingBox {
     return box->stop(from, to, margin);
   }
   Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
+};
+
+// A plane of a box as it is in the preset, where the box is.
+Plane moved(const Pose& pose, const Plane& plane) {
+  const Vec3 normal = pose.turn * plane.normal;
+  return {normal, plane.offset + normal.dot(pose.place) - plane.normal.dot(pose.origin)};
+}
+
+struct MovingBox {
+  const Box* box;
+  const RigidStep* way;
+  Vec3 velocity_at(const Vec3& x) const { return way->velocity(x); }
+  Bounds bounds(double margin) const {
+    const Bounds still = StandingBox{box}.bounds(margin);
+    Bounds around;
+    for (int n = 0; n < 8; ++n) {
+      const Vec3 corner = still.corner(static_cast<Bounds::CornerType>(n));
+      around.extend(way->from.of(corner)).extend(way->to.of(corner));
+    }
+    return around;
+  }
+  double depth(const Vec3& from, double margin) const {
+    return StandingBox{box}.depth(way->from.back(from), margin);
+  }
+  std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
+    const auto plane = box->stop(way->from.back(from), way->to.back(to), margin);
+    return plane ? std::optional(moved(way->to, *plane)) : std::nullopt;
+  }
+  Weights deepest(const TriangleCorners& x) const {
+    return deepest_in_box({way->to.back(x[0]), way->to.back(x[1]), way->to.back(x[2])}, *box);
+  }
 };
 
 // The sides of a box outside which a point is: bits 2 a and 2 a + 1 for below and above along axis a (outcodes
@@ -116,10 +148,10 @@ enum class Momentum { Taken, TradedBefore };
 template <class Shape>
 void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, double friction,
                    double step, Momentum momentum) {
-  const Vec3 velocity = shape.velocity();
   const auto act = [&](const ContactPoint& point, const Plane& plane, double before) {
     const double kept = way_out(before, step);
-    if (momentum == Momentum::Taken) return keep_out(point, plane, velocity, friction, kept, step);
+    if (momentum == Momentum::Taken)
+      return keep_out(point, plane, shape.velocity_at(point.position()), friction, kept, step);
     if (!point.held(plane.normal)) move_out(point, plane, kept);
   };
   for_each_vertex(shape, body, codes, act);
@@ -131,34 +163,79 @@ Vec3 nearest(const Box& box, const Vec3& x) {
   return x.cwiseMax(box.low).cwiseMin(box.high);
 }
 
-// The plane that keeps a sphere's centre outside a box.
-std::optional<Plane> plane_against(const Box& box, const Sphere& sphere) {
-  const Vec3 to = sphere.next_centre, at = nearest(box, to), from = to - at;
+// The plane that keeps a centre, which moves from `start` to `to`, outside a box that stands still.
+std::optional<Plane> plane_against_standing(const Box& box, double radius, const Vec3& start, const Vec3& to) {
+  const Vec3 at = nearest(box, to), from = to - at;
   const double distance = from.norm();
-  if (distance >= sphere.radius) return {};
-  if (distance == 0) return box.stop(sphere.centre, to, sphere.radius);
-  return Plane{from / distance, from.dot(at) / distance + sphere.radius};
+  if (distance >= radius) return {};
+  if (distance == 0) return box.stop(start, to, radius);
+  return Plane{from / distance, from.dot(at) / distance + radius};
 }
 
-// Contact with an object of infinite mass.
-void stop(Sphere& sphere, const Vec3& normal, double friction) {
-  sphere.next_velocity += impact(sphere.next_velocity, normal, friction, Vec3::Ones()).whole();
+// Contact with an object of infinite mass, whose surface has that velocity [m/s].
+void stop(Sphere& sphere, const Vec3& normal, double friction, const Vec3& surface = Vec3::Zero()) {
+  sphere.next_velocity += impact(sphere.next_velocity - surface, normal, friction, Vec3::Ones()).whole();
 }
 
 } // namespace
 
+ObstacleContact::ObstacleContact(World& world) : world_(world) {
+  const auto turns = [](const Sphere& sphere) { return sphere.motion.turns(); };
+  const auto moves = [](const Box& box) { return box.moves(); };
+  if (std::any_of(world.spheres.begin(), world.spheres.end(), turns))
+    sphere_steps_.resize(world.spheres.size());
+  if (std::any_of(world.boxes.begin(), world.boxes.end(), moves)) box_steps_.resize(world.boxes.size());
+}
+
+void ObstacleContact::predict(double time, double step) {
+  for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity_at(time));
+  for (std::size_t s = 0; s < sphere_steps_.size(); ++s) {
+    const Sphere& sphere = world_.spheres[s];
+    sphere_steps_[s] = {sphere.motion.at(sphere.start, time), sphere.motion.at(sphere.start, time + step),
+                        step};
+  }
+  for (std::size_t b = 0; b < box_steps_.size(); ++b)
+    box_steps_[b] = {world_.boxes[b].pose(time), world_.boxes[b].pose(time + step), step};
+}
+
+const RigidStep* ObstacleContact::step_of(const Sphere& sphere) const {
+  return sphere.motion.turns() ? &sphere_steps_[static_cast<std::size_t>(&sphere - world_.spheres.data())]
+                               : nullptr;
+}
+
+const RigidStep* ObstacleContact::step_of(const Box& box) const {
+  return box.moves() ? &box_steps_[static_cast<std::size_t>(&box - world_.boxes.data())] : nullptr;
+}
+
+Vec3 ObstacleContact::velocity_at(const Sphere& sphere, const Vec3& x) const {
+  return MovingSphere{&sphere, step_of(sphere)}.velocity_at(x);
+}
+
+std::optional<Plane> ObstacleContact::plane_against(const Box& box, const Sphere& sphere) const {
+  const RigidStep* way = step_of(box);
+  if (!way) return plane_against_standing(box, sphere.radius, sphere.centre, sphere.next_centre);
+  const auto plane = plane_against_standing(box, sphere.radius, way->from.back(sphere.centre),
+                                            way->to.back(sphere.next_centre));
+  return plane ? std::optional(moved(way->to, *plane)) : std::nullopt;
+}
+
 void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& bodies, double time,
                               double step) {
-  for (Sphere& sphere : world_.spheres) sphere.predict(time + step, step, world_.gravity_at(time));
+  predict(time, step);
   exchange_momentum(bodies, step);
   for (const auto& body : bodies) {
     if (!body->settings().obstacles) continue;
     const double own = body->settings().friction;
     for (const Sphere& sphere : world_.spheres)
-      keep_body_out(MovingSphere{&sphere}, *body, codes_, sphere.friction.value_or(own), step,
+      keep_body_out(MovingSphere{&sphere, step_of(sphere)}, *body, codes_, sphere.friction.value_or(own), step,
                     sphere.falls() ? Momentum::TradedBefore : Momentum::Taken);
-    for (const Box& box : world_.boxes)
-      keep_body_out(StandingBox{&box}, *body, codes_, box.friction.value_or(own), step, Momentum::Taken);
+    for (const Box& box : world_.boxes) {
+      const double friction = box.friction.value_or(own);
+      if (const RigidStep* way = step_of(box))
+        keep_body_out(MovingBox{&box, way}, *body, codes_, friction, step, Momentum::Taken);
+      else
+        keep_body_out(StandingBox{&box}, *body, codes_, friction, step, Momentum::Taken);
+    }
   }
 }
 
@@ -190,8 +267,9 @@ void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) 
   const auto keep = [&](const ContactPoint& point, const Plane& plane, double) {
     touches_.push_back({number, point, plane.normal, friction, point.held(plane.normal)});
   };
-  for_each_vertex(MovingSphere{&sphere}, body, codes_, keep);
-  for_each_face(MovingSphere{&sphere}, body, codes_, keep);
+  const MovingSphere falling{&sphere, nullptr};
+  for_each_vertex(falling, body, codes_, keep);
+  for_each_face(falling, body, codes_, keep);
 }
 
 void ObstacleContact::meet(Touch& touch, double step) {
@@ -211,8 +289,13 @@ void ObstacleContact::support(Sphere& sphere) {
   const double own = sphere.friction.value_or(own_friction);
   if (world_.floor && sphere.next_centre.z() < world_.floor->z + sphere.radius)
     stop(sphere, Vec3::UnitZ(), world_.floor->friction.value_or(own));
-  for (const Box& box : world_.boxes)
-    if (const auto plane = plane_against(box, sphere)) stop(sphere, plane->normal, box.friction.value_or(own));
+  for (const Box& box : world_.boxes) {
+    const auto plane = plane_against(box, sphere);
+    if (!plane) continue;
+    const RigidStep* way = step_of(box);
+    const Vec3 touched = sphere.next_centre - sphere.radius * plane->normal;
+    stop(sphere, plane->normal, box.friction.value_or(own), way ? way->velocity(touched) : Vec3(Vec3::Zero()));
+  }
 }
 
 void ObstacleContact::collide(Sphere& a, Sphere& b) {
@@ -220,8 +303,9 @@ void ObstacleContact::collide(Sphere& a, Sphere& b) {
   const double distance = apart.norm(), w = a.inverse_mass() + b.inverse_mass();
   if (w == 0 || distance == 0 || distance >= a.radius + b.radius) return;
   const double friction = a.friction.value_or(b.friction.value_or(own_friction));
-  const Vec3 impulse =
-      impact(b.next_velocity - a.next_velocity, apart / distance, friction, Vec3::Constant(w)).whole();
+  const Vec3 normal = apart / distance, touched = a.next_centre + a.radius * normal;
+  const Vec3 relative = velocity_at(b, touched) - velocity_at(a, touched);
+  const Vec3 impulse = impact(relative, normal, friction, Vec3::Constant(w)).whole();
   a.next_velocity -= a.inverse_mass() * impulse;
   b.next_velocity += b.inverse_mass() * impulse;
 }

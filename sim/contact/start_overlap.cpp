@@ -125,18 +125,27 @@ struct StartingSphere {
 
 struct StartingBox {
   const Box* box;
-  Vec3 centre() const { return 0.5 * (box->low + box->high); }
+  Pose pose = box->pose(0);
+  Vec3 centre() const { return pose.of(box->middle()); }
   double reach() const { return 0.5 * (box->high - box->low).minCoeff(); }
-  Bounds bounds() const { return {box->low, box->high}; }
-  Depth depth(const Vec3& x) const {
+  Bounds bounds() const {
+    const Bounds still(box->low, box->high);
+    Bounds around;
+    for (int n = 0; n < 8; ++n) around.extend(pose.of(still.corner(static_cast<Bounds::CornerType>(n))));
+    return around;
+  }
+  Depth depth(const Vec3& there) const {
+    const Vec3 x = pose.back(there);
     Depth out{std::numeric_limits<double>::infinity(), Vec3::UnitZ()};
     for (int axis = 0; axis < 3; ++axis) {
       if (const double d = x[axis] - box->low[axis]; d < out.depth) out = {d, -Vec3::Unit(axis)};
       if (const double d = box->high[axis] - x[axis]; d < out.depth) out = {d, Vec3::Unit(axis)};
     }
-    return out;
+    return {out.depth, pose.turn * out.way};
   }
-  Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
+  Weights deepest(const TriangleCorners& x) const {
+    return deepest_in_box({pose.back(x[0]), pose.back(x[1]), pose.back(x[2])}, *box);
+  }
 };
 
 // An obstacle that lies wholly in a solid meets none of its faces: its centre tells.

@@ -61,11 +61,21 @@ void check_areas(const MeshFile& file, const PolygonMesh& mesh) {
   }
 }
 
+bool is_closed(const GMap& map) {
+  bool closed = true;
+  map.for_each_dart([&](Dart d) { closed = closed && map.alpha(2, d) != d; });
+  return closed;
+}
+
 MeshBody sewn(MeshFile& file, PolygonMesh& mesh, std::vector<std::uint32_t>& point) {
   try {
     SewnSheet sheet = sew_polygons(mesh);
     check_areas(file, mesh);
     point = std::move(sheet.point);
+    if (is_closed(sheet.map->map()))
+      file.notes.push_back(file.source.name() +
+                           ": the surface is closed, and becomes a hollow sheet; `rend mesh fill` makes a solid "
+                           "of it");
     return {std::move(sheet.map), {}, std::move(file.notes)};
   } catch (const MeshFault& fault) {
     refuse(file, "polygon", fault.element, fault.flaw);

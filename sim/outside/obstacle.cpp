@@ -24,16 +24,18 @@ template <> const Fields<SphereSettings>& fields_of() {
             number("mass", "kg",
                    "with a mass the sphere falls and is pushed by what it hits; without, it keeps its velocity")
                 .above(0)),
+      field(&S::rotate, rotate_attribute()),
       field(&S::friction, friction_attribute())};
   return fields;
 }
 
 template <> const Fields<Box>& fields_of() {
   using S = Box;
-  static const Fields<S> fields{
-      field(&S::low, numbers("low", 3, "m", "the corner with the smallest x, y and z").is_required()),
-      field(&S::high, numbers("high", 3, "m", "the corner with the largest x, y and z").is_required()),
-      field(&S::friction, friction_attribute())};
+  static const Fields<S> fields =
+      Fields<S>{
+          field(&S::low, numbers("low", 3, "m", "the corner with the smallest x, y and z").is_required()),
+          field(&S::high, numbers("high", 3, "m", "the corner with the largest x, y and z").is_required())} +
+      fields_of_part(&S::motion) + Fields<S>{field(&S::friction, friction_attribute())};
   return fields;
 }
 
@@ -41,15 +43,29 @@ void check_box(const Box& box) {
   if (!(box.low.array() < box.high.array()).all())
     box.source.fail("high", "the box has no inside: each number of high must be above that of low",
                     "low=\"0 0 0\" high=\"1 1 0.5\"");
+  check_motion(box.motion, box.source);
 }
 
 Sphere::Sphere(const SphereSettings& settings)
     : start(settings.centre), radius(settings.radius), mass(settings.mass.value_or(0)),
       friction(settings.friction), velocity(settings.velocity), next_velocity(settings.velocity) {
   check_settings(settings);
+  motion.velocity = settings.velocity;
+  motion.rotate = settings.rotate;
+  motion.keys = settings.keys;
+  check_motion(motion, settings.source);
+  const std::string falling = "the sphere has a mass: it falls, and does not turn or follow keys";
+  if (settings.mass && settings.rotate) settings.source.fail("rotate", falling, "leave out mass");
+  if (settings.mass && follows_keys()) settings.keys.front().source.fail("", falling, "leave out mass");
+  if (follows_keys()) centre = next_centre = motion.at(start, 0).place;
 }
 
 void Sphere::predict(double time, double step, const Vec3& gravity) {
+  if (follows_keys()) {
+    next_centre = motion.at(start, time).place;
+    next_velocity = (next_centre - centre) / step;
+    return;
+  }
   next_velocity = falls() ? Vec3(velocity + step * gravity) : velocity;
   next_centre = falls() ? Vec3(centre + step * next_velocity) : Vec3(start + time * velocity);
 }
@@ -58,7 +74,14 @@ void Sphere::store(Archive& archive) {
   const Vec3 prescribed = velocity;
   archive(centre, velocity, next_centre, next_velocity, contact_work, gravity_work);
   if (archive.reading())
-    refuse_unless(falls() || velocity == prescribed, "a sphere moves as its preset does not say");
+    refuse_unless(falls() || follows_keys() || velocity == prescribed,
+                  "a sphere moves as its preset does not say");
+}
+
+bool Sphere::can_be_there(double time) const {
+  if (!follows_keys()) return true;
+  const Vec3 there = motion.at(start, time).place;
+  return (centre - there).norm() <= 1e-9 * (radius + there.norm());
 }
 
 // Its motion without contact is symplectic Euler's, whose shadow term is counted (WorkMeter).

@@ -8,14 +8,15 @@
 //   box      the side through which the path enters; for a point that was inside, the nearest side
 //
 // The path is a straight line, relative to the obstacle. So objects that are thinner than the motion of a step
-// are not missed. A sphere moves as prescribed (start + velocity × time), or falls if it has mass: it does not
-// rotate, so that friction acts on it as on a sliding block.
+// are not missed. A sphere or box moves as prescribed (obstacle_motion.h). A sphere with mass falls instead: it
+// does not rotate, so that friction acts on it as on a sliding block.
 #pragma once
 
-#include "sim/base/settings.h"
+#include "sim/outside/obstacle_motion.h"
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace rend {
 
@@ -31,11 +32,13 @@ struct Plane {
 AttributeType friction_attribute();
 
 struct SphereSettings {
-  Vec3 centre = Vec3::Zero();          // [m], at time 0
-  double radius = 0;                   // [m]
-  Vec3 velocity = Vec3::Zero();        // [m/s]; of one that falls: at time 0
-  std::optional<double> mass = {};     // [kg]; none: it moves as prescribed
-  std::optional<double> friction = {}; // none: that of the body
+  Vec3 centre = Vec3::Zero();                       // [m], at time 0
+  double radius = 0;                                // [m]
+  Vec3 velocity = Vec3::Zero();                     // [m/s]; of one that falls: at time 0
+  std::optional<double> mass = {};                  // [kg]; none: it moves as prescribed
+  std::optional<std::array<double, 4>> rotate = {}; // the axis x y z, and the rate [degrees/s]
+  std::vector<ObstacleKey> keys = {};               // of a prescribed motion
+  std::optional<double> friction = {};              // none: that of the body
   SettingsSource source = {};
 };
 template <> const Fields<SphereSettings>& fields_of();
@@ -44,6 +47,7 @@ struct Sphere {
   Vec3 start = Vec3::Zero();      // [m], its centre at time 0
   double radius = 0, mass = 0;    // [m], [kg]; mass 0: moves as prescribed
   std::optional<double> friction; // Coulomb's coefficient; none: that of the body
+  ObstacleMotion motion;          // by keys, and its rotation
 
   Vec3 centre = start, velocity = Vec3::Zero();           // [m], [m/s], of the current state
   Vec3 next_centre = start, next_velocity = Vec3::Zero(); // at the end of the current step
@@ -55,13 +59,15 @@ struct Sphere {
   double gravity_work = 0; // [J], of its potential, by gravity that grew since the start, if it falls
 
   bool falls() const { return mass > 0; }
-  bool moves() const { return falls() || !velocity.isZero(0); }
-  double inverse_mass() const { return mass > 0 ? 1 / mass : 0; } // [1/kg]
+  bool follows_keys() const { return !motion.keys.empty(); }
+  bool moves() const { return falls() || !velocity.isZero(0) || follows_keys(); } // not: only turns
+  double inverse_mass() const { return mass > 0 ? 1 / mass : 0; }                 // [1/kg]
 
   // Its motion without contact; `time` [s] at the end of the step.
   void predict(double time, double step, const Vec3& gravity);
   void commit(double step, const Vec3& gravity, const Vec3& later); // gravity at its start and end
   void store(Archive& archive);                                     // the members that change
+  bool can_be_there(double time) const; // false: it follows keys, and is elsewhere at that time
 
   // For a point that moved from → to [m] in the step, relative to the sphere's centre at its start and end;
   // `reach` [m] is the radius plus the distance to keep. nullopt: no contact.
@@ -71,14 +77,21 @@ struct Sphere {
 struct Box {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero(); // [m]
   std::optional<double> friction = {};
+  ObstacleMotion motion = {};
   SettingsSource source = {};
 
+  Vec3 middle() const { return 0.5 * (low + high); }
+  bool moves() const { return motion.moves(); }
+  Pose pose(double time) const { return motion.at(middle(), time); }
+
+  // Of the box as it is in the preset, as are all functions here; a point of one that moves is taken back to
+  // there by its pose.
   // As for a sphere, but in world coordinates; `margin` [m] is the distance to keep.
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const;
 };
 
 template <> const Fields<Box>& fields_of();
-void check_box(const Box& box); // UserError: it has no inside
+void check_box(const Box& box); // UserError: it has no inside, or what moves it does not fit together
 
 // Weights of the point of a triangle that lies deepest; they sum up to 1.
 using Weights = std::array<double, 3>;

@@ -1,11 +1,13 @@
 #include "sim/scene/element_steps.h"
 
+#include "sim/mechanics/element_quality.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rend {
 namespace {
@@ -87,6 +89,29 @@ std::string ElementSteps::name(Slot element) const {
                      element, middle.x(), middle.y(), middle.z());
 }
 
+std::string ElementSteps::shape(Slot element) const {
+  const EmbeddedMap& map = *body_->map;
+  const ElementQuality q = quality_of(map, elements_.first_dart(element));
+  return fmt::format("{} from {:.3g} to {:.3g} degrees, aspect ratio {:.3g}",
+                     map.dimension() == 3 ? "dihedral angles" : "angles", q.least_angle, q.greatest_angle,
+                     q.aspect);
+}
+
+std::string limiting_element(const std::vector<ElementSteps>& bodies, const Scheme& scheme) {
+  const ElementSteps* body = nullptr;
+  Slot element = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ElementSteps& each : bodies)
+    for (Slot e = 0; e < each.count(); ++e)
+      if (each.mass(e) > 0 && each.step(scheme, e) < least) {
+        least = each.step(scheme, e);
+        body = &each;
+        element = e;
+      }
+  if (!body) return {};
+  return fmt::format("{} of body '{}' ({})", body->name(element), body->body().name, body->shape(element));
+}
+
 std::string what_limits(const std::vector<ElementSteps>& bodies, const Scheme& scheme, double limit) {
   struct One {
     double step; // [s]
@@ -110,9 +135,9 @@ std::string what_limits(const std::vector<ElementSteps>& bodies, const Scheme& s
   return fmt::format(
       "step=\"auto\": {} of body '{}' limits the step to {:.3g} s; without the worst {} of {} elements "
       "it would be {:.3g} s, without the worst {}, {:.3g} s: mend the mesh there, or allow "
-      "<time mass-scaling=\"0.01\">",
+      "<time mass-scaling=\"0.01\">; its shape: {}",
       worst.name(all.front().element), worst.body().name, limit, thousandth, all.size(), all[thousandth].step,
-      hundredth, without_hundredth);
+      hundredth, without_hundredth, worst.shape(all.front().element));
 }
 
 } // namespace rend

@@ -29,6 +29,8 @@ public:
 
   // Such as "the tetrahedron 12 near (0, 0.1, 0.2) m".
   std::string name(Slot element) const;
+  // Such as "dihedral angles from 0.4 to 179 degrees, aspect ratio 150".
+  std::string shape(Slot element) const;
   const Body& body() const { return *body_; }
   // Calls f(corner slot) for the corners of an element.
   template <class F> void for_each_corner(Slot element, F&& f) const {
@@ -45,6 +47,10 @@ private:
   FrequencyBounds whole_;
   double more_damping_ = 0; // [1/s]
 };
+
+// The element with the smallest step, and its shape: "the tetrahedron 12 near (0, 0.1, 0.2) m of body 'b'
+// (dihedral angles ...)". Empty: no element limits it.
+std::string limiting_element(const std::vector<ElementSteps>& bodies, const Scheme& scheme);
 
 // A sentence on what limits the step, where elements of a hundredth at most make it a quarter of what the
 // others allow; empty otherwise. `limit` [s]: of the scene.

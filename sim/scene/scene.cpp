@@ -123,9 +123,19 @@ void Scene::set_step() {
     notes_.push_back(fmt::format("the step of {:.3g} s may be too large: up to {:.3g} s '{}' is certainly "
                                  "stable here (step=\"auto\" takes 0.9 of that)",
                                  step_, limit, scheme().name));
-  if (duration / step_ > 1e12)
-    time_.source.fail("step",
-                      fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration, step_));
+  if (duration / step_ > 1e12) refuse_so_many_steps();
+}
+
+void Scene::refuse_so_many_steps() const {
+  const std::string what = fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration_, step_);
+  if (!automatic_step()) time_.source.fail("step", what);
+  const Scheme& limiting = scheme().adaptive ? *find_scheme("symplectic") : scheme();
+  std::vector<ElementSteps> steps;
+  for (const auto& body : bodies_) steps.emplace_back(*body);
+  const std::string element = limiting_element(steps, limiting);
+  time_.source.fail(
+      "step", what + (element.empty() ? "" : ", and what limits the step is " + element),
+      "look whether the material is too stiff or light, or the mesh is bad there (rend mesh info)");
 }
 
 // Looking for the largest value that a law has reached can take as long as a step or two, where looking for
@@ -379,6 +389,8 @@ void Scene::check_read() const {
     }
   }
   refuse_unless(next_answer_ == next, "an answer is measured at another time");
+  for (const Sphere& sphere : world_.spheres)
+    refuse_unless(sphere.can_be_there(time()), "a sphere is where its keys do not lead");
 }
 
 std::uint64_t Scene::hash() const {

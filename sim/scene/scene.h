@@ -96,6 +96,7 @@ public:
 private:
   EnergyState energy_state() const;
   void set_step();
+  [[noreturn]] void refuse_so_many_steps() const;
   void set_looks(bool every_step);
   void set_answers();
   void measure_answers();

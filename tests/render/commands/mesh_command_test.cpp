@@ -77,6 +77,147 @@ TEST(MeshCommand, refuses_by_the_table_of_exit_codes) {
   EXPECT_EQ(place.files(), std::vector<std::string>{"bad.msh"});
 }
 
+TEST(MeshCommand, tells_how_good_the_elements_are) {
+  const TestFolder place;
+  place.write("t.msh", tetrahedron);
+  const auto quality = place.rend("mesh info t.msh --json").json()["quality"];
+  // three right angles at the corner, and arctan √2 at the sides of the slope
+  EXPECT_NEAR(quality["least_angle"]["degrees"].get<double>(), 54.735610317245, 1e-9);
+  EXPECT_NEAR(quality["greatest_angle"]["degrees"].get<double>(), 90, 1e-9);
+  EXPECT_EQ(quality["aspect"]["kind"], "tetrahedron");
+  EXPECT_EQ(quality["smallest"]["of_mean"], 1);
+  EXPECT_EQ(quality["smallest"]["element"], 0);
+  EXPECT_EQ(quality["largest"]["centre"], nlohmann::json({0.25, 0.25, 0.25}));
+  EXPECT_THAT(place.rend("mesh info t.msh").out,
+              HasSubstr("smallest dihedral angle 54.74 degrees: tetrahedron 0 near (0.25, 0.25, 0.25)"));
+}
+
+// An octahedron of side √2, whose volume is 4/3.
+constexpr const char* octahedron = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
+                                   "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+
+bool gmsh_is_there() {
+  return std::system("command -v gmsh >/dev/null") == 0;
+}
+
+// A folder for work that a program may leave something in.
+std::string own_tmp(const TestFolder& place) {
+  fs::create_directories(place.path() / "tmp");
+  return "TMPDIR='" + (place.path() / "tmp").string() + "' ";
+}
+
+TEST(MeshFill, a_closed_surface_is_told_to_be_hollow) {
+  const TestFolder place;
+  place.write("o.obj", octahedron);
+  const auto notes = place.rend("mesh info o.obj --json").json()["notes"];
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_THAT(notes[0].get<std::string>(), HasSubstr("hollow sheet; `rend mesh fill`"));
+  EXPECT_TRUE(place
+                  .rend("mesh info " +
+                        (fs::path(REND_ROOT) / "presets/tear/meshes/notched-strip.obj").string() + " --json")
+                  .json()["notes"]
+                  .empty());
+}
+
+TEST(MeshFill, makes_a_solid_with_the_surface_as_its_boundary) {
+  if (!gmsh_is_there()) GTEST_SKIP() << "gmsh is not installed";
+  const TestFolder place;
+  place.write("o.obj", octahedron);
+  const std::string tmp = own_tmp(place),
+                    fill = tmp + std::string(REND_PROGRAM) + " mesh fill o.obj --size 0.4 -o ";
+  const Outcome outcome = place.shell(fill + "a.msh");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto facts = place.rend("mesh info a.msh --json").json();
+  EXPECT_EQ(facts["kind"], "solid");
+  EXPECT_NEAR(facts["volume"].get<double>(), 4.0 / 3, 1e-9);
+  EXPECT_EQ(facts["elements"]["tetrahedra"], facts["volumes"]);
+  EXPECT_EQ(facts["euler"], 1);
+  EXPECT_GT(facts["volumes"].get<int>(), 4.0 / 3 / 0.4 / 0.4 / 0.4 * 6) << "a cube of that side has about 6";
+  EXPECT_GT(facts["quality"]["least_angle"]["degrees"].get<double>(), 5);
+  ASSERT_EQ(place.shell(fill + "b.msh").code, 0);
+  EXPECT_EQ(program::content(place.path() / "a.msh"), program::content(place.path() / "b.msh"));
+  EXPECT_TRUE(fs::is_empty(place.path() / "tmp"));
+  place.write("s.xml", preset("a.msh", "<elasticity young=\"1e4\"/>"));
+  EXPECT_EQ(place.rend("run s.xml --json").code, 0);
+}
+
+TEST(MeshFill, refuses_what_is_no_closed_surface) {
+  const TestFolder place;
+  place.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  place.write("t.msh", tetrahedron);
+  place.write("o.obj", octahedron);
+  const Outcome open = place.rend("mesh fill open.obj --size 1 -o a.msh");
+  EXPECT_EQ(open.code, 65);
+  EXPECT_THAT(open.err, HasSubstr("open.obj:4:1: the surface is not closed"));
+  EXPECT_EQ(place.rend("mesh fill t.msh --size 1 -o a.msh").code, 65);
+  EXPECT_EQ(place.rend("mesh fill none.obj --size 1 -o a.msh").code, 66);
+  for (const char* arguments : {"o.obj -o a.msh", "o.obj --size 0 -o a.msh", "o.obj --size nan -o a.msh",
+                                "o.obj --size 1", "o.obj --size 1 -o a.stl", "o.obj --size 1 -o o.obj"})
+    EXPECT_EQ(place.rend("mesh fill " + std::string(arguments)).code, 64) << arguments;
+  EXPECT_FALSE(fs::exists(place.path() / "a.msh"));
+}
+
+// In place of gmsh a script that does the named thing.
+TEST(MeshFill, survives_whatever_gmsh_does) {
+  const TestFolder place;
+  place.write("o.obj", octahedron);
+  const std::string tmp = own_tmp(place);
+  fs::create_directories(place.path() / "bin");
+  const auto with = [&](const std::string& script, const std::string& more = "") {
+    place.write("bin/gmsh", "#!/bin/sh\n" + script);
+    fs::permissions(place.path() / "bin/gmsh", fs::perms::owner_all);
+    const Outcome outcome = place.shell(tmp + "PATH='" + (place.path() / "bin").string() + "':$PATH " +
+                                        REND_PROGRAM + " mesh fill o.obj --size 3 -o a.msh " + more);
+    EXPECT_TRUE(fs::is_empty(place.path() / "tmp")) << script << ": something is left";
+    EXPECT_FALSE(fs::exists(place.path() / "a.msh")) << script;
+    return outcome;
+  };
+  const auto expect = [&](int code, const std::string& says, const Outcome& outcome) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(says));
+  };
+  expect(74, "exit code 3. Error   : No way out", with("echo Info; echo 'Error   : No way out' >&2; exit 3"));
+  expect(74, "gmsh could not fill the surface", with("echo nothing is written"));
+  expect(74, "cannot be read", with("echo rubbish >solid.msh"));
+  expect(74, "exit code 139", with("kill -SEGV $$"));
+  expect(75, "took longer than 0.3 s", with("touch t; sleep 60 & sleep 60", "--max-time 0.3"));
+  const std::string start = "cat >solid.msh <<END\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
+                    nodes = "$Nodes\n6\n1 1 0 0\n2 -1 0 0\n3 0 1 0\n4 0 -1 0\n5 0 0 1\n6 0 0 -1\n$EndNodes\n",
+                    half = "$Elements\n2\n1 4 2 1 1 1 3 4 5\n2 4 2 1 1 2 4 3 5\n$EndElements\nEND\n";
+  const auto quoted = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find('$', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    return text;
+  };
+  expect(74, "its boundary differs from the surface in", with(quoted(start + nodes + half)));
+  std::string inverted = half;
+  inverted.replace(inverted.find("1 3 4 5"), 7, "3 1 4 5");
+  expect(74, "has the volume -", with(quoted(start + nodes + inverted)));
+  std::string moved = nodes;
+  moved.replace(moved.find("5 0 0 1"), 7, "5 0 0 1.01");
+  expect(74, "its boundary differs from the surface in",
+         with(quoted(start + moved +
+                     "$Elements\n4\n1 4 2 1 1 1 3 6 5\n2 4 2 1 1 3 2 6 5\n3 4 2 1 1 2 4 6 5\n"
+                     "4 4 2 1 1 4 1 6 5\n$EndElements\nEND\n")));
+  // What fills it is taken: four tetrahedra around the axis.
+  place.write("bin/gmsh", "#!/bin/sh\n" + quoted(start + nodes +
+                                                 "$Elements\n4\n1 4 2 1 1 1 3 6 5\n2 4 2 1 1 3 2 6 5\n"
+                                                 "3 4 2 1 1 2 4 6 5\n4 4 2 1 1 4 1 6 5\n$EndElements\nEND\n"));
+  const Outcome good = place.shell(tmp + "PATH='" + (place.path() / "bin").string() + "':$PATH " +
+                                   REND_PROGRAM + " mesh fill o.obj --size 3 -o a.msh");
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_EQ(place.rend("mesh info a.msh --json").json()["volumes"], 4);
+}
+
+TEST(MeshFill, tells_the_package_where_gmsh_is_not_installed) {
+  const TestFolder place;
+  place.write("o.obj", octahedron);
+  fs::create_directories(place.path() / "empty");
+  const Outcome outcome = place.shell("PATH='" + (place.path() / "empty").string() + "' " + REND_PROGRAM +
+                                      " mesh fill o.obj --size 1 -o a.msh");
+  EXPECT_EQ(outcome.code, 64);
+  EXPECT_THAT(outcome.err, HasSubstr("apt-get install gmsh"));
+}
+
 TEST(MeshOfAPreset, lies_in_its_folder_or_below) {
   const TestFolder place;
   fs::create_directories(place.path() / "scenes/meshes");

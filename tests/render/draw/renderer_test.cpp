@@ -204,6 +204,44 @@ TEST_F(RendererTest, ATornLineShowsAlongItsEdge) {
   EXPECT_LT(image.at(width / 2, height / 2)[0], image.at(width / 2, height / 2)[2] + 20);
 }
 
+TEST_F(RendererTest, ATornLineHasTheColourAndWidthThatItIsGiven) {
+  Frame frame = front_view();
+  frame.bodies.push_back(screen(0, 0.5, grey));
+  const Image plain = picture(frame);
+  frame.bodies[0] = screen(0, 0.5, grey, Line::Torn);
+  frame.bodies[0].torn.width = 0;
+  EXPECT_EQ(picture(frame), plain);
+  const auto blue_pixels = [&](float pixels) {
+    frame.bodies[0].torn = {.colour = {0.02f, 0.05f, 1.0f}, .width = pixels};
+    const Image image = picture(frame);
+    int count = 0;
+    for (int y = 0; y < height; ++y) count += image.at(width / 2, y)[2] > image.at(width / 2, y)[0] + 60;
+    return count;
+  };
+  // Pictures this small take lines as at half of the height of 720; half of a line at a border is drawn.
+  EXPECT_NEAR(blue_pixels(16), 2 * 4, 2);
+  EXPECT_NEAR(blue_pixels(48), 2 * 12, 2);
+}
+
+TEST_F(RendererTest, EachBodyHasItsOwnTornLine) {
+  Frame frame = front_view();
+  frame.bodies.push_back(screen(0, 0.2f, grey, Line::Torn));
+  frame.bodies.push_back(frame.bodies[0]);
+  for (Corner& corner : frame.bodies[0].corners) corner.position[0] -= 0.4f;
+  for (Corner& corner : frame.bodies[1].corners) corner.position[0] += 0.4f;
+  const Image usual = picture(frame);
+  frame.bodies[1].torn.colour = {0.02f, 0.05f, 1.0f};
+  const Image one_blue = picture(frame);
+  const auto half_differs = [&](int from, int until) {
+    for (int y = 0; y < height; ++y)
+      for (int x = from; x < until; ++x)
+        if (!std::equal(usual.at(x, y), usual.at(x, y) + 3, one_blue.at(x, y))) return true;
+    return false;
+  };
+  EXPECT_FALSE(half_differs(0, width / 2));
+  EXPECT_TRUE(half_differs(width / 2, width));
+}
+
 TEST_F(RendererTest, LinesOfCellsAreDrawnOnlyWhereTheyAreWanted) {
   Frame frame = front_view();
   frame.bodies.push_back(screen(0, 0.5, grey));

@@ -88,6 +88,14 @@ TEST(Picture, MarksWhatTearingLaidBare) {
   EXPECT_EQ(none + cell + border + torn, 2 * 36 * 3);
 }
 
+TEST(Picture, DrawsTornEdgesAsThePresetSays) {
+  EXPECT_EQ(Shown(quads).frame().bodies.at(0).torn, TornLine{});
+  EXPECT_EQ(Shown(quads, R"(<look torn="none"/>)").frame().bodies.at(0).torn.width, 0);
+  const TornLine line = Shown(quads, R"(<look torn="#00ff33" torn-width="7"/>)").frame().bodies.at(0).torn;
+  EXPECT_EQ(line.width, 7);
+  EXPECT_EQ(line.colour, (std::array<float, 3>{0, 1, 0.2f * 0.2f}));
+}
+
 TEST(Picture, TurnsNormalsToTheSideOfTheirTriangle) {
   for (const char* sheet : {quads, moebius}) {
     Shown shown(sheet);
