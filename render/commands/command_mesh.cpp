@@ -125,7 +125,7 @@ std::function<Exit()> declare_mesh(CLI::App& app) {
 } // namespace
 
 Command mesh_command() {
-  return {"mesh", "show what is in a mesh file, convert it, or fill a surface", declare};
+  return {"mesh", "show what is in a mesh file, convert it, or fill a surface", declare_mesh};
 }
 
 } // namespace rend

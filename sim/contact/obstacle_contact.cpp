@@ -50,12 +50,6 @@ struct StandingBox {
   Weights deepest(const TriangleCorners& x) const { return deepest_in_box(x, *box); }
 };
 
-// A plane of a box as it is in the preset, where the box is.
-Plane moved(const Pose& pose, const Plane& plane) {
-  const Vec3 normal = pose.turn * plane.normal;
-  return {normal, plane.offset + normal.dot(pose.place) - plane.normal.dot(pose.origin)};
-}
-
 struct MovingBox {
   const Box* box;
   const RigidStep* way;

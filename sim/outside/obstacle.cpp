@@ -8,6 +8,11 @@
 
 namespace rend {
 
+Plane moved(const Pose& pose, const Plane& plane) {
+  const Vec3 normal = pose.turn * plane.normal;
+  return {normal, plane.offset + normal.dot(pose.place) - plane.normal.dot(pose.origin)};
+}
+
 AttributeType friction_attribute() {
   return number("friction", "", "Coulomb's coefficient of friction; default: that of each body's <contact>")
       .at_least(0);

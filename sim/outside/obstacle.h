@@ -28,6 +28,9 @@ struct Plane {
   double offset = 0;           // [m]
 };
 
+// A plane of an obstacle as the preset puts it, where the obstacle is.
+Plane moved(const Pose& pose, const Plane& plane);
+
 // Coulomb's coefficient, of all that slides on it.
 AttributeType friction_attribute();
 

@@ -45,27 +45,26 @@ void SolvedContact::rebind(System& system, const std::vector<Record>& rest) {
   size_ = extent(rest, system.inverse_mass);
 }
 
-// `nearest(x)`: the plane of the obstacle at the start of the step, for a vertex there; `moved` [m]: by the
-// obstacle, until its end. What is in the obstacle already is left to contact after the step.
+// `nearest(X)`: the plane of the obstacle as the preset puts it, for a vertex at X of its points; the obstacle goes
+// its `way`. What is in the obstacle already is left to contact after the step.
 template <class Nearest>
 void SolvedContact::add_planes(const System& system, const StateView& now, std::uint32_t obstacle,
-                               double friction, const Vec3& moved, const Nearest& nearest) {
+                               double friction, const RigidStep& way, const Nearest& nearest) {
   const double margin = settings_.thickness + skin * size_;
   for (std::size_t i = 0; i < system.vertices(); ++i) {
     if (system.inverse_mass[i] == 0) continue;
-    const Vec3 x = now.position[i].vec();
-    std::optional<Plane> plane = nearest(x);
+    const Vec3 x = now.position[i].vec(), X = way.from.back(x);
+    std::optional<Plane> plane = nearest(X);
     if (!plane) continue;
     plane->offset += margin;
-    const double gap = plane->normal.dot(x) - plane->offset;
+    const double gap = plane->normal.dot(X) - plane->offset;
     if (gap > reach_) continue;
-    const double kept = way_out(-gap, step_);
-    plane->offset += plane->normal.dot(moved) - kept;
+    plane->offset -= way_out(-gap, step_);
     planes_.push_back({.vertex = static_cast<Slot>(i),
                        .obstacle = obstacle,
-                       .plane = *plane,
+                       .plane = moved(way.to, *plane),
                        .from = x,
-                       .start = x + moved,
+                       .start = way.to.of(X),
                        .friction = friction,
                        .stiffness = penalty * (stiffness_[i] + 1 / (system.inverse_mass[i] * step_ * step_))});
   }
@@ -73,21 +72,41 @@ void SolvedContact::add_planes(const System& system, const StateView& now, std::
 
 void SolvedContact::add_obstacles(const System& system, double end, const StateView& now) {
   std::uint32_t number = 1;
+  const auto way = [&](const ObstacleMotion& motion, const Vec3& middle) {
+    return motion.moves() ? RigidStep{motion.at(middle, end - step_), motion.at(middle, end), step_}
+                          : RigidStep{};
+  };
   for (const Sphere& sphere : world_.spheres) {
     const std::uint32_t own = number++;
     if (sphere.falls()) continue;
-    const Vec3 centre = sphere.start + (end - step_) * sphere.velocity;
-    add_planes(system, now, own, sphere.friction.value_or(settings_.friction), step_ * sphere.velocity,
-               [&](const Vec3& x) -> std::optional<Plane> {
-                 const Vec3 from = x - centre;
+    add_planes(system, now, own, sphere.friction.value_or(settings_.friction), way(sphere.motion, sphere.start),
+               [&](const Vec3& X) -> std::optional<Plane> {
+                 const Vec3 from = X - sphere.start;
                  const double distance = from.norm();
                  if (distance < 0.5 * sphere.radius) return {};
-                 return Plane{from / distance, from.dot(centre) / distance + sphere.radius};
+                 return Plane{from / distance, from.dot(sphere.start) / distance + sphere.radius};
                });
   }
   for (const Box& box : world_.boxes)
-    add_planes(system, now, number++, box.friction.value_or(settings_.friction), Vec3::Zero(),
-               [&](const Vec3& x) { return beside(box, x); });
+    add_planes(system, now, number++, box.friction.value_or(settings_.friction), way(box.motion, box.middle()),
+               [&](const Vec3& X) { return beside(box, X); });
+}
+
+// [m/s], of vertices and of what moves towards them.
+double SolvedContact::fastest(const System& system, double end, const StateView& now) const {
+  double most = 0;
+  for (std::size_t i = 0; i < system.vertices(); ++i)
+    if (system.inverse_mass[i] != 0) most = std::max(most, now.velocity[i].vec().norm());
+  double obstacle = 0;
+  const auto look = [&](const ObstacleMotion& motion, const Vec3& middle, double radius) {
+    if (!motion.moves()) return;
+    const Pose from = motion.at(middle, end - step_), to = motion.at(middle, end);
+    const double turned = (to.turn - from.turn).norm() * radius;
+    obstacle = std::max(obstacle, ((to.of(middle) - from.of(middle)).norm() + turned) / step_);
+  };
+  for (const Sphere& sphere : world_.spheres) look(sphere.motion, sphere.start, sphere.radius);
+  for (const Box& box : world_.boxes) look(box.motion, box.middle(), (box.high - box.low).norm());
+  return most + obstacle;
 }
 
 void SolvedContact::begin(const System& system, double end, double step, const StateView& now,
@@ -96,16 +115,11 @@ void SolvedContact::begin(const System& system, double end, double step, const S
   rounds_ = 0;
   before_.swap(planes_);
   planes_.clear();
-  double fastest = 0; // [m/s]
-  for (std::size_t i = 0; i < system.vertices(); ++i)
-    if (system.inverse_mass[i] != 0) fastest = std::max(fastest, now.velocity[i].vec().squaredNorm());
-  for (const Sphere& sphere : world_.spheres) fastest = std::max(fastest, sphere.velocity.squaredNorm());
-  reach_ = 4 * step * (std::sqrt(fastest) + step * system.gravity.vec().norm()) + 0.01 * size_;
+  reach_ = 4 * step * (fastest(system, end, now) + step * system.gravity.vec().norm()) + 0.01 * size_;
   if (settings_.floor && world_.floor)
-    add_planes(system, now, 0, world_.floor->friction.value_or(settings_.friction), Vec3::Zero(),
-               [&](const Vec3&) {
-                 return std::optional<Plane>(Plane{Vec3::UnitZ(), world_.floor->z});
-               });
+    add_planes(system, now, 0, world_.floor->friction.value_or(settings_.friction), {}, [&](const Vec3&) {
+      return std::optional<Plane>(Plane{Vec3::UnitZ(), world_.floor->z});
+    });
   if (settings_.obstacles) add_obstacles(system, end, now);
   first_multipliers(system, now, force);
 }

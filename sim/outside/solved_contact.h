@@ -76,7 +76,8 @@ private:
   };
   template <class Nearest>
   void add_planes(const System& system, const StateView& now, std::uint32_t obstacle, double friction,
-                  const Vec3& moved, const Nearest& nearest);
+                  const RigidStep& way, const Nearest& nearest);
+  double fastest(const System& system, double end, const StateView& now) const;
   void add_obstacles(const System& system, double end, const StateView& now);
   void first_multipliers(const System& system, const StateView& now, const Record* force);
 

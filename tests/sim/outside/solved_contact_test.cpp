@@ -146,6 +146,19 @@ TEST(SolvedContact, a_moving_sphere_does_work) {
   EXPECT_LT(e.gained, 1e-3 * e.scale);
 }
 
+// Friction carries a block along: with μ g until it has the velocity of what it stands on.
+TEST(SolvedContact, a_moving_box_carries_what_stands_on_it) {
+  const Loaded scene =
+      load(block(5e-3, R"(<world><box low="-5 -1 -0.1" high="5 2 0" velocity="0.5 0 0"/></world>)", 0.2, 0));
+  run(scene, 0.1);
+  EXPECT_NEAR(scene->momentum().x(), 10 * 0.2 * 9.81 * 0.1, 0.05 * 10 * 0.2 * 9.81 * 0.1);
+  run(scene, 1);
+  EXPECT_NEAR(scene->momentum().x(), 5, 0.01);
+  const EnergyFigures e = scene->energy();
+  EXPECT_GT(e.now.work.contact, 1.2); // ½ 10 0.5², and what friction took, which is the same again
+  EXPECT_LT(e.gained, 1e-2 * e.scale);
+}
+
 // f = −∂P/∂x and the tangent = −∂f/∂x, by central differences, in contact and off it; with friction that sticks
 // and that slides.
 TEST(SolvedContact, forces_and_tangent_are_derivatives) {
