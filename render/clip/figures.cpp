@@ -96,6 +96,7 @@ std::vector<LawFigures> laws_of(const Scene& scene) {
                      .unit = law.unit,
                      .tears = 0,
                      .first = {},
+                     .refusals = body->tear_laws[n].refusals(),
                      .reached = body->tear_laws[n].reached(),
                      .look_every = body->look_every};
       for (const TearEvent& event : body->events) {

@@ -29,6 +29,7 @@ struct LawFigures {
   std::string unit; // of that
   std::size_t tears = 0;
   std::optional<double> first; // [s], of the first tear
+  Refusals refusals;           // of a rule, by reason
   Reached reached;             // the largest value
   long look_every = 1;         // steps; of values above the threshold 1
 };

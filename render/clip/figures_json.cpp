@@ -27,15 +27,17 @@ Json json_of(const ReachFigures& reach) {
 }
 
 Json json_of(const LawFigures& law) {
-  return {{"body", law.body},
-          {"criterion", law.criterion},
-          {"change", law.change},
-          {"threshold", law.threshold},
-          {"unit", law.unit},
-          {"tears", law.tears},
-          {"first", json_or_null(law.first)},
-          {"reached", json_of(law.reached)},
-          {"look_every", law.look_every}};
+  Json out{{"body", law.body},
+           {"criterion", law.criterion},
+           {"change", law.change},
+           {"threshold", law.threshold},
+           {"unit", law.unit},
+           {"tears", law.tears},
+           {"first", json_or_null(law.first)},
+           {"reached", json_of(law.reached)},
+           {"look_every", law.look_every}};
+  for (const auto& [reason, count] : law.refusals) out["refused"][reason] = count;
+  return out;
 }
 
 Json json_of(const ProbeFigures& probe) {

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rend {
 namespace {
 
@@ -51,6 +53,17 @@ std::string reach_in_words(const std::vector<ReachFigures>& all) {
   return out;
 }
 
+// Of a rule: where the criterion exceeded its threshold, and the rule did not apply; the most frequent first.
+std::string refusals_in_words(const Refusals& refusals) {
+  std::vector<std::pair<std::string, std::uint64_t>> all(refusals.begin(), refusals.end());
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string out;
+  for (const auto& [reason, count] : all)
+    out += fmt::format("               refused {}: {}\n", count == 1 ? "once" : fmt::format("{} times", count),
+                       printable(reason));
+  return out;
+}
+
 std::string laws_in_words(const std::vector<LawFigures>& laws) {
   std::string out;
   for (const LawFigures& law : laws) {
@@ -61,12 +74,11 @@ std::string laws_in_words(const std::vector<LawFigures>& laws) {
                                         : fmt::format("{} times", law.tears));
     if (law.first) out += fmt::format(", first at {:.6g} s", *law.first);
     if (law.reached.value > 0)
-      out += fmt::format("; largest value{} {}",
-                         law.look_every > 1 && law.tears == 0
-                             ? fmt::format(", sampled every {} steps:", law.look_every)
-                             : "",
-                         place_in_words(law.reached, law.unit));
-    out += "\n";
+      out += fmt::format(
+          "; largest value{} {}",
+          law.look_every > 1 && law.tears == 0 ? fmt::format(", sampled every {} steps:", law.look_every) : "",
+          place_in_words(law.reached, law.unit));
+    out += "\n" + refusals_in_words(law.refusals);
   }
   return out;
 }

@@ -38,8 +38,7 @@ A node on the right alone is created; there it says of each of its four links wh
 A node on the left alone is removed; there it says so of all four, so that nothing is left hanging.
 α0 α2, α0 α3, α1 α3 must close: what α2 links at one end of an α0, it links at the other end, too.
 So with an arc a-2-b, 0 stands at the same place of both labels, or in neither; with a-0-c and a-2-b
-goes a node d that both lead to, by b-0-d and c-2-d; with a-0-c and a|2 goes c|2.
-left="" creates out of nothing.
+goes a node d that both lead to, by b-0-d and c-2-d; with a-0-c and a|2 goes c|2. left="" creates.
 
 VALUES are elements within <rule>:
   <set node="c" position="..." rest="..." velocity="..."/>   the point of a new vertex, which needs

@@ -214,7 +214,8 @@ ForceView Body::view() const {
           map->velocity().values().data(),
           force.data(),
           corner_force.empty() || sums_ ? nullptr : corner_force.data(),
-          sums_ ? corner_force.data() : nullptr};
+          sums_ ? corner_force.data() : nullptr,
+          time_};
 }
 
 void Body::clear_sums() {

@@ -16,12 +16,12 @@ void let_grow(Body& body) {
   if (body.map->dimension() == 2) body.map->add(FaceSense{});
 }
 
-void take_rule(LawSettings& law, const RuleBook& rules, int dimension) {
+void take_rule(LawSettings& law, const RuleBook& rules, const CriterionRequest& request) {
   if (law.change) law.source.fail("rule", "<tear> has both a change and a rule", "give one of them");
   const RuleOrScript what = find_rule(rules, law.rule, law.source, "rule");
-  if (const std::string misfit = misfit_of(what, dimension); !misfit.empty())
+  if (const std::string misfit = misfit_of(what, request); !misfit.empty())
     law.source.fail("rule", fmt::format("{} '{}' {}", what.kind(), what.name(), misfit));
-  law.by_rule = change_by(what, dimension);
+  law.by_rule = change_by(what, request.map.dimension(), &request);
   law.change = law.by_rule.get();
 }
 
@@ -38,7 +38,7 @@ LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) 
   const CriterionRequest request = body.request_for(law);
   const NamedCriterion criterion{law.criterion, law.kind};
   law.cell = criterion.cell();
-  if (!law.rule.empty()) take_rule(law, rules, request.map.dimension());
+  if (!law.rule.empty()) take_rule(law, rules, request);
   if (!law.change) law.change = &default_change(law.cell);
   if (const std::string refusal = pair_of(criterion, *law.change, request.map.dimension()).refusal;
       !refusal.empty())

@@ -56,6 +56,7 @@ public:
   std::size_t count() const { return first_dart_.size() - free_.size(); }
   std::size_t bytes() const;
   void reserve(std::size_t slots) { first_dart_.reserve(slots); }
+  void reserve_darts(std::size_t darts) { slot_of_dart_.reserve(darts); } // for a map that grows
 
   // Updates the slots after the changes of `journal`; visits only the orbits of the darts listed there.
   // If memory is exhausted on the way, rollback() with the events as they are then is due.

@@ -233,6 +233,11 @@ void Edit::inherit(Dart child, Orbit orbit, std::span<const Parent> parents) {
   inherit(child, orbit, add_family(orbit, parents));
 }
 
+std::span<const Parent> Edit::parents(Dart child, Orbit orbit) const {
+  return lineage_ ? lineage_->parents(child, orbit).value_or(std::span<const Parent>())
+                  : std::span<const Parent>();
+}
+
 Lineage& Edit::lineage() {
   if (!lineage_) lineage_ = std::make_unique<Lineage>();
   return *lineage_;

@@ -75,15 +75,22 @@ void EmbeddedMap::renumber() {
 }
 
 std::size_t EmbeddedMap::slots_when_separated(Orbit orbit) const {
-  if (!orbit.has(map_.dimension())) return cells(orbit).slots();
+  const std::size_t grown = grows_ ? growth : 1;
+  if (!orbit.has(map_.dimension())) return grown * cells(orbit).slots();
   Orbit inside = orbit; // restricted to one element
   inside.mask = static_cast<std::uint8_t>(inside.mask & ((1 << map_.dimension()) - 1));
   std::size_t darts = 2; // the least number of darts of a corner or edge of an element
   if (inside == SingleDart) darts = 1;
-  return std::max(cells(orbit).slots(), map_.dart_count() / darts);
+  return grown * std::max(cells(orbit).slots(), map_.dart_count() / darts);
 }
 
 void EmbeddedMap::reserve_for_separations() {
+  if (grows_) {
+    const std::size_t darts = growth * map_.capacity();
+    MapEdit(map_).reserve(darts);
+    for (auto& index : cells_)
+      if (index) index->reserve_darts(darts);
+  }
   for (auto& index : cells_)
     if (index) index->reserve(slots_when_separated(index->orbit()));
   for (auto& column : columns_) column->reserve(slots_when_separated(column->orbit()));

@@ -108,10 +108,12 @@ public:
   void subscribe(Changes& changes) { readers_.push_back(&changes); }
   void unsubscribe(Changes& changes) { std::erase(readers_, &changes); }
 
-  // Reserves as many slots as separating all elements can ever make, so that no edit reallocates a column.
-  // Reserved memory that is not written costs addresses only.
+  // Reserves as many slots as separating all elements can ever make, so that no edit reallocates a column; where
+  // the map grows, for darts as well, until it has `growth` times as many. Reserved memory that is not written
+  // costs addresses only.
   void reserve_for_separations();
-  std::size_t slots_when_separated(Orbit orbit) const; // if every element were separated
+  std::size_t slots_when_separated(Orbit orbit) const; // if every element were separated, and the map had grown
+  static constexpr std::size_t growth = 2;
 
   // Renumbers the slots of all orbits as if the map had just been built, without free ones. Values move along,
   // and subscribers see the whole map changed. Only orbits out of order are touched. CHECK: no edit is open.
@@ -198,6 +200,9 @@ public:
   // The same in two steps, for many children with the same parents.
   std::uint32_t add_family(Orbit orbit, std::span<const Parent> parents);
   void inherit(Dart child, Orbit orbit, std::uint32_t family) { lineage().assign(child, orbit, family); }
+
+  // What was recorded for a dart, all from before the edit; empty: nothing was. Valid until more is recorded.
+  std::span<const Parent> parents(Dart child, Orbit orbit) const;
 
   // As of MapEdit, with points and parents.
   struct Savepoint {

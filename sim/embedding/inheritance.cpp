@@ -9,23 +9,34 @@
 
 namespace rend {
 
-OldLinks::OldLinks(const GMap& map, const Journal& journal) : map_(map) {
-  // Backwards: each pair is found as its change left it (map_edit.h).
+void OldLinks::note(const Journal& journal, const MapEdit::Savepoint& from) {
+  thread_local IndexMap since;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::vector<Dart>& touched = journal.touched[i];
-    for (std::size_t n = touched.size(); n > 0; n -= 2) {
+    if (touched.size() == from.touched[i]) continue;
+    since.clear();
+    const bool first = was_[i].size() == 0;
+    IndexMap& then = first ? was_[i] : since; // the links at `from`
+    const auto link_of = [&](Dart d) {
+      const std::uint32_t known = then.find(d.value);
+      return known != IndexMap::none ? Dart{known} : map_->alive(d) ? map_->alpha(static_cast<int>(i), d) : d;
+    };
+    // Backwards: each pair is found as its change left it (map_edit.h).
+    for (std::size_t n = touched.size(); n > from.touched[i]; n -= 2) {
       const Dart a = touched[n - 2], b = touched[n - 1];
-      const bool linked = alpha(static_cast<int>(i), a) == b;
-      was_[i].assign(a.value, linked ? a.value : b.value);
-      was_[i].assign(b.value, linked ? b.value : a.value);
+      const bool linked = link_of(a) == b;
+      then.assign(a.value, linked ? a.value : b.value);
+      then.assign(b.value, linked ? b.value : a.value);
     }
+    for (std::size_t n = from.touched[i]; n < touched.size() && !first; ++n)
+      was_[i].insert(touched[n].value, then.find(touched[n].value));
   }
 }
 
 Dart OldLinks::alpha(int i, Dart d) const {
   const std::uint32_t was = was_[static_cast<std::size_t>(i)].find(d.value);
   if (was != IndexMap::none) return Dart{was};
-  return map_.alive(d) ? map_.alpha(i, d) : d; // removed, and free before
+  return map_->alive(d) ? map_->alpha(i, d) : d; // removed, and free before
 }
 
 void OldLinks::collect(Orbit orbit, Dart d, std::vector<Dart>& out) const {

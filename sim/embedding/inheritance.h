@@ -61,13 +61,19 @@ enum class Inheritance {
 // The links as they were before the changes of a journal.
 class OldLinks {
 public:
-  OldLinks(const GMap& map, const Journal& journal);
+  explicit OldLinks(const GMap& map) : map_(&map) {} // of an edit that has changed nothing yet
+  OldLinks(const GMap& map, const Journal& journal) : OldLinks(map) { note(journal, {}); }
+
+  // Changes of the same edit since `from`, a point up to which all were noted. Those noted before that were taken
+  // back since do no harm.
+  void note(const Journal& journal, const MapEdit::Savepoint& from);
+
   Dart alpha(int i, Dart d) const;
   // Replaces `out` by the darts of orbit(d) before the edit, in increasing order.
   void collect(Orbit orbit, Dart d, std::vector<Dart>& out) const;
 
 private:
-  const GMap& map_;
+  const GMap* map_;
   std::array<IndexMap, 4> was_; // dart → αi before, of darts whose αi was touched
 };
 

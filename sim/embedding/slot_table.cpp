@@ -1,6 +1,7 @@
 #include "sim/embedding/slot_table.h"
 
 #include "sim/base/archive.h"
+#include "sim/base/bytes.h"
 
 #include <algorithm>
 #include <utility>
@@ -62,6 +63,12 @@ void SlotTable::resize(std::size_t darts) {
   wide_.resize(darts, no_slot);
 }
 
+void SlotTable::reserve(std::size_t darts) {
+  if (wide_.empty()) unpack();
+  forget();
+  wide_.reserve(darts);
+}
+
 void SlotTable::rename(std::span<const Slot> now) {
   if (wide_.empty()) unpack();
   forget(); // no edit is open
@@ -70,7 +77,7 @@ void SlotTable::rename(std::span<const Slot> now) {
 }
 
 std::size_t SlotTable::bytes() const {
-  return (wide_.capacity() + least_.capacity()) * sizeof(Slot) + step_.capacity();
+  return bytes_of(wide_) + bytes_of(least_) + bytes_of(step_);
 }
 
 void SlotTable::store(Archive& archive, std::size_t darts) {

@@ -35,7 +35,8 @@ public:
     if (wide_.empty() && set_step(d, slot)) return;
     wide_[d.value] = slot;
   }
-  void resize(std::size_t darts); // new ones have no slot
+  void resize(std::size_t darts);  // new ones have no slot
+  void reserve(std::size_t darts); // and unpacks the table, as the first new dart would. Between edits
 
   // Between begin_edit() and end_edit() rollback() makes the table as long as it was, and packed again if it
   // was. It restores no slots: they are to be set again.
@@ -47,7 +48,7 @@ public:
 
   void rename(std::span<const Slot> now); // every slot s becomes now[s]
   void pack();                            // does nothing if the slots of some group lie too far apart
-  std::size_t bytes() const;              // with reserved capacity, which was written to
+  std::size_t bytes() const;              // without what is reserved: it was not written to
   void store(Archive& archive,
              std::size_t darts); // everything (base/archive.h), read for a map of `darts` darts
 

@@ -10,6 +10,8 @@
 #include "sim/fracture/criterion.h"
 
 #include <functional>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,15 +19,32 @@
 
 namespace rend {
 
+// How often a change was refused, by the reason.
+using Refusals = std::map<std::string, std::uint64_t>;
+
+// What a change keeps between its calls, where it is a rule (rule_change.h).
+class ChangeMemory {
+public:
+  virtual ~ChangeMemory() = default;
+  virtual void begin(const ForceView& view) = 0; // before the first call of an edit
+  virtual void settle_candidate(bool made) = 0;  // after the calls at all places of one candidate
+  virtual const Refusals& refusals() const = 0;  // of candidates
+  virtual void store(Archive& archive) = 0;      // the refusals
+  virtual void rebind(const Changes& changes) = 0;
+  virtual void reserve_for_separations() = 0; // see EmbeddedMap
+  virtual std::size_t bytes() const = 0;
+};
+
 struct ChangeType {
   std::string name, what;
   Cell cell; // on which it acts; it is the default change of the criteria that measure such cells (transfer.h)
   // Applies the change if it is still possible; false: it was not, and nothing changed. Slots and positions are
   // those before the edit, links the current ones. `darts`: those of the cell, without removed ones; the cell
-  // may have been split since. `normal`: of the plane along which a vertex would be split.
-  std::function<bool(Edit&, const ForceView&, const Vec3& normal, std::span<const Dart> darts)> apply;
-  bool grows = false;        // it may create darts and links (rule_change.h)
-  bool keeps_matter = false; // it only separates: no element is created or removed
+  // may have been split since. The finding's normal is that of the place.
+  std::function<bool(Edit&, const ForceView&, const Finding&, std::span<const Dart> darts)> apply;
+  bool grows = false;                        // it may create darts and links (rule_change.h)
+  bool keeps_matter = false;                 // it only separates: no element is created or removed
+  std::shared_ptr<ChangeMemory> memory = {}; // null: it keeps nothing
 };
 
 const std::vector<ChangeType>& all_changes();

@@ -36,6 +36,14 @@ struct ForceView {
   // Not null: instead of `corner`, the fourth lane of `force` holds Program::forces_with_sums(), and this is a
   // buffer for Program::corner_forces_at(), for the vertices where the sums do not rule out a candidate.
   Record* corner_buffer = nullptr;
+  double time = 0; // [s]
+};
+
+// What a criterion has found where a change is made.
+struct Finding {
+  Vec3 normal;      // of the plane along which a vertex would be split; 0: none
+  double value = 0; // in the criterion's unit
+  Finding(const Vec3& normal_, double value_ = 0) : normal(normal_), value(value_) {}
 };
 
 class Criterion {

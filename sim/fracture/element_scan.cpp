@@ -136,30 +136,7 @@ void run_kind(ElementKind kind, const Scan& scan) {
 } // namespace
 
 ElementScan::ElementScan(const CriterionRequest& request, Quantity quantity)
-    : continuum_(request.map, request.interactions), quantity_(quantity), compression_(request.compression) {
-  request.map.use(element_orbit(request.map.dimension()));
-  for (const Continuum::Part& part : continuum_.parts()) {
-    std::optional<Binder>& binder = recreated_.emplace_back();
-    if (part.index != Continuum::recreated) continue;
-    binder.emplace(Binder::of(request.map, *part.interaction, Folding::Off, {}));
-    binder->bind();
-  }
-}
-
-void ElementScan::rebind(const Changes& changes) {
-  for (auto& binder : recreated_)
-    if (binder) binder->rebind(changes);
-}
-void ElementScan::reserve_for_separations() {
-  for (auto& binder : recreated_)
-    if (binder) binder->reserve_for_separations();
-}
-std::size_t ElementScan::bytes() const {
-  std::size_t sum = keys_.capacity() * sizeof(std::size_t);
-  for (const auto& binder : recreated_)
-    if (binder) sum += binder->rows().bytes();
-  return sum;
-}
+    : rows_(request), quantity_(quantity), compression_(request.compression) {}
 
 void ElementScan::scan(const Continuum::Part& part, const PackedRows& rows, const Record* position,
                        double threshold) {

@@ -14,10 +14,7 @@
 // is negative and tr ε ≥ tr E − c²|E|²/2. Elements without a bound are evaluated.
 #pragma once
 
-#include "sim/fracture/criterion.h"
-#include "sim/rows/continuum.h"
-
-#include <optional>
+#include "sim/fracture/continuum_rows.h"
 
 namespace rend {
 
@@ -26,35 +23,30 @@ public:
   enum class Quantity { Stress, Strain };
   ElementScan(const CriterionRequest& request, Quantity quantity);
 
-  const Continuum& continuum() const { return continuum_; }
+  const Continuum& continuum() const { return rows_.continuum(); }
 
   // Calls f(smallest dart of the element) for every element whose largest principal value (with compression: by
   // magnitude) may exceed the threshold, and for some others, in an order that is a function of the map alone.
   template <class F> void each_above(const ForceView& view, double threshold, F&& f) {
-    for (std::size_t n = 0; n < continuum_.parts().size(); ++n) {
-      const Binder& binder = rows_of(view, n);
+    for (std::size_t n = 0; n < rows_.parts().size(); ++n) {
+      const Binder& binder = rows_.of(view, n);
       keys_.clear();
-      scan(continuum_.parts()[n], binder.rows(), view.position, threshold);
+      scan(rows_.parts()[n], binder.rows(), view.position, threshold);
       for (std::size_t key : keys_) f(view.map.cells(binder.pattern().owner).first_dart(binder.owner_of(key)));
     }
   }
 
-  void rebind(const Changes& changes);
-  void reserve_for_separations();
-  std::size_t bytes() const;
+  void rebind(const Changes& changes) { rows_.rebind(changes); }
+  void reserve_for_separations() { rows_.reserve_for_separations(); }
+  std::size_t bytes() const { return rows_.bytes() + keys_.capacity() * sizeof(std::size_t); }
 
 private:
-  const Binder& rows_of(const ForceView& view, std::size_t part) const {
-    const std::size_t index = continuum_.parts()[part].index;
-    return index == Continuum::recreated ? *recreated_[part] : view.program.rows()[index];
-  }
   void scan(const Continuum::Part& part, const PackedRows& rows, const Record* position, double threshold);
 
-  Continuum continuum_;
+  ContinuumRows rows_;
   Quantity quantity_;
   bool compression_;
-  std::vector<std::optional<Binder>> recreated_; // rows of parts that the program has no rows for
-  std::vector<std::size_t> keys_;                // scratch: keys of rows that may exceed the threshold
+  std::vector<std::size_t> keys_; // scratch: keys of rows that may exceed the threshold
 };
 
 // The criterion on elements: their largest principal value.

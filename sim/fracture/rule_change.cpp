@@ -1,6 +1,9 @@
 #include "sim/fracture/rule_change.h"
 
+#include "sim/base/archive.h"
 #include "sim/base/check.h"
+#include "sim/fracture/element_scan.h"
+#include "sim/fracture/law_quantities.h"
 #include "sim/rules/script_run.h"
 
 #include <fmt/format.h>
@@ -29,19 +32,56 @@ std::optional<Cell> cell_of(Orbit hook, int dimension) {
   return hook.has(1) ? Cell::Vertices : Cell::Elements;
 }
 
-// What a law tells: misfit_of() refuses what it cannot.
-class LawQuantities final : public RuleQuantities {
+// A rule or a script of one law.
+class ByRule final : public ChangeMemory {
 public:
-  double stress(Dart) const override { CHECK(false); }
-  double strain(Dart) const override { CHECK(false); }
-};
+  ByRule(const RuleOrScript& what, const CriterionRequest* request) : what_(what), runner_(what_) {
+    if (request && asks_for_tensors(what)) quantities_.emplace(*request);
+    if (!quantities_) quantities_.emplace();
+  }
 
-struct Acting {
-  explicit Acting(const RuleOrScript& what_) : what(what_), runner(what) {}
-  RuleOrScript what;
-  RuleOrScriptRunner runner;
-  LawQuantities quantities;
-  std::vector<Dart> darts; // scratch
+  bool apply(Edit& edit, const Finding& found, std::span<const Dart> darts) {
+    quantities_->across = found.normal;
+    quantities_->value = found.value;
+    quantities_->before_change(edit);
+    runner_.context() = {{}, &*quantities_, {}};
+    darts_.assign(darts.begin(), darts.end());
+    std::sort(darts_.begin(), darts_.end());
+    return runner_.apply_at_first(edit, darts_, &furthest_);
+  }
+
+  void begin(const ForceView& view) override { quantities_->begin(view); }
+  void settle_candidate(bool made) override {
+    if (!made && furthest_.stage > 0) count(furthest_.reason);
+    furthest_ = {};
+  }
+  const Refusals& refusals() const override { return refusals_; }
+  void store(Archive& archive) override {
+    archive.table(refusals_, most_reasons + 1, "a rule was refused for more reasons than there are");
+  }
+  void rebind(const Changes& changes) override { quantities_->rebind(changes); }
+  void reserve_for_separations() override { quantities_->reserve_for_separations(); }
+  std::size_t bytes() const override { return quantities_->bytes(); }
+
+  static bool asks_for_tensors(const RuleOrScript& what) {
+    const std::vector<std::string> names = what.quantities_of_law();
+    return std::any_of(names.begin(), names.end(),
+                       [](const std::string& name) { return name == "stress" || name == "strain"; });
+  }
+
+private:
+  void count(const std::string& reason) {
+    const bool known = refusals_.size() < most_reasons || refusals_.contains(reason);
+    ++refusals_[known ? reason : "other reasons"];
+  }
+
+  static constexpr std::size_t most_reasons = 20;
+  RuleOrScript what_;
+  RuleOrScriptRunner runner_;
+  std::optional<LawQuantities> quantities_;
+  std::vector<Dart> darts_; // scratch
+  Refusal furthest_;        // at the places of one candidate
+  Refusals refusals_;
 };
 
 } // namespace
@@ -52,26 +92,29 @@ std::string misfit_of(const RuleOrScript& what, int dimension) {
   if (!cell_of(what.hook_orbit(), dimension))
     return "changes a whole component, but a <tear> acts on single cells";
   if (dimension == 2 && what.links_volumes()) return "links volumes, but this body is a sheet";
-  for (const std::string& name : what.quantities_of_law())
-    if (name != "across") return "asks for " + name + ", which its expressions do not know yet";
   return {};
 }
 
-std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimension) {
-  CHECK_NOTE(misfit_of(what, dimension).empty(), what.name());
+std::string misfit_of(const RuleOrScript& what, const CriterionRequest& request) {
+  if (std::string misfit = misfit_of(what, request.map.dimension()); !misfit.empty()) return misfit;
+  if (ByRule::asks_for_tensors(what) && !lacking_for_stress(request).empty())
+    return "asks for stress or strain, but this body has no <elasticity>";
+  return {};
+}
+
+std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimension,
+                                            const CriterionRequest* request) {
+  CHECK_NOTE((request ? misfit_of(what, *request) : misfit_of(what, dimension)).empty(), what.name());
   auto change = std::make_shared<ChangeType>();
   change->name = what.name();
   change->what = what.about();
   change->cell = *cell_of(what.hook_orbit(), dimension);
   change->grows = what.grows();
-  const auto acting = std::make_shared<Acting>(what);
-  change->apply = [acting](Edit& edit, const ForceView&, const Vec3& normal, std::span<const Dart> darts) {
-    acting->quantities.across = normal;
-    acting->runner.context() = {{}, &acting->quantities, {}};
-    acting->darts.assign(darts.begin(), darts.end());
-    std::sort(acting->darts.begin(), acting->darts.end());
-    return acting->runner.apply_at_first(edit, acting->darts);
+  const auto by_rule = std::make_shared<ByRule>(what, request);
+  change->apply = [by_rule](Edit& edit, const ForceView&, const Finding& found, std::span<const Dart> darts) {
+    return by_rule->apply(edit, found, darts);
   };
+  change->memory = by_rule;
   return change;
 }
 

@@ -3,8 +3,8 @@
 // What the hook of a rule stands for is the kind of cell that the rule changes: an edge, a border between two
 // elements, a vertex or an element. So a criterion is a precondition of the rule (thesis 7.1, p. 180): where
 // it exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook
-// first, until it applies. Its expressions know `across`, the normal of the plane along which a vertex would
-// be split.
+// first, until it applies. Its expressions know what the law has found there (law_quantities.h). Where it does
+// not apply, the reason is counted, that of the dart at which it came furthest.
 #pragma once
 
 #include "sim/fracture/change.h"
@@ -18,8 +18,10 @@ namespace rend {
 
 // Why a rule cannot be a change of a body of that dimension, as a sentence; empty: it can.
 std::string misfit_of(const RuleOrScript& what, int dimension);
+std::string misfit_of(const RuleOrScript& what, const CriterionRequest& request); // of this body
 
-// CHECK: it has no misfit.
-std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimension);
+// CHECK: it has no misfit. `request`: of the body, for stresses and strains; null: it asks for none.
+std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimension,
+                                            const CriterionRequest* request = nullptr);
 
 } // namespace rend

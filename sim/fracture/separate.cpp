@@ -8,7 +8,7 @@ ChangeType separate() {
   return {"separate",
           "the two elements on either side of the border are separated",
           Cell::Borders,
-          [](Edit& edit, const ForceView&, const Vec3&, std::span<const Dart> darts) {
+          [](Edit& edit, const ForceView&, const Finding&, std::span<const Dart> darts) {
             return unsew(edit, edit.map().dimension(), darts.front());
           },
           false,

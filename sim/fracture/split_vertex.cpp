@@ -66,8 +66,8 @@ ChangeType split_vertex() {
       "split-vertex",
       "the elements at the vertex are separated into two groups, on either side of the plane across the force",
       Cell::Vertices,
-      [](Edit& edit, const ForceView& view, const Vec3& normal, std::span<const Dart> darts) {
-        return split(edit, view, darts, normal);
+      [](Edit& edit, const ForceView& view, const Finding& found, std::span<const Dart> darts) {
+        return split(edit, view, darts, found.normal);
       },
       false,
       true};

@@ -111,6 +111,28 @@ void TearLaw::store(Archive& archive, double now) {
   if (archive.reading())
     refuse_unless(reached_.value >= 0 && reached_.time >= 0 && reached_.time <= now,
                   "the largest value of a law is negative, or was reached in the future");
+  if (const auto& memory = settings_.change->memory) memory->store(archive);
+}
+
+void TearLaw::rebind(const Changes& changes) {
+  criterion_->rebind(changes);
+  if (const auto& memory = settings_.change->memory) memory->rebind(changes);
+}
+
+void TearLaw::reserve_for_separations() {
+  criterion_->reserve_for_separations();
+  if (const auto& memory = settings_.change->memory) memory->reserve_for_separations();
+}
+
+std::size_t TearLaw::bytes() const {
+  const auto& memory = settings_.change->memory;
+  return criterion_->bytes() + (memory ? memory->bytes() : 0) + candidates_.capacity() * sizeof(Candidate) +
+         places_.bytes();
+}
+
+const Refusals& TearLaw::refusals() const {
+  static const Refusals none;
+  return settings_.change->memory ? settings_.change->memory->refusals() : none;
 }
 
 int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,
@@ -118,11 +140,15 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
   note_cells(map.map());
   if (transfer_->find) note_places(view);
   int made = 0;
+  ChangeMemory* const memory = settings_.change->memory.get();
+  if (memory) memory->begin(view);
   map.edit([&](Edit& edit) {
     if (fragment_counter) fragment_counter->begin(settings_.change->grows ? &map.map() : nullptr);
     for (std::size_t n = 0; n < candidates_.size(); ++n) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
-      if (!change_at(edit, view, n)) continue;
+      const bool done = change_at(edit, view, n);
+      if (memory) memory->settle_candidate(done);
+      if (!done) continue;
       events.push_back({.value = candidates_[n].value,
                         .dart = candidates_[n].dart,
                         .place = middle_of(map, view.position, cell(n))});
@@ -140,12 +166,13 @@ bool TearLaw::change_at(Edit& edit, const ForceView& view, std::size_t n) {
     left_.clear();
     for (Dart d : cell(n))
       if (edit.map().alive(d)) left_.push_back(d);
-    return !left_.empty() && change.apply(edit, view, candidates_[n].normal, left_);
+    return !left_.empty() && change.apply(edit, view, {candidates_[n].normal, candidates_[n].value}, left_);
   }
   const Orbit orbit = orbit_of(change.cell, edit.map().dimension());
   for (std::size_t place = first_place_[n]; place < first_place_[n + 1]; ++place) {
     grown(edit.map(), orbit, places_.darts(place), left_);
-    if (!left_.empty() && change.apply(edit, view, places_.normal(place), left_)) return true;
+    const Finding found(places_.normal(place), candidates_[n].value);
+    if (!left_.empty() && change.apply(edit, view, found, left_)) return true;
   }
   return false;
 }

@@ -67,18 +67,19 @@ public:
   const std::vector<Candidate>& find_and_note(const ForceView& view, double time, bool look);
   const Reached& reached() const { return reached_; }
   void restore_reached(const Reached& before) { reached_ = before; } // of a state that is returned to
-  void store(Archive& archive, double now); // what was reached; nothing is reached later than now [s]
+  // Of candidates at which a rule did not apply, at every step again; empty for other changes.
+  const Refusals& refusals() const;
+  // What was reached, and refusals; nothing is reached later than now [s].
+  void store(Archive& archive, double now);
 
   // Makes the changes at the candidates of find(). Returns how many were made; appends an event for each, and
   // notes it in `fragment_counter` if given.
   int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,
             FragmentCounter* fragment_counter = nullptr);
 
-  void rebind(const Changes& changes) { criterion_->rebind(changes); }
-  void reserve_for_separations() { criterion_->reserve_for_separations(); }
-  std::size_t bytes() const {
-    return criterion_->bytes() + candidates_.capacity() * sizeof(Candidate) + places_.bytes();
-  }
+  void rebind(const Changes& changes);
+  void reserve_for_separations();
+  std::size_t bytes() const;
 
 private:
   void sort_candidates();

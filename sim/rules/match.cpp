@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rend {
 
 using Kind = RuleLink::Kind;
@@ -44,6 +46,32 @@ std::string Mismatch::sentence(const Rule& rule) const {
     return text;
   }
   return {};
+}
+
+std::string Mismatch::in_general(const Rule& rule) const {
+  const auto of_node = [&] { return node < 0 ? std::string() : "node " + rule.left[node].name + ": "; };
+  switch (kind) {
+  case Kind::NoDart:
+    return "its dart is gone";
+  case Kind::NotFree:
+    return fmt::format("{}α{} is linked, and should be free", of_node(), link);
+  case Kind::Free:
+    return fmt::format("{}α{} is free, and the rule needs a neighbour there", of_node(), link);
+  case Kind::OtherDart:
+    return fmt::format("{}α{} leads to another dart than the rule asks for", of_node(), link);
+  case Kind::NotIsomorphic:
+    return "the orbits of the hooks are not isomorphic";
+  case Kind::Twice:
+    return "a dart would have to play two parts, and the rule may not fold";
+  case Kind::Expression:
+  case Kind::Shape:
+    return text.substr(0, std::min(text.find(", near "), text.find(" at dart ")));
+  case Kind::None:
+  case Kind::SheetWithoutVolumes:
+  case Kind::Condition:
+    break;
+  }
+  return sentence(rule);
 }
 
 namespace {

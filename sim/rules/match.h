@@ -56,6 +56,8 @@ struct Mismatch {
 
   explicit operator bool() const { return kind != Kind::None; }
   std::string sentence(const Rule& rule) const;
+  // The same without darts and places: equal for all places that fail alike.
+  std::string in_general(const Rule& rule) const;
 };
 
 struct Match {

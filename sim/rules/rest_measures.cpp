@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rend {
@@ -32,9 +33,47 @@ void vertices_of_orbit(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& 
   }
 }
 
+namespace {
+
+// One dart for each corner of a cell, where the vertex meets the cell: the smallest, in increasing order.
+void corners_of_orbit(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out) {
+  thread_local std::vector<Dart> darts, corner;
+  thread_local IndexSet counted;
+  Orbit around = orbit;
+  around.mask = static_cast<std::uint8_t>(around.mask & Vertex.mask);
+  darts.clear();
+  counted.clear();
+  collect(map, orbit, d, darts);
+  std::sort(darts.begin(), darts.end());
+  out.clear();
+  for (Dart e : darts) {
+    if (counted.contains(e.value)) continue;
+    corner.clear();
+    collect(map, around, e, corner);
+    for (Dart c : corner) counted.insert(c.value);
+    out.push_back(e);
+  }
+}
+
+} // namespace
+
+// Corners at different places belong to different vertices: to know that, no vertex needs to be walked, which in
+// a solid may have a thousand darts.
+void vertices_of_orbit(const Edit& edit, Orbit orbit, Dart d, std::vector<Dart>& out) {
+  constexpr std::size_t few = 16;
+  std::array<Vec3, few> place;
+  if ((orbit.mask & Vertex.mask) == Vertex.mask) return vertices_of_orbit(edit.map(), orbit, d, out);
+  corners_of_orbit(edit.map(), orbit, d, out);
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    if (n < few) place[n] = edit.point(out[n]).rest;
+    if (n == few || std::find(place.begin(), place.begin() + n, place[n]) != place.begin() + n)
+      return vertices_of_orbit(edit.map(), orbit, d, out);
+  }
+}
+
 Point mean_point(const Edit& edit, Orbit orbit, Dart d) {
   thread_local std::vector<Dart> vertices;
-  vertices_of_orbit(edit.map(), orbit, d, vertices);
+  vertices_of_orbit(edit, orbit, d, vertices);
   return mean_point(edit, vertices);
 }
 
@@ -151,9 +190,15 @@ double volume_at_rest(const Edit& edit, Dart d) {
   const GMap& map = edit.map();
   const Vec3 origin = edit.point(d).rest;
   double sum = 0;
-  IndexMap sense; // dart → 0, 1: darts that one link joins have different ones
+  thread_local IndexMap sense; // dart → 0, 1: darts that one link joins have different ones
+  thread_local std::vector<Dart> queue, face;
+  thread_local std::vector<Vec3> means; // of faces, less the origin
+  thread_local IndexMap mean_of;        // dart → index in means
+  sense.clear();
   sense.insert(d.value, 0);
-  std::vector<Dart> queue{d};
+  queue.assign(1, d);
+  means.clear();
+  mean_of.clear();
   for (std::size_t at = 0; at < queue.size(); ++at)
     for (int i = 0; i < 3; ++i) {
       const Dart next = map.alpha(i, queue[at]);
@@ -165,7 +210,13 @@ double volume_at_rest(const Edit& edit, Dart d) {
   for (Dart e : queue) {
     if (sense.find(e.value) != 0) continue;
     const Vec3 a = edit.point(e).rest - origin, b = edit.point(map.alpha(0, e)).rest - origin;
-    const Vec3 mean = mean_point(edit, FaceOfVolume, e).rest - origin;
+    if (mean_of.find(e.value) == IndexMap::none) {
+      face.clear();
+      collect(map, FaceOfVolume, e, face);
+      for (Dart f : face) mean_of.insert(f.value, static_cast<std::uint32_t>(means.size()));
+      means.push_back(mean_point(edit, FaceOfVolume, e).rest - origin);
+    }
+    const Vec3& mean = means[mean_of.find(e.value)];
     sum += a.cross(b).dot(mean) / 6;
   }
   return sum;

@@ -10,6 +10,8 @@ namespace rend {
 // The smallest dart of each distinct vertex of orbit(d), increasing.
 std::vector<Dart> vertices_of_orbit(const GMap& map, Orbit orbit, Dart d);
 void vertices_of_orbit(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& out);
+void vertices_of_orbit(const Edit& edit, Orbit orbit, Dart d,
+                       std::vector<Dart>& out); // faster, where points are known
 
 // The mean of the vertices of orbit(d), each counted once, in the order of their smallest dart in the orbit.
 Point mean_point(const Edit& edit, Orbit orbit, Dart d);

@@ -30,9 +30,21 @@ const Orbit* find_orbit(std::string_view name) {
   return nullptr;
 }
 
-const std::vector<std::string>& directions() {
-  static const std::vector<std::string> names{"normal", "face", "edge"};
-  return names;
+// What the second name of a call may be, and what such a name is.
+struct SecondName {
+  const char* what;
+  std::vector<std::string> allowed;
+};
+const SecondName& second_name_of(RuleFunction function) {
+  static const SecondName direction{"direction", {"normal", "face", "edge"}},
+      place{"place", {"element", "vertex"}};
+  static const SecondName orbit = [] {
+    SecondName all{"orbit", {}};
+    for (const NamedOrbit& each : orbits_with_vertices()) all.allowed.push_back(each.name);
+    return all;
+  }();
+  if (function == RuleFunction::Along) return direction;
+  return function == RuleFunction::Stress || function == RuleFunction::Strain ? place : orbit;
 }
 
 Value to_value(const Vec3& v) {
@@ -57,8 +69,11 @@ Orbit orbit_of_call(const ExpressionCall& call) {
   case RuleFunction::AreaOf:
     return Face;
   case RuleFunction::VolumeOf:
-  case RuleFunction::Strain:
     return Volume;
+  case RuleFunction::Stress:
+  case RuleFunction::Strain:
+    // An element of a sheet; a rule does not know whether it will run in a solid, where α2 stays in one, too.
+    return call.names[1] == "vertex" ? Vertex : FaceOfVolume;
   default:
     return Vertex;
   }
@@ -87,11 +102,15 @@ std::vector<ExpressionFunction> rule_vocabulary(const RuleGraph& left, std::span
       {"area", {Name}, Scalar, "of a node's face, at rest [m2]"},
       {"volume", {Name}, Scalar, "of a node's volume, at rest [m3]"},
       {"free", {Name, Scalar}, Condition, "whether that link of a node is free"},
-      {"stress", {Name}, Scalar, "the largest principal stress at a node's vertex [Pa]; of <tear>"},
-      {"strain", {Name}, Scalar, "the largest principal strain of a node's element; of <tear>"},
-      {"value", {}, Scalar, "what the criterion found, in its unit; of <tear>"},
-      {"across", {}, Vector, "the normal of the plane that would split a vertex; of <tear>"},
-      {"time", {}, Scalar, "the time [s]; of <tear>"},
+      {"stress",
+       {Name, Name},
+       Scalar,
+       "the largest principal stress [Pa] of its element (element), or of the mean at its vertex (vertex); this "
+       "and the next four: of <tear>"},
+      {"strain", {Name, Name}, Scalar, "the same of the strain"},
+      {"value", {}, Scalar, "what the criterion found, in its unit"},
+      {"across", {}, Vector, "the normal of the plane that would split a vertex"},
+      {"time", {}, Scalar, "the time [s]; all five are as before the step's changes"},
   };
   CHECK(all.size() == rule_functions);
   for (const RuleNode& node : left.nodes) all.push_back({node.name, {}, Vector, "the point of this node"});
@@ -100,9 +119,8 @@ std::vector<ExpressionFunction> rule_vocabulary(const RuleGraph& left, std::span
 }
 
 void check_names(const Expression& expression, const RuleGraph& left) {
-  std::vector<std::string> nodes, orbits;
+  std::vector<std::string> nodes;
   for (const RuleNode& node : left.nodes) nodes.push_back(node.name);
-  for (const NamedOrbit& each : orbits_with_vertices()) orbits.push_back(each.name);
   for (const ExpressionCall& call : expression.calls()) {
     if (call.function >= rule_functions || call.names.empty()) continue;
     if (left.find(call.names[0]) < 0)
@@ -110,11 +128,9 @@ void check_names(const Expression& expression, const RuleGraph& left) {
                             fmt::format("the left graph has no node {}", in_quotes(call.names[0])),
                             suggestion(call.names[0], nodes, "its nodes"));
     if (call.names.size() < 2) continue;
-    const bool along = static_cast<RuleFunction>(call.function) == RuleFunction::Along;
-    const std::vector<std::string>& allowed = along ? directions() : orbits;
+    const auto& [what, allowed] = second_name_of(static_cast<RuleFunction>(call.function));
     if (std::find(allowed.begin(), allowed.end(), call.names[1]) == allowed.end())
-      throw ExpressionError(call.columns[1],
-                            fmt::format("{} is no {}", in_quotes(call.names[1]), along ? "direction" : "orbit"),
+      throw ExpressionError(call.columns[1], fmt::format("{} is no {}", in_quotes(call.names[1]), what),
                             suggestion(call.names[1], allowed, "there are"));
   }
 }
@@ -173,15 +189,17 @@ Vec3 RuleValues::direction(Dart d, std::string_view which, PointPart part) const
   return sum / length;
 }
 
-Value RuleValues::quantity(RuleFunction function, Dart d) const {
-  const RuleQuantities* from = context_.quantities;
+Value RuleValues::quantity(const ExpressionCall& call, Dart d) const {
+  using Of = RuleQuantities::Of;
+  RuleQuantities* const from = context_.quantities;
   if (!from)
     throw ExpressionError(1, "stress, strain, value, across and time are known to laws of tearing alone");
-  switch (function) {
+  const auto of = [&] { return call.names[1] == "vertex" ? Of::AtVertex : Of::InElement; };
+  switch (static_cast<RuleFunction>(call.function)) {
   case RuleFunction::Stress:
-    return scalar_value(from->stress(d));
+    return scalar_value(from->stress(edit_, d, of()));
   case RuleFunction::Strain:
-    return scalar_value(from->strain(d));
+    return scalar_value(from->strain(edit_, d, of()));
   case RuleFunction::Found:
     return scalar_value(from->value);
   case RuleFunction::Across:
@@ -195,7 +213,7 @@ const RuleValues::Mean& RuleValues::mean_of(const ExpressionCall& call, std::siz
   if (mean_.call == &call && mean_.instance == instance) return mean_;
   mean_.call = &call;
   mean_.instance = instance;
-  vertices_of_orbit(edit_.map(), orbit_of_call(call), dart(call.names[0], instance), mean_.vertices);
+  vertices_of_orbit(edit_, orbit_of_call(call), dart(call.names[0], instance), mean_.vertices);
   mean_.point = mean_point(edit_, mean_.vertices);
   return mean_;
 }
@@ -251,7 +269,7 @@ Value RuleValues::call(const ExpressionCall& call, std::span<const Value> argume
     throw ExpressionError(1, fmt::format("{} is no link: 0, 1, 2 and 3 are", link));
   }
   default:
-    return quantity(function, d);
+    return quantity(call, d);
   }
 }
 

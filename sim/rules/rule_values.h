@@ -8,7 +8,15 @@
 //   size(a, face)        how many vertices; of a vertex: how many edges
 //   length(a), area(a), volume(a)   of its edge, face, volume, at rest [m, m², m³]
 //   free(a, 3)           whether α3 of a is free
-//   stress(a), strain(a), value, across, time   where a law of tearing applies the rule
+//
+// and, of a rule that a law of tearing applies (RuleQuantities; elsewhere these are refused before anything runs):
+//
+//   stress(a, element), strain(a, element)  the largest principal value of the stress [Pa], of the strain, of a's
+//                        element: a face of a sheet, a volume of a solid
+//   stress(a, vertex), strain(a, vertex)    of their mean at a's vertex, by the masses of the elements around it
+//   value                what the criterion found, in the unit of its threshold
+//   across               the unit normal of the plane along which a vertex would be split
+//   time                 [s]
 //
 // The position is the value of the expression over positions; the rest position that over rest positions; the
 // velocity its derivative in time where points move with their velocities: f(v) − f(0) for an affine
@@ -54,23 +62,26 @@ void check_names(const Expression& expression, const RuleGraph& left);
 // Whether a call has the same value at an instance and at the one that position `p` of the labels leads to.
 bool keeps_value(const ExpressionCall& call, const RuleGraph& left, int p);
 
-// Quantities that are known above the map.
+// Quantities that are known above the map. They are those from before the edit: an element or vertex that was
+// changed since has the value of what it was, and one that was born the mean of its parents' values.
 class RuleQuantities {
 public:
+  enum class Of { InElement, AtVertex };
   virtual ~RuleQuantities() = default;
-  virtual double stress(Dart d) const = 0; // [Pa], the largest eigenvalue at the vertex of d
-  virtual double strain(Dart d) const = 0; // the largest principal strain of the element of d
-  double value = 0;                        // what the criterion found, in its unit
-  Vec3 across = Vec3::Zero();              // unit normal of the plane along which a vertex would be split
-  double time = 0;                         // [s]
+  // [Pa] and a ratio. ExpressionError: of what was born without parents.
+  virtual double stress(const Edit& edit, Dart d, Of of) = 0;
+  virtual double strain(const Edit& edit, Dart d, Of of) = 0;
+  double value = 0;           // what the criterion found, in its unit
+  Vec3 across = Vec3::Zero(); // unit normal of the plane along which a vertex would be split
+  double time = 0;            // [s]
 };
 
 // Where a rule is applied.
 struct RuleContext {
-  std::vector<Value> wheres = {};             // the rule's arguments; empty: their defaults
-  const RuleQuantities* quantities = nullptr; // null: there is no law
-  mutable std::optional<Sides> sides = {};    // of the map when it was first asked for
-  std::size_t most_darts = 1u << 26;          // that a script may let the map have
+  std::vector<Value> wheres = {};          // the rule's arguments; empty: their defaults
+  RuleQuantities* quantities = nullptr;    // null: there is no law
+  mutable std::optional<Sides> sides = {}; // of the map when it was first asked for
+  std::size_t most_darts = 1u << 26;       // that a script may let the map have
 };
 
 enum class PointPart { Position, Rest, Velocity };
@@ -94,7 +105,7 @@ private:
   Vec3 vector(const Expression& expression, std::size_t instance, PointPart part, bool at_zero = false) const;
   Value call(const ExpressionCall& call, std::span<const Value> arguments, std::size_t instance, PointPart part,
              bool at_zero) const;
-  Value quantity(RuleFunction function, Dart d) const;
+  Value quantity(const ExpressionCall& call, Dart d) const;
   Dart dart(std::string_view node, std::size_t instance) const;
   Vec3 part_of(Dart d, PointPart part) const;
   Vec3 direction(Dart d, std::string_view which, PointPart part) const;

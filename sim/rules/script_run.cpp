@@ -20,6 +20,7 @@ struct ScriptRunner::Step {
   RuleOrScriptRunner runner;
   Match match;        // of the scope: the hook and a cell
   std::string reason; // of the first refusal while the step runs
+  Refusal refusal;    // the same
 };
 
 ScriptRunner::ScriptRunner(const Script& script, RuleContext context)
@@ -38,6 +39,7 @@ bool ScriptRunner::apply(Edit& edit, const Hooks& hooks) {
   used_.clear();
   matched_.clear();
   applied_ = 0;
+  refusal_ = {};
   if (!begin(edit, hooks)) return false;
   for (const auto& step : steps_) {
     if (run(edit, *step)) continue;
@@ -46,9 +48,11 @@ bool ScriptRunner::apply(Edit& edit, const Hooks& hooks) {
   }
   if (applied_ > 0) return true;
   reason_ = "no step applies anywhere";
+  refusal_ = {1, reason_};
   for (const auto& step : steps_)
     if (!step->reason.empty()) {
       reason_ += ": " + step->reason;
+      refusal_.reason += ": " + step->refusal.reason;
       break;
     }
   return false;
@@ -65,10 +69,12 @@ bool ScriptRunner::begin(Edit& edit, const Hooks& hooks) {
   hook_ = hooks[0];
   if (!edit.map().alive(hook_)) {
     reason_ = fmt::format("there is no dart {}", hook_.value);
+    refusal_ = {1, "its dart is gone"};
     return false;
   }
   if (!script_.scope.whens.empty() && !scope_.matches(edit, hook_)) {
     reason_ = scope_.mismatch().sentence(script_.scope);
+    refusal_ = {1, scope_.mismatch().in_general(script_.scope)};
     return false;
   }
   of_.push_back(hook_);
@@ -98,12 +104,15 @@ void ScriptRunner::grow(const Edit& edit) {
 bool ScriptRunner::run(Edit& edit, Step& step) {
   using AtLeast = ScriptStepSettings::AtLeast;
   step.reason.clear();
+  step.refusal = {};
   step.runner.context() = {{}, context_.quantities, {}, context_.most_darts};
   moved_.clear();
   const std::size_t before = applied_;
-  const auto refuse = [&](const std::string& what) {
-    reason_ = fmt::format("step {}, {}, {}", step.number, in_quotes(step.settings.apply), what);
-    if (!step.reason.empty()) reason_ += ": " + step.reason;
+  const auto refuse = [&](const std::string& what, const std::string& where = {}) {
+    const std::string name = fmt::format("step {}, {}, {}", step.number, in_quotes(step.settings.apply), what);
+    const auto why = [](const std::string& reason) { return reason.empty() ? reason : ": " + reason; };
+    reason_ = name + where + why(step.reason);
+    refusal_ = {static_cast<int>(step.number) + 1, name + why(step.refusal.reason)};
     return false;
   };
   scope_.context().sides.reset(); // the map has changed
@@ -114,11 +123,13 @@ bool ScriptRunner::run(Edit& edit, Step& step) {
       if (edit.map().dart_count() > context_.most_darts)
         return refuse(fmt::format("lets the map grow beyond {} darts", context_.most_darts));
       if (done) continue;
-      return refuse(step.step.cell ? fmt::format("does not apply at dart {}", cells_[first_[n]].value)
-                                   : "does not apply");
+      return refuse("does not apply",
+                    step.step.cell ? fmt::format(" at dart {}", cells_[first_[n]].value) : std::string());
     }
   } catch (const ExpressionError& error) { // of its test, or of an argument
     step.reason = error.flaw;
+    step.refusal.reason =
+        Mismatch{.kind = Mismatch::Kind::Expression, .text = error.flaw}.in_general(step.step.scope);
     return refuse("has no value");
   }
   if (step.settings.at_least == AtLeast::One && applied_ == before) return refuse("applies nowhere");
@@ -210,10 +221,12 @@ bool ScriptRunner::apply_at(Edit& edit, Step& step, std::size_t cell) {
       values[arguments[n].number] = values_[cell * arguments.size() + n];
   }
   const bool done = step.step.cell ? step.runner.apply_at_first(edit, left_) : step.runner.apply(edit, {});
-  if (done)
+  if (done) {
     note(step);
-  else if (step.reason.empty())
+  } else if (step.reason.empty()) {
     step.reason = step.runner.sentence();
+    step.refusal = step.runner.refusal();
+  }
   return done;
 }
 
@@ -263,7 +276,37 @@ RuleOrScriptRunner::RuleOrScriptRunner(const RuleOrScript& what, RuleContext con
     script_ = std::make_unique<ScriptRunner>(*what.script, std::move(context));
 }
 
-bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts) {
+namespace {
+
+// How far a rule came: it does not match, a condition does not hold, no value, no shape.
+int stage_of(Mismatch::Kind kind) {
+  switch (kind) {
+  case Mismatch::Kind::None:
+    return 0;
+  case Mismatch::Kind::Condition:
+    return 2;
+  case Mismatch::Kind::Expression:
+    return 3;
+  case Mismatch::Kind::Shape:
+    return 4;
+  default:
+    return 1;
+  }
+}
+
+} // namespace
+
+Refusal RuleOrScriptRunner::refusal() const {
+  if (script_) return script_->refusal();
+  return {stage_of(rule_->mismatch().kind), rule_->mismatch().in_general(rule_->rule())};
+}
+
+void RuleOrScriptRunner::keep_furthest(Refusal& furthest) const {
+  const int stage = script_ ? script_->refusal().stage : stage_of(rule_->mismatch().kind);
+  if (stage > furthest.stage) furthest = refusal();
+}
+
+bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts, Refusal* furthest) {
   if (hooks_ == 2) {
     for (Dart d : darts) {
       if (!rule_->may_begin(edit, 0, d)) continue;
@@ -276,6 +319,7 @@ bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts)
   for (Dart d : darts) {
     if (tried_.contains(d.value)) continue;
     if (apply(edit, d)) return true;
+    if (furthest) keep_furthest(*furthest);
     orbit_.clear();
     collect(edit.map(), hook_, d, orbit_);
     for (Dart e : orbit_) tried_.insert(e.value);

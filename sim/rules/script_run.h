@@ -28,6 +28,12 @@ namespace rend {
 
 class RuleOrScriptRunner;
 
+// Why a rule or a script did not apply, in words that name no dart, so that refusals can be counted.
+struct Refusal {
+  int stage = 0; // how far it came; 0: there was none
+  std::string reason = {};
+};
+
 // Applies one script many times, and keeps its buffers.
 class ScriptRunner {
 public:
@@ -42,6 +48,7 @@ public:
   bool apply(Edit& edit, const Hooks& hooks);
 
   const std::string& reason() const { return reason_; } // why the last call returned false; empty: it did not
+  const Refusal& refusal() const { return refusal_; }   // the same
   // After apply(): darts that its rules have matched, and those that they have left in their place.
   const std::vector<Dart>& used() const { return used_; }
 
@@ -78,6 +85,7 @@ private:
   std::size_t applied_ = 0;
   std::vector<Dart> used_, matched_; // matched_: without those left in their place
   std::string reason_;
+  Refusal refusal_;
 };
 
 // A runner of either.
@@ -92,14 +100,17 @@ public:
     return rule_ ? rule_->apply(edit, hooks) : script_->apply(edit, hooks);
   }
   // At one dart after another, one for each orbit of its hook, until it applies; with two hooks, at one pair
-  // after another.
-  bool apply_at_first(Edit& edit, std::span<const Dart> darts);
+  // after another. `furthest`, if given, becomes the refusal that came furthest, or stays if that is it.
+  bool apply_at_first(Edit& edit, std::span<const Dart> darts, Refusal* furthest = nullptr);
   std::string sentence() const; // why the last call returned false
+  Refusal refusal() const;      // the same
 
   RuleRunner* rule() { return rule_.get(); }       // null: it is a script
   ScriptRunner* script() { return script_.get(); } // null: it is a rule
 
 private:
+  void keep_furthest(Refusal& furthest) const;
+
   std::size_t hooks_; // how many
   Orbit hook_;        // of the first
   std::unique_ptr<RuleRunner> rule_;

@@ -1,6 +1,7 @@
 #include "sim/topology/gmap.h"
 
 #include "sim/base/archive.h"
+#include "sim/base/bytes.h"
 #include "sim/base/check.h"
 #include "sim/topology/validate.h"
 
@@ -104,7 +105,7 @@ void GMap::store_any(Archive& archive, std::size_t most_darts) {
 }
 
 std::size_t GMap::bytes() const {
-  return links_.capacity() * sizeof(Links) + free_.capacity() * sizeof(std::uint32_t);
+  return bytes_of(links_) + bytes_of(free_);
 }
 
 } // namespace rend

@@ -124,7 +124,8 @@ public:
       if (criterion == "cumulative-vertex") all[d] = {force_[s].norm(), force_[s].normalized()};
       if (criterion == "atomic-vertex" && singles_at_.contains(s))
         all[d] = {singles_at_.at(s).norm(), singles_at_.at(s).normalized()};
-      if (criterion == "vertex-stress" && at_vertex_.contains(s)) all[d] = mean_stress(s, compression);
+      if (criterion == "vertex-stress" && at_vertex_.contains(s)) all[d] = mean_at(s, stress_, compression);
+      if (criterion == "vertex-strain" && at_vertex_.contains(s)) all[d] = mean_at(s, strain_, compression);
     }
     return all;
   }
@@ -222,12 +223,12 @@ private:
     return sum;
   }
 
-  // Σ m σ / Σ m over the elements (e) around the vertex (thesis 7.2).
-  Measured mean_stress(Slot v, bool compression) const {
+  // Σ m σ / Σ m over the elements (e) around the vertex (thesis 7.2); the same of ε, which no criterion measures.
+  Measured mean_at(Slot v, const std::map<Dart, Eigen::Matrix3d>& tensors, bool compression) const {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     double whole = 0;
     for (const auto& [m, element] : at_vertex_.at(v)) {
-      sum += m * stress_.at(element);
+      sum += m * tensors.at(element);
       whole += m;
     }
     return largest_of(sum / whole, compression);
