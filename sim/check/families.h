@@ -17,5 +17,6 @@ CheckFamily size_family();
 CheckFamily tear_family();
 CheckFamily fault_family();
 CheckFamily energy_family();
+CheckFamily rest_family();
 
 } // namespace rend

@@ -41,7 +41,7 @@ struct ChangeType {
   // Applies the change if it is still possible; false: it was not, and nothing changed. Slots and positions are
   // those before the edit, links the current ones. `darts`: those of the cell, without removed ones; the cell
   // may have been split since. The finding's normal is that of the place.
-  std::function<bool(Edit&, const ForceView&, const Finding&, std::span<const Dart> darts)> apply;
+  std::function<bool(Edit&, const ForceView&, const FoundPlace&, std::span<const Dart> darts)> apply;
   bool grows = false;                        // it may create darts and links (rule_change.h)
   bool keeps_matter = false;                 // it only separates: no element is created or removed
   std::shared_ptr<ChangeMemory> memory = {}; // null: it keeps nothing

@@ -40,10 +40,10 @@ struct ForceView {
 };
 
 // What a criterion has found where a change is made.
-struct Finding {
+struct FoundPlace {
   Vec3 normal;      // of the plane along which a vertex would be split; 0: none
   double value = 0; // in the criterion's unit
-  Finding(const Vec3& normal_, double value_ = 0) : normal(normal_), value(value_) {}
+  FoundPlace(const Vec3& normal_, double value_ = 0) : normal(normal_), value(value_) {}
 };
 
 class Criterion {

@@ -7,7 +7,7 @@ namespace rend {
 ChangeType delete_edge() {
   return {"delete-edge",
           "every element at the edge is deleted (split-vertex splits one end of the edge instead)", Cell::Edges,
-          [](Edit& edit, const ForceView&, const Finding&, std::span<const Dart> darts) {
+          [](Edit& edit, const ForceView&, const FoundPlace&, std::span<const Dart> darts) {
             for (Dart d : darts)
               if (edit.map().alive(d)) remove_element_of(edit, d);
             return true;

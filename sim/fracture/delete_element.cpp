@@ -16,7 +16,7 @@ void remove_element_of(Edit& edit, Dart d) {
 
 ChangeType delete_element() {
   return {"delete-element", "the element is separated from all its neighbours and deleted", Cell::Elements,
-          [](Edit& edit, const ForceView&, const Finding&, std::span<const Dart> darts) {
+          [](Edit& edit, const ForceView&, const FoundPlace&, std::span<const Dart> darts) {
             remove_element_of(edit, darts.front());
             return true;
           }};

@@ -40,7 +40,7 @@ public:
     if (!quantities_) quantities_.emplace();
   }
 
-  bool apply(Edit& edit, const Finding& found, std::span<const Dart> darts) {
+  bool apply(Edit& edit, const FoundPlace& found, std::span<const Dart> darts) {
     quantities_->across = found.normal;
     quantities_->value = found.value;
     quantities_->before_change(edit);
@@ -111,9 +111,8 @@ std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimens
   change->cell = *cell_of(what.hook_orbit(), dimension);
   change->grows = what.grows();
   const auto by_rule = std::make_shared<ByRule>(what, request);
-  change->apply = [by_rule](Edit& edit, const ForceView&, const Finding& found, std::span<const Dart> darts) {
-    return by_rule->apply(edit, found, darts);
-  };
+  change->apply = [by_rule](Edit& edit, const ForceView&, const FoundPlace& found,
+                            std::span<const Dart> darts) { return by_rule->apply(edit, found, darts); };
   change->memory = by_rule;
   return change;
 }

@@ -5,14 +5,13 @@
 namespace rend {
 
 ChangeType separate() {
-  return {"separate",
-          "the two elements on either side of the border are separated",
-          Cell::Borders,
-          [](Edit& edit, const ForceView&, const Finding&, std::span<const Dart> darts) {
-            return unsew(edit, edit.map().dimension(), darts.front());
-          },
-          false,
-          true};
+  return {
+      .name = "separate",
+      .what = "the two elements on either side of the border are separated",
+      .cell = Cell::Borders,
+      .apply = [](Edit& edit, const ForceView&, const FoundPlace&,
+                  std::span<const Dart> darts) { return unsew(edit, edit.map().dimension(), darts.front()); },
+      .keeps_matter = true};
 }
 
 } // namespace rend

@@ -62,15 +62,13 @@ bool split(Edit& edit, const ForceView& view, std::span<const Dart> darts, const
 } // namespace
 
 ChangeType split_vertex() {
-  return {
-      "split-vertex",
-      "the elements at the vertex are separated into two groups, on either side of the plane across the force",
-      Cell::Vertices,
-      [](Edit& edit, const ForceView& view, const Finding& found, std::span<const Dart> darts) {
-        return split(edit, view, darts, found.normal);
-      },
-      false,
-      true};
+  return {.name = "split-vertex",
+          .what = "the elements at the vertex are separated into two groups, on either side of the plane "
+                  "across the force",
+          .cell = Cell::Vertices,
+          .apply = [](Edit& edit, const ForceView& view, const FoundPlace& found,
+                      std::span<const Dart> darts) { return split(edit, view, darts, found.normal); },
+          .keeps_matter = true};
 }
 
 } // namespace rend

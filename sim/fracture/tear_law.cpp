@@ -171,7 +171,7 @@ bool TearLaw::change_at(Edit& edit, const ForceView& view, std::size_t n) {
   const Orbit orbit = orbit_of(change.cell, edit.map().dimension());
   for (std::size_t place = first_place_[n]; place < first_place_[n + 1]; ++place) {
     grown(edit.map(), orbit, places_.darts(place), left_);
-    const Finding found(places_.normal(place), candidates_[n].value);
+    const FoundPlace found(places_.normal(place), candidates_[n].value);
     if (!left_.empty() && change.apply(edit, view, found, left_)) return true;
   }
   return false;
