@@ -1,3 +1,6 @@
+// GCC 12 takes the numbers of an empty optional array for ones that are read.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
 #include "sim/outside/obstacle_motion.h"
 
 #include "sim/base/math.h"
