@@ -39,7 +39,7 @@ struct AlphaWeights {
 class GeneralisedAlpha final : public StageScheme {
 public:
   explicit GeneralisedAlpha(const SchemeSettings& settings)
-      : StageScheme({.digits = 1e-7, .tangent = Tangent::Projected}), weights_(settings.rho_infinity) {}
+      : StageScheme(second_order_rules), weights_(settings.rho_infinity) {}
 
   void advance(System& system, double time, double step, const StateView& now, const Record* force,
                State& next) override {

@@ -11,7 +11,9 @@ namespace {
 
 class ImplicitEuler final : public StageScheme {
 public:
-  ImplicitEuler() : StageScheme({.digits = 1e-5, .tangent = Tangent::SemiDefinite}) {}
+  ImplicitEuler()
+      : StageScheme(
+            {.digits = 1e-5, .tangent = Tangent::SemiDefinite, .keeps_tangent = 0.1, .secants = false}) {}
 
 private:
   void make_part(const Part& part) override {

@@ -12,8 +12,7 @@ namespace {
 // tolerance of linear systems, relative to R: Newton's method with an approximate tangent gains little from
 // more
 constexpr double most_linear_digits = 1e-2;
-constexpr double accepted = 1e-4;     // relative to the terms, if no update reduces R: the limit of round-off
-constexpr double keeps_tangent = 0.1; // the tangent is reused if |R| falls below this share
+constexpr double accepted = 1e-4; // relative to the terms, if no update reduces R: the limit of round-off
 
 constexpr int most_newton_iterations = 50, most_halvings = 12; // of Newton iterations, of the line search
 constexpr int most_step_halvings = 10;                         // halvings of the step
@@ -69,6 +68,7 @@ void StageScheme::linearise(const Stage& stage) {
   }
   matrix_.constrain(held_.data());
   linear_.set_matrix(matrix_);
+  secants_.forget();
 }
 
 // The part of R due to rounding of positions [√J].
@@ -148,6 +148,17 @@ namespace {
 
 } // namespace
 
+// Solves for update_, by the matrix and the secants that improve it.
+void StageScheme::find_update(const Stage& stage, const Residual& residual) {
+  ++newton_;
+  load_tangent_.at(stage.system, stage.end, position_, velocity_, held_,
+                   {stage.by_velocity, 1, stage.by_force});
+  const Records& right = secants_.empty() ? before_ : secants_.right_side(before_);
+  if (!load_tangent_.solve(linear_, right, update_, linear_tolerance(residual)))
+    throw NotConverged("the linear system of the step could not be solved", "use a smaller step");
+  secants_.complete(update_);
+}
+
 void StageScheme::solve(const Stage& stage) {
   hold(stage.system, stage.end, held_);
   int iterations = 0;
@@ -165,11 +176,7 @@ void StageScheme::converge(const Stage& stage, int& n) {
     if (n >= most_newton_iterations || !residual.finite()) give_up(residual.norm / residual.terms, n);
     if (!linear) linearise(stage);
     here = here || !linear;
-    ++newton_;
-    load_tangent_.at(stage.system, stage.end, position_, velocity_, held_,
-                     {stage.by_velocity, 1, stage.by_force});
-    if (!load_tangent_.solve(linear_, before_, update_, linear_tolerance(residual)))
-      throw NotConverged("the linear system of the step could not be solved", "use a smaller step");
+    find_update(stage, residual);
     const Residual last = residual;
     const bool moved = stage.system.in_contact() ? search_slope(stage, residual) : search(stage, residual);
     if (!moved) {
@@ -178,8 +185,9 @@ void StageScheme::converge(const Stage& stage, int& n) {
       if (here) give_up(residual.norm / residual.terms, n);
     }
     if (settled(stage, residual)) return;
-    linear = moved && residual.norm <= keeps_tangent * last.norm;
+    linear = moved && residual.norm <= rules_.keeps_tangent * last.norm;
     here = false;
+    if (linear && rules_.secants) secants_.note(trial_, velocity_, momentum_, before_); // swapped by search()
   }
 }
 
@@ -207,6 +215,7 @@ void StageScheme::advance(System& system, double time, double size, const StateV
   for (Records* each : {&position_, &force_, &momentum_, &before_, &update_}) each->resize(count);
   reached_position_.assign(now.position, now.position + count);
   reached_velocity_.assign(now.velocity, now.velocity + count);
+  if (rules_.secants) secants_.reserve(count);
   if (begins_with_forces()) accelerate(system, force);
   double gone = 0, part = 1; // shares of the step; sums of powers of two, without rounding
   while (gone < 1) {
@@ -235,7 +244,7 @@ void StageScheme::advance(System& system, double time, double size, const StateV
 }
 
 std::size_t StageScheme::bytes() const {
-  return bytes_of(held_) +
+  return bytes_of(held_) + secants_.bytes() +
          bytes_with({&position_, &velocity_, &start_acceleration_, &trial_, &reached_position_,
                      &reached_velocity_, &force_, &momentum_, &before_, &update_});
 }

@@ -14,7 +14,7 @@
 // is halved while |R| grows, unless R·δ at both ends of the update shows that the potential decreases. Norms
 // are those of kinetic energy, |R|² = Σ |R_i|²/m_i. Converged when |R| is at most the scheme's tolerance times
 // the sum of its terms, or round-off; each linear system is solved to 1e-2, and the matrix is reused as long as
-// |R| falls to a tenth. A step that has not converged after 50 iterations (buckling cloth, gusts of wind) is
+// |R| falls to a share that the scheme says, which pays longer with secants (secants.h). A step that has not converged after 50 iterations (buckling cloth, gusts of wind) is
 // divided into two parts of half the size, these again ... down to 1/1024, below which it fails (NotConverged).
 //
 // Contact that the system takes into the solve (System::begin_solve) is part of f. When Newton's method has
@@ -28,14 +28,20 @@
 #pragma once
 
 #include "sim/integrate/newton_scheme.h"
+#include "sim/integrate/secants.h"
 
 namespace rend {
 
 // How a scheme wants its stages solved.
 struct StageRules {
-  double digits;   // relative to the sum of the terms of R
-  Tangent tangent; // a semi-definite one
+  double digits;        // of R, relative to the sum of its terms
+  Tangent tangent;      // a semi-definite one
+  double keeps_tangent; // the tangent is reused if |R| falls below this share
+  bool secants;         // improve a tangent that is reused
 };
+// Of schemes of second order: errors of 1e-6 of the forces are below those of the steps that they are for.
+constexpr StageRules second_order_rules{
+    .digits = 1e-6, .tangent = Tangent::Projected, .keeps_tangent = 0.6, .secants = true};
 
 class StageScheme : public NewtonScheme {
 public:
@@ -81,11 +87,13 @@ private:
   bool search_slope(const Stage& stage, Residual& residual);
   void converge(const Stage& stage, int& iterations);
   bool settled(const Stage& stage, const Residual& residual) const;
+  void find_update(const Stage& stage, const Residual& residual);
   double linear_tolerance(const Residual& residual) const;
   void accept_part(const System& system);
   void accelerate(const System& system, const Record* force);
 
   StageRules rules_;
+  Secants secants_;
 
   // One per vertex slot.
   Records trial_;                               // [m/s], v of the line search

@@ -23,7 +23,7 @@ namespace {
 
 class TrBdf2 final : public StageScheme {
 public:
-  TrBdf2() : StageScheme({.digits = 1e-7, .tangent = Tangent::Projected}) {}
+  TrBdf2() : StageScheme(second_order_rules) {}
   std::size_t bytes() const override {
     return StageScheme::bytes() + bytes_with({&base_position_, &base_velocity_});
   }

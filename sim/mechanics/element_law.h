@@ -33,9 +33,9 @@
 //   Σ_g w ½ (σ_a + σ_b)/(s_a + s_b) w_i w_jᵀ,    in a sheet also  Σ_g w Σ_a σ_a/s_a (q_a·G_i) (q_a·G_j) n nᵀ
 //
 // the modes of twist of an isotropic energy (Smith, de Goes and Kim, "Analytic eigensystems for isotropic
-// distortion energies", 2019). They are orthogonal to all other modes, so that without the negative factors the
-// tangent is the exact one projected to the nearest semi-definite: Tangent::Projected. A membrane under tension
-// has no other stiffness against motion across it.
+// distortion energies", 2019). As changes of F they are orthogonal to all others, so that without those whose
+// factor is negative the tangent by F is the exact one projected to the nearest semi-definite:
+// Tangent::Projected. A membrane under tension has no other stiffness against motion across it.
 #pragma once
 
 #include "sim/mechanics/enhanced_modes.h"
