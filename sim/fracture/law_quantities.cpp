@@ -79,17 +79,18 @@ const LawQuantities::OfElement& LawQuantities::of_element(Field& field, Dart d) 
     const std::size_t units = interaction.pattern.units.size();
     const Slot owner = map_->slot(interaction.pattern.owner, d);
     for (std::size_t unit = 0; unit < units; ++unit)
-      if (const std::size_t key = owner * units + unit; rows.live(key))
-        add(sum, field, part, rows.row(key), interaction.unit(owner, unit));
+      if (const std::size_t key = owner * units + unit; rows.live(key)) add(sum, field, part, rows.row(key));
   }
   field.of_element.push_back(sum);
   return field.of_element.back();
 }
 
-void LawQuantities::add(OfElement& sum, const Field& field, std::size_t part, std::size_t row,
-                        const double* values) const {
+// The values are those of the row: units may be made from the map as it is now.
+void LawQuantities::add(OfElement& sum, const Field& field, std::size_t part, std::size_t row) {
   const ElementLaw& law = *rows_->parts()[part].law;
   const PackedRows& rows = rows_->of(*view_, part).rows();
+  values_.clear();
+  for (int c = 0; c < law.values(); ++c) values_.push_back(rows.value(c, row));
   std::array<Vec3, most_particles> position, rest, velocity;
   for (std::size_t n = 0; n < static_cast<std::size_t>(law.particles()); ++n) {
     const Slot v = rows.index(static_cast<int>(n))[row];
@@ -97,7 +98,8 @@ void LawQuantities::add(OfElement& sum, const Field& field, std::size_t part, st
     rest[n] = map_->rest()[v];
     velocity[n] = Vec3::Zero();
   }
-  const Eigen::Matrix3d tensor = (law.*field.tensor)(values, {position.data(), velocity.data(), rest.data()});
+  const Eigen::Matrix3d tensor =
+      (law.*field.tensor)(values_.data(), {position.data(), velocity.data(), rest.data()});
   const double most = largest_principal(tensor, compression_).value;
   sum.largest = sum.count == 0 ? most : std::max(sum.largest, most);
   sum.sum += tensor;

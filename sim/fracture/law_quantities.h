@@ -56,7 +56,7 @@ private:
   double from_before(Field& field, const Edit& edit, Dart d, Of of); // of a dart from before the edit
   const OfElement& of_element(Field& field, Dart d);
   double at_vertex(Field& field, const Edit& edit, Dart d);
-  void add(OfElement& sum, const Field& field, std::size_t part, std::size_t row, const double* values) const;
+  void add(OfElement& sum, const Field& field, std::size_t part, std::size_t row);
 
   std::array<Field, 2> fields_{{{&ElementLaw::stress, {}, {}, {}, {}}, {&ElementLaw::strain, {}, {}, {}, {}}}};
   const EmbeddedMap* map_ = nullptr;
@@ -65,9 +65,10 @@ private:
   std::optional<ContinuumRows> rows_; // none: nobody asks for stresses
   std::optional<ForceView> view_;
   std::optional<OldLinks> old_links_;
-  MapEdit::Savepoint noted_;  // up to which old_links_ knows
-  std::vector<Dart> darts_;   // scratch: of an orbit as it is now
-  std::vector<Dart> corners_; // scratch: of a vertex as it was
+  MapEdit::Savepoint noted_;   // up to which old_links_ knows
+  std::vector<Dart> darts_;    // scratch: of an orbit as it is now
+  std::vector<Dart> corners_;  // scratch: of a vertex as it was
+  std::vector<double> values_; // scratch: of a row
 };
 
 } // namespace rend
