@@ -173,8 +173,8 @@ TEST(Separate, opens_an_edge_once) {
     if (!body->map->map().is_free(2, d)) inner = d;
   });
   body->map->edit([&](Edit& edit) {
-    EXPECT_TRUE(all_changes().front().apply(edit, view, Vec3::Zero(), {&inner, 1}));
-    EXPECT_FALSE(all_changes().front().apply(edit, view, Vec3::Zero(), {&inner, 1}));
+    EXPECT_TRUE(all_changes().front().apply(edit, view, Vec3(Vec3::Zero()), {&inner, 1}));
+    EXPECT_FALSE(all_changes().front().apply(edit, view, Vec3(Vec3::Zero()), {&inner, 1}));
   });
   EXPECT_EQ(body->map->cells(Vertex).count(), 8u);
 }

@@ -158,12 +158,13 @@ void change_and_check(Body& body, LawQuantities& quantities, const Expected& exp
       Dart d{noise.below(map.capacity())};
       while (!map.alive(d)) d = Dart{noise.below(map.capacity())};
       quantities.before_change(edit);
-      if (n % 2 == 0)
+      if (n % 2 == 0) {
         divide(quantities, edit, star, d, born);
-      else if (n % 4 == 1)
+      } else if (n % 4 == 1) {
         unsew(edit, dimension, d);
-      else if (remove)
+      } else if (remove) {
         remove_element_of(edit, d);
+      }
     }
     EXPECT_GT(expect_same(quantities, edit, expected, was), 0u);
     EXPECT_GT(born.size(), 3u);
