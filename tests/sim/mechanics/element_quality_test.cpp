@@ -29,7 +29,7 @@ std::unique_ptr<EmbeddedMap> one_cell(CellKind kind, const std::vector<Vec3>& po
 }
 
 ElementQuality of_cell(CellKind kind, const std::vector<Vec3>& points) {
-  return quality_of(*one_cell(kind, points), Dart{0});
+  return quality_of(*one_cell(kind, points), Dart{0u});
 }
 
 std::unique_ptr<EmbeddedMap> one_polygon(const std::vector<Vec3>& points) {
@@ -41,7 +41,7 @@ std::unique_ptr<EmbeddedMap> one_polygon(const std::vector<Vec3>& points) {
 }
 
 ElementQuality of_polygon(const std::vector<Vec3>& points) {
-  return quality_of(*one_polygon(points), Dart{0});
+  return quality_of(*one_polygon(points), Dart{0u});
 }
 
 const std::vector<Vec3> regular_tetrahedron{{1, 1, 1}, {-1, -1, 1}, {1, -1, -1}, {-1, 1, -1}};
