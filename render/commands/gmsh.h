@@ -1,9 +1,9 @@
-// Fills a closed surface with tetrahedra by Gmsh (Geuzaine and Remacle 2009), an external program (Debian: gmsh;
-// GPL 2+). It is found in PATH and started without a shell, and never linked.
+// Fills a closed surface with tetrahedra by Gmsh (Geuzaine and Remacle 2009), an external program (Debian:
+// gmsh; GPL 2+). It is found in PATH and started without a shell, and never linked.
 //
-// It works in a folder of its own, which is removed in any case, and keeps the triangles of the surface. What it
-// writes is checked before it is used: every tetrahedron has a positive volume, the boundary is the surface, and
-// the volumes sum up to that within it.
+// It works in a folder of its own, which is removed in any case, and keeps the triangles of the surface. What
+// it writes is checked before it is used: every tetrahedron has a positive volume, the boundary is the
+// surface, and the volumes sum up to that within it.
 #pragma once
 
 #include "sim/mesh/closed_surface.h"

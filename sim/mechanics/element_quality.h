@@ -1,10 +1,10 @@
-// How good the shapes of elements are, at rest. A mesh is as good as its worst element: one that is flat or thin
-// limits the stable step of all others (rows/frequency.h), and makes the stiffness badly conditioned (Shewchuk,
-// "What is a good linear element?", 2002).
+// How good the shapes of elements are, at rest. A mesh is as good as its worst element: one that is flat or
+// thin limits the stable step of all others (rows/frequency.h), and makes the stiffness badly conditioned
+// (Shewchuk, "What is a good linear element?", 2002).
 //
 //   angles   between faces, along each edge of a cell (dihedral); of a sheet between sides, at each corner
-//   aspect   l S/(c V): l the longest edge, S the surface, V the volume; of a sheet l P/(c A) with perimeter and
-//            area. c is the same of the shape with equal sides, so that this has 1, and everything else more
+//   aspect   l S/(c V): l the longest edge, S the surface, V the volume; of a sheet l P/(c A) with perimeter
+//            and area. c is the same of the shape with equal sides, so that this has 1, and all else more
 //            (Stimpson et al., The Verdict Library Reference Manual, 2007, for triangles and tetrahedra)
 //   size     V or A; beside the mean over the mesh, their ratio
 //

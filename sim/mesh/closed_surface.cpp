@@ -290,7 +290,8 @@ std::string flaw_of_filling(const CellMesh& solid, const ClosedSurface& surface)
   std::vector<Triangle> wanted;
   for (const Triangle& t : surface.triangles) wanted.push_back(sorted(t));
   std::sort(wanted.begin(), wanted.end());
-  const std::vector<Triangle> boundary = boundary_of(solid, surface, static_cast<Number>(surface.points.size()));
+  const auto none = static_cast<Number>(surface.points.size());
+  const std::vector<Triangle> boundary = boundary_of(solid, surface, none);
   std::vector<Triangle> differ;
   std::set_symmetric_difference(wanted.begin(), wanted.end(), boundary.begin(), boundary.end(),
                                 std::back_inserter(differ));

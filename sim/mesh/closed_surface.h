@@ -1,8 +1,8 @@
 // Closed surfaces, and the solids within them.
 //
-// A file of polygons (.obj, .off) is a sheet, also where the surface is closed: a hollow shell. A mesh generator
-// can fill it with tetrahedra (`rend mesh fill`). It gets the triangles of the surface, and keeps them: so the
-// boundary of the solid can be compared with them, triangle by triangle.
+// A file of polygons (.obj, .off) is a sheet, also where the surface is closed: a hollow shell. A mesh
+// generator can fill it with tetrahedra (`rend mesh fill`). It gets the triangles of the surface,
+// and keeps them: so the boundary of the solid can be compared with them, triangle by triangle.
 #pragma once
 
 #include "sim/mesh/reader.h"
@@ -20,9 +20,9 @@ struct ClosedSurface {
   double size() const;   // [m], diagonal of the bounding box
 };
 
-// Of a file of polygons, each divided into triangles: a quad at its shorter diagonal, others as a fan. UserError
-// (65), with the place of a polygon: it is a solid, is not closed, has only one side, or consists of several
-// parts.
+// Of a file of polygons, each divided into triangles: a quad at its shorter diagonal, others as a fan.
+// UserError (65), with the place of a polygon: it is a solid, is not closed, has only one side, or consists
+// of several parts.
 ClosedSurface closed_surface(const MeshFile& file);
 
 // Divides edges in the middle until none is longer than `most` [m]: the same surface in smaller triangles.

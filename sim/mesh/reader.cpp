@@ -74,8 +74,8 @@ MeshBody sewn(MeshFile& file, PolygonMesh& mesh, std::vector<std::uint32_t>& poi
     point = std::move(sheet.point);
     if (is_closed(sheet.map->map()))
       file.notes.push_back(file.source.name() +
-                           ": the surface is closed, and becomes a hollow sheet; `rend mesh fill` makes a solid "
-                           "of it");
+                           ": the surface is closed, and becomes a hollow sheet; `rend mesh fill` makes a "
+                           "solid of it");
     return {std::move(sheet.map), {}, std::move(file.notes)};
   } catch (const MeshFault& fault) {
     refuse(file, "polygon", fault.element, fault.flaw);

@@ -27,11 +27,25 @@ template <> const Fields<ObstacleKey>& fields_of() {
   return fields;
 }
 
+namespace {
+
+// Written out, since GCC 12 takes the default of an optional array here for uninitialized.
+Field<ObstacleMotion> rotate_field() {
+  return {rotate_attribute(),
+          [](ObstacleMotion& motion, const AttributeValue& value) {
+            std::copy_n(value.numbers.begin(), 4, motion.rotate.emplace().begin());
+          },
+          [](const ObstacleMotion& motion, const SettingsSource& source) {
+            if (motion.rotate) fields::check_numbers(rotate_attribute(), *motion.rotate, source);
+          }};
+}
+
+} // namespace
+
 template <> const Fields<ObstacleMotion>& fields_of() {
   using S = ObstacleMotion;
   static const Fields<S> fields{
-      field(&S::velocity, numbers("velocity", 3, "m/s", "constant velocity")),
-      field(&S::rotate, rotate_attribute()),
+      field(&S::velocity, numbers("velocity", 3, "m/s", "constant velocity")), rotate_field(),
       field(&S::centre, numbers("centre", 3, "m", "a point on the axis of rotation; default: its middle"))};
   return fields;
 }

@@ -6,8 +6,8 @@
 //   rotate       R turns about an axis, at a constant rate
 //   keys         d and the angles of R = Rz Ry Rx go through those of the keys
 //
-// Between keys each coordinate, and each angle, is a cubic whose slope at a key is the harmonic mean of those of
-// the chords at both sides, 0 where they have different signs, and 0 at the first and last key (Fritsch and
+// Between keys each coordinate, and each angle, is a cubic whose slope at a key is the harmonic mean of those
+// of the chords at both sides, 0 where they have different signs, and 0 at the first and last key (Fritsch and
 // Butland, SIAM J. Sci. Stat. Comput. 5, 1984): the velocity has no jumps, nothing overshoots, and what has the
 // same place at two keys in a row stands still between them. Splines through three keys and more (Catmull and
 // Rom) do overshoot.

@@ -45,5 +45,23 @@ TEST(ObstaclePicture, a_box_has_the_volume_of_a_box_with_round_edges) {
     EXPECT_LE(((vec(corner.position) - Vec3(1, 2, 3)).cwiseAbs() - core).maxCoeff(), r + 1e-6);
 }
 
+// Every corner of the picture, taken back, is where it is in the picture of the box that stands still.
+TEST(ObstaclePicture, a_box_that_moves_is_where_it_is_at_the_time) {
+  Box box{{0, 0, 0}, {0.4, 0.3, 0.2}};
+  const FrameBody still = picture_of(box, BoxLook{}, 3);
+  box.motion.rotate = std::array<double, 4>{1, 2, 2, 40};
+  box.motion.keys = {{.at = 1, .position = Vec3(1, 2, 3)}};
+  const FrameBody moved = picture_of(box, BoxLook{}, 3);
+  const Pose pose = box.pose(3);
+  ASSERT_EQ(moved.corners.size(), still.corners.size());
+  EXPECT_NEAR(volume(moved), volume(still), 1e-6);
+  for (std::size_t n = 0; n < still.corners.size(); ++n) {
+    EXPECT_LT((pose.back(vec(moved.corners[n].position)) - vec(still.corners[n].position)).norm(), 1e-6);
+    EXPECT_LT((pose.turn.transpose() * vec(moved.corners[n].normal) - vec(still.corners[n].normal)).norm(),
+              1e-6);
+  }
+  EXPECT_LT((pose.of(box.middle()) - Vec3(1, 2, 3)).norm(), 1e-14);
+}
+
 } // namespace
 } // namespace rend

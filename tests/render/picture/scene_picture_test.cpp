@@ -250,6 +250,25 @@ TEST(PictureOfASolid, ShowsFragmentsAndQuantitiesOnAllFaces) {
   }
 }
 
+// At 1/30 s a step ends after the frame's time: obstacles are drawn at that of the bodies.
+TEST(Picture, ShowsObstaclesWhereTheyAreAtTheTimeOfTheBodies) {
+  Shown shown(quads, "",
+              R"(<world><box low="5 0 0" high="6 1 1" velocity="3 0 0"/><sphere centre="9 0 0" radius="1">)"
+              R"(<key at="0" position="9 0 0"/><key at="1" position="9 4 0"/></sphere></world>)");
+  shown.steps(34);
+  shown.maker->observe();
+  const Frame frame = shown.maker->draw(1, 1.0 / 30);
+  const auto middle = [](const FrameBody& body) {
+    Eigen::AlignedBox3f box;
+    for (const Corner& corner : body.corners) box.extend(position(corner));
+    return Vec3(box.center().cast<double>());
+  };
+  const double t = shown.scene->time();
+  EXPECT_NEAR(t, 0.034, 1e-12);
+  EXPECT_NEAR(middle(frame.obstacles.at(0)).y(), 4 * t * t * (3 - 2 * t), 1e-5);
+  EXPECT_NEAR(middle(frame.obstacles.at(1)).x(), 5.5 + 3 * t, 1e-5);
+}
+
 TEST(Viewpoint, TurnsAroundItsTarget) {
   Shown shown(quads, "", R"(<camera eye="0 -5 1" target="0 0 1" turn="90"/>)");
   EXPECT_TRUE(shown.maker->camera(0).eye.isApprox(Eigen::Vector3d(0, -5, 1)));
