@@ -92,14 +92,19 @@ Point mean_point(const Edit& edit, std::span<const Dart> vertices) {
 
 namespace {
 
-// The darts of the face of d that begin its sides, in its order from d; empty: the face is not closed.
-std::vector<Dart> sides_from(const GMap& map, Dart d) {
-  std::vector<Dart> sides;
+// The darts of the face of d that begin its sides, in its order from d; empty: the face is not closed. Valid until
+// the next call.
+const std::vector<Dart>& sides_from(const GMap& map, Dart d) {
+  thread_local std::vector<Dart> sides;
+  sides.clear();
   Dart at = d;
   do {
     sides.push_back(at);
     const Dart end = map.alpha(0, at);
-    if (end == at || map.is_free(1, end)) return {};
+    if (end == at || map.is_free(1, end)) {
+      sides.clear();
+      break;
+    }
     at = map.alpha(1, end);
   } while (at != d);
   return sides;
@@ -118,7 +123,8 @@ std::string place_of(const Vec3& p) {
 constexpr double flat = 1e-9; // of a measure, relative to that of a cube or square of the same extent
 
 std::string fault_of_face(const Edit& edit, Dart d) {
-  std::vector<Vec3> x;
+  thread_local std::vector<Vec3> x;
+  x.clear();
   for (Dart s : sides_from(edit.map(), d)) x.push_back(edit.point(s).rest);
   if (x.empty()) return {}; // not closed yet
   if (x.size() < 3) return "a face would have fewer than three sides";
@@ -137,8 +143,11 @@ std::string fault_of_face(const Edit& edit, Dart d) {
 
 std::string fault_of_volume(const Edit& edit, Dart d) {
   const GMap& map = edit.map();
-  const std::vector<Dart> darts = darts_of(map, Volume, d);
-  std::vector<Vec3> x;
+  thread_local std::vector<Dart> darts, stack;
+  thread_local std::vector<Vec3> x;
+  darts.clear();
+  x.clear();
+  collect(map, Volume, d, darts);
   for (Dart e : darts) {
     for (int i = 0; i < 3; ++i)
       if (map.is_free(i, e)) return {}; // not closed yet
@@ -151,7 +160,7 @@ std::string fault_of_volume(const Edit& edit, Dart d) {
   sense.clear();
   sense.insert(d.value, 0);
   int turned = 0, all = 0; // corners of three edges with positive determinants, and all
-  std::vector<Dart> stack{d};
+  stack.assign(1, d);
   while (!stack.empty()) {
     const Dart e = stack.back();
     stack.pop_back();
@@ -177,7 +186,7 @@ std::string fault_of_volume(const Edit& edit, Dart d) {
 } // namespace
 
 Vec3 face_vector(const Edit& edit, Dart d, Vec3 Point::*part) {
-  const std::vector<Dart> sides = sides_from(edit.map(), d);
+  const std::vector<Dart>& sides = sides_from(edit.map(), d);
   if (sides.empty()) return Vec3::Zero();
   const Vec3 origin = edit.point(d).*part;
   Vec3 sum = Vec3::Zero();

@@ -331,7 +331,7 @@ TEST(LawByRule, tells_stress_and_time_to_laws_alone) {
                 HasSubstr("rule 'up' asks for "));
     EXPECT_EQ(refused(pulled(rule, R"xml(<tear criterion="vertex-stress" threshold="1" rule="up"/>)xml")), "");
   }
-  const std::string script = R"xml(<script name="s" hook="a*(1,2,3)"><for each="e*(1,2)"
+  const std::string script = R"xml(<script name="s" hook="a*(1,2,3)"><for each="e*(1,2,3)"
       where="stress(e, element) > stress(a, vertex)" apply="move"/></script>)xml";
   EXPECT_THAT(refused(pulled(script, "", R"xml(<apply rule="s" to="all"/>)xml")),
               HasSubstr("script 's' asks for stress"));
