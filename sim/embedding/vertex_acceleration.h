@@ -2,8 +2,8 @@
 // sim/integrate/alpha.cpp); 0: none, the scheme begins with that of the forces.
 //
 // So it does wherever the map changes around a vertex, since forces jump there: after a split (both fragments),
-// after a merge, at a new vertex. That is all that its policies say. Numbering anew, checkpoints and the guard's
-// rollback take it along like positions and velocities.
+// after a merge, at a new vertex. Numbering anew, checkpoints and the guard's rollback take it along like
+// positions and velocities.
 #pragma once
 
 #include "sim/embedding/column.h"

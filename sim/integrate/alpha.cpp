@@ -6,16 +6,15 @@
 //
 //   α_m = (2ρ − 1)/(ρ + 1),   α_f = ρ/(ρ + 1),   γ = ½ − α_m + α_f,   β = ¼ (1 − α_m + α_f)²
 //
-// which is of order 2, and whose parameter ρ (rho-infinity) is what a step leaves of motion that is too fast for
-// it: 1 keeps the energy of linear systems, 0 damps it in a step or two, and slow motion hardly at all: of all
-// methods of this kind with the same ρ the least. Forces are weighted at both ends of the step, and not
-// evaluated in between, so that those that the laws of fracture have looked at serve.
+// Order 2. The parameter ρ (rho-infinity) is what a step leaves of motion that is too fast for it: 1 keeps the
+// energy of linear systems, 0 damps such motion in a step or two. Slow motion is damped as little as such a
+// method can. Forces are weighted at both ends of the step, and not evaluated in between, so that those that
+// the laws of fracture have looked at serve.
 //
-// The scheme hands on an acceleration a, which is not that of the forces: it follows them with a delay. It is an
-// embedding of vertices (VertexAcceleration), follows them through the edits of a map, is part of checkpoints
-// and goes back with the guard. Where there is none (at the start, around a change of the map), and along
-// coordinates that were prescribed, it is that of the forces, A(x, v). Contact, which changes velocities after
-// the step, leaves it as it is: without contact.
+// The scheme hands on an acceleration a, which is not that of the forces: it follows them with a delay. It is
+// an embedding of vertices (VertexAcceleration), is part of checkpoints, and goes back with the guard. Where
+// there is none (at the start, around a change of the map), and along coordinates that were prescribed, it is
+// that of the forces, A(x, v). Contact changes velocities after the step, and leaves it as it is.
 //
 // One stage (stage_scheme.h): eliminating a' gives p = βh/γ, q = (1 − α_f) γh/(1 − α_m), and
 //

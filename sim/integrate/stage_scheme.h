@@ -13,9 +13,10 @@
 // definite in every state, and δ is a descent direction of the potential whose gradient is −R. Line search: s
 // is halved while |R| grows, unless R·δ at both ends of the update shows that the potential decreases. Norms
 // are those of kinetic energy, |R|² = Σ |R_i|²/m_i. Converged when |R| is at most the scheme's tolerance times
-// the sum of its terms, or round-off; each linear system is solved to 1e-2, and the matrix is reused as long as
-// |R| falls to a share that the scheme says, which pays longer with secants (secants.h). A step that has not converged after 50 iterations (buckling cloth, gusts of wind) is
-// divided into two parts of half the size, these again ... down to 1/1024, below which it fails (NotConverged).
+// the sum of its terms, or round-off. Each linear system is solved to 1e-2. The matrix is reused as long as |R|
+// falls below a share that the scheme says; secants of the last updates (secants.h) make that pay for longer. A
+// step that has not converged after 50 iterations (buckling cloth, gusts of wind) is divided into two parts of
+// half the size, these again ... down to 1/1024, below which it fails (NotConverged).
 //
 // Contact that the system takes into the solve (System::begin_solve) is part of f. When Newton's method has
 // converged, its bounds are renewed, and it goes on from there until they stay.

@@ -12,8 +12,8 @@
 //
 //   R(z) = (1 + (1 − γ) z)/(1 − γz/2)²,      |R| ≈ 1 − 0.0037 (ωh)⁴ for small ωh, and 0 for infinite
 //
-// with a phase error of 0.040 (ωh)³. SDIRK2 with two stages has the same R and the same cost; its first stage is
-// of order 1 only, which shows where forces are stiff and not linear, and of TR-BDF2's both are of order 2.
+// with a phase error of 0.040 (ωh)³. SDIRK2 with two stages has the same R and the same cost; but its first
+// stage is of order 1 only, which shows where forces are stiff and not linear. Both of TR-BDF2 are of order 2.
 #include "sim/integrate/stage_scheme.h"
 
 #include <cmath>

@@ -28,7 +28,8 @@
 //   K_ij = Σ_g w (λ g_i g_jᵀ + μ g_j g_iᵀ + μ (g_i·g_j) P)  + ∂f/∂R : ∂R/∂x + ∂f/∂Z : ∂Z/∂x
 //
 // (the last terms in the exact tangent only). Where Z = 0 they are known in closed form: with the stretches s_a
-// along the axes q_a of RᵀF and the stresses σ_a there, for each pair of axes a, b and w_n = R (q_a × q_b) × G_n,
+// along the axes q_a of RᵀF and the stresses σ_a there, for each pair of axes a, b and w_n = R (c × G_n) of the
+// third axis c,
 //
 //   Σ_g w ½ (σ_a + σ_b)/(s_a + s_b) w_i w_jᵀ,    in a sheet also  Σ_g w Σ_a σ_a/s_a (q_a·G_i) (q_a·G_j) n nᵀ
 //

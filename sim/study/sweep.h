@@ -5,7 +5,7 @@
 //
 //   explicit   from the largest stable step downwards over two decades; before them two steps above it (about
 //              1.3 and 2 times), to show failure
-//   implicit   from a quarter of the duration downwards, over two and a half decades
+//   solving    implicit ones: from a quarter of the duration downwards, over two and a half decades
 //   adaptive   tolerances 1e-2 ... 1e-9
 //
 // A scheme that has no stable step without viscosity (explicit Euler, midpoint) starts at half of symplectic's

@@ -31,7 +31,7 @@ TEST(Steps, of_implicit_are_to_be_given) {
 
 // A driven edge, another fixed along two axes: prescribed coordinates are exact to the last bit.
 TEST(Schemes, that_solve_keep_prescribed_coordinates_exactly) {
-  for (const char* scheme : {"implicit", "static"}) {
+  for (const char* scheme : {"implicit", "tr-bdf2", "alpha", "static"}) {
     const auto s = presets::load(presets::cloth(
         "quads", 6, "", fmt::format(R"(<time step="0.125" integrator="{}" duration="1"/>)", scheme),
         R"(<bend kind="provot" k="10"/>)",
@@ -100,7 +100,7 @@ TEST(ImplicitEuler, goes_a_step_in_parts_where_it_is_not_solved_at_once) {
 }
 
 TEST(Schemes, that_solve_give_the_same_bytes_on_any_number_of_threads) {
-  for (const char* scheme : {"implicit", "static"}) {
+  for (const char* scheme : {"implicit", "tr-bdf2", "alpha", "static"}) {
     std::vector<std::uint64_t> hashes;
     for (const int threads : {1, 2, 4}) {
       const auto s = presets::load(

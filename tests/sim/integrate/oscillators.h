@@ -49,7 +49,7 @@ public:
     std::vector<Record> force(modes_.size());
     forces(time, now.position.data(), now.velocity.data(), force.data());
     next.probe = Double4{};
-    integrator.advance(*this, time, size, {now.position.data(), now.velocity.data()}, force.data(), next);
+    integrator.advance(*this, time, size, now.view(), force.data(), next);
     std::swap(now, next);
   }
 

@@ -86,7 +86,7 @@ void expect_goes_on(const presets::Loaded& s, int steps) {
 }
 
 TEST(TornSolved, by_every_law_goes_on_with_the_matrix_of_a_body_built_anew) {
-  for (const char* scheme : {"implicit", "static"}) {
+  for (const char* scheme : {"implicit", "tr-bdf2", "alpha", "static"}) {
     for (const Asked& asked : every_law()) {
       for (const bool flat : {true, false}) {
         const double threshold = flat ? asked.sheet : asked.solid;

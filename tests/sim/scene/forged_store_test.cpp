@@ -286,7 +286,7 @@ TEST(ForgedStore, contact_is_of_vertices_and_faces_that_there_are) {
 
 TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const std::string scheme : {"rk45", "implicit", "static"}) {
+  for (const std::string scheme : {"rk45", "implicit", "tr-bdf2", "static"}) {
     const StoredScene genuine(
         stored_scene_xml(R"(<sheet cells="3 3" size="1 1"/><mass total="0.1"/>
                                       <springs><stretch k="60"/></springs><fix side="-x"/>)",

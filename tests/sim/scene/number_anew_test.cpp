@@ -55,7 +55,7 @@ void expect_same_faces(const ContactFaces& a, const ContactFaces& b) {
 }
 
 TEST(NumberAnew, binds_all_as_if_it_were_built_now_and_follows_changes_from_there) {
-  for (const char* scheme : {"rk4", "implicit"}) { // both sets of rows; a matrix
+  for (const char* scheme : {"rk4", "implicit", "alpha"}) { // both sets of rows; a matrix; accelerations
     for (auto& each : elements::irregular_maps()) {
       SCOPED_TRACE(each.name + std::string(", ") + scheme);
       const auto body = torn::body(std::move(each.map), holes_and_splits(), scheme, true);
