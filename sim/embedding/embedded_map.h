@@ -108,9 +108,9 @@ public:
   void subscribe(Changes& changes) { readers_.push_back(&changes); }
   void unsubscribe(Changes& changes) { std::erase(readers_, &changes); }
 
-  // Reserves as many slots as separating all elements can ever make, so that no edit reallocates a column; where
-  // the map grows, for darts as well, until it has `growth` times as many. Reserved memory that is not written
-  // costs addresses only.
+  // Reserves as many slots as separating all elements can ever make, so that no edit reallocates a column;
+  // where the map grows, for darts as well, until it has `growth` times as many. Reserved memory that is not
+  // written costs addresses only.
   void reserve_for_separations();
   std::size_t slots_when_separated(Orbit orbit) const; // if every element were separated, and the map had grown
   static constexpr std::size_t growth = 2;

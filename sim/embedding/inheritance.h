@@ -64,8 +64,8 @@ public:
   explicit OldLinks(const GMap& map) : map_(&map) {} // of an edit that has changed nothing yet
   OldLinks(const GMap& map, const Journal& journal) : OldLinks(map) { note(journal, {}); }
 
-  // Changes of the same edit since `from`, a point up to which all were noted. Those noted before that were taken
-  // back since do no harm.
+  // Changes of the same edit since `from`, a point up to which all were noted. Those noted before that were
+  // taken back since do no harm.
   void note(const Journal& journal, const MapEdit::Savepoint& from);
 
   Dart alpha(int i, Dart d) const;

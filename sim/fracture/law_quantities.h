@@ -9,8 +9,8 @@
 // All are of the state and the map before the first change of the edit, in which a law makes all changes of a
 // step: so the order of changes, where places lie apart, does not matter. They are evaluated when first asked
 // for, also after changes: rows are bound again only when the edit is closed, and links are remembered
-// (OldLinks). What the same edit has changed already has the value of what it was: an element, or a vertex, that
-// of its smallest dart from before the edit. What was born has the mean of its parents' values.
+// (OldLinks). What the same edit has changed already has the value of what it was: an element, or a vertex,
+// that of its smallest dart from before the edit. What was born has the mean of its parents' values.
 #pragma once
 
 #include "sim/embedding/inheritance.h"

@@ -99,9 +99,9 @@ public:
   // caller.
   virtual void mark_prescribed(double time, std::uint8_t* axes);
 
-  // Contact that belongs to the solve, for schemes that solve: after begin_solve(), forces() and add_stiffness()
-  // contain it, until the step ends. `end` [s]: of a step or substep of size `step` from `now`;
-  // `internal`: forces [N] of `now`, or null if they are not known. By default there is none.
+  // Contact that belongs to the solve, for schemes that solve: after begin_solve(), forces() and
+  // add_stiffness() contain it, until the step ends. `end` [s]: of a step or substep of size `step` from
+  // `now`; `internal`: forces [N] of `now`, or null if they are not known. By default there is none.
   virtual void begin_solve(double end, double step, const StateView& now, const Record* internal);
   virtual bool in_contact() const { return false; } // since begin_solve(), something is near an obstacle
   // The solve has converged to these positions. True: contact forces have changed by so much that it goes on.

@@ -45,8 +45,8 @@ void SolvedContact::rebind(System& system, const std::vector<Record>& rest) {
   size_ = extent(rest, system.inverse_mass);
 }
 
-// `nearest(X)`: the plane of the obstacle as the preset puts it, for a vertex at X of its points; the obstacle goes
-// its `way`. What is in the obstacle already is left to contact after the step.
+// `nearest(X)`: the plane of the obstacle as the preset puts it, for a vertex at X of its points; the
+// obstacle goes its `way`. What is in the obstacle already is left to contact after the step.
 template <class Nearest>
 void SolvedContact::add_planes(const System& system, const StateView& now, std::uint32_t obstacle,
                                double friction, const RigidStep& way, const Nearest& nearest) {

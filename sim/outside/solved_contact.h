@@ -1,9 +1,9 @@
 // Contact with the floor, spheres and boxes inside the solve of implicit schemes.
 //
-// Contact at the end of a step (floor_contact.h) pushes out what the solve has moved in, and what rests there is
-// compressed by its weight once more in every step. Here the solve knows of it. Each vertex near an obstacle
-// stays in a half-space that is fixed for the step, that of the tangent plane at the point of the obstacle
-// nearest to the vertex, where the obstacle is at the end of the step:
+// Contact at the end of a step (floor_contact.h) pushes out what the solve has moved in, and what rests there
+// is compressed by its weight once more in every step. Here the solve knows of it. Each vertex near an
+// obstacle stays in a half-space that is fixed for the step, that of the tangent plane at the point of the
+// obstacle nearest to the vertex, where the obstacle is at the end of the step:
 //
 //   g(x) = n·x − offset ≥ 0
 //
@@ -41,8 +41,8 @@ public:
   // stiffness. After a change of the map.
   void rebind(System& system, const std::vector<Record>& rest);
 
-  // Finds the planes of a step of size `step` [s] that ends at `end` [s]. `force` [N]: internal, of `now`; null:
-  // the multipliers of the step before are kept.
+  // Finds the planes of a step of size `step` [s] that ends at `end` [s]. `force` [N]: internal, of `now`;
+  // null: the multipliers of the step before are kept.
   void begin(const System& system, double end, double step, const StateView& now, const Record* force);
   void end(); // no contact until the next begin()
   bool near() const { return !planes_.empty(); }

@@ -57,8 +57,8 @@ void corners_of_orbit(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& o
 
 } // namespace
 
-// Corners at different places belong to different vertices: to know that, no vertex needs to be walked, which in
-// a solid may have a thousand darts.
+// Corners at different places belong to different vertices: to know that, no vertex needs to be walked, which
+// in a solid may have a thousand darts.
 void vertices_of_orbit(const Edit& edit, Orbit orbit, Dart d, std::vector<Dart>& out) {
   constexpr std::size_t few = 16;
   std::array<Vec3, few> place;
@@ -92,8 +92,8 @@ Point mean_point(const Edit& edit, std::span<const Dart> vertices) {
 
 namespace {
 
-// The darts of the face of d that begin its sides, in its order from d; empty: the face is not closed. Valid until
-// the next call.
+// The darts of the face of d that begin its sides, in its order from d; empty: the face is not closed. Valid
+// until the next call.
 const std::vector<Dart>& sides_from(const GMap& map, Dart d) {
   thread_local std::vector<Dart> sides;
   sides.clear();

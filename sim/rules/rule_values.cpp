@@ -105,7 +105,8 @@ std::vector<ExpressionFunction> rule_vocabulary(const RuleGraph& left, std::span
       {"stress",
        {Name, Name},
        Scalar,
-       "the largest principal stress [Pa] of its element (element), or of the mean at its vertex (vertex); this "
+       "the largest principal stress [Pa] of its element (element), or of the mean at its vertex (vertex); "
+       "this "
        "and the next four: of <tear>"},
       {"strain", {Name, Name}, Scalar, "the same of the strain"},
       {"value", {}, Scalar, "what the criterion found, in its unit"},

@@ -9,11 +9,12 @@
 //   length(a), area(a), volume(a)   of its edge, face, volume, at rest [m, m², m³]
 //   free(a, 3)           whether α3 of a is free
 //
-// and, of a rule that a law of tearing applies (RuleQuantities; elsewhere these are refused before anything runs):
+// and, of a rule that a law of tearing applies (RuleQuantities; elsewhere these are refused before anything
+// runs):
 //
-//   stress(a, element), strain(a, element)  the largest principal value of the stress [Pa], of the strain, of a's
-//                        element: a face of a sheet, a volume of a solid
-//   stress(a, vertex), strain(a, vertex)    of their mean at a's vertex, by the masses of the elements around it
+//   stress(a, element), strain(a, element)  the largest principal value of the stress [Pa], of the strain, of
+//                        a's element: a face of a sheet, a volume of a solid
+//   stress(a, vertex), strain(a, vertex)    of their mean at a's vertex, by masses of the elements around it
 //   value                what the criterion found, in the unit of its threshold
 //   across               the unit normal of the plane along which a vertex would be split
 //   time                 [s]

@@ -1,6 +1,6 @@
-// Elements that are born one after another in a large solid, with all that follows but the forces: the rule, the
-// closing of the edit, and the rows of the body. All tetrahedra around an edge are halved at a time, in an edit of
-// its own.
+// Elements that are born one after another in a large solid, with all that follows but the forces: the rule,
+// the closing of the edit, and the rows of the body. All tetrahedra around an edge are halved at a time, in
+// an edit of its own.
 #include "sim/elements.h"
 #include "sim/fracture/rule_change.h"
 #include "sim/house_rules/house_scripts.h"
@@ -57,8 +57,8 @@ std::vector<Dart> some_edges(const GMap& map, std::size_t count) {
   return darts;
 }
 
-// state: cells on a side; whether room is reserved. Counters: the first birth [ms]; of all later ones, microseconds
-// a new element, and the longest single change [ms].
+// state: cells on a side; whether room is reserved. Counters: the first birth [ms]; of all later ones,
+// microseconds a new element, and the longest single change [ms].
 void birth(benchmark::State& state) {
   const auto n = static_cast<int>(state.range(0));
   for (auto _ : state) {

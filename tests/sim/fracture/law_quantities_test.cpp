@@ -1,5 +1,5 @@
-// What rules ask of a law, against the definitions (plain_body.h): of the map as it is, and of what it was before
-// changes of the same edit. And rules that ask.
+// What rules ask of a law, against the definitions (plain_body.h): of the map as it is, and of what it was
+// before changes of the same edit. And rules that ask.
 #include "sim/fracture/law_quantities.h"
 
 #include "sim/fracture/plain_body.h"
@@ -222,7 +222,8 @@ std::string pulled(const std::string& rules, const std::string& law, const std::
 
 const std::string halve_where = R"xml(<rule name="halve"
     left="a*(0,2) b(_,_) c(1,_) a-1-b b-0-c a|3 b|3 c|3"
-    right="a(_,2) b(_,_) c(_,_) g(_,2) h(2,_) i(2,_) a-1-b b-0-c a-0-g g-1-h h-0-i i-1-c a|3 b|3 c|3 g|3 h|3 i|3">
+    right="a(_,2) b(_,_) c(_,_) g(_,2) h(2,_) i(2,_) a-1-b b-0-c a-0-g g-1-h h-0-i i-1-c
+            a|3 b|3 c|3 g|3 h|3 i|3">
     <set node="g" position="mean(a, edge)"/>
     <when test="TEST" at="any" otherwise="it is not pulled enough"/></rule>)xml";
 
@@ -231,8 +232,8 @@ std::string halve_if(const std::string& test) {
   return rule.replace(rule.find("TEST"), 4, test);
 }
 
-// The law finds elements above 1e4 Pa; the rule asks for 1.2e4 of one of the two at the edge. An event's value is
-// that of the element found. Where the rule refuses, the law counts it.
+// The law finds elements above 1e4 Pa; the rule asks for 1.2e4 of one of the two at the edge. An event's
+// value is that of the element found. Where the rule refuses, the law counts it.
 TEST(LawByRule, halves_where_the_stress_is_above_a_bound) {
   constexpr double bound = 1.2e4;
   const auto run = [&](const std::string& test) {

@@ -223,7 +223,8 @@ private:
     return sum;
   }
 
-  // Σ m σ / Σ m over the elements (e) around the vertex (thesis 7.2); the same of ε, which no criterion measures.
+  // Σ m σ / Σ m over the elements (e) around the vertex (thesis 7.2); the same of ε, which no criterion
+  // measures.
   Measured mean_at(Slot v, const std::map<Dart, Eigen::Matrix3d>& tensors, bool compression) const {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     double whole = 0;
