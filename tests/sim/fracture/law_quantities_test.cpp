@@ -287,7 +287,8 @@ TEST(LawByRule, counts_what_it_refuses_and_changes_nothing) {
 TEST(LawByRule, moves_by_what_the_criterion_found) {
   const auto scene = presets::load(pulled(
       R"xml(<rule name="lift" left="a*(1,2,3)" right="a(1,2,3)">
-        <set node="a" position="a + point(0, 0, 1e-3 * value)" velocity="point(time, stress(a, vertex), 0)"/></rule>)xml",
+        <set node="a" position="a + point(0, 0, 1e-3 * value)"
+              velocity="point(time, stress(a, vertex), 0)"/></rule>)xml",
       R"xml(<tear criterion="cumulative-vertex" threshold="0.05" rule="lift"/>)xml"));
   Body& body = scene.body();
   while (body.events.empty() && scene->steps_done() < 3000) {
