@@ -39,14 +39,12 @@ Filter balanced(const std::vector<double>& values) {
 
 } // namespace
 
-ColourFilters colour_filters(double pixels_per_degree) {
+ColourFilters colour_filters(double per_degree) {
   // Constants of the paper's table 1: a and b of the one or two Gaussians.
   constexpr double luminance = 0.0047, red_green = 0.0053;
   constexpr double a1 = 34.1, blue1 = 0.04, a2 = 13.5, blue2 = 0.025;
-  const int radius = static_cast<int>(std::ceil(3 * std::sqrt(blue1 / (2 * pi * pi)) * pixels_per_degree));
-  const auto of = [&](double b) {
-    return gaussian(pi * pi / (b * pixels_per_degree * pixels_per_degree), radius);
-  };
+  const int radius = static_cast<int>(std::ceil(3 * std::sqrt(blue1 / (2 * pi * pi)) * per_degree));
+  const auto of = [&](double b) { return gaussian(pi * pi / (b * per_degree * per_degree), radius); };
   const auto one = [&](double b) {
     const std::vector<double> values = of(b);
     return scaled(values, 1 / sum_of(values));
@@ -59,9 +57,9 @@ ColourFilters colour_filters(double pixels_per_degree) {
           scaled(wide, std::sqrt(height1 / all))};
 }
 
-FeatureFilters feature_filters(double pixels_per_degree) {
+FeatureFilters feature_filters(double per_degree) {
   constexpr double width = 0.082; // [degrees], of what counts as an edge
-  const double deviation = 0.5 * width * pixels_per_degree;
+  const double deviation = 0.5 * width * per_degree;
   const int radius = static_cast<int>(std::ceil(3 * deviation));
   const std::vector<double> base = gaussian(1 / (2 * deviation * deviation), radius);
   std::vector<double> first = base, second = base;

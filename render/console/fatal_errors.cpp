@@ -68,14 +68,14 @@ void say(const FatalMessage& words, std::string_view more) {
 }
 
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGABRT, SIGILL};
-std::array<struct sigaction, crashes.size()> before;
+std::array<struct sigaction, crashes.size()> actions_before;
 
 // If memory is not the reason, restores the previous handler: a faulting instruction is executed again on
 // return, a signal that was sent is raised again.
 void on_crash(int signal, siginfo_t* info, void*) {
   if (!is_memory_left()) end(Exit::OutOfBudget, no_memory);
   for (std::size_t n = 0; n < crashes.size(); ++n)
-    if (crashes[n] == signal) ::sigaction(signal, &before[n], nullptr);
+    if (crashes[n] == signal) ::sigaction(signal, &actions_before[n], nullptr);
   if (info->si_code <= 0) ::raise(signal);
 }
 
@@ -109,7 +109,7 @@ void install_fatal_error_handlers() {
   action.sa_sigaction = on_crash;
   action.sa_flags = SA_SIGINFO;
   sigemptyset(&action.sa_mask);
-  for (std::size_t n = 0; n < crashes.size(); ++n) ::sigaction(crashes[n], &action, &before[n]);
+  for (std::size_t n = 0; n < crashes.size(); ++n) ::sigaction(crashes[n], &action, &actions_before[n]);
 }
 
 void end_without_memory() noexcept {

@@ -8,11 +8,11 @@
 
 namespace rend::test {
 
-inline Picture flat(int width, int height, float red, float green, float blue) {
+inline Picture flat(int width, int height, float r, float g, float b) {
   Picture picture;
   picture.width = width;
   picture.height = height;
-  const float levels[] = {red, green, blue};
+  const float levels[] = {r, g, b};
   for (std::size_t c = 0; c < 3; ++c) picture.planes[c].assign(picture.pixels(), levels[c]);
   return picture;
 }
