@@ -8,8 +8,12 @@
 //
 // Order 2. The parameter ρ (rho-infinity) is what a step leaves of motion that is too fast for it: 1 keeps the
 // energy of linear systems, 0 damps such motion in a step or two. Slow motion is damped as little as such a
-// method can. Forces are weighted at both ends of the step, and not evaluated in between, so that those that
-// the laws of fracture have looked at serve.
+// method can. That no step is too large is proved for linear forces only (Erlicher, Bonaventura and Bursi, "The
+// analysis of the generalized-α method for non-linear dynamic problems", 2002): slack cloth of 20 × 20 crossed
+// cells, in steps of 10 ms, gains energy in its wrinkles with ρ = 0.8, and none with 0.5, the default.
+//
+// Forces are weighted at both ends of the step, and not evaluated in between, so that those that the laws of
+// fracture have looked at serve.
 //
 // The scheme hands on an acceleration a, which is not that of the forces: it follows them with a delay. It is
 // an embedding of vertices (VertexAcceleration), is part of checkpoints, and goes back with the guard. Where

@@ -68,7 +68,7 @@ struct StabilityBounds {
 struct SchemeSettings {
   double tolerance = 1e-6;   // adaptive schemes: the error of a substep relative to `size`
   double size = 1;           // [m], of the body
-  double rho_infinity = 0.8; // generalised-alpha: what a step leaves of motion that it does not resolve, 0 to 1
+  double rho_infinity = 0.5; // generalised-alpha: what a step leaves of motion that it does not resolve, 0 to 1
 };
 
 struct Scheme {

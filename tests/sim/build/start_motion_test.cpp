@@ -87,7 +87,8 @@ TEST(Ramp, of_gravity_gives_half_the_momentum_of_its_length) {
 }
 
 TEST(Ramp, of_gravity_holds_for_all_schemes_and_for_spheres) {
-  for (const char* scheme : {"symplectic", "explicit", "verlet", "midpoint", "rk45", "implicit"}) {
+  for (const char* scheme :
+       {"symplectic", "explicit", "verlet", "midpoint", "rk45", "implicit", "tr-bdf2", "alpha"}) {
     const auto s = loaded(
         cube(""), R"(<world gravity="0 0 -10" over="0.5"><sphere centre="9 9 9" radius="1" mass="2"/></world>)",
         std::string(R"(step="1e-3" duration="1" integrator=")") + scheme + "\"");

@@ -68,9 +68,9 @@ TEST(Study, of_an_oscillator_has_the_errors_of_the_closed_form) {
 }
 
 TEST(Study, sees_the_orders_of_all_schemes_and_trusts_its_reference) {
-  const StudyReport report =
-      study(oscillator, {"symplectic", "verlet", "midpoint", "rk4", "rk45", "implicit"}, 0.4, 8);
-  for (const char* name : {"symplectic", "verlet", "midpoint", "rk4"}) {
+  const StudyReport report = study(
+      oscillator, {"symplectic", "verlet", "midpoint", "rk4", "rk45", "implicit", "tr-bdf2", "alpha"}, 0.4, 8);
+  for (const char* name : {"symplectic", "verlet", "midpoint", "rk4", "tr-bdf2", "alpha"}) {
     const StudyCurve& c = curve(report, name);
     ASSERT_TRUE(c.fit) << name;
     EXPECT_NEAR(c.fit->order, c.theory, 0.1) << name;
