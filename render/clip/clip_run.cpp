@@ -147,7 +147,8 @@ Stopped ClipRun::simulate() {
 Stopped ClipRun::video_of_files() {
   const PipelineOptions& files = options_.files;
   VideoWriter video;
-  video.open(files.folder / (files.name + files.extension), files.width, files.height, files.fps);
+  video.open(files.folder / (files.name + files.extension), files.width, files.height, files.fps,
+             files.transparent);
   PngChecker checker(shape_of(session_, files));
   for (long frame : plan_.all()) {
     if (stop_signal() != 0) return Stopped::Interrupted;
