@@ -230,7 +230,7 @@ Frame FrameBuilder::draw_without_bodies(long number, double time) {
   for (std::size_t c = 0; c < 3; ++c) frame.background[c] = static_cast<float>(background[c]) / 255;
   frame.transparent = image_.transparent();
   frame.occlusion = image_.occlusion;
-  if (hud_) frame.hud = hud_->content(legends());
+  if (hud_) frame.hud = hud_->content(legends(), number, image_.playback().speed_at(scene_.time()));
   seconds_ += wall_clock() - start;
   return frame;
 }

@@ -34,7 +34,9 @@ const ElementType& image_type() {
 }
 
 const ElementType& hud_type() {
-  static const ElementType type{"hud", "text over the pictures", attributes_of<HudSettings>(), {}};
+  static const ElementType line{"text", "a line of text anywhere in the picture", attributes_of<HudText>(), {}};
+  static const ElementType type{
+      "hud", "text over the pictures", attributes_of<HudSettings>(), {{&line, 0, -1}}};
   return type;
 }
 
@@ -101,6 +103,15 @@ ImageSettings image_settings(const PresetNode& node) {
   return image;
 }
 
+HudSettings hud_settings(const PresetNode& node) {
+  auto hud = read_settings<HudSettings>(node);
+  for (const PresetNode* text : node.all("text")) {
+    colour_of(*text, "colour");
+    hud.texts.push_back(read_settings<HudText>(*text));
+  }
+  return hud;
+}
+
 void check_look(const PresetNode& look) {
   colour_of(look, "colour");
   colour_of(look, "inside");
@@ -135,6 +146,8 @@ std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
     if (image->text("background") != "none") colour_of(*image, "background");
     check_times(image_settings(*image));
   }
+  if (const PresetNode* hud = scene->child("hud"))
+    for (const HudText& text : hud_settings(*hud).texts) check_text(text);
   for (const PresetNode* body : scene->all("body"))
     if (const PresetNode* look = body->child("look")) {
       check_look(*look);
@@ -181,7 +194,7 @@ PictureSettings picture_settings(const PresetNode& scene) {
   PictureSettings settings;
   if (const PresetNode* camera = scene.child("camera")) settings.camera = camera_settings(*camera);
   if (const PresetNode* image = scene.child("image")) settings.image = image_settings(*image);
-  if (const PresetNode* hud = scene.child("hud")) settings.hud = read_settings<HudSettings>(*hud);
+  if (const PresetNode* hud = scene.child("hud")) settings.hud = hud_settings(*hud);
   for (const PresetNode* body : scene.all("body")) {
     const PresetNode* look = body->child("look");
     settings.looks.push_back(look ? read_settings<LookSettings>(*look) : LookSettings{});
