@@ -53,7 +53,7 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   if (out.transparent && !options.video.empty() && find_video_format(options.video)->alpha.empty())
     throw UserError(Exit::Usage, session.image().source.place("background"),
                     fmt::format("{} videos cannot have a transparent background", options.video),
-                    fmt::format("choose --video {}, or add --set image.background=#ffffff",
+                    fmt::format("formats that can: {}; or add --set image.background=#ffffff",
                                 listed(transparent_format_names())));
   out.fps = session.image().fps;
   out.png = !options.no_png;
