@@ -215,7 +215,7 @@ std::optional<CheckpointHeader> read_checkpoint(const fs::path& path, const std:
   if (!wanted) return {};
   const FrameClock& clock = session.clock();
   const long done = session.scene().steps_done();
-  if (head.next < 0 || clock.step_of(head.next - 1) > done || clock.step_of(head.next) < done)
+  if (head.next < 0 || clock.step_of(head.next - 1) > done || clock.first_step(head.next) < done)
     refuse(path,
            fmt::format(
                "the checkpoint is damaged: it says that frame {} is next, but its scene is at another time",

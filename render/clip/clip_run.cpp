@@ -99,7 +99,11 @@ void ClipRun::checkpoint(long next) {
 void ClipRun::checkpoint_if_due(long next) {
   constexpr double most_share = 20;
   const double start = wall_clock();
-  if (start < due_ || !keeps_checkpoints() || !frame_output_->flush_earlier()) return;
+  if (start < due_ || !keeps_checkpoints()) return;
+  if (!frame_output_->flush_earlier()) {
+    if (!session_.clock().has_shutter()) return; // the frames that show this state come first
+    frame_output_->flush_all();
+  }
   frame_output_->folder().make();
   checkpoint(next);
   due_ = wall_clock() + std::max(options_.checkpoint_every, most_share * (wall_clock() - start));
@@ -111,8 +115,15 @@ Stopped ClipRun::simulate() {
   if (options_.checkpoint_every > 0) due_ = wall_clock() + options_.checkpoint_every;
   Session::Callbacks calls;
   const auto tell = [&] { progress.update(session_.scene().steps_done(), session_.scene().time(), next); };
+  const bool shutter = session_.clock().has_shutter();
+  if (shutter)
+    calls.moment = [&](long frame) {
+      if (frame > first_ && session_.clock().first_step(frame) == session_.scene().steps_done())
+        checkpoint_if_due(frame); // before anything of the frame is remembered
+      frame_output_->expose(frame);
+    };
   calls.frame = [&](long frame) {
-    if (frame > first_) checkpoint_if_due(frame);
+    if (frame > first_ && !shutter) checkpoint_if_due(frame);
     frame_output_->take(frame);
     next = frame + 1;
     tell();
@@ -136,7 +147,8 @@ Stopped ClipRun::simulate() {
 Stopped ClipRun::video_of_files() {
   const PipelineOptions& files = options_.files;
   VideoWriter video;
-  video.open(files.folder / (files.name + files.extension), files.width, files.height, files.fps);
+  video.open(files.folder / (files.name + files.extension), files.width, files.height, files.fps,
+             files.transparent);
   PngChecker checker(shape_of(session_, files));
   for (long frame : plan_.all()) {
     if (stop_signal() != 0) return Stopped::Interrupted;

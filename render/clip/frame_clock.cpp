@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace rend {
 namespace {
@@ -28,15 +29,43 @@ std::optional<long> whole_number(std::string_view text) {
 
 } // namespace
 
-FrameClock::FrameClock(double duration, double step, double fps) : duration_(duration), step_(step), fps_(fps) {
-  CHECK(duration >= 0 && step > 0 && fps > 0 && duration / step < 1e15 && duration * fps < 1e15);
+FrameClock::FrameClock(double duration, double step, double fps, Playback playback, Shutter shutter)
+    : duration_(duration), step_(step), fps_(fps), playback_(std::move(playback)), shutter_(shutter) {
+  CHECK(shutter.open >= 0 && shutter.open <= 1 && shutter.samples > 0);
+  CHECK(duration >= 0 && step > 0 && fps > 0 && duration / step < 1e15 && clip_duration() * fps < 1e15);
   steps_ = static_cast<long>(std::ceil(duration / step * (1 - slack)));
-  frames_ = static_cast<long>(std::floor(duration * fps * (1 + slack))) + 1;
+  frames_ = static_cast<long>(std::floor(clip_duration() * fps * (1 + slack))) + 1;
+}
+
+long FrameClock::step_at(double time) const {
+  return std::min(static_cast<long>(std::ceil(time / step_ * (1 - slack))), steps_);
 }
 
 long FrameClock::step_of(long frame) const {
-  const double steps = std::ceil(static_cast<double>(frame) / (fps_ * step_) * (1 - slack));
-  return std::min(static_cast<long>(steps), steps_);
+  return step_at(time_of(frame));
+}
+
+std::vector<Moment> FrameClock::moments_of(long frame) const {
+  std::vector<Moment> moments;
+  if (!has_shutter()) return moments;
+  const long earliest = frame > 0 ? step_of(frame - 1) : 0;
+  for (int n = 0; n < shutter_.samples; ++n) {
+    const double before = shutter_.open * (1 - (n + 0.5) / shutter_.samples); // [frames]
+    const double time = playback_.simulated(std::max(static_cast<double>(frame) - before, 0.0) / fps_);
+    moments.push_back(
+        {.time = frame > 0 ? time : 0, .step = frame > 0 ? std::max(step_at(time), earliest) : 0});
+  }
+  const bool between = moments.back().time - moments.front().time < (shutter_.samples - 1) * step_;
+  for (Moment& moment : moments)
+    if (between && moment.step > earliest)
+      moment.share = std::clamp(moment.time / step_ - static_cast<double>(moment.step - 1), 0.0, 1.0);
+  return moments;
+}
+
+long FrameClock::first_step(long frame) const {
+  if (!has_shutter() || frame >= frames_) return step_of(frame);
+  const Moment first = moments_of(frame).front();
+  return first.share < 1 ? first.step - 1 : first.step;
 }
 
 FrameChoice::FrameChoice(const std::string& text) : all_(false) {

@@ -5,6 +5,9 @@
 // instability. OpenGL is started and the folder created when the first frame is released; a folder that was
 // created here and stays empty is removed.
 //
+// With motion blur a frame consists of the states that the shutter has seen until it closes at the frame
+// (FrameClock::moments_of).
+//
 // A run that is stopped by a signal releases the frames that it holds, and records them in its checkpoint: if
 // the simulation becomes unstable before the next frame after resuming, those pictures are removed again, so
 // that the result is that of an uninterrupted run.
@@ -33,7 +36,8 @@ public:
   FrameOutput(const FrameOutput&) = delete;
   FrameOutput& operator=(const FrameOutput&) = delete;
 
-  void take(long frame); // takes the current state
+  void expose(long frame); // with a shutter: looks at the current state for the picture of this frame
+  void take(long frame);   // takes the current state
   // Call before take() of a frame: flushes all earlier frames to the disk. False if one of them shows the
   // current state and is still held back.
   bool flush_earlier();
@@ -52,6 +56,18 @@ public:
   std::size_t surface_bytes() const { return maker_.bytes(); }
 
 private:
+  struct Held { // a frame that shows the held state
+    long number = 0;
+    FrameCamera camera = {};
+    std::vector<FrameMoment> moments = {}; // of the time for which the shutter was open
+    std::vector<FrameState> states = {};
+  };
+  struct Exposed { // a state that was looked at while the shutter was open
+    long step = 0;
+    FrameState state;
+    std::vector<FrameCamera> cameras; // of each moment
+  };
+  void develop(Held& out);
   void release();
   void start();
   void push(Frame&& frame);
@@ -66,8 +82,8 @@ private:
   std::unique_ptr<Pipeline> pipeline_;
   PipelineSeconds seconds_; // valid once the pipeline is closed
   std::optional<Frame> held_;
-  // the frames that show the held state, with their cameras
-  std::vector<std::pair<long, FrameCamera>> held_frames_;
+  std::vector<Held> held_frames_;
+  std::vector<Exposed> exposed_; // for the next frame
   long held_step_ = -1;
   std::vector<long> flushed_early_; // frames of the state of held_step_ that flush_all() wrote
   long frames_ = 0;

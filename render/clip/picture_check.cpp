@@ -86,6 +86,7 @@ public:
       check_camera_path();
     }
     check_fragment_colours();
+    check_frame_distance();
     return std::move(notes_);
   }
 
@@ -165,6 +166,16 @@ private:
       notes_.push_back(
           fmt::format("body '{}' is coloured by fragment, but has no <tear>: it keeps one colour", body->name));
     }
+  }
+
+  // Real time keeps quiet: there few steps are as long as a frame, and those that are were meant so.
+  void check_frame_distance() {
+    const double apart = clock_.playback().slowest() / clock_.fps(); // [s]
+    if (clock_.playback().is_real_time() || apart >= scene_.step_size()) return;
+    notes_.push_back(
+        fmt::format("where the clip is slowest its frames are {:.3g} s apart, and a step takes {:.3g} "
+                    "s: some frames show the same state; --set time.step={:.1g} avoids that",
+                    apart, scene_.step_size(), apart));
   }
 
   const Scene& scene_;

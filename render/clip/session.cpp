@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -40,7 +41,7 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
   app.add_option("--steps", options.steps, "simulate N steps instead of the preset's duration")
       ->type_name("N")
       ->transform(whole_number(0, 1000000000));
-  app.add_option("--fps", options.fps, "frames per second of simulated time; default: the preset's")
+  app.add_option("--fps", options.fps, "frames per second of the clip; default: the preset's")
       ->type_name("N")
       ->transform(real_number(1e-6, 1e6));
   app.add_option("--threads", options.threads,
@@ -100,7 +101,8 @@ Session::Session(const SessionOptions& options) : options_(options) {
   check_counts();
   const double step = scene_->step_size();
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
-  clock_ = std::make_unique<FrameClock>(duration, step, image().fps);
+  clock_ = std::make_unique<FrameClock>(duration, step, image().fps, image().playback(),
+                                        Shutter{image().shutter, image().shutter_samples});
   check_camera(picture_, *scene_, image().aspect(), *clock_);
   if (options.quiet) return;
   note_refused_threads(*scene_);
@@ -127,10 +129,10 @@ void Session::check_counts() const {
   constexpr double most = std::numeric_limits<int>::max() / 2;
   const double step = scene_->step_size();
   const double duration = options_.steps ? static_cast<double>(*options_.steps) * step : scene_->duration();
-  if (duration * image().fps < most) return;
+  if (image().playback().clip(duration) * image().fps < most) return;
   preset_->child("time")->fail(
-      "duration",
-      fmt::format("{:g} s at {:g} pictures a second are more than {:.0f} frames", duration, image().fps, most));
+      "duration", fmt::format("{:g} s{} at {:g} pictures a second are more than {:.0f} frames", duration,
+                              image().playback().is_real_time() ? "" : ", slowed down,", image().fps, most));
 }
 
 Stopped Session::run(long last_frame, const Callbacks& calls, long first_frame) {
@@ -152,24 +154,69 @@ long Session::last_step(long last_frame) const {
   return to_the_end ? clock_->steps() : clock_->step_of(last_frame);
 }
 
+namespace {
+
+// Calls back for the frames of a run, in the order of the states that they need.
+class FrameWatch {
+public:
+  FrameWatch(const FrameClock& clock, const Session::Callbacks& calls, long first_frame, long last_frame)
+      : clock_(clock), calls_(calls), frame_(first_frame), last_(last_frame) {
+    find_steps();
+  }
+
+  bool is_due(long done) const { return done >= taken_ || done >= looks_.front(); }
+  void call(long done) {
+    while (is_due(done)) {
+      if (done == looks_.front()) calls_.moment(frame_);
+      while (looks_.front() <= done) looks_.pop_front();
+      if (done < taken_) return;
+      calls_.frame(frame_++);
+      find_steps();
+    }
+  }
+  // Something of an earlier state is remembered for the next frame.
+  bool is_shutter_open(long done) const { return first_look_ < done; }
+
+private:
+  static constexpr long never = std::numeric_limits<long>::max();
+
+  void find_steps() {
+    looks_.clear();
+    taken_ = frame_ <= last_ ? clock_.step_of(frame_) : never;
+    if (calls_.moment && frame_ <= last_)
+      for (const Moment& moment : clock_.moments_of(frame_))
+        for (long step = moment.share < 1 ? moment.step - 1 : moment.step; step <= moment.step; ++step)
+          if (looks_.empty() || looks_.back() < step) looks_.push_back(step);
+    looks_.push_back(never);
+    first_look_ = looks_.front();
+  }
+
+  const FrameClock& clock_;
+  const Session::Callbacks& calls_;
+  long frame_, last_;       // the next frame, the last one
+  long taken_ = never;      // the step at which the next one is taken
+  std::deque<long> looks_;  // the steps whose states it looks at, from the next one on; ends with `never`
+  long first_look_ = never; // the first of all of them
+};
+
+} // namespace
+
 Stopped Session::loop(long first_frame, long last_frame, const Callbacks& calls, double& callback_seconds) {
-  constexpr long never = std::numeric_limits<long>::max();
   const long last_step = this->last_step(last_frame);
-  long frame = first_frame;                                        // the next
-  long due = frame <= last_frame ? clock_->step_of(frame) : never; // the step at which it is taken
+  FrameWatch watch(*clock_, calls, first_frame, last_frame);
   while (true) {
-    if (scene_->steps_done() >= due || scene_->steps_done() >= last_step) scene_->check_sound();
-    if (scene_->steps_done() >= due) {
+    const long done = scene_->steps_done();
+    if (watch.is_due(done) || done >= last_step) scene_->check_sound();
+    if (watch.is_due(done)) {
       const double since = wall_clock();
-      for (; frame <= last_frame && clock_->step_of(frame) <= scene_->steps_done(); ++frame) calls.frame(frame);
-      due = frame <= last_frame ? clock_->step_of(frame) : never;
+      watch.call(done);
       callback_seconds += wall_clock() - since;
     }
-    if (scene_->steps_done() >= last_step) {
+    if (done >= last_step) {
       scene_->check_account();
       return Stopped::No;
     }
-    if (stop_signal() != 0) return Stopped::Interrupted;
+    if (stop_signal() != 0 && !watch.is_shutter_open(done)) return Stopped::Interrupted;
     scene_->step();
     if (calls.step) calls.step();
   }

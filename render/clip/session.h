@@ -64,12 +64,15 @@ public:
   struct Callbacks {
     std::function<void(long frame)> frame; // at the state of each frame, from frame 0 on
     std::function<void()> step;            // after each step; may be empty
+    // Before that, at each state that the picture of the frame looks at while the shutter is open
+    // (FrameClock); may be empty.
+    std::function<void(long frame)> moment = {};
   };
   // The number of steps that run() does up to this last frame.
   long last_step(long last_frame) const;
   // Steps until frame `last_frame` (or the end of the clip, if it is the last frame), a signal, or an
-  // instability, which failure() then describes. To resume, restore first a state stored when `first_frame` was
-  // the next frame.
+  // instability, which failure() then describes. A signal that comes while the shutter is open ends it at the
+  // frame. To resume, restore first a state stored when `first_frame` was the next frame.
   Stopped run(long last_frame, const Callbacks& calls, long first_frame = 0);
 
   const std::optional<Unstable>& failure() const { return failure_; }

@@ -269,7 +269,7 @@ void declare_passed_on(CLI::App& app, BatchOptions& options) {
   app.add_option("--size", options.size, "width and height of the pictures in pixels; default: the presets'")
       ->type_name("WxH")
       ->check(some_word());
-  app.add_option("--fps", options.fps, "frames per second of simulated time; default: the presets'")
+  app.add_option("--fps", options.fps, "frames per second of the clip; default: the presets'")
       ->type_name("N")
       ->transform(real_number(1e-6, 1e6));
   app.add_option("--video", options.video, "also write a video of each job")

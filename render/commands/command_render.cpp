@@ -16,6 +16,7 @@
 #include "render/files/video_format.h"
 #include "render/help/usage.h"
 #include "sim/base/printable.h"
+#include "sim/base/wording.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -48,10 +49,12 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
     out.height = size.height;
   }
   out.samples = session.image().samples;
-  if (session.image().transparent() && !options.video.empty())
+  out.transparent = session.image().transparent();
+  if (out.transparent && !options.video.empty() && find_video_format(options.video)->alpha.empty())
     throw UserError(Exit::Usage, session.image().source.place("background"),
-                    "videos cannot have a transparent background",
-                    "leave out --video, or add --set image.background=#ffffff");
+                    fmt::format("{} videos cannot have a transparent background", options.video),
+                    fmt::format("formats that can: {}; or add --set image.background=#ffffff",
+                                listed(transparent_format_names())));
   out.fps = session.image().fps;
   out.png = !options.no_png;
   out.video = !options.video.empty();

@@ -69,6 +69,22 @@ struct FrameFloor {
   double z = 0; // [m]
 };
 
+// Bodies and obstacles as they are in one state of the simulation.
+struct FrameState {
+  std::vector<FrameBody> bodies, obstacles;
+  // Grows with each change of what there is to draw: between two states of one shape, only positions, normals
+  // and colours differ, corner by corner.
+  long shape = 0;
+};
+
+// A moment of the time for which the shutter is open.
+struct FrameMoment {
+  std::size_t before = 0, after = 0; // of Frame::states
+  double share = 1;                  // of the way from the one to the other
+  FrameCamera camera = {};
+  int weight = 1; // in the mean
+};
+
 struct Frame {
   double time = 0; // [s]
   int number = 0;  // from 0
@@ -82,6 +98,10 @@ struct Frame {
   bool transparent = false; // no floor and no backdrop: the picture has an alpha channel
   bool occlusion = false;   // draw with ambient occlusion
   HudContent hud;           // drawn over the picture; empty: nothing
+  // Motion blur: the picture is the mean of those at these moments, in linear light. They take the place of
+  // bodies, obstacles and camera. Empty: a plain picture.
+  std::vector<FrameMoment> moments;
+  std::vector<FrameState> states;
 };
 
 } // namespace rend

@@ -48,6 +48,7 @@ struct Hud::Context {
   void curves(const HudPlot& plot, ImVec2 low, ImVec2 high);
   void names(const HudPlot& plot, float x, float y);
   float legend(const HudLegend& legend, float bottom); // likewise
+  void line(const HudLine& line);
 
   float width_, height_; // [pixels]
   ImGuiContext* context_;
@@ -175,6 +176,14 @@ float Hud::Context::legend(const HudLegend& legend, float bottom) {
   return top;
 }
 
+// Its anchor is in the middle of its height.
+void Hud::Context::line(const HudLine& line) {
+  ImFont* font = line.large ? title_ : text_;
+  const ImVec2 size = size_of(font, line.text);
+  write(font, line.x * width_ - line.anchor * size.x, line.y * height_ - 0.5f * size.y, colour(line.colour),
+        line.text);
+}
+
 bool hud_available() {
   return true;
 }
@@ -194,6 +203,7 @@ void Hud::draw(const HudContent& content) {
   for (const HudPlot& plot : content.plots) bottom = context_->plot(plot, bottom) - gap;
   bottom = foot;
   for (const HudLegend& legend : content.legends) bottom = context_->legend(legend, bottom) - gap;
+  for (const HudLine& line : content.lines) context_->line(line);
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

@@ -31,14 +31,25 @@ struct HudLegend {
   std::vector<std::array<std::uint8_t, 3>> colours; // sRGB, from low to high
 };
 
+// A line of text anywhere.
+struct HudLine {
+  std::string text = {};
+  float x = 0, y = 0; // of its anchor, in shares of the picture, from its upper left corner
+  float anchor = 0;   // the share of the line that is left of the anchor
+  bool large = false; // as the title; else as the figures
+  std::array<std::uint8_t, 3> colour{0x1c, 0x20, 0x26}; // sRGB
+};
+
 struct HudContent {
   std::string title, subtitle;      // top left
   std::vector<std::string> figures; // top right, one a line
   std::vector<HudPlot> plots;       // bottom left
   std::vector<HudLegend> legends;   // bottom right, stacked
+  std::vector<HudLine> lines;       // over all of these
 
   bool empty() const {
-    return title.empty() && subtitle.empty() && figures.empty() && plots.empty() && legends.empty();
+    return title.empty() && subtitle.empty() && figures.empty() && plots.empty() && legends.empty() &&
+           lines.empty();
   }
 };
 

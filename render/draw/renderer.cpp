@@ -171,6 +171,18 @@ void Renderer::make_vertex_array() {
 }
 
 void Renderer::draw(const Frame& frame) {
+  if (frame.moments.empty()) return draw_plain(frame);
+  if (frame.moments.size() == 1) return draw_plain(frame_at(frame, frame.moments.front()));
+  if (!blur_) blur_.emplace();
+  blur_->start(picture_.name(), width_, height_, !frame.transparent);
+  for (const FrameMoment& moment : frame.moments) {
+    draw_plain(frame_at(frame, moment));
+    blur_->add(moment.weight);
+  }
+  blur_->finish();
+}
+
+void Renderer::draw_plain(const Frame& frame) {
   CHECK(!frame.floor || std::isfinite(frame.floor->z));
   CHECK(Eigen::Map<const Eigen::Array3f>(frame.background.data()).isFinite().all());
   upload(frame);

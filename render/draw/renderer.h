@@ -22,6 +22,7 @@
 #include "render/draw/frame.h"
 #include "render/draw/gl.h"
 #include "render/draw/light.h"
+#include "render/draw/motion_blur.h"
 #include "render/draw/occlusion.h"
 #include "render/files/image.h"
 
@@ -41,7 +42,8 @@ public:
   Renderer(int width, int height, int samples);
 
   // Afterwards the framebuffer of the resolved picture is bound: an overlay may draw on it before read().
-  // CHECK: all numbers of the frame are finite.
+  // CHECK: all numbers of the frame are finite. With motion blur it takes as long as the pictures of all
+  // moments.
   void draw(const Frame& frame);
   Image read(); // RGB, or RGBA where the frame is transparent
 
@@ -56,6 +58,7 @@ private:
     Eigen::AlignedBox3d bounds;      // [m]
   };
 
+  void draw_plain(const Frame& frame);
   void make_target(int width, int height);
   void fit_target(const PixelRect& covered);
   void make_picture();
@@ -93,6 +96,7 @@ private:
   Composite composite_;
   CoverageGrid blocks_;                // of the picture that bodies may cover
   std::optional<Occlusion> occlusion_; // created for the first frame that uses it
+  std::optional<MotionBlur> blur_;     // likewise
 
   GlFramebuffer target_, picture_, shadow_; // target_: of bodies, multisampled
   GlRenderbuffer picture_colour_;

@@ -34,7 +34,10 @@ TimeFacts time_of(const Session& session) {
           .duration = session.clock().duration(),
           .fps = session.clock().fps(),
           .steps = session.clock().steps(),
-          .frames = session.clock().frames()};
+          .frames = session.clock().frames(),
+          .clip_duration = session.clock().playback().is_real_time()
+                               ? std::nullopt
+                               : std::optional(session.clock().clip_duration())};
 }
 
 std::vector<SlotFacts> slots_of(const EmbeddedMap& map) {

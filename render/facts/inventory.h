@@ -26,6 +26,8 @@ struct TimeFacts {
   double damping_rate = 0;        // [1/s], the largest of all modes
   double duration = 0, fps = 0;   // [s], [1/s]
   long steps = 0, frames = 0;
+  // [s], of the clip; none: it plays in real time, and is as long as the simulation
+  std::optional<double> clip_duration = {};
 };
 
 struct SlotFacts {

@@ -10,17 +10,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json json_of(const TimeFacts& time) {
-  return {{"integrator", time.integrator},
-          {"order", time.order},
-          {"evaluations", time.evaluations},
-          {"step", time.step},
-          {"from", time.automatic ? "auto" : "preset"},
-          {"limit", json_or_null(time.limit)},
-          {"bounds", {{"omega", time.omega}, {"damping_rate", time.damping_rate}}},
-          {"duration", time.duration},
-          {"steps", time.steps},
-          {"fps", time.fps},
-          {"frames", time.frames}};
+  Json out = {{"integrator", time.integrator},
+              {"order", time.order},
+              {"evaluations", time.evaluations},
+              {"step", time.step},
+              {"from", time.automatic ? "auto" : "preset"},
+              {"limit", json_or_null(time.limit)},
+              {"bounds", {{"omega", time.omega}, {"damping_rate", time.damping_rate}}},
+              {"duration", time.duration},
+              {"steps", time.steps},
+              {"fps", time.fps},
+              {"frames", time.frames}};
+  if (time.clip_duration) out["clip_duration"] = *time.clip_duration;
+  return out;
 }
 
 Json json_of(const SlotFacts& one) {

@@ -54,8 +54,9 @@ std::string time_in_words(const TimeFacts& time) {
   step += fmt::format(", from modes of at most {:.4g} rad/s, damped at most {:.4g}/s", time.omega,
                       time.damping_rate);
   return folded("time      ", step) +
-         fmt::format("          {:.6g} s in {} steps; {} frames at {:g} a second\n", time.duration, time.steps,
-                     time.frames, time.fps);
+         fmt::format("          {:.6g} s in {} steps; {} frames at {:g} a second{}\n", time.duration,
+                     time.steps, time.frames, time.fps,
+                     time.clip_duration ? fmt::format(", a clip of {:.6g} s", *time.clip_duration) : "");
 }
 
 std::string orbit_in_words(Orbit orbit) {

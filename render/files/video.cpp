@@ -32,23 +32,45 @@ std::filesystem::path partial_path(const std::filesystem::path& path) {
   return path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
 }
 
-// RGB of that size, with the last column and row repeated.
+// Of that size, with the last column and row repeated.
 Image padded(const Image& image, int width, int height) {
-  Image out(width, height, 3);
+  Image out(width, height, image.channels);
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* from = image.row(std::min(y, image.height - 1));
     std::uint8_t* to = out.row(y);
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) *to++ = from[std::min(x, image.width - 1) * image.channels + c];
+    for (int x = 0; x < width; ++x, to += image.channels)
+      std::copy_n(from + static_cast<std::ptrdiff_t>(std::min(x, image.width - 1)) * image.channels,
+                  image.channels, to);
   }
   return out;
+}
+
+// Gives pixels that are not seen the colour of the next seen one to the left, else to the right, else above.
+// Smaller pictures and 4:2:0 mix colours of neighbours, whatever their alpha: black from outside would darken
+// the edges.
+void spread_colours(Image& image) {
+  for (int y = 0; y < image.height; ++y) {
+    std::uint8_t* const row = image.row(y);
+    const std::uint8_t* seen = nullptr;
+    for (int x = 0; x < image.width && !seen; ++x)
+      if (row[4 * x + 3] != 0) seen = row + std::ptrdiff_t{4} * x;
+    if (!seen && y == 0) continue;
+    for (int x = 0; x < image.width; ++x) {
+      std::uint8_t* const pixel = row + std::ptrdiff_t{4} * x;
+      if (pixel[3] != 0)
+        seen = pixel;
+      else
+        std::copy_n(seen ? seen : pixel - image.stride(), 3, pixel);
+    }
+  }
 }
 
 } // namespace
 
 // A video that is being encoded.
 struct VideoWriter::Encoder {
-  Encoder(const std::filesystem::path& path, const VideoFormat& format, int width, int height, double fps);
+  Encoder(const std::filesystem::path& path, const VideoFormat& format, int width, int height, double fps,
+          bool transparent);
   void add(const Image& image);
   void close();
 
@@ -59,6 +81,7 @@ private:
 
   const VideoFormat& kind_;
   int width_, height_, padded_width_, padded_height_; // [pixels], of the input, and padded
+  int channels_;                                      // of the input
   VideoSink sink_;
   VideoFilter filter_;
   Owned<AVCodecContext> codec_;
@@ -68,10 +91,12 @@ private:
 };
 
 VideoWriter::Encoder::Encoder(const std::filesystem::path& path, const VideoFormat& format, int width,
-                              int height, double fps)
+                              int height, double fps, bool transparent)
     : kind_(format), width_(width), height_(height), padded_width_(format.even ? even(width) : width),
-      padded_height_(format.even ? even(height) : height), sink_(path, partial_path(path), format.muxer),
-      filter_(format.chain, padded_width_, padded_height_, av_d2q(fps, 100000), path) {
+      padded_height_(format.even ? even(height) : height), channels_(transparent ? 4 : 3),
+      sink_(path, partial_path(path), format.muxer),
+      filter_(transparent ? format.alpha : format.chain, padded_width_, padded_height_, channels_,
+              av_d2q(fps, 100000), path) {
   open_codec(av_d2q(fps, 100000));
   sink_.begin(format.writing);
 }
@@ -122,9 +147,11 @@ void VideoWriter::Encoder::set_colours() {
 }
 
 void VideoWriter::Encoder::add(const Image& image) {
-  CHECK(image.width == width_ && image.height == height_);
-  const bool fits = image.channels == 3 && padded_width_ == width_ && padded_height_ == height_;
-  const Image copy = fits ? Image() : padded(image, padded_width_, padded_height_);
+  CHECK(image.width == width_ && image.height == height_ && image.channels == channels_);
+  const bool spreads = channels_ == 4 && !kind_.lossless;
+  const bool fits = !spreads && padded_width_ == width_ && padded_height_ == height_;
+  Image copy = fits ? Image() : padded(image, padded_width_, padded_height_);
+  if (spreads) spread_colours(copy);
   filter_.push(fits ? &image : &copy, [this](const AVFrame* frame) { send(frame); });
 }
 
@@ -189,12 +216,13 @@ VideoWriter::~VideoWriter() = default;
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 
-void VideoWriter::open(const std::filesystem::path& path, int width, int height, double fps) {
+void VideoWriter::open(const std::filesystem::path& path, int width, int height, double fps, bool transparent) {
   CHECK(encoder_ == nullptr && width > 0 && height > 0 && std::isfinite(fps) && fps > 0);
   av_log_set_level(AV_LOG_QUIET);
   require_video(path.extension().string());
   const VideoFormat* format = find_video_format(path.extension().string());
-  encoder_ = std::make_unique<Encoder>(path, *format, width, height, fps);
+  CHECK(!transparent || !format->alpha.empty());
+  encoder_ = std::make_unique<Encoder>(path, *format, width, height, fps, transparent);
 }
 
 void VideoWriter::add(const Image& image) {
@@ -237,7 +265,7 @@ VideoWriter::~VideoWriter() = default;
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 
-void VideoWriter::open(const std::filesystem::path&, int, int, double) {
+void VideoWriter::open(const std::filesystem::path&, int, int, double, bool) {
   require_video({});
 }
 

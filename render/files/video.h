@@ -33,10 +33,11 @@ public:
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) noexcept;
 
-  // width, height [pixels], fps [1/s]. Throws UserError: Usage for an unknown file type or a build without
-  // video, CannotCreate where the file cannot be created.
-  void open(const std::filesystem::path& path, int width, int height, double fps);
-  void add(const Image& image); // CHECK: of the size given to open. Throws UserError (ReadWrite)
+  // width, height [pixels], fps [1/s]. transparent: pictures have alpha, and so has the video; CHECK: the
+  // format has it. Throws UserError: Usage for an unknown file type or a build without video, CannotCreate
+  // where the file cannot be created.
+  void open(const std::filesystem::path& path, int width, int height, double fps, bool transparent = false);
+  void add(const Image& image); // CHECK: of the size and channels given to open. Throws UserError (ReadWrite)
   void close();                 // renames the finished file. Throws UserError (ReadWrite)
   bool is_open() const;
 

@@ -14,14 +14,16 @@ extern "C" {
 
 namespace rend {
 
-VideoFilter::VideoFilter(const std::string& chain, int width, int height, AVRational rate,
+VideoFilter::VideoFilter(const std::string& chain, int width, int height, int channels, AVRational rate,
                          const std::filesystem::path& file)
     : file_(file), graph_(check_allocated(avfilter_graph_alloc())), in_(check_allocated(av_frame_alloc())),
       out_(check_allocated(av_frame_alloc())) {
+  CHECK(channels == 3 || channels == 4);
+  const AVPixelFormat pixels = channels == 4 ? AV_PIX_FMT_RGBA : AV_PIX_FMT_RGB24;
   graph_->nb_threads = 1;
   const std::string source =
       fmt::format("buffer=video_size={}x{}:pix_fmt={}:time_base={}/{}:frame_rate={}/{}:pixel_aspect=1/1", width,
-                  height, static_cast<int>(AV_PIX_FMT_RGB24), rate.den, rate.num, rate.num, rate.den);
+                  height, static_cast<int>(pixels), rate.den, rate.num, rate.num, rate.den);
   const std::string text = source + "," + chain + ",buffersink";
   AVFilterInOut *inputs = nullptr, *outputs = nullptr;
   check_av(avfilter_graph_parse2(graph_.get(), text.c_str(), &inputs, &outputs), file_,
@@ -35,11 +37,11 @@ VideoFilter::VideoFilter(const std::string& chain, int width, int height, AVRati
     if (std::strcmp(filter->filter->name, "buffersink") == 0) sink_ = filter;
   }
   CHECK(source_ && sink_);
-  in_->format = AV_PIX_FMT_RGB24;
+  in_->format = pixels;
   in_->width = width;
   in_->height = height;
   constexpr int aligned = 64; // [bytes], row alignment that libav prefers
-  stride_ = (3 * width + aligned - 1) / aligned * aligned;
+  stride_ = (channels * width + aligned - 1) / aligned * aligned;
   frame_pool_.reset(
       check_allocated(av_buffer_pool_init(static_cast<std::size_t>(stride_) * height + aligned, nullptr)));
 }
@@ -59,7 +61,8 @@ AVRational VideoFilter::time_base() const {
 
 void VideoFilter::push(const Image* image, const std::function<void(const AVFrame*)>& take) {
   if (image != nullptr) {
-    CHECK(image->channels == 3 && image->width == in_->width && image->height == in_->height);
+    CHECK((image->channels == 4) == (in_->format == AV_PIX_FMT_RGBA) && image->width == in_->width &&
+          image->height == in_->height);
     const Owned<AVFrame> copy(check_allocated(av_frame_alloc())); // the filter graph may keep a reference
     copy->format = in_->format;
     copy->width = in_->width;

@@ -10,9 +10,9 @@ namespace rend {
 
 class VideoFilter {
 public:
-  // width, height [pixels] of the input pictures, RGB; `chain` in libavfilter's syntax; one thread, for
-  // reproducible output. `file` is named in errors.
-  VideoFilter(const std::string& chain, int width, int height, AVRational rate,
+  // width, height [pixels] of the input pictures; channels: 3, RGB, or 4, RGBA; `chain` in libavfilter's
+  // syntax; one thread, for reproducible output. `file` is named in errors.
+  VideoFilter(const std::string& chain, int width, int height, int channels, AVRational rate,
               const std::filesystem::path& file);
 
   int width() const; // [pixels], of the output

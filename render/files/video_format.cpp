@@ -4,8 +4,10 @@ namespace rend {
 namespace {
 
 // BT.709, limited range, 4:2:0: what players expect of HD video.
-const char* to_video =
-    "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+bitexact,format=yuv420p";
+std::string bt709(const char* pixels) {
+  return "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+bitexact,format=" +
+         std::string(pixels);
+}
 const char* preview = "scale=w=min(480\\,iw):h=-1:flags=lanczos+accurate_rnd+bitexact";
 
 // Preset veryfast takes 8 ms for a picture of 1280 x 720; medium 17 ms. One fragment a second: a killed run
@@ -15,7 +17,8 @@ VideoFormat mp4() {
           "H.264, plays everywhere",
           "mp4",
           "libx264",
-          to_video,
+          bt709("yuv420p"),
+          "",
           {{"preset", "veryfast"}, {"subq", "1"}, {"crf", "18"}},
           {{"movflags", "+frag_keyframe+empty_moov+default_base_moof"}},
           true,
@@ -28,7 +31,8 @@ VideoFormat webm() {
           "VP9, smaller, for the web",
           "webm",
           "libvpx-vp9",
-          to_video,
+          bt709("yuv420p"),
+          bt709("yuva420p"), // alpha is a second picture beside each, which browsers know
           {{"deadline", "good"}, {"cpu-used", "5"}, {"row-mt", "1"}, {"crf", "24"}, {"b", "0"}},
           {{"cluster_time_limit", "1000"}},
           true,
@@ -42,6 +46,7 @@ VideoFormat mkv() {
           "matroska",
           "ffv1",
           "format=bgr0",
+          "format=bgra",
           {{"level", "3"}, {"slices", "4"}, {"slicecrc", "1"}},
           {{"cluster_time_limit", "1000"}},
           false,
@@ -50,15 +55,17 @@ VideoFormat mkv() {
 }
 
 VideoFormat gif() {
+  // GIF delays are hundredths of a second, and browsers slow down anything faster than 50 frames a second.
+  const std::string small = "fps=fps=min(50\\,source_fps)," + std::string(preview);
+  // What has alpha of at least a half is opaque: palettes have one colour that is transparent.
+  const std::string paletted = ",split[a][b];[a]palettegen=stats_mode=single[palette];"
+                               "[b][palette]paletteuse=new=1:dither=bayer:bayer_scale=4";
   return {"gif",
           "a preview of at most 480 pixels across",
           "gif",
           "gif",
-          // GIF delays are hundredths of a second, and browsers slow down anything faster than 50 frames a
-          // second.
-          "fps=fps=min(50\\,source_fps)," + std::string(preview) +
-              ",split[a][b];[a]palettegen=stats_mode=single[palette];"
-              "[b][palette]paletteuse=new=1:dither=bayer:bayer_scale=4",
+          small + paletted,
+          small + paletted,
           {},
           {},
           false,
@@ -72,6 +79,7 @@ VideoFormat apng() {
           "apng",
           "apng",
           std::string(preview) + ",format=rgb24",
+          std::string(preview) + ",format=rgba",
           {{"pred", "mixed"}},
           {{"plays", "0"}},
           false,
@@ -95,6 +103,13 @@ const VideoFormat* find_video_format(const std::string& name) {
 std::vector<std::string> video_format_names() {
   std::vector<std::string> names;
   for (const VideoFormat& format : video_formats()) names.push_back(format.name);
+  return names;
+}
+
+std::vector<std::string> transparent_format_names() {
+  std::vector<std::string> names;
+  for (const VideoFormat& format : video_formats())
+    if (!format.alpha.empty()) names.push_back(format.name);
   return names;
 }
 

@@ -2,7 +2,7 @@
 //
 // The filter chain is in libavfilter's syntax: `scale` converts sRGB to the encoder's pixel format and tags the
 // colour space, so that all players show the same colours; previews are scaled down, a GIF has a palette for
-// each picture.
+// each picture. Transparent pictures take a chain of their own, from straight RGBA.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +18,7 @@ struct VideoFormat {
   std::string muxer;   // name in libavformat
   std::string encoder; // name in libavcodec
   std::string chain;   // libavfilter graph, from RGB to the encoder's pixel format
+  std::string alpha;   // the same from RGBA, with transparency; empty: the format has none
   std::vector<std::pair<std::string, std::string>> quality; // encoder options
   std::vector<std::pair<std::string, std::string>> writing; // muxer options during encoding
   bool even = false;     // 4:2:0 needs even sides: an odd picture is padded by repeating its last column or row
@@ -31,5 +32,6 @@ const std::vector<VideoFormat>& video_formats();
 const VideoFormat* find_video_format(const std::string& name);
 
 std::vector<std::string> video_format_names();
+std::vector<std::string> transparent_format_names(); // those with transparency
 
 } // namespace rend

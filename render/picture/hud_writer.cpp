@@ -2,7 +2,9 @@
 
 #include "render/picture/colour.h"
 #include "sim/base/archive.h"
+#include "sim/base/check.h"
 #include "sim/base/units.h"
+#include "sim/base/wording.h"
 
 #include <fmt/format.h>
 
@@ -19,28 +21,104 @@ constexpr std::array<Colour, 4> colours{{{0, 114, 178}, {213, 94, 0}, {0, 158, 1
 
 } // namespace
 
+const std::vector<std::pair<std::string, std::string>>& hud_placeholders() {
+  static const std::vector<std::pair<std::string, std::string>> all{
+      {"time", "the simulated time"},
+      {"step", "the number of steps so far"},
+      {"frame", "the number of the frame"},
+      {"speed", "seconds of simulation in a second of the clip"},
+      {"tears", "the number of tears"},
+      {"fragments", "the number of fragments"},
+      {"kinetic", "the kinetic energy"},
+      {"elastic", "the elastic energy"},
+      {"title", "the title"}};
+  return all;
+}
+
+namespace {
+
+std::string placeholders_in_words() {
+  std::string out;
+  for (const auto& [word, what] : hud_placeholders())
+    out += fmt::format("{}{{{}}}, {}", out.empty() ? "" : "; ", word, what);
+  return out;
+}
+
+// Calls f(text) for what is outside of braces, g(word) for what is inside. False: braces are not closed.
+template <class F, class G> bool each_part(std::string_view text, F&& f, G&& g) {
+  while (!text.empty()) {
+    const std::size_t open = std::min(text.find('{'), text.size());
+    f(text.substr(0, open));
+    text.remove_prefix(open);
+    if (text.empty()) return true;
+    const std::size_t close = text.find('}');
+    if (close == std::string_view::npos) return false;
+    g(std::string(text.substr(1, close - 1)));
+    text.remove_prefix(close + 1);
+  }
+  return true;
+}
+
+} // namespace
+
+template <> const Fields<HudText>& fields_of() {
+  using S = HudText;
+  static const Fields<S> fields{
+      field(&S::at, numbers("at", 2, "",
+                            "place of the text, in shares of the picture's width and height, from its "
+                            "upper left corner")
+                        .at_least(0)
+                        .at_most(1)),
+      field(&S::text,
+            text("text", "the text; words in braces are replaced in every frame: " + placeholders_in_words())
+                .is_required()),
+      field(&S::align, word("align", {"left", "centre", "right"}, "which end of the text is at its place")),
+      field(&S::size, word("size", {"small", "large"},
+                           "size of its letters\nsmall: as the figures\nlarge: as the title")),
+      colour_field(&S::colour, text("colour", "#rrggbb"))};
+  return fields;
+}
+
+void check_text(const HudText& text) {
+  std::vector<std::string> words;
+  for (const auto& [word, what] : hud_placeholders()) words.push_back(word);
+  const auto check = [&](const std::string& word) {
+    if (std::find(words.begin(), words.end(), word) == words.end())
+      text.source.fail("text", fmt::format("nothing stands for {{{}}} in a text", word),
+                       suggestion(word, words, "words in braces are"));
+  };
+  if (!each_part(
+          text.text, [](std::string_view) {}, check))
+    text.source.fail("text", "a brace is opened and not closed: " + in_quotes(text.text), "write it as {time}");
+}
+
 template <> const Fields<HudSettings>& fields_of() {
   using S = HudSettings;
   static const Fields<S> fields{
-      field(&S::show,
-            words_of(
-                "show", {"title", "time", "energy", "tears", "legend", "cost"},
-                "what is written over the picture\ntitle: title and subtitle\ntime: the simulated "
-                "time\nenergy: curves of the energies\ntears: the numbers of tears and fragments\nlegend: the "
-                "scale of the bodies' colours\ncost: the run time of a step (it differs from run to run)")),
+      field(
+          &S::show,
+          words_of(
+              "show", {"title", "time", "energy", "tears", "legend", "cost", "none"},
+              "what is written over the picture\ntitle: title and subtitle\ntime: the simulated "
+              "time\nenergy: curves of the energies\ntears: the numbers of tears and fragments\nlegend: the "
+              "scale of the bodies' colours\ncost: the run time of a step (it differs from run to run)\nnone: "
+              "nothing but what <text> says")),
       field(&S::title, text("title", "title of the clip; default: the scene's name")),
       field(&S::subtitle, text("subtitle", "a line below the title"))};
   return fields;
 }
 
 HudWriter::HudWriter(const HudSettings& hud, const Scene& scene, long frames) : scene_(scene), frames_(frames) {
+  for (const HudText& text : hud.texts) check_text(text);
   const auto has = [&](const char* word) {
     return std::find(hud.show.begin(), hud.show.end(), word) != hud.show.end();
   };
+  name_ = hud.title.value_or(scene.name());
   if (has("title")) {
-    title_ = hud.title.value_or(scene.name());
+    title_ = name_;
     subtitle_ = hud.subtitle.value_or("");
   }
+  texts_ = hud.texts;
   time_ = has("time");
   energy_ = has("energy");
   tears_ = has("tears");
@@ -86,7 +164,20 @@ HudPlot HudWriter::energy_plot() const {
   return plot;
 }
 
-HudContent HudWriter::content(std::vector<HudLegend> legends) const {
+std::string HudWriter::value_of(const std::string& placeholder, long frame, double speed) const {
+  if (placeholder == "time") return fmt::format("{:.3f} s", scene_.time());
+  if (placeholder == "step") return fmt::format("{}", scene_.steps_done());
+  if (placeholder == "frame") return fmt::format("{}", frame);
+  if (placeholder == "speed") return fmt::format("{:.3g}", speed);
+  if (placeholder == "tears") return fmt::format("{}", scene_.tears());
+  if (placeholder == "fragments") return fmt::format("{}", scene_.fragments());
+  if (placeholder == "kinetic") return in_units(scene_.kinetic_energy(), "J");
+  if (placeholder == "elastic") return in_units(scene_.elastic_energy(), "J");
+  CHECK_NOTE(placeholder == "title", placeholder);
+  return name_;
+}
+
+HudContent HudWriter::content(std::vector<HudLegend> legends, long frame, double speed) const {
   HudContent out;
   out.title = title_;
   out.subtitle = subtitle_;
@@ -103,6 +194,17 @@ HudContent HudWriter::content(std::vector<HudLegend> legends) const {
   }
   if (energy_) out.plots.push_back(energy_plot());
   if (legend_) out.legends = std::move(legends);
+  for (const HudText& text : texts_) {
+    HudLine line{.x = static_cast<float>(text.at[0]),
+                 .y = static_cast<float>(text.at[1]),
+                 .anchor = 0.5f * static_cast<float>(text.align),
+                 .large = text.size == HudText::Size::Large,
+                 .colour = text.colour};
+    each_part(
+        text.text, [&](std::string_view part) { line.text += part; },
+        [&](const std::string& word) { line.text += value_of(word, frame, speed); });
+    out.lines.push_back(std::move(line));
+  }
   return out;
 }
 

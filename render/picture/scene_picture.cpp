@@ -199,24 +199,49 @@ void FrameBuilder::observe() {
   seconds_ += wall_clock() - start;
 }
 
+// A state may be observed twice, before and after a run was stopped: the camera must not move on in between.
+void FrameBuilder::observe_moment() {
+  const double start = wall_clock();
+  for (auto& body : bodies_) body->observe(fragments_seen_);
+  if (!viewpoint_.has_observed(scene_.time())) viewpoint_.observe(scene_);
+  seconds_ += wall_clock() - start;
+}
+
+FrameState FrameBuilder::state() {
+  const double start = wall_clock();
+  FrameState state;
+  for (auto& body : bodies_) state.bodies.push_back(body->draw());
+  for (const auto& body : scene_.bodies()) state.shape += body->boundary().revision();
+  const World& world = scene_.world();
+  for (std::size_t n = 0; n < spheres_.size(); ++n)
+    state.obstacles.push_back(picture_of(world.spheres[n], spheres_[n]));
+  for (std::size_t n = 0; n < boxes_.size(); ++n)
+    state.obstacles.push_back(picture_of(world.boxes[n], boxes_[n], scene_.time()));
+  seconds_ += wall_clock() - start;
+  return state;
+}
+
 Frame FrameBuilder::draw(long number, double time) {
+  FrameState now = state();
+  Frame frame = draw_without_bodies(number, time);
+  frame.bodies = std::move(now.bodies);
+  frame.obstacles = std::move(now.obstacles);
+  return frame;
+}
+
+Frame FrameBuilder::draw_without_bodies(long number, double time) {
   const double start = wall_clock();
   Frame frame;
   frame.time = scene_.time();
   frame.number = static_cast<int>(number);
-  for (auto& body : bodies_) frame.bodies.push_back(body->draw());
   const World& world = scene_.world();
-  for (std::size_t n = 0; n < spheres_.size(); ++n)
-    frame.obstacles.push_back(picture_of(world.spheres[n], spheres_[n]));
-  for (std::size_t n = 0; n < boxes_.size(); ++n)
-    frame.obstacles.push_back(picture_of(world.boxes[n], boxes_[n], scene_.time()));
   if (world.floor) frame.floor = FrameFloor{world.floor->z};
   frame.camera = viewpoint_.at(time);
   const Colour background = image_.background.value_or(Colour{});
   for (std::size_t c = 0; c < 3; ++c) frame.background[c] = static_cast<float>(background[c]) / 255;
   frame.transparent = image_.transparent();
   frame.occlusion = image_.occlusion;
-  if (hud_) frame.hud = hud_->content(legends());
+  if (hud_) frame.hud = hud_->content(legends(), number, image_.playback().speed_at(scene_.time()));
   seconds_ += wall_clock() - start;
   return frame;
 }

@@ -4,7 +4,8 @@
 // Colours that depend on a scale or an order must not flicker, and a frame drawn alone must equal the same
 // frame of the whole clip. So observe() is called for every frame of the clip, drawn or not: a scale is the
 // largest value so far, rounded up to 1, 2 or 5 times a power of ten; and a fragment's colour is assigned to
-// its smallest dart when it is first observed, so that when a fragment splits, one part keeps its colour.
+// its smallest dart when it is first observed, so that when a fragment splits, one part keeps its colour. With
+// motion blur the states of all its moments are observed likewise, drawn or not.
 #pragma once
 
 #include "render/draw/frame.h"
@@ -58,7 +59,12 @@ public:
 
   void observe(); // call with the state of each frame
   Frame draw(long number,
-             double time); // `time` [s] of the frame in the clip, for the camera; call observe() first
+             double time); // `time` [s] of the frame, for the camera; call observe() first
+  // For motion blur: call observe_moment() with the states of its moments (FrameClock::moments_of), then
+  // state() for those that are drawn; draw_without_bodies() then makes the rest of the frame.
+  void observe_moment();
+  FrameState state();
+  Frame draw_without_bodies(long number, double time);
   FrameCamera camera(double time) const { return viewpoint_.at(time); }
   std::size_t bytes() const;                  // of surfaces
   double seconds() const { return seconds_; } // spent in observe() and draw()

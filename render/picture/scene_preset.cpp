@@ -22,13 +22,21 @@ const ElementType& camera_type() {
 }
 
 const ElementType& image_type() {
+  static const ElementType key{
+      "key",
+      "how fast the clip plays at a time; between keys the speed changes evenly, as that "
+      "of a car that brakes",
+      attributes_of<SpeedKey>(),
+      {}};
   static const ElementType type{
-      "image", "size, rate and quality of the pictures", attributes_of<ImageSettings>(), {}};
+      "image", "size, rate and quality of the pictures", attributes_of<ImageSettings>(), {{&key, 0, -1}}};
   return type;
 }
 
 const ElementType& hud_type() {
-  static const ElementType type{"hud", "text over the pictures", attributes_of<HudSettings>(), {}};
+  static const ElementType line{"text", "a line of text anywhere in the picture", attributes_of<HudText>(), {}};
+  static const ElementType type{
+      "hud", "text over the pictures", attributes_of<HudSettings>(), {{&line, 0, -1}}};
   return type;
 }
 
@@ -89,6 +97,21 @@ CameraSettings camera_settings(const PresetNode& node) {
   return camera;
 }
 
+ImageSettings image_settings(const PresetNode& node) {
+  auto image = read_settings<ImageSettings>(node);
+  for (const PresetNode* key : node.all("key")) image.speed_keys.push_back(read_settings<SpeedKey>(*key));
+  return image;
+}
+
+HudSettings hud_settings(const PresetNode& node) {
+  auto hud = read_settings<HudSettings>(node);
+  for (const PresetNode* text : node.all("text")) {
+    colour_of(*text, "colour");
+    hud.texts.push_back(read_settings<HudText>(*text));
+  }
+  return hud;
+}
+
 void check_look(const PresetNode& look) {
   colour_of(look, "colour");
   colour_of(look, "inside");
@@ -120,8 +143,12 @@ void check_colours(const PresetNode& body, const PresetNode& look) {
 std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
   check_name(*scene);
   duration_of(*scene->child("time")); // said by all commands alike
-  if (const PresetNode* image = scene->child("image"); image && image->text("background") != "none")
-    colour_of(*image, "background");
+  if (const PresetNode* image = scene->child("image")) {
+    if (image->text("background") != "none") colour_of(*image, "background");
+    check_times(image_settings(*image));
+  }
+  if (const PresetNode* hud = scene->child("hud"))
+    for (const HudText& text : hud_settings(*hud).texts) check_text(text);
   for (const PresetNode* body : scene->all("body"))
     if (const PresetNode* look = body->child("look")) {
       check_look(*look);
@@ -167,8 +194,8 @@ std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::st
 PictureSettings picture_settings(const PresetNode& scene) {
   PictureSettings settings;
   if (const PresetNode* camera = scene.child("camera")) settings.camera = camera_settings(*camera);
-  if (const PresetNode* image = scene.child("image")) settings.image = read_settings<ImageSettings>(*image);
-  if (const PresetNode* hud = scene.child("hud")) settings.hud = read_settings<HudSettings>(*hud);
+  if (const PresetNode* image = scene.child("image")) settings.image = image_settings(*image);
+  if (const PresetNode* hud = scene.child("hud")) settings.hud = hud_settings(*hud);
   for (const PresetNode* body : scene.all("body")) {
     const PresetNode* look = body->child("look");
     settings.looks.push_back(look ? read_settings<LookSettings>(*look) : LookSettings{});

@@ -12,7 +12,7 @@ namespace {
 
 // Where the curves of energies will end.
 long frames_of(const Scene& scene, const ImageSettings& image) {
-  return 1 + std::lround(std::min(scene.duration() * image.fps, 1e6));
+  return 1 + std::lround(std::min(image.playback().clip(scene.duration()) * image.fps, 1e6));
 }
 
 } // namespace

@@ -29,8 +29,11 @@ public:
   // settings do not fit together.
   Viewpoint(const CameraSettings& camera, const Scene& scene, double aspect, double duration);
 
-  void observe(const Scene& scene);  // call with the state of each frame; needed only by a following camera
-  FrameCamera at(double time) const; // [s]
+  void observe(const Scene& scene); // call with the state of each frame; needed only by a following camera
+  bool has_observed(double time) const {
+    return last_ == time;
+  }                                         // [s]: of the last state observed, if it follows
+  FrameCamera at(double time) const;        // [s]
   void store(Archive& archive, double now); // [s]: state of a following camera; checkpoint
 
 private:

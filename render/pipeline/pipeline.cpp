@@ -98,8 +98,8 @@ Pipeline::Stages::Stages(const PipelineOptions& options) : options_(options) {
   renderer_ = std::make_unique<Renderer>(options.width, options.height, options.samples);
   device_->release();
   if (options.video)
-    video_.open(options.folder / (options.name + options.extension), options.width, options.height,
-                options.fps);
+    video_.open(options.folder / (options.name + options.extension), options.width, options.height, options.fps,
+                options.transparent);
 }
 
 void Pipeline::Stages::start() {

@@ -25,6 +25,7 @@ struct PipelineOptions {
   double fps = 30; // of the video
   bool png = true;
   bool video = false;
+  bool transparent = false;       // frames are; the video, whose format must have it, too
   std::string extension = ".mp4"; // of the video; see video_format.h
   int png_writers = 2;            // 1 or 2 threads: one writes while the other waits for the disk
   std::string mark; // written into each PNG as text chunk "rend:scene", before its number; empty: none

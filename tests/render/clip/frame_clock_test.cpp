@@ -52,6 +52,66 @@ TEST(FrameClock, CountsAFrameAtTheEndAndNoneBehindIt) {
   EXPECT_EQ(FrameClock(0.299, 1e-3, 10).frames(), 3);
 }
 
+// An eighth of real speed: frame 8 k is at the time of frame k, and its state is the same.
+TEST(FrameClock, SlowMotionMakesMoreFramesOfTheSameSteps) {
+  const FrameClock real(4, 1e-3, 30), slow(4, 1e-3, 30, Playback(0.125));
+  EXPECT_EQ(slow.steps(), real.steps());
+  EXPECT_EQ(slow.frames(), 961);
+  EXPECT_DOUBLE_EQ(slow.clip_duration(), 32);
+  for (long k = 0; k < real.frames(); ++k) {
+    EXPECT_DOUBLE_EQ(slow.time_of(8 * k), real.time_of(k));
+    EXPECT_EQ(slow.step_of(8 * k), real.step_of(k));
+  }
+}
+
+// 1 s at 1, 1 s at a mean of 0.6 (from 1 to 0.2), the rest at 0.2.
+TEST(FrameClock, FollowsKeysOfSpeed) {
+  const FrameClock clock(3, 1e-4, 60, Playback(1, {{.at = 1, .speed = 1}, {.at = 2, .speed = 0.2}}));
+  EXPECT_NEAR(clock.clip_duration(), 1 + 1 / 0.6 + 1 / 0.2, 1e-12);
+  EXPECT_EQ(clock.frames(), 461); // 7.666 s
+  EXPECT_EQ(clock.step_of(60), 10000);
+  EXPECT_EQ(clock.step_of(160), 20000); // 2.666 s
+  EXPECT_NEAR(clock.time_of(110), 1 + 0.8333333333 * (1 + 0.6) / 2, 1e-9);
+  EXPECT_EQ(clock.step_of(460), 30000);
+}
+
+TEST(FrameClock, WithoutAShutterLooksAtNoMoments) {
+  const FrameClock clock(4, 1e-3, 30);
+  EXPECT_TRUE(clock.moments_of(7).empty());
+  EXPECT_EQ(clock.first_step(7), clock.step_of(7));
+}
+
+TEST(FrameClock, MomentsAreTheMiddlesOfPartsOfTheTimeUntilTheFrame) {
+  const FrameClock clock(4, 1e-5, 25, Playback(0.5), {.open = 0.5, .samples = 8});
+  const auto moments = clock.moments_of(100); // at 4 s of the clip, 2 s; open for 20 ms of the clip, 10 ms
+  ASSERT_EQ(moments.size(), 8u);
+  for (std::size_t n = 0; n < 8; ++n) {
+    EXPECT_NEAR(moments[n].time, 1.99 + 0.01 * (static_cast<double>(n) + 0.5) / 8, 1e-12);
+    EXPECT_NEAR(static_cast<double>(moments[n].step) * 1e-5, moments[n].time, 1.0001e-5);
+    EXPECT_GE(static_cast<double>(moments[n].step) * 1e-5, moments[n].time * (1 - 1e-11));
+    EXPECT_EQ(moments[n].share, 1);
+  }
+  for (const Moment& moment : clock.moments_of(0)) EXPECT_EQ(moment.step, 0);
+}
+
+// Where steps are long, moments lie between states, never before that of the frame before.
+TEST(FrameClock, MomentsLieBetweenStatesWhereStepsAreLong) {
+  const FrameClock clock(4, 0.01, 30, Playback(), {.open = 1, .samples = 16});
+  for (long frame = 1; frame < clock.frames(); ++frame) {
+    const auto moments = clock.moments_of(frame);
+    EXPECT_GE(clock.first_step(frame), clock.step_of(frame - 1));
+    int between = 0;
+    for (const Moment& moment : moments) {
+      EXPECT_GE(moment.step, clock.step_of(frame - 1));
+      EXPECT_LE(moment.step, clock.step_of(frame));
+      if (moment.share == 1) continue;
+      ++between;
+      EXPECT_NEAR((static_cast<double>(moment.step - 1) + moment.share) * 0.01, moment.time, 1e-12);
+    }
+    EXPECT_GE(between, 8) << frame;
+  }
+}
+
 std::vector<long> chosen(const std::string& text, long frames) {
   const FrameChoice choice(text);
   std::vector<long> out;

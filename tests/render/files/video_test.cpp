@@ -5,6 +5,7 @@
 #include "tests/render/needs.h"
 #include "tests/render/pictures.h"
 
+#include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <fstream>
@@ -87,6 +88,86 @@ TEST_F(VideoTest, TheLosslessOneDecodesToThePicturesExactly) {
     expected.append(image.pixels.begin(), image.pixels.end());
   }
   EXPECT_TRUE(bytes(folder / "raw") == expected);
+}
+
+// A disc that moves over nothing: 200 in its middle, half transparent in a ring, and nothing outside.
+Image disc(int number) {
+  Image image(96, 64, 4);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double away = std::hypot(x - 30 - 4 * number, y - 32);
+      std::uint8_t* const pixel = image.row(y) + std::ptrdiff_t{4} * x;
+      pixel[0] = away < 24 ? 200 : 0;
+      pixel[1] = away < 24 ? 60 : 0;
+      pixel[2] = away < 24 ? 40 : 0;
+      pixel[3] = static_cast<std::uint8_t>(away < 16 ? 255 : away < 24 ? 128 : 0);
+    }
+  return image;
+}
+
+// Read back by another program; libvpx's own decoder is the one that knows alpha.
+TEST_F(VideoTest, TransparentOnesHaveTheAlphaOfThePictures) {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
+  constexpr std::size_t count = 3, size = std::size_t{4} * 96 * 64;
+  struct Reading {
+    std::string name, decoder;
+    int alpha, colour; // how far they may be off, in the middle of disc, ring and what is outside
+  };
+  for (const Reading& each : {Reading{"a.webm", "-c:v libvpx-vp9", 12, 16}, Reading{"a.mkv", "", 0, 0},
+                              Reading{"a.apng", "", 0, 0}}) {
+    SCOPED_TRACE(each.name);
+    const Folder folder;
+    VideoWriter video;
+    video.open(folder / each.name, 96, 64, 25, true);
+    for (std::size_t k = 0; k < count; ++k) video.add(disc(static_cast<int>(k)));
+    video.close();
+    const std::string command =
+        fmt::format("ffmpeg -v error {} -i '{}' -f rawvideo -pix_fmt rgba '{}'", each.decoder,
+                    (folder / each.name).string(), (folder / "raw").string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const std::string raw = bytes(folder / "raw");
+    ASSERT_EQ(raw.size(), count * size);
+    for (std::size_t k = 0; k < count; ++k)
+      for (const int right : {0, 6, 20, 34}) { // from the middle of the disc
+        const int x = 30 + 4 * static_cast<int>(k) + right;
+        const Image expected = disc(static_cast<int>(k));
+        const std::size_t at = k * size + std::size_t{4} * (32 * 96 + static_cast<std::size_t>(x));
+        EXPECT_NEAR(static_cast<std::uint8_t>(raw[at + 3]), expected.at(x, 32)[3], each.alpha)
+            << k << " " << right;
+        for (std::size_t c = 0; right <= 20 && c < 3; ++c)
+          EXPECT_NEAR(static_cast<std::uint8_t>(raw[at + c]), expected.at(x, 32)[c], each.colour)
+              << k << " " << right;
+      }
+  }
+}
+
+TEST_F(VideoTest, ATransparentGifHasOneBitOfAlphaAndForgetsWhatMovedAway) {
+  if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
+  const Folder folder;
+  VideoWriter video;
+  video.open(folder / "a.gif", 96, 64, 25, true);
+  for (int k = 0; k < 3; ++k) video.add(disc(5 * k));
+  video.close();
+  const std::string command = fmt::format("ffmpeg -v error -i '{}' -f rawvideo -pix_fmt rgba '{}'",
+                                          (folder / "a.gif").string(), (folder / "raw").string());
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string raw = bytes(folder / "raw");
+  constexpr std::size_t size = std::size_t{4} * 96 * 64;
+  ASSERT_EQ(raw.size(), 3 * size);
+  int wrong = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Image expected = disc(5 * k);
+    for (std::size_t n = 3; n < size; n += 4)
+      wrong += static_cast<std::uint8_t>(raw[static_cast<std::size_t>(k) * size + n]) ==
+                       (expected.pixels[n] >= 128 ? 255 : 0)
+                   ? 0
+                   : 1;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(VideoTest, FormatsWithTransparencyAreNamed) {
+  EXPECT_EQ(transparent_format_names(), (std::vector<std::string>{"webm", "mkv", "gif", "apng"}));
 }
 
 TEST_F(VideoTest, PreviewsAreSmall) {
