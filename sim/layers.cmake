@@ -35,7 +35,7 @@ endfunction()
 
 # Compiles the files of a library some at a time, as one: most of a file's time goes into headers and their templates.
 # What takes long by itself (ALONE in rend_library) stays by itself: it gains nothing, and would be compiled anew with
-# each neighbour. CMake itself leaves out files with options or definitions of their own.
+# each neighbour.
 function(rend_use_unity TARGET BATCH)
   if(REND_UNITY)
     set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${BATCH})
