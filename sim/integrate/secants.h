@@ -1,7 +1,7 @@
 // Secants of the residual along past updates, which improve a tangent that is kept: the two loops of L-BFGS
 // (Nocedal, "Updating quasi-Newton matrices with limited storage", 1980), with the factorised tangent as first
-// matrix. 40 steps of slack cloth of 20 × 20 crossed cells take 135 factorisations and 625 updates without them,
-// 85 and 505 with them.
+// matrix. 40 steps of slack cloth of 20 × 20 crossed cells take 135 factorisations and 625 updates without
+// them, 85 and 505 with them.
 //
 // Secants along which the potential is not convex are left out, so that the matrix stays positive definite.
 #pragma once

@@ -186,7 +186,8 @@ double time_of_passes(const Scheme& each, double k, double h, int passes) {
   return -1;
 }
 
-// The spring turns by 1000 radians and more in a step; the period is that of the rigid one, 2π √(L/g) (1 + θ²/16).
+// The spring turns by 1000 radians and more in a step; the period is that of the rigid one,
+// 2π √(L/g) (1 + θ²/16).
 TEST(SecondOrder, swings_a_stiff_pendulum_with_its_period) {
   const double period = 2 * pi / std::sqrt(9.81) * (1 + 0.01 / 16);
   for (const char* name : {"tr-bdf2", "alpha"}) {
