@@ -110,8 +110,9 @@ TEST(StillPictures, refuse_a_word_of_the_hud_that_there_is_not) {
     FAIL() << "not refused";
   } catch (const UserError& error) {
     EXPECT_EQ(error.code, Exit::BadInput);
-    EXPECT_STREQ(error.what(), "show is 'tittle'; expected any of title, time, energy, tears, legend, cost, "
-                               "separated by spaces");
+    EXPECT_STREQ(error.what(),
+                 "show is 'tittle'; expected any of title, time, energy, tears, legend, cost, none, "
+                 "separated by spaces");
     EXPECT_EQ(error.hint, "did you mean 'title'?");
   }
   settings.hud->show = {"time", "title"};
