@@ -74,10 +74,11 @@ std::string laws_in_words(const std::vector<LawFigures>& laws) {
                                         : fmt::format("{} times", law.tears));
     if (law.first) out += fmt::format(", first at {:.6g} s", *law.first);
     if (law.reached.value > 0)
-      out += fmt::format(
-          "; largest value{} {}",
-          law.look_every > 1 && law.tears == 0 ? fmt::format(", sampled every {} steps:", law.look_every) : "",
-          place_in_words(law.reached, law.unit));
+      out += fmt::format("; largest value{} {}",
+                         law.look_every > 1 && law.tears == 0
+                             ? fmt::format(", sampled every {} steps: at least", law.look_every)
+                             : "",
+                         place_in_words(law.reached, law.unit));
     out += "\n" + refusals_in_words(law.refusals);
   }
   return out;

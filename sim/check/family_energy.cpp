@@ -131,7 +131,8 @@ std::vector<CheckCase> energy_cases() {
   for (const Cause& cause : causes())
     for (const Stuff& stuff : stuffs())
       for (const Scheme& scheme : all_schemes()) {
-        if (!scheme.has_account()) continue;
+        const bool touches = cause.body.find("<contact") != std::string::npos;
+        if (!scheme.has_account() || (touches && scheme.solves && !scheme.solves_contact)) continue;
         for (const double factor : {0.9, 1.3, 4.0}) all.push_back(moved(cause, stuff, scheme, factor));
       }
   return all;

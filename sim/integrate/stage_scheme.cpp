@@ -209,6 +209,13 @@ void StageScheme::accelerate(const System& system, const Record* force) {
                                       : system.acceleration(i, load(force[i]), load(reached_velocity_[i])));
 }
 
+// Evaluates the forces at the start of a part, for a scheme that begins with them.
+void StageScheme::begin_forces(System& system, double start) {
+  if (!begins_with_forces()) return;
+  system.forces(start, reached_position_.data(), reached_velocity_.data(), force_.data());
+  accelerate(system, force_.data());
+}
+
 void StageScheme::advance(System& system, double time, double size, const StateView& now, const Record* force,
                           State& next) {
   const std::size_t count = system.vertices();
@@ -231,14 +238,13 @@ void StageScheme::advance(System& system, double time, double size, const StateV
         throw NotConverged(
             fmt::format("{}, and after {} halvings of the step", unsolved.what(), most_step_halvings),
             unsolved.hint);
+      begin_forces(system, time + size * gone); // those that were given may be what failed
       continue;
     }
     accept_part(system);
     gone += part;
     while (gone < 1 && std::fmod(gone, 2 * part) == 0) part *= 2;
-    if (gone == 1 || !begins_with_forces()) continue;
-    system.forces(time + size * gone, reached_position_.data(), reached_velocity_.data(), force_.data());
-    accelerate(system, force_.data());
+    if (gone < 1) begin_forces(system, time + size * gone);
   }
   for (std::size_t i = 0; i < count; ++i) next.put(i, load(reached_position_[i]), load(reached_velocity_[i]));
 }

@@ -92,6 +92,7 @@ private:
   double linear_tolerance(const Residual& residual) const;
   void accept_part(const System& system);
   void accelerate(const System& system, const Record* force);
+  void begin_forces(System& system, double start);
 
   StageRules rules_;
   Secants secants_;

@@ -10,8 +10,9 @@ namespace rend {
 namespace {
 
 constexpr double penalty = 100;        // k relative to the stiffness of the vertex and its m/h²
-constexpr double tolerance = 1e-7;     // relative to the size of the body: penetration that is left
+constexpr double tolerance = 1e-9;     // relative to the size of the body: penetration that is left
 constexpr double skin = 2 * tolerance; // planes stand off by that, so that contact after the step finds nothing
+constexpr double touching = 1e-7;      // relative to the size: a vertex as near as that may press already
 constexpr double creep = 1e-5;         // [1/s], times the size of the body: the speed of what sticks
 constexpr double settled = 1e-3;       // relative change of the largest multiplier
 constexpr int most_rounds = 12;
@@ -133,7 +134,7 @@ void SolvedContact::first_multipliers(const System& system, const StateView& now
   for (VertexPlane& each : planes_) {
     const std::size_t i = each.vertex;
     if (force) {
-      const bool touches = each.gap(now.position) <= 4 * skin * size_;
+      const bool touches = each.gap(now.position) <= touching * size_;
       const Double4 a = system.acceleration(i, load(force[i]), load(now.velocity[i]));
       const double pressed = -each.plane.normal.dot(Vec3(a[0], a[1], a[2])) / system.inverse_mass[i];
       each.multiplier = touches ? std::max(0.0, pressed) : 0;

@@ -67,11 +67,13 @@ void Scene::check_contact() {
                         "fall, but not between bodies",
                         "use implicit, or symplectic with <viscosity>, and let the bodies come to rest");
     if (!scheme().solves_contact)
-      body->notes.push_back(fmt::format("contact: with '{}' a body that rests on the floor is compressed too "
-                                        "much, more so if it is stiff or the step is large; take a smaller "
-                                        "step, or implicit",
-                                        scheme().name));
-    else if (body->contact->fragments)
+      time_.source.fail(
+          "integrator",
+          fmt::format("integrator '{}' does not support <contact>: what rests would be compressed "
+                      "by its weight in every step anew",
+                      scheme().name),
+          "use implicit, which solves contact together with the other forces, or symplectic");
+    if (body->contact->fragments)
       body->notes.push_back(fmt::format(
           "contact: '{}' solves contact with the floor and obstacles; bodies and fragments that rest on each "
           "other are compressed too much, more so if they are stiff or the step is large: take a smaller step, "
