@@ -1,6 +1,8 @@
 // The shipped presets, for tests that run over each of them.
 #pragma once
 
+#include "tests/test_paths.h"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -11,7 +13,7 @@
 namespace rend::shipped {
 
 inline std::filesystem::path folder() {
-  return std::filesystem::path(REND_ROOT) / "presets";
+  return std::filesystem::path(test::source_root) / "presets";
 }
 inline std::filesystem::path path_of(const std::string& name) {
   return folder() / (name + ".xml");

@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -287,7 +288,7 @@ TEST_F(Batch, a_signal_stops_all_jobs_and_going_on_makes_the_rest) {
   const std::string options = " -q --set time.step=5e-7 --jobs 2 --memory 8G";
   EXPECT_EQ(place.rend("batch presets -o whole" + options).code, 0);
   const Outcome outcome =
-      place.shell(std::string(REND_PROGRAM) + " batch presets -o cut" + options + " & " +
+      place.shell(std::string(test::rend_program) + " batch presets -o cut" + options + " & " +
                   until("[ -e cut/a/00001.png ] && [ -e cut/more/b/00001.png ]") + "kill -TERM $!; wait $!");
   EXPECT_EQ(outcome.code, 143) << outcome.err;
   for (const char* name : {"a", "more/b"}) {
@@ -307,7 +308,7 @@ TEST_F(Batch, a_job_that_was_ended_from_outside_is_not_done) {
   NEEDS_PNG;
   for (const auto& [signal, code] : {std::pair{"TERM", 143}, {"KILL", 137}}) {
     const Outcome outcome =
-        place.shell(std::string("rm -f pipe.xml; mkfifo pipe.xml; ") + REND_PROGRAM +
+        place.shell(std::string("rm -f pipe.xml; mkfifo pipe.xml; ") + test::rend_program +
                     " batch pipe.xml presets/a.xml -o ended --json -q --jobs 2 --memory 8G & batch=$!; " +
                     until("job=$(pgrep -P $batch -f pipe.xml)") + "kill -" + signal + " $job; wait $batch");
     EXPECT_EQ(outcome.code, 1) << outcome.err;
@@ -351,7 +352,7 @@ TEST_F(TightBatch, a_job_that_made_room_before_it_had_a_checkpoint_begins_anew) 
   const Outcome outcome = place.shell(fmt::format("mkfifo pipe.xml; {} batch presets/a.xml large.xml pipe.xml "
                                                   "-o tight -q --json --jobs 2 --set time.duration=0.15 "
                                                   "--memory {} & batch=$!; ",
-                                                  REND_PROGRAM, budget()) +
+                                                  test::rend_program, budget()) +
                                       until("[ -e tight/large/00004.png ]") +
                                       "sleep 0.5; timeout 20 cat presets/a.xml > pipe.xml; wait $batch");
   EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
@@ -374,7 +375,7 @@ TEST_F(TightBatch, a_job_that_made_room_goes_on_from_its_checkpoint) {
   const Outcome outcome = place.shell(
       fmt::format("mkfifo pipe.xml; {} batch presets/a.xml pipe.xml slow.xml -o tight -q --json --jobs 2 "
                   "--set time.duration=0.15 --memory {} & batch=$!; ",
-                  REND_PROGRAM, budget()) +
+                  test::rend_program, budget()) +
       until("[ -e tight/slow/00000.png ]") + "timeout 20 cat large.xml > pipe.xml; " + until(checkpoint) +
       checkpoint + " && touch it_was_there; wait $batch");
   EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;

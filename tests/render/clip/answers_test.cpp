@@ -1,6 +1,7 @@
 // Answers on the command line: the output and exit code of `rend run`, and that every preset of presets/verify
 // satisfies its answers.
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -126,7 +127,7 @@ TEST(Verify, every_preset_holds) {
   };
   const TestFolder place;
   for (const auto& [name, count] : presets) {
-    const fs::path path = fs::path(REND_ROOT) / "presets" / (name + ".xml");
+    const fs::path path = fs::path(test::source_root) / "presets" / (name + ".xml");
     const Outcome outcome = place.rend("run '" + path.string() + "' --json --quiet");
     EXPECT_EQ(outcome.code, 0) << name << outcome.err;
     const auto answers = outcome.json()["answers"];
@@ -141,7 +142,7 @@ TEST(Verify, every_preset_holds) {
 // Presets outside of the list would not be tested.
 TEST(Verify, no_preset_is_without_an_answer) {
   const TestFolder place;
-  for (const auto& entry : fs::directory_iterator(fs::path(REND_ROOT) / "presets/verify")) {
+  for (const auto& entry : fs::directory_iterator(fs::path(test::source_root) / "presets/verify")) {
     if (entry.path().extension() != ".xml") continue;
     EXPECT_THAT(content(entry.path()), HasSubstr("<answer ")) << entry.path();
   }

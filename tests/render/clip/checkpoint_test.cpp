@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -48,7 +49,7 @@ TEST_F(Checkpoint, a_checkpoint_of_something_else_is_refused_and_nothing_is_lost
 TEST_F(Checkpoint, another_build_of_the_same_commit_keeps_pictures_and_no_state) {
   NEEDS_PNG;
   const Files all = alone();
-  EXPECT_EQ(place.shell(fmt::format("cp {} other && echo built anew >> other", REND_PROGRAM)).code, 0);
+  EXPECT_EQ(place.shell(fmt::format("cp {} other && echo built anew >> other", test::rend_program)).code, 0);
   const Outcome whole = place.shell("./other render clip.xml -q --resume -o alone --json");
   EXPECT_EQ(whole.code, 0) << whole.err;
   EXPECT_EQ(whole.json()["kept"], all.size());

@@ -1,6 +1,7 @@
 // `rend run --export vtu`, read back by meshio: cells are complete and have the right orientation, and their
 // data are those that `rend run --json` reports.
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -111,7 +112,7 @@ protected:
     return outcome.json();
   }
   File read(const std::string& name) const {
-    const Outcome outcome = place.shell(std::string("/usr/bin/python3 ") + REND_ROOT +
+    const Outcome outcome = place.shell(std::string("/usr/bin/python3 ") + test::source_root +
                                         "/tests/render/clip/vtu_to_json.py states/" + name);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return File(outcome.json());
@@ -199,7 +200,7 @@ TEST_F(Export, of_a_mixed_bar_has_cells_of_positive_volume_and_their_stress) {
 }
 
 TEST_F(Export, of_a_patch_test_has_the_stress_that_is_known) {
-  const std::string preset = std::string(REND_ROOT) + "/presets/verify/patch-hexahedra.xml";
+  const std::string preset = std::string(test::source_root) + "/presets/verify/patch-hexahedra.xml";
   ASSERT_EQ(place.rend("run '" + preset + "' --quiet --export vtu -o states").code, 0);
   const File file = read("00001.vtu");
   for (const Json& one : file.all["cell_data"]["stress"])
@@ -273,7 +274,10 @@ TEST_F(Export, of_a_run_that_went_wrong_ends_with_the_last_good_state) {
   const auto files = place.files();
   ASSERT_GT(files.size(), 3u);
   EXPECT_EQ(files.back(), "states/bar.pvd");
-  EXPECT_EQ(place.shell("/usr/bin/python3 " REND_ROOT "/tests/render/clip/vtu_to_json.py states/*.vtu").code,
+  EXPECT_EQ(place
+                .shell("/usr/bin/python3 " + std::string(test::source_root) +
+                       "/tests/render/clip/vtu_to_json.py states/*.vtu")
+                .code,
             0);
 }
 

@@ -12,6 +12,7 @@
 #include "sim/base/hash.h"
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -350,7 +351,7 @@ TEST_F(ForgedClip, ends_a_run_that_goes_on_from_it_in_words_or_not_at_all) {
     fs::copy(place.path() / "c", place.path() / "d");
     place.write("d/clip.checkpoint", forged);
     const Outcome outcome = place.shell(fmt::format(
-        "(ulimit -v 8000000; ulimit -t 60; exec {} render clip.xml -q --resume -o d)", REND_PROGRAM));
+        "(ulimit -v 8000000; ulimit -t 60; exec {} render clip.xml -q --resume -o d)", test::rend_program));
     EXPECT_THAT(outcome.code, testing::AnyOf(0, 65, 76)) << what << outcome.err;
     const char* named = outcome.code == 65 ? "clip.checkpoint" : "";
     EXPECT_THAT(outcome.err, testing::HasSubstr(named)) << what;

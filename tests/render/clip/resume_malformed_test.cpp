@@ -4,6 +4,7 @@
 #include "tests/render/needs.h"
 #include "tests/render/pictures.h"
 #include "tests/render/png_files.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -123,7 +124,7 @@ TEST_F(ResumeLies, pipes_and_folders_are_no_pictures) {
     fs::remove(path);
     EXPECT_EQ(place.shell(std::string(made) + " " + path.string()).code, 0);
     const Outcome outcome =
-        place.shell(std::string("timeout 60 ") + REND_PROGRAM + " render clip.xml -q --resume -o alone");
+        place.shell(std::string("timeout 60 ") + test::rend_program + " render clip.xml -q --resume -o alone");
     EXPECT_EQ(outcome.code, 73) << made << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("00005.png"));
   }

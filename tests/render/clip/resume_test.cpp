@@ -3,6 +3,7 @@
 // By default at a few moments each; with REND_WHOLE in the environment at fifty (tests/run --all).
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -167,8 +168,8 @@ TEST_F(Resume, a_full_disk_leaves_whole_pictures_alone_and_going_on_makes_the_re
   }
   // units of the shell's ulimit -f: less than the largest picture
   const std::size_t blocks = most / 512 - (most % 512 == 0 ? 1 : 0);
-  const Outcome outcome =
-      place.shell(fmt::format("(ulimit -f {}; exec {} render clip.xml -q -o full)", blocks, REND_PROGRAM));
+  const Outcome outcome = place.shell(
+      fmt::format("(ulimit -f {}; exec {} render clip.xml -q -o full)", blocks, test::rend_program));
   EXPECT_EQ(outcome.code, 74) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("writing failed"));
   const Files there = in("full");

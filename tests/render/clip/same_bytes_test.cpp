@@ -5,6 +5,7 @@
 // its full size, 20 times (tests/run --all).
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <array>
 #include <map>
@@ -15,7 +16,7 @@ namespace {
 using program::content;
 namespace fs = std::filesystem;
 
-const std::filesystem::path root = REND_ROOT;
+const std::filesystem::path root = test::source_root;
 
 std::map<std::string, std::string> files_of(const fs::path& folder) {
   std::map<std::string, std::string> files;
@@ -30,7 +31,7 @@ TEST(RepeatedRenders, give_the_same_bytes_on_any_number_of_threads) {
   const bool whole = std::getenv("REND_WHOLE") != nullptr;
   const program::TestFolder place;
   const auto rendered = [&](const std::string& renderer, const std::string& simulation) {
-    const auto outcome = place.shell("rm -rf out; LP_NUM_THREADS=" + renderer + " " + REND_PROGRAM +
+    const auto outcome = place.shell("rm -rf out; LP_NUM_THREADS=" + renderer + " " + test::rend_program +
                                      " render '" + (root / "presets/tear/cloth-global-border.xml").string() +
                                      "' -q -o out --video mp4 --threads " + simulation +
                                      (whole ? "" : " --frames 0-40x8 --size 192x108"));

@@ -1,6 +1,7 @@
 // Sharded runs together give the bytes of a single run.
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -48,7 +49,7 @@ TEST_F(Shards, a_shard_is_what_slurm_says_of_its_task) {
     EXPECT_EQ(place
                   .shell(fmt::format("SLURM_ARRAY_TASK_ID={} SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_MIN=10 "
                                      "SLURM_ARRAY_TASK_STEP=2 {} render clip.xml -q -o slurm",
-                                     task, REND_PROGRAM))
+                                     task, test::rend_program))
                   .code,
               0);
   expect_same(in("slurm"), all, "");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <fmt/format.h>
 
@@ -53,8 +54,8 @@ protected:
     return in("alone");
   }
   Outcome stopped(const char* signal, double after, const std::string& arguments) const {
-    return place.shell(
-        fmt::format("timeout --preserve-status -s {} {:.3f} {} {}", signal, after, REND_PROGRAM, arguments));
+    return place.shell(fmt::format("timeout --preserve-status -s {} {:.3f} {} {}", signal, after,
+                                   test::rend_program, arguments));
   }
   double moment() { return 0.02 + seconds * std::uniform_real_distribution<>(0, 1)(random); }
 
@@ -63,7 +64,7 @@ protected:
                        const std::string& signal = "TERM") const {
     return place.shell(fmt::format("{} {} & pid=$!; until {} || ! kill -0 $pid; do sleep 0.005; done; "
                                    "kill -{} $pid; wait $pid",
-                                   REND_PROGRAM, arguments, ready, signal));
+                                   test::rend_program, arguments, ready, signal));
   }
 
   // Starts and stops runs into a folder, bisecting the moment, until one leaves its checkpoint there.

@@ -1,6 +1,7 @@
 // `rend run --export ply` and `obj`, read back by an independent reader and by tinyobjloader: the same points
 // and faces, and the same data as in the .vtu files of the same run.
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 #define TINYOBJLOADER_USE_DOUBLE // as the library is built
@@ -34,8 +35,8 @@ protected:
     return outcome.json();
   }
   Json read(const std::string& reader, const std::string& name) const {
-    const Outcome outcome =
-        place.shell("/usr/bin/python3 " REND_ROOT "/tests/render/clip/" + reader + " " + name);
+    const Outcome outcome = place.shell("/usr/bin/python3 " + std::string(test::source_root) +
+                                        "/tests/render/clip/" + reader + " " + name);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return outcome.json();
   }

@@ -3,6 +3,7 @@
 //   <!-- expect CODE at LINE:COLUMN: words of the message or its hint -->
 #include "render/files/png.h"
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <regex>
 
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> bad_presets() {
   std::vector<fs::path> all;
-  for (const auto& entry : fs::directory_iterator(fs::path(REND_ROOT) / "tests/bad"))
+  for (const auto& entry : fs::directory_iterator(fs::path(test::source_root) / "tests/bad"))
     all.push_back(entry.path());
   std::sort(all.begin(), all.end());
   return all;

@@ -1,6 +1,7 @@
 // The program as a user runs it: exit codes, files, figures.
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -186,14 +187,14 @@ TEST_F(Program, EndsQuietlyWhereNobodyReadsItsResults) {
   const std::string pipe = "mkfifo pipe; exec 3<>pipe 4>pipe 3>&-; rm pipe; ";
   for (const char* line : {"help preset", "help schema", "--help", "--version", "run --help", "info pulled.xml",
                            "run pulled.xml --steps 1 --json", "check pulled.xml --list"}) {
-    const Outcome outcome = place.shell(pipe + REND_PROGRAM + " " + line + " >&4");
+    const Outcome outcome = place.shell(pipe + test::rend_program + " " + line + " >&4");
     EXPECT_EQ(outcome.code, 141) << line;
     EXPECT_EQ(outcome.err, "") << line;
   }
   EXPECT_EQ(place.rend("help preset > /dev/full").code, 74); // a full disk is an error
   // Failing to write to stderr is not an error of the run.
-  EXPECT_EQ(place.shell(pipe + REND_PROGRAM + " check pulled.xml --only threads 2>&4").code, 0);
-  EXPECT_EQ(place.shell(pipe + REND_PROGRAM + " run missing.xml 2>&4").code, 66);
+  EXPECT_EQ(place.shell(pipe + test::rend_program + " check pulled.xml --only threads 2>&4").code, 0);
+  EXPECT_EQ(place.shell(pipe + test::rend_program + " run missing.xml 2>&4").code, 66);
   expect_nothing_left();
 }
 
@@ -209,7 +210,7 @@ TEST_F(Program, FindsAnEquilibriumWithoutBeingToldATime) {
             outcome.json()["hash"]);
   EXPECT_THAT(place.rend("info hanging.xml").out, HasSubstr("auto: all of the clip, one equilibrium"));
   EXPECT_EQ(place
-                .shell(std::string(REND_PROGRAM) +
+                .shell(std::string(test::rend_program) +
                        " help schema > scene.xsd && xmllint --noout --schema scene.xsd hanging.xml")
                 .code,
             0);
@@ -372,7 +373,7 @@ TEST_F(Program, RunsSoManySteps) {
 // Starts `rend ARGUMENTS` on an endless clip, and stops it as soon as `file` exists.
 Outcome stopped_once_there_is(const std::string& file, const std::string& arguments, const TestFolder& place) {
   const std::string endless = " --set time.duration=1e5 --set body.drive.until=0.1 & ";
-  return place.shell(std::string(REND_PROGRAM) + " " + arguments + endless + "while [ ! -e " + file +
+  return place.shell(std::string(test::rend_program) + " " + arguments + endless + "while [ ! -e " + file +
                      " ] && kill -0 $!; do sleep 0.02; done; kill -TERM $!; wait $!");
 }
 

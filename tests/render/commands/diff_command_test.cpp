@@ -3,6 +3,7 @@
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
 #include "tests/render/pictures.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 #include <map>
@@ -418,7 +419,7 @@ TEST_F(Diff, updates_all_that_is_named_or_nothing) {
   for (std::size_t n = 0; n < noise.pixels.size(); ++n)
     noise.pixels[n] = static_cast<std::uint8_t>(n * n * n >> 5);
   put("b/differ.png", noise);
-  const Outcome full = place.shell("ulimit -f 1; trap '' XFSZ; " + std::string(REND_PROGRAM) +
+  const Outcome full = place.shell("ulimit -f 1; trap '' XFSZ; " + std::string(test::rend_program) +
                                    " diff a b --update differ --update size -q");
   EXPECT_EQ(full.code, 74);
   EXPECT_EQ(content(place.path() / "a/differ.png"), before);
@@ -432,7 +433,7 @@ TEST_F(Diff, updates_more_pictures_than_files_can_be_open) {
     for (const char* side : {"a", "b"})
       fs::copy_file(place.path() / side / "one.png", place.path() / side / "in" / (std::to_string(n) + ".png"));
   const Outcome outcome =
-      place.shell("ulimit -n 40; " + std::string(REND_PROGRAM) + " diff a b --update in -q");
+      place.shell("ulimit -n 40; " + std::string(test::rend_program) + " diff a b --update in -q");
   EXPECT_EQ(outcome.code, 1) << outcome.err; // one.png
   EXPECT_EQ(diff("a/in b/in").code, 0);
   EXPECT_EQ(place.files().size(), 2 * 103u); // nothing is left behind

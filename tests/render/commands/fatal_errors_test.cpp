@@ -4,6 +4,7 @@
 #include "sim/base/error.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <csignal>
 #include <gmock/gmock.h>
@@ -59,8 +60,8 @@ protected:
 
   // With this limit of address space [MB]. A hanging program is killed after ten seconds (137).
   Outcome rend(int megabytes, const std::string& arguments) const {
-    return place.shell("ulimit -v " + std::to_string(1000 * megabytes) +
-                       "; timeout -s KILL 10 " REND_PROGRAM " " + arguments);
+    return place.shell("ulimit -v " + std::to_string(1000 * megabytes) + "; timeout -s KILL 10 " +
+                       std::string(test::rend_program) + " " + arguments);
   }
   // The smallest limit, in steps, at which the program and its libraries start; it depends on the machine.
   int least_to_start(int step) const {
@@ -144,7 +145,7 @@ TEST_F(WithoutMemory, a_check_ends_without_a_page_and_without_a_folder) {
   place.write("large.xml", large);
   const Outcome outcome =
       place.shell("export TMPDIR=$PWD; ulimit -v " + std::to_string(1000 * (least_to_start(50) + 100)) +
-                  "; timeout -s KILL 10 " REND_PROGRAM " check large.xml -q");
+                  "; timeout -s KILL 10 " + std::string(test::rend_program) + " check large.xml -q");
   EXPECT_FALSE(done_or_refused(outcome, "check"));
   EXPECT_EQ(place.files(), (std::vector<std::string>{"large.xml", "pulled.xml"}));
 }

@@ -1,6 +1,7 @@
 // rend list, and the times of presets that it states: presets/times.csv, as presets/measure writes it.
 #include "render/facts/preset_list.h"
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using program::TestFolder;
 using testing::HasSubstr;
-const fs::path presets = fs::path(REND_ROOT) / "presets";
+const fs::path presets = fs::path(test::source_root) / "presets";
 
 TEST(ListCommand, takes_the_first_sentence_of_the_first_comment) {
   EXPECT_EQ(first_sentence("<!--\n  The cloth of fig. 7.17: 10 x 10\n  quads. It tears. -->"),

@@ -1,5 +1,6 @@
 // rend mesh, and <mesh> in a preset, as a user runs them.
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +12,7 @@ using program::TestFolder;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path organ = fs::path(REND_ROOT) / "presets/meshes/organ-600.msh";
+const fs::path organ = fs::path(test::source_root) / "presets/meshes/organ-600.msh";
 
 // A tetrahedron of four nodes, one of which is in a group.
 constexpr const char* tetrahedron =
@@ -114,7 +115,8 @@ TEST(MeshFill, a_closed_surface_is_told_to_be_hollow) {
   EXPECT_THAT(notes[0].get<std::string>(), HasSubstr("hollow sheet; `rend mesh fill`"));
   EXPECT_TRUE(place
                   .rend("mesh info " +
-                        (fs::path(REND_ROOT) / "presets/tear/meshes/notched-strip.obj").string() + " --json")
+                        (fs::path(test::source_root) / "presets/tear/meshes/notched-strip.obj").string() +
+                        " --json")
                   .json()["notes"]
                   .empty());
 }
@@ -124,7 +126,7 @@ TEST(MeshFill, makes_a_solid_with_the_surface_as_its_boundary) {
   const TestFolder place;
   place.write("o.obj", octahedron);
   const std::string tmp = own_tmp(place),
-                    fill = tmp + std::string(REND_PROGRAM) + " mesh fill o.obj --size 0.4 -o ";
+                    fill = tmp + std::string(test::rend_program) + " mesh fill o.obj --size 0.4 -o ";
   const Outcome outcome = place.shell(fill + "a.msh");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto facts = place.rend("mesh info a.msh --json").json();
@@ -167,7 +169,7 @@ TEST(MeshFill, survives_whatever_gmsh_does) {
     place.write("bin/gmsh", "#!/bin/sh\n" + script);
     fs::permissions(place.path() / "bin/gmsh", fs::perms::owner_all);
     const Outcome outcome = place.shell(tmp + "PATH='" + (place.path() / "bin").string() + "':$PATH " +
-                                        REND_PROGRAM + " mesh fill o.obj --size 3 -o a.msh " + more);
+                                        test::rend_program + " mesh fill o.obj --size 3 -o a.msh " + more);
     EXPECT_TRUE(fs::is_empty(place.path() / "tmp")) << script << ": something is left";
     EXPECT_FALSE(fs::exists(place.path() / "a.msh")) << script;
     return outcome;
@@ -203,7 +205,7 @@ TEST(MeshFill, survives_whatever_gmsh_does) {
                                                  "$Elements\n4\n1 4 2 1 1 1 3 6 5\n2 4 2 1 1 3 2 6 5\n"
                                                  "3 4 2 1 1 2 4 6 5\n4 4 2 1 1 4 1 6 5\n$EndElements\nEND\n"));
   const Outcome good = place.shell(tmp + "PATH='" + (place.path() / "bin").string() + "':$PATH " +
-                                   REND_PROGRAM + " mesh fill o.obj --size 3 -o a.msh");
+                                   test::rend_program + " mesh fill o.obj --size 3 -o a.msh");
   EXPECT_EQ(good.code, 0) << good.err;
   EXPECT_EQ(place.rend("mesh info a.msh --json").json()["volumes"], 4);
 }
@@ -212,7 +214,7 @@ TEST(MeshFill, tells_the_package_where_gmsh_is_not_installed) {
   const TestFolder place;
   place.write("o.obj", octahedron);
   fs::create_directories(place.path() / "empty");
-  const Outcome outcome = place.shell("PATH='" + (place.path() / "empty").string() + "' " + REND_PROGRAM +
+  const Outcome outcome = place.shell("PATH='" + (place.path() / "empty").string() + "' " + test::rend_program +
                                       " mesh fill o.obj --size 1 -o a.msh");
   EXPECT_EQ(outcome.code, 64);
   EXPECT_THAT(outcome.err, HasSubstr("apt-get install gmsh"));

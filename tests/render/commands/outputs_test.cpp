@@ -1,6 +1,7 @@
 // Where outputs are written: beside files that are not rend's; and that they are flushed to the disk.
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -37,9 +38,9 @@ TEST_F(Outputs, of_a_run_go_through_no_link_and_wait_for_no_pipe) {
   for (const char* name : {"00005.png", "pulled.part.mp4", "pulled.mp4.part", "pulled.checkpoint.part"})
     links[name] = "../mine";
   for (const auto& [name, to] : links) fs::create_symlink(to, c / name);
-  const Outcome outcome =
-      place.shell("timeout -s KILL 60 " REND_PROGRAM " render pulled.xml -q -o c --video mp4 "
-                  "--checkpoint-every 1e-9");
+  const Outcome outcome = place.shell("timeout -s KILL 60 " + std::string(test::rend_program) +
+                                      " render pulled.xml -q -o c --video mp4 "
+                                      "--checkpoint-every 1e-9");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   for (const auto& [name, bytes] : alone) EXPECT_TRUE(content(c / name) == bytes) << name;
   EXPECT_EQ(content(place.path() / "mine"), "precious");
@@ -86,8 +87,9 @@ protected:
   std::vector<std::string> watch(const std::string& arguments, int code) const {
     const fs::path log = place.path() / "log";
     fs::remove(log);
-    const Outcome outcome = place.shell("LD_PRELOAD=" REND_WATCH_DISK " REND_WATCH=" + log.string() +
-                                        " " REND_PROGRAM " " + arguments);
+    const Outcome outcome =
+        place.shell("LD_PRELOAD=" + std::string(test::watch_disk_library) + " REND_WATCH=" + log.string() +
+                    " " + std::string(test::rend_program) + " " + arguments);
     EXPECT_EQ(outcome.code, code) << outcome.err;
     std::vector<std::string> did;
     std::istringstream lines(content(log));

@@ -4,6 +4,7 @@
 #include "sim/base/simd_width.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <algorithm>
 #include <cctype>
@@ -21,7 +22,7 @@ using program::Outcome;
 using program::TestFolder;
 namespace fs = std::filesystem;
 
-const fs::path root = REND_ROOT;
+const fs::path root = test::source_root;
 
 // Paths without folder and extension: "tear/moebius".
 std::vector<std::string> all_presets() {
@@ -49,8 +50,8 @@ protected:
 
   // `environment`: variables before the command.
   nlohmann::json run(const std::string& options, const std::string& environment = "") const {
-    const Outcome outcome =
-        place.shell(environment + " " REND_PROGRAM " run '" + path.string() + "' --json --quiet " + options);
+    const Outcome outcome = place.shell(environment + " " + std::string(test::rend_program) + " run '" +
+                                        path.string() + "' --json --quiet " + options);
     EXPECT_LE(outcome.code, 1) << outcome.err; // 1: an answer is not satisfied, as its time is not reached
     return outcome.code <= 1 ? outcome.json() : nlohmann::json();
   }

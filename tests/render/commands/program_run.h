@@ -1,6 +1,8 @@
 // For tests that run the built program as a user does, in a folder of its own, and capture its output.
 #pragma once
 
+#include "tests/test_paths.h"
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -42,7 +44,7 @@ public:
 
   // Runs `rend ARGUMENTS` through the shell.
   Outcome rend(const std::string& arguments) const {
-    return shell(std::string(REND_PROGRAM) + " " + arguments);
+    return shell(std::string(test::rend_program) + " " + arguments);
   }
 
   Outcome shell(const std::string& command) const {

@@ -4,6 +4,7 @@
 #include "sim/house_rules/house_scripts.h"
 #include "sim/rules/rule_values.h"
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -147,7 +148,7 @@ TEST(RuleCommand, refuses_by_the_table_of_exit_codes) {
   EXPECT_THAT(bad.err, HasSubstr("bad.xml:2:40: rule 'r': the new node b does not say what its α2 is"));
   EXPECT_EQ(place.rend("rule").code, 64);
   EXPECT_EQ(place.rend("rule check none.xml").code, 66);
-  EXPECT_EQ(place.rend("rule check " + std::string(REND_ROOT) + "/README.md").code, 65);
+  EXPECT_EQ(place.rend("rule check " + std::string(test::source_root) + "/README.md").code, 65);
   const Outcome unknown = place.rend("rule show star-faces");
   EXPECT_EQ(unknown.code, 64);
   EXPECT_THAT(unknown.err, HasSubstr("did you mean 'star-face'?"));
@@ -160,7 +161,7 @@ TEST(RuleCommand, refuses_by_the_table_of_exit_codes) {
 
 TEST(RuleCommand, reads_the_rules_of_presets) {
   const TestFolder place;
-  const std::string ball = std::string(REND_ROOT) + "/presets/rules/ball.xml";
+  const std::string ball = std::string(test::source_root) + "/presets/rules/ball.xml";
   EXPECT_EQ(place.rend("rule check " + ball).out, "1 rule is well formed\n");
   const std::vector<std::string> lines = lines_of(place.rend("rule list " + ball).out);
   ASSERT_EQ(lines.size(), known() + 1);

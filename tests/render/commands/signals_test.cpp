@@ -3,6 +3,7 @@
 
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 
@@ -200,15 +201,16 @@ TEST_F(SignalledProgram, leaves_a_checkpoint_to_go_on_from) {
 
 TEST_F(SignalledProgram, stops_at_its_limit_of_processor_time) {
   NEEDS_PNG;
-  const Outcome outcome =
-      place.shell("(ulimit -S -t 1; exec " REND_PROGRAM " render pulled.xml -o c" + without_end() + ")");
+  const Outcome outcome = place.shell("(ulimit -S -t 1; exec " + std::string(test::rend_program) +
+                                      " render pulled.xml -o c" + without_end() + ")");
   EXPECT_EQ(outcome.code, 152) << outcome.err;
   EXPECT_TRUE(in("c").contains("pulled.checkpoint"));
 }
 
 TEST_F(SignalledProgram, goes_on_under_nohup) {
   NEEDS_PNG;
-  const Outcome outcome = place.shell("trap '' HUP; " REND_PROGRAM " render clip.xml -q -o c & until "
+  const Outcome outcome = place.shell("trap '' HUP; " + std::string(test::rend_program) +
+                                      " render clip.xml -q -o c & until "
                                       "[ -e c/00000.png ] || ! kill -0 $!; do sleep 0.005; done; kill -HUP $!; "
                                       "wait $!");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -221,8 +223,8 @@ TEST_F(SignalledProgram, stops_when_its_terminal_goes) {
   int terminal = -1;
   const pid_t process = ::forkpty(&terminal, nullptr, nullptr, nullptr);
   if (process == 0) {
-    ::execl(REND_PROGRAM, "rend", "render", preset.c_str(), "-o", folder.c_str(), "--set", "time.duration=1e5",
-            "--set", "body.drive.until=0.1", nullptr);
+    ::execl(test::rend_program, "rend", "render", preset.c_str(), "-o", folder.c_str(), "--set",
+            "time.duration=1e5", "--set", "body.drive.until=0.1", nullptr);
     ::_exit(127);
   }
   int status = 0;
@@ -246,17 +248,19 @@ TEST_F(SignalledProgram, that_waits_for_its_input_ends_at_once) {
     const auto [code, out, err] = place.shell(
         fmt::format("timeout -s KILL 20 {} {} & until pid=$(pgrep -P $!) && {}; do sleep 0.005; done; "
                     "kill -TERM $pid; wait $!",
-                    REND_PROGRAM, line, caught));
+                    test::rend_program, line, caught));
     EXPECT_EQ(code, 143) << line << out << err;
   }
-  EXPECT_EQ(place.shell("timeout -s KILL 20 " REND_PROGRAM " check pipe.xml").code, 66) << "it is read often";
+  EXPECT_EQ(place.shell("timeout -s KILL 20 " + std::string(test::rend_program) + " check pipe.xml").code, 66)
+      << "it is read often";
 }
 
 TEST_F(SignalledProgram, of_many_jobs_ends_all_of_them) {
   NEEDS_PNG;
   place.write("also.xml", program::pulled);
   const Outcome outcome = place.shell(
-      REND_PROGRAM " batch pulled.xml also.xml -o b -q --jobs 2 --memory 8G" + without_end() +
+      std::string(test::rend_program) + " batch pulled.xml also.xml -o b -q --jobs 2 --memory 8G" +
+      without_end() +
       " & batch=$!; until [ -e b/pulled/00001.png ] && [ -e b/also/00001.png ] || ! kill -0 $batch; "
       "do sleep 0.005; done; jobs=$(pgrep -P $batch); kill -HUP $batch; wait $batch; code=$?; "
       "for job in $jobs; do kill -0 $job 2>&1 && echo $job is still there; done; exit $code");

@@ -1,5 +1,6 @@
 // rend study, as a user runs it.
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -83,7 +84,7 @@ TEST(StudyCommand, does_without_gnuplot_and_says_so) {
   const TestFolder place;
   place.write("hanging.xml", hanging);
   const Outcome made =
-      place.shell("PATH=/nowhere " + std::string(REND_PROGRAM) +
+      place.shell("PATH=/nowhere " + std::string(test::rend_program) +
                   " study hanging.xml --quick --steps 3 --integrators verlet --duration 0.05 -q");
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_THAT(made.err, HasSubstr("gnuplot is not installed"));

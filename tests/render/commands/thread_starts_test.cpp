@@ -2,6 +2,7 @@
 // and say so, or end with 75. None hangs, crashes, or leaves incomplete files.
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 #include <thread>
@@ -22,8 +23,10 @@ protected:
 
   // On a system with `limit` set; a hanging program is killed after ten seconds (137).
   Outcome rend(const std::string& limit, const std::string& arguments) const {
-    const std::string system = limit + " REND_THREADS_MARK=refused LD_PRELOAD=" REND_FAILING_THREADS;
-    return place.shell("timeout -s KILL 10 env " + system + " " REND_PROGRAM " " + arguments);
+    const std::string system =
+        limit + " REND_THREADS_MARK=refused LD_PRELOAD=" + std::string(test::failing_threads_library);
+    return place.shell("timeout -s KILL 10 env " + system + " " + std::string(test::rend_program) + " " +
+                       arguments);
   }
   static std::string at_most(int threads) { return "REND_MOST_THREADS=" + std::to_string(threads); }
 

@@ -8,6 +8,7 @@
 #include "render/picture/scene_picture.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
+#include "tests/test_paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ namespace rend {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path root = REND_ROOT;
+const fs::path root = test::source_root;
 constexpr int width = 240, height = 135; // of the goldens
 
 // Frames 0 to `last` of a preset.
@@ -264,8 +265,8 @@ TEST(RepeatedRenders, raise_no_false_alarm) {
     // As on other machines: other numbers of threads and vector widths of llvmpipe.
     const std::string threads = std::to_string(1 + turn % 4), width_of_vectors = turn % 2 ? "128" : "256";
     const auto rendered = place.shell("LP_NATIVE_VECTOR_WIDTH=" + width_of_vectors +
-                                      " LP_NUM_THREADS=" + std::to_string(turn % 3) + " " + REND_PROGRAM + " " +
-                                      render + "again --threads " + threads);
+                                      " LP_NUM_THREADS=" + std::to_string(turn % 3) + " " + test::rend_program +
+                                      " " + render + "again --threads " + threads);
     ASSERT_EQ(rendered.code, 0) << rendered.err;
     const auto outcome =
         place.rend("diff first again -t '" + (root / "tests/goldens/tolerances.xml").string() + "'");

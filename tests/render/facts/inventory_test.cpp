@@ -2,6 +2,7 @@
 #include "render/facts/inventory.h"
 #include "sim/scene/memory.h"
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 #include <malloc.h>
@@ -26,7 +27,7 @@ std::size_t on_heap() {
 struct Built {
   explicit Built(const std::string& preset, std::vector<std::string> sets = {}) {
     SessionOptions options;
-    options.preset = std::string(REND_ROOT) + "/presets/" + preset;
+    options.preset = std::string(test::source_root) + "/presets/" + preset;
     options.sets = std::move(sets);
     options.quiet = true;
     options.threads = 1;
@@ -84,7 +85,7 @@ TEST(Inventory, sums_up_what_it_lists_in_every_preset) {
   namespace fs = std::filesystem;
   const program::TestFolder place;
   for (const char* folder : {"tear", "contact", "elastic"}) {
-    for (const auto& entry : fs::directory_iterator(fs::path(REND_ROOT) / "presets" / folder)) {
+    for (const auto& entry : fs::directory_iterator(fs::path(test::source_root) / "presets" / folder)) {
       if (entry.path().extension() != ".xml") continue;
       const Json info = Json::parse(place.rend("info '" + entry.path().string() + "' --json").out);
       std::size_t sum = listed(info["arrays"]);

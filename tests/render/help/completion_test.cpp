@@ -1,4 +1,5 @@
 #include "tests/render/commands/program_run.h"
+#include "tests/test_paths.h"
 
 #include <gtest/gtest.h>
 #include <iterator>
@@ -74,7 +75,7 @@ TEST_F(Completion, of_bash_offers_all_that_the_help_of_each_command_lists) {
   for (std::string command; commands >> command;) {
     std::istringstream words(bash(command + " --"));
     const std::set<std::string> offered{std::istream_iterator<std::string>(words), {}};
-    const Outcome help = place.shell(std::string(REND_PROGRAM) + " " + command +
+    const Outcome help = place.shell(std::string(test::rend_program) + " " + command +
                                      " --help | grep -oE '^  (-[a-z], )?--[a-z-]+' | grep -oE -- '--[a-z-]+'");
     std::istringstream options(help.out);
     for (std::string option; options >> option;) EXPECT_TRUE(offered.count(option)) << command << " " << option;

@@ -2,6 +2,7 @@
 #include "sim/base/simd_width.h"
 
 #include "sim/base/simd.h"
+#include "tests/test_paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ struct Ended {
   std::string text; // of both streams
 };
 Ended run_with(const std::string& word) {
-  const std::string command = "REND_SIMD='" + word + "' " REND_PROGRAM " --version 2>&1";
+  const std::string command = "REND_SIMD='" + word + "' " + std::string(test::rend_program) + " --version 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   Ended ended;
   std::array<char, 256> buffer;

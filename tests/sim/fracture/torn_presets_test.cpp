@@ -9,6 +9,7 @@
 #include "sim/fracture/torn_checks.h"
 #include "sim/rows/walk_forces.h"
 #include "sim/scene/scene.h"
+#include "tests/test_paths.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace torn;
 
-const fs::path root = fs::path(REND_ROOT) / "presets";
+const fs::path root = fs::path(test::source_root) / "presets";
 
 std::vector<std::string> presets_with_laws() {
   std::vector<std::string> names;

@@ -5,6 +5,7 @@
 
 #include "render/picture/scene_preset.h"
 #include "sim/presets.h"
+#include "tests/test_paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -181,7 +182,7 @@ TEST(Guard, rejects_no_step_of_what_is_given_energy) {
 TEST(Guard, rejects_no_step_of_shipped_presets) {
   namespace fs = std::filesystem;
   int seen = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(REND_ROOT) / "presets")) {
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(test::source_root) / "presets")) {
     if (entry.path().extension() != ".xml") continue;
     const auto preset = load_scene(entry.path());
     Scene scene(read_scene(*preset), {});
