@@ -176,6 +176,7 @@ Exit diff(const DiffOptions& options) {
   const std::set<std::size_t> chosen = named_cases(options.update, cases.all);
   check_files(options, cases);
   if (!options.folder.empty()) check_folder(options.folder, cases);
+  if (!options.update.empty()) check_folders_of_update(options.a, options.b);
   const GracefulStop graceful_stop;
   DiffReport report;
   report.a = options.a;
@@ -191,6 +192,10 @@ Exit diff(const DiffOptions& options) {
   report.updated.assign(report.cases.size(), false);
   const std::set<std::size_t> changed = updatable(report.cases, chosen, memory);
   for (const std::size_t n : changed) report.updated[n] = true;
+  for (const std::size_t n : chosen)
+    if (report.cases[n].state == CaseState::Missing && !changed.contains(n))
+      report.remarks.push_back(report.cases[n].paths.name +
+                               ": not removed, since it is no picture that can be read");
   report.clips = clips_of(report.cases);
   // made before the update: it shows the old expected pictures
   const std::string page = options.folder.empty() ? "" : diff_page(report);

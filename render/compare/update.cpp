@@ -4,6 +4,7 @@
 #include "render/files/temporaries.h"
 #include "sim/base/error.h"
 #include "sim/base/wording.h"
+#include "sim/preset/paths.h"
 
 #include <fmt/format.h>
 
@@ -42,12 +43,11 @@ std::set<std::size_t> named_cases(const std::vector<std::string>& names, const s
 
 namespace {
 
-// Whether the current picture can take the place of the expected one.
-bool is_well(const CaseResult& one, MemoryBudget& memory) {
+bool is_picture(const fs::path& path, MemoryBudget& memory) {
   try {
-    check_picture(one.paths.b, memory);
+    check_picture(path, memory);
     return true;
-  } catch (const UserError&) { // reported as the state of this case
+  } catch (const UserError&) {
     return false;
   }
 }
@@ -60,47 +60,72 @@ void check_that_some_are_there(const std::vector<CaseResult>& results) {
                   "check the folder NOW; to remove them all, delete the folder of expected pictures yourself");
 }
 
-// Temporary copies beside the files that they will replace; removed if not committed. Their descriptors are
-// closed, so that there can be any number.
-class PendingCopies {
-public:
-  PendingCopies() = default;
-  ~PendingCopies() {
-    std::error_code error;
-    for (const auto& [path, one] : all_) fs::remove(one.part, error);
-  }
-  PendingCopies(const PendingCopies&) = delete;
-  PendingCopies& operator=(const PendingCopies&) = delete;
+// The real folder of the expected pictures.
+fs::path root_of(const fs::path& expected) {
+  std::error_code error;
+  const bool folder = fs::is_directory(expected, error);
+  return fs::weakly_canonical(folder ? expected : fs::absolute(expected).parent_path());
+}
 
-  void add(const fs::path& to, const fs::path& from) {
-    const std::vector<std::uint8_t> bytes = file_bytes(from);
+// What an update will do: temporary copies beside the files that they will replace, and files to remove.
+// Without commit() nothing changes. All that it writes or removes lies below one real folder; a name that is a
+// link is replaced or removed itself, never what it leads to. The descriptors of the copies are closed, so that
+// there can be any number.
+class PendingChanges {
+public:
+  explicit PendingChanges(fs::path root) : root_(std::move(root)) {}
+  ~PendingChanges() {
     std::error_code error;
-    fs::create_directories(to.parent_path(), error);
-    const fs::path path = fs::weakly_canonical(resolve_link(to));
-    { const OutputFile any(path); }     // tests whether it can be created
-    const auto other = all_.find(path); // two names of one file, through a link
-    if (other != all_.end() && file_bytes(other->second.from) != bytes)
-      throw UserError(Exit::DiffError, {to.string()},
+    for (const auto& [path, one] : copies_) fs::remove(one.part, error);
+    if (!done_)
+      for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, error);
+  }
+  PendingChanges(const PendingChanges&) = delete;
+  PendingChanges& operator=(const PendingChanges&) = delete;
+
+  // Where the file of an expected picture really is: only links to folders are followed. Throws UserError
+  // (DiffError) where one leads out of the folder of expected pictures.
+  fs::path place_of(const fs::path& expected) const {
+    const fs::path folder = fs::weakly_canonical(fs::absolute(expected).parent_path());
+    if (!lies_in(folder, root_))
+      throw UserError(
+          Exit::DiffError, {expected.string()},
+          fmt::format("--update: a link leads from the expected pictures to {}, where nothing is changed; "
+                      "nothing was updated",
+                      in_quotes(folder.string())),
+          "leave these pictures out, or compare and update that folder by itself");
+    return folder / expected.filename();
+  }
+
+  void copy(const fs::path& expected, const fs::path& from) {
+    const std::vector<std::uint8_t> bytes = file_bytes(from);
+    make_folder(place_of(expected).parent_path());
+    const fs::path path = place_of(expected);
+    { const OutputFile any(path); }        // tests whether it can be created
+    const auto other = copies_.find(path); // two names of one file, through a link to its folder
+    if (other != copies_.end() && file_bytes(other->second.from) != bytes)
+      throw UserError(Exit::DiffError, {expected.string()},
                       fmt::format("--update: this file has two names, and would become both {} and {}",
                                   in_quotes(other->second.from.string()), in_quotes(from.string())),
                       "name one of them; nothing was updated");
-    const auto [entry, is_new] = all_.try_emplace(path, from, path.string() + ".update.part");
+    const auto [entry, is_new] = copies_.try_emplace(path, from, path.string() + ".update.part");
     if (!is_new) return;
     folders_.insert(path.parent_path());
     OutputFile file(entry->second.part);
     file.write(bytes);
     file.commit();
   }
-  void remove(const fs::path& path) {
-    removed_.push_back(path);
-    folders_.insert(fs::weakly_canonical(path).parent_path());
+  void remove(const fs::path& expected) {
+    removed_.insert(place_of(expected));
+    folders_.insert(place_of(expected).parent_path());
   }
   // Allocates no memory, so that even when none is left all files are replaced or none.
   void commit() {
-    for (; !all_.empty(); all_.erase(all_.begin())) {
-      const fs::path& path = all_.begin()->first;
+    done_ = true;
+    for (; !copies_.empty(); copies_.erase(copies_.begin())) {
+      const fs::path& path = copies_.begin()->first;
       std::error_code error;
-      fs::rename(all_.begin()->second.part, path, error);
+      fs::rename(copies_.begin()->second.part, path, error);
       if (error) throw UserError(Exit::ReadWrite, {path.string()}, "it cannot be replaced: " + error.message());
     }
     for (const fs::path& path : removed_) {
@@ -117,34 +142,60 @@ private:
     fs::path from, part;
     TemporaryPath temporary{part.c_str()};
   };
-  std::map<fs::path, Part> all_;  // by the path that is replaced, with links resolved
-  std::vector<fs::path> removed_; // expected pictures that are missing now
-  std::set<fs::path> folders_;    // the folders of these files
+  void make_folder(const fs::path& folder) {
+    std::error_code error;
+    if (fs::exists(folder, error)) return;
+    make_folder(folder.parent_path());
+    if (fs::create_directory(folder, error)) made_.push_back(folder);
+  }
+
+  fs::path root_;
+  std::map<fs::path, Part> copies_; // by the path that is replaced
+  std::set<fs::path> removed_;      // expected pictures that are missing now
+  std::set<fs::path> folders_;      // the folders of these files
+  std::vector<fs::path> made_;      // folders that were created, those that contain others first
+  bool done_ = false;
 };
 
 } // namespace
+
+void check_folders_of_update(const fs::path& expected, const fs::path& now) {
+  std::error_code error;
+  if (!fs::is_directory(expected, error)) return;
+  const bool inside = lies_in(expected, now);
+  if (!inside && !lies_in(now, expected)) return;
+  throw UserError(Exit::Usage, {},
+                  fmt::format("--update: {} lies in {}, and its pictures would be taken for those of the other",
+                              in_quotes((inside ? expected : now).string()),
+                              in_quotes((inside ? now : expected).string())),
+                  "keep the expected pictures and those of now in two folders beside each other");
+}
 
 std::set<std::size_t> updatable(const std::vector<CaseResult>& results, const std::set<std::size_t>& which,
                                 MemoryBudget& memory) {
   std::set<std::size_t> out;
   if (!which.empty()) check_that_some_are_there(results);
   for (const std::size_t n : which)
-    if (results[n].state != CaseState::Match && (results[n].paths.b.empty() || is_well(results[n], memory)))
+    if (const CasePaths& paths = results[n].paths;
+        results[n].state != CaseState::Match && is_picture(paths.b.empty() ? paths.a : paths.b, memory))
       out.insert(n);
   return out;
 }
 
 void update_expected(const std::vector<CaseResult>& results, const std::set<std::size_t>& which,
                      const fs::path& expected) {
-  PendingCopies parts;
+  PendingChanges changes(root_of(expected));
+  const auto place = [&](const CasePaths& paths) { return paths.a.empty() ? expected / paths.name : paths.a; };
+  for (const std::size_t n : which)
+    changes.place_of(place(results[n].paths)); // refuses before folders are made
   for (const std::size_t n : which) {
     const CasePaths& paths = results[n].paths;
     if (paths.b.empty())
-      parts.remove(paths.a);
+      changes.remove(paths.a);
     else
-      parts.add(paths.a.empty() ? expected / paths.name : paths.a, paths.b);
+      changes.copy(place(paths), paths.b);
   }
-  parts.commit();
+  changes.commit();
 }
 
 } // namespace rend

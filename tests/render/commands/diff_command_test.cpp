@@ -166,8 +166,10 @@ TEST_F(Diff, follows_links_to_folders_and_refuses_those_that_lead_back) {
   const std::map<std::string, std::string> expected{
       {"one.png", "match"}, {"sub/two.png", "differ"}, {"again/two.png", "differ"}};
   EXPECT_EQ(states("a b", 1), expected);
-  EXPECT_EQ(diff("a b --update sub --update again").code, 0); // the same file
-  EXPECT_EQ(diff("a b").code, 0);
+  const Outcome elsewhere = diff("a b --update sub --update again");
+  EXPECT_EQ(elsewhere.code, 2) << "what lies elsewhere is compared, and not changed";
+  EXPECT_THAT(elsewhere.err, HasSubstr("a link leads from the expected pictures to"));
+  EXPECT_EQ(states("a b", 1), expected);
   fs::create_directory_symlink("../b", place.path() / "b-in/back");
   const Outcome outcome = diff("a b");
   EXPECT_EQ(outcome.code, 2);
