@@ -139,7 +139,7 @@ Stopped ClipRun::simulate() {
     checkpoint(next);
     left_checkpoint_ = true;
   }
-  frame_output_->finish();
+  frame_output_->finish(stopped);
   return stopped;
 }
 

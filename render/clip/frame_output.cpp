@@ -154,22 +154,22 @@ void FrameOutput::push(Frame&& frame) {
   ++frames_;
 }
 
-void FrameOutput::close() {
+void FrameOutput::close(Pipeline::End end) {
   if (!pipeline_) return;
-  pipeline_->finish();
+  pipeline_->finish(end);
   seconds_ = pipeline_->seconds();
   pipeline_.reset();
 }
 
-void FrameOutput::finish() {
+void FrameOutput::finish(Stopped stopped) {
   release();
-  close();
+  close(stopped == Stopped::Interrupted ? Pipeline::End::CutShort : Pipeline::End::Whole);
 }
 
 void FrameOutput::abandon() {
   held_.reset();
   held_frames_.clear();
-  close();
+  close(Pipeline::End::Whole);
   std::error_code error;
   for (long frame : flushed_early_) std::filesystem::remove(options_.folder / png_name(frame), error);
 }

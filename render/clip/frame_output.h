@@ -45,7 +45,9 @@ public:
   void flush_all();             // after a signal: flushes all frames, held ones too; creates the folder
   void store(Archive& archive); // what pictures remember; after flush_earlier() or flush_all()
 
-  void finish();  // at the end, or after a signal: held frames are written too, and files are closed
+  // At the end, or after a signal: held frames are written too, and files are closed. A video that a signal
+  // cuts short keeps the name of a part.
+  void finish(Stopped stopped);
   void abandon(); // the state became unstable: held frames are dropped, earlier ones stay; files are closed
 
   long frames() const { return frames_; } // passed to the pipeline
@@ -71,7 +73,7 @@ private:
   void release();
   void start();
   void push(Frame&& frame);
-  void close();
+  void close(Pipeline::End end);
 
   Session& session_;
   PipelineOptions options_;

@@ -28,6 +28,8 @@
 namespace rend {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct RenderOptions {
   SessionOptions session;
   std::string folder, frames, size, video; // empty: not given
@@ -62,13 +64,17 @@ PipelineOptions pipeline_options(const RenderOptions& options, const Session& se
   return out;
 }
 
-std::string closing_words(const ClipRun& clip_run, const PipelineOptions& files, double seconds) {
+std::string closing_words(const ClipRun& clip_run, Stopped stopped, const PipelineOptions& files,
+                          double seconds) {
   if (clip_run.frames_made() + clip_run.frames_kept() == 0) return "no frame was written\n";
   std::string out = fmt::format("{} frame{}", clip_run.frames_made(), clip_run.frames_made() == 1 ? "" : "s");
   if (files.png) out += " in " + printable(files.folder.string());
-  if (files.video)
-    out +=
-        (files.png ? ", and " : " in ") + printable((files.folder / (files.name + files.extension)).string());
+  const fs::path video = files.folder / (files.name + files.extension);
+  if (files.video && stopped != Stopped::Interrupted)
+    out += (files.png ? ", and " : " in ") + printable(video.string());
+  else if (std::error_code error; files.video && fs::exists(partial_video(video), error))
+    out += fmt::format("{} the part {} of a video", files.png ? ", and" : " in",
+                       printable(partial_video(video).string()));
   if (clip_run.frames_kept() > 0) out += fmt::format("; {} were already there", clip_run.frames_kept());
   return out + fmt::format(", in {}\n", seconds_in_words(seconds));
 }
@@ -125,7 +131,7 @@ void print_figures(const RenderOptions& options, const Session& session, const C
     figures.pictures = PictureFigures{.made = clip_run.frames_made(), .kept = clip_run.frames_kept()};
     print_result(text_of(json_of(figures), 2) + "\n");
   } else if (!session.quiet()) {
-    print_result(closing_words(clip_run, files, total));
+    print_result(closing_words(clip_run, stopped, files, total));
   }
 }
 

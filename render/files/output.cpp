@@ -156,6 +156,16 @@ void OutputFile::commit() {
   remove_leftovers(base_temporary_);
 }
 
+void OutputFile::leave() {
+  CHECK(file_ >= 0);
+  const bool kept = ::fsync(file_) == 0;
+  const std::string why = kept ? "" : reason();
+  part_.unregister();
+  ::close(file_);
+  file_ = -1;
+  if (!kept) throw UserError(Exit::ReadWrite, {temporary_.string()}, "writing failed: " + why + ".");
+}
+
 void remove_leftover(const fs::path& path) {
   remove_leftovers(path.string() + ".part");
 }

@@ -38,6 +38,7 @@ public:
   void write(std::span<const std::uint8_t> bytes);    // throws UserError (ReadWrite)
   std::int64_t seek(std::int64_t offset, int whence); // as lseek(2)
   void commit();                                      // fsync and rename; throws UserError (ReadWrite)
+  void leave(); // fsync; the file keeps its temporary name. Throws UserError (ReadWrite)
 
 private:
   // base_temporary_: the temporary name without a number

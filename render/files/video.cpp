@@ -28,10 +28,6 @@ int even(int side) {
   return side + (side & 1);
 }
 
-std::filesystem::path partial_path(const std::filesystem::path& path) {
-  return path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
-}
-
 // Of that size, with the last column and row repeated.
 Image padded(const Image& image, int width, int height) {
   Image out(width, height, image.channels);
@@ -73,8 +69,10 @@ struct VideoWriter::Encoder {
           bool transparent);
   void add(const Image& image);
   void close();
+  void stop();
 
 private:
+  void end();
   void open_codec(AVRational rate);
   void set_colours();
   void send(const AVFrame* frame); // null: flush
@@ -94,7 +92,7 @@ VideoWriter::Encoder::Encoder(const std::filesystem::path& path, const VideoForm
                               int height, double fps, bool transparent)
     : kind_(format), width_(width), height_(height), padded_width_(format.even ? even(width) : width),
       padded_height_(format.even ? even(height) : height), channels_(transparent ? 4 : 3),
-      sink_(path, partial_path(path), format.muxer),
+      sink_(path, partial_video(path), format.muxer),
       filter_(transparent ? format.alpha : format.chain, padded_width_, padded_height_, channels_,
               av_d2q(fps, 100000), path) {
   open_codec(av_d2q(fps, 100000));
@@ -168,10 +166,19 @@ void VideoWriter::Encoder::send(const AVFrame* frame) {
   }
 }
 
-void VideoWriter::Encoder::close() {
+void VideoWriter::Encoder::end() {
   filter_.push(nullptr, [this](const AVFrame* frame) { send(frame); });
   send(nullptr);
   sink_.end();
+}
+
+void VideoWriter::Encoder::stop() {
+  end();
+  sink_.leave();
+}
+
+void VideoWriter::Encoder::close() {
+  end();
   if (kind_.remuxed)
     // the temporary file of the first pass is removed with this object
     remux(sink_.file().temporary(), sink_.file().path(), kind_.muxer);
@@ -236,6 +243,12 @@ void VideoWriter::close() {
   last->close();
 }
 
+void VideoWriter::stop() {
+  CHECK(is_open());
+  const std::unique_ptr<Encoder> last = std::move(encoder_);
+  last->stop();
+}
+
 bool VideoWriter::is_open() const {
   return encoder_ != nullptr;
 }
@@ -273,6 +286,9 @@ void VideoWriter::add(const Image&) {
   CHECK(is_open());
 }
 void VideoWriter::close() {
+  CHECK(is_open());
+}
+void VideoWriter::stop() {
   CHECK(is_open());
 }
 bool VideoWriter::is_open() const {

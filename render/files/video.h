@@ -4,8 +4,9 @@
 // muxer and colour conversion, no dates and no program names.
 //
 // During encoding the video is NAME.part.EXT in the same folder, flushed after every packet, so that a killed
-// run leaves a file that plays. At the end it is renamed. An .mp4 is written in fragments first, and at the end
-// remuxed with its index in front (fast start), so that browsers start playing at once.
+// run leaves a file that plays. At the end it is renamed; a video that is cut short keeps that name. An .mp4 is
+// written in fragments first, and at the end remuxed with its index in front (fast start), so that browsers
+// start playing at once.
 #pragma once
 
 #include "render/files/image.h"
@@ -39,6 +40,8 @@ public:
   void open(const std::filesystem::path& path, int width, int height, double fps, bool transparent = false);
   void add(const Image& image); // CHECK: of the size and channels given to open. Throws UserError (ReadWrite)
   void close();                 // renames the finished file. Throws UserError (ReadWrite)
+  void
+  stop(); // ends the video before its last frame: it plays, and stays partial_video(path). Throws as close()
   bool is_open() const;
 
 private:

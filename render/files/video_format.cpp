@@ -100,6 +100,10 @@ const VideoFormat* find_video_format(const std::string& name) {
   return nullptr;
 }
 
+std::filesystem::path partial_video(const std::filesystem::path& video) {
+  return video.parent_path() / (video.stem().string() + ".part" + video.extension().string());
+}
+
 std::vector<std::string> video_format_names() {
   std::vector<std::string> names;
   for (const VideoFormat& format : video_formats()) names.push_back(format.name);

@@ -31,6 +31,9 @@ const std::vector<VideoFormat>& video_formats();
 // By name or file extension; null: there is none.
 const VideoFormat* find_video_format(const std::string& name);
 
+// What a video is called while it is written, and stays if it is cut short: NAME.part.EXT, in the same folder.
+std::filesystem::path partial_video(const std::filesystem::path& video);
+
 std::vector<std::string> video_format_names();
 std::vector<std::string> transparent_format_names(); // those with transparency
 

@@ -20,6 +20,7 @@ public:
   void write(AVPacket* packet); // as av_interleaved_write_frame
   void end();                   // writes the trailer, and flushes
   void commit() { file_.commit(); }
+  void leave() { file_.leave(); } // under the name of its part
   const OutputFile& file() const { return file_; }
 
   // Throws a UserError for an error of libav; if writing to the file failed, the error of that instead, which

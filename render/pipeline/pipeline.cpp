@@ -55,7 +55,7 @@ struct Pipeline::Stages {
   void start(); // not in the constructor: if a thread fails to start, the destructor stops the others
   void push(Frame&& frame);
   void drain();
-  void finish();
+  void finish(End end);
   PipelineSeconds seconds() const;
   bool threads_were_refused() const { return fewer_threads_; }
 
@@ -217,7 +217,7 @@ void Pipeline::Stages::push(Frame&& frame) {
   if (!frames_.push(std::move(frame))) rethrow();
 }
 
-void Pipeline::Stages::finish() {
+void Pipeline::Stages::finish(End end) {
   CHECK(!finished_);
   frames_.close();
   threads_.wait();
@@ -225,7 +225,7 @@ void Pipeline::Stages::finish() {
   rethrow();
   if (options_.video) {
     const double start = wall_clock();
-    video_.close();
+    end == End::Whole ? video_.close() : video_.stop();
     spent(&PipelineSeconds::video, start);
   }
 }
@@ -245,8 +245,8 @@ void Pipeline::push(Frame&& frame) {
 void Pipeline::drain() {
   stages_->drain();
 }
-void Pipeline::finish() {
-  stages_->finish();
+void Pipeline::finish(End end) {
+  stages_->finish(end);
 }
 PipelineSeconds Pipeline::seconds() const {
   return stages_->seconds();

@@ -60,8 +60,10 @@ public:
   void push(Frame&& frame);
   // Waits until every pushed frame is drawn, and written as PNG. Rethrows errors of the stages.
   void drain();
-  // Waits until everything is written and the video has been renamed. Rethrows errors of the stages.
-  void finish();
+  // Waits until everything is written. A whole video is renamed; one that is cut short plays, and stays
+  // partial_video() of its name. Rethrows errors of the stages.
+  enum class End { Whole, CutShort };
+  void finish(End end = End::Whole);
 
   PipelineSeconds seconds() const;
   bool threads_were_refused() const; // the system refused to start as many threads as were wanted

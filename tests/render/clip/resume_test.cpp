@@ -1,6 +1,7 @@
 // Runs that are killed or stopped and then resumed give the same bytes as an uninterrupted run.
 //
 // By default at a few moments each; with REND_WHOLE in the environment at fifty (tests/run --all).
+#include "render/files/video_format.h"
 #include "tests/render/clip/stopped_clip.h"
 #include "tests/render/needs.h"
 #include "tests/test_paths.h"
@@ -127,6 +128,29 @@ TEST_F(Resume, a_video_is_that_of_a_run_that_was_never_stopped) {
   stop_midway("stopped");
   EXPECT_EQ(place.rend("render clip.xml -q --resume -o stopped --video mkv").code, 0);
   expect_same(in("stopped"), all, "");
+}
+
+TEST_F(Resume, a_video_that_is_cut_short_by_a_signal_is_called_a_part) {
+  NEEDS_PNG;
+  NEEDS_VIDEO;
+  for (const std::string& format : video_format_names()) {
+    const std::string folder = format, line = "render clip.xml --set time.step=2e-5 --video " + format + " -o ";
+    const Outcome first = stopped_when("[ -e " + folder + "/00003.png ]", line + folder);
+    ASSERT_EQ(first.code, 143) << format << first.err;
+    EXPECT_FALSE(in(folder).contains("clip." + format));
+    ASSERT_TRUE(in(folder).contains("clip.part." + format)) << format;
+    EXPECT_THAT(first.out, HasSubstr("the part " + folder + "/clip.part." + format + " of a video"));
+    const std::string probe = "ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 ";
+    const Outcome frames = place.shell(probe + folder + "/clip.part." + format);
+    EXPECT_EQ(frames.err, "") << format;
+    EXPECT_GE(std::atoi(frames.out.c_str()), 4) << format;
+  }
+  const std::string line = "render clip.xml -q --video mkv --no-png -o bare";
+  EXPECT_EQ(stopped_when("[ -s bare/clip.part.mkv ]", line + " --set time.step=2e-5").code, 143);
+  EXPECT_EQ(in("bare").size(), 1u);
+  EXPECT_EQ(place.rend(line).code, 0);
+  EXPECT_EQ(in("bare").size(), 1u) << "the part is replaced by the whole";
+  EXPECT_TRUE(in("bare").contains("clip.mkv"));
 }
 
 TEST_F(Resume, makes_again_what_is_missing_or_wrong_and_touches_nothing_else) {
