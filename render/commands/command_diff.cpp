@@ -193,7 +193,7 @@ Exit diff(const DiffOptions& options) {
   const std::set<std::size_t> changed = updatable(report.cases, chosen, memory);
   for (const std::size_t n : changed) report.updated[n] = true;
   for (const std::size_t n : chosen)
-    if (report.cases[n].state == CaseState::Missing && !changed.contains(n))
+    if (report.cases[n].paths.b.empty() && !changed.contains(n))
       report.remarks.push_back(report.cases[n].paths.name +
                                ": not removed, since it is no picture that can be read");
   report.clips = clips_of(report.cases);
