@@ -383,7 +383,7 @@ TEST_F(Program, StopsOnASignalAndKeepsWhatIsDone) {
   const Outcome render = stopped_once_there_is("f/00000.png", "render pulled.xml -o f --video mp4", place);
   EXPECT_EQ(render.code, 143) << render.err;
   EXPECT_THAT(render.err, HasSubstr("stopped by a signal"));
-  EXPECT_EQ(place.shell("ffprobe -v error f/pulled.mp4").code, 0);
+  EXPECT_EQ(place.shell("ffprobe -v error f/pulled.part.mp4").code, 0);
   const Outcome run = stopped_once_there_is("d.csv.part", "run pulled.xml --json --diagnostics d.csv", place);
   EXPECT_EQ(run.code, 143) << run.err;
   EXPECT_EQ(run.json()["stopped"], "interrupted");
