@@ -131,7 +131,12 @@ Stopped ClipRun::simulate() {
   calls.step = tell;
   const Stopped stopped = session_.run(last_, calls, first_);
   if (stopped == Stopped::Unstable) {
-    frame_output_->abandon();
+    frame_output_->abandon(stopped);
+    return stopped;
+  }
+  if (stopped == Stopped::Interrupted && keeps_checkpoints() && !session_.can_be_stored()) {
+    left_checkpoint_ = read_checkpoint_header(checkpoint_, key_).has_value();
+    frame_output_->abandon(stopped);
     return stopped;
   }
   if (stopped == Stopped::Interrupted && keeps_checkpoints()) {

@@ -154,22 +154,22 @@ void FrameOutput::push(Frame&& frame) {
   ++frames_;
 }
 
-void FrameOutput::close(Pipeline::End end) {
+void FrameOutput::close(Stopped stopped) {
   if (!pipeline_) return;
-  pipeline_->finish(end);
+  pipeline_->finish(stopped == Stopped::Interrupted ? Pipeline::End::CutShort : Pipeline::End::Whole);
   seconds_ = pipeline_->seconds();
   pipeline_.reset();
 }
 
 void FrameOutput::finish(Stopped stopped) {
   release();
-  close(stopped == Stopped::Interrupted ? Pipeline::End::CutShort : Pipeline::End::Whole);
+  close(stopped);
 }
 
-void FrameOutput::abandon() {
+void FrameOutput::abandon(Stopped stopped) {
   held_.reset();
   held_frames_.clear();
-  close(Pipeline::End::Whole);
+  close(stopped);
   std::error_code error;
   for (long frame : flushed_early_) std::filesystem::remove(options_.folder / png_name(frame), error);
 }

@@ -48,7 +48,9 @@ public:
   // At the end, or after a signal: held frames are written too, and files are closed. A video that a signal
   // cuts short keeps the name of a part.
   void finish(Stopped stopped);
-  void abandon(); // the state became unstable: held frames are dropped, earlier ones stay; files are closed
+  // The state became unstable, or is lost by a stop within a step: held frames are dropped, earlier ones stay;
+  // files are closed as by finish().
+  void abandon(Stopped stopped);
 
   long frames() const { return frames_; } // passed to the pipeline
   // what the pictures so far show that is likely a mistake
@@ -73,7 +75,7 @@ private:
   void release();
   void start();
   void push(Frame&& frame);
-  void close(Pipeline::End end);
+  void close(Stopped stopped);
 
   Session& session_;
   PipelineOptions options_;

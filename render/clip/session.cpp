@@ -8,6 +8,7 @@
 #include "sim/base/enum_words.h"
 #include "sim/base/hash.h"
 #include "sim/base/start_threads.h"
+#include "sim/base/stop_request.h"
 #include "sim/base/threads.h"
 #include "sim/build/build_scene.h"
 #include "sim/preset/paths.h"
@@ -154,10 +155,8 @@ long Session::last_step(long last_frame) const {
   return to_the_end ? clock_->steps() : clock_->step_of(last_frame);
 }
 
-namespace {
-
 // Calls back for the frames of a run, in the order of the states that they need.
-class FrameWatch {
+class Session::FrameWatch {
 public:
   FrameWatch(const FrameClock& clock, const Session::Callbacks& calls, long first_frame, long last_frame)
       : clock_(clock), calls_(calls), frame_(first_frame), last_(last_frame) {
@@ -199,11 +198,18 @@ private:
   long first_look_ = never; // the first of all of them
 };
 
-} // namespace
-
 Stopped Session::loop(long first_frame, long last_frame, const Callbacks& calls, double& callback_seconds) {
   const long last_step = this->last_step(last_frame);
   FrameWatch watch(*clock_, calls, first_frame, last_frame);
+  try {
+    return loop(watch, last_step, calls, callback_seconds);
+  } catch (const StopRequested&) {
+    can_be_stored_ = scene_->can_be_stored() && !watch.is_shutter_open(scene_->steps_done());
+    return Stopped::Interrupted;
+  }
+}
+
+Stopped Session::loop(FrameWatch& watch, long last_step, const Callbacks& calls, double& callback_seconds) {
   while (true) {
     const long done = scene_->steps_done();
     if (watch.is_due(done) || done >= last_step) scene_->check_sound();

@@ -72,14 +72,21 @@ public:
   long last_step(long last_frame) const;
   // Steps until frame `last_frame` (or the end of the clip, if it is the last frame), a signal, or an
   // instability, which failure() then describes. A signal that comes while the shutter is open ends it at the
-  // frame. To resume, restore first a state stored when `first_frame` was the next frame.
+  // frame, or where that takes longer than the grace of a stop (stop_request.h). To resume, restore first a
+  // state stored when `first_frame` was the next frame.
   Stopped run(long last_frame, const Callbacks& calls, long first_frame = 0);
+
+  // Whether a run that was interrupted can go on from the state where it stopped: not where the shutter is
+  // open, and not always within a step.
+  bool can_be_stored() const { return can_be_stored_; }
 
   const std::optional<Unstable>& failure() const { return failure_; }
   double step_seconds() const { return step_seconds_; } // in the time loop, without the calls at frames
 
 private:
+  class FrameWatch;
   Stopped loop(long first_frame, long last_frame, const Callbacks& calls, double& callback_seconds);
+  Stopped loop(FrameWatch& watch, long last_step, const Callbacks& calls, double& callback_seconds);
   void check_counts() const;
 
   SessionOptions options_;
@@ -89,6 +96,7 @@ private:
   std::unique_ptr<FrameClock> clock_;
   PictureSettings picture_; // reads from the preset too
   std::optional<Unstable> failure_;
+  bool can_be_stored_ = true;
   double step_seconds_ = 0;
 };
 

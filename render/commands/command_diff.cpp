@@ -13,6 +13,7 @@
 #include "render/pages/diff_report.h"
 #include "sim/base/printable.h"
 #include "sim/base/start_threads.h"
+#include "sim/base/stop_request.h"
 #include "sim/base/threads.h"
 #include "sim/base/worker_threads.h"
 #include "sim/preset/paths.h"
@@ -87,6 +88,8 @@ std::vector<CaseResult> compare_all(const std::vector<CasePaths>& cases, const T
         one.threads = std::max(1, threads / jobs);
         in_order.put(n, compare_case(cases[n], one, memory));
       }
+    } catch (const StopRequested&) { // this case has no result
+      next = cases.size();
     } catch (...) {
       errors[job] = std::current_exception();
       next = cases.size();

@@ -132,7 +132,7 @@ Exit lean(const StudyOptions& options) {
   std::vector<LeanRow> rows;
   try {
     rows = run_lean(plan, calls);
-  } catch (const Interrupted&) {
+  } catch (const StopRequested&) {
     return stopped(progress_line);
   }
   progress_line.clear();
@@ -170,7 +170,7 @@ Exit study(const StudyOptions& options) {
   StudyReport report;
   try {
     report = run_study(task.plan, task.make, calls);
-  } catch (const Interrupted&) {
+  } catch (const StopRequested&) {
     return stopped(progress_line);
   }
   progress_line.clear();

@@ -8,6 +8,7 @@
 #include "render/help/folding.h"
 #include "sim/base/check.h"
 #include "sim/base/simd_width.h"
+#include "sim/base/stop_request.h"
 #include "sim/base/wording.h"
 #include "sim/mesh/mesh_name.h"
 
@@ -175,6 +176,9 @@ int run_program(int count, const char* const* arguments) {
   } catch (const UserError& error) {
     print_error(error.what(), error.hint);
     return end(error.code);
+  } catch (const StopRequested&) {
+    print_error("stopped by a signal");
+    return end(exit_code_of_signal());
   } catch (const BrokenPipe&) {
     return 128 + SIGPIPE;           // as if SIGPIPE had ended it
   } catch (const std::bad_alloc&) { // of allocations without operator new

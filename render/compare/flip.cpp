@@ -3,6 +3,7 @@
 #include "render/compare/flip_colour.h"
 #include "render/compare/flip_filters.h"
 #include "sim/base/check.h"
+#include "sim/base/stop_request.h"
 #include "sim/base/threads.h"
 
 #include <algorithm>
@@ -134,12 +135,17 @@ Levels flip_map(const Picture& a, const Picture& b, int threads) {
   Flip flip(a, b);
   const auto height = static_cast<std::size_t>(a.height);
   parallel_ranges(threads, 2 * height, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) flip.along_rows(n % 2, static_cast<int>(n / 2));
+    for (std::size_t n = begin; n < end; ++n) {
+      throw_if_stop_is_due();
+      flip.along_rows(n % 2, static_cast<int>(n / 2));
+    }
   });
   Levels map(a.pixels());
   parallel_ranges(threads, height, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y)
+    for (std::size_t y = begin; y < end; ++y) {
+      throw_if_stop_is_due();
       flip.along_columns(static_cast<int>(y), map.data() + y * static_cast<std::size_t>(a.width));
+    }
   });
   return map;
 }

@@ -1,6 +1,7 @@
 #include "render/compare/ssim.h"
 
 #include "sim/base/check.h"
+#include "sim/base/stop_request.h"
 #include "sim/base/threads.h"
 
 #include <algorithm>
@@ -81,12 +82,14 @@ double ssim_of(const Picture& a, const Picture& b, const Mask& mask, int threads
   const Window window{std::min(window_side, a.width), std::min(window_side, a.height)};
   std::vector<Total> rows(static_cast<std::size_t>(a.height - window.down + 1));
   parallel_ranges(threads, rows.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y)
+    for (std::size_t y = begin; y < end; ++y) {
+      throw_if_stop_is_due();
       for (std::size_t c = 0; c < 3; ++c) {
         const Total one = total_of(a.planes[c], b.planes[c], mask, a.width, static_cast<int>(y), window);
         rows[y].sum += one.sum;
         rows[y].count += one.count;
       }
+    }
   });
   Total all;
   for (const Total& row : rows) {

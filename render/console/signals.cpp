@@ -1,5 +1,8 @@
 #include "render/console/signals.h"
 
+#include "render/files/temporaries.h"
+#include "sim/base/stop_request.h"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -33,14 +36,22 @@ bool is_repeated(const siginfo_t& how) {
   return how.si_signo == SIGXCPU && how.si_code == SI_KERNEL;
 }
 
+// Leaves no temporary file.
+[[noreturn]] void end_at_once(int signal) {
+  remove_temporaries();
+  _exit(128 + signal);
+}
+
 void on_signal(int signal, siginfo_t* how, void* /*context*/) {
-  if (graceful_stop == 0) _exit(128 + signal);
+  if (graceful_stop == 0) end_at_once(signal);
   double none = 0;
   const double at = now();
-  if (first_at.compare_exchange_strong(none, at))
+  if (first_at.compare_exchange_strong(none, at)) {
     caught = signal;
-  else if (at - first_at > same_request && !is_repeated(*how))
-    _exit(128 + signal);
+    request_stop();
+  } else if (at - first_at > same_request && !is_repeated(*how)) {
+    end_at_once(signal);
+  }
 }
 
 bool is_ignored(int signal) {

@@ -7,10 +7,10 @@
 
 namespace rend {
 
-// SIGHUP, SIGINT, SIGTERM and SIGXCPU request a stop; a second one ends the program at once, even in a blocking
-// call. SIGHUP and SIGINT stay ignored if they were (under nohup; in a shell's background job). SIGPIPE and
-// SIGXFSZ are ignored: writing to a closed pipe, or beyond the limit of a file's size, then fails as writing to
-// a full disk does.
+// SIGHUP, SIGINT, SIGTERM and SIGXCPU request a stop (sim/base/stop_request.h); a second one ends the program
+// at once, even in a blocking call, and removes temporary files. SIGHUP and SIGINT stay ignored if they were
+// (under nohup; in a shell's background job). SIGPIPE and SIGXFSZ are ignored: writing to a closed pipe, or
+// beyond the limit of a file's size, then fails as writing to a full disk does.
 void catch_signals();
 
 int stop_signal();                     // the first stop signal received, or 0
@@ -32,9 +32,9 @@ private:
   sigset_t before_{};
 };
 
-// While an object of this class exists, a signal only sets stop_signal(). Otherwise there is nothing to save (a
-// preset is read or a scene is built, which may take very long), and a signal ends the program at once with 128
-// plus its number as exit code.
+// While an object of this class exists, a signal only sets stop_signal() and requests a stop. Otherwise there
+// is nothing to save (a preset is read or a scene is built, which may take very long), and a signal ends the
+// program at once with 128 plus its number as exit code.
 class GracefulStop {
 public:
   GracefulStop();

@@ -3,6 +3,7 @@
 #include "render/console/signals.h"
 #include "render/files/output.h"
 #include "render/picture/scene_preset.h"
+#include "sim/base/stop_request.h"
 #include "sim/base/worker_threads.h"
 
 #include <algorithm>
@@ -54,6 +55,8 @@ std::vector<CheckResult> run_cases(const fs::path& folder, const std::vector<Che
         const std::lock_guard lock(one_at_a_time);
         done(n, *results[n]);
       }
+    } catch (const StopRequested&) { // the case has no result
+      next = cases.size();
     } catch (...) {
       const std::lock_guard lock(one_at_a_time);
       if (!error) error = std::current_exception();

@@ -119,7 +119,7 @@ std::vector<LeanRow> run_lean(const LeanPlan& plan, const StudyCalls& calls) {
   for (const LeanScene& scene : plan.scenes) {
     Built(scene, {}, plan.overrides); // reports errors in it now
     for (const LeanFeature& feature : features) {
-      if (calls.going && !calls.going()) throw Interrupted{};
+      if (calls.going && !calls.going()) throw StopRequested{};
       if (calls.progress)
         calls.progress(scene.name + ": " + feature.name, static_cast<double>(rows.size()) / count);
       rows.push_back(measure(feature, scene, plan, pictures));

@@ -28,7 +28,7 @@ struct LeanPlan {
   double seconds = 0.02;           // duration of each run
 };
 
-// One row for each feature on each scene. Throws UserError if a scene cannot be built; Interrupted.
+// One row for each feature on each scene. Throws UserError if a scene cannot be built; StopRequested.
 std::vector<LeanRow> run_lean(const LeanPlan& plan, const StudyCalls& calls);
 
 } // namespace rend

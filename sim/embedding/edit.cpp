@@ -1,5 +1,6 @@
 // An edit of a map with its values: what it records, how it closes, and how it is taken back.
 #include "sim/base/check.h"
+#include "sim/base/stop_request.h"
 #include "sim/embedding/embedded_map.h"
 #include "sim/topology/walk.h"
 
@@ -44,6 +45,7 @@ void EmbeddedMap::close(const Edit& edit, Closing& closing) {
   for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
     initialised_[mask].clear();
     if (!cells_[mask]) continue;
+    throw_if_stop_is_due();
     closing.slots[mask] = true;
     cells_[mask]->update(map_, journal_, events_[mask]);
   }

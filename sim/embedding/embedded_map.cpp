@@ -2,6 +2,7 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/check.h"
+#include "sim/base/stop_request.h"
 #include "sim/embedding/vertex_acceleration.h"
 #include "sim/topology/validate.h"
 #include "sim/topology/walk.h"
@@ -38,7 +39,10 @@ EmbeddedMap::EmbeddedMap(GMap map, const std::function<Point(Dart)>& point_of) :
 
 const CellIndex& EmbeddedMap::use(Orbit orbit) {
   auto& index = cells_[orbit.mask];
-  if (!index) index = std::make_unique<CellIndex>(map_, orbit);
+  if (!index) {
+    throw_if_stop_is_due();
+    index = std::make_unique<CellIndex>(map_, orbit);
+  }
   return *index;
 }
 
@@ -50,8 +54,10 @@ const CellIndex& EmbeddedMap::cells(Orbit orbit) const {
 void EmbeddedMap::adopt(std::unique_ptr<ColumnBase> column) {
   const CellIndex& index = use(column->orbit());
   column->resize(index.slots());
-  for (Slot slot = 0; slot < index.slots(); ++slot)
+  for (Slot slot = 0; slot < index.slots(); ++slot) {
+    throw_if_stop_is_due();
     if (index.alive(slot)) column->initialise(*this, index, slot);
+  }
   columns_.push_back(std::move(column));
 }
 

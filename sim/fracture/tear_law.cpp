@@ -1,6 +1,7 @@
 #include "sim/fracture/tear_law.h"
 
 #include "sim/base/archive.h"
+#include "sim/base/stop_request.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -142,10 +143,12 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
   int made = 0;
   ChangeMemory* const memory = settings_.change->memory.get();
   if (memory) memory->begin(view);
-  map.edit([&](Edit& edit) {
+  const std::size_t events_before = events.size();
+  const auto change = [&](Edit& edit) {
     if (fragment_counter) fragment_counter->begin(settings_.change->grows ? &map.map() : nullptr);
     for (std::size_t n = 0; n < candidates_.size(); ++n) {
       if (settings_.max_per_step > 0 && made == settings_.max_per_step) break;
+      throw_if_stop_is_due();
       const bool done = change_at(edit, view, n);
       if (memory) memory->settle_candidate(done);
       if (!done) continue;
@@ -155,7 +158,13 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
       if (fragment_counter) fragment_counter->note(*edit.journal());
       ++made;
     }
-  });
+  };
+  try {
+    map.edit(change);
+  } catch (...) { // the map is as before
+    events.erase(events.begin() + static_cast<std::ptrdiff_t>(events_before), events.end());
+    throw;
+  }
   return made;
 }
 

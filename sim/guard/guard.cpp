@@ -238,6 +238,7 @@ std::optional<long> Guard::roll_back(StepFailure failure, long done) {
 
 long Guard::restore_start() {
   redoing_ = begins_ = false;
+  from_ = goal_ = rollback_->first();
   watch_ = watch_at_start_;
   rollback_->restore();
   settled_ = rollback_->first();
@@ -279,7 +280,6 @@ void Guard::check_read(long done) const {
   refuse_unless(gone(settled_) && gone(exactly_) && gone(from_) && gone(goal_),
                 "a stretch ends later than now");
   refuse_unless(!redoing_, "a stretch is being redone");
-  refuse_unless(done > 0 || (begins_ && budget_ < 0), "energy is known before the first step");
   refuse_unless(hold_length_ >= 0 && hold_length_ <= longest_hold && hold_until_ >= 0 &&
                     hold_until_ <= done + longest_hold,
                 "parts of steps stay for longer than they would");

@@ -43,6 +43,7 @@ public:
   const GuardFigures& figures() const { return figures_; }
   std::size_t bytes() const { return rollback_ ? rollback_->bytes() : 0; }
   bool on() const { return rollback_.has_value(); }
+  bool begins_at(long step) const { return rollback_ && rollback_->first() == step; } // a stretch
 
   // The calls of a step, in this order; `step`: steps done before it.
   int substeps(long step) const;        // number of substeps

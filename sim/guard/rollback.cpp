@@ -63,9 +63,8 @@ bool Rollback::fits() const {
 }
 
 void Rollback::restore() {
-  if (!aside_) return;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    bodies_[b]->restore_state(starts_[b].state, starts_[b].time);
+    if (aside_) bodies_[b]->restore_state(starts_[b].state, starts_[b].time);
     if (starts_[b].meter) *bodies_[b]->work_meter = *starts_[b].meter;
     for (std::size_t n = 0; n < starts_[b].reached.size(); ++n)
       bodies_[b]->tear_laws[n].restore_reached(starts_[b].reached[n]);
@@ -185,9 +184,10 @@ void Rollback::store(Archive& archive, long done) {
   if (archive.reading()) check_read(done);
 }
 
-// After each step a start with the current topology is put aside. Before the first step there is none.
+// After each step a start with the current topology is put aside. Where the current state is the start, there
+// is none yet: before the first step, and after the laws of a step that was stopped.
 void Rollback::check_read(long done) const {
-  refuse_unless(aside_ == (done > 0), "a stretch of steps has no start");
+  refuse_unless(aside_ || first_ == done, "a stretch of steps has no start");
   refuse_unless(first_ >= 0 && first_ <= done && done - first_ <= longest,
                 "a stretch of steps starts elsewhere");
   for (std::size_t b = 0; aside_ && b < starts_.size(); ++b) {

@@ -29,6 +29,7 @@
 // at the limit of stability, where otherwise every third would be rejected. Both factors are limited to between
 // 1/5 and 5, and to 1 after a repeated substep. The size and the last error are passed on to the next step
 // (saved_state). A substep below 2^-20 of the step fails (NotConverged).
+#include "sim/base/stop_request.h"
 #include "sim/integrate/integrator.h"
 #include "sim/solve/vectors.h"
 
@@ -247,6 +248,7 @@ double RungeKutta45::error_of(const System& system, const Substep& part, double 
 // Makes one substep, as long as next_size_ allows, repeated with smaller sizes until its error is small enough.
 void RungeKutta45::make_substep(System& system, Substep& part, double left, double end, double step) {
   for (bool again = false;; again = true) {
+    throw_if_stop_is_due();
     const bool last = next_size_ >= left;
     part.size = last ? left : std::min(next_size_, 0.5 * left); // avoids a tiny last substep
     part.end = last ? end : part.start + part.size;

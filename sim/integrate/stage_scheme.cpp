@@ -1,5 +1,7 @@
 #include "sim/integrate/stage_scheme.h"
 
+#include "sim/base/stop_request.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,6 +29,7 @@ struct StageScheme::Residual {
 
 // R at v, into momentum_; sets prescribed coordinates of v and x.
 StageScheme::Residual StageScheme::evaluate(const Stage& stage, const Records& v) {
+  throw_if_stop_is_due();
   System& system = stage.system;
   const std::size_t count = system.vertices();
   const Double4 p = splat(stage.by_velocity), q = splat(stage.by_force);

@@ -24,6 +24,7 @@
 // saddle point only by symmetry. A component with a free translation is refused, and so is one with a free
 // rotation in a linear model, whose f is not rotation invariant (rigid_motions.h). Once an equilibrium has been
 // found, components that come off are no error: they take their rest shape in place, without loads.
+#include "sim/base/stop_request.h"
 #include "sim/integrate/lowest_eigenvalue.h"
 #include "sim/integrate/newton_scheme.h"
 #include "sim/integrate/rigid_motions.h"
@@ -149,6 +150,7 @@ double StaticSolve::noise(const Records& x) const {
 
 // F at x.
 void StaticSolve::evaluate(const Records& x) {
+  throw_if_stop_is_due();
   System& system = *system_;
   system.forces(end_, x.data(), zeros_.data(), force_.data());
   Double4 left{}, internal{}, outer{};

@@ -1,5 +1,6 @@
 #include "sim/rows/frequency.h"
 
+#include "sim/base/stop_request.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -67,6 +68,7 @@ CornerBounds corner_bounds(const EmbeddedMap& map,
   std::array<Vec3, most_particles> rest;
   std::array<double, most_particles> weight{}, s{}, c{};
   const auto add = [&](const Interaction& interaction, Slot owner, Dart d, std::size_t unit) {
+    throw_if_stop_is_due();
     const std::vector<Word>& words = interaction.pattern.units[unit];
     std::array<Slot, most_particles> at{};
     for (std::size_t n = 0; n < words.size(); ++n) {

@@ -1,6 +1,7 @@
 #include "sim/rules/apply.h"
 
 #include "sim/base/check.h"
+#include "sim/base/stop_request.h"
 #include "sim/rules/rest_measures.h"
 #include "sim/topology/walk.h"
 
@@ -70,6 +71,7 @@ void Rewriter::place_vertices(const RuleValues& values) {
 void Rewriter::place(const RuleValues& values, int node) {
   const int set = rule_.vertex_set[static_cast<std::size_t>(node)], kept = kept_in_vertex(node);
   for (std::size_t k = 0; k < match_.instances; ++k) {
+    throw_if_stop_is_due();
     if (point_[index(k, node)] != no_point) continue;
     if (set < 0) {
       point_[index(k, node)] = edit_.add_point(edit_.point(match_.dart(k, kept)));
@@ -131,6 +133,7 @@ void Rewriter::run() {
 void Rewriter::create() {
   darts_.resize(match_.instances * nodes_);
   for (std::size_t k = 0; k < match_.instances; ++k) {
+    throw_if_stop_is_due();
     for (int n = 0; n < rule_.right.size(); ++n) {
       const int before = left_of(n);
       Dart& d = darts_[index(k, n)];
@@ -160,6 +163,7 @@ std::string Rewriter::shape_fault() const {
   seen.clear();
   for (Dart d : darts_) {
     if (seen.contains(d.value)) continue;
+    throw_if_stop_is_due();
     element.clear();
     collect(edit_.map(), element_orbit(edit_.map().dimension()), d, element);
     for (Dart e : element) seen.insert(e.value);
@@ -170,6 +174,7 @@ std::string Rewriter::shape_fault() const {
 
 void Rewriter::link(const RulePlan::Link& link) {
   for (std::size_t k = 0; k < match_.instances; ++k) {
+    throw_if_stop_is_due();
     const bool arc = link.kind == Kind::Arc;
     const std::size_t other = arc ? k : match_.neighbour(k, link.to);
     if (!arc && other <= k) continue; // free, or done from the other end

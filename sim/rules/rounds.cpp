@@ -1,6 +1,7 @@
 #include "sim/rules/rounds.h"
 
 #include "sim/base/check.h"
+#include "sim/base/stop_request.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ public:
     }
     const Orbit orbit = runner_.hook_orbit();
     for (std::uint32_t n = 0; n < darts_; ++n) {
+      throw_if_stop_is_due();
       if (!edit_.map().alive(Dart{n}) || used_[n] || seen_[n]) continue;
       orbit_.clear();
       collect(edit_.map(), orbit, Dart{n}, orbit_);

@@ -2,6 +2,7 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/hash.h"
+#include "sim/base/stop_request.h"
 #include "sim/base/wall_clock.h"
 #include "sim/contact/start_overlap.h"
 #include "sim/guard/guard.h"
@@ -41,6 +42,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   clear_start(world_, bodies_);
   scale_masses();
   for (auto& body : bodies_) body->prepare(scheme(), run);
+  throw_if_stop_is_due(); // what follows takes long in a large body
   set_step();
   set_looks(options.reach);
   guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
@@ -368,7 +370,9 @@ void Scene::store(Archive& archive) {
   archive(laws_applied_at_);
   refuse_unless(step == step_, "its steps have another length");
   if (archive.reading())
-    refuse_unless(is_count(steps_done_) && laws_applied_at_ == steps_done_ - 1, "it is not between two steps");
+    refuse_unless(is_count(steps_done_) &&
+                      (laws_applied_at_ == steps_done_ - 1 || laws_applied_at_ == steps_done_),
+                  "it is not between two steps");
   archive.same(bodies_.size(), "number of bodies");
   for (auto& body : bodies_) body->store(archive, steps_done_, step_);
   archive.same(world_.spheres.size(), "number of spheres");
@@ -376,6 +380,9 @@ void Scene::store(Archive& archive) {
   account_.store(archive, steps_done_);
   if (contacts_) contacts_->store(archive);
   guard_->store(archive, steps_done_);
+  // a stop within a step leaves the state after its laws, with which a stretch begins
+  refuse_unless(laws_applied_at_ < steps_done_ || guard_->begins_at(steps_done_),
+                "it is not between two steps");
   archive.mark("seconds"); // last, since they differ from run to run
   archive(build_seconds_, bind_seconds_, *profile_);
   if (archive.reading()) check_read();

@@ -56,8 +56,11 @@ public:
 
   // One step; if it fails, the guard redoes the last ones with substeps (guard.h). Throws Unstable (exit 76) if
   // that does not help, with the positions and velocities before the step restored; changes of topology at its
-  // start are kept.
+  // start are kept. Throws StopRequested before or within a step that takes long: it is as if it had not begun,
+  // except that its laws may have been applied.
   void step();
+  // False after a stop within laws, or within a step without a guard: what came of it is no state of the run.
+  bool can_be_stored() const { return can_be_stored_; }
 
   // Without a guard: throws Unstable if the step does not resolve the motion of the current state. Called
   // before a state is shown.
@@ -111,6 +114,8 @@ private:
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
   StepFailure try_step();
+  void keep_solver_states();
+  void return_to_start_of(long step);
   StepFailure nominal_step();
   StepFailure substep(double time, double step); // [s]
   void evaluate_forces();
@@ -147,6 +152,9 @@ private:
   long laws_applied_at_ = -1;  // steps_done() when the laws were last applied
   std::vector<State> current_; // scratch, one per body
   std::optional<Fault> fault_;
+  std::vector<std::vector<double>> solver_states_; // per body, at the start of a step of a scheme that solves
+  bool returning_ = false;                         // steps are repeated that have been made before
+  bool can_be_stored_ = true;
 };
 
 } // namespace rend

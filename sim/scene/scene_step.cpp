@@ -1,4 +1,5 @@
 // The steps of a scene, and the handling of failed ones.
+#include "sim/base/stop_request.h"
 #include "sim/guard/guard.h"
 #include "sim/scene/scene.h"
 
@@ -22,32 +23,66 @@ struct UnsoundState { // thrown if the state about to be torn is not sound
 } // namespace
 
 void Scene::step() {
+  throw_if_stop_is_due();
   const long entry = steps_done_;
   if (account_.due(entry) && scheme().has_account()) account_.add(entry, energy_state());
-  while (steps_done_ <= entry) {
-    const StepFailure failure = try_step();
-    if (failure != StepFailure::None)
-      redo(failure, entry);
-    else if (time() >= next_answer_)
-      measure_answers();
+  if (scheme().solves || scheme().adaptive) keep_solver_states();
+  try {
+    while (steps_done_ <= entry) {
+      const StepFailure failure = try_step();
+      if (failure != StepFailure::None)
+        redo(failure, entry);
+      else if (time() >= next_answer_)
+        measure_answers();
+    }
+  } catch (const StopRequested&) {
+    return_to_start_of(entry);
+    throw;
   }
 }
 
 StepFailure Scene::try_step() {
   if (fault_ && fault_->step <= steps_done_) arm_fault();
+  struct Timed {
+    Profile& profile;
+    ~Timed() { profile.end_step(); }
+  };
   profile_->begin_step(steps_done_);
-  const StepFailure failure = nominal_step();
-  profile_->end_step();
-  return failure;
+  const Timed timed{*profile_};
+  return nominal_step();
+}
+
+void Scene::keep_solver_states() {
+  solver_states_.clear();
+  for (const auto& body : bodies_) solver_states_.push_back(body->integrator->saved_state());
+}
+
+// After a stop within the step from `step` on. A scheme that solves begins a stretch at every step, after its
+// laws; others repeat the steps since the start of theirs.
+void Scene::return_to_start_of(long step) {
+  const bool within_laws = laws_applied_at_ < steps_done_;
+  if (within_laws || !guard_->on()) {
+    can_be_stored_ = false;
+    return;
+  }
+  returning_ = true;
+  return_to(guard_->restore_start());
+  while (steps_done_ < step && try_step() == StepFailure::None) continue;
+  returning_ = false;
+  can_be_stored_ = steps_done_ == step;
+  for (std::size_t b = 0; b < solver_states_.size(); ++b)
+    bodies_[b]->integrator->restore_state(solver_states_[b]);
 }
 
 // With the number of substeps that the guard asks for. On failure, steps_done() counts the steps completed.
 StepFailure Scene::nominal_step() {
   const int substeps = guard_->substeps(steps_done_);
   const double step = step_ / substeps;
-  for (int n = 0; n < substeps; ++n)
+  for (int n = 0; n < substeps; ++n) {
+    if (!returning_ && (n > 0 || guard_->redoing())) throw_if_stop_is_due();
     if (const StepFailure failure = substep(time() + n * step, step); failure != StepFailure::None)
       return failure;
+  }
   ++steps_done_;
   not_converged_.reset();
   return guard_->after_step(steps_done_);

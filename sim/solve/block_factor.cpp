@@ -2,6 +2,7 @@
 
 #include "sim/base/bytes.h"
 #include "sim/base/check.h"
+#include "sim/base/stop_request.h"
 #include "sim/solve/block_products.h"
 
 #include <Eigen/OrderingMethods>
@@ -156,6 +157,7 @@ Definiteness BlockFactor::factorise(const BlockMatrix& matrix) {
   path_.resize(n);
   bool positive = true;
   for (std::uint32_t k = 0; k < n; ++k) {
+    throw_if_stop_is_due();
     const std::size_t top = reach(k, matrix);
     Block3 diagonal = work_[k];
     work_[k] = Block3{};

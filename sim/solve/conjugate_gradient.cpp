@@ -1,5 +1,7 @@
 #include "sim/solve/conjugate_gradient.h"
 
+#include "sim/base/stop_request.h"
+
 #include <cmath>
 
 namespace rend {
@@ -28,6 +30,7 @@ ConjugateGradient::Result ConjugateGradient::solve(Preconditioner& preconditione
   const double goal = tolerance * tolerance * energy;
   Result result;
   while (!(result.converged = energy <= goal) && result.iterations < most) {
+    throw_if_stop_is_due();
     preconditioner.product(direction_, moved_, image_);
     const double curvature = dot(parts, direction_, image_);
     if (!(curvature > 0)) break;

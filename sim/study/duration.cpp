@@ -13,7 +13,7 @@ constexpr double usual = 0.2, usual_steps = 64, after_tear = 1.25, reach_for_ans
 std::optional<double> first_tear(Scene& scene, const StudyCalls& calls) {
   try {
     while (scene.time() < scene.duration() && scene.tears() == 0) {
-      if (calls.going && !calls.going()) throw Interrupted{};
+      if (calls.going && !calls.going()) throw StopRequested{};
       scene.step();
     }
   } catch (const Unstable&) {

@@ -13,7 +13,7 @@ namespace {
 constexpr long asked_every = 64; // steps between calls of `going`
 
 void ask(const std::function<bool()>& going, long step) {
-  if (going && step % asked_every == 0 && !going()) throw Interrupted{};
+  if (going && step % asked_every == 0 && !going()) throw StopRequested{};
 }
 
 RunCounts counts_of(const Scene& scene) {

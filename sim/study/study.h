@@ -8,6 +8,7 @@
 // files: scenes come from a function, and results are returned.
 #pragma once
 
+#include "sim/base/stop_request.h"
 #include "sim/study/errors.h"
 #include "sim/study/order_fit.h"
 #include "sim/study/pareto.h"
@@ -136,8 +137,7 @@ struct StudyCalls {
   std::function<bool()> going;                                         // false: stop; may be empty
 };
 
-// Throws UserError if the preset cannot be built or run at all; Interrupted if `going` returned false.
-struct Interrupted {};
+// Throws UserError if the preset cannot be built or run at all; StopRequested if `going` returned false.
 StudyReport run_study(const StudyPlan& plan, const MakeScene& make, const StudyCalls& calls);
 
 // The curves, fronts and marks of a report whose rows and references are complete.
