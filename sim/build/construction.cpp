@@ -18,7 +18,6 @@ namespace rend {
 namespace {
 
 constexpr const char* subdivision = "subdivide"; // stands for the rule of the body's dimension
-constexpr std::size_t most_darts = 1u << 30;
 
 // The groups of a vertex: bit k is group k, in the order of names.
 struct GroupMask {
@@ -101,7 +100,7 @@ public:
     check_hooks(what, settings);
     check_quantities(what, settings);
     RuleOrScriptRunner runner(what, {.wheres = arguments_of(what, settings)});
-    for (int n = 0; n < settings.times; ++n) round(what, runner, settings);
+    for (int n = 0; n < settings.times; ++n) round(what, runner, settings, n);
   }
 
   // The body's map, as if it came from a file.
@@ -187,8 +186,10 @@ private:
     return values;
   }
 
-  void round(const RuleOrScript& rule, RuleOrScriptRunner& runner, const ApplySettings& settings) {
+  // `done`: rounds before.
+  void round(const RuleOrScript& rule, RuleOrScriptRunner& runner, const ApplySettings& settings, int done) {
     EmbeddedMap& map = *body_.map;
+    runner.context().most_darts = most_darts(map);
     std::vector<bool> chosen;
     if (settings.where.given()) {
       chosen.resize(map.cells(Vertex).slots());
@@ -203,13 +204,25 @@ private:
     const RoundResult result = apply_round(
         map, runner, chosen.empty() ? std::function<bool(Dart)>() : std::function<bool(Dart)>(selected),
         pairs ? partners : Partners());
+    if (result.over_budget) refuse_growth(rule, result, runner.context().most_darts, settings, done);
     if (result.applied == 0)
       settings.source.fail("",
                            fmt::format("{} '{}' applies nowhere{}", rule.kind(), rule.name(),
                                        result.reason.empty() ? "" : ": " + result.reason),
                            result.reason.empty() ? "nothing was selected that its hook stands for" : "");
-    if (map.map().dart_count() > most_darts)
-      settings.source.fail("times", fmt::format("the map grows beyond {} darts", most_darts));
+  }
+
+  [[noreturn]] static void refuse_growth(const RuleOrScript& rule, const RoundResult& result, std::size_t most,
+                                         const ApplySettings& settings, int done) {
+    const std::string round =
+        settings.times > 1 ? fmt::format("round {} of {}: ", done + 1, settings.times) : std::string();
+    const std::string places = result.places > 1 ? fmt::format(", at {} places,", result.places) : "";
+    const std::string darts = result.darts > 0 ? fmt::format("{} darts", result.darts) : "more darts";
+    settings.source.fail(settings.times > 1 ? "times" : "",
+                         fmt::format("{}with {} '{}'{} the body would have {}, and rules may let it grow to {}",
+                                     round, rule.kind(), rule.name(), places, darts, most),
+                         done > 0 ? fmt::format("times=\"{}\" is the most that fits here", done)
+                                  : "apply it to fewer cells, or begin with fewer");
   }
 
   VertexGroups groups_now() const {

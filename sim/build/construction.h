@@ -6,7 +6,8 @@
 //
 // A rule is applied to all orbits of its hook's kind whose vertices are all selected, in the order of their
 // smallest darts; `times` times, the orbits being found again each time. What a rule matches or makes is used
-// up for that time. New vertices belong to a group if all vertices that they come from do.
+// up for that time. New vertices belong to a group if all vertices that they come from do. A body that would
+// grow too large is refused before it does (sim/rules/map_budget.h).
 //
 // The second hook of a rule that has two (sew-edges, sew-faces) is found by with="touching": the dart at the
 // same place, whose side and face lie on those of the first.
@@ -46,7 +47,7 @@ const ElementType& subdivide_type();
 ApplySettings read_apply(const PresetNode& node);
 
 // Applies them in their order to the map of the body, then places and orders it. UserError: a rule that applies
-// nowhere, and cells that are none of the standard ones.
+// nowhere, or lets the map grow too large, and cells that are none of the standard ones.
 void construct(Body& body, const std::vector<ApplySettings>& applies, const RuleBook& rules,
                const Placement& place, const SettingsSource& shape);
 

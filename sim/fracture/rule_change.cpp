@@ -35,7 +35,8 @@ std::optional<Cell> cell_of(Orbit hook, int dimension) {
 // A rule or a script of one law.
 class ByRule final : public ChangeMemory {
 public:
-  ByRule(const RuleOrScript& what, const CriterionRequest* request) : what_(what), runner_(what_) {
+  ByRule(const RuleOrScript& what, const CriterionRequest* request, const MapBudget& budget)
+      : what_(what), runner_(what_), budget_(budget) {
     if (request && asks_for_tensors(what)) quantities_.emplace(*request);
     if (!quantities_) quantities_.emplace();
   }
@@ -44,13 +45,16 @@ public:
     quantities_->across = found.normal;
     quantities_->value = found.value;
     quantities_->before_change(edit);
-    runner_.context() = {{}, &*quantities_, {}};
+    runner_.context() = {{}, &*quantities_, {}, most_darts_};
     darts_.assign(darts.begin(), darts.end());
     std::sort(darts_.begin(), darts_.end());
     return runner_.apply_at_first(edit, darts_, &furthest_);
   }
 
-  void begin(const ForceView& view) override { quantities_->begin(view); }
+  void begin(const ForceView& view) override {
+    quantities_->begin(view);
+    most_darts_ = most_darts(view.map, budget_);
+  }
   void settle_candidate(bool made) override {
     if (!made && furthest_.stage > 0) count(furthest_.reason);
     furthest_ = {};
@@ -78,6 +82,8 @@ private:
   static constexpr std::size_t most_reasons = 20;
   RuleOrScript what_;
   RuleOrScriptRunner runner_;
+  MapBudget budget_;
+  std::size_t most_darts_ = budget_.darts; // of the body as it is
   std::optional<LawQuantities> quantities_;
   std::vector<Dart> darts_; // scratch
   Refusal furthest_;        // at the places of one candidate
@@ -103,14 +109,14 @@ std::string misfit_of(const RuleOrScript& what, const CriterionRequest& request)
 }
 
 std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimension,
-                                            const CriterionRequest* request) {
+                                            const CriterionRequest* request, const MapBudget& budget) {
   CHECK_NOTE((request ? misfit_of(what, *request) : misfit_of(what, dimension)).empty(), what.name());
   auto change = std::make_shared<ChangeType>();
   change->name = what.name();
   change->what = what.about();
   change->cell = *cell_of(what.hook_orbit(), dimension);
   change->grows = what.grows();
-  const auto by_rule = std::make_shared<ByRule>(what, request);
+  const auto by_rule = std::make_shared<ByRule>(what, request, budget);
   change->apply = [by_rule](Edit& edit, const ForceView&, const FoundPlace& found,
                             std::span<const Dart> darts) { return by_rule->apply(edit, found, darts); };
   change->memory = by_rule;

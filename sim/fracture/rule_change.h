@@ -4,10 +4,12 @@
 // elements, a vertex or an element. So a criterion is a precondition of the rule (thesis 7.1, p. 180): where
 // it exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook
 // first, until it applies. Its expressions know what the law has found there (law_quantities.h). Where it does
-// not apply, the reason is counted, that of the dart at which it came furthest.
+// not apply, the reason is counted, that of the dart at which it came furthest. Where the body would grow
+// beyond its budget (map_budget.h), it does not apply: the law waits, and the run goes on.
 #pragma once
 
 #include "sim/fracture/change.h"
+#include "sim/rules/map_budget.h"
 #include "sim/rules/script.h"
 
 #include <memory>
@@ -22,6 +24,7 @@ std::string misfit_of(const RuleOrScript& what, const CriterionRequest& request)
 
 // CHECK: it has no misfit. `request`: of the body, for stresses and strains; null: it asks for none.
 std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimension,
-                                            const CriterionRequest* request = nullptr);
+                                            const CriterionRequest* request = nullptr,
+                                            const MapBudget& budget = {});
 
 } // namespace rend

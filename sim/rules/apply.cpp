@@ -212,8 +212,20 @@ bool RuleRunner::apply(Edit& edit, const Hooks& hooks) {
   return matches(edit, hooks) && rewrite(edit);
 }
 
+// Whether the map may have the darts that it would have.
+bool RuleRunner::fits(const Edit& edit) const {
+  if (rule_.growth() <= 0) return true;
+  return edit.map().dart_count() + match_.instances * static_cast<std::size_t>(rule_.growth()) <=
+         context_.most_darts;
+}
+
 bool RuleRunner::rewrite(Edit& edit) {
   moved_.clear();
+  if (!fits(edit)) {
+    mismatch_ = {.kind = Mismatch::Kind::Budget,
+                 .text = fmt::format("the map would have more than {} darts", context_.most_darts)};
+    return false;
+  }
   Rewriter rewriter(rule_, match_, edit, darts_, point_, moved_);
   const bool may_fail = rule_.creates() || !rule_.sets.empty();
   const std::optional<Edit::Savepoint> start = may_fail ? std::optional(edit.savepoint()) : std::nullopt;

@@ -2,10 +2,10 @@
 //
 //   if (const Applied done = apply(rule("unsew-edge"), body, dart); !done.ok) report(done.reason);
 //
-// If there is no match, a condition does not hold, an expression has no finite value, or a new element would be
-// flat or inverted, the map is unchanged to the last byte, and the reason is returned. A checked rule preserves
-// the axioms wherever it matches. Rules give vertices their points; all other embeddings follow by their own
-// policies (column.h).
+// If there is no match, a condition does not hold, an expression has no finite value, a new element would be
+// flat or inverted, or the map would grow beyond its budget, the map is unchanged to the last byte, and the
+// reason is returned. A checked rule preserves the axioms wherever it matches. Rules give vertices their
+// points; all other embeddings follow by their own policies (column.h).
 #pragma once
 
 #include "sim/rules/rule_values.h"
@@ -35,7 +35,8 @@ public:
   bool apply(Edit& edit, const Hooks& hooks);
 
   const Mismatch& mismatch() const { return mismatch_; } // of the last call
-  std::string reason() const;                            // a sentence; empty: it was applied
+  bool over_budget() const { return mismatch_.kind == Mismatch::Kind::Budget; }
+  std::string reason() const; // a sentence; empty: it was applied
   // After apply(): [instance][node of the right graph].
   const std::vector<Dart>& darts() const { return darts_; }
   const Match& match() const { return match_; }
@@ -43,6 +44,8 @@ public:
   const std::vector<std::pair<Dart, Point>>& moved() const { return moved_; }
 
 private:
+  bool fits(const Edit& edit) const;
+
   const Rule& rule_;
   RuleContext context_;
   Match match_;

@@ -1,6 +1,7 @@
 #include "sim/rules/match.h"
 
 #include "sim/base/check.h"
+#include "sim/rules/map_budget.h"
 
 #include <fmt/format.h>
 
@@ -43,6 +44,7 @@ std::string Mismatch::sentence(const Rule& rule) const {
   }
   case Kind::Expression:
   case Kind::Shape:
+  case Kind::Budget:
     return text;
   }
   return {};
@@ -66,6 +68,8 @@ std::string Mismatch::in_general(const Rule& rule) const {
   case Kind::Expression:
   case Kind::Shape:
     return text.substr(0, std::min(text.find(", near "), text.find(" at dart ")));
+  case Kind::Budget:
+    return beyond_budget;
   case Kind::None:
   case Kind::SheetWithoutVolumes:
   case Kind::Condition:

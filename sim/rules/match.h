@@ -47,12 +47,13 @@ struct Mismatch {
     Condition,  // `link` is the number of the rule's <when>
     Expression, // an expression has no finite value
     Shape,      // a new element would be flat or inverted
+    Budget,     // the map would have more darts than it may (map_budget.h)
   };
   Kind kind = Kind::None;
   int node = -1; // of the left graph
   int link = -1;
   Dart dart = {}, wanted = {}, is = {};
-  std::string text = {}; // Expression, Shape: what is wrong
+  std::string text = {}; // Expression, Shape, Budget: what is wrong
 
   explicit operator bool() const { return kind != Kind::None; }
   std::string sentence(const Rule& rule) const;

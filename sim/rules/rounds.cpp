@@ -18,12 +18,22 @@ public:
 
   RoundResult run() {
     runner_.context().sides.reset();
-    if (runner_.hooks() == 0) {
+    if (!fits()) return result_;
+    const Edit::Savepoint start = edit_.savepoint();
+    if (runner_.hooks() == 0)
       visit({});
-      return result_;
-    }
+    else
+      visit_orbits([this](const Hooks& hooks) { return visit(hooks); });
+    if (result_.over_budget) edit_.rollback(start);
+    return result_;
+  }
+
+private:
+  using Visit = std::function<bool(const Hooks&)>; // true: it has used the place up
+
+  void visit_orbits(const Visit& visit) {
     const Orbit orbit = runner_.hook_orbit();
-    for (std::uint32_t n = 0; n < darts_; ++n) {
+    for (std::uint32_t n = 0; n < darts_ && !result_.over_budget; ++n) {
       throw_if_stop_is_due();
       if (!edit_.map().alive(Dart{n}) || used_[n] || seen_[n]) continue;
       orbit_.clear();
@@ -33,22 +43,49 @@ public:
         if (d.value < darts_) seen_[d.value] = true;
         chosen = chosen && !used(d) && (!selected_ || selected_(d));
       }
-      if (chosen) visit_with_partners(Dart{n});
+      if (chosen) visit_with_partners(Dart{n}, visit);
     }
-    return result_;
   }
 
-private:
+  // Whether the map may have the darts that it would have after the round. They are counted only where there
+  // could be too many if the rule matched everywhere: each dart is of one orbit.
+  bool fits() {
+    const RuleRunner* rule = runner_.rule();
+    if (!rule || runner_.hooks() == 0 || rule->rule().growth() <= 0) return true;
+    const auto growth = static_cast<std::size_t>(rule->rule().growth());
+    const std::size_t now = edit_.map().dart_count(), most = rule->context().most_darts;
+    if (now + now * growth <= most) return true;
+    std::size_t places = 0, instances = 0;
+    visit_orbits([&](const Hooks& hooks) {
+      if (!matches_unused(*runner_.rule(), hooks)) return false;
+      ++places;
+      instances += rule->match().instances;
+      use(rule->match().darts);
+      return true;
+    });
+    used_.assign(darts_, false);
+    seen_.assign(darts_, false);
+    const std::size_t then = now + instances * growth;
+    if (then > most) result_ = {.reason = {}, .over_budget = true, .places = places, .darts = then};
+    return then <= most;
+  }
+
   bool used(Dart d) const { return d.value >= darts_ || used_[d.value]; }
   void use(const std::vector<Dart>& darts) {
     for (Dart d : darts)
       if (d.value < darts_) used_[d.value] = true;
   }
 
-  void visit_with_partners(Dart d) {
+  void visit_with_partners(Dart d, const Visit& visit) {
     if (!partners_) return void(visit(d));
     for (Dart e : partners_(d))
       if (edit_.map().alive(e) && visit({d, e})) return;
+  }
+
+  bool matches_unused(RuleRunner& rule, const Hooks& hooks) {
+    const auto is_used = [this](Dart d) { return used(d); };
+    return rule.matches(edit_, hooks) &&
+           std::none_of(rule.match().darts.begin(), rule.match().darts.end(), is_used);
   }
 
   bool visit(const Hooks& hooks) {
@@ -56,18 +93,22 @@ private:
   }
 
   bool visit(RuleRunner& rule, const Hooks& hooks) {
-    if (!rule.matches(edit_, hooks)) return refuse();
-    const std::vector<Dart>& matched = rule.match().darts;
-    if (std::any_of(matched.begin(), matched.end(), [&](Dart d) { return used(d); })) return false;
-    if (!rule.rewrite(edit_)) return refuse();
+    if (!matches_unused(rule, hooks)) return rule.mismatch() ? refuse() : false;
+    if (!rule.rewrite(edit_)) {
+      result_.over_budget = rule.over_budget();
+      return refuse();
+    }
     ++result_.applied;
-    use(matched);
+    use(rule.match().darts);
     use(rule.darts()); // a removed dart's number may have been taken again
     return true;
   }
 
   bool visit_by_script(const Hooks& hooks) {
-    if (!runner_.apply(edit_, hooks)) return refuse();
+    if (!runner_.apply(edit_, hooks)) {
+      result_.over_budget = runner_.over_budget();
+      return refuse();
+    }
     ++result_.applied;
     use(runner_.script()->used());
     return true;

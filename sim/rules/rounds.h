@@ -5,6 +5,10 @@
 // round, so that the order of orbits decides where matches overlap, and a round ends. All applications of a
 // round share one edit, and their expressions read the points from before it. A script uses up what its rules
 // have matched or made; it may match what is used up, but for its hook's orbit.
+//
+// Before a round of a rule its darts are counted: the places where the rule matches, times the darts that it
+// adds at each. If the map would have more than the context's most_darts, the round is not begun. What a script
+// will add is not known before; there every application of a rule is asked, and the round is taken back.
 #pragma once
 
 #include "sim/rules/script_run.h"
@@ -17,6 +21,10 @@ struct RoundResult {
   std::size_t applied = 0;
   std::size_t refused = 0; // orbits that were selected, and where the rule did not apply
   std::string reason;      // of the first refusal; empty: none
+
+  // The map would have too many darts, and is as before.
+  bool over_budget = false;
+  std::size_t places = 0, darts = 0; // then, if they were counted: of the round, of the map after it
 };
 
 // The darts to try for the second hook, beside a first one.

@@ -72,6 +72,8 @@ struct Rule {
   bool only_creates() const { return left.nodes.empty(); }
   bool creates() const; // some dart
   bool removes() const { return !plan.removed.empty(); }
+  // Darts that it adds to a map at each instance of its hook; negative: it removes more than it creates.
+  int growth() const { return right.size() - left.size(); }
   // Those of stress, strain, value, across and time that its expressions ask for, each once.
   std::vector<std::string> quantities_of_law() const;
   // As the element <rule> of a preset, in a normal form: read, it makes the same rule.

@@ -28,6 +28,7 @@
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
+#include "sim/rules/map_budget.h"
 #include "sim/rules/match.h"
 #include "sim/topology/orientation.h"
 
@@ -79,10 +80,10 @@ public:
 
 // Where a rule is applied.
 struct RuleContext {
-  std::vector<Value> wheres = {};          // the rule's arguments; empty: their defaults
-  RuleQuantities* quantities = nullptr;    // null: there is no law
-  mutable std::optional<Sides> sides = {}; // of the map when it was first asked for
-  std::size_t most_darts = 1u << 26;       // that a script may let the map have
+  std::vector<Value> wheres = {};             // the rule's arguments; empty: their defaults
+  RuleQuantities* quantities = nullptr;       // null: there is no law
+  mutable std::optional<Sides> sides = {};    // of the map when it was first asked for
+  std::size_t most_darts = MapBudget{}.darts; // that a map may grow to (map_budget.h)
 };
 
 enum class PointPart { Position, Rest, Velocity };

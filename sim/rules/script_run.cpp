@@ -7,8 +7,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace rend {
+
+namespace {
+
+constexpr int last_stage = std::numeric_limits<int>::max(); // nothing comes further than the budget
+
+} // namespace
 
 struct ScriptRunner::Step {
   Step(const Script::Step& step_, const ScriptStepSettings& settings_, std::size_t number_)
@@ -40,6 +47,7 @@ bool ScriptRunner::apply(Edit& edit, const Hooks& hooks) {
   matched_.clear();
   applied_ = 0;
   refusal_ = {};
+  over_budget_ = false;
   if (!begin(edit, hooks)) return false;
   for (const auto& step : steps_) {
     if (run(edit, *step)) continue;
@@ -120,8 +128,7 @@ bool ScriptRunner::run(Edit& edit, Step& step) {
     find_cells(edit, step);
     for (std::size_t n = 0; n + 1 < first_.size(); ++n) {
       const bool done = apply_at(edit, step, n) || step.settings.at_least != AtLeast::All;
-      if (edit.map().dart_count() > context_.most_darts)
-        return refuse(fmt::format("lets the map grow beyond {} darts", context_.most_darts));
+      if (step.runner.over_budget()) return refuse_growth(step);
       if (done) continue;
       return refuse("does not apply",
                     step.step.cell ? fmt::format(" at dart {}", cells_[first_[n]].value) : std::string());
@@ -136,6 +143,14 @@ bool ScriptRunner::run(Edit& edit, Step& step) {
   settle(edit);
   grow(edit);
   return true;
+}
+
+bool ScriptRunner::refuse_growth(const Step& step) {
+  reason_ = fmt::format("step {}, {}, lets the map grow beyond {} darts", step.number,
+                        in_quotes(step.settings.apply), context_.most_darts);
+  refusal_ = {last_stage, beyond_budget};
+  over_budget_ = true;
+  return false;
 }
 
 // The chosen ones; of a step that is done once, one without darts.
@@ -278,7 +293,7 @@ RuleOrScriptRunner::RuleOrScriptRunner(const RuleOrScript& what, RuleContext con
 
 namespace {
 
-// How far a rule came: it does not match, a condition does not hold, no value, no shape.
+// How far a rule came: it does not match, a condition does not hold, no value, no shape, no room.
 int stage_of(Mismatch::Kind kind) {
   switch (kind) {
   case Mismatch::Kind::None:
@@ -289,6 +304,8 @@ int stage_of(Mismatch::Kind kind) {
     return 3;
   case Mismatch::Kind::Shape:
     return 4;
+  case Mismatch::Kind::Budget:
+    return last_stage;
   default:
     return 1;
   }
@@ -307,11 +324,15 @@ void RuleOrScriptRunner::keep_furthest(Refusal& furthest) const {
 }
 
 bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts, Refusal* furthest) {
+  over_budget_ = false;
   if (hooks_ == 2) {
     for (Dart d : darts) {
       if (!rule_->may_begin(edit, 0, d)) continue;
-      for (Dart e : darts)
-        if (d != e && apply(edit, {d, e})) return true;
+      for (Dart e : darts) {
+        if (d == e) continue;
+        if (apply(edit, {d, e})) return true;
+        if (over_budget()) return false;
+      }
     }
     return false;
   }
@@ -320,6 +341,7 @@ bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts,
     if (tried_.contains(d.value)) continue;
     if (apply(edit, d)) return true;
     if (furthest) keep_furthest(*furthest);
+    if (over_budget()) return false;
     orbit_.clear();
     collect(edit.map(), hook_, d, orbit_);
     for (Dart e : orbit_) tried_.insert(e.value);

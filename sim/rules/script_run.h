@@ -13,8 +13,8 @@
 // Expressions of a step read points as the step before has left them.
 //
 // A script applies as a whole or not at all: where a step does not apply as often as it must, where no step
-// applies anywhere, and where the map grows beyond bounds, the edit is rolled back to where the script began,
-// and the reason is kept.
+// applies anywhere, and where the map would grow beyond its budget, the edit is rolled back to where the script
+// began, and the reason is kept.
 #pragma once
 
 #include "sim/rules/apply.h"
@@ -49,6 +49,7 @@ public:
 
   const std::string& reason() const { return reason_; } // why the last call returned false; empty: it did not
   const Refusal& refusal() const { return refusal_; }   // the same
+  bool over_budget() const { return over_budget_; }     // that was why
   // After apply(): darts that its rules have matched, and those that they have left in their place.
   const std::vector<Dart>& used() const { return used_; }
 
@@ -61,6 +62,7 @@ private:
   bool look(const Edit& edit, Step& step, Dart cell) const;
   void choose(const Edit& edit, Step& step, std::span<const Dart> cell);
   bool apply_at(Edit& edit, Step& step, std::size_t cell);
+  bool refuse_growth(const Step& step); // false
   void note(Step& step);
   void settle(Edit& edit);
   void grow(const Edit& edit);
@@ -86,6 +88,7 @@ private:
   std::vector<Dart> used_, matched_; // matched_: without those left in their place
   std::string reason_;
   Refusal refusal_;
+  bool over_budget_ = false;
 };
 
 // A runner of either.
@@ -97,13 +100,18 @@ public:
   Orbit hook_orbit() const { return hook_; } // of the first
   RuleContext& context() { return rule_ ? rule_->context() : script_->context(); }
   bool apply(Edit& edit, const Hooks& hooks) {
-    return rule_ ? rule_->apply(edit, hooks) : script_->apply(edit, hooks);
+    const bool done = rule_ ? rule_->apply(edit, hooks) : script_->apply(edit, hooks);
+    over_budget_ = !done && (rule_ ? rule_->over_budget() : script_->over_budget());
+    return done;
   }
-  // At one dart after another, one for each orbit of its hook, until it applies; with two hooks, at one pair
-  // after another. `furthest`, if given, becomes the refusal that came furthest, or stays if that is it.
+  // At one dart after another, one for each orbit of its hook, until it applies, or the map would grow too
+  // large; with two hooks, at one pair after another. `furthest`, if given, becomes the refusal that came
+  // furthest, or stays if that is it.
   bool apply_at_first(Edit& edit, std::span<const Dart> darts, Refusal* furthest = nullptr);
   std::string sentence() const; // why the last call returned false
   Refusal refusal() const;      // the same
+  // It was because the map would have had more than the most darts of the context.
+  bool over_budget() const { return over_budget_; }
 
   RuleRunner* rule() { return rule_.get(); }       // null: it is a script
   ScriptRunner* script() { return script_.get(); } // null: it is a rule
@@ -113,6 +121,7 @@ private:
 
   std::size_t hooks_; // how many
   Orbit hook_;        // of the first
+  bool over_budget_ = false;
   std::unique_ptr<RuleRunner> rule_;
   std::unique_ptr<ScriptRunner> script_;
   std::vector<Dart> orbit_;

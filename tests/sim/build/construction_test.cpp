@@ -176,6 +176,25 @@ TEST(Construction, refuses_what_is_no_body_in_a_sentence) {
   EXPECT_TRUE(says(refusal_of(four_quads + R"xml(<apply rule="flatten"/>)xml", flatten), "no area"));
 }
 
+// Before the memory is taken: after the first round there would be 17 million darts, after all 10^18.
+TEST(Construction, refuses_rounds_that_let_a_body_grow_too_large) {
+  const std::string quads = R"xml(<sheet cells="730 730" size="1 1"/>)xml";
+  const std::string subdivided = refusal_of(quads + R"xml(<subdivide times="20"/>)xml");
+  EXPECT_TRUE(says(subdivided, "test.xml:1:")) << subdivided;
+  EXPECT_TRUE(says(subdivided,
+                   "round 1 of 20: with rule 'quarter-faces' the body would have 17052800 darts, and "
+                   "rules may let it grow to 16777216"))
+      << subdivided;
+  const std::string starred =
+      refusal_of(R"xml(<sheet cells="840 840" size="1 1"/><apply rule="star-face"/>)xml");
+  EXPECT_TRUE(says(starred, "with rule 'star-face', at 705600 places, the body would have 16934400 darts"))
+      << starred;
+  const std::string scripted =
+      refusal_of(quads + R"xml(<apply rule="divide"/>)xml", R"xml(<script name="divide" hook="a*(0,1,2,3)">
+        <for each="e*(0,1,2,3)" apply="quarter-faces"/></script>)xml");
+  EXPECT_TRUE(says(scripted, "with script 'divide' the body would have more darts, and rules may")) << scripted;
+}
+
 // The steps of a law that separates borders are those of the same law by the rule.
 TEST(LawByRule, unsew_edge_is_separate) {
   const auto run = [](const std::string& change) {
