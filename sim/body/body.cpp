@@ -7,6 +7,8 @@
 #include "sim/integrate/rigid_motions.h"
 #include "sim/topology/walk.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -266,13 +268,32 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
   return made;
 }
 
+namespace {
+
+// What a rule makes may be nothing that the body's interactions can be put on. Then nothing has changed, and
+// the run ends.
+int apply_or_stop(Body& body, TearLaw& law, const ForceView& now, double time, long step) {
+  try {
+    return law.apply(*body.map, now, body.events, body.fragment_counter.get());
+  } catch (const UserError& error) {
+    throw UserError(
+        Exit::Unstable, law.settings().source.place(),
+        fmt::format("the simulation was stopped at {:.6g} s (step {}) in body '{}', because '{}' makes "
+                    "what it cannot go on with: {}",
+                    time, step, body.name, law.settings().change->name, error.what()),
+        error.hint);
+  }
+}
+
+} // namespace
+
 int Body::make_changes(std::size_t number, const ForceView& now, double time, long step) {
   const PhaseScope within(profile, Phase::Changes);
   const std::size_t before = events.size();
   const bool weighs =
       work_meter && !tear_laws[number].settings().change->keeps_matter && !Vec3(gravity).isZero(0);
   const double potential = weighs ? gravity_energy(*map, *mass, gravity) : 0;
-  const int made = tear_laws[number].apply(*map, now, events, fragment_counter.get());
+  const int made = apply_or_stop(*this, tear_laws[number], now, time, step);
   if (made > 0 && weighs) work_meter->change(gravity_energy(*map, *mass, gravity) - potential);
   for (std::size_t e = before; e < events.size(); ++e) {
     events[e].time = time;

@@ -2,9 +2,11 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/check.h"
+#include "sim/fracture/element_fit.h"
 #include "sim/fracture/element_scan.h"
 #include "sim/fracture/law_quantities.h"
 #include "sim/rules/script_run.h"
+#include "sim/topology/walk.h"
 
 #include <fmt/format.h>
 
@@ -37,6 +39,8 @@ class ByRule final : public ChangeMemory {
 public:
   ByRule(const RuleOrScript& what, const CriterionRequest* request, const MapBudget& budget)
       : what_(what), runner_(what_), budget_(budget) {
+    if (request && what.grows()) fit_.emplace(*request);
+    if (fit_ && fit_->empty()) fit_.reset();
     if (request && asks_for_tensors(what)) quantities_.emplace(*request);
     if (!quantities_) quantities_.emplace();
   }
@@ -48,12 +52,15 @@ public:
     runner_.context() = {{}, &*quantities_, {}, most_darts_};
     darts_.assign(darts.begin(), darts.end());
     std::sort(darts_.begin(), darts_.end());
-    return runner_.apply_at_first(edit, darts_, &furthest_);
+    if (!fit_) return runner_.apply_at_first(edit, darts_, &furthest_);
+    return runner_.apply_at_first(edit, darts_, &furthest_, [&] { return elements_fit(edit); });
   }
 
   void begin(const ForceView& view) override {
     quantities_->begin(view);
     most_darts_ = most_darts(view.map, budget_);
+    moved_.clear();
+    rest_of_moved_.clear();
   }
   void settle_candidate(bool made) override {
     if (!made && furthest_.stage > 0) count(furthest_.reason);
@@ -74,6 +81,57 @@ public:
   }
 
 private:
+  // Of the elements that the rule or script has just changed.
+  bool elements_fit(const Edit& edit) {
+    thread_local IndexSet seen;
+    note_moves(edit);
+    find_changed(edit);
+    const auto rest_of = [&](Dart d) {
+      for (const IndexMap* moved : {&moving_, &moved_})
+        if (const std::uint32_t at = moved->find(d.value); at != IndexMap::none) return rest_of_moved_[at];
+      return edit.point(d).rest;
+    };
+    seen.clear();
+    for (Dart d : changed_) {
+      if (seen.contains(d.value)) continue;
+      element_.clear();
+      collect(edit.map(), element_orbit(edit.map().dimension()), d, element_);
+      for (Dart e : element_) seen.insert(e.value);
+      if (!fit_->fits(edit.map(), d, rest_of)) return false;
+    }
+    keep_moves();
+    return true;
+  }
+
+  // A vertex that a rule moves has its old point until the edit closes; one that a script moves, its new one.
+  void note_moves(const Edit& edit) {
+    moving_.clear();
+    moving_darts_.clear();
+    if (!runner_.rule()) return;
+    for (const auto& [d, point] : runner_.rule()->moved()) {
+      const std::size_t first = moving_darts_.size();
+      collect(edit.map(), Vertex, d, moving_darts_);
+      rest_of_moved_.push_back(point.rest);
+      for (std::size_t n = first; n < moving_darts_.size(); ++n)
+        moving_.assign(moving_darts_[n].value, static_cast<std::uint32_t>(rest_of_moved_.size() - 1));
+    }
+  }
+
+  void keep_moves() {
+    for (Dart d : moving_darts_) moved_.assign(d.value, moving_.find(d.value));
+  }
+
+  // A dart at least of each element that has other links or corners.
+  void find_changed(const Edit& edit) {
+    changed_ = moving_darts_;
+    if (const RuleRunner* rule = runner_.rule()) {
+      changed_.insert(changed_.end(), rule->darts().begin(), rule->darts().end());
+      return;
+    }
+    for (Dart d : runner_.script()->used())
+      if (edit.map().alive(d)) collect(edit.map(), Vertex, d, changed_);
+  }
+
   void count(const std::string& reason) {
     const bool known = refusals_.size() < most_reasons || refusals_.contains(reason);
     ++refusals_[known ? reason : "other reasons"];
@@ -85,8 +143,13 @@ private:
   MapBudget budget_;
   std::size_t most_darts_ = budget_.darts; // of the body as it is
   std::optional<LawQuantities> quantities_;
-  std::vector<Dart> darts_; // scratch
-  Refusal furthest_;        // at the places of one candidate
+  std::optional<ElementFit> fit_; // none: nothing that elements must bear, or only removals and separations
+  IndexMap moved_;                // dart → index in rest_of_moved_: of the edit's earlier changes
+  IndexMap moving_;               // the same, of the change that was just made
+  std::vector<Vec3> rest_of_moved_;
+  std::vector<Dart> moving_darts_, changed_, element_; // scratch
+  std::vector<Dart> darts_;                            // scratch
+  Refusal furthest_;                                   // at the places of one candidate
   Refusals refusals_;
 };
 

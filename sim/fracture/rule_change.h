@@ -5,7 +5,8 @@
 // it exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook
 // first, until it applies. Its expressions know what the law has found there (law_quantities.h). Where it does
 // not apply, the reason is counted, that of the dart at which it came furthest. Where the body would grow
-// beyond its budget (map_budget.h), it does not apply: the law waits, and the run goes on.
+// beyond its budget (map_budget.h), it does not apply: the law waits, and the run goes on. Nor does it where an
+// element that it makes would be flat or inside out (element_fit.h).
 #pragma once
 
 #include "sim/fracture/change.h"

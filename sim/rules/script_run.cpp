@@ -323,7 +323,8 @@ void RuleOrScriptRunner::keep_furthest(Refusal& furthest) const {
   if (stage > furthest.stage) furthest = refusal();
 }
 
-bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts, Refusal* furthest) {
+bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts, Refusal* furthest,
+                                        const std::function<bool()>& may_stay) {
   over_budget_ = false;
   if (hooks_ == 2) {
     for (Dart d : darts) {
@@ -339,8 +340,12 @@ bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts,
   tried_.clear();
   for (Dart d : darts) {
     if (tried_.contains(d.value)) continue;
-    if (apply(edit, d)) return true;
-    if (furthest) keep_furthest(*furthest);
+    const Edit::Savepoint before = edit.savepoint();
+    const bool applied = apply(edit, d);
+    if (applied && (!may_stay || may_stay())) return true;
+    if (applied) edit.rollback(before);
+    if (applied && furthest) *furthest = {last_stage, unfit};
+    if (!applied && furthest) keep_furthest(*furthest);
     if (over_budget()) return false;
     orbit_.clear();
     collect(edit.map(), hook_, d, orbit_);

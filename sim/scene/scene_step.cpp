@@ -125,6 +125,8 @@ StepFailure Scene::apply_laws() {
     for (auto& body : bodies_) body->tear(time(), steps_done_, sound);
   } catch (const UnsoundState& unsound) {
     return unsound.failure;
+  } catch (const UserError& error) { // of a change that a law cannot make
+    throw Unstable(Exit::Unstable, {}, error.what(), error.hint);
   }
   laws_applied_at_ = steps_done_;
   guard_->after_laws(steps_done_);
