@@ -84,14 +84,25 @@ std::string counted(std::size_t count, const char* one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-// All that are refused are told, the last one by the caller.
+// A script that applies a refused one is refused as well: of many, the first ones tell why. The last one is
+// told by the caller.
+void tell_all_but_the_last(const RuleFaults& faults) {
+  constexpr std::size_t most = 20;
+  const std::size_t told = std::min(most, faults.size() - 1);
+  for (std::size_t n = 0; n < told; ++n) print_error(faults[n].what(), faults[n].hint);
+  if (const std::size_t more = faults.size() - 1 - told)
+    print_note(fmt::format("{} more {} refused; the last one:", more, more == 1 ? "is" : "are"));
+}
+
 Exit check(const RuleOptions& options) {
   std::size_t rules = house_rules().size(), scripts = house_scripts().size();
   if (!options.file.empty()) {
     RuleFaults faults;
     const RuleBook book = book_of(options, &faults);
-    for (std::size_t n = 0; n + 1 < faults.size(); ++n) print_error(faults[n].what(), faults[n].hint);
-    if (!faults.empty()) throw faults.back();
+    if (!faults.empty()) {
+      tell_all_but_the_last(faults);
+      throw faults.back();
+    }
     rules = static_cast<std::size_t>(
         std::count_if(book.begin(), book.end(), [](const RuleOrScript& each) { return each.rule != nullptr; }));
     scripts = book.size() - rules;

@@ -9,6 +9,7 @@
 #include "render/draw/hud_content.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -25,8 +26,14 @@ enum class Line : std::uint8_t {
   Crease = 4, // a sharp edge of a solid
 };
 
+// Triangles that reach farther from the origin than this are not drawn (packing.h): a hundred times as far as a
+// preset can put anything, so that lengths within a picture are numbers of single precision.
+constexpr float farthest_drawn = 1e32f; // [m]
+
+// What is farther is put where it is not drawn either, but is finite, and so is any mean of two such places.
 inline std::array<float, 3> as_floats(const Eigen::Vector3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+  const auto within = [](double x) { return static_cast<float>(std::clamp(x, -1e36, 1e36)); };
+  return {within(v.x()), within(v.y()), within(v.z())};
 }
 
 // One corner of a drawn triangle: 32 bytes, uploaded as it is.

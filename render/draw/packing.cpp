@@ -2,6 +2,7 @@
 
 #include "sim/base/check.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace rend {
@@ -10,11 +11,18 @@ namespace {
 using Eigen::Vector3f;
 using ConstMap = Eigen::Map<const Vector3f>;
 
+bool is_too_far(std::span<const Corner, 3> triangle) {
+  return std::any_of(triangle.begin(), triangle.end(), [](const Corner& corner) {
+    const ConstMap x(corner.position.data());
+    return x.allFinite() && x.cwiseAbs().maxCoeff() > farthest_drawn;
+  });
+}
+
 // Prepares the three corners of a triangle; wound: their order defines the front.
 void orient(Corner* corner, bool keeps_order) {
   const ConstMap a(corner[0].position.data()), b(corner[1].position.data()), c(corner[2].position.data());
   const Vector3f across = (b - a).cross(c - a); // twice the area times the normal, counter-clockwise
-  // The sum is finite if each number is; it could overflow only for coordinates that no frame has.
+  // The sum is finite if each number is: what is too far has been left out.
   Vector3f sum = a + b + c, normals = Vector3f::Zero();
   for (int k = 0; k < 3; ++k) normals += ConstMap(corner[k].normal.data());
   CHECK_NOTE((sum + normals).allFinite(), "a frame holds a number that is not finite");
@@ -32,17 +40,21 @@ void orient(Corner* corner, bool keeps_order) {
 
 } // namespace
 
-Eigen::AlignedBox3d bounds_of(const FrameBody& body) {
+Eigen::AlignedBox3d bounds_of(std::span<const Corner> corners) {
   Eigen::AlignedBox3f bounds;
-  for (const Corner& corner : body.corners) bounds.extend(ConstMap(corner.position.data()));
+  for (const Corner& corner : corners) bounds.extend(ConstMap(corner.position.data()));
   return bounds.isEmpty() ? Eigen::AlignedBox3d() : bounds.cast<double>();
 }
 
 void pack(const FrameBody& body, std::vector<Corner>& packed) {
   CHECK(body.corners.size() % 3 == 0);
-  const std::size_t first = packed.size();
-  packed.insert(packed.end(), body.corners.begin(), body.corners.end());
-  for (std::size_t i = first; i < packed.size(); i += 3) orient(&packed[i], !body.two_sided);
+  packed.reserve(packed.size() + body.corners.size());
+  for (std::size_t i = 0; i < body.corners.size(); i += 3) {
+    const std::span<const Corner, 3> triangle(&body.corners[i], 3);
+    if (is_too_far(triangle)) continue;
+    packed.insert(packed.end(), triangle.begin(), triangle.end());
+    orient(&packed[packed.size() - 3], !body.two_sided);
+  }
 }
 
 } // namespace rend

@@ -218,10 +218,12 @@ void Renderer::upload(const Frame& frame) {
   draws_.clear();
   for (const auto* bodies : {&frame.bodies, &frame.obstacles})
     for (const FrameBody& body : *bodies) {
-      if (body.corners.empty()) continue;
-      const auto first = static_cast<GLint>(packed_.size());
-      draws_.push_back({first, static_cast<GLsizei>(body.corners.size()), &body, bounds_of(body)});
+      const std::size_t first = packed_.size();
       pack(body, packed_);
+      const auto packed = std::span(packed_).subspan(first);
+      if (packed.empty()) continue;
+      draws_.push_back(
+          {static_cast<GLint>(first), static_cast<GLsizei>(packed.size()), &body, bounds_of(packed)});
     }
   glBindBuffer(GL_ARRAY_BUFFER, corners_buffer_.name());
   if (packed_.size() > capacity_) {

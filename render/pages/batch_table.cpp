@@ -6,12 +6,34 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
+#include <string_view>
+#include <system_error>
 
 namespace rend {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Whether it is numbers, separated by blanks: no spreadsheet takes one for a formula.
+bool is_numbers(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    double number = 0;
+    const char* begin = word.data() + (word.starts_with('+') ? 1 : 0); // from_chars takes no plus
+    const auto [end, error] = std::from_chars(begin, word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size()) return false;
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+  }
+  return true;
+}
+
+// Spreadsheets run a text that begins so as a formula.
+bool is_like_a_formula(std::string_view text) {
+  return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos &&
+         !is_numbers(text);
+}
 
 // Columns in the order in which they first appear, and the values of each line.
 class Columns {
@@ -38,7 +60,7 @@ public:
 
 private:
   static std::string quoted(const std::string& raw) {
-    const std::string text = printable(raw);
+    const std::string text = (is_like_a_formula(raw) ? "'" : "") + printable(raw);
     if (text.find_first_of(",\"") == std::string::npos) return text;
     std::string out = "\"";
     for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -1,13 +1,15 @@
 #include "render/picture/camera_settings.h"
 
+#include "sim/base/reach.h"
+
 namespace rend {
 
 template <> const Fields<CameraKey>& fields_of() {
   using S = CameraKey;
   static const Fields<S> fields{
       field(&S::at, number("at", "s", "when").at_least(0).is_required()),
-      field(&S::eye, numbers("eye", 3, "m", "position of the camera").is_required()),
-      field(&S::target, numbers("target", 3, "m", "the point that it looks at; default: that of the camera")),
+      field(&S::eye, position("eye", "position of the camera").is_required()),
+      field(&S::target, position("target", "the point that it looks at; default: that of the camera")),
       field(&S::fov, number("fov", "degrees", "angle of view from bottom to top; default: that of the camera")
                          .at_least(1)
                          .at_most(170))};
@@ -17,13 +19,14 @@ template <> const Fields<CameraKey>& fields_of() {
 template <> const Fields<CameraSettings>& fields_of() {
   using S = CameraSettings;
   static const Fields<S> fields{
-      field(&S::eye, numbers("eye", 3, "m", "position of the camera")),
-      field(&S::target, numbers("target", 3, "m",
-                                "the point that it looks at; default: the middle of the bodies at the start")),
-      field(&S::up, numbers("up", 3, "", "the direction that is up in the picture")),
+      field(&S::eye, position("eye", "position of the camera")),
+      field(&S::target,
+            position("target", "the point that it looks at; default: the middle of the bodies at the start")),
+      field(&S::up, within(numbers("up", 3, "", "the direction that is up in the picture"), farthest)),
       field(&S::fov, number("fov", "degrees", "angle of view from bottom to top").at_least(1).at_most(170)),
-      field(&S::turn,
-            number("turn", "degrees", "the angle by which the camera moves around the target during the clip")),
+      field(&S::turn, within(number("turn", "degrees",
+                                    "the angle by which the camera moves around the target during the clip"),
+                             most_degrees)),
       field(&S::frame,
             word("frame", {"auto", "given", "follow"},
                  "how the camera is placed\nauto: in the direction of the eye, so near that all bodies at the "

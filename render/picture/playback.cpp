@@ -1,6 +1,6 @@
 #include "render/picture/playback.h"
 
-#include <fmt/format.h>
+#include "sim/base/key_times.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,10 +31,7 @@ Playback::Playback(double speed, const std::vector<SpeedKey>& keys)
 // The last piece is the one with the speed of `from`, however long.
 void Playback::add_key(const SpeedKey& from, const SpeedKey& to) {
   CHECK(to.speed > 0 && std::isfinite(to.speed));
-  if (to.at <= from.at)
-    to.source.fail("at",
-                   fmt::format("this key comes at {:g} s, and the one before it at {:g} s", to.at, from.at),
-                   "put them in the order of time");
+  check_key_times(from.at, to.at, to.source);
   Piece changing{.simulated = from.at, .clip = clip(from.at), .speed = from.speed};
   changing.change = (to.speed * to.speed - from.speed * from.speed) / (2 * (to.at - from.at));
   if (pieces_.back().simulated == from.at) pieces_.pop_back(); // a constant speed of no length

@@ -2,9 +2,9 @@
 
 #include "render/draw/camera.h"
 #include "sim/base/archive.h"
+#include "sim/base/key_times.h"
 #include "sim/base/math.h"
-
-#include <fmt/format.h>
+#include "sim/base/reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,11 @@ using Bounds = Eigen::AlignedBox3d;
 
 Vec3 corner_of(const Bounds& box, int n) {
   return box.corner(static_cast<Bounds::CornerType>(n));
+}
+
+// A camera that is to see farther than a preset can put anything shows nothing else.
+Vec3 in_reach(const Vec3& x) {
+  return x.unaryExpr([](double c) { return std::isnan(c) ? 0 : std::clamp(c, -farthest, farthest); });
 }
 
 // Whether fixed vertices hold the body on all sides: then it sags, but does not swing down.
@@ -32,7 +37,8 @@ Bounds bounds_to_frame(const Body& body, double duration) {
   const Bounds box = bounds_of(body);
   Bounds room = box;
   for (const Motion& motion : body.constraints.motions())
-    for (int n = 0; n < 8; ++n) room.extend(corner_of(box, n) + motion.offset(corner_of(box, n), duration));
+    for (int n = 0; n < 8; ++n)
+      room.extend(in_reach(corner_of(box, n) + motion.offset(corner_of(box, n), duration)));
   const Vec3 gravity = body.gravity;
   if (gravity.norm() == 0) return room;
   int vertical = 0;
@@ -40,8 +46,13 @@ Bounds bounds_to_frame(const Body& body, double duration) {
   const double size = box.sizes().maxCoeff();
   const double hang = held_all_around(body, box, vertical) ? 0 : 0.9 * size - box.sizes()[vertical];
   const Vec3 down = gravity.normalized() * std::max(0.15 * size, hang);
-  const Bounds below(room.min() + down, room.max() + down);
+  const Bounds below(in_reach(room.min() + down), in_reach(room.max() + down));
   return room.merged(below);
+}
+
+// To round-off: no direction is left.
+bool at_target(const Vec3& eye, const Vec3& target) {
+  return (eye - target).norm() < 1e-9 * (1 + target.norm());
 }
 
 // Faces the flat side of a thin body, slightly from the right and from above.
@@ -60,7 +71,7 @@ Bounds bounds_of(const Sphere& sphere, const Vec3& centre) {
 Bounds bounds_of(const Box& box, const Pose& pose) {
   const Bounds still(box.low, box.high);
   Bounds around;
-  for (int n = 0; n < 8; ++n) around.extend(pose.of(corner_of(still, n)));
+  for (int n = 0; n < 8; ++n) around.extend(in_reach(pose.of(corner_of(still, n))));
   return around;
 }
 
@@ -81,12 +92,12 @@ Bounds bounds_to_frame(const Box& box, const Bounds& bodies, double duration) {
 Bounds bounds_to_frame(const Sphere& sphere, const Bounds& bodies, const Vec3& gravity, double duration) {
   if (sphere.follows_keys())
     return bounds_of_path(bodies, duration, [&](double time) {
-      return bounds_of(sphere, sphere.motion.at(sphere.start, time).place);
+      return bounds_of(sphere, in_reach(sphere.motion.at(sphere.start, time).place));
     });
   const Bounds start = bounds_of(sphere, sphere.start);
   Vec3 way = duration * sphere.velocity;
   if (sphere.falls()) way += 0.5 * duration * duration * gravity;
-  const Bounds end(start.min() + way, start.max() + way);
+  const Bounds end(in_reach(start.min() + way), in_reach(start.max() + way));
   return start.merged(bodies.intersection(start.merged(end)));
 }
 
@@ -130,7 +141,7 @@ Viewpoint::Viewpoint(const CameraSettings& camera, const Scene& scene, double as
   if (camera.eye) {
     start_.eye = *camera.eye;
     direction = start_.eye - start_.target;
-    if (direction.norm() < 1e-9 * (1 + start_.target.norm()))
+    if (at_target(start_.eye, start_.target))
       camera.source.fail("eye", "the camera's eye stands at its target", "move it away from there");
   }
   read_keys(camera);
@@ -150,13 +161,9 @@ void Viewpoint::read_keys(const CameraSettings& camera) {
     Key key;
     key.time = given.at;
     key.camera << given.eye, given.target.value_or(start_.target), given.fov.value_or(start_.fov);
-    if (key.camera.head<3>() == key.camera.segment<3>(3))
+    if (at_target(key.camera.head<3>(), key.camera.segment<3>(3)))
       given.source.fail("eye", "the camera's eye stands at its target", "move it away from there");
-    if (!keys_.empty() && key.time <= keys_.back().time)
-      given.source.fail(
-          "at",
-          fmt::format("this key comes at {:g} s, and the one before it at {:g} s", key.time, keys_.back().time),
-          "put them in the order of time");
+    if (!keys_.empty()) check_key_times(keys_.back().time, key.time, given.source);
     keys_.push_back(key);
   }
 }

@@ -1,5 +1,6 @@
 #include "sim/build/build_shape.h"
 
+#include "sim/base/reach.h"
 #include "sim/build/construction.h"
 
 #include <fmt/format.h>
@@ -8,9 +9,6 @@
 
 namespace rend {
 namespace {
-
-// Energies and volumes are products of a few lengths: beyond this they need not be numbers any more.
-constexpr double farthest = 1e30; // [m]
 
 void check_reach(const Body& body, const SettingsSource& shape) {
   for (const Record& x : body.map->rest().values())

@@ -245,6 +245,9 @@ RuleBook read_rules(const PresetNode& scene, RuleFaults* faults) {
       if (!std::filesystem::exists(path, error))
         throw UserError(Exit::NoInput, child->place("file"), path.string() + ": there is no such file of rules",
                         "names are relative to the preset");
+      if (!std::filesystem::is_regular_file(path, error)) // a pipe that nobody writes to would be waited for
+        throw UserError(Exit::BadInput, child->place("file"), path.string() + ": is not a regular file",
+                        "rules that a preset names stand in a file; pipes, devices and folders are not read");
       reader.add_file(path);
     }
     reader.add(*child);

@@ -1,6 +1,7 @@
 #include "sim/build/shape.h"
 
 #include "sim/base/math.h"
+#include "sim/base/reach.h"
 
 namespace rend {
 
@@ -30,9 +31,10 @@ template <> const Fields<Placement>& fields_of() {
       field(&S::scale, number("scale", "", "factor").above(0)),
       field(&S::rotate, numbers("rotate", 3, "degrees", "angles about x, then y, then z")),
       field(&S::translate, numbers("translate", 3, "m", "displacement; applied last")),
-      field(&S::velocity, numbers("velocity", 3, "m/s", "initial velocity")),
-      field(&S::spin, numbers("spin", 3, "degrees/s",
-                              "initial angular velocity about the centre of mass, in world coordinates"))};
+      field(&S::velocity, velocity("velocity", "initial velocity")),
+      field(&S::spin, within(numbers("spin", 3, "degrees/s",
+                                     "initial angular velocity about the centre of mass, in world coordinates"),
+                             most_degrees))};
   return fields;
 }
 

@@ -1,5 +1,6 @@
 #include "sim/mechanics/mass.h"
 
+#include "sim/base/reach.h"
 #include "sim/mechanics/interaction.h"
 #include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
@@ -11,10 +12,13 @@ namespace rend {
 template <> const Fields<MassSettings>& fields_of() {
   using S = MassSettings;
   static const Fields<S> fields{
-      field(&S::total, number("total", "kg", "mass of the whole body, spread by area or volume").above(0)),
+      field(
+          &S::total,
+          number("total", "kg", "mass of the whole body, spread by area or volume").above(0).at_most(heaviest)),
       field(&S::density,
             number("density", "kg/m3", "density, instead of total; a sheet needs its thickness as well")
-                .above(0)),
+                .above(0)
+                .at_most(heaviest)),
       field(&S::thickness, number("thickness", "m", "thickness of the sheet").above(0))};
   return fields;
 }

@@ -2,6 +2,7 @@
 
 #include "sim/base/check.h"
 #include "sim/base/math.h"
+#include "sim/base/reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,18 +44,21 @@ template <> const Fields<DriveSettings>& fields_of() {
   static const Fields<S> fields =
       fields_of_part(&S::where) +
       Fields<S>{
-          field(&S::velocity, numbers("velocity", 3, "m/s", "constant velocity")),
+          field(&S::velocity, velocity("velocity", "constant velocity")),
           field(
               &S::displacement,
-              numbers("displacement", 3, "m",
-                      "displacement reached at until, growing evenly from `from` on; without until, at once")),
-          field(
-              &S::gradient,
-              numbers("gradient", 9, "",
-                      "displacement gradient G, row by row: u = G X at until, growing evenly from `from` on")),
-          field(&S::rotate, numbers("rotate", 4, "degrees/s",
-                                    "axis x y z, then the speed of rotation about it, from `from` on")),
-          field(&S::centre, numbers("centre", 3, "m", "a point on the axis of rotate")),
+              position("displacement",
+                       "displacement reached at until, growing evenly from `from` on; without until, at once")),
+          field(&S::gradient,
+                within(
+                    numbers("gradient", 9, "",
+                            "displacement gradient G, row by row: u = G X at until, growing evenly from `from` "
+                            "on"),
+                    farthest)),
+          field(&S::rotate, within(numbers("rotate", 4, "degrees/s",
+                                           "axis x y z, then the speed of rotation about it, from `from` on"),
+                                   most_degrees)),
+          field(&S::centre, position("centre", "a point on the axis of rotate")),
           field(&S::from, number("from", "s", "start time; before it the vertices are held").at_least(0)),
           field(&S::until, number("until", "s", "end time; without it the motion goes on").at_least(0)),
           field(&S::then,

@@ -1,6 +1,7 @@
 #include "sim/outside/obstacle.h"
 
 #include "sim/base/archive.h"
+#include "sim/base/reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,14 +22,14 @@ AttributeType friction_attribute() {
 template <> const Fields<SphereSettings>& fields_of() {
   using S = SphereSettings;
   static const Fields<S> fields{
-      field(&S::centre, numbers("centre", 3, "m", "position of its centre at the start").is_required()),
-      field(&S::radius, number("radius", "m", "its size").above(0).at_most(1e30).is_required()),
-      field(&S::velocity,
-            numbers("velocity", 3, "m/s", "velocity: constant, or with a mass the one at the start")),
+      field(&S::centre, position("centre", "position of its centre at the start").is_required()),
+      field(&S::radius, number("radius", "m", "its size").above(0).at_most(farthest).is_required()),
+      field(&S::velocity, velocity("velocity", "velocity: constant, or with a mass the one at the start")),
       field(&S::mass,
             number("mass", "kg",
                    "with a mass the sphere falls and is pushed by what it hits; without, it keeps its velocity")
-                .above(0)),
+                .above(0)
+                .at_most(heaviest)),
       field(&S::rotate, rotate_attribute()),
       field(&S::friction, friction_attribute())};
   return fields;
@@ -37,9 +38,8 @@ template <> const Fields<SphereSettings>& fields_of() {
 template <> const Fields<Box>& fields_of() {
   using S = Box;
   static const Fields<S> fields =
-      Fields<S>{
-          field(&S::low, numbers("low", 3, "m", "the corner with the smallest x, y and z").is_required()),
-          field(&S::high, numbers("high", 3, "m", "the corner with the largest x, y and z").is_required())} +
+      Fields<S>{field(&S::low, position("low", "the corner with the smallest x, y and z").is_required()),
+                field(&S::high, position("high", "the corner with the largest x, y and z").is_required())} +
       fields_of_part(&S::motion) + Fields<S>{field(&S::friction, friction_attribute())};
   return fields;
 }

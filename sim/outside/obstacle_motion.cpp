@@ -3,9 +3,9 @@
 
 #include "sim/outside/obstacle_motion.h"
 
+#include "sim/base/key_times.h"
 #include "sim/base/math.h"
-
-#include <fmt/format.h>
+#include "sim/base/reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +13,19 @@
 namespace rend {
 
 AttributeType rotate_attribute() {
-  return numbers("rotate", 4, "degrees/s", "it turns: axis x y z, then the speed of rotation about it");
+  return within(numbers("rotate", 4, "degrees/s", "it turns: axis x y z, then the speed of rotation about it"),
+                most_degrees);
 }
 
 template <> const Fields<ObstacleKey>& fields_of() {
   using S = ObstacleKey;
   static const Fields<S> fields{
       field(&S::at, number("at", "s", "when").at_least(0).is_required()),
-      field(&S::position, numbers("position", 3, "m",
-                                  "where its middle is then; default: as between the keys before and after")),
-      field(&S::rotate, numbers("rotate", 3, "degrees",
-                                "how it is turned then: angles about x, then y, then z; may exceed 360"))};
+      field(&S::position,
+            position("position", "where its middle is then; default: as between the keys before and after")),
+      field(&S::rotate, within(numbers("rotate", 3, "degrees",
+                                       "how it is turned then: angles about x, then y, then z; may exceed 360"),
+                               most_degrees))};
   return fields;
 }
 
@@ -45,8 +47,8 @@ Field<ObstacleMotion> rotate_field() {
 template <> const Fields<ObstacleMotion>& fields_of() {
   using S = ObstacleMotion;
   static const Fields<S> fields{
-      field(&S::velocity, numbers("velocity", 3, "m/s", "constant velocity")), rotate_field(),
-      field(&S::centre, numbers("centre", 3, "m", "a point on the axis of rotation; default: its middle"))};
+      field(&S::velocity, velocity("velocity", "constant velocity")), rotate_field(),
+      field(&S::centre, position("centre", "a point on the axis of rotation; default: its middle"))};
   return fields;
 }
 
@@ -148,17 +150,14 @@ Pose ObstacleMotion::at(const Vec3& middle, double time) const {
 }
 
 void check_motion(const ObstacleMotion& motion, const SettingsSource& source) {
-  double last = -1;
+  const ObstacleKey* last = nullptr;
   for (const ObstacleKey& key : motion.keys) {
     check_settings(key);
     if (!key.position && !key.rotate)
       key.source.fail("", "the key says neither where the obstacle is nor how it is turned",
                       "add position=\"0 0 1\" or rotate=\"0 0 90\"");
-    if (key.at <= last)
-      key.source.fail("at",
-                      fmt::format("this key comes at {:g} s, and the one before it at {:g} s", key.at, last),
-                      "put them in the order of time");
-    last = key.at;
+    if (last) check_key_times(last->at, key.at, key.source);
+    last = &key;
   }
   if (!motion.velocity.isZero(0) && any(motion.keys, &ObstacleKey::position))
     source.fail("velocity", "velocity cannot be used together with positions of keys: these give the motion",

@@ -1,10 +1,12 @@
 #include "sim/outside/world.h"
 
+#include "sim/base/reach.h"
+
 namespace rend {
 
 template <> const Fields<Floor>& fields_of() {
   using S = Floor;
-  static const Fields<S> fields{field(&S::z, number("z", "m", "its height")),
+  static const Fields<S> fields{field(&S::z, within(number("z", "m", "its height"), farthest)),
                                 field(&S::friction, friction_attribute())};
   return fields;
 }
@@ -12,7 +14,7 @@ template <> const Fields<Floor>& fields_of() {
 template <> const Fields<World>& fields_of() {
   using S = World;
   static const Fields<S> fields{
-      field(&S::gravity, numbers("gravity", 3, "m/s2", "its acceleration")),
+      field(&S::gravity, within(numbers("gravity", 3, "m/s2", "its acceleration"), fastest)), // a second
       field(
           &S::over,
           number("over", "s", "gravity grows linearly from 0 to its full value during this time").at_least(0))};

@@ -224,6 +224,26 @@ TEST_F(Batch, runs_without_pictures_make_one_table_of_all_figures) {
   EXPECT_EQ(place.rend("batch presets/a.xml --run --video mp4").code, 64);
 }
 
+TEST_F(Batch, texts_that_spreadsheets_would_run_are_marked_in_the_table) {
+  place.write("presets/more/=1+1.xml", program::pulled);
+  place.write("presets/more/@me.xml", program::pulled);
+  place.write("presets/more/-3.xml", program::pulled);
+  EXPECT_EQ(place.rend("batch presets/more/* --run --sweep 'world.gravity=-1 0 -5' -o runs -q").code, 0);
+  const std::string table = content(place.path() / "runs/figures.csv");
+  std::vector<std::string> lines_of_jobs;
+  std::istringstream in(table);
+  std::string head, line;
+  std::getline(in, head);
+  while (std::getline(in, line)) lines_of_jobs.push_back(line);
+  std::sort(lines_of_jobs.begin(), lines_of_jobs.end());
+  ASSERT_EQ(lines_of_jobs.size(), 4u);
+  EXPECT_THAT(lines_of_jobs, ElementsAre(testing::StartsWith("\"'-3_world.gravity=-1,0,-5\","),
+                                         testing::StartsWith("\"'=1+1_world.gravity=-1,0,-5\","),
+                                         testing::StartsWith("\"'@me_world.gravity=-1,0,-5\","),
+                                         testing::StartsWith("\"b_world.gravity=-1,0,-5\",")));
+  for (const std::string& row : lines_of_jobs) EXPECT_THAT(row, HasSubstr(",-1 0 -5,")) << "numbers stay";
+}
+
 TEST_F(Batch, what_a_job_says_stands_in_its_log_and_on_the_page) {
   place.write("presets/bad.xml", "<scene name=\"bad\"></scene>");
   EXPECT_EQ(place.rend("batch presets --run -o said -q").code, 1);

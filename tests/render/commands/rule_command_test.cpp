@@ -128,6 +128,37 @@ TEST(RuleCommand, checks_a_whole_file) {
   EXPECT_EQ(bad.out, "");
 }
 
+// Each applies the next one: those that go too deep are refused, and with them all that apply them.
+TEST(RuleCommand, tells_the_first_and_the_last_of_many_that_are_refused) {
+  const TestFolder place;
+  std::string chain = "<rules>\n";
+  for (int n = 0; n < 5000; ++n)
+    chain += fmt::format("<script name=\"s{}\" hook=\"a*(0,1)\"><for each=\"e*(0)\" apply=\"s{}\"/></script>\n",
+                         n, n + 1);
+  place.write("chain.xml", chain + "</rules>");
+  const Outcome bad = place.rend("rule check chain.xml");
+  EXPECT_EQ(bad.code, 65);
+  EXPECT_LT(bad.err.size(), 5000u);
+  EXPECT_THAT(bad.err, HasSubstr("scripts apply scripts more than 20 deep"));
+  EXPECT_THAT(bad.err, HasSubstr("script 's4998'"));
+  EXPECT_THAT(bad.err, HasSubstr("note: 4979 more are refused; the last one:"));
+}
+
+// Nobody writes to the pipe: who opens it waits for ever.
+TEST(RuleCommand, a_preset_cannot_name_a_pipe_as_its_rules) {
+  const TestFolder place;
+  place.write("s.xml", scene("<sheet cells=\"1 1\" size=\"1 1\"/>"));
+  for (const char* made : {"mkfifo mine.xml", "ln -s /dev/null mine.xml", "mkdir mine.xml"}) {
+    ASSERT_EQ(place.shell(std::string("rm -rf mine.xml; ") + made).code, 0);
+    for (const char* command : {"run s.xml", "info s.xml", "rule list s.xml"}) {
+      const Outcome bad =
+          place.shell(std::string("timeout 20 ") + test::rend_program + " " + command + " --allow-path");
+      EXPECT_EQ(bad.code, 65) << made << ": " << command << ": " << bad.err;
+      EXPECT_THAT(bad.err, HasSubstr("s.xml:1:30: mine.xml: is not a regular file"));
+    }
+  }
+}
+
 TEST(RuleCommand, reads_a_file_that_is_one_rule) {
   const TestFolder place;
   place.write("one.xml", "<?xml version=\"1.0\"?>\n<rule name=\"r\" left=\"a*(0)\" right=\"a(0)\"/>\n");

@@ -44,15 +44,40 @@ TEST(RunEnergy, adds_up_in_json_and_in_the_diagnostics) {
   EXPECT_NEAR(now, start + number("work") - number("dissipated") + number("balance"), 1e-9 * std::abs(drives));
 }
 
+// What a preset can give at most adds up to a number.
+TEST(RunEnergy, is_a_number_at_the_bounds_of_presets) {
+  const TestFolder place;
+  place.write("fall.xml", R"(<scene name="fall"><body><sheet cells="2 2" size="1e29 1e29"/>)"
+                          R"(<place velocity="1e30 1e30 -1e30"/><mass total="1e30"/>)"
+                          R"(<springs><stretch k="1"/></springs></body><world gravity="1e30 0 -1e30">)"
+                          R"(<sphere centre="9 9 1e30" radius="1" mass="1e30" velocity="1e30 0 0"/></world>)"
+                          R"(<time step="1e-3" integrator="symplectic" duration="0.01"/></scene>)");
+  const Outcome run = place.rend("run fall.xml --json -q --no-guard");
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* name : {"kinetic", "elastic", "gravity", "work", "dissipated", "balance"})
+    EXPECT_TRUE(run.json()["energy"][name].is_number()) << name;
+}
+
+// A spring that is stretched at once: its corner has 1e153 m/s after a step, an energy of some 1e314 J.
+TEST(RunEnergy, that_is_no_number_ends_the_run_with_76) {
+  const TestFolder place;
+  place.write("stiff.xml", R"(<scene name="stiff"><body><sheet cells="2 2" size="1 1"/><mass total="1e10"/>)"
+                           R"(<springs><stretch k="1e165"/></springs><drive side="+x" displacement="1 0 0"/>)"
+                           R"(</body><time step="1e-3" integrator="symplectic" duration="1e-3"/></scene>)");
+  const Outcome run = place.rend("run stiff.xml --no-guard");
+  EXPECT_EQ(run.code, 76);
+  EXPECT_THAT(run.err, HasSubstr("a speed exceeds 1e90 m/s"));
+  EXPECT_THAT(run.out, testing::Not(testing::AnyOf(HasSubstr("inf J"), HasSubstr("nan J"))));
+}
+
 // Explicit Euler without viscosity.
 TEST(RunEnergy, that_nothing_gave_ends_with_76) {
   const TestFolder place;
-  place.write(
-      "sheet.xml",
-      R"(<scene name="sheet"><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/><springs>)"
+  place.write("sheet.xml",
+              R"(<scene name="sheet"><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/><springs>)"
               R"(<stretch k="60"/>)"
-      R"(<shear k="40"/></springs><fix side="-x"/></body><time integrator="explicit" step="2e-4" )"
-      R"(duration="2"/></scene>)");
+              R"(<shear k="40"/></springs><fix side="-x"/></body><time integrator="explicit" step="2e-4" )"
+              R"(duration="2"/></scene>)");
   const Outcome run = place.rend("run sheet.xml --no-guard");
   EXPECT_EQ(run.code, 76);
   EXPECT_THAT(run.err, HasSubstr("J of energy appeared"));

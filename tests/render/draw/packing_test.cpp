@@ -70,12 +70,25 @@ TEST(Packing, RefusesNumbersThatAreNotFinite) {
     }
 }
 
+TEST(Packing, LeavesOutWhatIsTooFarToBeDrawn) {
+  FrameBody body = screen(0, 1, red);
+  const std::size_t near = body.corners.size();
+  for (const double far : {1e33, -1e36, 1e150, -1e308}) {
+    add_triangle(body, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, red);
+    body.corners.back().position = as_floats({0, far, 0});
+  }
+  std::vector<Corner> packed;
+  pack(body, packed);
+  EXPECT_EQ(packed.size(), near);
+  EXPECT_EQ(bounds_of(packed).max().y(), bounds_of(std::span(body.corners).first(near)).max().y());
+}
+
 TEST(Packing, BoundsHoldAllCorners) {
-  EXPECT_TRUE(bounds_of(FrameBody()).isEmpty());
+  EXPECT_TRUE(bounds_of({}).isEmpty());
   FrameBody body = screen(-2, 1, red);
   add_triangle(body, {0, 0, 0}, {3, 0, 0}, {0, 5, 4}, grey);
-  EXPECT_EQ(bounds_of(body).min(), Eigen::Vector3d(-1, -2, -1));
-  EXPECT_EQ(bounds_of(body).max(), Eigen::Vector3d(3, 5, 4));
+  EXPECT_EQ(bounds_of(body.corners).min(), Eigen::Vector3d(-1, -2, -1));
+  EXPECT_EQ(bounds_of(body.corners).max(), Eigen::Vector3d(3, 5, 4));
 }
 
 } // namespace

@@ -137,7 +137,7 @@ TEST(ObstacleMotion, refuses_what_does_not_fit_together) {
   const std::string box = R"(<box low="0 0 -3" high="1 1 -2")",
                     sphere = R"(<sphere centre="0 0 -3" radius="1")";
   expect_refused(box + R"(><key at="1" position="0 0 1"/><key at="1" position="0 0 2"/></box>)",
-                 "this key comes at 1 s");
+                 "this key and the one before it both come at 1 s");
   expect_refused(box + R"(><key at="1"/></box>)", "neither where");
   expect_refused(box + R"( velocity="1 0 0"><key at="1" position="0 0 1"/></box>)", "velocity cannot be used");
   expect_refused(box + R"( rotate="0 0 1 9"><key at="1" rotate="0 0 1"/></box>)", "rotate cannot be used");
