@@ -77,6 +77,7 @@ Exit fill(const MeshOptions& options) {
   files.reads("the surface", options.in);
   files.writes("the solid", file);
   ClosedSurface surface = closed_surface(read_mesh(fs::path(options.in)));
+  check_cells_to_fill(surface, options.size);
   divide_edges(surface, 1.5 * options.size);
   const GracefulStop graceful_stop;
   auto filled =

@@ -1,8 +1,11 @@
 #include "render/diagram/paint.h"
 
 #include "render/diagram/glyphs.h"
+#include "sim/base/error.h"
 #include "sim/base/math.h"
 #include "sim/base/printable.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +14,17 @@ namespace rend {
 namespace {
 
 constexpr int lines_per_pixel = 5;
+constexpr double most_side = 8192; // [pixels], as of pictures of a scene
+
+// Before memory is taken for them: a name in the drawing may be as long as its file.
+void check_size(double width, double height) {
+  if (width <= most_side && height <= most_side) return;
+  throw UserError(
+      Exit::BadInput, {},
+      fmt::format("the drawing would have {:.0f} x {:.0f} pixels; at most {:.0f} a side are allowed", width,
+                  height, most_side),
+      "an .svg file has no pixels; or use shorter names");
+}
 
 std::vector<Spot> regular_polygon(Spot centre, double radius) {
   constexpr int sides = 64;
@@ -126,8 +140,9 @@ private:
 
 Image paint(const Drawing& drawing, double scale) {
   require_glyphs();
-  Image image(static_cast<int>(std::ceil(drawing.width * scale)),
-              static_cast<int>(std::ceil(drawing.height * scale)));
+  const double width = std::ceil(drawing.width * scale), height = std::ceil(drawing.height * scale);
+  check_size(width, height);
+  Image image(static_cast<int>(width), static_cast<int>(height));
   std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{255});
   Painter painter(image, scale);
   for (const Drawn& part : drawing.parts) std::visit([&](const auto& each) { painter.paint(each); }, part);

@@ -9,7 +9,8 @@
 
 namespace rend {
 
-// `scale`: pixels of the picture in one of the drawing. UserError (Usage): rend was built without the font.
+// `scale`: pixels of the picture in one of the drawing. UserError: rend was built without the font (Usage), or
+// a side has more than 8192 pixels (BadInput).
 Image paint(const Drawing& drawing, double scale);
 
 } // namespace rend

@@ -174,10 +174,37 @@ void divide(const Triangle& t, const std::array<std::optional<Number>, 3>& middl
   out.push_back(at_z ? Triangle{a, b, z} : Triangle{x, b, z});
 }
 
+double area(const ClosedSurface& surface) {
+  double sum = 0;
+  for (const auto& [a, b, c] : surface.triangles)
+    sum += (surface.points[b] - surface.points[a]).cross(surface.points[c] - surface.points[a]).norm() / 2;
+  return sum;
+}
+
+[[noreturn]] void refuse_triangles() {
+  throw UserError(Exit::Usage, {}, "the surface would have more than ten million triangles of this size",
+                  "take a larger --size");
+}
+
 } // namespace
+
+void check_cells_to_fill(const ClosedSurface& surface, double size) {
+  constexpr double most_cells = 1e7, in_a_cube = 6;
+  const double cells = in_a_cube * surface.volume() / (size * size * size);
+  if (cells > most_cells)
+    throw UserError(
+        Exit::Usage, {},
+        fmt::format("the solid would have about {:.2g} tetrahedra of this size; at most {:.0e} are made", cells,
+                    most_cells),
+        fmt::format("take a larger --size, of {:.2g} m or more",
+                    std::cbrt(in_a_cube * surface.volume() / most_cells)));
+}
 
 void divide_edges(ClosedSurface& surface, double most) {
   constexpr std::size_t most_triangles = 10'000'000;
+  // With sides of at most that length, no triangle is larger than an equilateral one.
+  if (area(surface) / (std::sqrt(3.0) / 4 * most * most) > static_cast<double>(most_triangles))
+    refuse_triangles();
   for (bool again = true; again;) {
     again = false;
     std::map<Side, Number> middles;
@@ -195,9 +222,7 @@ void divide_edges(ClosedSurface& surface, double most) {
       divide(t, middle, surface.points, out);
     }
     surface.triangles = std::move(out);
-    if (surface.triangles.size() > most_triangles)
-      throw UserError(Exit::Usage, {}, "the surface would have more than ten million triangles of this size",
-                      "take a larger --size");
+    if (surface.triangles.size() > most_triangles) refuse_triangles();
   }
 }
 

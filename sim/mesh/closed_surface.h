@@ -25,8 +25,12 @@ struct ClosedSurface {
 // of several parts.
 ClosedSurface closed_surface(const MeshFile& file);
 
+// UserError (Usage): to fill the surface with tetrahedra whose edges are about `size` [m] long would take more
+// than ten million, by the volume that such a one has in what Gmsh makes (six fill a cube of that side).
+void check_cells_to_fill(const ClosedSurface& surface, double size);
+
 // Divides edges in the middle until none is longer than `most` [m]: the same surface in smaller triangles.
-// UserError (Usage): they would be more than ten million.
+// UserError (Usage): they would be more than ten million; known at once where the area alone says so.
 void divide_edges(ClosedSurface& surface, double most);
 
 // Triangles as Gmsh's .msh 2.2, of the entity 1.

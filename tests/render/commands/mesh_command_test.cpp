@@ -159,6 +159,27 @@ TEST(MeshFill, refuses_what_is_no_closed_surface) {
   EXPECT_FALSE(fs::exists(place.path() / "a.msh"));
 }
 
+// Before anything is divided, or gmsh is started.
+TEST(MeshFill, refuses_at_once_what_has_too_many_cells) {
+  const TestFolder place;
+  place.write("o.obj", octahedron);
+  fs::create_directories(place.path() / "empty");
+  for (const auto& [size, words] : {std::pair{"1e-9", "8e+27 tetrahedra of this size; at most 1e+07"},
+                                    std::pair{"0.009", "1.1e+07 tetrahedra"}}) {
+    const Outcome outcome = place.shell("PATH='" + (place.path() / "empty").string() + "' /usr/bin/timeout 5 " +
+                                        test::rend_program + " mesh fill o.obj -o a.msh --size " + size);
+    EXPECT_EQ(outcome.code, 64) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+    EXPECT_THAT(outcome.err, HasSubstr("take a larger --size, of 0.0093 m or more"));
+  }
+  // A flat one has few cells, and a large surface.
+  place.write("flat.obj", "v 0 0 0\nv 1e4 0 0\nv 0 1e4 0\nv 0 0 1e-3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const Outcome flat =
+      place.shell("timeout 5 " + std::string(test::rend_program) + " mesh fill flat.obj -o a.msh --size 0.5");
+  EXPECT_EQ(flat.code, 64);
+  EXPECT_THAT(flat.err, HasSubstr("more than ten million triangles"));
+}
+
 // In place of gmsh a script that does the named thing.
 TEST(MeshFill, survives_whatever_gmsh_does) {
   const TestFolder place;

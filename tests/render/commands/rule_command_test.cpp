@@ -111,6 +111,19 @@ TEST(RuleCommand, tells_what_a_script_does) {
   EXPECT_THAT(drawn.err, HasSubstr("script 'delete-face' has no graphs to draw"));
 }
 
+// Its title is as wide as the name is long.
+TEST(RuleCommand, draws_no_picture_of_more_pixels_than_pictures_have) {
+  if (!png_available()) GTEST_SKIP();
+  const TestFolder place;
+  const std::string name(100'000, 'n');
+  place.write("long.xml", "<rule name=\"" + name + "\" left=\"a*(0)\" right=\"a(0)\"/>");
+  const Outcome picture = place.rend("rule draw " + name + " --in long.xml -o x.png");
+  EXPECT_EQ(picture.code, 65);
+  EXPECT_THAT(picture.err, HasSubstr("at most 8192 a side"));
+  EXPECT_EQ(place.rend("rule draw " + name + " --in long.xml -o x.svg").code, 0);
+  EXPECT_EQ(place.files(), (std::vector<std::string>{"long.xml", "x.svg"}));
+}
+
 TEST(RuleCommand, checks_a_whole_file) {
   const TestFolder place;
   place.write("bad.xml", R"xml(<rules>
