@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <tuple>
 
 namespace rend {
 namespace {
@@ -46,11 +47,41 @@ void check_format(const std::string& name) {
                     "end the name in .moka or .msh");
 }
 
+// What a file of this text would be, with the name that the options give it.
+MeshFacts facts_of_text(const std::string& text, const MeshOptions& options) {
+  try {
+    return mesh_facts(sew(read_mesh(MeshSource(options.out, text))), options.out);
+  } catch (const UserError& error) {
+    throw UserError(Exit::BadInput, {options.in},
+                    fmt::format("its conversion could not be read back: {}", error.what()), error.hint);
+  }
+}
+
+// UserError: who reads the file would get another mesh.
+void check_reads_back(const MeshBody& body, const std::string& text, const MeshOptions& options, bool groups) {
+  const MeshFacts ours = mesh_facts(body, options.in), theirs = facts_of_text(text, options);
+  const auto cells = [](const MeshFacts& facts) {
+    const CellCounts& c = facts.counts;
+    return std::tuple(facts.dimension, facts.elements, c.vertices, c.edges, c.faces, c.volumes, c.fragments);
+  };
+  if (cells(ours) != cells(theirs))
+    throw UserError(Exit::BadInput, {options.in}, "its conversion would be read back with other cells",
+                    "write it in the other format: .msh or .moka");
+  if (groups && ours.groups != theirs.groups)
+    throw UserError(Exit::BadInput, {options.in}, "its conversion would be read back with other groups",
+                    "give the groups plain names");
+}
+
 // As the options name it; `file`: where that leads.
 void write(const MeshBody& body, const MeshOptions& options, const fs::path& file) {
   const bool moka = fs::path(options.out).extension() == ".moka";
   if (moka && !body.groups.empty()) print_note("the groups of the mesh were left out: .moka cannot hold them");
+  if (moka && body.map->dimension() == 2 && is_solid_in_moka(body.map->map()))
+    throw UserError(Exit::BadInput, {options.in},
+                    "a sheet without a border would be a solid in .moka, which cannot tell the two apart",
+                    "write it as .msh; `rend mesh fill` makes a solid of it");
   const std::string text = moka ? moka_text(*body.map) : msh_text(body, options.in);
+  check_reads_back(body, text, options, !moka);
   write_atomically(file, text);
   sync_folder(file.parent_path());
 }
@@ -115,7 +146,8 @@ std::function<Exit()> declare_mesh(CLI::App& app) {
   full->add_option("-o,--output", options->out, "the file to write: .msh or .moka")
       ->required()
       ->type_name("FILE");
-  full->add_option("--max-time", options->most_seconds, "give up after so many seconds")
+  full->add_option("--max-time", options->most_seconds,
+                   "give up after so many seconds")
       ->transform(real_number(0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS");

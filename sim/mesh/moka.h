@@ -19,4 +19,8 @@ namespace rend {
 // point.
 std::string moka_text(const EmbeddedMap& map);
 
+// Whether its file is read as a solid: also that of a sheet without a border, since the format cannot tell a
+// hollow sheet from the volume within it.
+bool is_solid_in_moka(const GMap& map);
+
 } // namespace rend

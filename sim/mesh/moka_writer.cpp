@@ -21,4 +21,11 @@ std::string moka_text(const EmbeddedMap& embedded) {
   return text;
 }
 
+bool is_solid_in_moka(const GMap& map) {
+  if (map.dimension() == 3) return true;
+  bool closed = true;
+  map.for_each_dart([&](Dart d) { closed = closed && !map.is_free(2, d); });
+  return closed;
+}
+
 } // namespace rend

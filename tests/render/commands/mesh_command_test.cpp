@@ -2,7 +2,13 @@
 #include "tests/render/commands/program_run.h"
 #include "tests/test_paths.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
+
+#include <array>
+#include <map>
+#include <tuple>
 
 namespace rend {
 namespace {
@@ -63,6 +69,113 @@ TEST(MeshCommand, converts_to_moka_and_back_without_loss) {
   const auto after = place.rend("mesh info a.msh --json").json();
   for (const char* key : {"vertices", "edges", "faces", "volumes", "volume", "groups"})
     EXPECT_EQ(before[key], after[key]) << key;
+}
+
+// A cube's sides, counter-clockwise from outside, or (inward) from inside.
+std::string cube(bool inward) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+  for (const auto& [a, b, c, d] : {std::array{1, 4, 3, 2}, std::array{5, 6, 7, 8}, std::array{1, 2, 6, 5},
+                                   std::array{2, 3, 7, 6}, std::array{3, 4, 8, 7}, std::array{4, 1, 5, 8}})
+    text += inward ? fmt::format("f {} {} {} {}\n", d, c, b, a) : fmt::format("f {} {} {} {}\n", a, b, c, d);
+  return text;
+}
+
+// Nodes of two unit cubes, one on the other, and a thirteenth above; elements: Gmsh's type, tags, corners.
+std::string cubes(const std::vector<std::string>& elements, const std::string& names = "") {
+  constexpr std::array corners{"0 0", "1 0", "1 1", "0 1"};
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + names + "$Nodes\n13\n";
+  for (std::size_t n = 0; n < 12; ++n) text += fmt::format("{} {} {}\n", n + 1, corners[n % 4], n / 4);
+  text += fmt::format("13 0.5 0.5 3\n$EndNodes\n$Elements\n{}\n", elements.size());
+  for (std::size_t n = 0; n < elements.size(); ++n) text += fmt::format("{} {}\n", n + 1, elements[n]);
+  return text + "$EndElements\n";
+}
+
+// Points and faces as a generalized map: of each side of a face two darts, one at each end.
+std::string moka(const std::vector<std::string>& points, const std::vector<std::vector<int>>& faces) {
+  std::map<std::tuple<int, int>, std::vector<std::size_t>>
+      at; // from a point towards another: darts of both faces
+  std::vector<std::array<std::size_t, 4>> links;
+  std::vector<int> point;
+  for (const std::vector<int>& ring : faces) {
+    const std::size_t first = links.size(), sides = ring.size();
+    for (std::size_t n = 0; n < 2 * sides; ++n) { // sides in turn, the start and the end of each
+      const std::size_t side = n / 2, dart = first + n,
+                        next = (n % 2 ? n + 1 : n + 2 * sides - 1) % (2 * sides);
+      const int here = ring[(side + n % 2) % sides], there = ring[(side + 1 - n % 2) % sides];
+      links.push_back({first + (n ^ 1U), first + next, dart, dart});
+      point.push_back(here);
+      at[{here, there}].push_back(dart);
+    }
+  }
+  for (const auto& [ends, darts] : at)
+    if (darts.size() == 2) links[darts[0]][2] = darts[1], links[darts[1]][2] = darts[0];
+  std::string text = "Moka file [ascii]\n64 7 0 0 0 0 0 0\n";
+  for (std::size_t d = 0; d < links.size(); ++d)
+    text +=
+        fmt::format("{} 0 0 0 0 1 {}\n", fmt::join(links[d], " "), points[static_cast<std::size_t>(point[d])]);
+  return text;
+}
+
+// Of every kind of input and both outputs: the same mesh is read back, or nothing is written.
+TEST(MeshCommand, what_it_writes_is_read_back_as_the_same_mesh) {
+  const TestFolder place;
+  const char* group = "$PhysicalNames\n1\n0 7 \"the \"top\" of it\"\n$EndPhysicalNames\n";
+  place.write("triangles.obj",
+              "g left right\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nf 1 2 3\ng a\"b\nf 1 3 4\n");
+  place.write("quads.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0.25\nv 2 1 0.1\nf 1 2 3 4\nf 2 5 6 3\n");
+  place.write("cube.obj", cube(false));
+  place.write("inward.obj", cube(true));
+  place.write("two.obj", cube(false) + "v 5 5 5\nv 6 5 5\nv 5 6 5\nf 9 10 11\n");
+  place.write("bow.obj",
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nf 1 2 3\nf 1 4 5\n"); // a point in common
+  place.write("plane.obj", // projective: closed, with one side
+              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 2\nv 2 1 1\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 6\n"
+              "f 1 6 2\nf 2 3 5\nf 3 4 6\nf 4 5 2\nf 5 6 3\nf 6 2 4\n");
+  place.write("pentagon.off", "OFF\n5 1 0\n0 0 0\n2 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n");
+  place.write("quads.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n4 0 1 2 3\n4 1 4 5 2\n");
+  place.write("mixed.msh", cubes({"15 2 7 0 13", "5 2 0 0 1 2 3 4 5 6 7 8", "6 2 0 0 5 8 9 6 7 10",
+                                  "6 2 0 0 8 12 9 7 11 10", "7 2 0 0 9 10 11 12 13"},
+                                 group));
+  place.write("tetrahedra.msh", tetrahedron);
+  place.write("shell.msh", cubes({"3 2 0 0 1 2 6 5", "2 2 0 0 2 3 7", "2 2 0 0 2 7 6"}));
+  place.write("drum.moka",
+              moka({"0 0 0", "2 0 0", "2 1 0", "1 2 0", "0 1 0", "0 0 1", "2 0 1", "2 1 1", "1 2 1", "0 1 1"},
+                   {{4, 3, 2, 1, 0},
+                    {5, 6, 7, 8, 9},
+                    {0, 1, 6, 5},
+                    {1, 2, 7, 6},
+                    {2, 3, 8, 7},
+                    {3, 4, 9, 8},
+                    {4, 0, 5, 9}}));
+  place.write("sheet.moka", moka({"0 0 0", "2 0 0", "2 1 0", "0 1 0", "3 0 1"}, {{0, 1, 2, 3}, {1, 4, 2}}));
+  int refused = 0, written = 0;
+  for (const std::string& in : place.files())
+    for (const char* ending : {".moka", ".msh"}) {
+      const Outcome outcome = place.rend("mesh convert " + in + " out" + ending);
+      const bool there = fs::exists(place.path() / (std::string("out") + ending));
+      EXPECT_EQ(there, outcome.code == 0) << in << ending << outcome.err;
+      if (!there) {
+        EXPECT_EQ(outcome.code, 65) << in << ending << outcome.err;
+        ++refused;
+        continue;
+      }
+      const auto before = place.rend("mesh info " + in + " --json").json(),
+                 after = place.rend(std::string("mesh info out") + ending + " --json").json();
+      for (const char* key : {"kind", "vertices", "edges", "faces", "volumes", "euler", "elements"})
+        EXPECT_EQ(before[key], after[key]) << in << ending << " " << key;
+      const char* extent = before["kind"] == "solid" ? "volume" : "area";
+      EXPECT_NEAR(after[extent].get<double>(), before[extent].get<double>(), 1e-12) << in << ending;
+      if (std::string(ending) == ".msh") {
+        EXPECT_EQ(before["groups"], after["groups"]) << in;
+      }
+      fs::remove(place.path() / (std::string("out") + ending));
+      ++written;
+    }
+  // Sheets without a border as .moka: cube, inward, plane; faces and volumes that Gmsh has not: pentagon, drum.
+  EXPECT_EQ(refused, 5);
+  EXPECT_EQ(written, 23);
+  EXPECT_THAT(place.rend("mesh convert cube.obj out.moka").err,
+              HasSubstr("cube.obj: a sheet without a border would be a solid in .moka"));
 }
 
 TEST(MeshCommand, refuses_by_the_table_of_exit_codes) {
