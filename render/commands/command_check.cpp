@@ -7,7 +7,7 @@
 #include "render/console/number_option.h"
 #include "render/console/signals.h"
 #include "render/files/output.h"
-#include "render/files/temporaries.h"
+#include "render/files/work_folder.h"
 #include "render/pages/check_report.h"
 #include "render/picture/scene_preset.h"
 #include "render/studies/check_run.h"
@@ -25,6 +25,7 @@
 #include <cstdlib>
 #include <fnmatch.h>
 #include <memory>
+#include <optional>
 
 namespace rend {
 namespace {
@@ -37,32 +38,6 @@ struct CheckOptions {
   std::vector<std::string> only;    // patterns of names
   bool list = false, json = false, quick = false, quiet = false, allow_path = false;
   int jobs = 0; // 0: as many as the machine has threads
-};
-
-// For the cases' presets when no output folder was given.
-class TemporaryFolder {
-public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "rend-check-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-      throw UserError(Exit::CannotCreate, {},
-                      "no temporary folder can be made in " + in_quotes(fs::temp_directory_path().string()),
-                      "give one with -o");
-    path_ = name;
-    temporary_.register_path(path_.c_str());
-    temporary_.remove_contents();
-  }
-  ~TemporaryFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
-private:
-  fs::path path_;
-  TemporaryPath temporary_; // path_
 };
 
 // Part of a name is enough: "static" means "*static*".
@@ -200,8 +175,8 @@ Exit check(const CheckOptions& options) {
   check_files(options);
   const double start = wall_clock();
   const GracefulStop graceful_stop;
-  std::unique_ptr<TemporaryFolder> temporary;
-  if (options.folder.empty()) temporary = std::make_unique<TemporaryFolder>();
+  std::optional<WorkFolder> temporary; // for the cases' presets when no output folder was given
+  if (options.folder.empty()) temporary.emplace("rend-check", "give one with -o");
   const fs::path cases = temporary ? temporary->path() : fs::path(options.folder) / "cases";
   make_folder(cases);
   run_all(chapters, cases, options);

@@ -6,6 +6,7 @@
 #include "render/console/json_text.h"
 #include "render/console/number_option.h"
 #include "render/console/signals.h"
+#include "render/console/time_limit.h"
 #include "render/facts/mesh_facts.h"
 #include "render/files/output.h"
 #include "sim/base/wording.h"
@@ -107,12 +108,14 @@ Exit fill(const MeshOptions& options) {
   NamedFiles files;
   files.reads("the surface", options.in);
   files.writes("the solid", file);
+  const TimeLimit limit(options.most_seconds, "filling the surface",
+                        "take a larger --size, or a longer --max-time");
   ClosedSurface surface = closed_surface(read_mesh(fs::path(options.in)));
   check_cells_to_fill(surface, options.size);
   divide_edges(surface, 1.5 * options.size);
   const GracefulStop graceful_stop;
-  auto filled =
-      filled_by_gmsh(surface, {options.size, options.most_seconds, [] { return stop_signal() != 0; }});
+  limit.check();
+  auto filled = filled_by_gmsh(surface, {options.in, options.size, limit, [] { return stop_signal() != 0; }});
   if (!filled) return exit_code_of_signal();
   const MeshBody body = sew(std::move(*filled));
   print_note(fmt::format("{} tetrahedra, {:.6g} m3", count_cells(body.map->map()).volumes, surface.volume()));
@@ -147,7 +150,7 @@ std::function<Exit()> declare_mesh(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   full->add_option("--max-time", options->most_seconds,
-                   "give up after so many seconds")
+                   "give up after so many seconds, with all that the command does")
       ->transform(real_number(0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS");

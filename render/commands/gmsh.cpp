@@ -1,59 +1,28 @@
 #include "render/commands/gmsh.h"
 
 #include "render/files/outside_program.h"
-#include "render/files/temporaries.h"
+#include "render/files/work_folder.h"
 #include "sim/base/error.h"
 #include "sim/base/printable.h"
 #include "sim/base/wording.h"
+#include "sim/mesh/surface_crossing.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <utility>
 
 namespace rend {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* may_cross = "the surface may cross itself, or have triangles that are too flat: "
-                                  "`rend mesh info` tells the worst";
-
-// For its input and output.
-class WorkFolder {
-public:
-  WorkFolder() {
-    std::string name = (fs::temp_directory_path() / "rend-fill-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-      throw UserError(Exit::CannotCreate, {},
-                      "no temporary folder can be made in " + in_quotes(fs::temp_directory_path().string()),
-                      "set TMPDIR to a folder that can be written to");
-    path_ = name;
-    temporary_.register_path(path_.c_str());
-    temporary_.remove_contents();
-  }
-  ~WorkFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
-  void write(const char* name, const std::string& text) const {
-    std::ofstream file(path_ / name, std::ios::binary);
-    file << text;
-    if (!file.flush())
-      throw UserError(Exit::ReadWrite, {}, in_quotes((path_ / name).string()) + " could not be written");
-  }
-
-private:
-  fs::path path_;
-  TemporaryPath temporary_; // path_
-};
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw UserError(Exit::ReadWrite, {}, in_quotes(path.string()) + " could not be written");
+}
 
 // One thread, so that the same surface gives the same solid. Sizes of edges within come from `size` alone: by
 // default they would be those of the surface.
@@ -82,22 +51,32 @@ std::string errors_in(const std::string& said) {
   return printable((errors.empty() ? said : errors).substr(0, enough));
 }
 
-[[noreturn]] void fail(const std::string& what) {
-  throw UserError(Exit::ReadWrite, {}, "gmsh could not fill the surface: " + what, may_cross);
+// The fault is the surface's where it crosses itself.
+[[noreturn]] void fail(const std::string& what, const ClosedSurface& surface, const FillSettings& settings) {
+  if (const auto at = crossing_of(surface))
+    throw UserError(
+        Exit::BadInput, {settings.file},
+        fmt::format("the surface crosses or touches itself near ({:.6g}, {:.6g}, {:.6g}) m, so that it is "
+                    "the boundary of no solid",
+                    at->x(), at->y(), at->z()),
+        "mend it there in a program for surfaces");
+  throw UserError(Exit::ReadWrite, {}, "gmsh could not fill the surface: " + what,
+                  "triangles may be too flat: `rend mesh info` tells the worst");
 }
 
-MeshFile checked(const fs::path& path, const ClosedSurface& surface, const std::string& said) {
-  if (!fs::exists(path)) fail(errors_in(said));
+MeshFile checked(const fs::path& path, const ClosedSurface& surface, const std::string& said,
+                 const FillSettings& settings) {
+  if (!fs::exists(path)) fail(errors_in(said), surface, settings);
   MeshFile file = [&] {
     try {
       return read_mesh(path);
     } catch (const UserError& error) {
-      fail(std::string("what it wrote cannot be read: ") + error.what());
+      fail(std::string("what it wrote cannot be read: ") + error.what(), surface, settings);
     }
   }();
   const auto* solid = std::get_if<CellMesh>(&file.mesh);
-  if (!solid || solid->cells() == 0) fail("it made no tetrahedra. " + errors_in(said));
-  if (const std::string flaw = flaw_of_filling(*solid, surface); !flaw.empty()) fail(flaw);
+  if (!solid || solid->cells() == 0) fail("it made no tetrahedra. " + errors_in(said), surface, settings);
+  if (const std::string flaw = flaw_of_filling(*solid, surface); !flaw.empty()) fail(flaw, surface, settings);
   file.groups.clear();
   return file;
 }
@@ -105,21 +84,20 @@ MeshFile checked(const fs::path& path, const ClosedSurface& surface, const std::
 } // namespace
 
 std::optional<MeshFile> filled_by_gmsh(const ClosedSurface& surface, const FillSettings& settings) {
-  const WorkFolder folder;
-  folder.write("surface.msh", msh_text(surface));
-  folder.write("fill.geo", script(settings.size));
+  const WorkFolder folder("rend-fill", "set TMPDIR to a folder that can be written to");
+  write(folder.path() / "surface.msh", msh_text(surface));
+  write(folder.path() / "fill.geo", script(settings.size));
   const auto outcome =
       run_outside_program({"gmsh", "fill.geo", "-3", "-format", "msh22", "-o", "solid.msh", "-v", "2"},
-                          folder.path(), settings.most_seconds, settings.stop);
+                          folder.path(), settings.limit.left(), settings.stop);
   if (!outcome)
     throw UserError(Exit::Usage, {}, "the program gmsh, which fills surfaces, is not installed",
                     "Debian has it in the package gmsh: apt-get install gmsh");
   if (outcome->end == ProgramOutcome::End::Asked) return {};
-  if (outcome->end == ProgramOutcome::End::TimeLimit)
-    throw UserError(Exit::OutOfBudget, {}, fmt::format("gmsh took longer than {:g} s", settings.most_seconds),
-                    "take a larger --size, or a longer --max-time");
-  if (outcome->code != 0) fail(fmt::format("exit code {}. {}", outcome->code, errors_in(outcome->said)));
-  return checked(folder.path() / "solid.msh", surface, outcome->said);
+  if (outcome->end == ProgramOutcome::End::TimeLimit) settings.limit.fail();
+  if (outcome->code != 0)
+    fail(fmt::format("exit code {}. {}", outcome->code, errors_in(outcome->said)), surface, settings);
+  return checked(folder.path() / "solid.msh", surface, outcome->said, settings);
 }
 
 } // namespace rend

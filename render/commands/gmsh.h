@@ -6,21 +6,25 @@
 // surface, and the volumes sum up to that within it.
 #pragma once
 
+#include "render/console/time_limit.h"
 #include "sim/mesh/closed_surface.h"
 
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace rend {
 
 struct FillSettings {
+  std::string file;           // of the surface, for messages
   double size = 0;            // [m], length of edges within, about
-  double most_seconds = 600;  // [s]
+  const TimeLimit& limit;     // of all that fills it
   std::function<bool()> stop; // asked again and again
 };
 
 // nullopt: stop() was true. UserError: Usage if Gmsh is not installed, OutOfBudget if it took too long,
-// ReadWrite, with its messages, if it fails or what it wrote does not fill the surface.
+// CannotCreate where there is no temporary folder; if it fails, or what it wrote does not fill the surface,
+// BadInput where the surface crosses itself, else ReadWrite, with its messages.
 std::optional<MeshFile> filled_by_gmsh(const ClosedSurface& surface, const FillSettings& settings);
 
 } // namespace rend

@@ -1,4 +1,6 @@
 // rend mesh, and <mesh> in a preset, as a user runs them.
+#include "sim/base/math.h"
+#include "sim/base/wall_clock.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/test_paths.h"
 
@@ -7,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -316,6 +319,8 @@ TEST(MeshFill, survives_whatever_gmsh_does) {
   expect(74, "gmsh could not fill the surface", with("echo nothing is written"));
   expect(74, "cannot be read", with("echo rubbish >solid.msh"));
   expect(74, "exit code 139", with("kill -SEGV $$"));
+  expect(74, "No way out", with("yes | head -c 30000000; echo 'Error   : No way out' >&2; exit 3"));
+  expect(75, "filling the surface took longer than 0.3 s", with("yes", "--max-time 0.3"));
   expect(75, "took longer than 0.3 s", with("touch t; sleep 60 & sleep 60", "--max-time 0.3"));
   const std::string start = "cat >solid.msh <<END\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
                     nodes = "$Nodes\n6\n1 1 0 0\n2 -1 0 0\n3 0 1 0\n4 0 -1 0\n5 0 0 1\n6 0 0 -1\n$EndNodes\n",
@@ -342,6 +347,101 @@ TEST(MeshFill, survives_whatever_gmsh_does) {
                                    test::rend_program + " mesh fill o.obj --size 3 -o a.msh");
   EXPECT_EQ(good.code, 0) << good.err;
   EXPECT_EQ(place.rend("mesh info a.msh --json").json()["volumes"], 4);
+}
+
+// A program that is killed can remove nothing: what it has started ends, and the next one removes its folder.
+TEST(MeshFill, that_is_killed_leaves_neither_gmsh_nor_for_long_a_folder) {
+  const TestFolder place;
+  place.write("o.obj", octahedron);
+  fs::create_directories(place.path() / "bin");
+  const std::string here = place.path().string(), start = own_tmp(place) + "PATH='" + here + "/bin':$PATH " +
+                                                          test::rend_program +
+                                                          " mesh fill o.obj --size 3 -o a.msh";
+  const auto gmsh = [&](const std::string& script) {
+    place.write("bin/gmsh", "#!/bin/sh\n" + script);
+    fs::permissions(place.path() / "bin/gmsh", fs::perms::owner_all);
+  };
+  for (const char* signal : {"KILL", "QUIT", "ABRT"}) {
+    gmsh("echo $$ >'" + here + "/pid'; kill -" + signal + " $PPID; exec sleep 60");
+    EXPECT_GT(place.shell("ulimit -c 0; " + start).code, 128) << signal;
+    const Outcome left =
+        place.shell("n=0; while grep -q '^State:.[^ZX]' /proc/$(cat pid)/status 2>/dev/null; do "
+                    "n=$((n+1)); [ $n -lt 100 ] || exit 1; sleep 0.05; done");
+    EXPECT_EQ(left.code, 0) << "gmsh is still there after " << signal;
+    EXPECT_FALSE(fs::is_empty(place.path() / "tmp")) << signal;
+    gmsh("exit 3");
+    EXPECT_EQ(place.shell(start).code, 74);
+    EXPECT_TRUE(fs::is_empty(place.path() / "tmp")) << signal;
+  }
+}
+
+// Two runs at once: neither takes the other's folder for abandoned.
+TEST(MeshFill, leaves_the_folder_of_another_run_alone) {
+  const TestFolder place;
+  place.write("o.obj", octahedron);
+  fs::create_directories(place.path() / "bin");
+  const std::string here = place.path().string(), start = own_tmp(place) + "PATH='" + here + "/bin':$PATH " +
+                                                          test::rend_program +
+                                                          " mesh fill o.obj --size 3 -o a.msh";
+  place.write("bin/gmsh", "#!/bin/sh\ntouch '" + here + "/runs'\nwhile [ ! -e '" + here +
+                              "/go' ]; do sleep 0.05; done\n[ -e surface.msh ] && touch '" + here +
+                              "/kept'\nexit 3\n");
+  fs::permissions(place.path() / "bin/gmsh", fs::perms::owner_all);
+  place.shell(start + " & while [ ! -e runs ]; do sleep 0.05; done; PATH=/nowhere " +
+              std::string(test::rend_program) + " mesh fill o.obj --size 3 -o b.msh; touch go; wait");
+  EXPECT_TRUE(fs::exists(place.path() / "kept"));
+  EXPECT_TRUE(fs::is_empty(place.path() / "tmp"));
+}
+
+TEST(MeshFill, needs_a_folder_for_temporary_files) {
+  const TestFolder place;
+  place.write("o.obj", octahedron);
+  for (const char* folder : {"nowhere", "o.obj"}) {
+    const Outcome outcome = place.shell(std::string("TMPDIR=") + folder + " " + test::rend_program +
+                                        " mesh fill o.obj --size 3 -o a.msh");
+    EXPECT_EQ(outcome.code, 73) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(std::string("TMPDIR is '") + folder + "', which is no folder"));
+  }
+}
+
+// A cube with a pit in its upper side that reaches through the lower one.
+TEST(MeshFill, a_surface_that_crosses_itself_is_bad_input) {
+  if (!gmsh_is_there()) GTEST_SKIP() << "gmsh is not installed";
+  const TestFolder place;
+  place.write("pit.obj",
+              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 0.4 0.4 -0.2\n"
+              "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n");
+  const Outcome outcome = place.rend("mesh fill pit.obj --size 0.5 -o a.msh");
+  EXPECT_EQ(outcome.code, 65) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("pit.obj: the surface crosses or touches itself near ("));
+}
+
+// Also while rend itself reads, orders and divides.
+TEST(MeshFill, holds_its_time_with_all_that_it_does) {
+  const TestFolder place;
+  constexpr int n = 1500; // a tube of n rings of 200 quads, closed by two polygons
+  std::string text;
+  for (int z = 0; z <= n; ++z)
+    for (int k = 0; k < 200; ++k)
+      text += fmt::format("v {} {} {}\n", std::cos(k * pi / 100), std::sin(k * pi / 100), z * 0.01);
+  for (int z = 0; z < n; ++z)
+    for (int k = 0; k < 200; ++k)
+      text += fmt::format("f {0} {1} {3} {2}\n", 200 * z + k + 1, 200 * z + (k + 1) % 200 + 1,
+                          200 * z + k + 201, 200 * z + (k + 1) % 200 + 201);
+  for (const int first : {1, 200 * n + 1}) {
+    text += "f";
+    for (int k = 0; k < 200; ++k) text += fmt::format(" {}", first + k);
+    text += "\n";
+  }
+  place.write("tube.obj", text);
+  const std::string tmp = own_tmp(place);
+  const double start = wall_clock();
+  const Outcome outcome =
+      place.shell(tmp + test::rend_program + " mesh fill tube.obj --size 0.1 -o a.msh --max-time 0.5");
+  EXPECT_EQ(outcome.code, 75) << outcome.err;
+  EXPECT_LT(wall_clock() - start, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("filling the surface took longer than 0.5 s"));
+  EXPECT_TRUE(fs::is_empty(place.path() / "tmp"));
 }
 
 TEST(MeshFill, tells_the_package_where_gmsh_is_not_installed) {
