@@ -160,6 +160,11 @@ Json diff_json(const DiffReport& report) {
   return out;
 }
 
+// Whether a frame does not match and was not updated.
+bool any_is_left(const DiffReport& report, const ClipDifference& clip) {
+  return std::any_of(clip.cases.begin(), clip.cases.end(), [&](std::size_t n) { return failed(report, n); });
+}
+
 std::string clip_text(const DiffReport& report, const ClipDifference& clip) {
   const auto name = [&](std::size_t n) { return report.cases[clip.cases[n]].paths.name; };
   return fmt::format("{}: {} frames; the first that does not match is {}, the worst {} (mean of FLIP {:.4g})",
@@ -177,7 +182,7 @@ std::string diff_text(const DiffReport& report) {
     return one.metrics ? out + figures_text(*one.metrics) : out;
   }
   for (const ClipDifference& clip : report.clips)
-    out += "clip        " + printable(clip_text(report, clip)) + "\n";
+    if (any_is_left(report, clip)) out += "clip        " + printable(clip_text(report, clip)) + "\n";
   out += fmt::format("{} pictures:", report.cases.size());
   std::string counts;
   for (const CaseState state : all_states())

@@ -5,6 +5,7 @@
 #include "tests/render/needs.h"
 #include "tests/render/pictures.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <map>
 #include <random>
@@ -126,6 +127,18 @@ TEST_F(DiffUpdate, takes_back_the_folders_that_it_made_where_it_fails) {
   const auto before = tree(place.path());
   EXPECT_EQ(update().code, 73);
   EXPECT_EQ(tree(place.path()), before);
+}
+
+TEST_F(DiffUpdate, names_no_frame_as_not_matching_that_it_has_updated) {
+  for (int n = 0; n < 4; ++n) {
+    put(fmt::format("exp/{:05d}.png", n), 1);
+    put(fmt::format("now/{:05d}.png", n), n == 2 ? 2 : 1);
+  }
+  EXPECT_THAT(place.rend("diff exp now").out, HasSubstr("the first that does not match is 00002.png"));
+  const Outcome outcome = update();
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("1 updated"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("does not match")));
 }
 
 // Trees of pictures, other files, folders, and links to all of these and to nothing, in EXPECTED, in NOW and
