@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -114,12 +118,45 @@ std::vector<std::vector<std::string>> crossed(const std::vector<Sweep>& sweeps) 
 
 } // namespace
 
+namespace {
+
+// The values of 1:10:2 (1, 3, 5, 7, 9) or 1:4 (in steps of 1): from, to and step; nullopt: it is no range. Each
+// is from + n step, in the fewest digits that give it back.
+std::optional<std::vector<std::string>> parse_range(const std::string& value, const std::string& text) {
+  std::array<double, 3> part{0, 0, 1};
+  std::size_t count = 0;
+  for (std::size_t at = 0; at <= value.size(); ++count) {
+    const std::size_t colon = std::min(value.find(':', at), value.size());
+    const auto [end, error] = count < 3 ? std::from_chars(value.data() + at, value.data() + colon, part[count])
+                                        : std::from_chars_result{value.data(), std::errc::invalid_argument};
+    if (error != std::errc() || end != value.data() + colon) return {};
+    at = colon + 1;
+  }
+  if (count < 2) return {};
+  const auto [from, to, step] = part;
+  constexpr double most = 10'000; // values
+  const double steps = std::floor((to - from) / step * (1 + 1e-12) + 1e-9);
+  if (!(steps >= 0) || steps >= most || step == 0)
+    throw UserError(Exit::Usage, {},
+                    fmt::format("{}: {} is no range of values", in_quotes(text), in_quotes(value)),
+                    "a range is FROM:TO or FROM:TO:STEP, such as 1:10:2, with 10000 values at most");
+  std::vector<std::string> out;
+  for (double n = 0; n <= steps; ++n) out.push_back(fmt::format("{:.12g}", from + n * step));
+  return out;
+}
+
+} // namespace
+
 Sweep parse_sweep(const std::string& text) {
   const Override one = parse_override(text);
   Sweep sweep{one.path, {}};
   for (std::size_t at = 0; at <= one.value.size();) {
     const std::size_t comma = std::min(one.value.find(',', at), one.value.size());
-    sweep.values.push_back(one.value.substr(at, comma - at));
+    const std::string value = one.value.substr(at, comma - at);
+    if (const auto range = parse_range(value, text))
+      sweep.values.insert(sweep.values.end(), range->begin(), range->end());
+    else
+      sweep.values.push_back(value);
     at = comma + 1;
   }
   for (const std::string& value : sweep.values)
@@ -135,7 +172,7 @@ BatchSettings batch_settings(const ElementType& root, const std::vector<std::str
   for (const std::string& text : sets) {
     const Override one = parse_override(text);
     const bool is_text = overridden(root, one).kind == AttributeKind::Text;
-    if (!is_text && one.value.find(',') != std::string::npos)
+    if (!is_text && one.value.find_first_of(",:") != std::string::npos)
       out.sweeps.push_back(parse_sweep(text));
     else
       out.sets.push_back(text);

@@ -18,7 +18,8 @@ struct Sweep {
   std::vector<std::string> values;
 };
 
-// "PATH=VALUE,VALUE,...": values may hold spaces, and no comma. UserError (Usage).
+// "PATH=VALUE,VALUE,...": values may hold spaces, and no comma; FROM:TO and FROM:TO:STEP are ranges of numbers.
+// UserError (Usage).
 Sweep parse_sweep(const std::string& text);
 
 // The attributes that a batch's command line sets.

@@ -301,9 +301,10 @@ std::function<Exit()> declare_batch(CLI::App& app) {
                  "one job each, unless the attribute is free text")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--sweep", options->sweeps,
-                 "make one job for each of these values of an attribute, free text included; several sweeps "
-                 "make all combinations")
+  app.add_option(
+         "--sweep", options->sweeps,
+         "make one job for each of these values of an attribute, free text included; 1:10:2 is the range "
+         "from 1 to 10 in steps of 2; several sweeps make all combinations")
       ->type_name("PATH=V,V,...")
       ->allow_extra_args(false);
   app.add_option("-j,--jobs", options->jobs,

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using namespace html;
 
-constexpr int thumbnail_width = 176; // [pixels]
+constexpr int thumbnail_width = 480; // [pixels]
 
 // Downscales by a box filter: each pixel is the mean of those that it covers.
 Image made_smaller(const Image& from, int width) {

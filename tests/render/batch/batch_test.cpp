@@ -61,6 +61,13 @@ TEST_F(Batch, crosses_sweeps_and_names_each_job) {
   EXPECT_EQ(jobs[6].name, "more/b_time.step=1e-3_body.mass.total=1");
   EXPECT_EQ(jobs[12].name, "a_time.step=1e-3_body.mass.total=1-2") << "the same preset, named twice";
   EXPECT_THROW(parse_sweep("time.step=1e-3,,2"), UserError);
+  EXPECT_THAT(parse_sweep("a.b=1:10:2").values, ElementsAre("1", "3", "5", "7", "9"));
+  EXPECT_THAT(parse_sweep("a.b=0:0.3:0.1,7").values, ElementsAre("0", "0.1", "0.2", "0.3", "7"));
+  EXPECT_THAT(parse_sweep("a.b=3:1:-1").values, ElementsAre("3", "2", "1"));
+  EXPECT_THAT(parse_sweep("a.b=2:4").values, ElementsAre("2", "3", "4"));
+  EXPECT_THAT(parse_sweep("a.b=x:y,C:1:2:3").values, ElementsAre("x:y", "C:1:2:3"));
+  for (const char* bad : {"a.b=1:10:0", "a.b=1:10:-1", "a.b=1:1e9:1", "a.b=0:nan:1", "a.b=1:inf"})
+    EXPECT_THROW(parse_sweep(bad), UserError) << bad;
   EXPECT_THROW(batch_jobs({presets + "/none.xml"}, {}), UserError);
   fs::create_directories(place.path() / "empty");
   EXPECT_THROW(batch_jobs({(place.path() / "empty").string()}, {}), UserError);
