@@ -156,6 +156,10 @@ std::function<Exit()> declare_sheet(CLI::App& app) {
       ->default_val("480x270");
   app.add_option("--ends", options->ends, "show only the end of each preset, N pictures in a row")
       ->transform(whole_number(1, 64));
+  app.add_option("--set", options->session.sets,
+                 "replace an attribute of each preset, such as time.step=1e-4 (can be repeated)")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
   app.add_option("--threads", options->session.threads,
                  "number of threads; default: as many as the machine has")
       ->transform(whole_number(1, 256));

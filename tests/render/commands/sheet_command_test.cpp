@@ -52,6 +52,17 @@ TEST(Sheet, shows_the_start_the_tear_and_the_end_as_render_draws_them) {
   }
 }
 
+TEST(Sheet, sets_attributes_of_all_presets) {
+  NEEDS_PNG;
+  const TestFolder place;
+  place.write("pulled.xml", program::pulled);
+  const std::string line = "sheet pulled.xml --size 96x54 -q ";
+  ASSERT_EQ(place.rend(line + "-o a.png").code, 0);
+  ASSERT_EQ(place.rend(line + "-o b.png --set body.tear.threshold=1e9 --set time.duration=0.1").code, 0);
+  EXPECT_NE(read_png(place.path() / "a.png"), read_png(place.path() / "b.png"));
+  EXPECT_EQ(place.rend(line + "-o c.png --set body.tear.thresold=1").code, 64);
+}
+
 TEST(Sheet, shows_the_ends_alone_side_by_side) {
   NEEDS_PNG;
   const TestFolder place;
