@@ -34,6 +34,11 @@ const std::vector<std::string>& topics() {
   return all;
 }
 
+bool is_command(const std::string& word) {
+  const std::vector<Command>& all = all_commands();
+  return std::any_of(all.begin(), all.end(), [&](const Command& one) { return one.name == word; });
+}
+
 void check_words(const HelpOptions& options) {
   std::vector<std::string> known = topics();
   for (const Command& command : all_commands())
@@ -103,7 +108,20 @@ std::string page(const CLI::App& root, const HelpOptions& options) {
   return root.get_subcommand(options.topic)->help("rend");
 }
 
-Exit help(const CLI::App& root, const HelpOptions& options) {
+// `rend help camera` is `rend help preset camera`.
+HelpOptions with_topic(const HelpOptions& options) {
+  const std::vector<std::string> elements = element_names(scene_type());
+  const std::string& word = options.topic;
+  const bool is_path = word.find('.') != std::string::npos;
+  const bool is_element = is_path || std::find(elements.begin(), elements.end(), word) != elements.end();
+  const std::vector<std::string>& known = topics();
+  const bool is_topic = std::find(known.begin(), known.end(), word) != known.end() || is_command(word);
+  if (!options.element.empty() || !is_element || is_topic) return options;
+  return {"preset", word};
+}
+
+Exit help(const CLI::App& root, const HelpOptions& given) {
+  const HelpOptions options = with_topic(given);
   check_words(options);
   print_trusted_result(page(root, options));
   return Exit::Done;

@@ -84,11 +84,11 @@ void print_entry(const TableEntry& entry, const Style& style, std::string& out) 
                out);
 }
 
-// Whether `asked` is the entry's name or one of its paths, with or without the root's name.
-bool matches(const TableEntry& entry, const std::string& root, const std::string& asked) {
+// Whether `asked` is the entry's name or the end of one of its paths: key, sphere.key or world.sphere.key.
+bool matches(const TableEntry& entry, const std::string& asked) {
   if (entry.type->name == asked) return true;
   return std::any_of(entry.places.begin(), entry.places.end(), [&](const TablePlace& place) {
-    return place.path == asked || place.path == root + "." + asked;
+    return place.path == asked || place.path.ends_with("." + asked);
   });
 }
 
@@ -117,7 +117,7 @@ std::string help_elements(const ElementType& root, const std::string& opening,
   }
   bool found = false;
   for (const TableEntry& entry : entries) {
-    if (element && !matches(entry, root.name, *element)) continue;
+    if (element && !matches(entry, *element)) continue;
     if (!out.empty()) out += '\n';
     print_entry(entry, style, out);
     found = true;

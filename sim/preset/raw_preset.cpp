@@ -3,6 +3,7 @@
 #include "sim/base/check.h"
 
 #include <algorithm>
+#include <array>
 #include <climits>
 #include <exception>
 #include <expat.h>
@@ -94,6 +95,20 @@ const ElementType* child_type(const ElementType& type, std::string_view name) {
     if (child.type->name == name) return child.type;
   }
   return nullptr;
+}
+
+// What to say of words that other programs have and presets do not; empty: nothing.
+std::string said_of_missing(std::string_view name) {
+  constexpr std::array opaque{"opacity", "transparency", "transparent", "alpha"};
+  constexpr std::array plain{"texture", "map", "uv"};
+  const auto among = [&](const auto& words) {
+    return std::find(words.begin(), words.end(), name) != words.end();
+  };
+  if (among(opaque))
+    return "there is none: bodies are opaque (<image background=\"none\"> makes what is behind them "
+           "transparent). ";
+  if (among(plain)) return "there is none: a <look> gives a body one colour, a back, an inside and a finish. ";
+  return {};
 }
 
 // The elements in which `name` may stand, in the order of the table.
@@ -199,7 +214,8 @@ private:
     if (const ElementType* type = child_type(parent, name)) return *type;
     std::vector<std::string> parents;
     collect_parents(root_type_, name, parents);
-    std::string hint = parents.empty() ? "" : fmt::format("it belongs in {}. ", listed(parents));
+    std::string hint =
+        parents.empty() ? said_of_missing(name) : fmt::format("it belongs in {}. ", listed(parents));
     hint += parent.children.empty()
                 ? fmt::format("<{}> holds no elements", parent.name)
                 : suggestion(name, child_names(parent), "in <" + parent.name + "> may stand");
@@ -238,9 +254,10 @@ private:
       raw.further.push_back(std::make_unique<AttributeType>(text(std::string(name), element.further)));
       return *raw.further.back();
     }
-    const std::string hint = element.attributes.empty()
-                                 ? fmt::format("<{}> has no attributes", element.name)
-                                 : suggestion(name, attribute_names(element), "<" + element.name + "> has");
+    const std::string hint =
+        said_of_missing(name) +
+        (element.attributes.empty() ? fmt::format("<{}> has no attributes", element.name)
+                                    : suggestion(name, attribute_names(element), "<" + element.name + "> has"));
     fail(byte, fmt::format("<{}> has no attribute {}", element.name, in_quotes(name)), hint);
   }
 

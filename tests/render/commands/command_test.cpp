@@ -377,6 +377,14 @@ Outcome stopped_once_there_is(const std::string& file, const std::string& argume
                      " ] && kill -0 $!; do sleep 0.02; done; kill -TERM $!; wait $!");
 }
 
+TEST_F(Program, FindsTheHelpOfElementsWithoutTheWordPreset) {
+  EXPECT_EQ(place.rend("help camera").out, place.rend("help preset camera").out);
+  EXPECT_EQ(place.rend("help sphere.key").code, 0);
+  EXPECT_THAT(place.rend("help preset sphere.key").out, HasSubstr("sphere.key"));
+  EXPECT_EQ(place.rend("help rule").out.find("scene."), std::string::npos) << "a topic stays one";
+  EXPECT_EQ(place.rend("help camra").code, 64);
+}
+
 TEST_F(Program, StopsOnASignalAndKeepsWhatIsDone) {
   NEEDS_VIDEO;
   NEEDS_PNG;

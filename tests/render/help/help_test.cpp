@@ -32,6 +32,8 @@ TEST(Help, TakesNamesAndPaths) {
   EXPECT_NE(both.find("scene.camera.key"), std::string::npos);
   EXPECT_NE(both.find("scene.map.key"), std::string::npos);
   EXPECT_EQ(help_preset(scene, "map.key", false).find("camera"), std::string::npos);
+  EXPECT_EQ(help_preset(scene, "springs.stretch", false), help_preset(scene, "stretch", false))
+      << "the end of a path";
 }
 
 TEST(Help, HoldsEveryElementWithinAHundredColumns) {

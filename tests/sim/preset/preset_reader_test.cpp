@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -85,6 +86,10 @@ TEST(PresetReader, RefusesUnknownElementsWithTheNearestName) {
   EXPECT_EQ(refused(changed("<stretch k=\"60\"/>", "<strech k=\"60\"/>")),
             "p.xml:7:30: there is no <strech> in <springs> | did you mean 'stretch'? in <springs> may stand: "
             "stretch");
+  expect_starts(
+      refused(changed("<stretch k=\"60\"/>", "<texture file=\"a.png\"/>")),
+      "p.xml:7:30: there is no <texture> in <springs> | there is none: a <look> gives a body one colour");
+  EXPECT_THAT(refused(changed("k=\"60\"", "opacity=\"0.5\"")), testing::HasSubstr("bodies are opaque"));
   EXPECT_EQ(refused(changed("<time ", "<tear ")),
             "p.xml:13:3: there is no <tear> in <scene> | it belongs in <body>. in <scene> may stand: "
             "body, time, hud, camera, map");
