@@ -4,10 +4,10 @@
 
 namespace rend {
 
-std::vector<double> NewtonScheme::saved_state() const {
+void NewtonScheme::keep_state(std::vector<double>& numbers) const {
   const LinearSolver::SavedState from = linear_.saved_state();
-  return {static_cast<double>(newton_), static_cast<double>(from.hard), static_cast<double>(from.iterations),
-          static_cast<double>(from.factorisations)};
+  numbers = {static_cast<double>(newton_), static_cast<double>(from.hard), static_cast<double>(from.iterations),
+             static_cast<double>(from.factorisations)};
 }
 
 bool NewtonScheme::restore_state(std::span<const double> numbers) {

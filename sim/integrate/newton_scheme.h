@@ -4,13 +4,14 @@
 
 #include "sim/integrate/integrator.h"
 #include "sim/integrate/load_tangent.h"
+#include "sim/integrate/state_keeper.h"
 #include "sim/solve/vectors.h"
 
 #include <initializer_list>
 
 namespace rend {
 
-class NewtonScheme : public Integrator {
+class NewtonScheme : public Integrator, public StateKeeper {
 public:
   SolverFigures solver() const final {
     return {.newton = newton_,
@@ -18,7 +19,12 @@ public:
             .factorisations = linear_.factorisations(),
             .bytes = matrix_.bytes() + linear_.bytes()};
   }
-  std::vector<double> saved_state() const override; // `saved_numbers`
+  std::vector<double> saved_state() const final { // `saved_numbers`, and those of the scheme
+    std::vector<double> numbers;
+    keep_state(numbers);
+    return numbers;
+  }
+  void keep_state(std::vector<double>& numbers) const override;
   bool restore_state(std::span<const double> numbers) override;
 
 protected:

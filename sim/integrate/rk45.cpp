@@ -31,6 +31,7 @@
 // (saved_state). A substep below 2^-20 of the step fails (NotConverged).
 #include "sim/base/stop_request.h"
 #include "sim/integrate/integrator.h"
+#include "sim/integrate/state_keeper.h"
 #include "sim/solve/vectors.h"
 
 #include <fmt/format.h>
@@ -161,7 +162,7 @@ REND_INLINE void sum_errors(const double* inverse_mass, std::size_t count, doubl
   }
 }
 
-class RungeKutta45 final : public Integrator {
+class RungeKutta45 final : public Integrator, public StateKeeper {
 public:
   explicit RungeKutta45(const SchemeSettings& settings) : settings_(settings) {}
 
@@ -179,7 +180,12 @@ public:
     return sum;
   }
   std::vector<double> saved_state() const override {
-    return {next_size_, error_, static_cast<double>(substeps_), static_cast<double>(rejected_)};
+    std::vector<double> numbers;
+    keep_state(numbers);
+    return numbers;
+  }
+  void keep_state(std::vector<double>& numbers) const override {
+    numbers = {next_size_, error_, static_cast<double>(substeps_), static_cast<double>(rejected_)};
   }
   bool restore_state(std::span<const double> numbers) override {
     const bool goes_on = numbers[0] > 0 && numbers[1] >= least_error && std::isfinite(numbers[1]);

@@ -64,11 +64,10 @@ public:
                              &imposed_, &right_, &update_});
   }
   bool has_inertia() const override { return false; }
-  std::vector<double> saved_state() const override {
-    std::vector<double> numbers = NewtonScheme::saved_state();
+  void keep_state(std::vector<double>& numbers) const override {
+    NewtonScheme::keep_state(numbers);
     numbers.push_back(supports_.found_equilibrium);
     numbers.push_back(supports_.constrains_rotations);
-    return numbers;
   }
   bool restore_state(std::span<const double> numbers) override {
     if (!NewtonScheme::restore_state(numbers)) return false;

@@ -1,6 +1,7 @@
 // The steps of a scene, and the handling of failed ones.
 #include "sim/base/stop_request.h"
 #include "sim/guard/guard.h"
+#include "sim/integrate/state_keeper.h"
 #include "sim/scene/scene.h"
 
 #include <fmt/format.h>
@@ -57,8 +58,10 @@ StepFailure Scene::try_step() {
 }
 
 void Scene::keep_solver_states() {
-  solver_states_.clear();
-  for (const auto& body : bodies_) solver_states_.push_back(body->integrator->saved_state());
+  solver_states_.resize(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    if (const auto* keeper = dynamic_cast<const StateKeeper*>(bodies_[b]->integrator.get()))
+      keeper->keep_state(solver_states_[b]);
 }
 
 // After a stop within the step from `step` on. A scheme that solves begins a stretch at every step, after its

@@ -172,7 +172,7 @@ TEST(Settings, that_no_reader_has_looked_at_are_checked_as_a_reader_would) {
   EXPECT_EQ(refusal_of(sheet_settings()), "");
   BodySettings body = sheet_settings();
   body.mass.total = -1;
-  EXPECT_EQ(refusal_of(body), "total is -1; expected a number above 0 [kg]");
+  EXPECT_EQ(refusal_of(body), "total is -1; expected a number above 0 and at most 1e+30 [kg]");
   body = sheet_settings();
   body.mass.total = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal_of(body), HasSubstr("total is nan"));

@@ -91,8 +91,6 @@ TEST(StaticSolve, hangs_a_bar_from_its_corner_or_refuses) {
 }
 
 TEST(StaticSolve, refuses_forces_that_overflow) {
-  EXPECT_THAT(refusal_of_step(heavy_bar("hexahedra", "corotational", 1e300, R"(<fix side="-x"/>)")),
-              HasSubstr("the forces overflow"));
   EXPECT_THAT(refusal_of_step(heavy_bar("hexahedra", "corotational", 1000,
                                         R"(<fix side="-x"/><load side="+x" force="1e300 0 0"/>)")),
               HasSubstr("the forces overflow"));
