@@ -2,6 +2,7 @@
 
 #include "sim/body/probe.h"
 #include "sim/export/element_stress.h"
+#include "sim/export/obstacle_skin.h"
 #include "sim/mechanics/element.h"
 #include "sim/mechanics/winding.h"
 #include "sim/mesh/cell_shapes.h"
@@ -195,6 +196,32 @@ void BodyCells::add_stress(OnCells& on) const {
   }
 }
 
+void add_obstacle(const ObstacleSkin& obstacle, std::int64_t number, Grid& grid, OnPoints& on_points,
+                  OnCells& on_cells) {
+  const auto first = static_cast<std::int64_t>(grid.points.size() / 3);
+  for (std::size_t p = 0; p < obstacle.points.size(); ++p) {
+    append(grid.points, obstacle.points[p]);
+    append(on_points.rest, obstacle.start[p]);
+    append(on_points.velocity, obstacle.velocities[p]);
+    on_points.mass.push_back(0);
+    on_points.vertex.push_back(static_cast<std::int64_t>(p));
+    on_points.body.push_back(number);
+    on_points.prescribed.push_back(0);
+  }
+  for (const std::array<std::int32_t, 4>& quad : obstacle.quads) {
+    for (const std::int32_t p : quad) grid.corners.push_back(first + p);
+    grid.kinds.push_back(GridCell::Quad);
+    grid.ends.push_back(static_cast<std::int64_t>(grid.corners.size()));
+    grid.face_ends.push_back(-1);
+    on_cells.element.push_back(0);
+    on_cells.body.push_back(number);
+    on_cells.fragment.push_back(-1);
+  }
+  if (on_cells.stress.empty()) return;
+  on_cells.stress.resize(9 * on_cells.element.size(), 0);
+  on_cells.equivalent.resize(on_cells.element.size(), 0);
+}
+
 } // namespace
 
 GridMaker::GridMaker(const Scene& scene) : scene_(&scene) {
@@ -213,6 +240,9 @@ Grid GridMaker::grid() const {
     cells.add_points(on_points);
     cells.add_cells(on_cells, fragments);
   }
+  auto number = static_cast<std::int64_t>(sides_.size());
+  for (const ObstacleSkin& obstacle : obstacle_skins(scene_->world(), grid.time))
+    add_obstacle(obstacle, number++, grid, on_points, on_cells);
   grid.on_points = {{"rest", 3, std::move(on_points.rest)}, {"velocity", 3, std::move(on_points.velocity)},
                     {"mass", 1, std::move(on_points.mass)}, {"vertex", 1, std::move(on_points.vertex)},
                     {"body", 1, std::move(on_points.body)}, {"prescribed", 1, std::move(on_points.prescribed)}};

@@ -1,9 +1,9 @@
-// Wavefront's object file (.obj): one object per body, and in a body that may tear one group per fragment.
+// Wavefront's object file (.obj): one object per body and obstacle, and in a body that may tear one group per fragment.
 // Wavefront, "B1. Object Files", Advanced Visualizer Manual (1992).
 //
 // Numbers are the shortest that parse to the same double. There are no normals: programs compute their own.
 #include "sim/export/format.h"
-#include "sim/export/skin.h"
+#include "sim/export/obstacle_skin.h"
 
 #include <fmt/format.h>
 
@@ -53,23 +53,30 @@ private:
 
 class ObjExporter final : public Exporter {
 public:
-  explicit ObjExporter(const Scene& scene) : maker_(scene) {}
-  std::string state() const override { return ObjFile(maker_.skin()).text(); }
+  explicit ObjExporter(const Scene& scene) : world_(scene.world()), maker_(scene) {}
+  std::string state() const override {
+    Skin skin = maker_.skin();
+    add_obstacles(skin, world_);
+    return ObjFile(skin).text();
+  }
 
 private:
+  const World& world_;
   SkinMaker maker_;
 };
 
 } // namespace
 
 ExportFormat obj_format() {
-  return {.name = "obj",
-          .what =
-              "the surface as polygons, an object per body and a group per fragment; text, one file per frame",
-          .extension = ".obj",
-          .index_extension = "",
-          .every_frame = true,
-          .make = &make_exporter<ObjExporter>};
+  return {
+      .name = "obj",
+      .what =
+          "the surface as polygons, an object per body, sphere and box, a group per fragment; text, one file "
+          "per frame",
+      .extension = ".obj",
+      .index_extension = "",
+      .every_frame = true,
+      .make = &make_exporter<ObjExporter>};
 }
 
 } // namespace rend

@@ -1,4 +1,4 @@
-// Stanford's polygon file (.ply), binary little-endian: one file holds all bodies, distinguished by a property.
+// Stanford's polygon file (.ply), binary little-endian: one file holds all bodies and obstacles, distinguished by a property.
 // Turk, "The PLY Polygon File Format" (1994).
 //
 // Numbers are doubles, so that a reader gets the state to the last bit. Point properties have names that
@@ -9,7 +9,7 @@
 // ParaView takes times from a .series file, which lists the others; other programs use the numbers in their
 // names.
 #include "sim/export/format.h"
-#include "sim/export/skin.h"
+#include "sim/export/obstacle_skin.h"
 
 #include <fmt/format.h>
 
@@ -124,8 +124,12 @@ private:
 
 class PlyExporter final : public Exporter {
 public:
-  explicit PlyExporter(const Scene& scene) : maker_(scene) {}
-  std::string state() const override { return PlyFile(maker_.skin()).bytes(); }
+  explicit PlyExporter(const Scene& scene) : world_(scene.world()), maker_(scene) {}
+  std::string state() const override {
+    Skin skin = maker_.skin();
+    add_obstacles(skin, world_);
+    return PlyFile(skin).bytes();
+  }
 
   std::string index(std::span<const ExportedFile> files) const override {
     std::string text = "{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n";
@@ -136,6 +140,7 @@ public:
   }
 
 private:
+  const World& world_;
   SkinMaker maker_;
 };
 

@@ -1,5 +1,6 @@
 // `rend run --export ply` and `obj`, read back by an independent reader and by tinyobjloader: the same points
 // and faces, and the same data as in the .vtu files of the same run.
+#include "sim/base/record.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/test_paths.h"
 
@@ -159,9 +160,9 @@ TEST_F(SurfaceExport, as_obj_has_an_object_per_body_and_a_group_per_fragment_of_
 TEST_F(SurfaceExport, is_numbered_as_frames_are_and_ply_has_a_list_with_times) {
   const std::string slow = "--set time.step=0.1 --fps 20 --set body.elasticity.young=1 -o states --export ";
   EXPECT_EQ(run(named_bar, slow + "obj")["export"]["files"], 5); // frames 1 and 2 show one state, as 3 and 4 do
-  EXPECT_EQ(place.files(),
-            (std::vector<std::string>{"scene.xml", "states", "states/00000.obj", "states/00001.obj",
-                                      "states/00002.obj", "states/00003.obj", "states/00004.obj"}));
+  EXPECT_EQ(place.files(), (std::vector<std::string>{"scene.xml", "states", "states/00000.obj",
+                                                     "states/00001.obj", "states/00002.obj", "states/00003.obj",
+                                                     "states/00004.obj", "states/bar.scene.json"}));
   EXPECT_EQ(content(place.path() / "states/00001.obj"), content(place.path() / "states/00002.obj"));
   const Json figures = run(named_bar, slow + "ply --frames 2,4");
   EXPECT_EQ(figures["export"]["index"], "bar.ply.series");
@@ -169,6 +170,71 @@ TEST_F(SurfaceExport, is_numbered_as_frames_are_and_ply_has_a_list_with_times) {
   EXPECT_EQ(list["file-series-version"], "1.0");
   EXPECT_EQ(list["files"],
             Json::parse(R"([{"name": "00002.ply", "time": 0.1}, {"name": "00004.ply", "time": 0.2}])"));
+}
+
+const char* among_obstacles = R"(<scene name="among"><body name="bar">
+  <bar cells="4 1 1" size="0.8 0.2 0.1"/><mass density="1000"/><elasticity young="1e5" poisson="0.3"/>
+  <fix side="-x"/><look colour="#102030" inside="#405060"/></body>
+  <world gravity="0 0 -10"><floor z="-9"/><sphere centre="0 3 0" radius="0.5" mass="1" colour="#708090"/>
+  <box low="2 0 0" high="3 1 1"><key at="0.2" position="2.5 0.5 1.5" rotate="0 0 90"/></box></world>
+  <time step="1e-3" integrator="verlet" duration="0.2"/>
+  <camera eye="4 -4 2" target="0 0 0" fov="40" turn="90"/><image fps="10" size="640 360"/></scene>)";
+
+TEST_F(SurfaceExport, has_spheres_and_boxes_as_further_bodies) {
+  for (const char* format : {"ply", "obj", "vtu"})
+    run(among_obstacles, std::string("-o states --export ") + format);
+  const Json ply = this->ply("states/00002.ply"), vtu = read("vtu_to_json.py", "states/00002.vtu");
+  EXPECT_THAT(ply["comments"], ElementsAre("time 0.2 s, lengths in m, z is up", "body 0 is bar",
+                                           "body 1 is sphere_1", "body 2 is box_1"));
+  const std::vector<int> bodies = ply["face"]["body"];
+  EXPECT_EQ(std::count(bodies.begin(), bodies.end(), 0), 18); // sides of four cells
+  EXPECT_EQ(std::count(bodies.begin(), bodies.end(), 2), 6);
+  const std::vector<int> bodies_of_points = ply["vertex"]["body"];
+  for (std::size_t p = 0; p < bodies_of_points.size(); ++p) {
+    const Vec3 x(ply["vertex"]["x"][p], ply["vertex"]["y"][p], ply["vertex"]["z"][p]);
+    if (bodies_of_points[p] == 1) { // it has fallen for 0.2 s
+      EXPECT_NEAR((x - Vec3(0, 3, -0.5 * 10 * 0.04)).norm(), 0.5, 1e-12);
+      EXPECT_NEAR(ply["vertex"]["vz"][p].get<double>(), -10 * 0.2, 1e-8);
+    }
+    if (bodies_of_points[p] == 2) {
+      EXPECT_NEAR((x - Vec3(2.5, 0.5, 1.5)).cwiseAbs().maxCoeff(), 0.5, 1e-12);
+    }
+  }
+  const tinyobj::ObjReader obj = this->obj("states/00002.obj");
+  ASSERT_EQ(obj.GetShapes().size(), 3u);
+  EXPECT_EQ(obj.GetShapes()[1].name, "sphere_1");
+  EXPECT_EQ(obj.GetShapes()[2].name, "box_1");
+  EXPECT_EQ(faces_of(obj), ply["face"]["vertex_indices"].get<std::vector<std::vector<int>>>());
+  const std::vector<int> bodies_of_cells = vtu["cell_data"]["body"];
+  for (int body : {1, 2})
+    EXPECT_EQ(std::count(bodies_of_cells.begin(), bodies_of_cells.end(), body),
+              std::count(bodies.begin(), bodies.end(), body));
+  EXPECT_EQ(vtu["points"].back()[2].get<double>(), ply["vertex"]["z"].back().get<double>());
+}
+
+TEST_F(SurfaceExport, tells_of_camera_colours_and_obstacles_beside_its_meshes) {
+  run(among_obstacles, "-o states --export ply --frames 0-2x2");
+  const Json scene = Json::parse(content(place.path() / "states/among.scene.json"));
+  EXPECT_EQ(scene["size"], Json({640, 360}));
+  EXPECT_EQ(scene["floor"], -9);
+  EXPECT_EQ(scene["bodies"][0],
+            Json::parse(R"({"name": "bar", "solid": true, "colour": "#102030", "inside": "#405060"})"));
+  EXPECT_EQ(scene["obstacles"][0],
+            Json::parse(R"({"name": "sphere 1", "kind": "sphere", "radius": 0.5, "colour": "#708090"})"));
+  EXPECT_EQ(scene["obstacles"][1]["size"], Json({1, 1, 1}));
+  ASSERT_EQ(scene["frames"].size(), 2u);
+  const Json &first = scene["frames"][0], &last = scene["frames"][1];
+  EXPECT_EQ(last["frame"], 2);
+  EXPECT_EQ(last["file"], "00002.ply");
+  EXPECT_EQ(first["camera"]["eye"], Json({4, -4, 2}));
+  EXPECT_EQ(last["camera"]["fov"], 40);
+  for (std::size_t axis = 0; axis < 3; ++axis) { // it has walked around by a right angle
+    const std::array<double, 3> eye{4, 4, 2}, middle{0, 3, -0.2};
+    EXPECT_NEAR(last["camera"]["eye"][axis].get<double>(), eye[axis], 1e-12);
+    EXPECT_NEAR(last["obstacles"][0]["middle"][axis].get<double>(), middle[axis], 1e-12);
+  }
+  EXPECT_THAT(last["obstacles"][1]["turn"].get<std::vector<double>>(),
+              testing::Pointwise(testing::DoubleNear(1e-14), {0., -1., 0., 1., 0., 0., 0., 0., 1.}));
 }
 
 TEST_F(SurfaceExport, is_the_same_for_any_number_of_threads) {
