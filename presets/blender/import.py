@@ -195,7 +195,7 @@ def add_camera(scene):
 def add_light(scene):
     sun = bpy.data.objects.new("key light", bpy.data.lights.new("key light", "SUN"))
     bpy.context.scene.collection.objects.link(sun)
-    sun.data.energy, sun.data.angle = 3, numpy.radians(8)
+    sun.data.energy, sun.data.angle = 2.2, numpy.radians(8)
     sun.rotation_mode = "QUATERNION"
     for frame in scene["frames"]:
         sun.rotation_quaternion = looking(frame["light"], (0, 0, 0), (0, 0, 1))
@@ -204,7 +204,7 @@ def add_light(scene):
     bpy.context.scene.world = world
     world.use_nodes = True
     world.node_tree.nodes["Background"].inputs["Color"].default_value = linear(scene["background"] or "#edeff3")
-    world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.6
+    world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.5
 
 
 def interpolate_linearly():
