@@ -6,10 +6,10 @@
 
 In Blender's own window: open this file in the text editor, set SCENE_FILE below, and run it.
 
-Each frame of a body is a mesh of its own, since a body that tears changes its points and faces; it is shown in its
-frame alone, by keys, so that the saved file needs no script. Points carry `velocity` and `stress`, faces `fragment`,
-`element` and `bare` (laid bare by fracture) as attributes. Spheres and boxes become objects with keys, and so do the
-camera and a sun in the place of the key light.
+Each frame of a body is a mesh of its own, since a body that tears changes its points and faces; it is shown in
+its frame alone, by keys, so that the saved file needs no script. Points carry `velocity` and `stress`, faces
+`fragment`, `element` and `bare` (laid bare by fracture) as attributes. Spheres and boxes become objects with
+keys, and so do the camera and a sun in the place of the key light.
 """
 import argparse
 import json
@@ -27,7 +27,7 @@ NUMBERS = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": 
 
 
 class Ply:
-    """A mesh file as rend writes it: `points` and `faces` are arrays by name, `corners` a list of points a face."""
+    """A mesh file of rend: `points` and `faces` are arrays by name, `corners` has the points of each face."""
 
     def __init__(self, path):
         with open(path, "rb") as file:

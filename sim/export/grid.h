@@ -2,9 +2,9 @@
 // computation in other programs. All bodies are in one grid, in the order of the preset.
 //
 // A point is a vertex of the map, so that a vertex split by a tear becomes two points. A cell is an element:
-// hexahedra stay hexahedra. Obstacles are further bodies of quads (obstacle_skin.h). Corners are in the order of sim/mesh/cell_shapes.h (Gmsh's order), so that at rest
-// every solid cell has positive volume; the faces of an orientable sheet all have the same orientation, and
-// keep it when they tear.
+// hexahedra stay hexahedra. Obstacles are further bodies of quads (obstacle_skin.h). Corners are in the order
+// of sim/mesh/cell_shapes.h (Gmsh's order), so that at rest every solid cell has positive volume; the faces of
+// an orientable sheet all have the same orientation, and keep it when they tear.
 #pragma once
 
 #include "sim/scene/scene.h"
@@ -46,9 +46,9 @@ struct Grid {
   std::vector<std::int64_t> faces;
   std::vector<std::int64_t> face_ends; // one per cell: one past its last entry in `faces`; -1: not a polyhedron
 
-  // On points: position at rest (of obstacles: at time 0) [m], velocity [m/s], mass [kg], vertex (its slot in the
-  // body: constant until it is split), body (from 0), prescribed (bits 1, 2, 4: along x, y, z). Obstacles have no
-  // mass.
+  // On points: position at rest (of obstacles: at time 0) [m], velocity [m/s], mass [kg], vertex (its slot in
+  // the body: constant until it is split), body (from 0), prescribed (bits 1, 2, 4: along x, y, z). Obstacles
+  // have no mass.
   std::vector<GridArray> on_points;
   // On cells: element (its smallest dart, which never changes), body, fragment (numbered over all bodies); with
   // finite elements also the stress [Pa], xx xy xz yx .. zz, and its von Mises equivalent. These are 0 in

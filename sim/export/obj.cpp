@@ -1,5 +1,5 @@
-// Wavefront's object file (.obj): one object per body and obstacle, and in a body that may tear one group per fragment.
-// Wavefront, "B1. Object Files", Advanced Visualizer Manual (1992).
+// Wavefront's object file (.obj): one object per body and obstacle, and in a body that may tear one group per
+// fragment. Wavefront, "B1. Object Files", Advanced Visualizer Manual (1992).
 //
 // Numbers are the shortest that parse to the same double. There are no normals: programs compute their own.
 #include "sim/export/format.h"

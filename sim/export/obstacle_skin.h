@@ -25,8 +25,8 @@ struct ObstacleSkin {
 // Of all spheres, then of all boxes, at `time` [s], which is that of the state.
 std::vector<ObstacleSkin> obstacle_skins(const World& world, double time);
 
-// Maps the points of a sphere at time 0 to where they are at `time` [s]; the centre of one that follows no keys is
-// that of the current state.
+// Maps the points of a sphere at time 0 to where they are at `time` [s]; the centre of one that follows no keys
+// is that of the current state.
 Pose pose_of(const Sphere& sphere, double time);
 
 // Appends them as further bodies, in the same order: their `vertex` counts from 0 in each, they are of no

@@ -1,5 +1,5 @@
-// Stanford's polygon file (.ply), binary little-endian: one file holds all bodies and obstacles, distinguished by a property.
-// Turk, "The PLY Polygon File Format" (1994).
+// Stanford's polygon file (.ply), binary little-endian: one file holds all bodies and obstacles, distinguished
+// by a property. Turk, "The PLY Polygon File Format" (1994).
 //
 // Numbers are doubles, so that a reader gets the state to the last bit. Point properties have names that
 // Blender keeps as attributes (vx vy vz, stress); ParaView reads only the surface, and has .vtu for the rest.

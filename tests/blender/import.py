@@ -3,10 +3,11 @@
 
     import.py REND [DIR]     DIR: where to keep the pictures
 
-Two presets: a sheet that a falling sphere tears, and a solid that a turning box hits. Of each, the saved Blender file
-is opened anew: in each frame the meshes that are shown have the points and faces that `--export obj` has there, and
-what is solid has faces that fracture has laid bare. Then Blender renders a frame, and the silhouette is compared with
-rend's own picture of it: camera, bodies and obstacles are where rend has them. Prints errors and exits 1.
+Two presets: a sheet that a falling sphere tears, and a solid that a turning box hits. Of each, the saved
+Blender file is opened anew: in each frame the meshes that are shown have the points and faces that `--export
+obj` has there, and what is solid has faces that fracture has laid bare. Then Blender renders a frame, and the
+silhouette is compared with rend's own picture of it: camera, bodies and obstacles are where rend has them.
+Prints errors and exits 1.
 """
 import json
 import subprocess
@@ -103,7 +104,8 @@ def try_preset(rend, folder, keep, name, text, frame):
     shapes = set()
     for number, things in seen.items():
         expected = counts_of_obj(folder / f"obj/{int(number):05d}.obj")
-        check(f"{name}: frame {number} shows one mesh", [t["name"] for t in things] == [f"{name} {int(number):05d}"])
+        names = [t["name"] for t in things]
+        check(f"{name}: frame {number} shows one mesh", names == [f"{name} {int(number):05d}"])
         check(f"{name}: frame {number} has {expected[name]} points and faces",
               [things[0]["points"], things[0]["faces"]] == expected[name])
         shapes.add((things[0]["points"], things[0]["faces"]))
