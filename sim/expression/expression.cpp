@@ -16,7 +16,7 @@ namespace {
 // A word that is neither a keyword nor a built-in function.
 bool may_name(std::string_view name) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  return !name.empty() && letter(name[0]) && name != "and" && name != "or" && name != "not" &&
+  return !name.empty() && letter(name[0]) && name != "and" && name != "or" && name != "not" && name != "if" &&
          std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); }) &&
          std::ranges::none_of(built_ins(), [&](const BuiltIn& one) { return one.declared.name == name; });
 }
@@ -36,6 +36,11 @@ void check_vocabulary(const std::vector<ExpressionFunction>& vocabulary) {
 
 bool is_finite(const Value& value) {
   return std::isfinite(value.number[0]) && std::isfinite(value.number[1]) && std::isfinite(value.number[2]);
+}
+
+Rate rate_of(const Instruction& instruction) {
+  return instruction.kind == Instruction::Kind::Operator ? operators()[instruction.index].rate
+                                                         : built_ins()[instruction.index].rate;
 }
 
 // "0.5", "(1, 2, 3)"
@@ -64,14 +69,14 @@ std::string signature(const ExpressionFunction& function) {
 }
 
 Expression::Expression(std::string_view text, const std::vector<ExpressionFunction>& vocabulary,
-                       ValueType wanted) {
+                       std::optional<ValueType> wanted) {
   CHECK(wanted != ValueType::Name);
   check_vocabulary(vocabulary);
   ParsedExpression parsed = parse_expression(text, vocabulary);
   type_ = parsed.type;
-  if (type_ != wanted)
+  if (wanted && type_ != *wanted)
     throw ExpressionError(
-        1, fmt::format("the expression is {}, where {} is wanted", a_value(type_), a_value(wanted)),
+        1, fmt::format("the expression is {}, where {} is wanted", a_value(type_), a_value(*wanted)),
         wanted == ValueType::Vector      ? "a vector is point(x, y, z)"
         : wanted == ValueType::Condition ? "a condition is a comparison, such as x > 0"
                                          : "");
@@ -83,44 +88,58 @@ Expression::Expression(std::string_view text, const std::vector<ExpressionFuncti
 
 Value Expression::evaluate() const {
   CHECK(constant());
-  return run(nullptr, nullptr);
+  return run(nullptr, nullptr, false).value;
 }
 
-Value Expression::run(Forward forward, void* supply) const {
-  std::array<Value, most_values> stack; // not initialised: the parser has counted what is used
-  Value* top = stack.data();            // behind the last value
+ValueAndRate Expression::run(Forward forward, void* supply, bool with_rate) const {
+  std::array<Value, most_values> values, rates; // not initialised: the parser has counted what is used
+  std::size_t top = 0;                          // behind the last value
   for (std::size_t n = 0; n < program_.size(); ++n) {
     const Instruction& instruction = program_[n];
-    Value* const arguments = top - instruction.count;
-    Value value{};
+    const std::size_t first = top - instruction.count;
+    const Value* const arguments = values.data() + first;
+    ValueAndRate made{};
     switch (instruction.kind) {
     case Instruction::Kind::Number:
-      *top++ = scalar_value(instruction.number);
+      values[top] = scalar_value(instruction.number);
+      rates[top++] = scalar_value(0);
       continue;
     case Instruction::Kind::Skip:
-      if (top[-1].condition() == instruction.when)
+      if (values[top - 1].condition() == instruction.when)
         n = instruction.index;
       else
         --top;
       continue;
+    case Instruction::Kind::Branch:
+      if (!values[--top].condition()) n = instruction.index;
+      continue;
+    case Instruction::Kind::Jump:
+      n = instruction.index;
+      continue;
     case Instruction::Kind::Join:
+    case Instruction::Kind::Choice:
       continue;
     case Instruction::Kind::Operator:
     case Instruction::Kind::Function:
-      value = instruction.apply(arguments, instruction.count);
+      made.value = instruction.apply(arguments, instruction.count);
+      if (const Rate rate = with_rate ? rate_of(instruction) : nullptr)
+        made.rate = rate(arguments, rates.data() + first, instruction.count);
       break;
     case Instruction::Kind::Call:
-      value = forward(supply, calls_[instruction.index], instruction.index, {arguments, instruction.count});
+      made = forward(supply, calls_[instruction.index], instruction.index, {arguments, instruction.count},
+                     with_rate ? rates.data() + first : nullptr);
       break;
     }
-    if (!is_finite(value)) refuse(instruction, arguments);
-    *arguments = value;
-    top = arguments + 1;
+    if (!is_finite(made.value)) refuse(instruction, arguments, "is not a finite number");
+    if (with_rate && !is_finite(made.rate)) refuse(instruction, arguments, "changes at no finite rate");
+    values[first] = made.value;
+    rates[first] = made.rate;
+    top = first + 1;
   }
-  return stack[0];
+  return {values[0], rates[0]};
 }
 
-void Expression::refuse(const Instruction& instruction, const Value* arguments) const {
+void Expression::refuse(const Instruction& instruction, const Value* arguments, const char* fault) const {
   std::string what;
   if (instruction.kind == Instruction::Kind::Operator) {
     const ExpressionOperator& one = operators()[instruction.index];
@@ -139,7 +158,7 @@ void Expression::refuse(const Instruction& instruction, const Value* arguments) 
   } else {
     what = fmt::format("the value of '{}'", calls_[instruction.index].name);
   }
-  throw ExpressionError(instruction.column, what + " is not a finite number");
+  throw ExpressionError(instruction.column, fmt::format("{} {}", what, fault));
 }
 
 } // namespace rend

@@ -9,10 +9,12 @@
 //   * /                   scalar * scalar, scalar * vector, vector * scalar; scalar / scalar, vector / scalar
 //   -                     -2^2 is -4
 //   ^                     scalar ^ scalar; 2^3^2 is 2^(3^2), 2^-1 is 0.5
+//   if(condition, u, v)   u where the condition holds, else v: two values of one type
 //
 // with numbers (1, 0.5, 1e-4), parentheses, the functions of sim/expression/functions.h and those of the
 // caller.
-// What follows `and` and `or` is evaluated only where it decides: n > 0 and 1/n < 0.1 is fine for n = 0.
+// What follows `and` and `or`, and the two values of `if`, are evaluated only where they decide: n > 0 and 1/n < 0.1
+// is fine for n = 0, and so is if(n > 0, 1/n, 0).
 //
 // Text of users is hostile: its length and depth are bounded before it is parsed, and every refusal is a
 // sentence with its column. A value that is not finite is refused where it arises, even inside an expression
@@ -24,6 +26,7 @@
 #include "sim/expression/value.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -45,13 +48,16 @@ struct ExpressionError : std::runtime_error {
 };
 
 // A function or, without arguments, a variable that the caller supplies. Its name is a word: a letter or _,
-// then letters, digits and _; neither that of a built-in function nor `and`, `or`, `not`.
+// then letters, digits and _; neither that of a built-in function nor `and`, `or`, `not`, `if`.
 struct ExpressionFunction {
   std::string name;
   std::vector<ValueType> arguments;
   ValueType result = ValueType::Scalar; // not Name
   std::string about;                    // one line of help
   std::size_t optional = 0;             // how many arguments at the end may be left out
+  // A call of it, with a name and a whole number, may stand where a name is expected: alpha(a, 2). Its only name is
+  // then the call itself, in a normal form.
+  bool is_name = false;
 };
 
 // "lerp(name, name, scalar)", "noise(vector[, scalar])", "time".
@@ -71,9 +77,10 @@ struct ExpressionCall {
 
 class Expression {
 public:
-  // Throws ExpressionError: what is not an expression of type `wanted`, and a constant one that has no finite
-  // value. The vocabulary is needed only here. A flaw in it is a bug of the caller (CHECK).
-  Expression(std::string_view text, const std::vector<ExpressionFunction>& vocabulary, ValueType wanted);
+  // Throws ExpressionError: what is not an expression of type `wanted` (nullopt: of any), and a constant one that has
+  // no finite value. The vocabulary is needed only here. A flaw in it is a bug of the caller (CHECK).
+  Expression(std::string_view text, const std::vector<ExpressionFunction>& vocabulary,
+             std::optional<ValueType> wanted);
 
   const std::string& text() const { return text_; }
   ValueType type() const { return type_; }
@@ -92,10 +99,17 @@ public:
   template <class Supply> Value evaluate(Supply&& supply) const;
   Value evaluate() const; // of a constant one
 
+  // The same, with the rate at which the value changes where those of the calls do (rates.h): exact, by the chain
+  // rule (forward differentiation; Griewank and Walther, Evaluating Derivatives, 2008, chapter 3). `supply` gets the
+  // rates of the arguments as well, and returns a ValueAndRate. Throws ExpressionError where a rate is not finite.
+  template <class Supply> ValueAndRate evaluate_with_rate(Supply&& supply) const;
+
 private:
-  using Forward = Value (*)(void*, const ExpressionCall&, std::size_t, std::span<const Value>);
-  Value run(Forward forward, void* supply) const;
-  [[noreturn]] void refuse(const Instruction& instruction, const Value* arguments) const;
+  // `rates`: of the arguments; null: rates are not asked for, and that of the result is not looked at.
+  using Forward = ValueAndRate (*)(void*, const ExpressionCall&, std::size_t, std::span<const Value>,
+                                   const Value* rates);
+  ValueAndRate run(Forward forward, void* supply, bool with_rate) const;
+  [[noreturn]] void refuse(const Instruction& instruction, const Value* arguments, const char* fault) const;
 
   std::string text_;
   ValueType type_;
@@ -106,10 +120,19 @@ private:
 template <class Supply> Value Expression::evaluate(Supply&& supply) const {
   using Object = std::remove_reference_t<Supply>;
   const Forward forward = [](void* object, const ExpressionCall& call, std::size_t number,
-                             std::span<const Value> arguments) -> Value {
-    return (*static_cast<Object*>(object))(call, number, arguments);
+                             std::span<const Value> arguments, const Value*) -> ValueAndRate {
+    return {(*static_cast<Object*>(object))(call, number, arguments), {}};
   };
-  return run(forward, const_cast<std::remove_const_t<Object>*>(&supply));
+  return run(forward, const_cast<std::remove_const_t<Object>*>(&supply), false).value;
+}
+
+template <class Supply> ValueAndRate Expression::evaluate_with_rate(Supply&& supply) const {
+  using Object = std::remove_reference_t<Supply>;
+  const Forward forward = [](void* object, const ExpressionCall& call, std::size_t number,
+                             std::span<const Value> arguments, const Value* rates) -> ValueAndRate {
+    return (*static_cast<Object*>(object))(call, number, arguments, std::span(rates, arguments.size()));
+  };
+  return run(forward, const_cast<std::remove_const_t<Object>*>(&supply), true);
 }
 
 } // namespace rend

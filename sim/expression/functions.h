@@ -12,6 +12,7 @@ namespace rend {
 struct BuiltIn {
   ExpressionFunction declared;
   Apply apply;
+  Rate rate = nullptr; // null: its value changes in jumps alone
 };
 
 const std::vector<BuiltIn>& built_ins();

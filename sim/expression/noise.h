@@ -16,5 +16,6 @@ namespace rend {
 
 // In [0, 1). `position` and `seed` are finite; another seed gives other values, whatever its size.
 double noise(const std::array<double, 3>& position, double seed = 0);
+std::array<double, 3> noise_gradient(const std::array<double, 3>& position, double seed = 0);
 
 } // namespace rend

@@ -17,7 +17,8 @@ struct ExpressionOperator {
   Precedence precedence;
   std::vector<ValueType> operands; // one or two
   ValueType result;
-  Apply apply; // null for `and` and `or`
+  Apply apply;         // null for `and` and `or`
+  Rate rate = nullptr; // null: of conditions
 };
 
 const std::vector<ExpressionOperator>& operators();

@@ -6,6 +6,7 @@
 #include "sim/expression/tokens.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace rend {
@@ -14,7 +15,7 @@ namespace {
 using Token = ExpressionToken;
 
 bool is_keyword(std::string_view word) {
-  return word == "and" || word == "or" || word == "not";
+  return word == "and" || word == "or" || word == "not" || word == "if";
 }
 
 std::uint32_t column_of(const Token& token) {
@@ -94,6 +95,7 @@ private:
       const ValueType type = expression(token.text == "-" ? Precedence::Power : Precedence::Comparison);
       return emit_operator(token, {type});
     }
+    if (token.text == "if") return choice();
     if (token.kind == Token::Kind::Word && !is_keyword(token.text)) return word();
     if (token.kind == Token::Kind::End)
       throw ExpressionError(token.column, "the expression ends where a value is expected");
@@ -106,6 +108,46 @@ private:
     const ValueType type = expression(Precedence::Or);
     close(open);
     return type;
+  }
+
+  // condition Branch first Jump second Choice
+  ValueType choice() {
+    const Token& name = take();
+    const Token& open = next();
+    constexpr const char* form = "if(condition, value, value)";
+    if (open.text != "(") throw ExpressionError(name.column, "'if' is a function", form);
+    const Deeper deeper(*this, take());
+    if (const ValueType type = expression(Precedence::Or); type != ValueType::Condition)
+      throw ExpressionError(open.column + 1,
+                            fmt::format("'if' takes a condition first, here {}", a_value(type)),
+                            "a condition is a comparison, such as x > 0");
+    const std::size_t branch = jump(Instruction::Kind::Branch, name);
+    const ValueType first = value_of_choice(form);
+    const std::size_t leave = jump(Instruction::Kind::Jump, name);
+    out_.program[branch].index = static_cast<std::uint32_t>(leave);
+    const ValueType second = value_of_choice(form);
+    if (first != second)
+      throw ExpressionError(
+          name.column, fmt::format("the two values of 'if' are {} and {}", a_value(first), a_value(second)),
+          "they are of one type");
+    out_.program[leave].index = static_cast<std::uint32_t>(out_.program.size() - 1);
+    close(open);
+    emit({.kind = Instruction::Kind::Choice, .result = first, .count = 1, .column = column_of(name)});
+    return first;
+  }
+
+  ValueType value_of_choice(const char* form) {
+    if (next().text != ",") throw ExpressionError(next().column, "'if' takes three arguments", form);
+    ++at_;
+    return expression(Precedence::Or);
+  }
+
+  // Where it leads is told later. It takes a value from the stack: the condition, or, of two that wait for one place,
+  // the first.
+  std::size_t jump(Instruction::Kind kind, const Token& name) {
+    --values_;
+    out_.program.push_back({.kind = kind, .column = column_of(name)});
+    return out_.program.size() - 1;
   }
 
   // A variable or a call.
@@ -125,6 +167,7 @@ private:
     }
     for (const ExpressionFunction& function : vocabulary_) {
       if (function.name != name.text) continue;
+      if (function.is_name && called) return called_name(name, function);
       Arguments given = arguments(name, function, called);
       const std::size_t names = given.names.size();
       emit({.kind = Instruction::Kind::Call,
@@ -138,6 +181,59 @@ private:
       return function.result;
     }
     refuse_word(name, called);
+  }
+
+  // A call that stands for a name, as a value.
+  ValueType called_name(const Token& word, const ExpressionFunction& function) {
+    --at_; // back to the word
+    std::size_t column = 0;
+    std::string name = name_argument(column, [&](const Token& token) {
+      throw ExpressionError(token.column, fmt::format("'{}' takes a name and a whole number", word.text),
+                            signature(function));
+    });
+    emit({.kind = Instruction::Kind::Call,
+          .result = function.result,
+          .index = static_cast<std::uint32_t>(out_.calls.size()),
+          .column = column_of(word)});
+    out_.calls.push_back({static_cast<std::size_t>(&function - vocabulary_.data()),
+                          name,
+                          word.column,
+                          function.result,
+                          {ValueType::Name},
+                          {name},
+                          {column},
+                          true});
+    return function.result;
+  }
+
+  // A word, or a call that stands for a name; `refuse` throws. The column is that of the innermost word.
+  template <class Refuse> std::string name_argument(std::size_t& column, const Refuse& refuse) {
+    const Token& first = next();
+    if (first.kind != Token::Kind::Word || is_keyword(first.text)) refuse(first);
+    const Token& behind = tokens_[at_ + 1];
+    if (ends_argument(behind)) {
+      column = first.column;
+      return std::string(take().text);
+    }
+    if (behind.text != "(" || !stands_for_name(first.text)) refuse(first);
+    const Deeper deeper(*this, first);
+    at_ += 2;
+    const std::string inner = name_argument(column, refuse);
+    if (next().text != ",") refuse(next());
+    ++at_;
+    const Token& number = take_number(refuse);
+    close(behind);
+    return fmt::format("{}({}, {})", first.text, inner, number.number);
+  }
+
+  template <class Refuse> const Token& take_number(const Refuse& refuse) {
+    if (next().kind != Token::Kind::Number || next().number != std::floor(next().number)) refuse(next());
+    return take();
+  }
+
+  bool stands_for_name(std::string_view word) const {
+    return std::ranges::any_of(vocabulary_,
+                               [&](const ExpressionFunction& one) { return one.is_name && one.name == word; });
   }
 
   struct Arguments {
@@ -186,15 +282,13 @@ private:
     const ValueType wanted = function.arguments[number];
     out.types.push_back(wanted);
     if (wanted == ValueType::Name) {
-      if (first.kind == Token::Kind::Word && !is_keyword(first.text) && ends_argument(tokens_[at_ + 1])) {
-        out.names.emplace_back(first.text);
-        out.columns.push_back(first.column);
-        ++at_;
-        return;
-      }
-      throw ExpressionError(first.column,
-                            fmt::format("argument {} of '{}' is a name, a single word", number + 1, name.text),
-                            signature(function));
+      out.columns.push_back(0);
+      out.names.push_back(name_argument(out.columns.back(), [&](const Token& token) {
+        throw ExpressionError(
+            token.column, fmt::format("argument {} of '{}' is a name, a single word", number + 1, name.text),
+            signature(function));
+      }));
+      return;
     }
     const ValueType given = expression(Precedence::Or);
     if (given != wanted)

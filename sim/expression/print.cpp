@@ -57,7 +57,15 @@ private:
       stack_.push_back({fmt::format("{}", instruction.number), Precedence::Operand});
       return;
     case Instruction::Kind::Skip:
+    case Instruction::Kind::Branch:
+    case Instruction::Kind::Jump:
       return;
+    case Instruction::Kind::Choice: {
+      const std::vector<Piece> parts = take(3);
+      stack_.push_back(
+          {fmt::format("if({}, {}, {})", parts[0].text, parts[1].text, parts[2].text), Precedence::Operand});
+      return;
+    }
     case Instruction::Kind::Join:
     case Instruction::Kind::Operator:
       add_operator(operators()[instruction.index]);

@@ -18,6 +18,9 @@ struct Instruction {
     Call,     // the same for a function of the caller
     Skip,     // of `and` and `or`: where the last value is `when`, goes on at `index`; elsewhere drops it
     Join,     // where such a Skip leads: does nothing
+    Branch,   // of `if`: drops a condition, and goes on at `index` where it does not hold
+    Jump,     // goes on at `index`
+    Choice,   // behind the second value of an `if`: does nothing
   };
   Kind kind = Kind::Number;
   bool when = false;

@@ -35,4 +35,11 @@ inline Value condition_value(bool holds) {
 // Computes a value from `count` others, which begin at `arguments`.
 using Apply = Value (*)(const Value* arguments, std::size_t count);
 
+// The rate of change of that value, where the arguments change at these rates (rates.h).
+using Rate = Value (*)(const Value* arguments, const Value* rates, std::size_t count);
+
+struct ValueAndRate {
+  Value value, rate;
+};
+
 } // namespace rend
