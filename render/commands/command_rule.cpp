@@ -7,6 +7,7 @@
 #include "render/console/signals.h"
 #include "render/diagram/paint.h"
 #include "render/diagram/rule_diagram.h"
+#include "render/diagram/script_diagram.h"
 #include "render/diagram/svg.h"
 #include "render/facts/rule_facts.h"
 #include "render/files/output.h"
@@ -94,6 +95,14 @@ void tell_all_but_the_last(const RuleFaults& faults) {
     print_note(fmt::format("{} more {} refused; the last one:", more, more == 1 ? "is" : "are"));
 }
 
+void tell_warnings(const Rule& rule) {
+  for (const RuleWarning& warning : rule.warnings) {
+    const std::string place = warning.place.text();
+    print_note((place.empty() ? "" : place + ": ") + warning.what +
+               (warning.hint.empty() ? "" : "; " + warning.hint));
+  }
+}
+
 Exit check(const RuleOptions& options) {
   std::size_t rules = house_rules().size(), scripts = house_scripts().size();
   if (!options.file.empty()) {
@@ -103,6 +112,8 @@ Exit check(const RuleOptions& options) {
       tell_all_but_the_last(faults);
       throw faults.back();
     }
+    for (const RuleOrScript& each : book)
+      if (each.rule) tell_warnings(*each.rule);
     rules = static_cast<std::size_t>(
         std::count_if(book.begin(), book.end(), [](const RuleOrScript& each) { return each.rule != nullptr; }));
     scripts = book.size() - rules;
@@ -112,6 +123,18 @@ Exit check(const RuleOptions& options) {
                                         : counted(rules, "rule") + " and " + counted(scripts, "script");
   print_result(fmt::format("{} {} well formed\n", both, rules + scripts == 1 ? "is" : "are"));
   return Exit::Done;
+}
+
+Drawing drawing_of(const Rule& rule, const RuleOptions& options) {
+  const RuleShown shown = show(rule, options.on);
+  if (!shown.sample) print_note("no small map was found to which the rule applies: only its graphs are drawn");
+  return diagram_of(rule, shown);
+}
+
+Drawing drawing_of(const Script& script, const RuleOptions& options) {
+  const ScriptShown shown = show(script, options.on);
+  if (!shown.sample) print_note("no small map was found to which the script applies: only its steps are told");
+  return diagram_of(script, shown);
 }
 
 Exit draw_rule(const RuleOptions& options) {
@@ -125,17 +148,11 @@ Exit draw_rule(const RuleOptions& options) {
   const RuleBook book = book_of(options);
   std::string from;
   const RuleOrScript chosen = chosen_rule(options, book, from);
-  if (chosen.script)
-    throw UserError(Exit::Usage, {}, fmt::format("script {} has no graphs to draw", in_quotes(options.name)),
-                    "the rules that it applies have: rend rule show " + options.name);
-  const Rule& rule = *chosen.rule;
-  const RuleShown shown = show(rule, options.on);
   const std::filesystem::path file = resolve_link(out);
   NamedFiles files;
   if (!options.file.empty()) files.reads("the rules", options.file);
   files.writes("the drawing", file);
-  if (!shown.sample) print_note("no small map was found to which the rule applies: only its graphs are drawn");
-  const Drawing drawing = diagram_of(rule, shown);
+  const Drawing drawing = chosen.rule ? drawing_of(*chosen.rule, options) : drawing_of(*chosen.script, options);
   const GracefulStop graceful_stop;
   if (png)
     write_png(file, paint(drawing, 2));
@@ -184,8 +201,9 @@ std::function<Exit()> declare_rule(CLI::App& app) {
       "check that all rules and scripts of a file are well formed; without a file, the built-in ones", chosen,
       check);
   add_file(*checking, options, "file");
-  CLI::App* drawing = subcommand(app, "draw", "draw the two graphs of a rule, and a small map before and after",
-                                 chosen, draw_rule);
+  CLI::App* drawing = subcommand(
+      app, "draw", "draw the two graphs of a rule, or the steps of a script, and a small map before and after",
+      chosen, draw_rule);
   add_rule(*drawing, options);
   drawing->add_option("-o,--output", options->out, "the picture")->required()->type_name("FILE.svg|FILE.png");
   std::vector<std::string> samples;
@@ -198,8 +216,7 @@ std::function<Exit()> declare_rule(CLI::App& app) {
 } // namespace
 
 Command rule_command() {
-  return {"rule",
-          "list, show and check rules and scripts, and draw rules: changes of the mesh, for <apply> and <tear>",
+  return {"rule", "list, show, check and draw rules and scripts: changes of the mesh, for <apply> and <tear>",
           declare_rule};
 }
 

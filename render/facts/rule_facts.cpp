@@ -12,20 +12,6 @@
 namespace rend {
 namespace {
 
-// A left graph that needs a neighbour by α3, or a rule that links by it.
-bool needs_a_solid(const Rule& rule) {
-  return rule.plan.links_volumes ||
-         std::any_of(rule.left.nodes.begin(), rule.left.nodes.end(),
-                     [](const RuleNode& node) { return node.links[3].kind == RuleLink::Kind::Arc; });
-}
-
-// Every one of its steps does.
-bool fits_sheets(const Script& script) {
-  return std::all_of(script.steps.begin(), script.steps.end(), [](const Script::Step& step) {
-    return step.what.rule ? !needs_a_solid(*step.what.rule) : fits_sheets(*step.what.script);
-  });
-}
-
 // Of a script: those of its hook.
 RuleFacts facts_of_left(const Rule& rule, const std::string& from) {
   RuleFacts facts{.name = rule.name(), .about = rule.settings.about, .from = from};
@@ -82,7 +68,7 @@ RuleFacts rule_facts(const Rule& rule, const std::string& from) {
     (rule.left.find(node.name) < 0 ? facts.creates : facts.keeps).push_back(node.name);
   for (const RuleNode& node : rule.left.nodes)
     if (rule.right.find(node.name) < 0) facts.removes.push_back(node.name);
-  facts.fits_sheets = !needs_a_solid(rule);
+  facts.fits_sheets = !rule.plan.needs_volumes;
   facts.folds = rule.settings.may_fold;
   if (const auto quantities = rule.quantities_of_law(); !quantities.empty()) facts.asks_for = quantities[0];
   facts.text = rule.print();
@@ -92,7 +78,7 @@ RuleFacts rule_facts(const Rule& rule, const std::string& from) {
 RuleFacts rule_facts(const Script& script, const std::string& from) {
   RuleFacts facts = facts_of_left(script.scope, from);
   facts.script = true;
-  facts.fits_sheets = fits_sheets(script);
+  facts.fits_sheets = script.fits_sheets();
   for (const Script::Step& step : script.steps)
     if (std::find(facts.applies.begin(), facts.applies.end(), step.what.name()) == facts.applies.end())
       facts.applies.push_back(step.what.name());

@@ -33,25 +33,26 @@ GRAPHS. left="..." and right="..." hold items in any order, separated by spaces:
   a-1-b    an arc: α1 links the darts of a and b
   a|2,3    α2 and α3 of a are free
 A node on both sides is kept. What the left graph does not mention of its links stays; what the left
-mentions, the right must mention, too, and nothing else. The right states the label anew.
-A node on the right alone is created; there it says of each of its four links what it is.
-A node on the left alone is removed; there it says so of all four, so that nothing is left hanging.
+mentions, the right must mention, too, and nothing else. The right states the label anew. A node on
+the right alone is created, one on the left alone removed: there it says of all four links what is.
 α0 α2, α0 α3, α1 α3 must close: what α2 links at one end of an α0, it links at the other end, too.
 So with an arc a-2-b, 0 stands at the same place of both labels, or in neither; with a-0-c and a-2-b
 goes a node d that both lead to, by b-0-d and c-2-d; with a-0-c and a|2 goes c|2. left="" creates.
 
 VALUES are elements within <rule>:
-  <set node="c" position="..." rest="..." velocity="..."/>   the point of a new vertex, which needs
-      a position, or of a kept one, which moves there; once a vertex. rest and velocity follow it.
-  <when test="size(a, face) > 3" at="all" otherwise="why not"/>   a further condition, asked at the
-      hook's dart, or at all or any darts of its orbit
+  <set node="c" position="..." rest="..." velocity="..."/>   the point of a new vertex, or where two
+      become one, which need a position; or of a kept one, which moves. Once a vertex. rest and
+      velocity follow; but in <tear> the rest position of a kept one stays, as its mass always does.
+  <when test="size(a, face) > 3" at="all|any" otherwise="why not"/>   a further condition, asked at
+      the hook's dart, or at all or any darts of its orbit
   <where name="h" value="0.1"/>   an argument, a number or point(x, y, z), and its default
+  <let name="m" value="mean(a, face)"/>   a name for an expression, for those that follow
 may-fold="yes" of <rule>: darts of the left graph may coincide; for rules that only open links.
 In XML a < within an attribute is written &lt; and & is &amp;: test="size(a, face) &lt; 5".
 
-EXPRESSIONS know numbers, + - * / ^, < <= > >= == !=, and, or, not. A node of the left graph is its
-point. A value must be the same at all darts of its vertex: in the middle of an edge mean(a, edge)
-is, and a, which is one of its two ends, is not. A name is that of a node, then of an orbit:
+EXPRESSIONS know numbers, + - * / ^, < <= > >= == !=, and, or, not, if(test, u, v). A node is its
+point; wherever one is named, alpha(a, 2) may stand: the dart across α2. A value must be the same at
+all darts of its vertex: in an edge's middle mean(a, edge) is, and a, one of its two ends, is not:
 )page";
 
 constexpr const char* page_use = R"page(
@@ -59,10 +60,11 @@ SCRIPTS apply rules to one cell after another, as one change: all of it is done,
   <script name="s" hook="a*(0,1)"> <for each="e*(0)" where="length(e) > 1" apply="NAME"/> </script>
 applies NAME to each side e of face a, and of what earlier steps made of it, where the test holds;
 at="all|any": at all or any darts of e. which="old|new": only cells with darts from before, or none.
-at-least="one|none": how often it must apply (all). Without each: once. Others: arguments of NAME.
+at-least="one|none": how often it must apply (all). mark="m": what it met or made is marked(e, m)
+in later steps. Without each: once. Other attributes: arguments of NAME.
 
 USE. Rules and scripts stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> there.
-  <apply rule="raise" times="2" h="0.3"/>   in a <body>, after its shape: h is an argument; where
+  <apply rule="smooth" times="2" t="0.3"/>   in a <body>, after its shape: t is an argument; where
       all vertices of the hook's orbit are selected, as by side="+x"; to="all": everywhere
   <create dimension="2"/>   a shape with nothing in it, with which rules begin: create-quad ...
   <subdivide times="3"/>    each face, or each volume, becomes one per corner
@@ -79,21 +81,23 @@ constexpr const char* page_examples =
         left="a*(0,1) a|3"   right="a(0,_) b(_,2) c(1,2)   a-1-b b-0-c   a|3 b|3 c|3">
     <set node="c" position="mean(a, face)"/>
   </rule>
-  <!-- At a corner two sides met by α1. Now b lies between: where α1 led, b's α0 leads: a side.
-       Each a has its vertex for itself then, so that it may move along its edge. -->
-  <rule name="cut-corners" about="off a face without neighbours: a new side b at each corner"
-        left="a*(0,1) a|2,3"   right="a(0,_) b(_,0)   a-1-b   a|2,3 b|2,3">
-    <where name="t" value="0.3"/>
-    <set node="a" position="lerp(a, mean(a, edge), 2*t)"/>
+  <!-- The hook is an edge: two darts a in each of its faces, which α0 joins, and α2 across. In a
+       triangle b and c are the next side, and c's α1 leads where a's α0 leads: 1 in place of 0. -->
+  <rule name="cut-edge" about="an edge of a sheet of triangles and its triangles are cut in two"
+        left="a*(0,2) b(_,_) c(1,_)  a-1-b b-0-c  a|3 b|3 c|3"
+        right="a(_,2) b(_,_) c(_,_) g(_,2) h(2,_) i(2,_)  a-1-b b-0-c a-0-g g-1-h h-0-i i-1-c
+               a|3 b|3 c|3 g|3 h|3 i|3">
+    <set node="g" position="mean(a, edge)"/>
   </rule>
   <script name="cut-in-half" about="a triangle off each corner of all faces" hook="a*(0,1,2,3)">
     <for each="e*(0,2,3)" apply="insert-vertex"/>
     <for each="e*(1,3)" which="old" apply="cut-face-corner"/>
   </script>
-  <!-- Nothing is linked anew: the graphs are the same, and the vertex moves. -->
-  <rule name="raise" about="each vertex goes up by h" left="a*(1,2,3)" right="a(1,2,3)">
-    <where name="h" value="0.1"/>
-    <set node="a" position="a + point(0, 0, h)"/>
+  <rule name="smooth" about="vertices go a share t of the way to the mean of their neighbours"
+        left="a*(1,2,3)" right="a(1,2,3)">
+    <where name="t" value="0.5"/>
+    <let name="goal" value="if(size(a, border) > 0, mean(a, border), mean(a, neighbours))"/>
+    <set node="a" position="lerp(a, goal, t)"/>
   </rule>
 </rules>
 )page";
@@ -122,24 +126,43 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 // Those of numbers mean what they always do, or tell their arguments in words.
-std::string told(const ExpressionFunction& function) {
+std::string told(const ExpressionFunction& function, const std::string& names) {
   const bool of_numbers = function.result == ValueType::Scalar &&
                           std::all_of(function.arguments.begin(), function.arguments.end(),
                                       [](ValueType type) { return type == ValueType::Scalar; });
-  if (!of_numbers) return signature(function) + ": " + function.about;
+  if (!of_numbers) return names + ": " + function.about;
   return function.about.starts_with(function.name + "(") ? function.about : function.name;
+}
+
+// Functions without words of their own are told with the next one that has some.
+template <class Functions, class Declared, class Put>
+void each_told(const Functions& functions, const Declared& declared, const Put& put) {
+  std::string names;
+  for (const auto& each : functions) {
+    const ExpressionFunction& function = declared(each);
+    names += (names.empty() ? "" : ", ") + signature(function);
+    if (function.about.empty()) continue;
+    put(function, names);
+    names.clear();
+  }
 }
 
 std::string functions_on_page() {
   std::string out;
-  for (const ExpressionFunction& function : rule_vocabulary({}, {})) {
-    std::vector<std::string> words = words_of(function.about);
-    words.front() = fmt::format("  {:<28} {}", signature(function), words.front());
-    out += folded_items(words, std::string(31, ' '));
-  }
+  each_told(
+      rule_vocabulary({}, {}),
+      [](const ExpressionFunction& function) -> const ExpressionFunction& { return function; },
+      [&](const ExpressionFunction& function, const std::string& names) {
+        std::vector<std::string> words = words_of(function.about);
+        words.front() = fmt::format("  {:<28} {}", names, words.front());
+        out += folded_items(words, std::string(31, ' '));
+      });
   std::vector<std::string> known;
-  for (const BuiltIn& each : built_ins())
-    for (const std::string& word : words_of(told(each.declared) + ";")) known.push_back(word);
+  each_told(
+      built_ins(), [](const BuiltIn& each) -> const ExpressionFunction& { return each.declared; },
+      [&](const ExpressionFunction& function, const std::string& names) {
+        for (const std::string& word : words_of(told(function, names) + ";")) known.push_back(word);
+      });
   known.front() = "  Angles are in radians: " + known.front();
   known.back().pop_back();
   return out + folded_items(known, "  ");

@@ -1,13 +1,12 @@
 #include "sim/build/construction.h"
 
 #include "sim/body/body.h"
+#include "sim/build/constructed_cells.h"
 #include "sim/build/read_settings.h"
 #include "sim/build/shape.h"
-#include "sim/mesh/cell_shapes.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/rules/rest_measures.h"
 #include "sim/rules/rounds.h"
-#include "sim/topology/orientation.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
@@ -35,10 +34,6 @@ struct GroupMask {
   }
 };
 using GroupColumn = Column<GroupMask>;
-
-std::string place_of(const Vec3& x) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x(), x.y(), x.z());
-}
 
 // Which darts lie at the same place: their vertices, the other ends of their sides and, if asked for, those of
 // the next sides of their faces are apart by less than 1e-9 of the body's size.
@@ -97,10 +92,12 @@ public:
   void apply(const ApplySettings& settings) {
     check_settings(settings);
     const RuleOrScript what = rule_of(settings);
+    if (what.rule && what.rule->makes_solids() && body_.map->dimension() == 2) make_solid();
     check_hooks(what, settings);
     check_quantities(what, settings);
     RuleOrScriptRunner runner(what, {.wheres = arguments_of(what, settings)});
     for (int n = 0; n < settings.times; ++n) round(what, runner, settings, n);
+    note_open(what, settings);
   }
 
   // The body's map, as if it came from a file.
@@ -108,7 +105,7 @@ public:
     check_shapes();
     MapMesh mesh = map_mesh();
     place.apply(mesh.points);
-    check_cells(mesh);
+    check_cells(mesh, shape_, opened_);
     mesh = renumbered(mesh, mesh.map.dimension() == 3 ? cell_order(mesh) : face_order(mesh.map));
     std::vector<std::uint32_t> point; // of each vertex slot
     const std::vector<std::uint64_t> masks = groups_ ? groups_->values() : std::vector<std::uint64_t>();
@@ -138,6 +135,11 @@ private:
   }
 
   void check_hooks(const RuleOrScript& rule, const ApplySettings& settings) const {
+    if (body_.map->dimension() == 2 && !rule.fits_sheets())
+      settings.source.fail("rule",
+                           fmt::format("{} '{}' changes what lies between volumes, and this body is a sheet",
+                                       rule.kind(), rule.name()),
+                           "a sheet has faces alone: its α3 are all free");
     const std::size_t hooks = rule.hooks();
     const bool with = settings.with == ApplySettings::With::Touching;
     if (hooks > 2 || (hooks == 2 && !with))
@@ -209,7 +211,16 @@ private:
       settings.source.fail("",
                            fmt::format("{} '{}' applies nowhere{}", rule.kind(), rule.name(),
                                        result.reason.empty() ? "" : ": " + result.reason),
-                           result.reason.empty() ? "nothing was selected that its hook stands for" : "");
+                           result.reason.empty() ? nothing_selected(rule, settings) : "");
+  }
+
+  // No orbit was tried.
+  static std::string nothing_selected(const RuleOrScript& rule, const ApplySettings& settings) {
+    if (rule.hooks() == 0 || !settings.where.given()) return "there is nothing that its hook stands for";
+    return fmt::format(
+        "its hook stands for all darts of an orbit {}, and is tried where all vertices of that are "
+        "selected; to=\"all\" selects every one",
+        to_string(rule.hook_orbit()));
   }
 
   [[noreturn]] static void refuse_growth(const RuleOrScript& rule, const RoundResult& result, std::size_t most,
@@ -256,60 +267,45 @@ private:
     return mesh;
   }
 
-  void check_cells(const MapMesh& mesh) const {
-    const GMap& map = mesh.map;
-    if (map.dart_count() == 0) shape_.fail("", "its rules leave nothing of the body");
-    const auto fail = [&](Dart d, const std::string& what) {
-      shape_.fail("",
-                  fmt::format("after its rules, {}, near {}", what, place_of(mesh.points[mesh.point[d.value]])),
-                  "a sheet has faces, a solid tetrahedra, hexahedra, prisms and pyramids");
-    };
-    map.for_each_dart([&](Dart d) {
-      if (map.is_free(0, d) || map.is_free(1, d)) fail(d, "a face is open");
-      if (map.dimension() == 3 && map.is_free(2, d)) fail(d, "a volume is open");
+  // The faces of a sheet as those of a solid, with no volume between them yet: the rule will make them.
+  void make_solid() {
+    const EmbeddedMap& sheet = *body_.map;
+    auto solid = std::make_unique<EmbeddedMap>(3);
+    std::vector<Dart> made(sheet.map().capacity());
+    solid->edit([&](Edit& edit) {
+      sheet.map().for_each_dart([&](Dart d) {
+        made[d.value] = edit.add_dart();
+        edit.give(made[d.value],
+                  {sheet.position_of(d), sheet.rest_of(d), sheet.velocity()[sheet.vertex(d)].vec()});
+      });
+      for (int i = 0; i < 3; ++i)
+        sheet.map().for_each_dart([&](Dart d) {
+          const Dart other = sheet.map().alpha(i, d);
+          if (d < other) edit.link(i, made[d.value], made[other.value]);
+        });
     });
-    const CellIndex elements(map, element_orbit(map.dimension()));
-    for (Slot e = 0; e < elements.slots(); ++e) {
-      const Dart d = elements.first_dart(e);
-      if (map.dimension() == 2 ? sides_of_face(map, d) < 3 : !is_standard(map, d))
-        fail(d, map.dimension() == 2 ? "a face has fewer than three sides"
-                                     : "a volume is none of the standard ones");
+    if (groups_) {
+      GroupColumn& groups = solid->add(GroupMask{});
+      sheet.map().for_each_dart(
+          [&](Dart d) { groups[solid->vertex(made[d.value])] = (*groups_)[sheet.vertex(d)]; });
+      groups_ = &groups;
     }
+    body_.map = std::move(solid);
   }
 
-  static bool is_standard(const GMap& map, Dart d) {
-    const std::size_t darts = darts_of(map, Volume, d).size();
-    for (const CellShape& shape : cell_shapes::all) {
-      if (static_cast<std::size_t>(shape.darts) != darts) continue;
-      for (Dart e : darts_of(map, Volume, d))
-        if (!darts_in_shape_order(map, shape, e).empty()) return true;
-    }
-    return false;
-  }
-
-  // Face by face, in the order of smallest darts; each side by side, all in the sense of the component's
-  // smallest dart, where it has two sides: the fronts of faces are those of the walks from their smallest
-  // darts.
-  static std::vector<Dart> face_order(const GMap& map) {
-    std::vector<Dart> order;
-    std::vector<bool> done(map.capacity());
-    const Sides sides = sides_of(map);
-    map.for_each_dart([&](Dart d) {
-      if (done[d.value]) return;
-      for (Dart at = sides.of_dart[d.value] == 1 ? d : map.alpha(1, d); !done[at.value];
-           at = map.alpha(1, order.back()))
-        for (Dart e : {at, map.alpha(0, at)}) {
-          order.push_back(e);
-          done[e.value] = true;
-        }
-    });
-    return order;
+  // Which rule has opened what is open; the next may close it.
+  void note_open(const RuleOrScript& what, const ApplySettings& settings) {
+    if (!has_open_cells(body_.map->map()))
+      opened_.reset();
+    else if (!opened_)
+      opened_ = OpenedBy{fmt::format("{} '{}'", what.kind(), what.name()), settings.source};
   }
 
   Body& body_;
   const RuleBook& rules_;
   const SettingsSource& shape_;
   GroupColumn* groups_ = nullptr; // null: the body has none
+  std::optional<OpenedBy> opened_;
 };
 
 } // namespace

@@ -175,11 +175,12 @@ const ElementType& rule_type() {
   static const ElementType set = element<RuleSetSettings>("set", "where the vertex of a node is");
   static const ElementType when = element<RuleWhenSettings>("when", "a further condition of a match");
   static const ElementType where = element<RuleWhereSettings>("where", "an argument of the rule");
+  static const ElementType let = element<RuleLetSettings>("let", "a name for an expression of the rule");
   static const ElementType type{
       "rule",
       "a change of the map, for <apply> and <tear>: what is matched, and what takes its place",
       attributes_of<RuleSettings>(),
-      {{&set, 0, -1}, {&when, 0, -1}, {&where, 0, -1}}};
+      {{&set, 0, -1}, {&when, 0, -1}, {&where, 0, -1}, {&let, 0, -1}}};
   return type;
 }
 
@@ -221,6 +222,7 @@ RuleSettings read_rule(const PresetNode& node) {
   rule.sets = read_all<RuleSetSettings>(node, "set");
   rule.whens = read_all<RuleWhenSettings>(node, "when");
   rule.wheres = read_all<RuleWhereSettings>(node, "where");
+  rule.lets = read_all<RuleLetSettings>(node, "let");
   return rule;
 }
 

@@ -16,7 +16,40 @@ struct EmbeddedMap::Closing {
   std::size_t published = 0;             // lists of subscribers
   std::vector<std::unique_ptr<Heirs>> heirs;
   std::vector<const Heirs*> heirs_of; // of each column; null: it has none. Empty: no column has
+  std::vector<Dart> reshaped;         // of vertices that moved, and have another rest position
+
+  void find_reshaped(const EmbeddedMap& map, const Edit& edit);
+  void initialise_around_reshaped(EmbeddedMap& map, ColumnBase& column, const Heirs* done_by_them) const;
 };
+
+// While vertices have their old rest positions.
+void EmbeddedMap::Closing::find_reshaped(const EmbeddedMap& map, const Edit& edit) {
+  for (const auto& [d, point] : edit.moves_)
+    if (map.map_.alive(d) && map.rest_of(d) != point.rest) reshaped.push_back(d);
+}
+
+// What depends on rest positions, but not masses: matter is neither made nor lost where it is moved.
+void EmbeddedMap::Closing::initialise_around_reshaped(EmbeddedMap& map, ColumnBase& column,
+                                                      const Heirs* done_by_them) const {
+  thread_local std::vector<Dart> darts;
+  if (reshaped.empty() || column.support() == SingleDart || !column.masses().empty()) return;
+  const CellIndex& index = *map.cells_[column.orbit().mask];
+  IndexSet seen, done; // darts, slots
+  if (done_by_them) done_by_them->each_slot([&](Slot slot) { done.insert(slot); });
+  for (Dart moved : reshaped)
+    for (Dart around : darts_of(map.map_, Vertex, moved)) {
+      if (seen.contains(around.value)) continue;
+      darts.clear();
+      collect(map.map_, column.support(), around, darts);
+      for (Dart d : darts) {
+        seen.insert(d.value);
+        const Slot slot = index.slot(d);
+        if (!done.insert(slot)) continue;
+        column.initialise(map, index, slot);
+        map.initialised_[column.orbit().mask].push_back(slot);
+      }
+    }
+}
 
 void EmbeddedMap::edit(const std::function<void(Edit&)>& change) {
   CHECK_NOTE(!open_, "an edit is open");
@@ -93,11 +126,13 @@ void EmbeddedMap::bring_columns_up_to_date(const Edit& edit, Closing& closing) {
     // position and rest come before: the columns that follow depend on rest positions
     if (column.get() == velocity_) {
       give_points(edit);
+      closing.find_reshaped(*this, edit);
       move_vertices(edit);
       for (const auto& each : closing.heirs) each->weigh(*this);
     }
     if (heirs) column->inherit(*this, *cells_[mask], *heirs);
     initialise_reshaped(*column, edit, heirs);
+    closing.initialise_around_reshaped(*this, *column, heirs);
     if (heirs)
       heirs->restore_momentum(*this, column->masses(), [&](Slot v, const Vec3& shift) {
         velocity_->write(v, Record((*velocity_)[v].vec() + shift));
@@ -146,7 +181,7 @@ void EmbeddedMap::move_vertices(const Edit& edit) {
   }
 }
 
-void EmbeddedMap::initialise_reshaped(ColumnBase& column, const Edit& edit, const Heirs* heirs) {
+void EmbeddedMap::initialise_reshaped(ColumnBase& column, const Edit&, const Heirs* heirs) {
   thread_local std::vector<Dart> darts;
   thread_local IndexSet seen, done;
   const Orbit support = column.support();
@@ -175,10 +210,6 @@ void EmbeddedMap::initialise_reshaped(ColumnBase& column, const Edit& edit, cons
     if (!support.has(i)) continue;
     for (Dart touched : journal_.touched[static_cast<std::size_t>(i)]) initialise_around(touched);
   }
-  if (support == SingleDart) return;
-  for (const auto& [moved, point] : edit.moves_)
-    if (map_.alive(moved))
-      for (Dart d : darts_of(map_, Vertex, moved)) initialise_around(d);
 }
 
 // Calls f(list of a subscriber, what is appended to it) in an order that is always the same.

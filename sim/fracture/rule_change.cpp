@@ -15,21 +15,27 @@
 namespace rend {
 namespace {
 
-// The cell that a hook's orbit is a part of, α of the body's dimension aside; nullopt: a whole component. A
-// hook that is a single dart belongs to an element, whose darts are tried one after another.
-std::optional<Cell> cell_of(Orbit hook, int dimension) {
-  const auto has = [&](std::initializer_list<int> links) {
-    return std::all_of(links.begin(), links.end(), [&](int i) { return hook.has(i); });
-  };
+bool holds(Orbit hook, std::initializer_list<int> links) {
+  return std::all_of(links.begin(), links.end(), [&](int i) { return hook.has(i); });
+}
+
+// The hook stands for a whole component of a body of that dimension.
+bool is_component(Orbit hook, int dimension) {
+  return holds(hook, {0, 1, 2}) && (dimension == 2 || hook.has(3));
+}
+
+// The cell that a hook's orbit is a part of, α of the body's dimension aside. A hook that is a single dart belongs to
+// an element, whose darts are tried one after another; a whole component is changed by any of its elements.
+Cell cell_of(Orbit hook, int dimension) {
+  if (is_component(hook, dimension)) return Cell::Elements;
   if (dimension == 2) {
-    if (has({0, 1, 2})) return std::nullopt;
-    if (has({1, 2})) return Cell::Vertices;
-    if (has({0, 1})) return Cell::Elements;
+    if (holds(hook, {1, 2})) return Cell::Vertices;
+    if (holds(hook, {0, 1})) return Cell::Elements;
     if (hook.has(0)) return Cell::Borders;
     return hook.has(1) || hook.has(2) ? Cell::Vertices : Cell::Elements;
   }
-  if (has({0, 1, 2})) return hook.has(3) ? std::nullopt : std::optional(Cell::Elements);
-  if (has({0, 1})) return Cell::Borders;
+  if (holds(hook, {0, 1, 2})) return Cell::Elements;
+  if (holds(hook, {0, 1})) return Cell::Borders;
   if (hook.has(0)) return Cell::Edges;
   return hook.has(1) ? Cell::Vertices : Cell::Elements;
 }
@@ -46,14 +52,11 @@ public:
   }
 
   bool apply(Edit& edit, const FoundPlace& found, std::span<const Dart> darts) {
-    quantities_->across = found.normal;
-    quantities_->value = found.value;
-    quantities_->before_change(edit);
-    runner_.context() = {{}, &*quantities_, {}, most_darts_};
-    darts_.assign(darts.begin(), darts.end());
-    std::sort(darts_.begin(), darts_.end());
-    if (!fit_) return runner_.apply_at_first(edit, darts_, &furthest_);
-    return runner_.apply_at_first(edit, darts_, &furthest_, [&] { return elements_fit(edit); });
+    const bool whole = is_component(what_.hook_orbit(), edit.map().dimension());
+    if (whole && changed_components_.contains(darts.front().value)) return false;
+    const bool made = apply_at(edit, found, darts);
+    if (made && whole) note_component(edit, darts);
+    return made;
   }
 
   void begin(const ForceView& view) override {
@@ -61,6 +64,7 @@ public:
     most_darts_ = most_darts(view.map, budget_);
     moved_.clear();
     rest_of_moved_.clear();
+    changed_components_.clear();
   }
   void settle_candidate(bool made) override {
     if (!made && furthest_.stage > 0) count(furthest_.reason);
@@ -81,6 +85,25 @@ public:
   }
 
 private:
+  bool apply_at(Edit& edit, const FoundPlace& found, std::span<const Dart> darts) {
+    quantities_->across = found.normal;
+    quantities_->value = found.value;
+    quantities_->before_change(edit);
+    runner_.context() = {{}, &*quantities_, {}, most_darts_};
+    darts_.assign(darts.begin(), darts.end());
+    std::sort(darts_.begin(), darts_.end());
+    if (!fit_) return runner_.apply_at_first(edit, darts_, &furthest_);
+    return runner_.apply_at_first(edit, darts_, &furthest_, [&] { return elements_fit(edit); });
+  }
+
+  // A rule of a whole component is applied once a step, however many of its elements exceed the threshold.
+  void note_component(const Edit& edit, std::span<const Dart> darts) {
+    for (Dart d : darts) {
+      if (!edit.map().alive(d) || changed_components_.contains(d.value)) continue;
+      for (Dart e : darts_of(edit.map(), Component, d)) changed_components_.insert(e.value);
+    }
+  }
+
   // Of the elements that the rule or script has just changed.
   bool elements_fit(const Edit& edit) {
     thread_local IndexSet seen;
@@ -147,6 +170,7 @@ private:
   IndexMap moved_;                // dart → index in rest_of_moved_: of the edit's earlier changes
   IndexMap moving_;               // the same, of the change that was just made
   std::vector<Vec3> rest_of_moved_;
+  IndexSet changed_components_;                        // darts of those that this step has changed already
   std::vector<Dart> moving_darts_, changed_, element_; // scratch
   std::vector<Dart> darts_;                            // scratch
   Refusal furthest_;                                   // at the places of one candidate
@@ -158,9 +182,8 @@ private:
 std::string misfit_of(const RuleOrScript& what, int dimension) {
   if (what.hooks() != 1)
     return fmt::format("has {} hooks, but a <tear> finds the darts of one only", what.hooks());
-  if (!cell_of(what.hook_orbit(), dimension))
-    return "changes a whole component, but a <tear> acts on single cells";
-  if (dimension == 2 && what.links_volumes()) return "links volumes, but this body is a sheet";
+  if (dimension == 2 && !what.fits_sheets())
+    return "changes what lies between volumes, but this body is a sheet";
   return {};
 }
 
@@ -177,7 +200,7 @@ std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimens
   auto change = std::make_shared<ChangeType>();
   change->name = what.name();
   change->what = what.about();
-  change->cell = *cell_of(what.hook_orbit(), dimension);
+  change->cell = cell_of(what.hook_orbit(), dimension);
   change->grows = what.grows();
   const auto by_rule = std::make_shared<ByRule>(what, request, budget);
   change->apply = [by_rule](Edit& edit, const ForceView&, const FoundPlace& found,

@@ -2,9 +2,11 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/stop_request.h"
+#include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rend {
@@ -48,6 +50,51 @@ template <> const Fields<LawSettings>& fields_of() {
             integer("max-per-step", "at most N changes per step, worst first; 0 = unlimited").at_least(0))};
   return fields;
 }
+
+namespace {
+
+// A rule that does not apply where a change is made is tried at the other cells of that kind at the candidate's, in
+// the order of their smallest darts: at every border of an element, those of the hull among them.
+void add_others(const GMap& map, Orbit orbit, std::span<const Dart> cell, std::size_t first, Places& places) {
+  thread_local IndexSet seen;
+  thread_local std::vector<Dart> own, darts;
+  seen.clear();
+  const auto add = [&](Dart d) {
+    darts.clear();
+    collect(map, orbit, d, darts);
+    for (Dart e : darts) seen.insert(e.value);
+  };
+  for (std::size_t place = first; place < places.count(); ++place) add(places.darts(place).front());
+  own.assign(cell.begin(), cell.end());
+  std::sort(own.begin(), own.end());
+  for (Dart d : own) {
+    if (seen.contains(d.value)) continue;
+    add(d);
+    places.add(darts);
+  }
+}
+
+// Of an edit: the darts whose links it has changed so far.
+class TouchedDarts {
+public:
+  void clear() {
+    read_.fill(0);
+    darts_.clear();
+  }
+  bool any_of(const Journal& journal, std::span<const Dart> darts) {
+    for (std::size_t i = 0; i < read_.size(); ++i)
+      for (; read_[i] < journal.touched[i].size(); ++read_[i])
+        darts_.insert(journal.touched[i][read_[i]].value);
+    return std::any_of(darts.begin(), darts.end(), [&](Dart d) { return darts_.contains(d.value); });
+  }
+
+private:
+  std::array<std::size_t, 4> read_{}; // of the journal
+  IndexSet darts_;
+};
+thread_local TouchedDarts touched;
+
+} // namespace
 
 TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
     : settings_(settings), transfer_(&transfer(settings.cell, settings.change->cell, request.map.dimension())),
@@ -143,6 +190,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
   int made = 0;
   ChangeMemory* const memory = settings_.change->memory.get();
   if (memory) memory->begin(view);
+  touched.clear();
   const std::size_t events_before = events.size();
   const auto change = [&](Edit& edit) {
     if (fragment_counter) fragment_counter->begin(settings_.change->grows ? &map.map() : nullptr);
@@ -182,6 +230,9 @@ bool TearLaw::change_at(Edit& edit, const ForceView& view, std::size_t n) {
     grown(edit.map(), orbit, places_.darts(place), left_);
     const FoundPlace found(places_.normal(place), candidates_[n].value);
     if (!left_.empty() && change.apply(edit, view, found, left_)) return true;
+    // The best place of a rule was changed by another candidate: this one has got what it asks for.
+    const bool others = change.memory && change.cell != Cell::Vertices && place == first_place_[n];
+    if (others && (left_.empty() || touched.any_of(*edit.journal(), left_))) return false;
   }
   return false;
 }
@@ -206,6 +257,9 @@ void TearLaw::note_places(const ForceView& view) {
   first_place_.assign(1, 0);
   for (std::size_t n = 0; n < candidates_.size(); ++n) {
     transfer_->find(view, candidates_[n], cell(n), places_);
+    if (settings_.change->memory && settings_.change->cell != Cell::Vertices)
+      add_others(view.map.map(), orbit_of(settings_.change->cell, view.map.dimension()), cell(n),
+                 first_place_.back(), places_);
     first_place_.push_back(places_.count());
   }
 }

@@ -11,12 +11,16 @@ std::vector<RuleSettings> house_settings() {
           extrude_face(),
           extrude_side(),
           extrude_border(),
+          extrude_sheet(),
           extrude_away(),
           create_triangle(),
           create_quad(),
           create_tetrahedron(),
           duplicate(),
           move(),
+          move_quad_corner(),
+          shape_quad(),
+          turn(),
           sew_edges(),
           sew_faces(),
           unsew_edge(),
@@ -38,9 +42,12 @@ std::vector<RuleSettings> house_settings() {
           cut_face_corner(),
           cut_volume_corner(),
           divide_bipyramid(),
+          catmull_clark(),
+          flip_edge(),
           remove_isolated_face(),
           remove_inner_face(),
-          remove_isolated_volume()};
+          remove_isolated_volume(),
+          collapse_edge()};
 }
 
 const std::vector<Rule>& house_rules() {

@@ -25,12 +25,16 @@ RuleSettings extrude_edge();
 RuleSettings extrude_face();
 RuleSettings extrude_side();
 RuleSettings extrude_border();
+RuleSettings extrude_sheet();
 RuleSettings extrude_away();
 RuleSettings create_triangle();
 RuleSettings create_quad();
 RuleSettings create_tetrahedron();
 RuleSettings duplicate();
 RuleSettings move();
+RuleSettings move_quad_corner();
+RuleSettings shape_quad();
+RuleSettings turn();
 // Sewing.
 RuleSettings sew_edges();
 RuleSettings sew_faces();
@@ -54,9 +58,12 @@ RuleSettings sponge();
 RuleSettings cut_face_corner();
 RuleSettings cut_volume_corner();
 RuleSettings divide_bipyramid();
+RuleSettings catmull_clark();
+RuleSettings flip_edge();
 // Removal.
 RuleSettings remove_isolated_face();
 RuleSettings remove_inner_face();
 RuleSettings remove_isolated_volume();
+RuleSettings collapse_edge();
 
 } // namespace rend

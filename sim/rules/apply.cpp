@@ -80,8 +80,9 @@ void Rewriter::place(const RuleValues& values, int node) {
       continue;
     }
     const Rule::Set& values_of = rule_.sets[static_cast<std::size_t>(set)];
-    const Point was = kept >= 0 ? edit_.point(match_.dart(k, kept)) : Point{};
-    const Point point = values.moved(values_of, k, was);
+    const bool stays = kept >= 0 && !rule_.joins[static_cast<std::size_t>(node)];
+    const Point point =
+        stays ? values.moved(values_of, k, edit_.point(match_.dart(k, kept))) : values.point(values_of, k);
     if (kept >= 0) {
       edit_.move(match_.dart(k, kept), point);
       moved_.push_back({match_.dart(k, kept), point});

@@ -92,6 +92,55 @@ Point mean_point(const Edit& edit, std::span<const Dart> vertices) {
 
 namespace {
 
+// The smallest of these darts in each orbit that they are of, increasing.
+std::vector<Dart> firsts_of(const GMap& map, Orbit orbit, std::vector<Dart> darts) {
+  IndexSet counted;
+  std::vector<Dart> cell, out;
+  std::sort(darts.begin(), darts.end());
+  for (Dart e : darts) {
+    if (counted.contains(e.value)) continue;
+    cell.clear();
+    collect(map, orbit, e, cell);
+    for (Dart c : cell) counted.insert(c.value);
+    out.push_back(e);
+  }
+  return out;
+}
+
+} // namespace
+
+std::vector<Dart> cells_at_vertex(const GMap& map, Orbit cell, Dart d) {
+  return firsts_of(map, cell, darts_of(map, Vertex, d));
+}
+
+void ends_of_edges(const GMap& map, Dart d, bool border, std::vector<Dart>& out) {
+  out.clear();
+  for (Dart e : cells_at_vertex(map, Edge, d)) {
+    const std::vector<Dart> edge = darts_of(map, Edge, e);
+    const auto is_free = [&](Dart c) { return map.is_free(map.dimension(), c); };
+    if (!border || std::any_of(edge.begin(), edge.end(), is_free)) out.push_back(map.alpha(0, e));
+  }
+}
+
+Point mean_of_cells(const Edit& edit, Orbit cell, Dart d, std::vector<Dart>& vertices) {
+  Point sum;
+  vertices.clear();
+  const std::vector<Dart> cells = cells_at_vertex(edit.map(), cell, d);
+  for (Dart e : cells) {
+    std::vector<Dart> of_cell;
+    vertices_of_orbit(edit, cell, e, of_cell);
+    const Point middle = mean_point(edit, of_cell);
+    sum.position += middle.position;
+    sum.rest += middle.rest;
+    sum.velocity += middle.velocity;
+    vertices.insert(vertices.end(), of_cell.begin(), of_cell.end());
+  }
+  const auto count = static_cast<double>(cells.size());
+  return {sum.position / count, sum.rest / count, sum.velocity / count};
+}
+
+namespace {
+
 // The darts of the face of d that begin its sides, in its order from d; empty: the face is not closed. Valid
 // until the next call.
 const std::vector<Dart>& sides_from(const GMap& map, Dart d) {
@@ -192,6 +241,19 @@ Vec3 face_vector(const Edit& edit, Dart d, Vec3 Point::*part) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 1; n + 1 < sides.size(); ++n)
     sum += (edit.point(sides[n]).*part - origin).cross(edit.point(sides[n + 1]).*part - origin);
+  return sum / 2;
+}
+
+Vec3 face_vector_rate(const Edit& edit, Dart d) {
+  const std::vector<Dart>& sides = sides_from(edit.map(), d);
+  if (sides.empty()) return Vec3::Zero();
+  const Point origin = edit.point(d);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 1; n + 1 < sides.size(); ++n) {
+    const Point a = edit.point(sides[n]), b = edit.point(sides[n + 1]);
+    sum += (a.velocity - origin.velocity).cross(b.position - origin.position) +
+           (a.position - origin.position).cross(b.velocity - origin.velocity);
+  }
   return sum / 2;
 }
 

@@ -4,7 +4,9 @@
 #include "sim/expression/functions.h"
 #include "sim/rules/rule_check.h"
 #include "sim/rules/rule_plan.h"
-#include "sim/rules/rule_values.h"
+#include "sim/rules/rule_symmetry.h"
+#include "sim/rules/rule_vertices.h"
+#include "sim/rules/rule_vocabulary.h"
 
 #include <fmt/format.h>
 
@@ -18,15 +20,6 @@ namespace {
 
 constexpr std::size_t most_parts = 1000; // <set>, <when>, <where> of a rule
 
-// Of two values of one expression: the same but for rounding.
-bool same(const Value& a, const Value& b) {
-  for (std::size_t n = 0; n < 3; ++n) {
-    const double size = std::max({1.0, std::abs(a.number[n]), std::abs(b.number[n])});
-    if (!(std::abs(a.number[n] - b.number[n]) <= 1e-9 * size)) return false;
-  }
-  return true;
-}
-
 class Builder {
 public:
   Builder(Rule& rule, const char* kind) : rule_(rule), settings_(rule.settings), kind_(kind) {}
@@ -38,8 +31,10 @@ public:
     rule_.plan = make_plan(rule_.left, rule_.right, rule_.before, rule_.after);
     wheres();
     rule_.vocabulary = vocabulary();
+    for (const RuleLetSettings& let : settings_.lets) add(let);
     vertices();
     for (const RuleWhenSettings& when : settings_.whens) add(when);
+    for (int n = 0; n < rule_.right.size(); ++n) warn_of_open_cells(rule_.right[n]);
   }
 
 private:
@@ -68,8 +63,9 @@ private:
     source.fail(attribute, fmt::format("{} {}: {}", kind_, in_quotes(rule_.name()), what), hint);
   }
 
+  // `wanted`: nullopt: whatever type it has.
   Expression expression(const SettingsSource& source, const char* attribute, const std::string& text,
-                        ValueType wanted) const {
+                        std::optional<ValueType> wanted) const {
     try {
       Expression made(text, rule_.vocabulary, wanted);
       check_names(made, rule_.left);
@@ -82,7 +78,8 @@ private:
 
   // Arguments are numbers or points: what their default is.
   void wheres() {
-    if (settings_.wheres.size() + settings_.sets.size() + settings_.whens.size() > most_parts)
+    if (settings_.wheres.size() + settings_.sets.size() + settings_.whens.size() + settings_.lets.size() >
+        most_parts)
       fail(settings_.source, "", fmt::format("there are more than {} expressions", most_parts));
     for (const RuleWhereSettings& where : settings_.wheres) {
       check_settings(where);
@@ -95,8 +92,23 @@ private:
         const Expression value = constant(where.value);
         rule_.wheres.push_back({where.name, value.type(), value.evaluate()});
       } catch (const ExpressionError& error) {
+        if (speaks_of_nodes(where.value))
+          fail(where.source, "value",
+               fmt::format("a <where> knows no nodes, and {} speaks of one", in_quotes(where.value)),
+               fmt::format("<let name=\"{}\" value=\"{}\"/> may: it has its value at each dart", where.name,
+                           where.value));
         fail(where.source, "value", error.flaw, error.hint);
       }
+    }
+  }
+
+  bool speaks_of_nodes(const std::string& text) const {
+    try {
+      const Expression expression(text, rule_vocabulary(rule_.left, {}), std::nullopt);
+      check_names(expression, rule_.left);
+      return !expression.constant();
+    } catch (const ExpressionError&) {
+      return false;
     }
   }
 
@@ -122,26 +134,48 @@ private:
       return std::any_of(functions.begin(), functions.end(),
                          [&](const auto& each) { return each.name == name; });
     };
-    return name == "and" || name == "or" || name == "not" || has_it(rule_vocabulary({}, {})) ||
+    return name == "and" || name == "or" || name == "not" || name == "if" || has_it(rule_vocabulary({}, {})) ||
            std::any_of(built_ins().begin(), built_ins().end(),
                        [&](const BuiltIn& each) { return each.declared.name == name; });
   }
 
+  void check_name(const std::string& name, const SettingsSource& source) const {
+    if (is_taken(name))
+      fail(source, "name", fmt::format("{} is a function of expressions", name), "take another name");
+    if (!is_word(name))
+      fail(source, "name", fmt::format("{} is no name", in_quotes(name)),
+           "a letter, then letters, digits and _");
+  }
+
+  // Those of earlier ones, and all that the rule's other expressions know, may stand in its value.
+  void add(const RuleLetSettings& let) {
+    check_settings(let);
+    check_name(let.name, let.source);
+    for (const ExpressionFunction& known : rule_.vocabulary)
+      if (known.name == let.name)
+        fail(let.source, "name", fmt::format("{} is the name of something else already", in_quotes(let.name)),
+             "each node, argument and let has its own");
+    Expression value = expression(let.source, "value", let.value, std::nullopt);
+    int depth = 1;
+    for (const ExpressionCall& call : value.calls())
+      if (const Rule::Let* other = rule_.find_let(call)) depth = std::max(depth, other->depth + 1);
+    if (depth > Rule::Let::deepest)
+      fail(let.source, "value", fmt::format("lets use lets more than {} deep", Rule::Let::deepest));
+    rule_.vocabulary.push_back({let.name, {}, value.type(), "a let of the rule"});
+    rule_.lets.push_back({let.name, std::move(value), depth});
+  }
+
   // The names of nodes and arguments are variables of expressions.
   std::vector<ExpressionFunction> vocabulary() const {
-    constexpr const char* hint = "take another name";
     for (const RuleNode& node : rule_.left.nodes)
       if (is_taken(node.name))
         fail(settings_.source, "left",
-             fmt::format("{} is a function of expressions, and no name of a node", node.name), hint);
+             fmt::format("{} is a function of expressions, and no name of a node", node.name),
+             "take another name");
     std::vector<std::string> names;
     for (const RuleWhereSettings& where : settings_.wheres) {
       names.push_back(where.name);
-      if (is_taken(where.name))
-        fail(where.source, "name", fmt::format("{} is a function of expressions", where.name), hint);
-      if (!is_word(where.name))
-        fail(where.source, "name", fmt::format("{} is no name", in_quotes(where.name)),
-             "a letter, then letters, digits and _");
+      check_name(where.name, where.source);
     }
     std::vector<ExpressionFunction> all = rule_vocabulary(rule_.left, names);
     for (std::size_t n = 0; n < rule_.wheres.size(); ++n)
@@ -153,6 +187,7 @@ private:
   void vertices() {
     for (const RuleSetSettings& set : settings_.sets) add(set);
     rule_.vertex_set.assign(rule_.right.nodes.size(), -1);
+    const VertexJoins joins(rule_.left, rule_.right, rule_.before);
     for (int n = 0; n < rule_.right.size(); ++n) {
       const std::vector<bool> vertex = rule_.right.reach(n, Vertex);
       bool kept = false;
@@ -167,6 +202,9 @@ private:
                "one <set> for each vertex");
         chosen = static_cast<int>(s);
       }
+      const std::optional<VertexJoin> join = kept ? joins.at(n) : std::nullopt;
+      rule_.joins.push_back(join.has_value());
+      if (join && (chosen < 0 || !rule_.sets[static_cast<std::size_t>(chosen)].position)) refuse(*join, n);
       if (kept) continue;
       if (chosen < 0 || !rule_.sets[static_cast<std::size_t>(chosen)].position)
         fail(settings_.source, "right",
@@ -175,6 +213,29 @@ private:
                          rule_.left.nodes.empty() ? "a" : rule_.left[0].name));
     }
     for (std::size_t s = 0; s < rule_.sets.size(); ++s) check_symmetry(s);
+  }
+
+  [[noreturn]] void refuse(const VertexJoin& join, int node) const {
+    const std::string &first = rule_.left[join.first].name, &second = rule_.left[join.second].name,
+                      &set = rule_.right[node].name;
+    if (join.position < 0)
+      fail(settings_.source, "right",
+           fmt::format(
+               "nodes {} and {} are of two vertices on the left and of one on the right, and no <set> says "
+               "where that is",
+               first, second),
+           fmt::format("<set node=\"{}\" position=\"{}\"/> is where that of {} was, lerp({}, {}, 0.5) halfway",
+                       set, second, second, first, second));
+    const RuleNode& hook = rule_.left[rule_.plan.hooks[0]];
+    const int link = hook.label[static_cast<std::size_t>(join.position)];
+    const char* const orbits[] = {"edge", "face", "volume", "component"};
+    fail(settings_.source, "right",
+         fmt::format(
+             "the vertices of node {} at both ends of the hook's α{} become one, and no <set> says where "
+             "that is",
+             first, link),
+         fmt::format("<set node=\"{}\" position=\"mean({}, {})\"/>", set, hook.name,
+                     orbits[static_cast<std::size_t>(link)]));
   }
 
   void add(const RuleSetSettings& set) {
@@ -199,8 +260,7 @@ private:
   }
 
   // The vertex of a node stretches over several instances where a label leads to it: there the value must be
-  // the same. Asked with numbers: calls that keep their value at that neighbour get the same ones there,
-  // others do not.
+  // the same (rule_symmetry.h).
   void check_symmetry(std::size_t s) {
     const Rule::Set& set = rule_.sets[s];
     const std::vector<bool> vertex = rule_.right.reach(set.node, Vertex);
@@ -214,7 +274,7 @@ private:
       if (!leads) continue;
       for (const auto& [attribute, expression] :
            {std::pair{"position", &set.position}, {"rest", &set.rest}, {"velocity", &set.velocity}})
-        if (*expression && !symmetric(**expression, static_cast<int>(p)))
+        if (*expression && !is_symmetric(rule_, **expression, static_cast<int>(p)))
           fail(settings_.sets[s].source, attribute,
                fmt::format(
                    "{} is not the same at all darts of the vertex of node {}: the hook's α{} leads from one "
@@ -225,51 +285,39 @@ private:
     }
   }
 
-  bool symmetric(const Expression& expression, int p) const {
-    for (unsigned seed = 1; seed <= 3; ++seed) {
-      const auto at = [&](unsigned instance) {
-        return expression.evaluate(
-            [&](const ExpressionCall& call, std::size_t, std::span<const Value> arguments) {
-              return made_up(call, arguments, seed, keeps_value(call, rule_.left, p) ? 0 : instance);
-            });
-      };
-      try {
-        if (!same(at(0), at(1))) return false;
-      } catch (const ExpressionError&) { // at these numbers it has no value; at others it may
-      }
-    }
-    return true;
-  }
-
-  // A value of a call that hangs on what is called, and on `seed` and `instance`.
-  Value made_up(const ExpressionCall& call, std::span<const Value> arguments, unsigned seed,
-                unsigned instance) const {
-    if (call.function == static_cast<std::size_t>(RuleFunction::Lerp)) {
-      const double t = arguments[2].scalar();
-      const auto mixed = [&](std::size_t n) {
-        return (1 - t) * arguments[0].number[n] + t * arguments[1].number[n];
-      };
-      return vector_value(mixed(0), mixed(1), mixed(2));
-    }
-    std::uint64_t hash = 0x9e3779b97f4a7c15u * (call.function + 1) + 1000003u * seed + 7919u * instance;
-    for (const std::string& name : call.names)
-      for (char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    const auto number = [&] {
-      hash ^= hash >> 29;
-      hash *= 0xbf58476d1ce4e5b9u;
-      hash ^= hash >> 32;
-      return 0.5 + static_cast<double>(hash >> 12) / static_cast<double>(1ull << 52);
-    };
-    if (rule_.vocabulary[call.function].result == ValueType::Scalar) return scalar_value(number());
-    const double x = number(), y = number();
-    return vector_value(x, y, number());
-  }
-
   void add(const RuleWhenSettings& when) {
     check_settings(when);
     if (rule_.only_creates()) fail(when.source, "test", "a rule without a left graph has nothing to test");
     rule_.whens.push_back(
         {expression(when.source, "test", when.test, ValueType::Condition), when.at, when.otherwise});
+  }
+
+  // At the border of a sheet α2 is free, and on the hull of a solid α3: a link that it becomes is free there, too.
+  void warn_of_open_cells(const RuleNode& node) {
+    for (std::size_t p = 0; p < node.label.size(); ++p) {
+      const int is = node.label[p], was = rule_.left[rule_.plan.hooks[0]].label[p];
+      const bool sheet = was == 2 && !rule_.plan.needs_volumes;
+      if (is == RuleNode::dropped || is >= was || !(sheet || was == 3) || is_asked_at_all_darts()) continue;
+      const std::string hook = rule_.left[rule_.plan.hooks[0]].name;
+      rule_.warnings.push_back(
+          {settings_.source.place("right"),
+           fmt::format("{} {}: {}, α{} of the hook is free, and with it α{} of node {}: {} is open there",
+                       kind_, in_quotes(rule_.name()),
+                       sheet ? "at the border of a sheet" : "on the hull of a solid", was, is, node.name,
+                       is == 2 ? "a volume" : "a face"),
+           fmt::format("<when test=\"not free({}, {})\" at=\"all\"/> keeps it away from there", hook, was)});
+      return; // of one node, once
+    }
+  }
+
+  // Whether a <when at="all"> asks which links are free.
+  bool is_asked_at_all_darts() const {
+    return std::any_of(rule_.whens.begin(), rule_.whens.end(), [](const Rule::When& when) {
+      return when.at == RuleWhenSettings::At::All &&
+             std::any_of(when.test.calls().begin(), when.test.calls().end(), [](const ExpressionCall& call) {
+               return call.function == static_cast<std::size_t>(RuleFunction::Free);
+             });
+    });
   }
 
   Rule& rule_;
@@ -289,6 +337,12 @@ void Rule::forget_places() {
   for (RuleSetSettings& set : settings.sets) set.source = {};
   for (RuleWhenSettings& when : settings.whens) when.source = {};
   for (RuleWhereSettings& where : settings.wheres) where.source = {};
+  for (RuleLetSettings& let : settings.lets) let.source = {};
+}
+
+const Rule::Let* Rule::find_let(const ExpressionCall& call) const {
+  const std::size_t first = rule_functions + left.nodes.size() + wheres.size();
+  return call.function < first ? nullptr : &lets[call.function - first];
 }
 
 Orbit Rule::hook_orbit(std::size_t hook) const {
@@ -303,6 +357,7 @@ std::vector<std::string> Rule::quantities_of_law() const {
     for (const auto* each : {&set.position, &set.rest, &set.velocity})
       if (*each) add_quantities_of_law(**each, out);
   for (const When& when : whens) add_quantities_of_law(when.test, out);
+  for (const Let& let : lets) add_quantities_of_law(let.value, out);
   return out;
 }
 
@@ -311,6 +366,11 @@ void add_quantities_of_law(const Expression& expression, std::vector<std::string
     if (call.function >= static_cast<std::size_t>(RuleFunction::Stress) && call.function < rule_functions &&
         std::find(out.begin(), out.end(), call.name) == out.end())
       out.push_back(call.name);
+}
+
+bool Rule::makes_solids() const {
+  if (plan.hooks.size() != 1 || !plan.links_volumes || hook_orbit() != Orbit{0, 1, 2}) return false;
+  return left.link(plan.hooks[0], 3).kind == Kind::Loop;
 }
 
 bool Rule::creates() const {

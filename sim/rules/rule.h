@@ -42,7 +42,14 @@ struct RulePlan {
   // Of each node of the right graph, in a sheet and in a solid: the node of the left graph in whose element a
   // created dart comes to lie; -1: it is kept, or its element lies in none that is there.
   std::array<std::vector<int>, 2> inside;
-  bool links_volumes = false; // it links by α3, so that it cannot apply to a sheet
+  bool links_volumes = false; // it links by α3
+  bool needs_volumes = false; // it does, or asks for a neighbour by α3: it can never apply to a sheet
+};
+
+// What is well formed, and goes wrong in some maps.
+struct RuleWarning {
+  Place place;
+  std::string what, hint; // the hint may be empty
 };
 
 struct Rule {
@@ -67,10 +74,19 @@ struct Rule {
     Value value;
   };
 
+  struct Let {
+    static constexpr int deepest = 20; // lets that use each other
+    std::string name;
+    Expression value;
+    int depth; // of the lets that it uses, and itself
+  };
+
   const std::string& name() const { return settings.name; }
-  Orbit hook_orbit(std::size_t hook = 0) const; // what a hook stands for
+  const Let* find_let(const ExpressionCall& call) const; // null: it is none
+  Orbit hook_orbit(std::size_t hook = 0) const;          // what a hook stands for
   bool only_creates() const { return left.nodes.empty(); }
-  bool creates() const; // some dart
+  bool creates() const;      // some dart
+  bool makes_solids() const; // of a sheet, all of which its hook stands for: it links by α3 what is free there
   bool removes() const { return !plan.removed.empty(); }
   // Darts that it adds to a map at each instance of its hook; negative: it removes more than it creates.
   int growth() const { return right.size() - left.size(); }
@@ -84,11 +100,14 @@ struct Rule {
   std::vector<int> before;     // node of the left graph of each node of the right one; -1: it is created
   std::vector<int> after;      // the reverse; -1: it is removed
   std::vector<int> vertex_set; // one per node of the right graph: number in `sets` of its vertex; -1: none
+  std::vector<bool> joins; // one per node of the right graph: its vertex may be two before (rule_vertices.h)
   std::vector<Set> sets;
   std::vector<When> whens;
-  std::vector<Where> wheres;                  // with the values that they have unless others are given
+  std::vector<Where> wheres; // with the values that they have unless others are given
+  std::vector<Let> lets;
   std::vector<ExpressionFunction> vocabulary; // of its expressions
   RulePlan plan;
+  std::vector<RuleWarning> warnings;
 
 private:
   void forget_places();

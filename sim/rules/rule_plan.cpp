@@ -2,6 +2,8 @@
 
 #include "sim/rules/rule_check.h"
 
+#include <algorithm>
+
 namespace rend {
 namespace {
 
@@ -27,10 +29,17 @@ public:
     for (int dimension : {2, 3})
       for (int n = 0; n < right_.size(); ++n)
         plan_.inside[static_cast<std::size_t>(dimension - 2)].push_back(inside(n, dimension));
+    plan_.needs_volumes = plan_.links_volumes || needs_neighbour_volumes();
     return std::move(plan_);
   }
 
 private:
+  // Of volumes that are there already.
+  bool needs_neighbour_volumes() const {
+    return std::any_of(left_.nodes.begin(), left_.nodes.end(),
+                       [](const RuleNode& node) { return node.links[3].kind == Kind::Arc; });
+  }
+
   void match() {
     std::vector<int> queue;
     for (int n = 0; n < left_.size(); ++n)

@@ -63,6 +63,7 @@ std::string step_of(const ScriptStepSettings& settings, const Script::Step& step
   element.add_if("at", word(at_words, settings.at));
   element.add("apply", settings.apply);
   element.add_if("at-least", word(at_least_words, settings.at_least));
+  element.add_if("mark", settings.mark);
   for (const Script::Argument& argument : step.arguments)
     element.add(step.what.wheres()[argument.number].name, argument.value.print());
   return element.end("/>");
@@ -78,6 +79,12 @@ std::string Rule::print() const {
   rule.add("right", right.print());
   if (settings.may_fold) rule.add("may-fold", "yes");
   std::string parts = arguments_of(settings);
+  for (const Let& let : lets) {
+    Element element("  ", "let");
+    element.add("name", let.name);
+    element.add("value", let.value.print());
+    parts += element.end("/>");
+  }
   for (const Set& set : sets) {
     Element element("  ", "set");
     element.add("node", right[set.node].name);

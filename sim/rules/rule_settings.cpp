@@ -30,6 +30,15 @@ template <> const Fields<RuleWhereSettings>& fields_of() {
   return fields;
 }
 
+template <> const Fields<RuleLetSettings>& fields_of() {
+  using S = RuleLetSettings;
+  static const Fields<S> fields{
+      field(&S::name, text("name", "for the expressions of this rule that follow").is_required()),
+      field(&S::value, text("value", "an expression: a number, a point or a condition, such as mean(a, face)")
+                           .is_required())};
+  return fields;
+}
+
 template <> const Fields<RuleSettings>& fields_of() {
   using S = RuleSettings;
   static const Fields<S> fields{

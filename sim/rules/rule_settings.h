@@ -42,6 +42,14 @@ struct RuleWhereSettings {
 };
 template <> const Fields<RuleWhereSettings>& fields_of();
 
+// A name for an expression, which those after it and the rule's other expressions may use.
+struct RuleLetSettings {
+  std::string name = {};
+  std::string value = {}; // an expression of the rule: a number, a point or a condition
+  SettingsSource source = {};
+};
+template <> const Fields<RuleLetSettings>& fields_of();
+
 struct RuleSettings {
   std::string name = {};
   std::string about = {};
@@ -50,6 +58,7 @@ struct RuleSettings {
   std::vector<RuleSetSettings> sets = {};
   std::vector<RuleWhenSettings> whens = {};
   std::vector<RuleWhereSettings> wheres = {};
+  std::vector<RuleLetSettings> lets = {};
   SettingsSource source = {};
 };
 template <> const Fields<RuleSettings>& fields_of();

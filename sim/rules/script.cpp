@@ -57,7 +57,7 @@ std::string graph_of(const RuleNode& node, bool hook, bool label) {
 
 bool asks_for(const Expression& expression, const std::string& node) {
   return std::any_of(expression.calls().begin(), expression.calls().end(), [&](const ExpressionCall& call) {
-    return call.name == node || (!call.names.empty() && call.names[0] == node);
+    return call.name == node || (!call.names.empty() && named_dart(call.names[0]).node == node);
   });
 }
 
@@ -202,10 +202,35 @@ Script::Script(ScriptSettings settings_, const Find& find)
     if (depth > deepest)
       fail(settings, step.source, "apply", fmt::format("scripts apply scripts more than {} deep", deepest));
   }
+  check_marks();
   settings.source = {}; // the preset need not outlive the script
   for (ScriptStepSettings& step : settings.steps) step.source = {};
   for (RuleWhenSettings& when : settings.whens) when.source = {};
   for (RuleWhereSettings& where : settings.wheres) where.source = {};
+}
+
+// Each that an expression asks for is set by a step.
+void Script::check_marks() const {
+  std::vector<std::string> known;
+  for (const ScriptStepSettings& step : settings.steps)
+    if (!step.mark.empty() && std::find(known.begin(), known.end(), step.mark) == known.end())
+      known.push_back(step.mark);
+  if (known.size() > RuleMarks::most)
+    fail(settings, settings.source, "", fmt::format("it has more than {} marks", RuleMarks::most));
+  const auto check = [&](const Expression& expression, const SettingsSource& source,
+                         std::string_view attribute) {
+    for (const ExpressionCall& call : expression.calls())
+      if (call.function == static_cast<std::size_t>(RuleFunction::Marked) &&
+          std::find(known.begin(), known.end(), call.names[1]) == known.end())
+        fail(settings, source, attribute, fmt::format("no step sets the mark {}", in_quotes(call.names[1])),
+             known.empty() ? "<for each=\"...\" apply=\"...\" mark=\"" + call.names[1] + "\"/>"
+                           : suggestion(call.names[1], known, "there are"));
+  };
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    for (const Rule::When& when : steps[n].scope.whens) check(when.test, settings.steps[n].source, "where");
+    for (const Argument& argument : steps[n].arguments)
+      check(argument.value, settings.steps[n].source, steps[n].what.wheres()[argument.number].name);
+  }
 }
 
 std::vector<std::string> Script::quantities_of_law() const {
@@ -218,8 +243,8 @@ std::vector<std::string> Script::quantities_of_law() const {
   return out;
 }
 
-bool Script::links_volumes() const {
-  return std::any_of(steps.begin(), steps.end(), [](const Step& step) { return step.what.links_volumes(); });
+bool Script::fits_sheets() const {
+  return std::all_of(steps.begin(), steps.end(), [](const Step& step) { return step.what.fits_sheets(); });
 }
 
 bool Script::grows() const {
@@ -244,8 +269,8 @@ const std::vector<Rule::Where>& RuleOrScript::wheres() const {
 std::vector<std::string> RuleOrScript::quantities_of_law() const {
   return rule ? rule->quantities_of_law() : script->quantities_of_law();
 }
-bool RuleOrScript::links_volumes() const {
-  return rule ? rule->plan.links_volumes : script->links_volumes();
+bool RuleOrScript::fits_sheets() const {
+  return rule ? !rule->plan.needs_volumes : script->fits_sheets();
 }
 bool RuleOrScript::grows() const {
   return rule ? rule->creates() || !rule->plan.links.empty() || !rule->sets.empty() : script->grows();

@@ -43,7 +43,7 @@ struct RuleOrScript {
   Orbit hook_orbit() const;  // of the first one
   const std::vector<Rule::Where>& wheres() const;
   std::vector<std::string> quantities_of_law() const; // of Rule
-  bool links_volumes() const;                         // so that it cannot apply to a sheet
+  bool fits_sheets() const;                           // false: it can never apply to one
   bool grows() const;                                 // it may create darts or links, or move vertices
   std::string print() const;
 };
@@ -73,10 +73,12 @@ struct Script {
   bool has_hook() const { return !scope.left.nodes.empty(); }
   Orbit hook_orbit() const { return scope.hook_orbit(); } // of one that has a hook
   std::vector<std::string> quantities_of_law() const;     // of its expressions and of what it applies
-  bool links_volumes() const;
+  bool fits_sheets() const;                               // every step does
   bool grows() const;
   // As the element <script> of a preset, in a normal form: read, it makes the same script.
   std::string print() const;
+
+  void check_marks() const;
 
   static constexpr int deepest = 20;            // scripts that apply each other
   static constexpr std::size_t largest = 10000; // scripts that are applied, each as often as steps name it

@@ -72,7 +72,8 @@ bool ScriptRunner::begin(Edit& edit, const Hooks& hooks) {
   is_of_.clear();
   added_.clear();
   made_.clear();
-  scope_.context() = {context_.wheres, context_.quantities, {}};
+  marks_.clear();
+  scope_.context() = {context_.wheres, context_.quantities, {}, context_.most_darts, &marks_};
   if (!script_.has_hook()) return true;
   hook_ = hooks[0];
   if (!edit.map().alive(hook_)) {
@@ -113,7 +114,7 @@ bool ScriptRunner::run(Edit& edit, Step& step) {
   using AtLeast = ScriptStepSettings::AtLeast;
   step.reason.clear();
   step.refusal = {};
-  step.runner.context() = {{}, context_.quantities, {}, context_.most_darts};
+  step.runner.context() = {{}, context_.quantities, {}, context_.most_darts, &marks_};
   moved_.clear();
   const std::size_t before = applied_;
   const auto refuse = [&](const std::string& what, const std::string& where = {}) {
@@ -245,8 +246,25 @@ bool ScriptRunner::apply_at(Edit& edit, Step& step, std::size_t cell) {
   return done;
 }
 
+// Darts that are new have the marks of this step alone, whatever their numbers had.
+void ScriptRunner::mark(Step& step) {
+  const std::string& name = step.settings.mark;
+  const auto set = [&](const std::vector<Dart>& darts) {
+    for (Dart d : darts)
+      if (!name.empty()) marks_.set(d, name);
+  };
+  if (const ScriptRunner* script = step.runner.script()) return set(script->used_);
+  const RuleRunner& rule = *step.runner.rule();
+  const std::vector<int>& before = rule.rule().before;
+  for (std::size_t n = 0; n < rule.darts().size(); ++n)
+    if (before[n % before.size()] < 0) marks_.forget(rule.darts()[n]);
+  set(rule.match().darts);
+  set(rule.darts());
+}
+
 void ScriptRunner::note(Step& step) {
   ++applied_;
+  mark(step);
   if (const ScriptRunner* script = step.runner.script()) {
     used_.insert(used_.end(), script->used_.begin(), script->used_.end());
     matched_.insert(matched_.end(), script->matched_.begin(), script->matched_.end());

@@ -10,7 +10,8 @@
 // dart after another until it applies, as a law does (sim/fracture/rule_change.h); if it has two hooks, with
 // any two darts. A cell whose darts are all gone is passed by.
 //
-// Expressions of a step read points as the step before has left them.
+// Expressions of a step read points as the step before has left them, and know the marks that steps before it, and
+// it itself at earlier cells, have set.
 //
 // A script applies as a whole or not at all: where a step does not apply as often as it must, where no step
 // applies anywhere, and where the map would grow beyond its budget, the edit is rolled back to where the script
@@ -65,6 +66,7 @@ private:
   bool apply_at(Edit& edit, Step& step, std::size_t cell);
   bool refuse_growth(const Step& step); // false
   void note(Step& step);
+  void mark(Step& step);
   void settle(Edit& edit);
   void grow(const Edit& edit);
 
@@ -74,6 +76,7 @@ private:
   std::vector<std::unique_ptr<Step>> steps_;
 
   // Of the call that runs.
+  RuleMarks marks_;
   Dart hook_;                                 // where it was removed: the first dart left of the hook
   std::vector<Dart> of_;                      // of the hook, in the order of a walk
   IndexSet is_of_;                            // the same

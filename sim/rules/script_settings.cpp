@@ -16,7 +16,10 @@ template <> const Fields<ScriptStepSettings>& fields_of() {
                             "cells with darts from before the script (old), or those that it has made (new)")),
       field(&S::at_least,
             word("at-least", {"all", "one", "none"},
-                 "at how many of these cells it must apply; otherwise the whole script is undone"))};
+                 "at how many of these cells it must apply; otherwise the whole script is undone")),
+      field(&S::mark,
+            text("mark", "a name: darts that this step has matched or made are marked(e, NAME) in the "
+                         "expressions of the script, and of its rules, from then on"))};
   return fields;
 }
 

@@ -26,6 +26,7 @@ struct ScriptStepSettings {
   enum class Which { All, Old, New } which = Which::All;
   // At how many of the chosen cells it must apply, or else the script is taken back.
   enum class AtLeast { All, One, None } at_least = AtLeast::All;
+  std::string mark = {}; // that the darts get which it has matched or made (rule_marks.h); empty: none
   std::map<std::string, std::string> arguments = {}; // of what is applied, by name: expressions
   SettingsSource source = {};
 };

@@ -107,8 +107,10 @@ TEST(RuleCommand, tells_what_a_script_does) {
   EXPECT_EQ(place.rend("rule show split-vertex-of-sheet --json").json()["asks_for"], "across");
   EXPECT_THAT(place.rend("rule show extrude-hull").out, HasSubstr("applies    extrude-away, sew-faces"));
   const Outcome drawn = place.rend("rule draw delete-face -o a.svg");
-  EXPECT_EQ(drawn.code, 64);
-  EXPECT_THAT(drawn.err, HasSubstr("script 'delete-face' has no graphs to draw"));
+  EXPECT_EQ(drawn.code, 0);
+  EXPECT_EQ(drawn.err, "");
+  EXPECT_THAT(program::content(place.path() / "a.svg"),
+              HasSubstr("1. at each e*(0): unsew-edge, wherever it applies"));
 }
 
 // Its title is as wide as the name is long.
@@ -139,6 +141,33 @@ TEST(RuleCommand, checks_a_whole_file) {
     EXPECT_THAT(bad.err, HasSubstr(words));
   EXPECT_THAT(bad.err, testing::Not(HasSubstr("bad.xml:3")));
   EXPECT_EQ(bad.out, "");
+}
+
+TEST(RuleCommand, warns_of_cells_that_are_open_at_a_border) {
+  const TestFolder place;
+  place.write("open.xml", R"xml(<rules>
+  <rule name="r" left="a*(0,1,2) a|3" right="a(0,1,2) b(_,_,0) a|3 b|1,2,3">
+    <set node="b" position="mean(a, component)"/></rule>
+</rules>)xml");
+  const Outcome checked = place.rend("rule check open.xml");
+  EXPECT_EQ(checked.code, 0);
+  EXPECT_EQ(checked.out, "1 rule is well formed\n");
+  EXPECT_THAT(checked.err, HasSubstr("note: open.xml:2:"));
+  EXPECT_THAT(checked.err,
+              HasSubstr("rule 'r': at the border of a sheet, α2 of the hook is free, and with it α0 of "
+                        "node b: a face is open there; <when test=\"not free(a, 2)\" at=\"all\"/>"));
+  EXPECT_EQ(place.rend("rule check").err, "");
+}
+
+TEST(RuleCommand, refuses_vertices_that_become_one_without_a_position) {
+  const TestFolder place;
+  place.write("sew.xml",
+              "<rules>\n  <rule name=\"r\" left=\"a*(0) b*(0) a|2 b|2\" right=\"a(0) b(0) a-2-b\"/>\n</rules>");
+  const Outcome bad = place.rend("rule check sew.xml");
+  EXPECT_EQ(bad.code, 65);
+  EXPECT_THAT(bad.err, HasSubstr("sew.xml:2:"));
+  EXPECT_THAT(bad.err, HasSubstr("nodes a and b are of two vertices on the left and of one on the right"));
+  EXPECT_THAT(bad.err, HasSubstr("hint: <set node=\"a\" position=\"b\"/> is where that of b was"));
 }
 
 // Each applies the next one: those that go too deep are refused, and with them all that apply them.
@@ -263,22 +292,20 @@ TEST(RulePage, has_examples_that_work) {
   EXPECT_EQ(count(star, "v "), 5);
   EXPECT_EQ(count(star, "f "), 4);
   EXPECT_THAT(star, testing::Contains("v 0.5 0.5 0"));
-  // Corners at 0.3 and 0.7 of each side.
-  const auto cut = build(quad + "<apply rule=\"cut-corners\" to=\"all\"/>");
-  EXPECT_EQ(count(cut, "v "), 8);
-  EXPECT_EQ(count(cut, "f "), 1);
-  EXPECT_EQ(count(cut, "v 0.3 "), 2);
-  EXPECT_EQ(count(cut, "v 0.7 "), 2);
+  // Of two triangles, an edge of the border and the triangle there.
+  const std::string two =
+      "<create dimension=\"2\"/><apply rule=\"create-quad\"/><apply rule=\"halve-quad\" to=\"all\"/>";
+  const auto cut = build(two + "<apply rule=\"cut-edge\" box=\"-0.1 0.9 -1 1.1 1.1 1\"/>");
+  EXPECT_EQ(count(cut, "v "), 5);
+  EXPECT_EQ(count(cut, "f "), 3);
   // Of each of the four corners of two quads a triangle, and a quad in their middle.
   const auto halved = build("<sheet cells=\"2 1\" size=\"2 1\"/><apply rule=\"cut-in-half\" to=\"all\"/>");
   EXPECT_EQ(count(halved, "v "), 6 + 7);
   EXPECT_EQ(count(halved, "f "), 2 * 5);
-  const auto raised =
-      build("<sheet cells=\"2 2\" size=\"1 1\"/><apply rule=\"raise\" side=\"+x\" h=\"0.25\"/>");
-  const auto high = std::count_if(raised.begin(), raised.end(), [](const std::string& line) {
-    return line.starts_with("v ") && line.ends_with(" 0.25");
-  });
-  EXPECT_EQ(high, 3);
+  // Of 3 x 3 vertices the middle one goes to the mean of its neighbours, where it was; corners go inwards.
+  const auto smooth = build("<sheet cells=\"2 2\" size=\"2 2\"/><apply rule=\"smooth\" to=\"all\" t=\"1\"/>");
+  EXPECT_THAT(smooth, testing::Contains("v 0.5 0.5 0"));
+  EXPECT_EQ(count(smooth, "v 1 1 0"), 1);
 }
 
 // What the page says of holes: a triangular hole in a closed surface is capped dart by dart.

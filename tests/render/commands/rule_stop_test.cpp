@@ -21,7 +21,7 @@ std::string pulled_by(const std::string& matter, const std::string& to) {
   return R"xml(<scene name="pulled">
   <rule name="shift" left="a*(1,2,3)" right="a(1,2,3)">
     <set node="a" position=")xml" +
-         to + R"xml("/></rule>
+         to + R"xml(" rest=")xml" + to + R"xml("/></rule>
   <body name="sheet"><sheet pattern="triangles" cells="8 4" size="0.8 0.4"/>
     <mass density="1000" thickness="1e-3"/>)xml" +
          matter + R"xml(

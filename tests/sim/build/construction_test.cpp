@@ -36,6 +36,15 @@ std::string refusal_of(const std::string& shape, const std::string& rules = "") 
   return {};
 }
 
+std::string hint_of(const std::string& shape) {
+  try {
+    body_of(shape);
+  } catch (const UserError& error) {
+    return error.hint;
+  }
+  return {};
+}
+
 bool says(const std::string& refusal, const std::string& words) {
   return refusal.find(words) != std::string::npos;
 }
@@ -159,11 +168,22 @@ TEST(Construction, scripts_pass_on_mass_and_rest) {
 
 TEST(Construction, refuses_what_is_no_body_in_a_sentence) {
   EXPECT_TRUE(says(refusal_of(R"xml(<create dimension="2"/>)xml"), "leave nothing of the body"));
-  EXPECT_TRUE(
-      says(refusal_of(R"xml(<create dimension="2"/><apply rule="create-vertex"/>)xml"), "a face is open"));
-  EXPECT_TRUE(
-      says(refusal_of(R"xml(<create dimension="3"/><apply rule="create-quad"/>)xml"), "a volume is open"));
-  EXPECT_TRUE(says(refusal_of(four_quads + R"xml(<apply rule="star-volume"/>)xml"), "applies nowhere"));
+  EXPECT_TRUE(says(refusal_of(R"xml(<create dimension="2"/><apply rule="create-vertex"/>)xml"),
+                   "rule 'create-vertex' leaves a face open, near (0, 0, 0)"));
+  // A rule that is well formed, and opens faces at the border: it is named, not one after it.
+  const std::string opens = R"xml(<rule name="opens" left="a*(0,1,2) a|3" right="a(0,1,2) b(_,_,0) a|3 b|1,2,3">
+      <set node="b" position="mean(a, component)"/></rule>)xml";
+  EXPECT_TRUE(says(
+      refusal_of(four_quads + R"xml(<apply rule="opens" to="all"/><apply rule="move" to="all"/>)xml", opens),
+      "rule 'opens' leaves a face open, near"));
+  // Not all vertices of a face are selected.
+  EXPECT_TRUE(says(
+      hint_of(four_quads + R"xml(<apply rule="star-face" near="0 0 0"/>)xml"),
+      "its hook stands for all darts of an orbit <0,1>, and is tried where all vertices of that are selected"));
+  EXPECT_TRUE(says(refusal_of(R"xml(<create dimension="3"/><apply rule="create-quad"/>)xml"),
+                   "rule 'create-quad' leaves a volume open"));
+  EXPECT_TRUE(says(refusal_of(four_quads + R"xml(<apply rule="star-volume"/>)xml"),
+                   "changes what lies between volumes"));
   EXPECT_TRUE(says(refusal_of(four_quads + R"xml(<apply rule="star-fase"/>)xml"), "there is no rule"));
   EXPECT_TRUE(says(refusal_of(four_quads + R"xml(<apply rule="star-face" v="1"/>)xml"), "has no argument 'v'"));
   EXPECT_TRUE(
@@ -174,6 +194,43 @@ TEST(Construction, refuses_what_is_no_body_in_a_sentence) {
   const std::string flatten = R"xml(<rule name="flatten" left="a*(1,2,3)" right="a(1,2,3)">
       <set node="a" position="point(x(a), 0, 0)"/></rule>)xml";
   EXPECT_TRUE(says(refusal_of(four_quads + R"xml(<apply rule="flatten"/>)xml", flatten), "no area"));
+}
+
+// A sheet of quads is swept to the bar of the generator, and one of triangles to prisms; groups go along.
+TEST(Construction, a_sheet_becomes_a_solid) {
+  const auto swept = body_of(
+      R"xml(<sheet cells="3 2" size="0.3 0.2"/><apply rule="extrude-sheet" to="all" v="point(0, 0, 0.1)"/>)xml");
+  const auto generated = body_of(R"xml(<bar pattern="hexahedra" cells="3 2 1" size="0.3 0.2 0.1"/>)xml");
+  EXPECT_EQ(swept.body().map->dimension(), 3);
+  EXPECT_NEAR(total_mass(*swept.body().map, *swept.body().mass), 1, 1e-12);
+  const auto low = [](const EmbeddedMap& map) {
+    Vec3 least = Vec3::Constant(1e9);
+    map.map().for_each_dart([&](Dart d) { least = least.cwiseMin(map.position_of(d)); });
+    return least;
+  };
+  const EmbeddedMap &one = *swept.body().map, &other = *generated.body().map;
+  const Vec3 a = low(one), b = low(other);
+  EXPECT_TRUE(isomorphism(one.map(), other.map(), [&](Dart d, Dart e) {
+    return (one.position_of(d) - a - other.position_of(e) + b).norm() < 1e-12;
+  }));
+  const auto prisms = body_of(
+      R"xml(<sheet pattern="triangles" cells="2 1" size="2 1"/><apply rule="extrude-sheet" to="all"/>
+            <apply rule="extrude-side" box="-9 -9 0.05 9 9 9" v="point(0, 0, 0.1)"/>)xml");
+  const CellCounts counts = count_cells(prisms.body().map->map());
+  EXPECT_EQ(
+      counts.volumes,
+      2 * count_cells(body_of(R"xml(<sheet pattern="triangles" cells="2 1" size="2 1"/>)xml").body().map->map())
+              .faces);
+  EXPECT_TRUE(
+      says(refusal_of(R"xml(<sheet cells="2 2" size="1 1"/><apply rule="extrude-sheet" side="+x"/>)xml"),
+           "applies nowhere"));
+}
+
+TEST(Construction, refuses_in_a_sheet_what_is_of_solids) {
+  for (const char* rule : {"unsew-face", "part-volumes"})
+    EXPECT_TRUE(
+        says(refusal_of(four_quads + "<apply rule=\"" + rule + "\" to=\"all\"/>"),
+             std::string("rule '") + rule + "' changes what lies between volumes, and this body is a sheet"));
 }
 
 // Before the memory is taken: after the first round there would be 17 million darts, after all 10^18.
@@ -235,6 +292,42 @@ TEST(LawByRule, what_divides_keeps_mass_and_area) {
   EXPECT_NEAR(area, 0.32, 1e-12);
 }
 
+// A rule of a whole component is applied to each component that tears, once a step.
+TEST(LawByRule, changes_a_whole_component_once_a_step) {
+  for (const char* rule : {"quarter-faces", "split-into-triangles"}) {
+    auto scene = presets::load(std::string(R"xml(<scene><body><sheet cells="4 2" size="0.8 0.4"/>
+      <mass density="1000" thickness="1e-3"/>
+      <elasticity model="corotational" young="2e5" poisson="0.3" thickness="1e-3" damping-mass="50"/>
+      <drive side="-x" velocity="-0.3 0 0"/><drive side="+x" velocity="0.3 0 0"/>
+      <tear criterion="atomic-element" threshold="1e3" rule=")xml") +
+                               rule + R"xml("/>
+      </body><world gravity="0 0 0"/><time step="1e-4" duration="1"/></scene>)xml");
+    Body& body = scene.body();
+    const double mass = total_mass(*body.map, *body.mass);
+    for (int n = 0; n < 3000 && body.events.empty(); ++n) scene->step();
+    ASSERT_EQ(body.events.size(), 1u) << rule;
+    EXPECT_EQ(count_cells(body.map->map()).faces, 4u * 8);
+    EXPECT_NEAR(total_mass(*body.map, *body.mass), mass, 1e-13 * mass);
+    const auto fault = validate(*body.map);
+    EXPECT_FALSE(fault) << *fault;
+  }
+}
+
+// Rules of the hull, where the border that is opened most lies inside: each border of the element is tried.
+TEST(LawByRule, is_tried_at_every_border_of_an_element) {
+  auto scene = presets::load(R"xml(<scene><rule name="dent" left="a*(0,1) a|3" right="a(0,1) a|3">
+        <set node="a" position="a + point(0, 0.001, 0)"/></rule>
+      <body><bar pattern="hexahedra" cells="3 1 1" size="0.3 0.1 0.1"/>
+      <mass density="1000"/><elasticity model="corotational" young="2e5" poisson="0.3" damping-mass="50"/>
+      <drive side="-x" velocity="-0.3 0 0"/><drive side="+x" velocity="0.3 0 0"/>
+      <tear criterion="atomic-element" threshold="1e3" rule="dent" max-per-step="1"/>
+      </body><world gravity="0 0 0"/><time step="1e-4" duration="1"/></scene>)xml");
+  Body& body = scene.body();
+  for (int n = 0; n < 3000 && body.events.empty() && body.tear_laws[0].refusals().empty(); ++n) scene->step();
+  EXPECT_TRUE(body.tear_laws[0].refusals().empty()) << body.tear_laws[0].refusals().begin()->first;
+  EXPECT_EQ(body.events.size(), 1u);
+}
+
 TEST(LawByRule, refuses_what_a_law_cannot_do) {
   const auto refused = [](const std::string& law) -> std::string {
     try {
@@ -245,12 +338,13 @@ TEST(LawByRule, refuses_what_a_law_cannot_do) {
     }
     return {};
   };
-  EXPECT_TRUE(says(refused(R"xml(rule="quarter-faces")xml"), "whole component"));
   EXPECT_TRUE(says(refused(R"xml(rule="sew-edges")xml"), "2 hooks"));
   EXPECT_TRUE(says(refused(R"xml(rule="unsew-edge" change="separate")xml"), "both a change and a rule"));
-  EXPECT_TRUE(
-      says(refused(R"xml(rule="split-into-triangles")xml"), "script 'split-into-triangles' changes a whole"));
-  EXPECT_TRUE(says(refused(R"xml(rule="delete-volume")xml"), "changes a whole component"));
+  // Between volumes, of which a sheet has none: it could never apply.
+  for (const char* rule : {"unsew-face", "part-volumes", "split-vertex-of-solid", "delete-volume"})
+    EXPECT_TRUE(says(refused("rule=\"" + std::string(rule) + "\""),
+                     "changes what lies between volumes, but this body is a sheet"))
+        << rule << ": " << refused("rule=\"" + std::string(rule) + "\"");
 }
 
 } // namespace

@@ -13,7 +13,7 @@ namespace {
 
 // Each vertex that it finds goes to one line or plane: the last of an element would make it flat.
 const std::string flatten = R"xml(<rule name="flatten" left="a*(1,2,3)" right="a(1,2,3)">
-    <set node="a" position="point(x(a), 0.1, z(a))"/></rule>
+    <set node="a" position="point(x(a), 0.1, z(a))" rest="point(x(a), 0.1, z(a))"/></rule>
   <script name="flatten-by-script" hook="a*(1,2,3)"><for each="e*(1,2,3)" apply="flatten"/></script>)xml";
 
 const std::string sheet = R"xml(<sheet pattern="triangles" cells="8 4" size="0.8 0.4"/>
@@ -24,7 +24,7 @@ const std::string bar = R"xml(<bar pattern="tetrahedra" cells="8 4 4" size="0.8 
 std::string pulled(const std::string& matter, const std::string& rule, const std::string& most = "3") {
   return "<scene>" + flatten + R"xml(
       <rule name="shift" left="a*(1,2,3)" right="a(1,2,3)">
-        <set node="a" position="a + point(0.03, 0, 0)"/></rule>
+        <set node="a" position="a + point(0.03, 0, 0)" rest="a + point(0.03, 0, 0)"/></rule>
       <body name="torn">)xml" +
          matter + R"xml(<drive side="-x" velocity="-0.3 0 0"/><drive side="+x" velocity="0.3 0 0"/>
       <tear criterion="atomic-vertex" threshold="0.02" max-per-step=")xml" +

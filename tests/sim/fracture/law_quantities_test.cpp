@@ -315,6 +315,38 @@ TEST(LawByRule, moves_by_what_the_criterion_found) {
   EXPECT_FALSE(body.events.empty());
 }
 
+// A vertex that a law moves is displaced: the matter around it is strained, and stays the same matter. Where the
+// rule says so, it has another shape at rest, too.
+TEST(LawByRule, moves_vertices_and_keeps_their_mass) {
+  const auto areas = [](const EmbeddedMap& map) {
+    double sum = 0;
+    for_each_face(map, [&](Dart d) { sum += rest_area(map, d); });
+    return sum;
+  };
+  for (const bool rest : {false, true}) {
+    const auto scene = presets::load(
+        pulled(std::string(R"xml(<rule name="lift" left="a*(1,2,3)" right="a(1,2,3)">
+        <set node="a" position="a + point(0, 0, 0.3)" velocity="point(0, 0, 0)")xml") +
+                   (rest ? R"xml( rest="a + point(0, 0, 0.3)")xml" : "") + "/></rule>",
+               R"xml(<tear criterion="cumulative-vertex" threshold="0.05" rule="lift" max-per-step="1"/>)xml"));
+    Body& body = scene.body();
+    const double mass = total_mass(*body.map, *body.mass), area = areas(*body.map);
+    const auto shape = body.map->rest().values();
+    for (body.evaluate(); body.tear(body.time(), scene->steps_done(), [] {}) == 0; body.evaluate()) {
+      ASSERT_LT(scene->steps_done(), 3000);
+      scene->step();
+    }
+    const Slot v = body.map->vertex(body.events[0].dart);
+    EXPECT_EQ(body.map->position()[v].z, 0.3);
+    EXPECT_EQ(total_mass(*body.map, *body.mass), mass);
+    EXPECT_EQ(body.map->rest()[v].vec() - shape[v].vec(), Vec3(0, 0, rest ? 0.3 : 0));
+    if (rest)
+      EXPECT_GT(areas(*body.map), area + 0.01);
+    else
+      EXPECT_EQ(areas(*body.map), area);
+  }
+}
+
 TEST(LawByRule, tells_stress_and_time_to_laws_alone) {
   const auto refused = [](const std::string& preset) -> std::string {
     try {

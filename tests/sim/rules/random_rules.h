@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "sim/house_rules/house_rules.h"
 #include "sim/rules/rule_check.h"
+#include "sim/rules/rule_vertices.h"
 
 #include <optional>
 #include <random>
@@ -212,6 +213,9 @@ private:
   // Of new vertices always, of others now and then.
   void place_vertices(RuleSettings& settings, const RuleGraph& left, const RuleGraph& right) {
     std::vector<bool> placed(right.nodes.size());
+    std::vector<int> before;
+    for (const RuleNode& node : right.nodes) before.push_back(left.find(node.name));
+    const VertexJoins joins(left, right, before);
     for (int n = 0; n < right.size(); ++n) {
       if (placed[static_cast<std::size_t>(n)]) continue;
       const std::vector<bool> vertex = right.reach(n, Vertex);
@@ -221,7 +225,7 @@ private:
         placed[static_cast<std::size_t>(m)] = true;
         kept = kept || left.find(right[m].name) >= 0;
       }
-      if (kept && below(6) > 0) continue;
+      if (kept && !joins.at(n) && below(6) > 0) continue;
       RuleSetSettings set{.node = right[n].name, .position = expression(left, 0)};
       if (below(8) == 0) set.rest = expression(left, 0);
       if (below(8) == 0) set.velocity = expression(left, 0);

@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/house_rules/house_rules.h"
+#include "tests/sim/assets.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -285,6 +286,92 @@ TEST(RuleCheck, names_and_values_of_vertices) {
   expect_refused({{{.left = names, .right = ""}, "there are more than 1000 nodes", "left"}});
 }
 
+// Where the point of a vertex that was two would hang on the numbers of darts.
+TEST(RuleCheck, vertices_that_become_one_need_a_position) {
+  const auto sewn = [](Sets sets) {
+    return RuleSettings{.left = "a*(0) b*(0) a|2 b|2", .right = "a(0) b(0) a-2-b", .sets = std::move(sets)};
+  };
+  // An edge shrinks to a vertex: α0 of its ends becomes α2, so that both are of one vertex.
+  const auto shrunk = [](Sets sets) {
+    return RuleSettings{.left = "a*(0) a|2,3", .right = "a(2) a|0,3", .sets = std::move(sets)};
+  };
+  const auto collapsed = [](Sets sets) {
+    return RuleSettings{.left = "a*(0,1) a|2,3 b*(0,1) b|2,3",
+                        .right = "a(0,_) b(0,_) a-1-b a|2,3 b|2,3",
+                        .sets = std::move(sets)};
+  };
+  expect_refused({
+      {sewn({}),
+       "nodes a and b are of two vertices on the left and of one on the right, and no <set> says where that is",
+       "right"},
+      {sewn({{.node = "a", .rest = "a"}}), "nodes a and b are of two vertices on the left", "right"},
+      {sewn({{.node = "b", .velocity = "point(0, 0, 0)"}}), "nodes a and b are of two vertices on the left",
+       "right"},
+      {shrunk({}), "the vertices of node a at both ends of the hook's α0 become one", "right"},
+      {collapsed({}), "nodes a and b are of two vertices on the left", "right"},
+  });
+  const std::vector<RuleSettings> accepted{
+      sewn({{.node = "a", .position = "a"}}),
+      sewn({{.node = "b", .position = "lerp(a, b, 0.5)"}}),
+      shrunk({{.node = "a", .position = "mean(a, edge)"}}),
+      collapsed({{.node = "b", .position = "lerp(a, b, 0.5)"}}),
+      // One vertex before: by the links of the left graph, or by three sides of a square of α0 and α2.
+      {.left = "a*(3) c(3) b*(3) d(3) a-1-c b-1-d",
+       .right = "a(3) c(3) b(3) d(3) e(3) f(3) g(3) h(3) a-1-e c-1-f b-1-g d-1-h e-0-g f-0-h e-2-f g-2-h"},
+      {.left = "a* b c d a-0-b b-2-c c-0-d a|1,3 d|1,3", .right = "a b c d a-0-b b-2-c c-0-d a-1-d a|3 d|3"}};
+  for (const RuleSettings& each : accepted) EXPECT_EQ(refusal(each).what, "") << each.right;
+}
+
+// Whatever the numbers of darts: two quads that do not touch are sewn halfway, from either of them.
+TEST(RuleCheck, vertices_that_become_one_are_where_the_rule_says) {
+  const Rule sew(RuleSettings{.name = "sew",
+                              .left = "a*(0) b*(0) a|2 b|2",
+                              .right = "a(0) b(0) a-2-b",
+                              .sets = {{.node = "a", .position = "lerp(a, b, 0.25)"}}});
+  for (bool first : {true, false}) {
+    EmbeddedMap map(2);
+    std::vector<Dart> one, other;
+    map.edit([&](Edit& edit) {
+      one = assets::create_polygon(edit, std::vector{assets::at(0, 0), assets::at(1, 0), assets::at(0, 1)});
+      other =
+          assets::create_polygon(edit, std::vector{assets::at(0, -4), assets::at(1, -4), assets::at(0, -8)});
+    });
+    const Hooks hooks = first ? Hooks{one[0], other[0]} : Hooks{other[0], one[0]};
+    ASSERT_TRUE(apply(sew, map, hooks).ok);
+    EXPECT_EQ(map.position_of(one[0]), Vec3(0, first ? -1 : -3, 0));
+    EXPECT_EQ(map.position_of(one[1]), Vec3(1, first ? -1 : -3, 0));
+    EXPECT_EQ(map.rest_of(other[1]), map.position_of(one[1]));
+  }
+}
+
+TEST(RuleCheck, warns_of_cells_that_are_open_at_a_border) {
+  const auto warnings = [](RuleSettings settings) {
+    settings.name = "R";
+    const Rule rule(std::move(settings));
+    std::string all;
+    for (const RuleWarning& each : rule.warnings) all += each.what + "\n";
+    return all;
+  };
+  for (const Rule& rule : house_rules()) EXPECT_EQ(rule.warnings.size(), 0u) << rule.name();
+  EXPECT_EQ(
+      warnings({.left = "a*(0,1,2) a|3",
+                .right = "a(0,1,2) b(_,_,0) a|3 b|1,2,3",
+                .sets = {{.node = "b", .position = "mean(a, component)"}}}),
+      "rule 'R': at the border of a sheet, α2 of the hook is free, and with it α0 of node b: a face is open "
+      "there\n");
+  EXPECT_EQ(warnings({.left = "a*(0,1,2) a|3",
+                      .right = "a(0,1,2) b(_,_,0) a|3 b|1,2,3",
+                      .sets = {{.node = "b", .position = "mean(a, component)"}},
+                      .whens = {{.test = "not free(a, 2)", .at = RuleWhenSettings::At::All}}}),
+            "");
+  EXPECT_EQ(
+      warnings({.left = "a*(3)",
+                .right = "a(3) b(2) b|0,1,3",
+                .sets = {{.node = "b", .position = "mean(a, component)"}}}),
+      "rule 'R': on the hull of a solid, α3 of the hook is free, and with it α2 of node b: a volume is open "
+      "there\n");
+}
+
 TEST(RuleCheck, values_that_differ_between_the_darts_of_a_vertex) {
   const auto edge = [](const char* position) {
     return RuleSettings{
@@ -355,7 +442,10 @@ TEST(RuleCheck, conditions_and_arguments) {
        "a rule without a left graph has nothing to test",
        "when test"},
       {where("h", "1/0"), "1 / 0 is not a finite number", "where value"},
-      {where("h", "a"), "there is no value 'a'", "where value"},
+      {where("h", "a"), "a <where> knows no nodes, and 'a' speaks of one", "where value"},
+      {where("h", "mean(a, face)"), "a <where> knows no nodes, and 'mean(a, face)' speaks of one",
+       "where value"},
+      {where("h", "mean(b, face)"), "there is no function 'mean'", "where value"},
       {where("h", "1 > 2"), "is a condition, where", "where value"},
       {where("a", "1"), "'a' is a node's name already", "where name"},
       {where("sin", "1"), "sin is a function of expressions", "where name"},
@@ -412,7 +502,11 @@ TEST(RuleCheck, two_implicit_links_are_judged_by_the_hooks_names) {
                 .what.find("at node b, α1α3 is no involution any more"),
             std::string::npos);
   // The dual map: vertices and volumes of a closed surface exchanged.
-  EXPECT_EQ(refusal({.left = "a*(0,1,2) a|3", .right = "a(2,1,0) a|3"}).what, "");
+  EXPECT_EQ(refusal({.left = "a*(0,1,2) a|3",
+                     .right = "a(2,1,0) a|3",
+                     .sets = {{.node = "a", .position = "mean(a, face)"}}})
+                .what,
+            "");
 }
 
 TEST(RuleCheck, a_link_that_the_rule_leaves_alone_needs_no_square) {

@@ -28,6 +28,7 @@ public:
       const std::string part = element().first;
       if (part == "/rule") break;
       if (part == "where") rule.wheres.push_back({.name = value("name"), .value = value("value")});
+      if (part == "let") rule.lets.push_back({.name = value("name"), .value = value("value")});
       if (part == "set")
         rule.sets.push_back({.node = value("node"),
                              .position = value("position"),
