@@ -1,7 +1,7 @@
 #include "render/diagram/rule_diagram.h"
 
+#include "render/diagram/diagram_parts.h"
 #include "render/diagram/graph_layout.h"
-#include "render/diagram/map_picture.h"
 #include "render/diagram/rule_colours.h"
 #include "sim/base/math.h"
 
@@ -12,8 +12,9 @@ namespace {
 
 using Kind = RuleLink::Kind;
 
-constexpr double arc = 82, radius = 21, loop = 9, graph_margin = 44, map_side = 230;
-constexpr Ink text_ink{0x222222}, faint{0x666666};
+using diagram::faint, diagram::text_ink;
+
+constexpr double arc = 82, radius = 21, loop = 9, graph_margin = 44;
 constexpr unsigned kept = 0xffffff, created = 0xd9f0d3, removed = 0xf6d5d0;
 
 std::string text_of_label(const RuleNode& node) {
@@ -149,21 +150,6 @@ private:
   Drawing drawing_;
 };
 
-void arrow(Drawing& drawing, Spot from, double length) {
-  const Spot to = from + Spot{length, 0};
-  drawing.parts.push_back(DrawnLine{from, to, 2, faint});
-  drawing.parts.push_back(DrawnPolygon{{to + Spot{7, 0}, to + Spot{-3, -5}, to + Spot{-3, 5}}, faint});
-}
-
-// Two drawings with an arrow between them, on the middle of the page.
-void add_pair(Drawing& page, const Drawing& left, const Drawing& right, double top, double height) {
-  constexpr double gap = 60;
-  const double x = (page.width - left.width - right.width - gap) / 2;
-  page.add(left, {x, top + (height - left.height) / 2});
-  arrow(page, {x + left.width + 12, top + height / 2}, gap - 30);
-  page.add(right, {x + left.width + gap, top + (height - right.height) / 2});
-}
-
 void add_key(Drawing& page, double y) {
   double x = 20;
   const auto word = [&](const std::string& text) {
@@ -193,31 +179,19 @@ Drawing diagram_of(const RuleGraph& graph, const RuleGraph& other, RuleSide side
 }
 
 Drawing diagram_of(const Rule& rule, const RuleShown& shown) {
-  const Drawing left = diagram_of(rule.left, rule.right, RuleSide::Left);
-  const Drawing right = diagram_of(rule.right, rule.left, RuleSide::Right);
+  const std::vector<Drawing> graphs{diagram_of(rule.left, rule.right, RuleSide::Left),
+                                    diagram_of(rule.right, rule.left, RuleSide::Right)};
   Drawing page;
-  page.width =
-      std::max({left.width + right.width + 100, 2 * map_side + 100, rough_width(rule.name(), 17) + 40});
-  page.parts.push_back(DrawnText{{20, 30}, rule.name(), 17, text_ink, DrawnText::Align::Left, true});
-  double y = 50;
-  for (const std::string& line : in_lines(rule.settings.about, 12, page.width - 40)) {
-    page.parts.push_back(DrawnText{{20, y}, line, 12, faint});
-    y += 17;
-  }
-  const double height = std::max(left.height, right.height);
-  add_pair(page, left, right, y - 8, height);
+  page.width = std::max({graphs[0].width + graphs[1].width + 100, 2 * diagram::map_side + 100,
+                         diagram::width_of_heading(rule.name())});
+  double y = diagram::add_heading(page, rule.name(), rule.settings.about);
+  const double height = std::max(graphs[0].height, graphs[1].height);
+  diagram::add_row(page, graphs, y - 8, height);
   y += height;
   if (shown.sample) {
-    const MapView view = MapView::of({shown.before.get(), shown.after.get()});
-    add_pair(page, picture_of(*shown.before, view, shown.hooks, map_side),
-             picture_of(*shown.after, view, {}, map_side), y, view.height(map_side));
-    y += view.height(map_side) + 10;
-    page.parts.push_back(
-        DrawnText{{page.width / 2, y},
-                  "on " + shown.sample->what + (shown.hooks.empty() ? "" : "; orange: the hook"),
-                  11,
-                  faint,
-                  DrawnText::Align::Middle});
+    y = diagram::add_maps(page, {shown.before.get(), shown.after.get()}, shown.hooks, y);
+    diagram::add_caption(page, "on " + shown.sample->what + (shown.hooks.empty() ? "" : "; orange: the hook"),
+                         y);
     y += 14;
   }
   add_key(page, y + 14);

@@ -79,6 +79,12 @@ Map triangles() {
   return map;
 }
 
+Map triangle_sheet() {
+  Map map = quads(3, 3);
+  for (std::uint32_t n = 0; n < 9; ++n) run(*map, "halve-quad", Dart{8 * n});
+  return map;
+}
+
 // Of unit cubes in a row, from x on.
 void add_cube(EmbeddedMap& map, double x) {
   add_quad(map, x, 0);
@@ -117,6 +123,18 @@ Map cut_tetrahedron(std::size_t steps) {
 Map vertex() {
   Map map = empty(3);
   run(*map, "create-vertex");
+  return map;
+}
+
+Map faces() {
+  Map map = empty(3);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 2; ++x) add_quad(*map, x, y);
+  map->edit([](Edit& edit) { // the quads' darts: sides in order, from their corners (0, 0)
+    for (const auto& [a, b] :
+         {std::pair{2u, 15u}, {3u, 14u}, {18u, 31u}, {19u, 30u}, {4u, 17u}, {5u, 16u}, {12u, 25u}, {13u, 24u}})
+      edit.link(2, Dart{a}, Dart{b});
+  });
   return map;
 }
 
@@ -244,6 +262,7 @@ const std::vector<SampleMap>& sample_maps() {
       {"quad", "a quad", [] { return quads(1, 1); }},
       {"two-quads", "two quads, not sewn", pulled_apart, true},
       {"large-sheet", "3 x 3 quads", [] { return quads(3, 3); }},
+      {"triangle-sheet", "18 triangles", triangle_sheet},
       {"cubes", "two cubes", [] { return cubes(2, 1); }},
       {"cube", "a cube", [] { return cubes(1, 1); }},
       {"tetrahedra", "two tetrahedra", [] { return tetrahedra(2, 0); }},
@@ -255,22 +274,29 @@ const std::vector<SampleMap>& sample_maps() {
       {"octahedron", "an octahedron with a tetrahedron on every second face",
        [] { return cut_tetrahedron(3); }},
       {"face", "a face of a solid that has no volume yet", face},
+      {"faces", "four faces of a solid that has no volume yet", faces},
       {"edge", "an edge", edge},
       {"vertex", "a vertex", vertex}};
   return all;
 }
 
+std::vector<const SampleMap*> samples_called(const std::string& name) {
+  std::vector<const SampleMap*> found;
+  std::vector<std::string> names;
+  for (const SampleMap& each : sample_maps()) {
+    names.push_back(each.name);
+    if (name.empty() || each.name == name) found.push_back(&each);
+  }
+  if (found.empty())
+    throw UserError(Exit::Usage, {}, fmt::format("there is no map {} to draw a rule on", in_quotes(name)),
+                    suggestion(name, names, "there are"));
+  return found;
+}
+
 RuleShown show(const Rule& rule, const std::string& sample) {
   if (!rule.quantities_of_law().empty()) return {}; // known only where a law applies it
-  std::vector<std::string> names;
-  for (const SampleMap& each : sample_maps()) names.push_back(each.name);
-  if (!sample.empty() && std::find(names.begin(), names.end(), sample) == names.end())
-    throw UserError(Exit::Usage, {}, fmt::format("there is no map {} to draw a rule on", in_quotes(sample)),
-                    suggestion(sample, names, "there are"));
-  const std::string wanted = sample.empty() && rule.only_creates() ? "nothing" : sample;
-  std::vector<const SampleMap*> order;
-  for (const SampleMap& each : sample_maps())
-    if (wanted.empty() || each.name == wanted) order.push_back(&each);
+  std::vector<const SampleMap*> order =
+      samples_called(sample.empty() && rule.only_creates() ? "nothing" : sample);
   const int dimension = speaks_of_volumes(rule) ? 3 : 2;
   const bool apart = sews(rule);
   const auto misfits = [&](const SampleMap* each) {

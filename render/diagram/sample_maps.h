@@ -18,6 +18,9 @@ struct SampleMap {
 // Simple ones first.
 const std::vector<SampleMap>& sample_maps();
 
+// The one of that name, all if it is empty. UserError (Usage): there is none.
+std::vector<const SampleMap*> samples_called(const std::string& name);
+
 // A sample before and after a rule.
 struct RuleShown {
   const SampleMap* sample = nullptr; // null: the rule applies to none of them

@@ -2,10 +2,11 @@
 
 #include "render/diagram/graph_layout.h"
 #include "render/diagram/paint.h"
+#include "render/diagram/script_diagram.h"
 #include "render/diagram/svg.h"
 #include "render/draw/hud.h"
 #include "sim/base/math.h"
-#include "sim/house_rules/house_rules.h"
+#include "sim/house_rules/house_scripts.h"
 #include "sim/topology/count.h"
 #include "sim/topology/validate.h"
 
@@ -72,6 +73,40 @@ TEST(SampleMaps, show_what_a_rule_does) {
   EXPECT_EQ(count_cells(sewn.after->map()).fragments, 1U);
   EXPECT_EQ(count_cells(sewn.after->map()).euler, 1); // a disc, and no Moebius band
   EXPECT_EQ(show(rule("star-volume"), "sheet").sample, nullptr);
+}
+
+TEST(SampleMaps, show_every_house_script) {
+  for (const Script& each : house_scripts()) {
+    const ScriptShown shown = show(each);
+    ASSERT_NE(shown.sample, nullptr) << each.name();
+    ASSERT_GE(shown.stages.size(), 2U);
+    for (const auto& stage : shown.stages) EXPECT_EQ(validate(*stage), std::nullopt) << each.name();
+    const auto links = [](const EmbeddedMap& map) {
+      std::vector<Dart> all;
+      map.map().for_each_dart([&](Dart d) {
+        for (int i = 0; i < 4; ++i) all.push_back(map.map().alpha(i, d));
+      });
+      return all;
+    };
+    EXPECT_NE(links(*shown.stages.front()), links(*shown.stages.back())) << each.name();
+    const std::string svg = svg_text(diagram_of(each, shown));
+    EXPECT_EQ(svg, svg_text(diagram_of(each, show(each))));
+    for (std::size_t n = 0; n < each.steps.size(); ++n)
+      EXPECT_THAT(svg, HasSubstr(std::to_string(n + 1) + ". at each "));
+  }
+}
+
+// Fig. 3.49 of the thesis: a face among others lets go of them, and is gone.
+TEST(SampleMaps, show_a_script_step_by_step) {
+  const ScriptShown shown = show(script("delete-face"), "large-sheet");
+  ASSERT_EQ(shown.stages.size(), 3U);
+  const auto counts = [&](std::size_t stage) { return count_cells(shown.stages[stage]->map()); };
+  EXPECT_EQ(counts(0).faces, 9U);
+  EXPECT_EQ(counts(1).faces, 9U);
+  EXPECT_EQ(counts(1).fragments, 2U);
+  EXPECT_EQ(counts(2).faces, 8U);
+  EXPECT_EQ(counts(2).fragments, 1U);
+  EXPECT_EQ(step_in_words(script("delete-face"), 0), "1. at each e*(0): unsew-edge, wherever it applies");
 }
 
 TEST(RuleDiagram, names_every_node_on_its_side) {
