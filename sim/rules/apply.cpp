@@ -139,9 +139,10 @@ void Rewriter::create() {
       const int before = left_of(n);
       Dart& d = darts_[index(k, n)];
       d = before >= 0 ? match_.dart(k, before) : edit_.add_dart();
-      if (point_.empty() || point_[index(k, n)] == no_point) continue;
+      // A kept vertex that moves has its old point for other applications, whichever of its darts they ask.
+      if (before >= 0 || point_.empty() || point_[index(k, n)] == no_point) continue;
       edit_.give(d, point_[index(k, n)]);
-      if (before < 0 && family_of_[index(k, n)] != no_family) edit_.inherit(d, Vertex, family_of_[index(k, n)]);
+      if (family_of_[index(k, n)] != no_family) edit_.inherit(d, Vertex, family_of_[index(k, n)]);
     }
   }
 }

@@ -5,9 +5,12 @@
 #include "sim/topology/count.h"
 #include "sim/topology/isomorphism.h"
 #include "sim/topology/validate.h"
+#include "sim/topology/walk.h"
 #include "tests/sim/presets.h"
 
 #include <gtest/gtest.h>
+
+#include <map>
 
 namespace rend {
 namespace {
@@ -224,6 +227,30 @@ TEST(Construction, a_sheet_becomes_a_solid) {
   EXPECT_TRUE(
       says(refusal_of(R"xml(<sheet cells="2 2" size="1 1"/><apply rule="extrude-sheet" side="+x"/>)xml"),
            "applies nowhere"));
+}
+
+// All vertices of a round go to the mean of where their neighbours were before it, whatever the numbers of darts.
+TEST(Construction, a_round_reads_the_points_from_before_it) {
+  const auto smoothed = body_of(R"xml(<sheet cells="3 3" size="3 3"/><apply rule="bump" to="all"/>
+      <apply rule="smooth" to="all"/>)xml",
+                                R"xml(<rule name="bump" left="a*(1,2,3)" right="a(1,2,3)">
+          <set node="a" position="a + point(0, 0, noise(3*a))"/></rule>
+      <rule name="smooth" left="a*(1,2,3)" right="a(1,2,3)">
+          <set node="a" position="mean(a, neighbours)"/></rule>)xml");
+  const auto bumped = body_of(R"xml(<sheet cells="3 3" size="3 3"/><apply rule="bump" to="all"/>)xml",
+                              R"xml(<rule name="bump" left="a*(1,2,3)" right="a(1,2,3)">
+          <set node="a" position="a + point(0, 0, noise(3*a))"/></rule>)xml");
+  const EmbeddedMap &after = *smoothed.body().map, &before = *bumped.body().map;
+  before.map().for_each_dart([&](Dart d) { // the darts of both are numbered alike
+    std::map<Slot, Vec3> neighbours;
+    for (Dart e : darts_of(before.map(), Vertex, d)) {
+      const Dart far = before.map().alpha(0, e);
+      neighbours[before.vertex(far)] = before.position_of(far);
+    }
+    Vec3 mean = Vec3::Zero();
+    for (const auto& [v, x] : neighbours) mean += x / static_cast<double>(neighbours.size());
+    EXPECT_LT((after.position_of(d) - mean).norm(), 1e-14);
+  });
 }
 
 TEST(Construction, refuses_in_a_sheet_what_is_of_solids) {
