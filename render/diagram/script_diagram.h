@@ -1,8 +1,8 @@
-// A script as a drawing, as fig. 3.49 of the thesis shows one: its steps in words, and a small map before it and after
-// each of them.
+// A script as a drawing, as fig. 3.49 of the thesis shows one: its steps in words, and a small map before it
+// and after each of them.
 //
-// Of what a law would tell, the plane that would split a vertex is taken across x; stress, strain and the value of a
-// criterion are not known.
+// Of what a law would tell, the plane that would split a vertex is taken across x; stress, strain and the value
+// of a criterion are not known.
 #pragma once
 
 #include "render/diagram/drawing.h"
@@ -22,8 +22,8 @@ struct ScriptShown {
   std::vector<Dart> hook; // in the first one
 };
 
-// On the sample of that name, or, if it is empty, on the first one where the script applies, those of its dimension
-// first; there, where it changes most. UserError (Usage): no such sample.
+// On the sample of that name, or, if it is empty, on the first one where the script applies, those of its
+// dimension first; there, where it changes most. UserError (Usage): no such sample.
 ScriptShown show(const Script& script, const std::string& sample = {});
 
 Drawing diagram_of(const Script& script, const ScriptShown& shown);

@@ -22,8 +22,8 @@ bool has_open_cells(const GMap& map);
 // UserError: a cell that is none of those; `shape`: what is to blame if no rule is.
 void check_cells(const MapMesh& mesh, const SettingsSource& shape, const std::optional<OpenedBy>& opened);
 
-// Face by face, in the order of smallest darts; each side by side, all in the sense of the component's smallest dart,
-// where it has two sides: the fronts of faces are those of the walks from their smallest darts.
+// Face by face, in the order of smallest darts; each side by side, all in the sense of the component's smallest
+// dart, where it has two sides: the fronts of faces are those of the walks from their smallest darts.
 std::vector<Dart> face_order(const GMap& map);
 
 } // namespace rend

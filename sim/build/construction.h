@@ -12,7 +12,8 @@
 // The second hook of a rule that has two (sew-edges, sew-faces) is found by with="touching": the dart at the
 // same place, whose side and face lie on those of the first.
 //
-// A rule that makes volumes on all faces of a sheet (Rule::makes_solids, such as extrude-sheet) makes a solid of it.
+// A rule that makes volumes on all faces of a sheet (Rule::makes_solids, such as extrude-sheet) makes a solid
+// of it.
 //
 // At the end the cells must be those that a mesh file may hold: closed faces, volumes that are tetrahedra,
 // hexahedra, prisms or pyramids. Then darts are ordered as for a file, so that a body does not remember how it

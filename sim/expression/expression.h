@@ -12,9 +12,8 @@
 //   if(condition, u, v)   u where the condition holds, else v: two values of one type
 //
 // with numbers (1, 0.5, 1e-4), parentheses, the functions of sim/expression/functions.h and those of the
-// caller.
-// What follows `and` and `or`, and the two values of `if`, are evaluated only where they decide: n > 0 and 1/n < 0.1
-// is fine for n = 0, and so is if(n > 0, 1/n, 0).
+// caller. What follows `and` and `or`, and the two values of `if`, are evaluated only where they decide: n > 0
+// and 1/n < 0.1 is fine for n = 0, and so is if(n > 0, 1/n, 0).
 //
 // Text of users is hostile: its length and depth are bounded before it is parsed, and every refusal is a
 // sentence with its column. A value that is not finite is refused where it arises, even inside an expression
@@ -55,8 +54,8 @@ struct ExpressionFunction {
   ValueType result = ValueType::Scalar; // not Name
   std::string about;                    // one line of help
   std::size_t optional = 0;             // how many arguments at the end may be left out
-  // A call of it, with a name and a whole number, may stand where a name is expected: alpha(a, 2). Its only name is
-  // then the call itself, in a normal form.
+  // A call of it, with a name and a whole number, may stand where a name is expected: alpha(a, 2). Its only
+  // name is then the call itself, in a normal form.
   bool is_name = false;
 };
 
@@ -77,8 +76,8 @@ struct ExpressionCall {
 
 class Expression {
 public:
-  // Throws ExpressionError: what is not an expression of type `wanted` (nullopt: of any), and a constant one that has
-  // no finite value. The vocabulary is needed only here. A flaw in it is a bug of the caller (CHECK).
+  // Throws ExpressionError: what is not an expression of type `wanted` (nullopt: of any), and a constant one
+  // that has no finite value. The vocabulary is needed only here. A flaw in it is a bug of the caller (CHECK).
   Expression(std::string_view text, const std::vector<ExpressionFunction>& vocabulary,
              std::optional<ValueType> wanted);
 
@@ -99,9 +98,10 @@ public:
   template <class Supply> Value evaluate(Supply&& supply) const;
   Value evaluate() const; // of a constant one
 
-  // The same, with the rate at which the value changes where those of the calls do (rates.h): exact, by the chain
-  // rule (forward differentiation; Griewank and Walther, Evaluating Derivatives, 2008, chapter 3). `supply` gets the
-  // rates of the arguments as well, and returns a ValueAndRate. Throws ExpressionError where a rate is not finite.
+  // The same, with the rate at which the value changes where those of the calls do (rates.h): exact, by the
+  // chain rule (forward differentiation; Griewank and Walther, Evaluating Derivatives, 2008, chapter 3).
+  // `supply` gets the rates of the arguments as well, and returns a ValueAndRate. Throws ExpressionError where
+  // a rate is not finite.
   template <class Supply> ValueAndRate evaluate_with_rate(Supply&& supply) const;
 
 private:

@@ -142,8 +142,8 @@ private:
     return expression(Precedence::Or);
   }
 
-  // Where it leads is told later. It takes a value from the stack: the condition, or, of two that wait for one place,
-  // the first.
+  // Where it leads is told later. It takes a value from the stack: the condition, or, of two that wait for one
+  // place, the first.
   std::size_t jump(Instruction::Kind kind, const Token& name) {
     --values_;
     out_.program.push_back({.kind = kind, .column = column_of(name)});

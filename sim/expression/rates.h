@@ -1,9 +1,10 @@
-// The rate at which the value of a function or an operator changes, where its arguments change: f' = Σ ∂f/∂a_k a_k'.
+// The rate at which the value of a function or an operator changes, where its arguments change: f' = Σ ∂f/∂a_k
+// a_k'.
 //
-// Where there is no derivative, it is that of one side or the mean of both: 0 of abs and norm at 0; of min, max and
-// clamp, that of the argument whose value they have. An argument that does not change contributes nothing, whatever
-// the derivative: sqrt of a constant 0 has the rate 0. Conditions, floor, step and the seed of noise change in jumps,
-// and have the rate 0.
+// Where there is no derivative, it is that of one side or the mean of both: 0 of abs and norm at 0; of min, max
+// and clamp, that of the argument whose value they have. An argument that does not change contributes nothing,
+// whatever the derivative: sqrt of a constant 0 has the rate 0. Conditions, floor, step and the seed of noise
+// change in jumps, and have the rate 0.
 #pragma once
 
 #include "sim/expression/value.h"

@@ -24,8 +24,9 @@ bool is_component(Orbit hook, int dimension) {
   return holds(hook, {0, 1, 2}) && (dimension == 2 || hook.has(3));
 }
 
-// The cell that a hook's orbit is a part of, α of the body's dimension aside. A hook that is a single dart belongs to
-// an element, whose darts are tried one after another; a whole component is changed by any of its elements.
+// The cell that a hook's orbit is a part of, α of the body's dimension aside. A hook that is a single dart
+// belongs to an element, whose darts are tried one after another; a whole component is changed by any of its
+// elements.
 Cell cell_of(Orbit hook, int dimension) {
   if (is_component(hook, dimension)) return Cell::Elements;
   if (dimension == 2) {

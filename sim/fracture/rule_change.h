@@ -1,13 +1,13 @@
 // Changes that are rules or scripts: <tear criterion="..." rule="NAME"/>.
 //
 // What the hook of a rule stands for is the kind of cell that the rule changes: an edge, a border between two
-// elements, a vertex or an element. So a criterion is a precondition of the rule (thesis 7.1, p. 180): where
-// it exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook
-// first, until it applies; if it does not apply there, at the other cells of that kind at the one that was measured. A
-// rule of a whole component changes that of the element, once a step. Its expressions know what the law has found there (law_quantities.h). Where it does
-// not apply, the reason is counted, that of the dart at which it came furthest. Where the body would grow
-// beyond its budget (map_budget.h), it does not apply: the law waits, and the run goes on. Nor does it where an
-// element that it makes would be flat or inside out (element_fit.h).
+// elements, a vertex or an element. So a criterion is a precondition of the rule (thesis 7.1, p. 180): where it
+// exceeds its threshold, the rule is tried from the cell's darts, the smallest of each orbit of the hook first,
+// until it applies; if it does not apply there, at the other cells of that kind at the one that was measured. A
+// rule of a whole component changes that of the element, once a step. Its expressions know what the law has
+// found there (law_quantities.h). Where it does not apply, the reason is counted, that of the dart at which it
+// came furthest. Where the body would grow beyond its budget (map_budget.h), it does not apply: the law waits,
+// and the run goes on. Nor does it where an element that it makes would be flat or inside out (element_fit.h).
 #pragma once
 
 #include "sim/fracture/change.h"

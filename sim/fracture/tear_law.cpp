@@ -53,8 +53,9 @@ template <> const Fields<LawSettings>& fields_of() {
 
 namespace {
 
-// A rule that does not apply where a change is made is tried at the other cells of that kind at the candidate's, in
-// the order of their smallest darts: at every border of an element, those of the hull among them.
+// A rule that does not apply where a change is made is tried at the other cells of that kind at the
+// candidate's, in the order of their smallest darts: at every border of an element, those of the hull among
+// them.
 void add_others(const GMap& map, Orbit orbit, std::span<const Dart> cell, std::size_t first, Places& places) {
   thread_local IndexSet seen;
   thread_local std::vector<Dart> own, darts;

@@ -1,10 +1,12 @@
-// A step of the subdivision of Catmull and Clark, Recursively generated B-spline surfaces on arbitrary topological
-// meshes, 1978; at borders cubic B-splines, as is usual.
+// A step of the subdivision of Catmull and Clark, Recursively generated B-spline surfaces on arbitrary
+// topological meshes, 1978; at borders cubic B-splines, as is usual.
 //
 //   of a face    F, the mean of its corners
 //   of an edge   (A + B + F1 + F2)/4 with its ends and the new points of its faces; on the border (A + B)/2
-//   of a vertex  (Q + 2R + (n - 3)S)/n with S where it was, n edges, Q the mean of the new points of the faces around
-//                it, R that of the middles of its edges; on the border (N1 + 6S + N2)/8 with its neighbours there
+//   of a vertex  (Q + 2R + (n - 3)S)/n with S where it was, n edges, Q the mean of the new points of the faces
+//    around
+//                it, R that of the middles of its edges; on the border (N1 + 6S + N2)/8 with its neighbours
+//                 there
 //
 // R is (S + N)/2 with N the mean of the neighbours.
 #include "sim/house_rules/house_rules.h"

@@ -1,6 +1,6 @@
-// An edge shrinks to its middle, and with it the triangles on its sides: what lies beyond their other two sides meets
-// (Hoppe et al. 1993). Where its ends have a common neighbour that is no corner of these triangles, two faces come to
-// lie on each other; the rule does not see that.
+// An edge shrinks to its middle, and with it the triangles on its sides: what lies beyond their other two sides
+// meets (Hoppe et al. 1993). Where its ends have a common neighbour that is no corner of these triangles, two
+// faces come to lie on each other; the rule does not see that.
 #include "sim/house_rules/house_rules.h"
 
 namespace rend {

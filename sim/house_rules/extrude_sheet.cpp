@@ -1,5 +1,6 @@
-// A sheet becomes a solid: each face is the bottom a of a volume, with a side quad b, c, d, e on each of its sides and
-// the top f. Where α2 led from one face to the next, α3 leads from the side quad of one volume to that of the next.
+// A sheet becomes a solid: each face is the bottom a of a volume, with a side quad b, c, d, e on each of its
+// sides and the top f. Where α2 led from one face to the next, α3 leads from the side quad of one volume to
+// that of the next.
 #include "sim/house_rules/house_rules.h"
 
 namespace rend {

@@ -1,6 +1,6 @@
-// The other diagonal of the quad that two triangles make (Lawson 1977). Its ends are the far corners: the darts of
-// the old edge are removed, and those of the new one made. At an end of the old edge the sides b of both triangles meet
-// then: where α2 led from a, α1 leads from b.
+// The other diagonal of the quad that two triangles make (Lawson 1977). Its ends are the far corners: the darts
+// of the old edge are removed, and those of the new one made. At an end of the old edge the sides b of both
+// triangles meet then: where α2 led from a, α1 leads from b.
 #include "sim/house_rules/house_rules.h"
 
 namespace rend {

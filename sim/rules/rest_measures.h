@@ -13,8 +13,8 @@ void vertices_of_orbit(const GMap& map, Orbit orbit, Dart d, std::vector<Dart>& 
 void vertices_of_orbit(const Edit& edit, Orbit orbit, Dart d,
                        std::vector<Dart>& out); // faster, where points are known
 
-// A dart at the other end of each edge at the vertex of d, in the order of the edges' smallest darts there; `border`:
-// of edges that lie on the border of a sheet, or on the hull of a solid.
+// A dart at the other end of each edge at the vertex of d, in the order of the edges' smallest darts there;
+// `border`: of edges that lie on the border of a sheet, or on the hull of a solid.
 void ends_of_edges(const GMap& map, Dart d, bool border, std::vector<Dart>& out);
 
 // The smallest dart at the vertex of d of each cell there (Face or Volume), increasing.

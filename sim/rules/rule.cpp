@@ -292,7 +292,8 @@ private:
         {expression(when.source, "test", when.test, ValueType::Condition), when.at, when.otherwise});
   }
 
-  // At the border of a sheet α2 is free, and on the hull of a solid α3: a link that it becomes is free there, too.
+  // At the border of a sheet α2 is free, and on the hull of a solid α3: a link that it becomes is free there,
+  // too.
   void warn_of_open_cells(const RuleNode& node) {
     for (std::size_t p = 0; p < node.label.size(); ++p) {
       const int is = node.label[p], was = rule_.left[rule_.plan.hooks[0]].label[p];

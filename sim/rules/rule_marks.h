@@ -1,5 +1,5 @@
-// Marks that the steps of a script set on darts (<for mark="m">), and that expressions ask for: marked(a, m). They last
-// until the script has run.
+// Marks that the steps of a script set on darts (<for mark="m">), and that expressions ask for: marked(a, m).
+// They last until the script has run.
 #pragma once
 
 #include "sim/base/id.h"

@@ -1,12 +1,13 @@
 // The values of the expressions of a rule (rule_vocabulary.h) at one instance of a match.
 //
 // The position is the value of the expression over positions; the rest position that over rest positions; the
-// velocity its derivative in time, where points move with their velocities (Expression::evaluate_with_rate). Measures
-// at rest, arguments and what a law tells do not change in time, but for time itself. In velocity="..." a node stands
-// for its velocity.
+// velocity its derivative in time, where points move with their velocities (Expression::evaluate_with_rate).
+// Measures at rest, arguments and what a law tells do not change in time, but for time itself. In
+// velocity="..." a node stands for its velocity.
 //
-// A vertex that is kept, and moves in a law, keeps its rest position unless rest="..." gives one: it is displaced,
-// and the matter is strained by that. Where a body is constructed, and where a rule joins two vertices, rest follows.
+// A vertex that is kept, and moves in a law, keeps its rest position unless rest="..." gives one: it is
+// displaced, and the matter is strained by that. Where a body is constructed, and where a rule joins two
+// vertices, rest follows.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"

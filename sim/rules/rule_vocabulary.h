@@ -4,7 +4,8 @@
 //   alpha(a, 2)          the dart that α2 links to that of a: its point, or, where a name is expected, the dart
 //   copy(a)              the point of a
 //   mean(a, face)        the mean of the distinct vertices of a's vertex, edge, face, volume or component
-//   mean(a, neighbours)  the mean of the vertices at the other ends of the edges at a's vertex; border: of those along
+//   mean(a, neighbours)  the mean of the vertices at the other ends of the edges at a's vertex; border: of
+//    those along
 //                        the border of a sheet or the hull of a solid
 //   mean(a, faces)       the mean of the middles of the faces at a's vertex; volumes: likewise
 //   lerp(u, v, t)        (1 − t) u + t v
@@ -13,7 +14,8 @@
 //   size(a, face)        how many of those that the mean is of; of a vertex: how many edges
 //   length(a), area(a), volume(a)   of its edge, face, volume, at rest [m, m², m³]
 //   free(a, 3)           whether α3 of a is free
-//   marked(a, m)         whether a step with mark="m" of the script that runs has matched or made it; elsewhere false
+//   marked(a, m)         whether a step with mark="m" of the script that runs has matched or made it; elsewhere
+//    false
 //
 // and, of a rule that a law of tearing applies (RuleQuantities; elsewhere these are refused before anything
 // runs):
@@ -36,8 +38,8 @@
 
 namespace rend {
 
-// The functions that expressions of a rule may call, in this order; then its nodes, its arguments and its lets, as
-// variables.
+// The functions that expressions of a rule may call, in this order; then its nodes, its arguments and its lets,
+// as variables.
 enum class RuleFunction : std::size_t {
   Alpha,
   Copy,

@@ -10,8 +10,8 @@
 // dart after another until it applies, as a law does (sim/fracture/rule_change.h); if it has two hooks, with
 // any two darts. A cell whose darts are all gone is passed by.
 //
-// Expressions of a step read points as the step before has left them, and know the marks that steps before it, and
-// it itself at earlier cells, have set.
+// Expressions of a step read points as the step before has left them, and know the marks that steps before it,
+// and it itself at earlier cells, have set.
 //
 // A script applies as a whole or not at all: where a step does not apply as often as it must, where no step
 // applies anywhere, and where the map would grow beyond its budget, the edit is rolled back to where the script

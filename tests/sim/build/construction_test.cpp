@@ -202,7 +202,8 @@ TEST(Construction, refuses_what_is_no_body_in_a_sentence) {
 // A sheet of quads is swept to the bar of the generator, and one of triangles to prisms; groups go along.
 TEST(Construction, a_sheet_becomes_a_solid) {
   const auto swept = body_of(
-      R"xml(<sheet cells="3 2" size="0.3 0.2"/><apply rule="extrude-sheet" to="all" v="point(0, 0, 0.1)"/>)xml");
+      R"xml(<sheet cells="3 2" size="0.3 0.2"/>
+            <apply rule="extrude-sheet" to="all" v="point(0, 0, 0.1)"/>)xml");
   const auto generated = body_of(R"xml(<bar pattern="hexahedra" cells="3 2 1" size="0.3 0.2 0.1"/>)xml");
   EXPECT_EQ(swept.body().map->dimension(), 3);
   EXPECT_NEAR(total_mass(*swept.body().map, *swept.body().mass), 1, 1e-12);
@@ -229,7 +230,8 @@ TEST(Construction, a_sheet_becomes_a_solid) {
            "applies nowhere"));
 }
 
-// All vertices of a round go to the mean of where their neighbours were before it, whatever the numbers of darts.
+// All vertices of a round go to the mean of where their neighbours were before it, whatever the numbers of
+// darts.
 TEST(Construction, a_round_reads_the_points_from_before_it) {
   const auto smoothed = body_of(R"xml(<sheet cells="3 3" size="3 3"/><apply rule="bump" to="all"/>
       <apply rule="smooth" to="all"/>)xml",

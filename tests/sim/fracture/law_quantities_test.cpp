@@ -315,8 +315,8 @@ TEST(LawByRule, moves_by_what_the_criterion_found) {
   EXPECT_FALSE(body.events.empty());
 }
 
-// A vertex that a law moves is displaced: the matter around it is strained, and stays the same matter. Where the
-// rule says so, it has another shape at rest, too.
+// A vertex that a law moves is displaced: the matter around it is strained, and stays the same matter. Where
+// the rule says so, it has another shape at rest, too.
 TEST(LawByRule, moves_vertices_and_keeps_their_mass) {
   const auto areas = [](const EmbeddedMap& map) {
     double sum = 0;

@@ -1,5 +1,5 @@
-// Catmull-Clark, edge flip and edge collapse against the same on lists of corners, which know no darts; and the rules
-// of the thesis that only move vertices.
+// Catmull-Clark, edge flip and edge collapse against the same on lists of corners, which know no darts; and the
+// rules of the thesis that only move vertices.
 #include "sim/house_rules/house_rules.h"
 #include "sim/mesh/polygons.h"
 #include "tests/sim/assets.h"
@@ -28,7 +28,8 @@ struct Surface {
   }
 };
 
-// The corners of faces by their places, in steps of 1e-9: each begins at its least corner, on the less of its sides.
+// The corners of faces by their places, in steps of 1e-9: each begins at its least corner, on the less of its
+// sides.
 using Places = std::vector<std::array<long long, 3>>;
 Places normal(Places corners) {
   Places best;

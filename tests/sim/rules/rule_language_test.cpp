@@ -1,5 +1,5 @@
-// What the expressions of rules may say: lets, neighbours, normals, means around a vertex, choices and marks, against
-// the same by walks written out here.
+// What the expressions of rules may say: lets, neighbours, normals, means around a vertex, choices and marks,
+// against the same by walks written out here.
 #include "sim/house_rules/house_scripts.h"
 #include "sim/rules/rule_symmetry.h"
 #include "sim/rules/script_run.h"
