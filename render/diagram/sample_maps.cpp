@@ -5,6 +5,7 @@
 #include "sim/base/wording.h"
 #include "sim/house_rules/house_scripts.h"
 #include "sim/rules/script_run.h"
+#include "sim/rules/sheet_in_space.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
@@ -127,15 +128,7 @@ Map vertex() {
 }
 
 Map faces() {
-  Map map = empty(3);
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 2; ++x) add_quad(*map, x, y);
-  map->edit([](Edit& edit) { // the quads' darts: sides in order, from their corners (0, 0)
-    for (const auto& [a, b] :
-         {std::pair{2u, 15u}, {3u, 14u}, {18u, 31u}, {19u, 30u}, {4u, 17u}, {5u, 16u}, {12u, 25u}, {13u, 24u}})
-      edit.link(2, Dart{a}, Dart{b});
-  });
-  return map;
+  return sheet_in_space(*quads(2, 2));
 }
 
 Map edge() {

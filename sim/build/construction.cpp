@@ -7,6 +7,7 @@
 #include "sim/mesh/dart_order.h"
 #include "sim/rules/rest_measures.h"
 #include "sim/rules/rounds.h"
+#include "sim/rules/sheet_in_space.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
@@ -267,27 +268,16 @@ private:
     return mesh;
   }
 
-  // The faces of a sheet as those of a solid, with no volume between them yet: the rule will make them.
+  // The rule will make volumes on its faces.
   void make_solid() {
-    const EmbeddedMap& sheet = *body_.map;
-    auto solid = std::make_unique<EmbeddedMap>(3);
-    std::vector<Dart> made(sheet.map().capacity());
-    solid->edit([&](Edit& edit) {
-      sheet.map().for_each_dart([&](Dart d) {
-        made[d.value] = edit.add_dart();
-        edit.give(made[d.value],
-                  {sheet.position_of(d), sheet.rest_of(d), sheet.velocity()[sheet.vertex(d)].vec()});
-      });
-      for (int i = 0; i < 3; ++i)
-        sheet.map().for_each_dart([&](Dart d) {
-          const Dart other = sheet.map().alpha(i, d);
-          if (d < other) edit.link(i, made[d.value], made[other.value]);
-        });
-    });
+    auto solid = sheet_in_space(*body_.map);
     if (groups_) {
       GroupColumn& groups = solid->add(GroupMask{});
-      sheet.map().for_each_dart(
-          [&](Dart d) { groups[solid->vertex(made[d.value])] = (*groups_)[sheet.vertex(d)]; });
+      Dart made{0u};
+      body_.map->map().for_each_dart([&](Dart d) {
+        groups[solid->vertex(made)] = (*groups_)[body_.map->vertex(d)];
+        made = Dart{made.value + 1};
+      });
       groups_ = &groups;
     }
     body_.map = std::move(solid);
