@@ -1,6 +1,8 @@
 #include "render/clip/session.h"
 
+#include "render/clip/inputs.h"
 #include "render/clip/picture_check.h"
+#include "render/clip/run_estimate.h"
 #include "render/console/console.h"
 #include "render/console/number_option.h"
 #include "render/console/signals.h"
@@ -13,15 +15,15 @@
 #include "sim/build/build_scene.h"
 #include "sim/preset/paths.h"
 #include "sim/preset/preset_reader.h"
+#include "sim/scene/step_cause.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace rend {
@@ -34,7 +36,8 @@ void add_preset_options(CLI::App& app, SessionOptions& options) {
                  "replace an attribute of the preset, such as time.step=1e-4 (can be repeated)")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  app.add_flag("--allow-path", options.allow_path, "allow files outside of the preset's folder");
+  app.add_flag("--allow-path", options.allow_path,
+               "allow the preset to name meshes and rules outside of its folder");
 }
 
 void add_run_options(CLI::App& app, SessionOptions& options) {
@@ -42,11 +45,14 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
   app.add_option("--steps", options.steps, "simulate N steps instead of the preset's duration")
       ->type_name("N")
       ->transform(whole_number(0, 1000000000));
-  app.add_option("--fps", options.fps, "frames per second of the clip; default: the preset's")
+  app.add_option("--fps", options.fps,
+                 "frames per second, of pictures, exports and diagnostics; default: the preset's")
       ->type_name("N")
       ->transform(real_number(1e-6, 1e6));
-  app.add_option("--threads", options.threads,
-                 "number of threads (the result is the same for any number); default: as many as help")
+  app.add_option(
+         "--threads", options.threads,
+         "number of threads (the result is the same for any number); default: all that the machine has, of "
+         "which a small scene uses fewer")
       ->type_name("N")
       ->transform(whole_number(1, 256));
   app.add_option("--kernels", options.kernels,
@@ -60,16 +66,6 @@ void add_run_options(CLI::App& app, SessionOptions& options) {
 }
 
 namespace {
-
-// XXH3 of a file's content, read in pieces; of no bytes where it cannot be read.
-std::uint64_t hash_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<char> piece(std::size_t{1} << 20U);
-  std::uint64_t hash = 0;
-  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0)
-    hash = hash_bytes(piece.data(), static_cast<std::size_t>(file.gcount()), hash);
-  return hash;
-}
 
 // For the threads that the steps of the scene are going to use.
 void note_refused_threads(const Scene& scene) {
@@ -121,8 +117,7 @@ std::uint64_t Session::key() const {
   for (const std::string& set : options_.sets) words += "set " + set + "\n";
   words += fmt::format("steps {} fps {} kernels {} guard {}\n", options_.steps.value_or(-1),
                        options_.fps.value_or(-1), options_.kernels, options_.guard);
-  for (const PresetNode* node : files_of(*preset_))
-    words += fmt::format("{} {:016x}\n", node->name(), hash_of(named_path(*node)));
+  words += hashes_of_files(*preset_);
   return hash_bytes(words.data(), words.size());
 }
 
@@ -209,7 +204,31 @@ Stopped Session::loop(long first_frame, long last_frame, const Callbacks& calls,
   }
 }
 
+namespace {
+
+// What of the step makes a run long: the step that the preset gives, or what limits that of its scheme.
+std::string why_so_many_steps(const Scene& scene) {
+  const StepCause cause = cause_of_step(scene);
+  if (std::isinf(cause.limit)) return "";
+  if (!scene.automatic_step() && cause.limit > 2 * scene.step_size())
+    return fmt::format("; steps of up to {:.3g} s are stable here (--set time.step=auto)", cause.limit);
+  return "; " + cause.words;
+}
+
+} // namespace
+
 Stopped Session::loop(FrameWatch& watch, long last_step, const Callbacks& calls, double& callback_seconds) {
+  RunEstimate estimate(last_step - scene_->steps_done());
+  const auto step = [&] {
+    if (!estimate.is_open()) return scene_->step();
+    const double since = wall_clock();
+    scene_->step();
+    const auto left = estimate.add(wall_clock() - since);
+    if (!left || options_.quiet) return;
+    print_note(fmt::format("this run takes about {}, as its first steps went: {} steps of {:.3g} s{}",
+                           hours_in_words(*left), last_step - scene_->steps_done(), scene_->step_size(),
+                           why_so_many_steps(*scene_)));
+  };
   while (true) {
     const long done = scene_->steps_done();
     if (watch.is_due(done) || done >= last_step) scene_->check_sound();
@@ -223,7 +242,7 @@ Stopped Session::loop(FrameWatch& watch, long last_step, const Callbacks& calls,
       return Stopped::No;
     }
     if (stop_signal() != 0 && !watch.is_shutter_open(done)) return Stopped::Interrupted;
-    scene_->step();
+    step();
     if (calls.step) calls.step();
   }
 }

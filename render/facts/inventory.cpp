@@ -2,6 +2,7 @@
 
 #include "render/facts/left_out.h"
 #include "sim/rows/frequency.h"
+#include "sim/scene/step_cause.h"
 #include "sim/topology/count.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ TimeFacts time_of(const Session& session) {
           .step = scene.step_size(),
           .automatic = scene.automatic_step(),
           .limit = std::isfinite(limit) ? std::optional(limit) : std::nullopt,
+          .cause = std::isfinite(limit) ? cause_of_step(scene).words : std::string(),
           .omega = std::sqrt(all.omega_squared),
           .damping_rate = all.damping_rate,
           .duration = session.clock().duration(),

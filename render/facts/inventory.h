@@ -22,6 +22,7 @@ struct TimeFacts {
   double step = 0;                // [s]
   bool automatic = false;         // the step; else the preset says it
   std::optional<double> limit;    // [s], the largest step that is stable at rest; none: nothing limits it
+  std::string cause;              // of that limit: the body, and what of it; empty: nothing limits it
   double omega = 0;               // [rad/s], of the highest frequency at rest
   double damping_rate = 0;        // [1/s], the largest of all modes
   double duration = 0, fps = 0;   // [s], [1/s]

@@ -16,6 +16,7 @@ Json json_of(const TimeFacts& time) {
               {"step", time.step},
               {"from", time.automatic ? "auto" : "preset"},
               {"limit", json_or_null(time.limit)},
+              {"limited_by", time.cause.empty() ? Json(nullptr) : Json(time.cause)},
               {"bounds", {{"omega", time.omega}, {"damping_rate", time.damping_rate}}},
               {"duration", time.duration},
               {"steps", time.steps},

@@ -53,7 +53,7 @@ std::string time_in_words(const TimeFacts& time) {
     step += "; no step is stable";
   step += fmt::format(", from modes of at most {:.4g} rad/s, damped at most {:.4g}/s", time.omega,
                       time.damping_rate);
-  return folded("time      ", step) +
+  return folded("time      ", step) + (time.cause.empty() ? "" : folded("          ", time.cause)) +
          fmt::format("          {:.6g} s in {} steps; {} frames at {:g} a second{}\n", time.duration,
                      time.steps, time.frames, time.fps,
                      time.clip_duration ? fmt::format(", a clip of {:.6g} s", *time.clip_duration) : "");

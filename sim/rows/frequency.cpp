@@ -31,11 +31,10 @@ void collect_starts(const GMap& map, Orbit owner, Dart d, std::vector<Dart>& out
 
 // Calls f(interaction, slot of the owner, dart at which it starts, unit) for every unit that counts.
 template <class F>
-void for_each_bounded_unit(const EmbeddedMap& map,
-                           const std::vector<std::unique_ptr<Interaction>>& interactions, F&& f) {
+void for_each_bounded_unit(const EmbeddedMap& map, std::span<const Interaction* const> interactions, F&& f) {
   std::vector<Dart> starts;
   std::vector<char> outlives; // one per unit
-  for (const auto& interaction : interactions) {
+  for (const Interaction* interaction : interactions) {
     const Pattern& pattern = interaction->pattern;
     const CellIndex& owners = map.cells(pattern.owner);
     outlives.clear();
@@ -60,6 +59,13 @@ void for_each_bounded_unit(const EmbeddedMap& map,
 
 CornerBounds corner_bounds(const EmbeddedMap& map,
                            const std::vector<std::unique_ptr<Interaction>>& interactions,
+                           const MassColumn& mass) {
+  std::vector<const Interaction*> all;
+  for (const auto& interaction : interactions) all.push_back(interaction.get());
+  return corner_bounds(map, all, mass);
+}
+
+CornerBounds corner_bounds(const EmbeddedMap& map, std::span<const Interaction* const> interactions,
                            const MassColumn& mass) {
   const CellIndex& corners = map.cells(mass.orbit());
   CornerBounds sums;

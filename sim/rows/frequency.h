@@ -13,6 +13,8 @@
 #include "sim/mechanics/interaction.h"
 #include "sim/mechanics/mass.h"
 
+#include <span>
+
 namespace rend {
 
 struct FrequencyBounds {
@@ -25,6 +27,8 @@ struct FrequencyBounds {
 struct CornerBounds {
   std::vector<double> stiffness, damping; // [N/m], [N·s/m]
 };
+CornerBounds corner_bounds(const EmbeddedMap& map, std::span<const Interaction* const> interactions,
+                           const MassColumn& mass);
 CornerBounds corner_bounds(const EmbeddedMap& map,
                            const std::vector<std::unique_ptr<Interaction>>& interactions,
                            const MassColumn& mass);

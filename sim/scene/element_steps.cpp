@@ -12,7 +12,8 @@
 namespace rend {
 namespace {
 
-constexpr double matters = 4; // the gain from which the worst elements are named
+constexpr double thin = 5;  // the aspect ratio from which an element is called a sliver
+constexpr double light = 4; // an element is called light, if the median has so many times its mass
 
 const char* shape_name(int dimension, std::size_t corners) {
   if (dimension == 2) return corners == 3 ? "triangle" : corners == 4 ? "quad" : "face";
@@ -74,8 +75,16 @@ double ElementSteps::step(const Scheme& scheme, Slot element, double heavier) co
 }
 
 double ElementSteps::least(const Scheme& scheme) const {
-  return scheme.limit({whole_.omega_squared, whole_.damping_rate + more_damping_ + body_->uniform_drag,
-                       whole_.least_drag_rate + body_->uniform_drag});
+  return step(scheme, whole_);
+}
+
+double ElementSteps::least_undamped(const Scheme& scheme) const {
+  return scheme.limit({whole_.omega_squared, 0, 0});
+}
+
+double ElementSteps::step(const Scheme& scheme, const FrequencyBounds& bounds) const {
+  return scheme.limit({bounds.omega_squared, bounds.damping_rate + more_damping_ + body_->uniform_drag,
+                       bounds.least_drag_rate + body_->uniform_drag});
 }
 
 std::string ElementSteps::name(Slot element) const {
@@ -97,47 +106,42 @@ std::string ElementSteps::shape(Slot element) const {
                      q.aspect);
 }
 
-std::string limiting_element(const std::vector<ElementSteps>& bodies, const Scheme& scheme) {
-  const ElementSteps* body = nullptr;
-  Slot element = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const ElementSteps& each : bodies)
-    for (Slot e = 0; e < each.count(); ++e)
-      if (each.mass(e) > 0 && each.step(scheme, e) < least) {
-        least = each.step(scheme, e);
-        body = &each;
-        element = e;
-      }
-  if (!body) return {};
-  return fmt::format("{} of body '{}' ({})", body->name(element), body->body().name, body->shape(element));
+double ElementSteps::aspect(Slot element) const {
+  return quality_of(*body_->map, elements_.first_dart(element)).aspect;
 }
 
-std::string what_limits(const std::vector<ElementSteps>& bodies, const Scheme& scheme, double limit) {
-  struct One {
-    double step; // [s]
-    std::size_t body;
-    Slot element;
-    bool operator<(const One& other) const {
-      return std::tie(step, body, element) < std::tie(other.step, other.body, other.element);
-    }
-  };
-  std::vector<One> all;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (Slot e = 0; e < bodies[b].count(); ++e)
-      if (bodies[b].mass(e) > 0) all.push_back({bodies[b].step(scheme, e), b, e});
+namespace {
+
+std::string what_is_wrong(const ElementSteps& body, Slot element) {
+  if (body.aspect(element) >= thin) return "a sliver: " + body.shape(element);
+  std::vector<double> masses;
+  for (Slot e = 0; e < body.count(); ++e)
+    if (body.mass(e) > 0) masses.push_back(body.mass(e));
+  const auto middle = masses.begin() + static_cast<std::ptrdiff_t>(masses.size() / 2);
+  std::nth_element(masses.begin(), middle, masses.end());
+  if (light * body.mass(element) <= *middle)
+    return fmt::format("light: {:.3g} kg, and the median of all {:.3g} kg", body.mass(element), *middle);
+  return "stiff for its mass, " + body.shape(element);
+}
+
+} // namespace
+
+FewElements few_that_limit(const ElementSteps& body, const Scheme& scheme, double limit) {
+  std::vector<std::pair<double, Slot>> all; // [s]
+  for (Slot e = 0; e < body.count(); ++e)
+    if (body.mass(e) > 0) all.emplace_back(body.step(scheme, e), e);
   const std::size_t thousandth = (all.size() + 999) / 1000, hundredth = (all.size() + 99) / 100;
   if (all.size() <= hundredth) return {};
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(hundredth), all.end());
-  const double without_hundredth = all[hundredth].step;
-  if (!(without_hundredth >= matters * limit) || std::isinf(without_hundredth)) return {};
+  const double gain = all[hundredth].first / limit;
+  if (std::isinf(gain)) return {};
   std::sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(hundredth));
-  const ElementSteps& worst = bodies[all.front().body];
-  return fmt::format(
-      "step=\"auto\": {} of body '{}' limits the step to {:.3g} s; without the worst {} of {} elements "
-      "it would be {:.3g} s, without the worst {}, {:.3g} s: mend the mesh there, or allow "
-      "<time mass-scaling=\"0.01\">; its shape: {}",
-      worst.name(all.front().element), worst.body().name, limit, thousandth, all.size(), all[thousandth].step,
-      hundredth, without_hundredth, worst.shape(all.front().element));
+  const Slot worst = all.front().second;
+  return {gain, fmt::format("{} ({}) limits the step; without the worst {} of {} elements it is {:.2g} times "
+                            "longer, without the worst {} {:.2g} times: mend the mesh there, or allow "
+                            "<time mass-scaling=\"0.01\">",
+                            body.name(worst), what_is_wrong(body, worst), thousandth, all.size(),
+                            all[thousandth].first / limit, hundredth, gain)};
 }
 
 } // namespace rend

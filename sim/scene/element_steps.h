@@ -26,11 +26,15 @@ public:
   // [s]; with masses `heavier` times as large.
   double step(const Scheme& scheme, Slot element, double heavier = 1) const;
   double least(const Scheme& scheme) const; // [s], of the whole body: scheme.limit() of frequency_bounds()
+  double least_undamped(const Scheme& scheme) const; // [s], the same without damping and drag
+  // [s], with other bounds of the body, to which the drag that all its vertices share is added.
+  double step(const Scheme& scheme, const FrequencyBounds& bounds) const;
 
   // Such as "the tetrahedron 12 near (0, 0.1, 0.2) m".
   std::string name(Slot element) const;
   // Such as "dihedral angles from 0.4 to 179 degrees, aspect ratio 150".
   std::string shape(Slot element) const;
+  double aspect(Slot element) const; // element_quality.h
   const Body& body() const { return *body_; }
   // Calls f(corner slot) for the corners of an element.
   template <class F> void for_each_corner(Slot element, F&& f) const {
@@ -48,12 +52,11 @@ private:
   double more_damping_ = 0; // [1/s]
 };
 
-// The element with the smallest step, and its shape: "the tetrahedron 12 near (0, 0.1, 0.2) m of body 'b'
-// (dihedral angles ...)". Empty: no element limits it.
-std::string limiting_element(const std::vector<ElementSteps>& bodies, const Scheme& scheme);
-
-// A sentence on what limits the step, where elements of a hundredth at most make it a quarter of what the
-// others allow; empty otherwise. `limit` [s]: of the scene.
-std::string what_limits(const std::vector<ElementSteps>& bodies, const Scheme& scheme, double limit);
+// Elements that make the step of a body shorter than others would: the worst hundredth, at least one.
+struct FewElements {
+  double gain = 0;   // how many times as long the step is without them; 0: they are all, or do not limit it
+  std::string words; // on the worst one, and what is wrong with it: a sliver, too light, too stiff
+};
+FewElements few_that_limit(const ElementSteps& body, const Scheme& scheme, double limit); // limit [s]: its step
 
 } // namespace rend

@@ -7,9 +7,6 @@
 #include "sim/contact/start_overlap.h"
 #include "sim/guard/guard.h"
 #include "sim/integrate/rigid_motions.h"
-#include "sim/rows/frequency.h"
-#include "sim/scene/element_steps.h"
-#include "sim/scene/mass_scaling.h"
 #include "sim/topology/count.h"
 
 #include <fmt/format.h>
@@ -91,18 +88,6 @@ void Scene::solve_contact() {
       body->solved_contact = std::make_unique<SolvedContact>(world_, *body->contact);
 }
 
-void Scene::scale_masses() {
-  if (!time_.mass_scaling) return;
-  if (scheme().solves)
-    time_.source.fail(
-        "mass-scaling",
-        fmt::format("nothing limits the step of '{}', and no element need be heavier", scheme().name),
-        "leave it out");
-  const Scheme& limiting = scheme().adaptive ? *find_scheme("symplectic") : scheme();
-  if (!rend::scale_masses(bodies_, limiting, *time_.mass_scaling, time_.step))
-    notes_.emplace_back("mass scaling: no element is heavier, since the step would hardly be larger");
-}
-
 SchemeSettings Scene::checked_settings() const {
   const bool given = time_.source.given("tolerance") || time_.tolerance != TimeSettings{}.tolerance;
   if (given && !scheme().adaptive)
@@ -116,32 +101,6 @@ SchemeSettings Scene::checked_settings() const {
   return {.tolerance = time_.tolerance, .rho_infinity = time_.rho_infinity};
 }
 
-// An adaptive scheme divides the step of the preset: the default is that of symplectic, so that laws are
-// applied as often.
-void Scene::set_step() {
-  step_ = automatic_step() ? stable_step() : *time_.step;
-  const double duration = duration_;
-  if (automatic_step() && duration > 0)
-    step_ = duration / std::ceil(duration / step_); // the last step ends with the clip
-  if (const double limit = stability_limit(); !automatic_step() && step_ > limit)
-    notes_.push_back(fmt::format("the step of {:.3g} s may be too large: up to {:.3g} s '{}' is certainly "
-                                 "stable here (step=\"auto\" takes 0.9 of that)",
-                                 step_, limit, scheme().name));
-  if (duration / step_ > 1e12) refuse_so_many_steps();
-}
-
-void Scene::refuse_so_many_steps() const {
-  const std::string what = fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration_, step_);
-  if (!automatic_step()) time_.source.fail("step", what);
-  const Scheme& limiting = scheme().adaptive ? *find_scheme("symplectic") : scheme();
-  std::vector<ElementSteps> steps;
-  for (const auto& body : bodies_) steps.emplace_back(*body);
-  const std::string element = limiting_element(steps, limiting);
-  time_.source.fail(
-      "step", what + (element.empty() ? "" : ", and what limits the step is " + element),
-      "look whether the material is too stiff or light, or the mesh is bad there (rend mesh info)");
-}
-
 // Looking for the largest value that a law has reached can take as long as a step or two, where looking for
 // what exceeds its threshold takes little. So it is done at every 256th step, in short clips more often; a step
 // that solves takes so long that it is done at every one.
@@ -151,48 +110,6 @@ void Scene::set_looks(bool every_step) {
   const bool each = every_step || scheme().solves;
   const long every = each ? 1 : std::lround(std::clamp(std::floor(steps / least_looks), 1.0, longest));
   for (auto& body : bodies_) body->look_every = every;
-}
-
-double Scene::stability_limit() const {
-  return stability_limit(scheme());
-}
-
-double Scene::stability_limit(const Scheme& scheme) const {
-  double limit = std::numeric_limits<double>::infinity();
-  for (const auto& body : bodies_) {
-    const FrequencyBounds b = frequency_bounds(*body->map, body->interactions, *body->mass, body->drag);
-    const double wind = body->loads.damping_rate(*body->map, body->program->inverse_mass());
-    limit = std::min(limit, scheme.limit({b.omega_squared, b.damping_rate + wind + body->uniform_drag,
-                                          b.least_drag_rate + body->uniform_drag}));
-  }
-  return limit;
-}
-
-double Scene::stable_step() {
-  if (scheme().name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
-  const Scheme& limiting = scheme().adaptive ? *find_scheme("symplectic") : scheme();
-  std::vector<ElementSteps> steps;
-  double limit = std::numeric_limits<double>::infinity();
-  for (const auto& body : bodies_) {
-    steps.emplace_back(*body).add_damping(body->loads.damping_rate(*body->map, body->program->inverse_mass()));
-    limit = std::min(limit, steps.back().least(limiting));
-  }
-  if (limit <= 0)
-    time_.source.fail(
-        "step",
-        fmt::format("no step is stable with the integrator '{}' here, because some motions are not damped",
-                    scheme().name),
-        "use symplectic, verlet or rk4, or add <viscosity>");
-  if (std::isinf(limit))
-    time_.source.fail(
-        "step",
-        scheme().solves
-            ? fmt::format("step=\"auto\" is not possible with '{}', which is stable with every step",
-                          scheme().name)
-            : "step=\"auto\" is not possible: nothing in the scene limits the step",
-        scheme().solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
-  if (const std::string what = what_limits(steps, limiting, limit); !what.empty()) notes_.push_back(what);
-  return 0.9 * limit;
 }
 
 double Scene::time() const {

@@ -136,7 +136,7 @@ TEST(MassScaling, is_refused_where_nothing_limits_the_step) {
 
 TEST(StepLimitNote, names_the_element_where_a_few_limit_the_step) {
   const auto notes = bar({}, "symplectic", {}, 6)->scene->notes();
-  EXPECT_THAT(notes, Contains(AllOf(HasSubstr("the tetrahedron"), HasSubstr("of body 'bar' limits the step to"),
+  EXPECT_THAT(notes, Contains(AllOf(HasSubstr("body 'bar': the tetrahedron"), HasSubstr("(a sliver: dihedral"),
                                     HasSubstr("without the worst 3 of 2592 elements"))));
   const auto even = presets::load(R"(<scene><body><bar pattern="tetrahedra" cells="6 3 3" size="0.6 0.3 0.3"/>
       <mass density="1000"/><elasticity model="corotational" young="1e5" poisson="0.3"/></body>

@@ -1,0 +1,107 @@
+// The size of the steps of a scene.
+#include "sim/rows/frequency.h"
+#include "sim/scene/mass_scaling.h"
+#include "sim/scene/scene.h"
+#include "sim/scene/step_cause.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rend {
+namespace {
+
+// Whose limit counts: of an adaptive scheme symplectic's.
+const Scheme& limiting(const Scheme& scheme) {
+  return scheme.adaptive ? *find_scheme("symplectic") : scheme;
+}
+
+std::vector<ElementSteps> element_steps(const std::vector<std::unique_ptr<Body>>& bodies) {
+  std::vector<ElementSteps> steps;
+  for (const auto& body : bodies)
+    steps.emplace_back(*body).add_damping(body->loads.damping_rate(*body->map, body->program->inverse_mass()));
+  return steps;
+}
+
+} // namespace
+
+StepCause cause_of_step(const Scene& scene) {
+  return cause_of_step(element_steps(scene.bodies()), limiting(scene.scheme()));
+}
+
+void Scene::scale_masses() {
+  if (!time_.mass_scaling) return;
+  if (scheme().solves)
+    time_.source.fail(
+        "mass-scaling",
+        fmt::format("nothing limits the step of '{}', and no element need be heavier", scheme().name),
+        "leave it out");
+  if (!rend::scale_masses(bodies_, limiting(scheme()), *time_.mass_scaling, time_.step))
+    notes_.emplace_back("mass scaling: no element is heavier, since the step would hardly be larger");
+}
+
+// An adaptive scheme divides the step of the preset: the default is that of symplectic, so that laws are
+// applied as often.
+void Scene::set_step() {
+  step_ = automatic_step() ? stable_step() : *time_.step;
+  const double duration = duration_;
+  if (automatic_step() && duration > 0)
+    step_ = duration / std::ceil(duration / step_); // the last step ends with the clip
+  if (const double limit = stability_limit(); !automatic_step() && step_ > limit)
+    notes_.push_back(fmt::format("the step of {:.3g} s may be too large: up to {:.3g} s '{}' is certainly "
+                                 "stable here (step=\"auto\" takes 0.9 of that); {}",
+                                 step_, limit, scheme().name, cause_of_step(*this).words));
+  if (duration / step_ > 1e12) refuse_so_many_steps();
+}
+
+void Scene::refuse_so_many_steps() const {
+  const std::string what = fmt::format("{:g} s in steps of {:g} s are more than 1e12 steps", duration_, step_);
+  if (!automatic_step()) time_.source.fail("step", what);
+  time_.source.fail(
+      "step", what + "; " + cause_of_step(*this).words,
+      "look whether the material is too stiff or light, or the mesh is bad there (rend mesh info)");
+}
+
+double Scene::stability_limit() const {
+  return stability_limit(scheme());
+}
+
+double Scene::stability_limit(const Scheme& scheme) const {
+  double limit = std::numeric_limits<double>::infinity();
+  for (const auto& body : bodies_) {
+    const FrequencyBounds b = frequency_bounds(*body->map, body->interactions, *body->mass, body->drag);
+    const double wind = body->loads.damping_rate(*body->map, body->program->inverse_mass());
+    limit = std::min(limit, scheme.limit({b.omega_squared, b.damping_rate + wind + body->uniform_drag,
+                                          b.least_drag_rate + body->uniform_drag}));
+  }
+  return limit;
+}
+
+double Scene::stable_step() {
+  if (scheme().name == "static") return duration_ > 0 ? duration_ : 1; // one step, one equilibrium
+  const Scheme& own = limiting(scheme());
+  const std::vector<ElementSteps> steps = element_steps(bodies_);
+  double limit = std::numeric_limits<double>::infinity();
+  for (const ElementSteps& each : steps) limit = std::min(limit, each.least(own));
+  if (limit <= 0)
+    time_.source.fail(
+        "step",
+        fmt::format("no step is stable with the integrator '{}' here, because some motions are not damped",
+                    scheme().name),
+        "use symplectic, verlet or rk4, or add <viscosity>");
+  if (std::isinf(limit))
+    time_.source.fail(
+        "step",
+        scheme().solves
+            ? fmt::format("step=\"auto\" is not possible with '{}', which is stable with every step",
+                          scheme().name)
+            : "step=\"auto\" is not possible: nothing in the scene limits the step",
+        scheme().solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
+  constexpr double told = 4; // the gain from which a cause is told
+  if (const StepCause cause = unusual_cause_of_step(steps, own); cause.gain >= told)
+    notes_.push_back(fmt::format("step=\"auto\" is {:.3g} s: {}", 0.9 * limit, cause.words));
+  return 0.9 * limit;
+}
+
+} // namespace rend
