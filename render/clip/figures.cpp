@@ -1,5 +1,7 @@
 #include "render/clip/figures.h"
 
+#include "render/clip/early_tears.h"
+#include "sim/body/fragment_masses.h"
 #include "sim/fracture/pairs.h"
 #include "sim/scene/memory.h"
 #include "sim/topology/count.h"
@@ -7,6 +9,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace rend {
 namespace {
@@ -84,7 +87,24 @@ std::vector<AnswerFigures> answers_of(const Scene& scene) {
   return answers;
 }
 
-std::vector<LawFigures> laws_of(const Scene& scene) {
+FragmentFigures fragments_of(const Scene& scene) {
+  std::vector<double> masses;
+  for (const auto& body : scene.bodies()) {
+    const std::vector<double> own = fragment_masses(*body->map, *body->mass);
+    masses.insert(masses.end(), own.begin(), own.end());
+  }
+  FragmentFigures out{.count = masses.size()};
+  if (masses.empty()) return out;
+  const double all = std::accumulate(masses.begin(), masses.end(), 0.0);
+  const auto largest = std::max_element(masses.begin(), masses.end());
+  out.largest = all > 0 ? *largest / all : 0;
+  for (auto mass = masses.begin(); mass != masses.end(); ++mass)
+    if (mass != largest) ++(*mass >= FragmentFigures::small * all ? out.above : out.below);
+  return out;
+}
+
+std::vector<LawFigures> laws_of(const Session& session) {
+  const Scene& scene = session.scene();
   std::vector<LawFigures> laws;
   for (const auto& body : scene.bodies()) {
     for (std::size_t n = 0; n < body->tear_laws.size(); ++n) {
@@ -96,12 +116,15 @@ std::vector<LawFigures> laws_of(const Scene& scene) {
                      .unit = law.unit,
                      .tears = 0,
                      .first = {},
+                     .at_once = {},
                      .refusals = body->tear_laws[n].refusals(),
                      .reached = body->tear_laws[n].reached(),
                      .look_every = body->look_every};
       for (const TearEvent& event : body->events) {
         if (event.law != static_cast<int>(n)) continue;
-        if (one.tears++ == 0) one.first = event.time;
+        if (one.tears++ > 0) continue;
+        one.first = event.time;
+        one.at_once = early_step(session, law, event);
       }
       laws.push_back(std::move(one));
     }
@@ -165,12 +188,12 @@ StateFigures state_of(const Session& session) {
     state.darts += body->map->map().dart_count();
     if (body->added_mass > 0) state.added_mass.emplace_back(body->name, body->added_mass);
   }
-  state.fragments = scene.fragments();
+  state.fragments = fragments_of(scene);
   state.tears = scene.tears();
   if (session.reaches())
     state.reach = reach_of(scene);
   else
-    state.laws = laws_of(scene);
+    state.laws = laws_of(session);
   state.energy = scene.energy();
   state.mass = scene.mass();
   state.momentum = scene.momentum();

@@ -29,9 +29,12 @@ struct LawFigures {
   std::string unit; // of that
   std::size_t tears = 0;
   std::optional<double> first; // [s], of the first tear
-  Refusals refusals;           // of a rule, by reason
-  Reached reached;             // the largest value
-  long look_every = 1;         // steps; of values above the threshold 1
+  // The step of that, counted from the law's start, if it is one of the first: then the threshold is far below
+  // what is reached, or meant in another unit.
+  std::optional<long> at_once;
+  Refusals refusals;   // where the value was above the threshold and the change not possible, by reason
+  Reached reached;     // the largest value
+  long look_every = 1; // steps; of values above the threshold 1
 };
 
 // The largest value of a criterion at the steps at which its law has looked.
@@ -39,6 +42,13 @@ struct ReachFigures {
   std::string body, criterion; // with the kind of springs
   std::string unit;
   Reached reached;
+};
+
+// Fragments by their share of the mass of all.
+struct FragmentFigures {
+  static constexpr double small = 0.01;        // the share below which a fragment is small
+  std::size_t count = 0, above = 0, below = 0; // above: beside the largest; below: `small`
+  double largest = 0;                          // share; 0: there is none
 };
 
 struct ProbeFigures {
@@ -70,7 +80,8 @@ struct SolvingFigures {
 struct StateFigures {
   long steps = 0, evaluations = 0; // evaluations: of internal forces
   double time = 0;                 // [s]
-  std::size_t vertices = 0, elements = 0, darts = 0, fragments = 0, tears = 0;
+  std::size_t vertices = 0, elements = 0, darts = 0, tears = 0;
+  FragmentFigures fragments;
   std::vector<LawFigures> laws;
   std::vector<ReachFigures> reach; // of all criteria; empty unless asked for
   EnergyFigures energy;

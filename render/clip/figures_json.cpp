@@ -34,10 +34,18 @@ Json json_of(const LawFigures& law) {
            {"unit", law.unit},
            {"tears", law.tears},
            {"first", json_or_null(law.first)},
+           {"at_once", law.at_once.has_value()},
            {"reached", json_of(law.reached)},
            {"look_every", law.look_every}};
   for (const auto& [reason, count] : law.refusals) out["refused"][reason] = count;
   return out;
+}
+
+// Shares of the mass of all; the numbers of others that have at least a hundredth of it, and less.
+Json json_of(const FragmentFigures& fragments) {
+  return {{"largest", fragments.largest},
+          {"others_above_1_percent", fragments.above},
+          {"others_below_1_percent", fragments.below}};
 }
 
 Json json_of(const ProbeFigures& probe) {
@@ -109,7 +117,8 @@ Json json_of(const StateFigures& s) {
              {"vertices", s.vertices},
              {"elements", s.elements},
              {"darts", s.darts},
-             {"fragments", s.fragments},
+             {"fragments", s.fragments.count},
+             {"fragment_sizes", json_of(s.fragments)},
              {"tears", s.tears},
              {"laws", list_of(s.laws)},
              {"energy", json_of(s.energy)},

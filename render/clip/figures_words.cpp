@@ -44,16 +44,16 @@ std::string place_in_words(const Reached& reached, const std::string& unit) {
 std::string reach_in_words(const std::vector<ReachFigures>& all) {
   if (all.empty()) return "";
   std::string out =
-      "  reach      largest values, without tearing. A threshold slightly below such a value tears first at\n"
-      "             that time, if the change is possible there (a vertex of one element alone cannot be\n"
-      "             split); one above it never tears\n";
+      "  reach      largest values where the criterion's default change is possible, without tearing. A\n"
+      "             threshold slightly below such a value tears first at that time; one above it never tears\n";
   for (const ReachFigures& one : all)
     out += fmt::format("             {} of '{}': {}\n", printable(one.criterion), printable(one.body),
-                       one.reached.value > 0 ? place_in_words(one.reached, one.unit) : "nothing");
+                       one.reached.value > 0 ? place_in_words(one.reached, one.unit)
+                                             : "nothing where its change is possible");
   return out;
 }
 
-// Of a rule: where the criterion exceeded its threshold, and the rule did not apply; the most frequent first.
+// Where the criterion exceeded its threshold, and the change was not possible; the most frequent reason first.
 std::string refusals_in_words(const Refusals& refusals) {
   std::vector<std::pair<std::string, std::uint64_t>> all(refusals.begin(), refusals.end());
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -73,6 +73,9 @@ std::string laws_in_words(const std::vector<LawFigures>& laws) {
                        : law.tears == 1 ? "once"
                                         : fmt::format("{} times", law.tears));
     if (law.first) out += fmt::format(", first at {:.6g} s", *law.first);
+    if (law.at_once)
+      out += fmt::format(", in the law's step {}: is the threshold meant in {}, and not too low?", *law.at_once,
+                         law.unit.empty() ? "this unit, a ratio" : printable(law.unit));
     if (law.reached.value > 0)
       out += fmt::format("; largest value{} {}",
                          law.look_every > 1 && law.tears == 0
@@ -81,6 +84,17 @@ std::string laws_in_words(const std::vector<LawFigures>& laws) {
                          place_in_words(law.reached, law.unit));
     out += "\n" + refusals_in_words(law.refusals);
   }
+  return out;
+}
+
+// "21 fragments: one with 38 % of the mass, 6 above 1 %, 14 below".
+std::string fragments_in_words(const FragmentFigures& fragments) {
+  if (fragments.count == 1) return "1 fragment";
+  std::string out = fmt::format("{} fragments", fragments.count);
+  if (fragments.largest > 0) out += fmt::format(": one with {:.3g} % of the mass", 100 * fragments.largest);
+  if (fragments.above > 0) out += fmt::format(", {} above 1 %", fragments.above);
+  if (fragments.below > 0)
+    out += fmt::format(", {} below{}", fragments.below, fragments.above > 0 ? "" : " 1 %");
   return out;
 }
 
@@ -128,8 +142,7 @@ std::string summary_of(const Figures& f) {
                                 s.steps, f.step, f.integrator, s.time, seconds_in_words(f.costs.total));
   if (f.stopped != Stopped::No) out += fmt::format("  stopped    {}\n", name_of(f.stopped));
   out += fmt::format("  cells      {} vertices, {} elements, {} darts\n", s.vertices, s.elements, s.darts);
-  out +=
-      fmt::format("  tearing    {} tears, {} fragment{}\n", s.tears, s.fragments, s.fragments == 1 ? "" : "s");
+  out += fmt::format("  tearing    {} tears, {}\n", s.tears, fragments_in_words(s.fragments));
   out += laws_in_words(s.laws) + reach_in_words(s.reach);
   out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n",
                      s.energy.now.kinetic, s.energy.now.elastic, s.energy.now.gravity);

@@ -1,5 +1,6 @@
 #include "render/clip/session.h"
 
+#include "render/clip/early_tears.h"
 #include "render/clip/inputs.h"
 #include "render/clip/picture_check.h"
 #include "render/clip/run_estimate.h"
@@ -275,6 +276,7 @@ Exit exit_code_of(const Session& session, Stopped stopped) {
   if (!session.quiet()) {
     note_removed_bodies(session.scene());
     note_substeps(session.scene());
+    for (const std::string& note : notes_on_early_tears(session)) print_note(note);
   }
   if (stopped == Stopped::No) return Exit::Done;
   if (stopped == Stopped::Unstable) {

@@ -189,7 +189,8 @@ std::unique_ptr<Criterion> largest_of_elements(const CriterionRequest& request,
 
 std::string lacking_for_stress(const CriterionRequest& request) {
   if (!Continuum(request.map, request.interactions).empty()) return {};
-  return "measures finite elements, but this body has no <elasticity>";
+  return "measures finite elements, but this body has no <elasticity>; with <springs> take atomic-spring, "
+         "atomic-vertex or atomic-border";
 }
 
 } // namespace rend

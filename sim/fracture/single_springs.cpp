@@ -78,12 +78,16 @@ std::string lacking_for_springs(const CriterionRequest& request) {
   }
   std::string list;
   for (const std::string& kind : there) list += (list.empty() ? "" : ", ") + kind;
-  if (there.empty()) return "measures springs, but this body has none";
+  if (there.empty())
+    return "measures springs, but this body has none; with <elasticity> take atomic-element, vertex-stress or "
+           "atomic-border";
   if (request.kind.empty()) return "measures springs of one kind: give kind, one of " + list;
   if (!hinges && !straight)
     return fmt::format("measures springs of kind '{}', but this body has only {}", request.kind, list);
   if (hinges && straight)
-    return "would compare forces and moments with one threshold, because this body has both kinds of <bend>";
+    return "would compare forces and moments with one threshold, because this body has both kinds of <bend>: "
+           "keep "
+           "one of them, or measure another kind";
   return {};
 }
 

@@ -4,7 +4,7 @@
 //   side of element e = [(c_e − x)·n ≥ 0],   c_e the mean of its corners
 //
 // and every border at the vertex between elements of different sides is separated.
-#include "sim/fracture/change.h"
+#include "sim/fracture/split_vertex.h"
 
 #include "sim/mechanics/mass.h"
 #include "sim/topology/walk.h"
@@ -45,21 +45,30 @@ private:
   std::vector<bool> above_;
 };
 
+// Whether a border at the vertex parts elements of different sides. d: one of the vertex's darts there.
+bool is_across(const GMap& map, const Sides& sides, Dart d) {
+  const int link = map.dimension();
+  return !map.is_free(link, d) && sides.above(d) != sides.above(map.alpha(link, d));
+}
+
 // `darts`: of the vertex.
 bool split(Edit& edit, const ForceView& view, std::span<const Dart> darts, const Vec3& normal) {
-  const GMap& map = edit.map();
-  const int link = map.dimension();
   const Sides sides(view.map, darts, view.position, normal);
   bool any = false;
   for (Dart d : darts) {
-    if (map.is_free(link, d) || sides.above(d) == sides.above(map.alpha(link, d))) continue;
-    unsew(edit, link, d);
+    if (!is_across(edit.map(), sides, d)) continue;
+    unsew(edit, edit.map().dimension(), d);
     any = true;
   }
   return any;
 }
 
 } // namespace
+
+bool can_be_split(const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
+  const Sides sides(view.map, darts, view.position, found.normal);
+  return std::any_of(darts.begin(), darts.end(), [&](Dart d) { return is_across(view.map.map(), sides, d); });
+}
 
 ChangeType split_vertex() {
   return {.name = "split-vertex",

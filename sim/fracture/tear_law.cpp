@@ -2,6 +2,8 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/stop_request.h"
+#include "sim/fracture/counted_change.h"
+#include "sim/fracture/split_vertex.h"
 #include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 
@@ -18,6 +20,11 @@ template <class T> std::string told(const std::vector<T>& all) {
   std::string out;
   for (const T& each : all) out += (out.empty() ? "" : "\n") + each.name + ": " + each.what;
   return out;
+}
+
+// The largest value first, then the smallest dart.
+bool larger(const Candidate& a, const Candidate& b) {
+  return a.value != b.value ? a.value > b.value : a.dart < b.dart;
 }
 
 } // namespace
@@ -99,7 +106,11 @@ thread_local TouchedDarts touched;
 
 TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
     : settings_(settings), transfer_(&transfer(settings.cell, settings.change->cell, request.map.dimension())),
-      criterion_(settings.criterion->make(request)) {}
+      criterion_(settings.criterion->make(request)) {
+  if (settings_.change->memory || std::isinf(settings_.threshold)) return;
+  settings_.by_rule = counted(*settings_.change); // as a rule, it is one of this law alone
+  settings_.change = settings_.by_rule.get();
+}
 
 const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   candidates_.clear();
@@ -123,9 +134,7 @@ const std::vector<Candidate>& TearLaw::find_and_note(const ForceView& view, doub
 }
 
 void TearLaw::sort_candidates() {
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    return a.value != b.value ? a.value > b.value : a.dart < b.dart;
-  });
+  std::sort(candidates_.begin(), candidates_.end(), &larger);
 }
 
 // Those above the largest value so far. Where nothing has been reached yet, from the threshold downwards: with
@@ -140,15 +149,19 @@ void TearLaw::find_largest(const ForceView& view) {
     criterion_->find(view, above, candidates_);
 }
 
+// A law without a threshold (infinity), which only looks, passes over vertices that cannot be split: no
+// threshold would tear them.
 void TearLaw::note_reached(const ForceView& view, double time) {
-  const auto largest =
-      std::max_element(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-        return a.value != b.value ? a.value < b.value : b.dart < a.dart;
-      });
-  if (!(largest->value > reached_.value)) return;
-  left_.clear();
-  collect(view.map.map(), orbit_of(settings_.cell, view.map.dimension()), largest->dart, left_);
-  reached_ = {largest->value, time, middle_of(view.map, view.position, left_)};
+  const bool splits = std::isinf(settings_.threshold) && settings_.change->cell == Cell::Vertices;
+  if (splits) sort_candidates();
+  auto one = splits ? candidates_.begin() : std::min_element(candidates_.begin(), candidates_.end(), &larger);
+  for (; one != candidates_.end() && one->value > reached_.value; ++one) {
+    left_.clear();
+    collect(view.map.map(), orbit_of(settings_.cell, view.map.dimension()), one->dart, left_);
+    if (splits && !can_be_split(view, {one->normal, one->value}, left_)) continue;
+    reached_ = {one->value, time, middle_of(view.map, view.position, left_)};
+    return;
+  }
 }
 
 void Reached::store(Archive& archive) {
