@@ -18,6 +18,8 @@ std::string message_of(const BatchResult& result, const std::string& err) {
   const std::size_t last = err.rfind(before);
   const std::size_t at = last != std::string::npos ? last + 1 : err.starts_with(mark) ? 0 : last;
   if (at == std::string::npos) {
+    if (result.ran && result.code == static_cast<int>(Exit::CheckFailed))
+      return "an <answer> of the preset does not hold"; // its figures say which
     const int signal = result.code - 128;
     if (!result.ran || signal <= 0 || signal >= NSIG) return {};
     return fmt::format("it was killed by signal {} ({}), which this batch did not send", signal,

@@ -1,13 +1,12 @@
 // rend batch: many presets in parallel.
 #include "render/batch/available_memory.h"
-#include "render/batch/batch_queue.h"
 #include "render/clip/frame_clock.h"
 #include "render/clip/named_files.h"
 #include "render/clip/session.h"
 #include "render/clip/shard.h"
+#include "render/commands/batch_run.h"
 #include "render/commands/command.h"
 #include "render/console/console.h"
-#include "render/console/json_text.h"
 #include "render/console/number_option.h"
 #include "render/console/signals.h"
 #include "render/files/output.h"
@@ -26,7 +25,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <cmath>
@@ -151,43 +149,9 @@ Exit exit_code_of(const BatchReport& report) {
   return all ? Exit::Done : Exit::CheckFailed;
 }
 
-// "about 3 min 20 s left": as if the other jobs took as long as those that have ended.
-std::string time_left(std::size_t finished, std::size_t all, double since) {
-  if (finished == 0 || finished == all) return "";
-  const double each = (wall_clock() - since) / static_cast<double>(finished);
-  return fmt::format("  about {} left",
-                     seconds_in_words(std::ceil(each * static_cast<double>(all - finished))));
-}
-
-// One job always runs, even if it takes more than all may take together: then it is told.
-class MemoryNote {
-public:
-  explicit MemoryNote(std::size_t memory) : memory_(memory) {}
-  void look_at(const BatchJob& job, const BatchResult& result) {
-    if (told_ || result.peak <= memory_) return;
-    told_ = true;
-    print_note(
-        fmt::format("--memory allows {} for all jobs together, but {} alone took {}: jobs that large run one "
-                    "after another; allow more, or make them smaller",
-                    bytes_in_words(memory_), in_quotes(job.name), bytes_in_words(result.peak)));
-  }
-
-private:
-  std::size_t memory_;
-  bool told_ = false;
-};
-
-void write_log(const BatchReport& report, const BatchJob& job, const BatchResult& result) {
-  const fs::path file = log_file(report, job);
-  const OutputFolder folder(file.parent_path());
-  folder.make();
-  write_atomically(file, result.log);
-}
-
-void write_report(const BatchReport& report, const std::string& name, bool csv) {
-  write_atomically(report.folder / (name + ".html"), batch_page(report));
-  if (csv)
-    write_atomically(report.folder / (name == "index" ? "figures.csv" : name + ".csv"), batch_csv(report));
+void write_report(const BatchReport& report, const std::string& name) {
+  write_atomically(report.folder / (name + ".html"), batch_page(report, name));
+  if (report.runs) write_atomically(report.folder / csv_name(name), batch_csv(report));
 }
 
 // All that tells what the jobs make, besides their presets.
@@ -198,6 +162,55 @@ std::string key_of(const BatchOptions& options, const std::vector<BatchJob>& all
   return batch_key(all, settings);
 }
 
+// Results of the jobs that need not run again, one per job; without --resume, what is there of them is removed.
+std::vector<std::optional<BatchResult>> kept_of(const BatchOptions& options, const std::vector<BatchJob>& jobs,
+                                                const Shard& shard, const KeptResults& kept) {
+  std::vector<std::optional<BatchResult>> there(jobs.size());
+  if (!options.run) return there;
+  if (!options.resume && shard.whole()) kept.remove_all();
+  for (std::size_t n = 0; n < jobs.size(); ++n)
+    if (options.resume)
+      there[n] = kept.find(jobs[n]);
+    else
+      kept.remove(jobs[n]);
+  const auto count = std::count_if(there.begin(), there.end(), [](const auto& one) { return one.has_value(); });
+  if (count > 0 && !options.quiet)
+    print_note(
+        fmt::format("{} of {} jobs have their results already, and do not run again", count, jobs.size()));
+  return there;
+}
+
+// With the rows of earlier batches into the same folder, which --resume keeps.
+BatchReport with_others(BatchReport report, const BatchOptions& options, const Shard& shard,
+                        const KeptResults& kept) {
+  if (!options.run || !options.resume || !shard.whole()) return report;
+  for (auto& [job, result] : kept.others(report.jobs)) {
+    report.jobs.push_back(std::move(job));
+    report.results.push_back(std::move(result));
+  }
+  return report;
+}
+
+// What changes the figures of all jobs.
+std::vector<std::string> run_settings(const BatchOptions& options, const BatchSettings& settings) {
+  std::vector<std::string> all = settings.sets;
+  all.push_back("--fps " + options.fps);
+  return all;
+}
+
+void write_parts(const BatchOptions& options, const BatchReport& report, const std::vector<BatchJob>& all,
+                 const Shard& shard) {
+  const std::string key = key_of(options, all);
+  write_part(report, shard, key);
+  auto whole = whole_batch(options.folder, all, shard.count, key);
+  if (!whole) return;
+  whole->runs = options.run;
+  write_report(*whole, "index");
+  if (!options.quiet)
+    print_note(fmt::format("all {} parts are done; the page of all is {}", shard.count,
+                           in_quotes((fs::path(options.folder) / "index.html").string())));
+}
+
 Exit batch(const BatchOptions& options) {
   const double start = wall_clock();
   check(options);
@@ -205,8 +218,11 @@ Exit batch(const BatchOptions& options) {
   const Shard shard = shard_for(options.shard);
   const std::vector<BatchJob> all = batch_jobs(options.inputs, settings.sweeps);
   bool frames_are_shared = false;
-  BatchReport report{
-      options.folder, jobs_of(options, all, shard, frames_are_shared), {}, limits_of(options), 0};
+  BatchReport report{.folder = options.folder,
+                     .jobs = jobs_of(options, all, shard, frames_are_shared),
+                     .results = {},
+                     .limits = limits_of(options),
+                     .runs = options.run};
   if (frames_are_shared && !options.video.empty())
     throw UserError(
         Exit::Usage, {},
@@ -222,39 +238,16 @@ Exit batch(const BatchOptions& options) {
   const GracefulStop graceful_stop;
   folder.make();
   if (!shard.whole()) remove_part(options.folder, shard);
-  std::size_t finished = 0;
-  MemoryNote memory(report.limits.memory);
-  BatchQueue queue(
-      report.jobs, report.limits,
-      [&](const BatchJob& job, bool again) {
-        return arguments_of(options, settings, report.limits, job, frames, options.resume || again);
-      },
-      [&](std::size_t n, const BatchResult& result) {
-        ++finished;
-        write_log(report, report.jobs[n], result);
-        if (options.json) print_result(text_of(line_of(report.jobs[n], result)) + "\n");
-        if (options.quiet) return;
-        print_progress(fmt::format("{:>3} of {}  {:8}  {:>8}  {}{}\n", finished, report.jobs.size(),
-                                   name_of(result.state()), seconds_in_words(result.seconds),
-                                   printable(report.jobs[n].name),
-                                   time_left(finished, report.jobs.size(), start)));
-        if (!options.memory.empty()) memory.look_at(report.jobs[n], result);
-      });
-  report.results = queue.run();
-  if (queue.processes_were_refused() && !options.quiet)
-    print_note("the system could not start as many jobs at once as were allowed");
+  const KeptResults kept(options.folder, run_settings(options, settings));
+  BatchRun run(report, options.run ? &kept : nullptr,
+               {.json = options.json, .quiet = options.quiet, .warns_of_memory = !options.memory.empty()},
+               kept_of(options, report.jobs, shard, kept));
+  run.run([&](const BatchJob& job, bool again) {
+    return arguments_of(options, settings, report.limits, job, frames, options.resume || again);
+  });
   report.seconds = wall_clock() - start;
-  write_report(report, name, options.run);
-  if (!shard.whole()) {
-    const std::string key = key_of(options, all);
-    write_part(report, shard, key);
-    if (const auto whole = whole_batch(options.folder, all, shard.count, key)) {
-      write_report(*whole, "index", options.run);
-      if (!options.quiet)
-        print_note(fmt::format("all {} parts are done; the page of all is {}", shard.count,
-                               in_quotes((fs::path(options.folder) / "index.html").string())));
-    }
-  }
+  write_report(with_others(report, options, shard, kept), name);
+  if (!shard.whole()) write_parts(options, report, all, shard);
   folder.sync();
   if (!options.json) print_result(closing_words(report, page));
   return exit_code_of(report);
@@ -275,14 +268,16 @@ void declare_passed_on(CLI::App& app, BatchOptions& options) {
   app.add_option("--video", options.video, "also write a video of each job")
       ->type_name(choices(video_format_names()));
   app.add_flag("--no-png", options.no_png, "write no PNG files, only the video");
-  app.add_option("--threads", options.threads, "threads of each job; default: 1 where jobs run in parallel")
+  app.add_option("--threads", options.threads,
+                 "threads of each job; default: 1, or with --jobs 1 all that the machine has")
       ->type_name("N")
       ->transform(whole_number(1, 256));
   app.add_option("--checkpoint-every", options.checkpoint_every,
                  "seconds between stored states, as for rend render")
       ->type_name("S")
       ->transform(real_number(0, 1e9));
-  app.add_flag("--allow-path", options.allow_path, "allow files outside of the presets' folders");
+  app.add_flag("--allow-path", options.allow_path,
+               "allow presets to name meshes and rules outside of their folders");
 }
 
 std::function<Exit()> declare_batch(CLI::App& app) {
@@ -320,8 +315,10 @@ std::function<Exit()> declare_batch(CLI::App& app) {
                  "one. With fewer jobs than parts, each part renders some frames of each job")
       ->type_name("I/N")
       ->check(some_word());
-  app.add_flag("--resume", options->resume,
-               "keep pictures that are complete, and make the missing ones; with --run jobs begin anew");
+  app.add_flag(
+      "--resume", options->resume,
+      "keep what is complete, and make the rest: pictures; with --run, results of jobs, and the table's "
+      "rows of earlier batches into the same folder");
   declare_passed_on(app, *options);
   app.add_flag("--json", options->json,
                "print one JSON object per job on stdout, one a line, as each job ends");

@@ -9,6 +9,7 @@
 #include "render/console/signals.h"
 #include "render/files/output.h"
 #include "render/files/png.h"
+#include "render/help/usage.h"
 #include "render/pages/diff_page.h"
 #include "render/pages/diff_report.h"
 #include "sim/base/printable.h"
@@ -210,9 +211,24 @@ Exit diff(const DiffOptions& options) {
   return exit_of(report);
 }
 
+// The parser gives --update all words up to the next option, the folders too where they stand behind it: these
+// are its last.
+void take_back_folders(DiffOptions& options) {
+  for (std::string* folder : {&options.b, &options.a}) {
+    if (!folder->empty() || options.update.size() < 2) continue;
+    *folder = options.update.back();
+    options.update.pop_back();
+  }
+  for (const auto& [given, name] : {std::pair(options.a, "EXPECTED"), std::pair(options.b, "NOW")})
+    if (given.empty())
+      throw UserError(Exit::Usage, {}, fmt::format("{} is missing", name),
+                      "rend diff --help lists what it takes");
+}
+
 // An input that cannot be compared gives exit code 2 (trouble), as in diff(1). A file that is not there has the
 // exit code that it has everywhere.
-Exit run(const DiffOptions& options) {
+Exit run(DiffOptions& options) {
+  take_back_folders(options);
   try {
     return diff(options);
   } catch (const UserError& error) {
@@ -225,11 +241,11 @@ Exit run(const DiffOptions& options) {
 std::function<Exit()> declare_diff(CLI::App& app) {
   auto options = std::make_shared<DiffOptions>();
   app.add_option("expected", options->a, "the expected picture (PNG), or a folder of pictures")
-      ->required()
+      ->group(required_by_command)
       ->type_name("EXPECTED");
   app.add_option("now", options->b,
                  "the picture to compare with it, or a folder with pictures of the same names")
-      ->required()
+      ->group(required_by_command)
       ->type_name("NOW");
   app.add_option("-t,--tolerances", options->tolerances,
                  "which differences are allowed, by picture (rend help tolerances); without it, none")
@@ -264,7 +280,8 @@ std::function<Exit()> declare_diff(CLI::App& app) {
                  "new pictures are added to what is expected, and missing ones are removed from it")
       ->type_name("NAME...")
       ->expected(1, -1);
-  app.add_option("--threads", options->threads, "number of threads; default: as many as the machine has")
+  app.add_option("--threads", options->threads, "number of threads; default: all that the machine has")
+      ->type_name("N")
       ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->quiet, "print nothing but JSON and errors");
   app.footer("Exit code: 0 if all pictures match, 1 if one does not, 2 if one cannot be compared.");

@@ -1,5 +1,6 @@
 // rend sheet: a contact sheet, one row a preset: how it starts, tears and ends; or the ends of many presets
 // side by side.
+#include "render/batch/batch_jobs.h"
 #include "render/clip/named_files.h"
 #include "render/clip/session.h"
 #include "render/commands/command.h"
@@ -8,6 +9,7 @@
 #include "render/console/progress.h"
 #include "render/console/signals.h"
 #include "render/draw/device.h"
+#include "render/draw/hud.h"
 #include "render/draw/renderer.h"
 #include "render/files/output.h"
 #include "render/files/png.h"
@@ -15,9 +17,11 @@
 #include "render/picture/scene_preset.h"
 #include "sim/base/printable.h"
 #include "sim/base/wording.h"
+#include "sim/preset/override.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -29,8 +33,8 @@ constexpr int moments = 3; // that are shown of a preset
 constexpr int gap = 6;     // [pixels]
 
 struct SheetOptions {
-  SessionOptions session;
-  std::vector<std::string> presets;
+  SessionOptions session; // of each preset: without its name and its attributes
+  std::vector<std::string> presets, sets, sweeps;
   std::string file, size;
   int ends = 0; // pictures in a row, of the ends of so many presets; 0: a row shows one preset at three moments
 };
@@ -42,11 +46,32 @@ struct Layout {
   int column(std::size_t preset, int k) const { return shown == 1 ? static_cast<int>(preset) % columns : k; }
   int row(std::size_t preset) const { return static_cast<int>(preset) / (shown == 1 ? columns : 1); }
 };
-Layout layout_of(const SheetOptions& options) {
-  const int presets = static_cast<int>(options.presets.size());
-  if (options.ends == 0) return {moments, moments, presets};
-  const int columns = std::min(options.ends, presets);
-  return {columns, 1, (presets + columns - 1) / columns};
+Layout layout_of(const SheetOptions& options, std::size_t scenes) {
+  const int count = static_cast<int>(scenes);
+  if (options.ends == 0) return {moments, moments, count};
+  const int columns = std::min(options.ends, count);
+  return {columns, 1, (count + columns - 1) / columns};
+}
+
+// A preset, or one with a choice of values of a sweep.
+struct SheetScene {
+  std::string preset;
+  std::vector<std::string> sets; // PATH=VALUE
+  std::string label;             // the values of the sweep; empty: there is none
+};
+
+std::vector<SheetScene> scenes_of(const SheetOptions& options) {
+  const BatchSettings settings = batch_settings(scene_type(), options.sets, options.sweeps);
+  std::vector<SheetScene> scenes;
+  for (const std::string& preset : options.presets) {
+    load_scene(preset, {}); // a name that is wrong is told with those that are near
+    for (const BatchJob& job : batch_jobs({preset}, settings.sweeps)) {
+      SheetScene scene{preset, settings.sets, fmt::format("{}", fmt::join(job.sets, "  "))};
+      scene.sets.insert(scene.sets.end(), job.sets.begin(), job.sets.end());
+      scenes.push_back(std::move(scene));
+    }
+  }
+  return scenes;
 }
 
 // The three frames of a row, chosen while the clip runs: the first; the one a twentieth of the clip after the
@@ -98,6 +123,22 @@ void paste(const Image& tile, int x, int y, Image& sheet) {
     std::copy_n(tile.row(r), tile.stride(), sheet.row(y + r) + 3 * static_cast<std::size_t>(x));
 }
 
+// What a picture shows, in its lower left corner.
+void write_label(Frame& frame, const std::string& label) {
+  if (!label.empty()) frame.hud.lines.push_back({.text = printable(label), .x = 0.02F, .y = 0.93F});
+}
+
+// The scenes of the sheet as lines, where they are told apart by values.
+std::string list_of(const std::vector<SheetScene>& scenes, const Layout& layout) {
+  std::string out;
+  for (std::size_t n = 0; n < scenes.size(); ++n)
+    if (!scenes[n].label.empty())
+      out += fmt::format("  row {}{}: {} {}\n", layout.row(n) + 1,
+                         layout.shown == 1 ? fmt::format(", picture {}", layout.column(n, 0) + 1) : "",
+                         printable(scenes[n].preset), printable(scenes[n].label));
+  return out;
+}
+
 Exit make_sheet(const SheetOptions& options) {
   require_png(); // before anything slow
   if (std::filesystem::path(options.file).extension() != ".png")
@@ -108,26 +149,34 @@ Exit make_sheet(const SheetOptions& options) {
   const std::filesystem::path file = resolve_link(options.file);
   NamedFiles files;
   files.writes("the contact sheet", file);
-  for (const std::string& preset : options.presets) {
-    files.reads("the preset", preset);
-    files.reads_files(*load_scene(preset, {})); // reports a bad preset before anything slow
+  const std::vector<SheetScene> scenes = scenes_of(options);
+  for (const SheetScene& scene : scenes) {
+    std::vector<Override> overrides;
+    for (const std::string& set : scene.sets) overrides.push_back(parse_override(set));
+    files.reads("the preset", scene.preset);
+    files.reads_files(*load_scene(scene.preset, overrides)); // reports a bad preset before anything slow
   }
-  const Layout layout = layout_of(options);
+  const Layout layout = layout_of(options, scenes.size());
   Image sheet(layout.columns * (size.width + gap) - gap, layout.rows * (size.height + gap) - gap);
   std::fill(sheet.pixels.begin(), sheet.pixels.end(), std::uint8_t{255});
-  for (std::size_t n = 0; n < options.presets.size(); ++n) {
+  for (std::size_t n = 0; n < scenes.size(); ++n) {
     SessionOptions one = options.session;
-    one.preset = options.presets[n];
+    one.preset = scenes[n].preset;
+    one.sets = scenes[n].sets;
     Session session(one);
     Row row(session.clock().frames(), layout.shown == 1);
     const Exit end = run(session, static_cast<double>(size.width) / size.height, row);
     if (end != Exit::Done) return end;
     const auto device = make_device();
     Renderer renderer(size.width, size.height, session.image().samples);
+    Hud hud(size.width, size.height);
     for (int k = 0; k < layout.shown; ++k) {
       Frame frame = row.shown(k);
       frame.transparent = false; // the sheet itself is opaque
       renderer.draw(frame);
+      frame.hud = {};
+      if (k == 0) write_label(frame, scenes[n].label);
+      if (!frame.hud.empty()) hud.draw(frame.hud);
       paste(renderer.read(), layout.column(n, k) * (size.width + gap), layout.row(n) * (size.height + gap),
             sheet);
     }
@@ -137,7 +186,8 @@ Exit make_sheet(const SheetOptions& options) {
   sync_folder(file.parent_path());
   if (!options.session.quiet)
     print_result(fmt::format("{}: {} row{} of {} picture{}\n", printable(options.file), layout.rows,
-                             layout.rows == 1 ? "" : "s", layout.columns, layout.columns == 1 ? "" : "s"));
+                             layout.rows == 1 ? "" : "s", layout.columns, layout.columns == 1 ? "" : "s") +
+                 list_of(scenes, layout));
   return Exit::Done;
 }
 
@@ -155,13 +205,22 @@ std::function<Exit()> declare_sheet(CLI::App& app) {
       ->check(some_word())
       ->default_val("480x270");
   app.add_option("--ends", options->ends, "show only the end of each preset, N pictures in a row")
+      ->type_name("N")
       ->transform(whole_number(1, 64));
-  app.add_option("--set", options->session.sets,
-                 "replace an attribute of each preset, such as time.step=1e-4 (can be repeated)")
+  app.add_option(
+         "--set", options->sets,
+         "replace an attribute of each preset, such as time.step=1e-4 (can be repeated); several values "
+         "separated by commas make one row each, unless the attribute is free text")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
-  app.add_option("--threads", options->session.threads,
-                 "number of threads; default: as many as the machine has")
+  app.add_option(
+         "--sweep", options->sweeps,
+         "make one row (with --ends, one picture) for each of these values of an attribute, free text "
+         "included; 1:10:2 is the range from 1 to 10 in steps of 2; several sweeps make all combinations")
+      ->type_name("PATH=V,V,...")
+      ->allow_extra_args(false);
+  app.add_option("--threads", options->session.threads, "number of threads; default: all that the machine has")
+      ->type_name("N")
       ->transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->session.quiet, "print no progress and no notes");
   return [options] { return make_sheet(*options); };

@@ -20,7 +20,7 @@ OptionUsage option_usage(const CLI::Option& option) {
   if (option.get_items_expected_max() > 0) out.value = type.substr(0, type.find(':'));
   out.what = option.get_description();
   out.fallback = option.get_default_str();
-  out.required = option.get_required();
+  out.required = option.get_required() || option.get_group() == required_by_command;
   out.repeated = option.get_expected_max() > 1;
   return out;
 }

@@ -33,6 +33,9 @@ struct CommandUsage {
 
 CommandUsage usage_of(const CLI::App& app);
 
+// The group of arguments that are required, where the command sees to it rather than the parser.
+inline constexpr const char* required_by_command = "required by the command";
+
 // A type name: "mp4|webm|mkv".
 std::string choices(const std::vector<std::string>& names);
 

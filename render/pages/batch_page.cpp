@@ -1,13 +1,12 @@
 #include "render/pages/batch_page.h"
 
 #include "render/console/console.h"
-#include "render/console/json_or_null.h"
 #include "render/files/png.h"
 #include "render/pages/provenance.h"
+#include "render/pages/run_columns.h"
 #include "render/report/page.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -15,7 +14,6 @@ namespace rend {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using namespace html;
 
 constexpr int thumbnail_width = 480; // [pixels]
@@ -86,22 +84,48 @@ std::string last_lines(const std::string& log) {
   return "...\n" + (end == std::string::npos ? "" : log.substr(end + 1));
 }
 
+// A link to what a job has left, if it is there: its pictures, or what it said.
+Html name_of_job(const BatchReport& report, const BatchJob& job) {
+  const std::string there = report.runs ? "logs/" + job.name + ".log" : job.name + "/";
+  std::error_code error;
+  const Html name =
+      fs::exists(report.folder / there, error) ? link(address_of(there), job.name) : escaped(job.name);
+  return name + Html{"<br>"} + muted(job.preset);
+}
+
+std::vector<Column> columns_of(const BatchReport& report) {
+  std::vector<Column> columns{{"job"}, {"state"}};
+  if (report.runs) {
+    const std::vector<Column> figures = run_columns(report);
+    columns.insert(columns.end(), figures.begin(), figures.end());
+  } else {
+    columns.insert(columns.begin(), {""});
+    columns.insert(columns.end(), {number_column("frames"), number_column("kept"), number_column("tears")});
+  }
+  columns.insert(columns.end(), {number_column("time"), number_column("memory")});
+  return columns;
+}
+
 std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
   const BatchJob& job = report.jobs[n];
   const BatchResult& result = report.results[n];
   const PrintedFigures figures = result.figures.value_or(PrintedFigures{});
-  Html words = link(address_of(job.name) + "/", job.name) + Html{"<br>"} + muted(job.preset);
+  Html words = name_of_job(report, job);
   if (!result.message.empty()) words += paragraph(escaped(result.message));
   if (!result.log.empty())
     words += details(escaped("log"), escaped_lines(last_lines(result.log)), Details::Closed);
-  return {{thumbnail(report.folder / job.name, job.name), job.name},
-          {words, job.name},
-          {badge(tone_of(result.state()), name_of(result.state()))},
-          number_cell(result, figures.pictures.made),
-          number_cell(result, figures.pictures.kept),
-          number_cell(result, figures.tears),
-          {escaped(seconds_in_words(result.seconds)), fmt::format("{}", result.seconds)},
-          {escaped(bytes_in_words(result.peak)), fmt::format("{}", result.peak)}};
+  std::vector<Cell> row{{words, job.name}, {badge(tone_of(result.state()), name_of(result.state()))}};
+  if (report.runs) {
+    const std::vector<Cell> cells = run_cells(report, n);
+    row.insert(row.end(), cells.begin(), cells.end());
+  } else {
+    row.insert(row.begin(), {thumbnail(report.folder / job.name, job.name), job.name});
+    row.insert(row.end(), {number_cell(result, figures.pictures.made),
+                           number_cell(result, figures.pictures.kept), number_cell(result, figures.tears)});
+  }
+  row.push_back({escaped(seconds_in_words(result.seconds)), fmt::format("{}", result.seconds)});
+  row.push_back({escaped(bytes_in_words(result.peak)), fmt::format("{}", result.peak)});
+  return row;
 }
 
 } // namespace
@@ -110,24 +134,11 @@ fs::path log_file(const BatchReport& report, const BatchJob& job) {
   return report.folder / "logs" / (job.name + ".log");
 }
 
-Json line_of(const BatchJob& job, const BatchResult& result) {
-  Json line{{"job", job.name},           {"preset", job.preset},
-            {"set", job.sets},           {"state", name_of(result.state())},
-            {"code", result.code},       {"tries", result.tries},
-            {"seconds", result.seconds}, {"peak_bytes", result.peak}};
-  if (const auto& figures = result.figures) {
-    line["frames"] = figures->pictures.made;
-    line["kept"] = figures->pictures.kept;
-    line["steps"] = json_or_null(figures->steps);
-    line["time"] = json_or_null(figures->time);
-    line["tears"] = json_or_null(figures->tears);
-    line["hash"] = json_or_null(figures->hash);
-  }
-  if (!result.message.empty()) line["message"] = result.message;
-  return line;
+std::string csv_name(const std::string& page) {
+  return (page == "index" ? "figures" : page) + ".csv";
 }
 
-std::string batch_page(const BatchReport& report) {
+std::string batch_page(const BatchReport& report, const std::string& name) {
   std::size_t done = 0, bad = 0;
   double sum = 0;
   for (const BatchResult& result : report.results) {
@@ -144,19 +155,16 @@ std::string batch_page(const BatchReport& report) {
   std::vector<std::size_t> order(report.jobs.size());
   for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
   std::stable_partition(order.begin(), order.end(), [&](std::size_t n) { return report.results[n].failed(); });
-  Table t{.columns = {{""},
-                      {"job"},
-                      {"state"},
-                      number_column("frames"),
-                      number_column("kept"),
-                      number_column("tears"),
-                      number_column("time"),
-                      number_column("memory")},
+  Table t{.columns = columns_of(report),
           .rows = {},
           .sortable = true,
-          .caption = "Failures first; a click on a column's name sorts by it. \"frames\" were made now, "
-                     "\"kept\" ones were already there."};
+          .caption = report.runs
+                         ? "Failures first; a click on a column's name sorts by it."
+                         : "Failures first; a click on a column's name sorts by it. \"frames\" were made "
+                           "now, \"kept\" ones were already there."};
   for (std::size_t n : order) t.rows.push_back(row_of(report, n));
+  if (report.runs)
+    body += paragraph(escaped("All figures of all jobs: ") + link(address_of(csv_name(name)), csv_name(name)));
   body += table(t) + heading(2, "Made on") + facts_of(provenance_of_build());
   return page("rend batch", body);
 }

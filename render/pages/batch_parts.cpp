@@ -1,5 +1,6 @@
 #include "render/pages/batch_parts.h"
 
+#include "render/batch/result_json.h"
 #include "render/console/json_text.h"
 #include "render/files/output.h"
 #include "sim/base/error.h"
@@ -20,28 +21,6 @@ using Json = nlohmann::ordered_json;
 
 fs::path part_file(const fs::path& folder, const Shard& shard) {
   return folder / fmt::format("index.{}-of-{}.json", shard.number, shard.count);
-}
-
-Json part_of(const BatchJob& job, const BatchResult& result) {
-  Json out = line_of(job, result);
-  out["ran"] = result.ran;
-  out["log"] = result.log;
-  out["printed"] = result.printed;
-  return out;
-}
-
-BatchResult result_of(const Json& json) {
-  BatchResult out;
-  out.ran = json.at("ran").get<bool>();
-  out.tries = json.at("tries").get<int>();
-  out.code = json.at("code").get<int>();
-  out.seconds = json.at("seconds").get<double>();
-  out.peak = json.at("peak_bytes").get<std::size_t>();
-  out.log = json.at("log").get<std::string>();
-  out.printed = json.at("printed").get<std::string>();
-  out.message = json.value("message", "");
-  out.figures = read_figures(out.printed);
-  return out;
 }
 
 int rank(BatchState state) {
@@ -88,7 +67,7 @@ bool take_part(const fs::path& file, const std::string& key, Results& results, d
     if (json.is_discarded() || json.at("batch").get<std::string>() != key) return false;
     seconds = std::max(seconds, json.at("seconds").get<double>());
     for (const Json& one : json.at("jobs")) {
-      const BatchResult result = result_of(one);
+      const BatchResult result = result_from(one);
       const auto [at, is_new] = results.try_emplace(one.at("job").get<std::string>(), result);
       if (!is_new) add(at->second, result);
     }
@@ -115,7 +94,7 @@ void remove_part(const fs::path& folder, const Shard& shard) {
 void write_part(const BatchReport& report, const Shard& shard, const std::string& key) {
   Json jobs = Json::array();
   for (std::size_t n = 0; n < report.jobs.size(); ++n)
-    jobs.push_back(part_of(report.jobs[n], report.results[n]));
+    jobs.push_back(stored_result(report.jobs[n], report.results[n]));
   const Json whole{{"batch", key}, {"seconds", report.seconds}, {"jobs", jobs}};
   write_atomically(part_file(report.folder, shard), text_of(whole) + "\n");
 }

@@ -94,6 +94,7 @@ std::string batch_csv(const BatchReport& report) {
     columns.put("preset", job.preset);
     columns.put("state", name_of(result.state()));
     columns.put("code", std::to_string(result.code));
+    columns.put("message", result.message);
     columns.put("seconds", fmt::format("{:.3f}", result.seconds));
     columns.put("peak_bytes", std::to_string(result.peak));
     for (const std::string& set : job.sets)

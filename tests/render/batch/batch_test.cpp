@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -229,6 +230,109 @@ TEST_F(Batch, runs_without_pictures_make_one_table_of_all_figures) {
   }
   EXPECT_EQ(rows, 3);
   EXPECT_EQ(place.rend("batch presets/a.xml --run --video mp4").code, 64);
+}
+
+// The rows of figures.csv: of each job, the figures below these names.
+std::map<std::string, std::vector<std::string>> rows_of(const fs::path& folder,
+                                                        const std::vector<std::string>& names) {
+  std::istringstream table(content(folder / "figures.csv"));
+  std::string line;
+  std::getline(table, line);
+  const std::vector<std::string> head = fields(line);
+  std::map<std::string, std::vector<std::string>> rows;
+  while (std::getline(table, line)) {
+    const std::vector<std::string> row = fields(line);
+    for (const std::string& name : names)
+      rows[row.at(0)].push_back(
+          row.at(static_cast<std::size_t>(std::find(head.begin(), head.end(), name) - head.begin())));
+  }
+  return rows;
+}
+
+TEST_F(Batch, runs_resume_with_what_is_missing_alone_and_keep_the_table) {
+  const std::string sweep = "batch presets/a.xml --run -o runs --sweep body.tear.threshold=";
+  const auto jobs_begun = [](const Outcome& outcome) {
+    return std::count(outcome.err.begin(), outcome.err.end(), '\n') -
+           (outcome.err.find("have their results already") != std::string::npos ? 1 : 0);
+  };
+  const std::vector<std::string> what{"hash", "seconds", "state"};
+  EXPECT_EQ(jobs_begun(place.rend(sweep + "1,2")), 2);
+  const auto first = rows_of(place.path() / "runs", what);
+  ASSERT_EQ(first.size(), 2u);
+  const Outcome wider = place.rend(sweep + "1,2,3 --resume");
+  EXPECT_EQ(wider.code, 0) << wider.err;
+  EXPECT_EQ(jobs_begun(wider), 1) << wider.err;
+  EXPECT_THAT(wider.err, HasSubstr("2 of 3 jobs have their results already"));
+  const auto second = rows_of(place.path() / "runs", what);
+  ASSERT_EQ(second.size(), 3u);
+  for (const auto& [job, row] : first) EXPECT_EQ(second.at(job), row) << "with the seconds that it took then";
+  // One job alone: the table still has all.
+  EXPECT_EQ(jobs_begun(place.rend(sweep + "2 --resume")), 0);
+  EXPECT_EQ(rows_of(place.path() / "runs", what), second);
+  // Another preset: nothing holds any more.
+  place.write("presets/a.xml", content(place.path() / "presets/a.xml") + "<!-- changed -->\n");
+  EXPECT_EQ(jobs_begun(place.rend(sweep + "2 --resume")), 1);
+  EXPECT_EQ(rows_of(place.path() / "runs", what).size(), 1u);
+  // Without --resume a batch begins anew.
+  EXPECT_EQ(jobs_begun(place.rend(sweep + "1,2")), 2);
+  EXPECT_EQ(jobs_begun(place.rend(sweep + "3")), 1);
+  EXPECT_EQ(rows_of(place.path() / "runs", what).size(), 1u);
+}
+
+TEST_F(Batch, runs_that_failed_run_again_with_resume_and_have_their_message_in_the_table) {
+  place.write("presets/bad.xml", "<scene name=\"bad\"></scene>");
+  EXPECT_EQ(place.rend("batch presets --run -o runs -q").code, 1);
+  const auto rows = rows_of(place.path() / "runs", {"state", "message"});
+  EXPECT_EQ(rows.at("bad").at(0), "failed");
+  EXPECT_THAT(rows.at("bad").at(1), HasSubstr("needs a <body>"));
+  EXPECT_EQ(rows.at("a").at(1), "");
+  place.write("presets/bad.xml", program::pulled);
+  const Outcome again = place.rend("batch presets --run -o runs --resume");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("2 of 3 jobs have their results already"));
+}
+
+// A folder of pictures whose name is that of the folder of results.
+TEST_F(Batch, runs_remove_no_file_that_is_not_theirs) {
+  fs::create_directories(place.path() / "runs/results");
+  place.write("runs/results/mine.json", "{}");
+  place.write("runs/results/00000.png", "x");
+  EXPECT_EQ(place.rend("batch presets/a.xml --run -o runs -q").code, 0);
+  EXPECT_EQ(place.rend("batch presets/a.xml --run -o runs -q").code, 0);
+  EXPECT_TRUE(fs::exists(place.path() / "runs/results/mine.json"));
+  EXPECT_TRUE(fs::exists(place.path() / "runs/results/00000.png"));
+}
+
+// What an address of a page names: without %XX.
+std::string decoded(const std::string& address) {
+  std::string out;
+  for (std::size_t n = 0; n < address.size(); ++n) {
+    const bool coded = address[n] == '%';
+    out += coded ? static_cast<char>(std::stoi(address.substr(n + 1, 2), nullptr, 16)) : address[n];
+    if (coded) n += 2;
+  }
+  return out;
+}
+
+TEST_F(Batch, the_page_of_runs_has_their_figures_and_every_link_leads_somewhere) {
+  place.write("presets/bad.xml", "<scene name=\"bad\"></scene>");
+  for (const char* how : {"--run", "--size 32x24 --frames 0"}) {
+    EXPECT_EQ(place.rend(std::string("batch presets --set body.tear.threshold=1,2 -o page -q ") + how).code, 1);
+    const std::string page = content(place.path() / "page/index.html");
+    const std::regex href("href=\"([^\"#]+)\"");
+    int links = 0;
+    for (std::sregex_iterator at(page.begin(), page.end(), href), end; at != end; ++at, ++links)
+      EXPECT_TRUE(fs::exists(place.path() / "page" / decoded((*at)[1]))) << how << ": " << (*at)[1];
+    EXPECT_GE(links, 4) << how;
+  }
+  EXPECT_EQ(place.rend("batch presets/a.xml --run --set body.tear.threshold=1,2 -o page -q").code, 0);
+  const std::string page = content(place.path() / "page/index.html");
+  const nlohmann::json one = place.rend("run presets/a.xml --json -q --set body.tear.threshold=2").json();
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("figures.csv"), HasSubstr("first tear [s]"), HasSubstr("body.tear.threshold")));
+  EXPECT_THAT(page, HasSubstr(">" + one["tears"].dump() + "<"));
+  EXPECT_THAT(page, HasSubstr(">" + one["fragments"].dump() + "<"));
+  EXPECT_THAT(page, testing::Not(HasSubstr("no pictures")));
 }
 
 TEST_F(Batch, texts_that_spreadsheets_would_run_are_marked_in_the_table) {

@@ -129,6 +129,24 @@ TEST_F(DiffUpdate, takes_back_the_folders_that_it_made_where_it_fails) {
   EXPECT_EQ(tree(place.path()), before);
 }
 
+// What stands behind the names: the folders are the last two words, whatever follows.
+TEST_F(DiffUpdate, takes_no_folder_for_a_name) {
+  put("now/a.png", 1);
+  put("now/more/c.png", 2);
+  for (const char* line :
+       {"--update a exp now", "--update a exp now -q", "exp --update a now -q", "-q --update a -q exp now",
+        "exp now --update a", "--update more a exp now --json"}) {
+    fs::remove(at("exp/a.png"));
+    const Outcome outcome = place.rend(std::string("diff ") + line);
+    EXPECT_LE(outcome.code, 2) << line << "\n" << outcome.err;
+    EXPECT_TRUE(fs::exists(at("exp/a.png"))) << line;
+  }
+  EXPECT_EQ(place.rend("diff --update a exp").code, 64);
+  EXPECT_THAT(place.rend("diff exp").err, HasSubstr("NOW is missing"));
+  EXPECT_THAT(place.rend("diff").err, HasSubstr("EXPECTED is missing"));
+  EXPECT_THAT(place.rend("diff --help").out, HasSubstr("rend diff [options] EXPECTED NOW"));
+}
+
 TEST_F(DiffUpdate, names_no_frame_as_not_matching_that_it_has_updated) {
   for (int n = 0; n < 4; ++n) {
     put(fmt::format("exp/{:05d}.png", n), 1);

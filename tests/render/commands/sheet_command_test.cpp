@@ -1,4 +1,5 @@
 // rend sheet, against the pictures of rend render.
+#include "render/draw/hud.h"
 #include "render/files/png.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
@@ -61,6 +62,31 @@ TEST(Sheet, sets_attributes_of_all_presets) {
   ASSERT_EQ(place.rend(line + "-o b.png --set body.tear.threshold=1e9 --set time.duration=0.1").code, 0);
   EXPECT_NE(read_png(place.path() / "a.png"), read_png(place.path() / "b.png"));
   EXPECT_EQ(place.rend(line + "-o c.png --set body.tear.thresold=1").code, 64);
+}
+
+// Each row is that of the preset with this value alone, but for the label on its first picture.
+TEST(Sheet, makes_a_row_of_each_value_of_a_sweep_and_says_which) {
+  NEEDS_PNG;
+  const TestFolder place;
+  place.write("pulled.xml", program::pulled);
+  const std::string line = "sheet pulled.xml --size 160x90 -o ", sweep = "body.tear.threshold=2,1e9";
+  const Outcome made = place.rend(line + "both.png --sweep " + sweep);
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.out, testing::HasSubstr("row 2: pulled.xml body.tear.threshold=1e9"));
+  ASSERT_EQ(place.rend(line + "same.png -q --set " + sweep).code, 0);
+  EXPECT_EQ(read_png(place.path() / "same.png"), read_png(place.path() / "both.png"));
+  const Image both = read_png(place.path() / "both.png");
+  ASSERT_EQ(both.height, 2 * 90 + 6);
+  for (const int row : {0, 1}) {
+    const std::string one = row == 0 ? "2" : "1e9";
+    ASSERT_EQ(place.rend(line + "one.png -q --set body.tear.threshold=" + one).code, 0);
+    const Image alone = read_png(place.path() / "one.png");
+    for (const int column : {1, 2})
+      EXPECT_EQ(part(both, column, row, 160, 90), part(alone, column, 0, 160, 90)) << row << " " << column;
+    EXPECT_EQ(part(both, 0, row, 160, 90) == part(alone, 0, 0, 160, 90), !hud_available());
+  }
+  EXPECT_EQ(place.rend(line + "bad.png -q --sweep body.tear.threshold=1,x").code, 64);
+  EXPECT_FALSE(std::filesystem::exists(place.path() / "bad.png"));
 }
 
 TEST(Sheet, shows_the_ends_alone_side_by_side) {
