@@ -194,6 +194,21 @@ void check_camera(const PictureSettings& picture, const Scene& scene, double asp
   Check(picture, scene, aspect, clock).check_camera();
 }
 
+void check_looks(const PictureSettings& picture, const Scene& scene) {
+  for (std::size_t n = 0; n < std::min(picture.looks.size(), scene.bodies().size()); ++n) {
+    const SettingsSource& look = picture.looks[n].source;
+    const Body& body = *scene.bodies()[n];
+    const bool solid = body.map->map().dimension() == 3;
+    const char* wrong = solid ? "back" : "inside";
+    if (!look.given(wrong)) continue;
+    if (solid)
+      look.fail(wrong, fmt::format("the body {} is a solid, which shows no back", in_quotes(body.name)),
+                "colour is that of its outside, inside that of the faces that tearing exposes");
+    look.fail(wrong, fmt::format("the body {} is a sheet, which has no inside", in_quotes(body.name)),
+              "colour and back are those of its sides, torn that of the line along torn edges");
+  }
+}
+
 std::vector<std::string> picture_notes(const PictureSettings& picture, const Scene& scene, double aspect,
                                        const FrameClock& clock) {
   return Check(picture, scene, aspect, clock).notes();

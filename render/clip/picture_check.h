@@ -19,6 +19,9 @@ namespace rend {
 // is inside of a solid. Cheap, and of no picture's size: asked of every preset.
 void check_camera(const PictureSettings& picture, const Scene& scene, double aspect, const FrameClock& clock);
 
+// UserError at a <look> that gives a sheet the colour of an inside, or a solid that of a back: neither has one.
+void check_looks(const PictureSettings& picture, const Scene& scene);
+
 // What is to be told to who makes pictures. aspect: width / height.
 std::vector<std::string> picture_notes(const PictureSettings& picture, const Scene& scene, double aspect,
                                        const FrameClock& clock);

@@ -101,6 +101,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
   const double duration = options.steps ? static_cast<double>(*options.steps) * step : scene_->duration();
   clock_ = std::make_unique<FrameClock>(duration, step, image().fps, image().playback(),
                                         Shutter{image().shutter, image().shutter_samples});
+  check_looks(picture_, *scene_);
   check_camera(picture_, *scene_, image().aspect(), *clock_);
   if (options.quiet) return;
   note_refused_threads(*scene_);

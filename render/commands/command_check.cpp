@@ -205,7 +205,8 @@ std::function<Exit()> declare_check(CLI::App& app) {
   app.add_option("--only", options->only, "run only cases whose name contains this (* and ? are wildcards)")
       ->type_name("PATTERN")
       ->allow_extra_args(false);
-  app.add_flag("--allow-path", options->allow_path, "allow files outside of the presets' folders");
+  app.add_flag("--allow-path", options->allow_path,
+               "allow presets to name meshes and rules outside of their folders");
   app.add_flag("--quick", options->quick, "run only a few representative cases");
   app.add_flag("--list", options->list, "print the names of the cases, one a line, and run none");
   app.add_flag("--json", options->json, "print the results as one JSON object on stdout");

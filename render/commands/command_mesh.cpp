@@ -119,6 +119,7 @@ Exit fill(const MeshOptions& options) {
   if (!filled) return exit_code_of_signal();
   const MeshBody body = sew(std::move(*filled));
   print_note(fmt::format("{} tetrahedra, {:.6g} m3", count_cells(body.map->map()).volumes, surface.volume()));
+  print_note(slivers_in_words(*body.map));
   write(body, options, file);
   return Exit::Done;
 }
@@ -128,12 +129,12 @@ std::function<Exit()> declare_mesh(CLI::App& app) {
   auto chosen = std::make_shared<Exit (*)(const MeshOptions&)>(nullptr);
   app.require_subcommand(1);
   CLI::App* tell = app.add_subcommand("info", "show the cells, sizes and groups of a mesh");
-  tell->add_option("file", options->in, "a mesh")->required()->type_name("FILE");
+  tell->add_option("file", options->in, "a mesh: .msh, .obj, .off or .moka")->required()->type_name("FILE");
   tell->add_flag("--json", options->json, "print the same as one JSON object on stdout");
   tell->callback([chosen] { *chosen = info; });
   CLI::App* change = app.add_subcommand("convert", "convert a mesh to .moka, or to .msh 2.2");
-  change->add_option("in", options->in, "a mesh")->required()->type_name("IN");
-  change->add_option("out", options->out, "the file to write; its ending tells the format")
+  change->add_option("in", options->in, "a mesh: .msh, .obj, .off or .moka")->required()->type_name("IN");
+  change->add_option("out", options->out, "the file to write, .moka or .msh: its ending tells the format")
       ->required()
       ->type_name("OUT");
   change->add_flag(

@@ -174,11 +174,13 @@ CLI::App* subcommand(CLI::App& app, const char* name, const char* what, const Ch
 
 void add_file(CLI::App& app, const Options& options, const char* name) {
   app.add_option(name, options->file, "a preset, or a file of rules")->type_name("FILE");
-  app.add_flag("--allow-path", options->allow_path, "allow files outside of the preset's folder");
+  app.add_flag("--allow-path", options->allow_path, "allow the preset to name files outside of its folder");
 }
 
 void add_rule(CLI::App& app, const Options& options) {
-  app.add_option("name", options->name, "a rule or script: rend rule list")->required()->type_name("NAME");
+  app.add_option("name", options->name, "a rule or script, as rend rule list names them")
+      ->required()
+      ->type_name("NAME");
   add_file(app, options, "--in");
 }
 

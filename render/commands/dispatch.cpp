@@ -121,12 +121,26 @@ const CLI::App* parsed_command(const CLI::App& app, std::string& which) {
   return at;
 }
 
+// As the command's usage calls it: PRESET rather than preset.
+std::string name_of_argument(const std::string& name, const CLI::App& command) {
+  const CLI::Option* option = command.get_option_no_throw(name);
+  return option && option->get_positional() ? option->get_type_name() : name;
+}
+
+std::string commands_of(const CLI::App& command) {
+  std::string out;
+  for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; }))
+    out += (out.empty() ? "" : ", ") + one->get_name();
+  return out;
+}
+
 // CLI11 puts the name of the type behind that of an option, and does not say what is wrong with it.
-std::string in_plain_words(const CLI::ParseError& error) {
+std::string in_plain_words(const CLI::ParseError& error, const CLI::App& command) {
   std::string what = error.what();
   if (dynamic_cast<const CLI::RequiredError*>(&error)) {
+    if (what.starts_with("A subcommand")) return "a command is missing: " + commands_of(command);
     const std::size_t at = what.find(" is required");
-    if (at != std::string::npos) return what.substr(0, at) + " is missing";
+    if (at != std::string::npos) return name_of_argument(what.substr(0, at), command) + " is missing";
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && what.ends_with(" missing"))
     return what.substr(0, what.find(':')) + " needs a value";
@@ -159,7 +173,7 @@ Exit run_command_line(int count, const char* const* arguments) {
     std::string which;
     const CLI::App* command = parsed_command(*app, which);
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) refuse_extras(*app, *command, which, count, arguments);
-    throw UserError(Exit::Usage, {}, in_plain_words(error), which + " --help lists what it takes");
+    throw UserError(Exit::Usage, {}, in_plain_words(error, *command), which + " --help lists what it takes");
   }
   return chosen();
 }

@@ -86,6 +86,33 @@ MeshFacts mesh_facts(const MeshBody& mesh, const std::string& file) {
   return facts;
 }
 
+std::string slivers_in_words(const EmbeddedMap& map) {
+  constexpr double least = 10, greatest = 160; // [degrees], of an element that is no sliver
+  const CellIndex elements(map.map(), element_orbit(map.dimension()));
+  std::size_t slivers = 0;
+  ElementQuality worst, all{180, 0, 1, 0};
+  Vec3 place = Vec3::Zero();
+  for (Slot e = 0; e < elements.slots(); ++e) {
+    const ElementQuality q = quality_of(map, elements.first_dart(e));
+    all.least_angle = std::min(all.least_angle, q.least_angle);
+    all.greatest_angle = std::max(all.greatest_angle, q.greatest_angle);
+    if (q.least_angle >= least && q.greatest_angle <= greatest) continue;
+    ++slivers;
+    if (slivers > 1 && q.aspect <= worst.aspect) continue;
+    worst = q;
+    place = element_centre(map, elements.first_dart(e));
+  }
+  if (slivers == 0)
+    return fmt::format("no slivers: dihedral angles from {:.3g} to {:.3g} degrees", all.least_angle,
+                       all.greatest_angle);
+  return fmt::format(
+      "{} of {} elements {}, with dihedral angles below {:g} or above {:g} degrees; the worst, from "
+      "{:.3g} to {:.3g} degrees, is near {} m. They limit the step of explicit schemes: take another "
+      "size, or allow <time mass-scaling=\"0.01\">",
+      slivers, elements.slots(), slivers == 1 ? "is a sliver" : "are slivers", least, greatest,
+      worst.least_angle, worst.greatest_angle, point(place));
+}
+
 nlohmann::ordered_json json_of(const MeshFacts& f) {
   nlohmann::ordered_json groups = nlohmann::ordered_json::object();
   for (const auto& [name, vertices] : f.groups) groups[name] = vertices;

@@ -29,6 +29,9 @@ struct MeshFacts {
 };
 MeshFacts mesh_facts(const MeshBody& body, const std::string& file);
 
+// How many elements of a solid are slivers, with dihedral angles below 10 or above 160 degrees, and the worst.
+std::string slivers_in_words(const EmbeddedMap& map);
+
 nlohmann::ordered_json json_of(const MeshFacts& facts);
 std::string facts_in_words(const MeshFacts& facts);
 

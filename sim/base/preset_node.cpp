@@ -294,7 +294,8 @@ void PresetNode::check_complete() const {
                       fmt::format("<{}> needs {} <{}> and has {}", name(),
                                   allowed.at_least == 1 ? "a" : fmt::format("at least {}", allowed.at_least),
                                   allowed.type->name, count == 0 ? "none" : fmt::format("{}", count)),
-                      allowed.type->what);
+                      fmt::format("add <{}>: {}", allowed.type->name,
+                                  allowed.type->what.substr(0, allowed.type->what.find('\n'))));
     if (allowed.at_most >= 0 && count > allowed.at_most)
       throw UserError(Exit::BadInput, present[allowed.at_most]->place_,
                       fmt::format("<{}> may hold only {} <{}>", name(), allowed.at_most, allowed.type->name),

@@ -80,11 +80,16 @@ void build_laws(Body& body, const BodySettings& settings) {
     body.tear_laws.emplace_back(body.request_for(law), law);
     if (law.change->grows) let_grow(body);
     if (!body.tear_laws.back().elementary() || body.cumulated != Cumulated::Yes) continue;
-    law.source.fail(law.criterion->elementary ? "criterion" : "change",
-                    law.criterion->elementary
-                        ? "measures each element separately, but cumulated=\"yes\" merges their springs"
-                        : "needs the force of each element separately, but cumulated=\"yes\" merges them",
-                    "remove cumulated=\"yes\"");
+    law.source.fail(
+        law.criterion->elementary ? "criterion" : "change",
+        law.criterion->elementary
+            ? fmt::format("the criterion '{}' measures each element separately, but cumulated=\"yes\" "
+                          "merges their springs",
+                          law.criterion->name)
+            : fmt::format("the change '{}' of '{}' needs the force of each element separately, but "
+                          "cumulated=\"yes\" merges them",
+                          law.change->name, law.criterion->name),
+        "remove cumulated=\"yes\"");
   }
 }
 

@@ -43,7 +43,8 @@ std::optional<SpringMaterial> spring_material(Body& body, const SpringsSettings&
   }
   for (const char* name : {"poisson", "thickness"})
     if (!material && springs.source.given(name))
-      springs.source.fail(name, "has no use without young", "give young, or leave it out");
+      springs.source.fail(name, fmt::format("{} of <springs> has no use without young", name),
+                          "give young, or leave it out");
   return material;
 }
 

@@ -40,11 +40,13 @@ void check(const MassSettings& mass, bool sheet) {
                 sheet ? "total=\"0.1\", or density=\"300\" with thickness=\"0.001\""
                       : "total=\"0.1\", or density=\"1000\"");
   if (!sheet && mass.thickness)
-    source.fail("thickness", "has no use in a solid, whose volume is known", "leave it out");
+    source.fail("thickness", "thickness of <mass> has no use in a solid, whose volume is known",
+                "leave it out");
   if (sheet && mass.density && !mass.thickness)
     source.fail("", "the density of a sheet needs its thickness", "thickness=\"0.001\"");
   if (mass.total && mass.thickness)
-    source.fail("thickness", "has no use where the total mass is given", "leave it out, or give the density");
+    source.fail("thickness", "thickness of <mass> has no use where the total mass is given",
+                "leave it out, or give the density");
 }
 
 void build_mass(Body& body, const MassSettings& settings) {

@@ -92,9 +92,11 @@ Motion motion_of(const DriveSettings& settings) {
   const int given = settings.velocity.has_value() + settings.displacement.has_value() +
                     settings.gradient.has_value() + settings.rotate.has_value();
   if (given != 1)
-    source.fail("", given == 0
-                        ? "<drive> needs one of velocity, displacement, gradient, rotate"
-                        : "<drive> has several of velocity, displacement, gradient, rotate: one of them");
+    source.fail("",
+                given == 0 ? "<drive> needs one of velocity, displacement, gradient, rotate"
+                           : "<drive> has several of velocity, displacement, gradient, rotate: one of them",
+                given == 0 ? "velocity=\"0 0 0.1\" moves it by 0.1 m upwards in each second"
+                           : "write a <drive> for each, on other vertices");
   Motion motion;
   motion.axes = held_by(settings.axes);
   motion.velocity = settings.velocity.value_or(Vec3::Zero());
@@ -103,7 +105,8 @@ Motion motion_of(const DriveSettings& settings) {
     motion.gradient = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(settings.gradient->data());
   if (settings.rotate) set_rotation(motion, settings);
   if (source.given("centre") && !settings.rotate)
-    source.fail("centre", "has no use without rotate", "rotate=\"0 0 1 90\" turns by 90 degrees a second");
+    source.fail("centre", "centre has no use without rotate",
+                "rotate=\"0 0 1 90\" turns by 90 degrees a second");
   motion.from = settings.from;
   motion.until = settings.until;
   if (motion.until < motion.from) source.fail("until", "the drive ends before it starts");

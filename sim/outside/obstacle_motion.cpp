@@ -171,7 +171,8 @@ void check_motion(const ObstacleMotion& motion, const SettingsSource& source) {
                   "leave out rotate, or the angles of the keys");
   }
   if (motion.centre && !motion.turns())
-    source.fail("centre", "has no use without rotate", "rotate=\"0 0 1 90\" turns by 90 degrees a second");
+    source.fail("centre", "centre has no use without rotate",
+                "rotate=\"0 0 1 90\" turns by 90 degrees a second");
 }
 
 } // namespace rend

@@ -127,7 +127,7 @@ std::vector<Slot> select_vertices(const EmbeddedMap& map, const VertexGroups& gr
     chosen = vertices_where(map, [](const Vec3&) { return true; });
   if (chosen.empty())
     source.fail(
-        how, "selects no vertex",
+        how, fmt::format("<{}> selects no vertex", element),
         fmt::format("at rest the body reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
                     b.low.x(), b.low.y(), b.low.z(), b.high.x(), b.high.y(), b.high.z()));
   return chosen;

@@ -156,7 +156,7 @@ TEST_F(Program, NamesUnknownOptionsInTheirOrderWithTheNearest) {
               HasSubstr("did you mean '--size', '--frames'? rend render --help lists what it takes"));
   EXPECT_THAT(place.rend("run pulled.xml --frames").err, HasSubstr("--frames needs a value"));
   EXPECT_THAT(place.rend("run pulled.xml --kernels fast").err, HasSubstr("fast is not one of flat, walk"));
-  EXPECT_THAT(place.rend("render").err, HasSubstr("preset is missing"));
+  EXPECT_THAT(place.rend("render").err, HasSubstr("PRESET is missing"));
 }
 
 TEST_F(Program, PrintsTheShortHelpWhereNothingIsAsked) {

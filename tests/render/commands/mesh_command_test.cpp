@@ -346,6 +346,8 @@ TEST(MeshFill, survives_whatever_gmsh_does) {
   const Outcome good = place.shell(tmp + "PATH='" + (place.path() / "bin").string() + "':$PATH " +
                                    test::rend_program + " mesh fill o.obj --size 3 -o a.msh");
   EXPECT_EQ(good.code, 0) << good.err;
+  // At the axis 90 degrees, at the octahedron's edges acos(-1/3), at the others acos(1/√3).
+  EXPECT_THAT(good.err, HasSubstr("no slivers: dihedral angles from 54.7 to 109 degrees"));
   EXPECT_EQ(place.rend("mesh info a.msh --json").json()["volumes"], 4);
 }
 
