@@ -124,7 +124,7 @@ std::vector<LawFigures> laws_of(const Session& session) {
         if (event.law != static_cast<int>(n)) continue;
         if (one.tears++ > 0) continue;
         one.first = event.time;
-        one.at_once = early_step(session, law, event);
+        one.at_once = early_step(session, body->tear_laws[n], event);
       }
       laws.push_back(std::move(one));
     }

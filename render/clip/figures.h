@@ -29,8 +29,8 @@ struct LawFigures {
   std::string unit; // of that
   std::size_t tears = 0;
   std::optional<double> first; // [s], of the first tear
-  // The step of that, counted from the law's start, if it is one of the first: then the threshold is far below
-  // what is reached, or meant in another unit.
+  // The step of that, counted from the law's start, if it is one of the first and the threshold far below what
+  // is reached: it may be meant in another unit (early_tears.h).
   std::optional<long> at_once;
   Refusals refusals;   // where the value was above the threshold and the change not possible, by reason
   Reached reached;     // the largest value
