@@ -192,7 +192,8 @@ TEST(Parameters, APlaceIsThatOfTheValueOrElseOfTheElement) {
 
 TEST(Parameters, RefusesANodeWithoutWhatItNeeds) {
   PresetNode node(twig, somewhere);
-  EXPECT_EQ(refusal([&] { node.check_complete(); }), "<twig> needs a <leaf> and has none | A leaf.");
+  EXPECT_EQ(refusal([&] { node.check_complete(); }),
+            "<twig> needs a <leaf> and has none | add <leaf>: A leaf.");
   PresetNode& first = node.add(std::make_unique<PresetNode>(leaf, Place{"tree.xml", 4, 5}));
   EXPECT_EQ(refusal([&] { node.check_complete(); }, "tree.xml:4:5"),
             "<leaf> needs area | area: its area; expected a number above 0 [m2]");

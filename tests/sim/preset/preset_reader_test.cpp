@@ -160,7 +160,8 @@ TEST(PresetReader, RefusesWhatIsNotUtf8) {
 }
 
 TEST(PresetReader, NamesWhatIsMissingOrTooMuch) {
-  EXPECT_EQ(refused("<scene name='x'/>"), "p.xml:1:1: <scene> needs a <body> and has none | A body.");
+  EXPECT_EQ(refused("<scene name='x'/>"),
+            "p.xml:1:1: <scene> needs a <body> and has none | add <body>: A body.");
   expect_starts(refused(changed(" k=\"60\"", "")),
                 "p.xml:7:30: <stretch> needs k | k: stiffness; expected a number");
   EXPECT_EQ(refused(changed("<map>", "<time/><map>")),
