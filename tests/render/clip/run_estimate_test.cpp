@@ -59,8 +59,8 @@ TEST(RunEstimate, is_told_by_the_program_within_the_first_seconds) {
   std::string text = program::pulled;
   text.replace(text.find("duration=\"0.3\""), 14, "duration=\"1e8\"");
   place.write("long.xml", text);
-  const auto run =
-      place.shell("timeout -s INT 5 " + std::string(test::rend_program) + " run long.xml --fps 0.01");
+  const auto run = place.shell("timeout --preserve-status -s INT 5 " + std::string(test::rend_program) +
+                               " run long.xml --fps 0.01");
   EXPECT_EQ(run.code, 130) << run.err;
   std::smatch found;
   ASSERT_TRUE(std::regex_search(run.err, found, std::regex("this run takes about ([0-9]+) hours"))) << run.err;

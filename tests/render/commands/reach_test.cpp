@@ -108,9 +108,11 @@ TEST(ReachOfAMesh, falls_with_the_cells_for_forces_and_not_for_strain_and_stress
               stretched(R"(<bar cells="4 4 4" size="1 1 1"/><elasticity young="1e4" poisson="0.3"/>)"));
   const auto ratio = [&](const std::string& preset, const std::string& cells, const std::string& criterion) {
     std::vector<double> reached;
-    for (const std::string& more : {std::string(), " --set " + cells})
-      for (const json& one : place.rend("run " + preset + " --reach --json -q" + more).json()["reach"])
+    for (const std::string& more : {std::string(), " --set " + cells}) {
+      const json figures = place.rend("run " + preset + " --reach --json -q" + more).json();
+      for (const json& one : figures["reach"])
         if (one["criterion"] == criterion) reached.push_back(one["reached"]["value"]);
+    }
     return reached.size() == 2 ? reached[1] / reached[0] : 0;
   };
   const std::string sheet = "body.sheet.cells='8 8'", solid = "body.bar.cells='8 8 8'";

@@ -85,7 +85,7 @@ TEST(Sheet, makes_a_row_of_each_value_of_a_sweep_and_says_which) {
       EXPECT_EQ(part(both, column, row, 160, 90), part(alone, column, 0, 160, 90)) << row << " " << column;
     EXPECT_EQ(part(both, 0, row, 160, 90) == part(alone, 0, 0, 160, 90), !hud_available());
   }
-  EXPECT_EQ(place.rend(line + "bad.png -q --sweep body.tear.threshold=1,x").code, 64);
+  EXPECT_EQ(place.rend(line + "bad.png -q --sweep body.tear.threshold=1,x").code, 65);
   EXPECT_FALSE(std::filesystem::exists(place.path() / "bad.png"));
 }
 
