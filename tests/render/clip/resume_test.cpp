@@ -135,7 +135,8 @@ TEST_F(Resume, a_video_that_is_cut_short_by_a_signal_is_called_a_part) {
   NEEDS_VIDEO;
   for (const std::string& format : video_format_names()) {
     const std::string folder = format, line = "render clip.xml --set time.step=2e-5 --video " + format + " -o ";
-    const Outcome first = stopped_when("[ -e " + folder + "/00003.png ]", line + folder);
+    // the video may be a few pictures behind the files
+    const Outcome first = stopped_when("[ -e " + folder + "/00006.png ]", line + folder);
     ASSERT_EQ(first.code, 143) << format << first.err;
     EXPECT_FALSE(in(folder).contains("clip." + format));
     ASSERT_TRUE(in(folder).contains("clip.part." + format)) << format;
