@@ -98,7 +98,7 @@ double Scene::stable_step() {
                           scheme().name)
             : "step=\"auto\" is not possible: nothing in the scene limits the step",
         scheme().solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
-  constexpr double told = 4; // the gain from which a cause is told
+  constexpr double told = 10; // the gain from which a cause is told; rend info tells any
   if (const StepCause cause = unusual_cause_of_step(steps, own); cause.gain >= told)
     notes_.push_back(fmt::format("step=\"auto\" is {:.3g} s: {}", 0.9 * limit, cause.words));
   return 0.9 * limit;
