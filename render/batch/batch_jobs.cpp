@@ -122,7 +122,8 @@ namespace {
 
 // The values of 1:10:2 (1, 3, 5, 7, 9) or 1:4 (in steps of 1): from, to and step; nullopt: it is no range. Each
 // is from + n step, in the fewest digits that give it back.
-std::optional<std::vector<std::string>> parse_range(const std::string& value, const std::string& text) {
+std::optional<std::vector<std::string>> parse_range(const std::string& value, const std::string& text,
+                                                    std::string_view option) {
   std::array<double, 3> part{0, 0, 1};
   std::size_t count = 0;
   for (std::size_t at = 0; at <= value.size(); ++count) {
@@ -138,7 +139,7 @@ std::optional<std::vector<std::string>> parse_range(const std::string& value, co
   const double steps = std::floor((to - from) / step * (1 + 1e-12) + 1e-9);
   if (!(steps >= 0) || steps >= most || step == 0)
     throw UserError(Exit::Usage, {},
-                    fmt::format("{}: {} is no range of values", in_quotes(text), in_quotes(value)),
+                    fmt::format("{} {}: {} is no range of values", option, in_quotes(text), in_quotes(value)),
                     "a range is FROM:TO or FROM:TO:STEP, such as 1:10:2, with 10000 values at most");
   std::vector<std::string> out;
   for (double n = 0; n <= steps; ++n) out.push_back(fmt::format("{:.12g}", from + n * step));
@@ -147,13 +148,16 @@ std::optional<std::vector<std::string>> parse_range(const std::string& value, co
 
 } // namespace
 
-Sweep parse_sweep(const std::string& text) {
+Sweep parse_sweep(const std::string& text, std::string_view option) {
+  if (text.find('=') == std::string::npos)
+    throw UserError(Exit::Usage, {fmt::format("{} {}", option, text)}, "there is no '=' in it",
+                    fmt::format("write {0} PATH=V,V,..., such as {0} time.step=1e-3,2e-3", option));
   const Override one = parse_override(text);
   Sweep sweep{one.path, {}};
   for (std::size_t at = 0; at <= one.value.size();) {
     const std::size_t comma = std::min(one.value.find(',', at), one.value.size());
     const std::string value = one.value.substr(at, comma - at);
-    if (const auto range = parse_range(value, text))
+    if (const auto range = parse_range(value, text, option))
       sweep.values.insert(sweep.values.end(), range->begin(), range->end());
     else
       sweep.values.push_back(value);
@@ -161,7 +165,7 @@ Sweep parse_sweep(const std::string& text) {
   }
   for (const std::string& value : sweep.values)
     if (value.empty())
-      throw UserError(Exit::Usage, {}, fmt::format("{}: a value is empty", in_quotes(text)),
+      throw UserError(Exit::Usage, {}, fmt::format("{} {}: a value is empty", option, in_quotes(text)),
                       "values are such as time.step=1e-3,2e-3");
   return sweep;
 }
@@ -177,7 +181,7 @@ BatchSettings batch_settings(const ElementType& root, const std::vector<std::str
     else
       out.sets.push_back(text);
   }
-  for (const std::string& text : sweeps) out.sweeps.push_back(parse_sweep(text));
+  for (const std::string& text : sweeps) out.sweeps.push_back(parse_sweep(text, "--sweep"));
   for (const std::string& text : out.sets) check_override(root, parse_override(text));
   for (const Sweep& sweep : out.sweeps)
     for (const std::string& value : sweep.values) check_override(root, {sweep.path, value});

@@ -20,7 +20,7 @@ struct Sweep {
 
 // "PATH=VALUE,VALUE,...": values may hold spaces, and no comma; FROM:TO and FROM:TO:STEP are ranges of numbers.
 // UserError (Usage).
-Sweep parse_sweep(const std::string& text);
+Sweep parse_sweep(const std::string& text, std::string_view option = "--set");
 
 // The attributes that a batch's command line sets.
 struct BatchSettings {

@@ -49,7 +49,7 @@ std::string reach_in_words(const std::vector<ReachFigures>& all) {
   for (const ReachFigures& one : all)
     out += fmt::format("             {} of '{}': {}\n", printable(one.criterion), printable(one.body),
                        one.reached.value > 0 ? place_in_words(one.reached, one.unit)
-                                             : "nothing where its change is possible");
+                                             : "no value: its change was possible nowhere");
   return out;
 }
 
@@ -120,7 +120,7 @@ std::string answers_in_words(const std::vector<AnswerFigures>& answers) {
 std::string rows_in_words(const std::vector<std::pair<std::string, std::size_t>>& rows) {
   std::string out;
   for (const auto& [name, count] : rows) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, name);
-  return "  rows       " + (out.empty() ? "none" : out) + "\n";
+  return "  rows       " + (out.empty() ? "none" : out + "; each is evaluated in every step") + "\n";
 }
 
 std::string schemes_in_words(const StateFigures& state) {
@@ -138,13 +138,14 @@ std::string schemes_in_words(const StateFigures& state) {
 
 std::string summary_of(const Figures& f) {
   const StateFigures& s = f.state;
-  std::string out = fmt::format("{}: {} steps of {:.6g} s by {}, {:.6g} s simulated in {}\n", printable(f.name),
-                                s.steps, f.step, f.integrator, s.time, seconds_in_words(f.costs.total));
+  std::string out =
+      fmt::format("{}: {} step{} of {:.6g} s by {}, {:.6g} s simulated in {}\n", printable(f.name), s.steps,
+                  s.steps == 1 ? "" : "s", f.step, f.integrator, s.time, seconds_in_words(f.costs.total));
   if (f.stopped != Stopped::No) out += fmt::format("  stopped    {}\n", name_of(f.stopped));
   out += fmt::format("  cells      {} vertices, {} elements, {} darts\n", s.vertices, s.elements, s.darts);
   out += fmt::format("  tearing    {} tears, {}\n", s.tears, fragments_in_words(s.fragments));
   out += laws_in_words(s.laws) + reach_in_words(s.reach);
-  out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J in gravity\n",
+  out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J potential in gravity\n",
                      s.energy.now.kinetic, s.energy.now.elastic, s.energy.now.gravity);
   out += fmt::format("             {:.6g} J of work done on it, {:.6g} J dissipated, {:.3g} J unexplained\n",
                      s.energy.now.work.sum(), s.energy.dissipated, s.energy.balance);
@@ -157,7 +158,7 @@ std::string summary_of(const Figures& f) {
   out += schemes_in_words(s);
   out += fmt::format("  memory     {} for the scene; the program took {} at most\n",
                      bytes_in_words(f.bytes.of_scene()), bytes_in_words(f.bytes.peak));
-  out += fmt::format("  state      {:016x}\n", s.hash);
+  out += fmt::format("  state      {:016x}, a hash of positions, velocities and mesh\n", s.hash);
   if (f.exported)
     out += fmt::format("  exported   {} files ({}) in {}\n", f.exported->files,
                        bytes_in_words(f.exported->bytes), printable(f.exported->folder));

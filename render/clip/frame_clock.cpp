@@ -116,8 +116,9 @@ long FrameChoice::last(long frames) const {
 long last_chosen(const FrameChoice& choice, const FrameClock& clock) {
   const long last = choice.last(clock.frames());
   if (last < 0)
-    throw UserError(Exit::Usage, {}, "--frames asks for none of the frames of this clip",
-                    fmt::format("they are 0 to {}", clock.frames() - 1));
+    throw UserError(Exit::Usage, {}, "--frames names no frame of this clip",
+                    clock.frames() == 1 ? std::string("it has frame 0 alone")
+                                        : fmt::format("it has frames 0 to {}", clock.frames() - 1));
   return last;
 }
 

@@ -46,7 +46,7 @@ void BatchRun::run(const BatchQueue::CommandOf& command) {
   const std::vector<BatchResult> results = queue.run();
   for (std::size_t n = 0; n < results.size(); ++n) report_.results[places_[n]] = results[n];
   if (queue.processes_were_refused() && !telling_.quiet)
-    print_note("the system could not start as many jobs at once as were allowed");
+    print_note("the system could not start as many jobs at once as --jobs allows: fewer ran side by side");
 }
 
 void BatchRun::end(std::size_t n, const BatchResult& result) {

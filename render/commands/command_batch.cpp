@@ -136,7 +136,7 @@ std::string closing_words(const BatchReport& report, const fs::path& page) {
   for (std::size_t n = 0; n < report.jobs.size(); ++n) {
     const BatchResult& result = report.results[n];
     if (!result.failed()) continue;
-    const std::string why = result.message.empty() ? "no reason was given" : result.message;
+    const std::string why = result.message.empty() ? "it printed no error" : result.message;
     out += printable(fmt::format("{}: {}: {}", name_of(result.state()), report.jobs[n].name, why)) + "\n";
   }
   return out;

@@ -77,6 +77,20 @@ void refuse_pipe(const fs::path& preset) {
                   "this is not a regular file, but it must be read once for each case", "copy it to a file");
 }
 
+// No case is left.
+[[noreturn]] void refuse_names(const CheckOptions& options) {
+  std::vector<std::string> patterns, names;
+  for (const std::string& pattern : options.only) patterns.push_back(in_quotes(pattern));
+  for (const CheckFamily& family : all_families()) names.push_back(family.name);
+  const std::string groups =
+      options.presets.empty() ? "the groups of cases are " + listed(names) + "; " : std::string();
+  const bool few = options.quick && options.presets.empty();
+  throw UserError(
+      Exit::Usage, {},
+      fmt::format("--only: the name of no case{} has {} in it", few ? " of --quick" : "", listed(patterns)),
+      groups + "--list names all");
+}
+
 std::vector<CheckChapter> wanted(const CheckOptions& options) {
   std::vector<CheckChapter> chapters;
   const auto add = [&](CheckChapter chapter) {
@@ -90,11 +104,8 @@ std::vector<CheckChapter> wanted(const CheckOptions& options) {
   }
   if (options.presets.empty())
     for (const CheckFamily& family : all_families()) add(chapter_of(family, options));
-  if (!chapters.empty()) return chapters;
-  std::vector<std::string> names;
-  for (const CheckFamily& family : all_families()) names.push_back(family.name);
-  throw UserError(Exit::Usage, {}, "no case has such a name",
-                  "the groups of cases are " + listed(names) + "; --list names all");
+  if (chapters.empty()) refuse_names(options);
+  return chapters;
 }
 
 // No input may be overwritten.
@@ -151,9 +162,10 @@ void run_all(std::vector<CheckChapter>& chapters, const fs::path& folder, const 
 
 std::string summary_of(const std::vector<CheckChapter>& chapters, double seconds, const std::string& folder) {
   const CheckCounts counts = count(chapters);
-  std::string out = fmt::format(
-      "{} cases in {}: {} ok, {} refused as they should be, {} known limits, {} failed\n", counts.all(),
-      seconds_in_words(seconds), counts.ok, counts.refused, counts.limits, counts.failed);
+  std::string out =
+      fmt::format("{} case{} in {}: {} ok, {} refused as expected, {} at a known limit, {} failed\n",
+                  counts.all(), counts.all() == 1 ? "" : "s", seconds_in_words(seconds), counts.ok,
+                  counts.refused, counts.limits, counts.failed);
   for (const CheckChapter& chapter : chapters)
     for (std::size_t n = 0; n < chapter.results.size(); ++n)
       if (chapter.results[n].finding.verdict == Verdict::Failed)
@@ -181,7 +193,7 @@ Exit check(const CheckOptions& options) {
   make_folder(cases);
   run_all(chapters, cases, options);
   if (chapters.front().results.empty()) {
-    print_error("stopped by a signal: nothing is reported");
+    print_error("stopped by a signal: no report was written");
     return exit_code_of_signal();
   }
   const double seconds = wall_clock() - start;

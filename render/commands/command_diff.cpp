@@ -47,7 +47,7 @@ Tolerances tolerances_of(const DiffOptions& options) {
   for (const std::string& limit : options.limits) out.add(limit);
   std::error_code error;
   if (!options.mask.empty() && !fs::exists(options.mask, error))
-    throw UserError(Exit::NoInput, {options.mask}, "there is no such file", "--mask names a PNG");
+    throw UserError(Exit::NoInput, {options.mask}, "there is no such file", "--mask takes a PNG file");
   if (!options.mask.empty()) out.mask_all(options.mask);
   return out;
 }
@@ -190,7 +190,7 @@ Exit diff(const DiffOptions& options) {
   MemoryBudget memory(MemoryBudget::of_machine(available_memory()));
   report.cases = compare_all(cases.all, tolerances, options, memory);
   if (report.cases.empty()) {
-    print_error("stopped by a signal: nothing is reported");
+    print_error("stopped by a signal: no report was written");
     return exit_code_of_signal();
   }
   report.updated.assign(report.cases.size(), false);

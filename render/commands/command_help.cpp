@@ -49,10 +49,13 @@ void check_words(const HelpOptions& options) {
   if (options.element.empty() || options.topic == "preset" || options.topic == "tolerances" ||
       options.topic == "completion" || (options.topic == "man" && options.element == "preset"))
     return;
+  const std::vector<std::string> elements = element_names(scene_type());
+  const bool is_element = std::find(elements.begin(), elements.end(), options.element) != elements.end();
   throw UserError(Exit::Usage, {}, fmt::format("help on {} takes no further word", in_quotes(options.topic)),
                   options.topic == "man"
-                      ? "rend help man prints rend(1), rend help man preset rend-preset(5)"
-                      : "rend help preset " + options.element + " explains an element of a preset");
+                      ? "rend help man prints the manual of rend, rend help man preset that of presets"
+                  : is_element ? "rend help preset " + options.element + " explains this element of a preset"
+                               : "rend help " + options.topic + " prints the whole page");
 }
 
 std::string man_page(const CLI::App& root, bool of_presets) {
@@ -66,7 +69,7 @@ std::string completion(const CLI::App& root, const std::string& name) {
   if (shell == nullptr)
     throw UserError(Exit::Usage, {},
                     name.empty() ? "no shell is named" : "there is no completion for " + in_quotes(name),
-                    suggestion(name, shell_names(), "there is for"));
+                    suggestion(name, shell_names(), "shells"));
   CompletionSource source{usage_of(root), settable_attributes(scene_type()), element_names(scene_type())};
   for (const std::string& one : shell_names()) source.elements.push_back(one);
   return shell->script(source);

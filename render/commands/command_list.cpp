@@ -57,6 +57,16 @@ bool comes_before(const std::string& a, const std::string& b) {
   return a.size() - m < b.size() - n;
 }
 
+// Where no preset is listed: why.
+std::string none_in_words(const std::filesystem::path& folder, std::size_t all) {
+  const std::string where = printable(folder.string());
+  if (all == 0) return fmt::format("there are no presets in {}: files *.xml with a <scene>\n", where);
+  return fmt::format(
+      "no preset of {0} names a figure of the thesis (attribute thesis of <scene>); rend list {0} "
+      "lists all {1}\n",
+      where, all);
+}
+
 // "tear/moebius.xml   7.18   20 s   A Moebius band ..."; below each other where the terminal is narrow.
 std::string line_of(const ListedPreset& one, std::size_t longest, std::size_t figures, std::size_t columns) {
   const std::string time = one.seconds ? seconds_in_words(*one.seconds) : "-";
@@ -79,6 +89,7 @@ Exit list(const ListOptions& options) {
   const std::filesystem::path folder =
       options.folder.empty() ? folder_of_presets() : std::filesystem::path(options.folder);
   std::vector<ListedPreset> all = list_presets(folder);
+  const std::size_t there = all.size();
   if (options.thesis) {
     std::erase_if(all, [](const ListedPreset& one) { return one.thesis.empty(); });
     std::stable_sort(all.begin(), all.end(), [](const ListedPreset& a, const ListedPreset& b) {
@@ -91,6 +102,10 @@ Exit list(const ListOptions& options) {
     print_result(text_of(json, 2) + "\n");
     return Exit::Done;
   }
+  if (all.empty()) {
+    print_result(none_in_words(folder, there));
+    return Exit::Done;
+  }
   const std::size_t columns = text_columns(stdout, 140);
   std::size_t longest = 0, figures = 1;
   for (const ListedPreset& one : all) {
@@ -100,9 +115,9 @@ Exit list(const ListOptions& options) {
   std::string out;
   for (const ListedPreset& one : all) out += line_of(one, longest, figures, columns);
   const std::string closing = fmt::format(
-      "{} presets of {}: file, figure or table of the thesis, processor time of rend run on one thread "
+      "{} preset{} in {}: file, figure or table of the thesis, processor time of rend run on one thread "
       "(measured by presets/measure), and what it shows.",
-      all.size(), printable(folder.string()));
+      all.size(), all.size() == 1 ? "" : "s", printable(folder.string()));
   out += "\n";
   for (const std::string& line : folded(closing, columns)) out += line + "\n";
   print_result(out);

@@ -44,7 +44,8 @@ Exit info(const MeshOptions& options) {
 void check_format(const std::string& name) {
   const fs::path extension = fs::path(name).extension();
   if (extension != ".moka" && extension != ".msh")
-    throw UserError(Exit::Usage, {}, fmt::format("{} is not a format that rend can write", in_quotes(name)),
+    throw UserError(Exit::Usage, {},
+                    fmt::format("{}: its ending names no format that rend can write", in_quotes(name)),
                     "end the name in .moka or .msh");
 }
 
@@ -54,7 +55,8 @@ MeshFacts facts_of_text(const std::string& text, const MeshOptions& options) {
     return mesh_facts(sew(read_mesh(MeshSource(options.out, text))), options.out);
   } catch (const UserError& error) {
     throw UserError(Exit::BadInput, {options.in},
-                    fmt::format("its conversion could not be read back: {}", error.what()), error.hint);
+                    fmt::format("rend cannot read what it would be converted to: {}", error.what()),
+                    error.hint);
   }
 }
 
@@ -66,11 +68,13 @@ void check_reads_back(const MeshBody& body, const std::string& text, const MeshO
     return std::tuple(facts.dimension, facts.elements, c.vertices, c.edges, c.faces, c.volumes, c.fragments);
   };
   if (cells(ours) != cells(theirs))
-    throw UserError(Exit::BadInput, {options.in}, "its conversion would be read back with other cells",
+    throw UserError(Exit::BadInput, {options.in},
+                    fmt::format("{} would not hold the same cells", in_quotes(options.out)),
                     "write it in the other format: .msh or .moka");
   if (groups && ours.groups != theirs.groups)
-    throw UserError(Exit::BadInput, {options.in}, "its conversion would be read back with other groups",
-                    "give the groups plain names");
+    throw UserError(Exit::BadInput, {options.in},
+                    fmt::format("{} would not hold the same groups", in_quotes(options.out)),
+                    "give each group a name of its own, of letters, digits, - and _");
 }
 
 // As the options name it; `file`: where that leads.

@@ -73,9 +73,10 @@ std::string closing_words(const ClipRun& clip_run, Stopped stopped, const Pipeli
   if (files.video && stopped != Stopped::Interrupted)
     out += (files.png ? ", and " : " in ") + printable(video.string());
   else if (std::error_code error; files.video && fs::exists(partial_video(video), error))
-    out += fmt::format("{} the part {} of a video", files.png ? ", and" : " in",
+    out += fmt::format("{} {}, a video that ends early", files.png ? ", and" : " in",
                        printable(partial_video(video).string()));
-  if (clip_run.frames_kept() > 0) out += fmt::format("; {} were already there", clip_run.frames_kept());
+  if (const long kept = clip_run.frames_kept(); kept > 0)
+    out += fmt::format("; {} {} already there", kept, kept == 1 ? "was" : "were");
   return out + fmt::format(", in {}\n", seconds_in_words(seconds));
 }
 
@@ -102,7 +103,7 @@ ClipRunOptions clip_run_options(const RenderOptions& options, const Session& ses
   out.checkpoint_every = options.checkpoint_every;
   if (!out.shard.whole() && options.shard.empty() && !session.quiet())
     print_note(fmt::format(
-        "rendering part {} of the frames, by the number of this Slurm array task (--shard 1/1: all)",
+        "this is a task of a Slurm array: it renders part {} of the frames (--shard 1/1: all of them)",
         out.shard.text()));
   return out;
 }

@@ -13,6 +13,7 @@
 #include "render/files/output.h"
 #include "render/files/png.h"
 #include "render/picture/scene_preset.h"
+#include "sim/base/printable.h"
 #include "sim/base/wording.h"
 #include "sim/build/rule_book.h"
 #include "sim/house_rules/house_scripts.h"
@@ -117,6 +118,10 @@ Exit check(const RuleOptions& options) {
     rules = static_cast<std::size_t>(
         std::count_if(book.begin(), book.end(), [](const RuleOrScript& each) { return each.rule != nullptr; }));
     scripts = book.size() - rules;
+    if (book.empty()) {
+      print_result(fmt::format("{} states no rule and no script\n", printable(options.file)));
+      return Exit::Done;
+    }
   }
   const std::string both = scripts == 0 ? counted(rules, "rule")
                            : rules == 0 ? counted(scripts, "script")
@@ -142,7 +147,7 @@ Exit draw_rule(const RuleOptions& options) {
   const bool png = out.extension() == ".png";
   if (!png && out.extension() != ".svg")
     throw UserError(Exit::Usage, {},
-                    fmt::format("{} is not a format that rend can write", in_quotes(options.out)),
+                    fmt::format("{}: its ending names no format that rend can write", in_quotes(options.out)),
                     "end the name in .svg or .png");
   if (png) require_png();
   const RuleBook book = book_of(options);

@@ -49,8 +49,8 @@ fs::path make_folder(const StudyOptions& options, const std::string& name, const
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder))
     throw UserError(Exit::CannotCreate, {folder.string()},
-                    "the folder cannot be created" + (error ? ": " + error.message() : std::string{}) + ".",
-                    "Choose another one with -o.");
+                    "the folder cannot be created" + (error ? ": " + error.message() : std::string{}),
+                    "choose another one with -o");
   OutputFile probe(folder / (kind + ".csv")); // tests whether it is writable; removed without commit()
   return folder;
 }
@@ -83,7 +83,7 @@ std::vector<DrawnPlot> write_plots(const StudyReport& report, const std::string&
   for (const NamedPlot& plot : plots_of(report, name)) {
     const auto svg = draw(plot.plot, PlotFormat::Svg);
     if (!svg) {
-      print_note("gnuplot is not installed (Debian: gnuplot-nox): the study has its numbers and no plots");
+      print_note("gnuplot is not installed (Debian: gnuplot-nox): the page has its tables, but no plots");
       return {};
     }
     write_atomically(folder / (plot.file + ".svg"), *svg);
@@ -187,8 +187,8 @@ Exit study(const StudyOptions& options) {
   if (options.json) {
     print_result(text_of(json, 2) + "\n");
   } else {
-    std::string out =
-        fmt::format("{}: {} runs of {:.4g} s\n", printable(task.name), report.rows.size(), report.duration);
+    std::string out = fmt::format("{}: {} runs, each of {:.4g} s of simulated time\n", printable(task.name),
+                                  report.rows.size(), report.duration);
     for (const std::string& line : findings_of(report)) out += "  " + printable(line) + "\n";
     print_result(out + fmt::format("  The page is {}\n", printable((folder / "index.html").string())));
   }

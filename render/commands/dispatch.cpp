@@ -110,6 +110,19 @@ void check_command(int count, const char* const* arguments) {
                   (near.empty() ? "" : near + "? ") + all);
 }
 
+// A command of commands (mesh, rule) without one of them, or with a word that names none.
+[[noreturn]] void refuse_subcommand(const CLI::App& command, const std::string& which) {
+  std::vector<std::string> names;
+  for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(one->get_name());
+  for (const std::string& word : command.remaining(true))
+    if (!word.starts_with('-'))
+      throw UserError(Exit::Usage, {}, fmt::format("{} has no command {}", which, in_quotes(word)),
+                      suggestion(word, names, "there are"));
+  throw UserError(Exit::Usage, {}, fmt::format("{} needs a command: {}", which, listed(names)),
+                  which + " --help tells what each does");
+}
+
 // The command that was parsed, and what it is called with its parents.
 const CLI::App* parsed_command(const CLI::App& app, std::string& which) {
   const CLI::App* at = &app;
@@ -127,18 +140,10 @@ std::string name_of_argument(const std::string& name, const CLI::App& command) {
   return option && option->get_positional() ? option->get_type_name() : name;
 }
 
-std::string commands_of(const CLI::App& command) {
-  std::string out;
-  for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; }))
-    out += (out.empty() ? "" : ", ") + one->get_name();
-  return out;
-}
-
 // CLI11 puts the name of the type behind that of an option, and does not say what is wrong with it.
 std::string in_plain_words(const CLI::ParseError& error, const CLI::App& command) {
   std::string what = error.what();
   if (dynamic_cast<const CLI::RequiredError*>(&error)) {
-    if (what.starts_with("A subcommand")) return "a command is missing: " + commands_of(command);
     const std::size_t at = what.find(" is required");
     if (at != std::string::npos) return name_of_argument(what.substr(0, at), command) + " is missing";
   }
@@ -173,6 +178,9 @@ Exit run_command_line(int count, const char* const* arguments) {
     std::string which;
     const CLI::App* command = parsed_command(*app, which);
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) refuse_extras(*app, *command, which, count, arguments);
+    if (dynamic_cast<const CLI::RequiredError*>(&error) &&
+        std::string(error.what()).starts_with("A subcommand"))
+      refuse_subcommand(*command, which);
     throw UserError(Exit::Usage, {}, in_plain_words(error, *command), which + " --help lists what it takes");
   }
   return chosen();

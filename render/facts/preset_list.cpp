@@ -92,7 +92,11 @@ fs::path folder_of_presets() {
 }
 
 std::vector<ListedPreset> list_presets(const fs::path& folder) {
-  if (std::error_code error; !fs::is_directory(folder, error))
+  std::error_code error;
+  if (fs::is_regular_file(folder, error))
+    throw UserError(Exit::NoInput, {folder.string()}, "this is a file, and rend list takes a folder",
+                    "rend info tells what one preset builds");
+  if (!fs::is_directory(folder, error))
     throw UserError(Exit::NoInput, {folder.string()}, "there is no such folder");
   const std::map<std::string, Measured> times = times_of(folder / "times.csv");
   std::vector<ListedPreset> out;

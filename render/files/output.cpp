@@ -88,13 +88,13 @@ void remove_leftovers(const fs::path& wanted) {
 // Refuses to replace anything but a file.
 void check_what_is_there(const fs::path& path, const fs::file_status& there) {
   if (fs::is_directory(there))
-    throw UserError(Exit::CannotCreate, {path.string()}, "a folder of this name is in the way.",
-                    "Choose another name for the output.");
+    throw UserError(Exit::CannotCreate, {path.string()}, "a folder of this name is in the way",
+                    "choose another name for the output");
   if (fs::is_other(there) && there.type() != fs::file_type::unknown) // unknown: opening it will report why
     throw UserError(Exit::CannotCreate, {path.string()},
-                    "this is not a regular file, and would be replaced by one.",
-                    "Name a regular file; rend writes a file completely or not at all, which pipes and devices "
-                    "do not allow.");
+                    "this is not a regular file, and would be replaced by one",
+                    "name a regular file; rend writes a file completely or not at all, which pipes and devices "
+                    "do not allow");
 }
 
 } // namespace
@@ -113,8 +113,8 @@ OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem:
   if (!fs::is_symlink(there)) check_what_is_there(path_, there);
   file_ = make_temporary(base_temporary_, temporary_);
   if (file_ < 0)
-    throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason() + ".",
-                    "Check that the folder is there and may be written to.");
+    throw UserError(Exit::CannotCreate, {path_.string()}, "the file cannot be created: " + reason(),
+                    "check that the folder is there and may be written to");
   part_.register_path(temporary_.c_str());
 }
 
@@ -130,8 +130,8 @@ void OutputFile::write(std::span<const std::uint8_t> bytes) {
     const ssize_t count = ::write(file_, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0)
-      throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + reason() + ".",
-                      "Free some space on the disk, or write elsewhere.");
+      throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + reason(),
+                      "free some space on the disk, or write elsewhere");
     bytes = bytes.subspan(static_cast<std::size_t>(count));
   }
 }
@@ -151,8 +151,8 @@ void OutputFile::commit() {
   ::close(file_);
   file_ = -1;
   if (!kept)
-    throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why + ".",
-                    "Check that the folder is still there and has room.");
+    throw UserError(Exit::ReadWrite, {path_.string()}, "writing failed: " + why,
+                    "check that the folder is still there and has room");
   remove_leftovers(base_temporary_);
 }
 
@@ -185,8 +185,8 @@ fs::path resolve_link(const fs::path& path) {
     if (!fs::is_symlink(at, error)) return at;
     at = at.parent_path() / fs::read_symlink(at, error); // `/` keeps only an absolute right-hand side
   }
-  throw UserError(Exit::CannotCreate, {path.string()}, "this link leads in a circle.",
-                  "Choose another name for the output.");
+  throw UserError(Exit::CannotCreate, {path.string()}, "this link leads in a circle",
+                  "choose another name for the output");
 }
 
 void sync_folder(const fs::path& folder) {
@@ -198,8 +198,8 @@ void sync_folder(const fs::path& folder) {
   const std::string why = reason();
   if (file >= 0) ::close(file);
   if (!kept && !hidden)
-    throw UserError(Exit::ReadWrite, {path.string()}, "the folder cannot be brought to the disk: " + why + ".",
-                    "Check that it is still there.");
+    throw UserError(Exit::ReadWrite, {path.string()}, "the folder could not be flushed to the disk: " + why,
+                    "check that it is still there");
 }
 
 } // namespace rend

@@ -246,7 +246,7 @@ RuleBook read_rules(const PresetNode& scene, RuleFaults* faults) {
       std::error_code error;
       if (!std::filesystem::exists(path, error))
         throw UserError(Exit::NoInput, child->place("file"), path.string() + ": there is no such file of rules",
-                        "names are relative to the preset");
+                        "its name is relative to the folder of the preset");
       if (!std::filesystem::is_regular_file(path, error)) // a pipe that nobody writes to would be waited for
         throw UserError(Exit::BadInput, child->place("file"), path.string() + ": is not a regular file",
                         "rules that a preset names stand in a file; pipes, devices and folders are not read");

@@ -34,7 +34,9 @@ void make_map(Body& body, const MeshSettings& shape, const Placement& place) {
       return read_mesh(mesh_path(shape.source.place(), shape.file));
     } catch (const UserError& error) {
       if (error.code == Exit::BadInput) throw; // says where in the mesh
-      throw UserError(error.code, shape.source.place("file"), error.what(), error.hint);
+      throw UserError(error.code, shape.source.place("file"), error.what(),
+                      error.code == Exit::NoInput ? "its name is relative to the folder of the preset"
+                                                  : error.hint);
     }
   }();
   place.apply(file.points());

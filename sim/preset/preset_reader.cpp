@@ -56,7 +56,7 @@ std::vector<std::string> presets_in(const fs::path& folder) {
     if (!near.empty())
       hint = fmt::format("did you mean {}?", in_quotes((path.parent_path() / near).string()));
     else if (!presets.empty())
-      hint = fmt::format("in {} are: {}", in_quotes(folder.string()), listed(presets));
+      hint = fmt::format("presets in {}: {}", in_quotes(folder.string()), listed(presets));
   }
   throw UserError(Exit::NoInput, {path.string(), 0, 0}, "there is no such file", hint);
 }
@@ -92,7 +92,7 @@ std::string read_preset_file(const fs::path& path) {
   if (status.type() == fs::file_type::directory) {
     const std::vector<std::string> presets = presets_in(path);
     throw UserError(Exit::NoInput, place, "this is a folder, and a preset is a file",
-                    presets.empty() ? "" : fmt::format("in it are: {}", listed(presets)));
+                    presets.empty() ? "" : "presets in it: " + listed(presets));
   }
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) throw UserError(Exit::NoInput, place, fmt::format("cannot be opened: {}", std::strerror(errno)));

@@ -208,7 +208,9 @@ private:
   const ElementType& type_of(std::string_view name) {
     if (open_.empty()) {
       if (name == root_type_.name) return root_type_;
-      fail(here(), fmt::format("a preset begins with <{}>, not with <{}>", root_type_.name, bare(name)));
+      fail(here(), fmt::format("a {} begins with <{}>, not with <{}>",
+                               root_type_.name == "scene" ? "preset" : "file of " + root_type_.name,
+                               root_type_.name, bare(name)));
     }
     const ElementType& parent = *open_.back()->type;
     if (const ElementType* type = child_type(parent, name)) return *type;

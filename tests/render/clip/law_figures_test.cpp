@@ -58,7 +58,7 @@ TEST_F(LawFigures, say_why_a_law_never_tears_where_its_threshold_is_exceeded) {
   for (const json& one : place.rend("run quad.xml --reach --json -q").json()["reach"])
     EXPECT_TRUE(one["criterion"] != "cumulative-vertex" || one["reached"].is_null()) << one;
   EXPECT_THAT(place.rend("run quad.xml --reach -q").out,
-              HasSubstr("cumulative-vertex of 'quad': nothing where its change is possible"));
+              HasSubstr("cumulative-vertex of 'quad': no value: its change was possible nowhere"));
 }
 
 TEST_F(LawFigures, tell_the_sizes_of_fragments) {

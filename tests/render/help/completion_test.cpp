@@ -125,8 +125,7 @@ done
 TEST_F(Completion, of_an_unknown_shell_is_refused_with_those_there_are) {
   const Outcome outcome = place.rend("help completion bsh");
   EXPECT_EQ(outcome.code, 64);
-  EXPECT_NE(outcome.err.find("did you mean 'bash'? there is for: bash, zsh, fish"), std::string::npos)
-      << outcome.err;
+  EXPECT_NE(outcome.err.find("did you mean 'bash'? shells: bash, zsh, fish"), std::string::npos) << outcome.err;
 }
 
 } // namespace

@@ -196,7 +196,8 @@ TEST(PresetReader, SaysWhichFilesAreNearOneThatIsMissing) {
   EXPECT_EQ(missing("cloht.xml"),
             at + ": there is no such file | did you mean '" + (folder.path() / "cloth.xml").string() + "'?");
   EXPECT_NE(missing("cloth").find("did you mean"), std::string::npos);
-  EXPECT_NE(missing("something.xml").find("are: cloth.xml"), std::string::npos);
+  EXPECT_NE(missing("something.xml").find("presets in '" + folder.path().string() + "': cloth.xml"),
+            std::string::npos);
   EXPECT_NE(missing("nowhere/a.xml").find("there is no folder"), std::string::npos);
 }
 
@@ -204,7 +205,7 @@ TEST(PresetReader, RefusesAFolderAndAHugeFile) {
   const Folder folder;
   folder.write("cloth.xml", preset);
   EXPECT_EQ(refusal(Exit::NoInput, [&] { read_preset(folder.path(), scene); }),
-            folder.path().string() + ": this is a folder, and a preset is a file | in it are: cloth.xml");
+            folder.path().string() + ": this is a folder, and a preset is a file | presets in it: cloth.xml");
   const std::string huge = folder.write("huge.xml", std::string(max_preset_bytes + 1, ' '));
   expect_starts(refusal(Exit::BadInput, [&] { read_preset(huge, scene); }), huge + ": has more than 16 MiB");
 }
