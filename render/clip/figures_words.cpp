@@ -11,7 +11,11 @@ namespace rend {
 namespace {
 
 std::string guard_in_words(const GuardFigures& guard) {
-  if (guard.rejected == 0) return "";
+  if (guard.rejected == 0)
+    return guard.most_substeps == 1
+               ? ""
+               : fmt::format("  step       divided into {} for elements that laws have made\n",
+                             guard.most_substeps);
   return fmt::format("  guard      {} steps were too large and redone as {} smaller ones, down to {:.3g} s\n",
                      guard.rejected, guard.redone, guard.smallest);
 }

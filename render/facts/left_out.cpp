@@ -36,6 +36,11 @@ void add_undamped(const Body& body, std::vector<std::string>& out) {
   if (!names.empty()) out.push_back(fmt::format("damping: none of {}", names));
 }
 
+void add_awaited(const Body& body, std::vector<std::string>& out) {
+  for (const std::string& name : body.awaited.names())
+    out.push_back(fmt::format("{}: no cell here is one for it; where a law makes one, it is added", name));
+}
+
 void add_laws(const Body& body, std::vector<std::string>& out) {
   if (body.corner_force.empty())
     out.push_back("forces of single elements: no <tear> compares them");
@@ -59,6 +64,7 @@ void add_contact(const Scene& scene, const Body& body, std::vector<std::string>&
 
 std::vector<std::string> left_out_of(const Scene& scene, const Body& body) {
   std::vector<std::string> out = body.left_out;
+  add_awaited(body, out);
   add_folded(body, out);
   add_undamped(body, out);
   add_laws(body, out);

@@ -5,6 +5,7 @@
 #include "sim/embedding/reorder.h"
 #include "sim/fracture/pairs.h"
 #include "sim/integrate/rigid_motions.h"
+#include "sim/mechanics/spring_law.h"
 #include "sim/topology/walk.h"
 
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   options.elementary = elementary;
   options.fold = cumulated != Cumulated::No;
   options.walk = settings.walk;
-  sums_ = elementary && sums_available(interactions, options) &&
+  sums_ = elementary && sums_available(interactions, options) && awaited.only(spring_law()) &&
           std::all_of(tear_laws.begin(), tear_laws.end(),
                       [](const TearLaw& law) { return !law.elementary() || law.by_sums(); });
   options.folded = !elementary || scheme.evaluations > 1 || sums_;
@@ -305,10 +306,17 @@ int Body::make_changes(std::size_t number, const ForceView& now, double time, lo
 
 void Body::follow_changes() {
   const PhaseScope within(profile, Phase::Rebinding);
+  if (awaited.arrive(*map, changes, interactions)) take_up_interactions();
   if (slots_scattered(*map)) map->renumber();
   rebind();
   if (work_meter) work_meter->forget_vertices();
   evaluate();
+}
+
+void Body::take_up_interactions() {
+  program->take_up_interactions();
+  for (TearLaw& law : tear_laws) law.make_anew(request_for(law.settings()));
+  reserve_for_separations();
 }
 
 void Body::advance(double time, double step) {
@@ -395,6 +403,7 @@ void Body::store(Archive& archive, long done, double step) {
   archive.mark(name);
   const bool fixed = archive.reading() && !tears();
   const std::size_t open = fixed ? open_darts(map->map()) : 0, darts = map->map().dart_count();
+  if (awaited.store(archive, *map, interactions)) take_up_interactions();
   map->store(archive);
   refuse_unless(!fixed || (open_darts(map->map()) == open && map->map().dart_count() == darts),
                 "a body is torn that nothing tears");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/body/answer.h"
+#include "sim/body/awaited_interactions.h"
 #include "sim/body/work_meter.h"
 #include "sim/boundary/boundary.h"
 #include "sim/embedding/vertex_acceleration.h"
@@ -47,6 +48,7 @@ struct Body final : System {
   BorderColumn* border = nullptr;                    // null: the body cannot tear
   AccelerationColumn* scheme_acceleration = nullptr; // null: the scheme hands none on
   std::vector<std::unique_ptr<Interaction>> interactions;
+  AwaitedInteractions awaited;
   Cumulated cumulated = Cumulated::Auto;
   Constraints constraints;
   Loads loads;
@@ -148,6 +150,7 @@ private:
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
   int make_changes(std::size_t number, const ForceView& now, double time, long step);
   void follow_changes();
+  void take_up_interactions();
   void check_read(long done, double step) const; // throws ArchiveError
   void bind_program();
   void rebind_solved_contact();

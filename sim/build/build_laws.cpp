@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace rend {
@@ -50,6 +51,16 @@ LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) 
   return law;
 }
 
+// Shear acts along diagonals: cells of other kinds, which a rule may make of those that have some, have none.
+void note_shear(Body& body) {
+  const bool shears = std::any_of(body.interactions.begin(), body.interactions.end(), [](const auto& each) {
+    return each->name.starts_with("shear isotropic") || each->name == "shear anisotropic volume";
+  });
+  if (shears)
+    body.notes.push_back(fmt::format("shear acts in {} alone: other cells that a law makes of them have none",
+                                     body.map->dimension() == 2 ? "quads" : "quads and hexahedra"));
+}
+
 // Every vertex is prescribed in all its coordinates, for good, and none of them ever moves.
 bool wholly_fixed(const Body& body) {
   const CellIndex& vertices = body.map->cells(Vertex);
@@ -75,10 +86,17 @@ void build_laws(Body& body, const BodySettings& settings) {
   if (wholly_fixed(body))
     body.notes.push_back("tearing: every vertex is fixed, so nothing moves and the forces never change");
   body.border = &body.map->add(InitialBorder(body.map->dimension()));
+  // first, since criteria must know which cells there may be
+  for (const LawSettings& asked : settings.tears)
+    if (!asked.rule.empty() && find_rule(settings.rules, asked.rule, asked.source, "rule").grows())
+      let_grow(body);
+  if (body.map->grows())
+    note_shear(body);
+  else
+    body.awaited.all().clear();
   for (const LawSettings& asked : settings.tears) {
     const LawSettings law = completed(asked, body, settings.rules);
     body.tear_laws.emplace_back(body.request_for(law), law);
-    if (law.change->grows) let_grow(body);
     if (!body.tear_laws.back().elementary() || body.cumulated != Cumulated::Yes) continue;
     law.source.fail(
         law.criterion->elementary ? "criterion" : "change",

@@ -48,7 +48,14 @@ std::optional<SpringMaterial> spring_material(Body& body, const SpringsSettings&
   return material;
 }
 
-void build_springs(Body& body, const SpringsSettings& springs) {
+// Null: no law makes cells.
+std::vector<AwaitedInteraction>* awaited_of(Body& body, const BodySettings& settings) {
+  const bool rules = std::any_of(settings.tears.begin(), settings.tears.end(),
+                                 [](const LawSettings& law) { return !law.rule.empty(); });
+  return rules ? &body.awaited.all() : nullptr;
+}
+
+void build_springs(Body& body, const SpringsSettings& springs, std::vector<AwaitedInteraction>* awaited) {
   check_settings(springs);
   const std::optional<SpringMaterial> material = spring_material(body, springs);
   const bool surface = springs.on == SpringsSettings::On::Surface;
@@ -57,7 +64,8 @@ void build_springs(Body& body, const SpringsSettings& springs) {
     check_settings(spring);
     if (!spring.type) spring.source.fail("", "there is no such spring", "find_interaction() knows them");
     std::vector<std::string> why_not;
-    if (auto made = spring.type->make(*body.map, {spring, spring.type->element, material, why_not, surface}))
+    if (auto made =
+            spring.type->make(*body.map, {spring, spring.type->element, material, why_not, surface, awaited}))
       body.interactions.push_back(std::move(made));
     for (auto* list : {&body.left_out, &body.notes}) list->insert(list->end(), why_not.begin(), why_not.end());
   }
@@ -103,7 +111,7 @@ void build_elasticity(Body& body, const BodySettings& settings) {
   const ElasticitySettings& elasticity = *settings.elasticity;
   check_settings(elasticity);
   check_flat(body, settings);
-  for (auto& made : make_elasticity(*body.map, elasticity, body.notes))
+  for (auto& made : make_elasticity(*body.map, elasticity, body.notes, awaited_of(body, settings)))
     body.interactions.push_back(std::move(made));
   body.uniform_drag += elasticity.damping_mass;
   if (!says_cumulated(elasticity)) return;
@@ -128,7 +136,7 @@ void build_viscosity(Body& body, const ViscositySettings& viscosity) {
 } // namespace
 
 void build_matter(Body& body, const BodySettings& settings) {
-  if (settings.springs) build_springs(body, *settings.springs);
+  if (settings.springs) build_springs(body, *settings.springs, awaited_of(body, settings));
   if (settings.elasticity) build_elasticity(body, settings);
   if (settings.viscosity) build_viscosity(body, *settings.viscosity);
   if (!body.drag) body.left_out.emplace_back("viscosity per particle: none");

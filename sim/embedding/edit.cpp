@@ -254,6 +254,10 @@ void Edit::give(Dart d, std::uint32_t point) {
   }
 }
 
+bool Edit::is_new(Dart d) const {
+  return embedded_.cells(Vertex).find(d) == no_slot;
+}
+
 // A vertex that moves has its old point until the edit closes.
 Point Edit::point(Dart d) const {
   if (const std::uint32_t given = given_.find(d.value); given != IndexMap::none) return points_[given];

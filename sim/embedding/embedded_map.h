@@ -179,6 +179,8 @@ public:
   // depends on the rest positions of its elements is initialised again.
   void move(Dart d, const Point& point) { moves_.push_back({d, point}); }
 
+  bool is_new(Dart d) const; // it was created by this edit
+
   // For point expressions: what d was given, else its point before the edit. CHECK: one of them exists.
   Point point(Dart d) const;
 

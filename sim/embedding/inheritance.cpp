@@ -112,6 +112,7 @@ public:
       if (region.has(i))
         for (const Dart d : record_.journal.touched[static_cast<std::size_t>(i)]) visit(region, d);
     for (const Dart d : record_.journal.created) visit(region, d);
+    if (my_.by_element() && !record_.journal.removed.empty()) pass_on_what_is_lost();
     for (Pool& pool : my_.pools_)
       pool.untouched = map_.alive(pool.dart) && !scratch.seen.contains(pool.dart.value);
     if (my_.support_ == SingleDart) keep_whole_cells();
@@ -123,6 +124,8 @@ private:
   void add_child();
   void add_own_parents(Child& child);
   void add_recorded_parents(Child& child);
+  void pass_on_what_is_lost();
+  bool add_lost_parents(const Child& child, std::size_t claimed);
   void add_share(const Child& child, std::uint32_t pool, double weight);
   std::uint32_t pool_at(Dart d);
   std::uint32_t new_pool(Dart d);
@@ -179,6 +182,47 @@ void Heirs::Builder::add_recorded_parents(Child& child) {
       for (const Parent& parent : *parents) add_share(child, pool_at(parent.dart), parent.weight);
       return;
     }
+}
+
+// Elements of which no dart is left, and that nobody has claimed, give to those heirs whose new darts descend
+// from them, by the number of these darts: an edge that is flipped at each side of a triangle removes them all.
+void Heirs::Builder::pass_on_what_is_lost() {
+  const std::size_t claimed = my_.pools_.size();
+  std::vector<Share> before;
+  before.swap(my_.shares_);
+  for (Child& child : my_.children_) {
+    const std::uint32_t first = child.begin, last = child.end;
+    child.begin = static_cast<std::uint32_t>(my_.shares_.size());
+    my_.shares_.insert(my_.shares_.end(), before.begin() + first, before.begin() + last);
+    if (child.own && add_lost_parents(child, claimed)) {
+      double sum = 0;
+      for (std::size_t n = child.begin; n < my_.shares_.size(); ++n) sum += my_.shares_[n].weight;
+      for (std::size_t n = child.begin; n < my_.shares_.size(); ++n) my_.shares_[n].weight /= sum;
+    }
+    child.end = static_cast<std::uint32_t>(my_.shares_.size());
+  }
+}
+
+// Whether there are any. `claimed`: number of pools that have heirs without this.
+bool Heirs::Builder::add_lost_parents(const Child& child, std::size_t claimed) {
+  scratch.unit.clear();
+  collect(map_, my_.unit_, child.dart, scratch.unit);
+  const auto is_old = [&](Dart d) { return !scratch.gone.contains(d.value) && cells_.find(d) != no_slot; };
+  const auto old = static_cast<double>(std::count_if(scratch.unit.begin(), scratch.unit.end(), is_old));
+  bool any = false;
+  for (const Dart d : scratch.unit) {
+    if (is_old(d)) continue;
+    const auto parents = record_.lineage.parents(d, my_.unit_);
+    if (!parents) continue;
+    for (const Parent& parent : *parents) {
+      if (!scratch.gone.contains(parent.dart.value)) continue;
+      const std::uint32_t pool = pool_at(parent.dart);
+      if (pool < claimed) continue;
+      add_share(child, pool, parent.weight / old);
+      any = true;
+    }
+  }
+  return any;
 }
 
 void Heirs::Builder::add_share(const Child& child, std::uint32_t pool, double weight) {

@@ -7,7 +7,8 @@
 //
 // The parents of a heir:
 //   1. If it has darts from before the edit: the cells in which they were, by the number of darts. It is what
-//      is left of them.
+//      is left of them. Where elements share: with what was recorded for its other darts, as far as it comes
+//      from elements of which neither a dart nor another heir is left.
 //   2. Otherwise what was recorded for its smallest dart that has an entry for its own orbit.
 //   3. Otherwise the same for an orbit that contains its own and belongs to a cell of the same dimension: a
 //      side of a face (EdgeOfFace) takes an entry for Edge, a corner one for Vertex. It then descends from the

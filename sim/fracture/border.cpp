@@ -28,8 +28,9 @@ Vec3 face_normal(const EmbeddedMap& map, const Record* x, Dart d) {
 
 constexpr int most_sides = static_cast<int>(most_columns / 3);
 
+// Of a map that grows, also those that volumes may come to have: they are the standard ones.
 int most_sides_of(const EmbeddedMap& map) {
-  int most = 3;
+  int most = map.grows() ? 4 : 3;
   for_each_face(map, [&](Dart d) { most = std::max(most, sides_of_face(map.map(), d)); });
   return most;
 }

@@ -30,6 +30,7 @@ public:
   virtual void settle_candidate(bool made) = 0;  // after the calls at all places of one candidate
   virtual const Refusals& refusals() const = 0;  // of candidates
   virtual void store(Archive& archive) = 0;      // the refusals
+  virtual void make_anew(const CriterionRequest& request) = 0; // the body has got further interactions
   virtual void rebind(const Changes& changes) = 0;
   virtual void reserve_for_separations() = 0; // see EmbeddedMap
   virtual std::size_t bytes() const = 0;

@@ -22,6 +22,7 @@ public:
   }
 
   void begin(const ForceView&) override {}
+  void make_anew(const CriterionRequest&) override {}
   void settle_candidate(bool made) override {
     if (!made) ++refusals_[tried_ ? why_ : nothing_there];
     tried_ = false;

@@ -2,9 +2,9 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/check.h"
-#include "sim/fracture/element_fit.h"
 #include "sim/fracture/element_scan.h"
 #include "sim/fracture/law_quantities.h"
+#include "sim/fracture/made_elements.h"
 #include "sim/rules/script_run.h"
 #include "sim/topology/walk.h"
 
@@ -44,10 +44,8 @@ Cell cell_of(Orbit hook, int dimension) {
 // A rule or a script of one law.
 class ByRule final : public ChangeMemory {
 public:
-  ByRule(const RuleOrScript& what, const CriterionRequest* request, const MapBudget& budget)
-      : what_(what), runner_(what_), budget_(budget) {
-    if (request && what.grows()) fit_.emplace(*request);
-    if (fit_ && fit_->empty()) fit_.reset();
+  ByRule(const RuleOrScript& what, int dimension, const CriterionRequest* request, const MapBudget& budget)
+      : what_(what), runner_(what_), budget_(budget), elements_(what_, dimension, request) {
     if (request && asks_for_tensors(what)) quantities_.emplace(*request);
     if (!quantities_) quantities_.emplace();
   }
@@ -63,8 +61,7 @@ public:
   void begin(const ForceView& view) override {
     quantities_->begin(view);
     most_darts_ = most_darts(view.map, budget_);
-    moved_.clear();
-    rest_of_moved_.clear();
+    elements_.begin();
     changed_components_.clear();
   }
   void settle_candidate(bool made) override {
@@ -74,6 +71,9 @@ public:
   const Refusals& refusals() const override { return refusals_; }
   void store(Archive& archive) override {
     archive.table(refusals_, most_reasons + 1, "a rule was refused for more reasons than there are");
+  }
+  void make_anew(const CriterionRequest& request) override {
+    if (asks_for_tensors(what_)) quantities_.emplace(request);
   }
   void rebind(const Changes& changes) override { quantities_->rebind(changes); }
   void reserve_for_separations() override { quantities_->reserve_for_separations(); }
@@ -93,8 +93,8 @@ private:
     runner_.context() = {{}, &*quantities_, {}, most_darts_};
     darts_.assign(darts.begin(), darts.end());
     std::sort(darts_.begin(), darts_.end());
-    if (!fit_) return runner_.apply_at_first(edit, darts_, &furthest_);
-    return runner_.apply_at_first(edit, darts_, &furthest_, [&] { return elements_fit(edit); });
+    if (elements_.unchanged()) return runner_.apply_at_first(edit, darts_, &furthest_);
+    return runner_.apply_at_first(edit, darts_, &furthest_, [&] { return elements_.fault(edit, runner_); });
   }
 
   // A rule of a whole component is applied once a step, however many of its elements exceed the threshold.
@@ -103,57 +103,6 @@ private:
       if (!edit.map().alive(d) || changed_components_.contains(d.value)) continue;
       for (Dart e : darts_of(edit.map(), Component, d)) changed_components_.insert(e.value);
     }
-  }
-
-  // Of the elements that the rule or script has just changed.
-  bool elements_fit(const Edit& edit) {
-    thread_local IndexSet seen;
-    note_moves(edit);
-    find_changed(edit);
-    const auto rest_of = [&](Dart d) {
-      for (const IndexMap* moved : {&moving_, &moved_})
-        if (const std::uint32_t at = moved->find(d.value); at != IndexMap::none) return rest_of_moved_[at];
-      return edit.point(d).rest;
-    };
-    seen.clear();
-    for (Dart d : changed_) {
-      if (seen.contains(d.value)) continue;
-      element_.clear();
-      collect(edit.map(), element_orbit(edit.map().dimension()), d, element_);
-      for (Dart e : element_) seen.insert(e.value);
-      if (!fit_->fits(edit.map(), d, rest_of)) return false;
-    }
-    keep_moves();
-    return true;
-  }
-
-  // A vertex that a rule moves has its old point until the edit closes; one that a script moves, its new one.
-  void note_moves(const Edit& edit) {
-    moving_.clear();
-    moving_darts_.clear();
-    if (!runner_.rule()) return;
-    for (const auto& [d, point] : runner_.rule()->moved()) {
-      const std::size_t first = moving_darts_.size();
-      collect(edit.map(), Vertex, d, moving_darts_);
-      rest_of_moved_.push_back(point.rest);
-      for (std::size_t n = first; n < moving_darts_.size(); ++n)
-        moving_.assign(moving_darts_[n].value, static_cast<std::uint32_t>(rest_of_moved_.size() - 1));
-    }
-  }
-
-  void keep_moves() {
-    for (Dart d : moving_darts_) moved_.assign(d.value, moving_.find(d.value));
-  }
-
-  // A dart at least of each element that has other links or corners.
-  void find_changed(const Edit& edit) {
-    changed_ = moving_darts_;
-    if (const RuleRunner* rule = runner_.rule()) {
-      changed_.insert(changed_.end(), rule->darts().begin(), rule->darts().end());
-      return;
-    }
-    for (Dart d : runner_.script()->used())
-      if (edit.map().alive(d)) collect(edit.map(), Vertex, d, changed_);
   }
 
   void count(const std::string& reason) {
@@ -167,14 +116,10 @@ private:
   MapBudget budget_;
   std::size_t most_darts_ = budget_.darts; // of the body as it is
   std::optional<LawQuantities> quantities_;
-  std::optional<ElementFit> fit_; // none: nothing that elements must bear, or only removals and separations
-  IndexMap moved_;                // dart → index in rest_of_moved_: of the edit's earlier changes
-  IndexMap moving_;               // the same, of the change that was just made
-  std::vector<Vec3> rest_of_moved_;
-  IndexSet changed_components_;                        // darts of those that this step has changed already
-  std::vector<Dart> moving_darts_, changed_, element_; // scratch
-  std::vector<Dart> darts_;                            // scratch
-  Refusal furthest_;                                   // at the places of one candidate
+  MadeElements elements_;
+  IndexSet changed_components_; // darts of those that this step has changed already
+  std::vector<Dart> darts_;     // scratch
+  Refusal furthest_;            // at the places of one candidate
   Refusals refusals_;
 };
 
@@ -203,7 +148,7 @@ std::shared_ptr<const ChangeType> change_by(const RuleOrScript& what, int dimens
   change->what = what.about();
   change->cell = cell_of(what.hook_orbit(), dimension);
   change->grows = what.grows();
-  const auto by_rule = std::make_shared<ByRule>(what, request, budget);
+  const auto by_rule = std::make_shared<ByRule>(what, dimension, request, budget);
   change->apply = [by_rule](Edit& edit, const ForceView&, const FoundPlace& found,
                             std::span<const Dart> darts) { return by_rule->apply(edit, found, darts); };
   change->memory = by_rule;

@@ -7,7 +7,8 @@
 // rule of a whole component changes that of the element, once a step. Its expressions know what the law has
 // found there (law_quantities.h). Where it does not apply, the reason is counted, that of the dart at which it
 // came furthest. Where the body would grow beyond its budget (map_budget.h), it does not apply: the law waits,
-// and the run goes on. Nor does it where an element that it makes would be flat or inside out (element_fit.h).
+// and the run goes on. Nor does it where what it would make is no element of the body, or would bring mass of
+// its own (made_elements.h).
 #pragma once
 
 #include "sim/fracture/change.h"

@@ -112,6 +112,12 @@ TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
   settings_.change = settings_.by_rule.get();
 }
 
+// What it has reached, and what was refused, stays.
+void TearLaw::make_anew(const CriterionRequest& request) {
+  criterion_ = settings_.criterion->make(request);
+  if (const auto& memory = settings_.change->memory) memory->make_anew(request);
+}
+
 const std::vector<Candidate>& TearLaw::find(const ForceView& view) {
   candidates_.clear();
   criterion_->find(view, settings_.threshold, candidates_);

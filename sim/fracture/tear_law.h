@@ -52,6 +52,7 @@ struct Reached {
 class TearLaw {
 public:
   TearLaw(const CriterionRequest& request, const LawSettings& settings);
+  void make_anew(const CriterionRequest& request); // for a body that has got further interactions
 
   const LawSettings& settings() const { return settings_; }
   bool active(double time) const { return time >= settings_.from && time <= settings_.until; }

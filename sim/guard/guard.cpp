@@ -84,6 +84,11 @@ void Guard::after_laws(long step) {
   growth_.reset();
 }
 
+void Guard::divide_steps(int least) {
+  least_substeps_ = std::min(least, most_substeps);
+  figures_.most_substeps = std::max(figures_.most_substeps, least_substeps_);
+}
+
 StepFailure Guard::update_budget(long step, Look look) {
   if (settled_ == step) return StepFailure::None;
   const Rollback::Account account = rollback_->account();
@@ -225,7 +230,7 @@ std::optional<long> Guard::roll_back(StepFailure failure, long done) {
     if (from_ <= rollback_->first()) return {};
     figures_.rejected += from_ - rollback_->first();
     from_ = rollback_->first();
-    substeps_ = 2;
+    substeps_ = std::min(2 * least_substeps_, most_substeps);
   }
   from_ = std::max(from_, rollback_->first());
   rollback_->restore();
@@ -268,7 +273,7 @@ void Guard::store(Archive& archive, long done) {
   watch_at_start_.store(archive);
   archive(begins_, settled_, exactly_, redoing_, from_, goal_, substeps_);
   archive.unbounded(start_, growth_);
-  archive(hold_until_, hold_length_, hold_substeps_);
+  archive(hold_until_, hold_length_, hold_substeps_, least_substeps_);
   refuse_unless(least_rest == least_rest_, "neighbours are nearer at rest");
   if (archive.reading() && rollback_) check_read(done);
 }
@@ -283,7 +288,8 @@ void Guard::check_read(long done) const {
   refuse_unless(hold_length_ >= 0 && hold_length_ <= longest_hold && hold_until_ >= 0 &&
                     hold_until_ <= done + longest_hold,
                 "parts of steps stay for longer than they would");
-  refuse_unless(is_substep_count(hold_substeps_) && substeps_ >= 1 && substeps_ <= 2 * most_substeps,
+  refuse_unless(is_substep_count(hold_substeps_) && is_substep_count(least_substeps_) && substeps_ >= 1 &&
+                    substeps_ <= 2 * most_substeps,
                 "a step has no such parts");
 }
 

@@ -23,6 +23,9 @@
 // between steps is detected and kept. Implicit and adaptive schemes control their energy and substeps
 // themselves: for them only finiteness is tested.
 //
+// Where a law makes elements for which a step that was chosen automatically is too large, all later steps have
+// as many substeps as make it stable (Scene::divide_steps); the above holds beyond that.
+//
 // Everything depends on numbers of steps and on sums in a fixed order: the same for any number of threads,
 // whatever is displayed.
 #pragma once
@@ -32,6 +35,7 @@
 #include "sim/guard/rollback.h"
 #include "sim/guard/step_failure.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace rend {
@@ -46,11 +50,13 @@ public:
   bool begins_at(long step) const { return rollback_ && rollback_->first() == step; } // a stretch
 
   // The calls of a step, in this order; `step`: steps done before it.
-  int substeps(long step) const;        // number of substeps
+  int substeps(long step) const;        // number of substeps, after the laws
   bool needs_forces() const;            // whether it needs those of the current state: a stretch begins
   void before_laws(long step);          // with the forces of that state
   StepFailure before_change(long step); // of topology; may be called more than once
   void after_laws(long step);
+  // From now on, each step in so many substeps at least: a law has made elements that need smaller ones.
+  void divide_steps(int least);
   void after_substep() {
     if (!rollback_) return;
     const PhaseScope within(profile_, Phase::Guard);
@@ -76,7 +82,9 @@ private:
     double energy = 0, limit = 0, work = 0; // [J]
   };
   void check_read(long done) const; // throws ArchiveError
-  int planned_substeps(long step) const { return step < hold_until_ ? hold_substeps_ : 1; }
+  int planned_substeps(long step) const {
+    return std::max(least_substeps_, step < hold_until_ ? hold_substeps_ : 1);
+  }
   // Exactly: the elastic energy is found, however little the kinetic one is.
   enum class Look { AsNeeded, Exactly };
   StepFailure update_budget(long step, Look look);
@@ -118,6 +126,7 @@ private:
   std::optional<double> growth_;          // [J], energy growth of the last attempt, without the work done
   long hold_until_ = 0, hold_length_ = 0; // the substeps are kept until this step, for this many steps
   int hold_substeps_ = 1;
+  int least_substeps_ = 1; // of every step
 };
 
 } // namespace rend

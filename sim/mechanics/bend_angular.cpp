@@ -63,23 +63,33 @@ bool has_hinge(const EmbeddedMap& map, std::vector<std::string>& notes) {
   return hinges > 0;
 }
 
-std::unique_ptr<Interaction> make_hinges(EmbeddedMap& map, const InteractionRequest& request) {
-  refuse_bend_of_solid(map, request);
-  if (!has_hinge(map, request.notes)) return nullptr;
-  HingeEmbedding embedding;
-  embedding.k = stiffness_of(request, nullptr);
-  embedding.damping = request.settings.damping;
+std::unique_ptr<Interaction> add_hinges(EmbeddedMap& map, const HingeEmbedding& embedding,
+                                        const Pattern& pattern) {
   auto made = std::make_unique<Hinges>();
   made->name = embedding.name;
   made->law = hinge_law();
   made->damped = embedding.damping > 0;
-  made->pattern = {.owner = EdgeOfVolume,
-                   .support = FaceOfVolume,
-                   .units = {hinge_corners},
-                   .fold = {},
-                   .present = &is_hinge};
-  made->column = &map.add(std::move(embedding));
+  made->pattern = pattern;
+  made->column = &map.add(HingeEmbedding(embedding));
   return made;
+}
+
+std::unique_ptr<Interaction> make_hinges(EmbeddedMap& map, const InteractionRequest& request) {
+  refuse_bend_of_solid(map, request);
+  const bool there = has_hinge(map, request.notes);
+  if (!there && !request.awaited) return nullptr;
+  HingeEmbedding embedding;
+  embedding.k = stiffness_of(request, nullptr);
+  embedding.damping = request.settings.damping;
+  const Pattern pattern{.owner = EdgeOfVolume,
+                        .support = FaceOfVolume,
+                        .units = {hinge_corners},
+                        .fold = {},
+                        .present = &is_hinge};
+  if (there) return add_hinges(map, embedding, pattern);
+  request.awaited->push_back({embedding.name, hinge_law(), pattern,
+                              [=](EmbeddedMap& to) { return add_hinges(to, embedding, pattern); }});
+  return nullptr;
 }
 
 } // namespace

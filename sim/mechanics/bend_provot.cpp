@@ -16,10 +16,8 @@ bool is_strip(const GMap& map, Dart d, std::size_t = 0) {
 
 std::unique_ptr<Interaction> make_provot(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_bend_of_solid(map, request);
-  if (!has_inner_edge(map)) {
-    request.notes.emplace_back("bend was left out: no edge lies between two faces");
-    return nullptr;
-  }
+  const bool there = has_inner_edge(map);
+  if (!there && leave_out(request, "bend was left out: no edge lies between two faces")) return nullptr;
   Pattern pattern{.owner = EdgeEndOfVolume,
                   .support = FaceOfVolume,
                   .units = {far_ends},
@@ -27,11 +25,11 @@ std::unique_ptr<Interaction> make_provot(EmbeddedMap& map, const InteractionRequ
                   .present = &is_strip};
   const StiffnessOf k = stiffness_of(request, nullptr);
   const double damping = request.settings.damping;
-  return make_interaction<1>(map, "bend provot", spring_law(), pattern, damping,
-                             [=](const EmbeddedMap& body, Dart d, int) {
-                               const std::vector<Vec3> x = rest_positions(body, d, far_ends);
-                               return UnitParameters{k(body, d), damping, (x[1] - x[0]).norm()};
-                             });
+  return make_or_await<1>(map, there, request, "bend provot", spring_law(), pattern,
+                          [=](const EmbeddedMap& body, Dart d, int) {
+                            const std::vector<Vec3> x = rest_positions(body, d, far_ends);
+                            return UnitParameters{k(body, d), damping, (x[1] - x[0]).norm()};
+                          });
 }
 
 } // namespace

@@ -247,8 +247,8 @@ std::vector<std::unique_ptr<Interaction>> linear_elements(const EmbeddedMap& map
   std::vector<std::unique_ptr<Interaction>> all;
   const Census census = count_elements(map);
   for (std::size_t n = 0; n < census.of_kind.size(); ++n) {
-    if (census.of_kind[n] == 0) continue;
     const auto kind = static_cast<ElementKind>(n);
+    if (shape_of(kind).dimension != map.dimension() || (census.of_kind[n] == 0 && !map.grows())) continue;
     auto made = std::make_unique<OnDemandUnits>();
     made->law = element_law(kind, ElasticModel::Linear, Rotation::Polar, request.material);
     made->name = made->law->name();
@@ -271,7 +271,8 @@ void refuse_flat_element(const Place& place, const ElementShape& shape, const st
 }
 
 std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, const ElasticitySettings& settings,
-                                                          std::vector<std::string>& notes) {
+                                                          std::vector<std::string>& notes,
+                                                          std::vector<AwaitedInteraction>* awaited) {
   const int dimension = map.dimension();
   const double thickness = thickness_of(settings, dimension);
   const ElasticMaterial material = material_of(settings, dimension);
@@ -287,16 +288,20 @@ std::vector<std::unique_ptr<Interaction>> make_elasticity(EmbeddedMap& map, cons
     if (settings.formulation == Formulation::Enhanced)
       settings.source.fail("formulation", "mass-tensors have no inner modes",
                            "model=\"corotational\" or model=\"linear\", or leave formulation out");
-    all = make_mass_tensors(map, {material, thickness, place});
+    all = make_mass_tensors(map, {material, thickness, place}, awaited);
   } else {
     const ElasticModel model =
         settings.model == ContinuumModel::Linear ? ElasticModel::Linear : ElasticModel::Corotational;
-    for (std::size_t kind = 0; kind < census.of_kind.size(); ++kind)
-      if (census.of_kind[kind] > 0)
-        all.push_back(make_one(map,
-                               element_law(static_cast<ElementKind>(kind), model, settings.rotation, material,
-                                           settings.formulation),
-                               thickness, place));
+    for (std::size_t n = 0; n < census.of_kind.size(); ++n) {
+      const auto kind = static_cast<ElementKind>(n);
+      if (shape_of(kind).dimension != dimension || (census.of_kind[n] == 0 && !awaited)) continue;
+      const auto law = element_law(kind, model, settings.rotation, material, settings.formulation);
+      const auto make = [=](EmbeddedMap& to) { return make_one(to, law, thickness, place); };
+      if (census.of_kind[n] > 0)
+        all.push_back(make(map));
+      else
+        awaited->push_back({law->name(), law, pattern_of(law->shape()), make});
+    }
   }
   note_bending(map, settings, census, notes);
   if (all.empty()) settings.source.fail("", "no cell of this body is an element that elasticity fits");

@@ -27,6 +27,11 @@ std::string InteractionType::damping_unit() const {
   return unit.insert(std::min(unit.find('/'), unit.size()), ".s");
 }
 
+bool leave_out(const InteractionRequest& request, std::string why) {
+  request.notes.push_back(std::move(why));
+  return !request.awaited;
+}
+
 void for_each_face(const EmbeddedMap& body, const std::function<void(Dart)>& f) {
   std::vector<char> seen(body.map().capacity(), 0);
   body.map().for_each_dart([&](Dart d) {

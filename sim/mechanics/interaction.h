@@ -71,6 +71,15 @@ enum class Cumulated {
   No
 };
 
+// An interaction that was asked for, for cells of a kind that the body does not have. Where an edit makes some,
+// it is added (sim/body/awaited_interactions.h).
+struct AwaitedInteraction {
+  std::string name;
+  std::shared_ptr<const ForceLaw> law;
+  Pattern pattern;
+  std::function<std::unique_ptr<Interaction>(EmbeddedMap&)> make; // adds the embeddings to the map
+};
+
 // A request for an interaction of a body.
 struct InteractionRequest {
   const SpringSettings& settings;
@@ -78,7 +87,12 @@ struct InteractionRequest {
   std::optional<SpringMaterial> material;
   std::vector<std::string>& notes; // messages for the author of the preset
   bool surface = false;            // only on faces that are on the boundary of the initial body
+  // takes what is left out because no cell is there that it acts on; null: no edit will make any
+  std::vector<AwaitedInteraction>* awaited = nullptr;
 };
+
+// Notes why there is nothing to add here. Whether nothing ever will be.
+bool leave_out(const InteractionRequest& request, std::string why);
 
 template <> const Fields<SpringSettings>& fields_of();
 
@@ -177,6 +191,20 @@ make_interaction(EmbeddedMap& map, std::string name, std::shared_ptr<const Force
   made->pattern = std::move(pattern);
   made->damped = damping > 0;
   return made;
+}
+
+// The same if some cell is `there` that it acts on. Null otherwise: it is awaited.
+template <int Units>
+std::unique_ptr<Interaction>
+make_or_await(EmbeddedMap& map, bool there, const InteractionRequest& request, const std::string& name,
+              const std::shared_ptr<const ForceLaw>& law, const Pattern& pattern,
+              const std::function<UnitParameters(const EmbeddedMap&, Dart, int)>& parameters_of) {
+  const auto make = [=, damping = request.settings.damping](EmbeddedMap& to) {
+    return make_interaction<Units>(to, name, law, pattern, damping, parameters_of);
+  };
+  if (there) return make(map);
+  request.awaited->push_back({name, law, pattern, make});
+  return nullptr;
 }
 
 } // namespace rend

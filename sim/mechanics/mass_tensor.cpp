@@ -162,11 +162,10 @@ bool always(const GMap&, Dart, std::size_t) {
 bool in_quad(const GMap& map, Dart d, std::size_t) {
   return sides_of_face(map, d) == 4;
 }
-
 } // namespace
 
-std::vector<std::unique_ptr<Interaction>> make_mass_tensors(EmbeddedMap& map,
-                                                            const MassTensorRequest& request) {
+std::vector<std::unique_ptr<Interaction>> make_mass_tensors(EmbeddedMap& map, const MassTensorRequest& request,
+                                                            std::vector<AwaitedInteraction>* awaited) {
   const bool sheet = map.dimension() == 2;
   bool any = false, quads = false, hexahedra = false;
   const CellIndex& elements = map.use(element_orbit(map.dimension()));
@@ -185,18 +184,25 @@ std::vector<std::unique_ptr<Interaction>> make_mass_tensors(EmbeddedMap& map,
                             {corner_orbit(map.dimension()), {}, {{""}}, {}, &always}, request));
   all.push_back(made<1, 9>(map, "mass-tensor edges", pair,
                            {sheet ? EdgeOfFace : EdgeOfVolume, {}, {{"", "0"}}, {}, &whole_edge}, request));
-  if (quads)
-    all.push_back(made<2, 9>(map, "mass-tensor face diagonals", pair,
-                             {FaceOfVolume, {}, {{"", "010"}, {"0", "10"}}, {}, &in_quad}, request));
-  if (hexahedra)
-    all.push_back(made<4, 9>(
-        map, "mass-tensor volume diagonals", pair,
-        {Volume,
-         {},
-         {{"", "010210"}, {"0", "10210"}, {"010", "210"}, {"10", "0210"}},
-         {},
-         [](const GMap& m, Dart d, std::size_t) { return element_present<ElementKind::Hexahedron>(m, d, 0); }},
-        request));
+  const auto add = [&](bool there, const std::string& name, const Pattern& pattern, auto make) {
+    if (there)
+      all.push_back(make(map));
+    else if (awaited)
+      awaited->push_back({name, pair, pattern, make});
+  };
+  const Pattern in_faces{FaceOfVolume, {}, {{"", "010"}, {"0", "10"}}, {}, &in_quad};
+  add(quads, "mass-tensor face diagonals", in_faces,
+      [=](EmbeddedMap& to) { return made<2, 9>(to, "mass-tensor face diagonals", pair, in_faces, request); });
+  const Pattern in_volumes{
+      Volume,
+      {},
+      {{"", "010210"}, {"0", "10210"}, {"010", "210"}, {"10", "0210"}},
+      {},
+      [](const GMap& m, Dart d, std::size_t) { return element_present<ElementKind::Hexahedron>(m, d, 0); }};
+  if (!sheet)
+    add(hexahedra, "mass-tensor volume diagonals", in_volumes, [=](EmbeddedMap& to) {
+      return made<4, 9>(to, "mass-tensor volume diagonals", pair, in_volumes, request);
+    });
   return all;
 }
 

@@ -44,8 +44,10 @@ private:
 std::shared_ptr<const MassTensorLaw> vertex_tensor_law(const MassTensorRequest& request);
 std::shared_ptr<const MassTensorLaw> pair_tensor_law(const MassTensorRequest& request);
 
-// Adds the embeddings. UserError: an element without volume. Empty: no element of a supported shape.
-std::vector<std::unique_ptr<Interaction>> make_mass_tensors(EmbeddedMap& map, const MassTensorRequest& request);
+// Adds the embeddings. UserError: an element without volume. Empty: no element of a supported shape. `awaited`:
+// as of make_elasticity().
+std::vector<std::unique_ptr<Interaction>> make_mass_tensors(EmbeddedMap& map, const MassTensorRequest& request,
+                                                            std::vector<AwaitedInteraction>* awaited = nullptr);
 
 // K_ij [N/m] of the element with corners i and j, at rest.
 struct ElementTensors {

@@ -26,10 +26,9 @@ const std::vector<std::vector<Word>> face_diagonals{{"", "010"}, {"0", "10"}};
 const std::vector<Word> across_corner{"0", "10"};
 
 std::unique_ptr<Interaction> make_isotropic_face(EmbeddedMap& map, const InteractionRequest& request) {
-  if (!has_face(map, 4, 4)) {
-    request.notes.push_back("shear was left out: no face is a quad, which is what it acts on");
+  const bool there = has_face(map, 4, 4);
+  if (!there && leave_out(request, "shear was left out: no face is a quad, which is what it acts on"))
     return nullptr;
-  }
   Pattern pattern{.owner = FaceOfVolume,
                   .support = FaceOfVolume,
                   .units = face_diagonals,
@@ -38,14 +37,13 @@ std::unique_ptr<Interaction> make_isotropic_face(EmbeddedMap& map, const Interac
   if (map.dimension() == 3) pattern.fold.emplace_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.settings.damping;
-  return make_interaction<2>(map, "shear isotropic", spring_law(), pattern, damping,
-                             [=, surface = request.surface](const EmbeddedMap& body, Dart d, int unit) {
-                               if (surface && !body.map().is_free(3, d)) return UnitParameters{};
-                               if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
-                               return along_face_diagonal(body, d,
-                                                          face_diagonals[static_cast<std::size_t>(unit)],
-                                                          k(body, d), damping);
-                             });
+  return make_or_await<2>(map, there, request, "shear isotropic", spring_law(), pattern,
+                          [=, surface = request.surface](const EmbeddedMap& body, Dart d, int unit) {
+                            if (surface && !body.map().is_free(3, d)) return UnitParameters{};
+                            if (sides_of_face(body.map(), d) != 4) return UnitParameters{};
+                            return along_face_diagonal(body, d, face_diagonals[static_cast<std::size_t>(unit)],
+                                                       k(body, d), damping);
+                          });
 }
 
 // Whether the corner of d carries a spring: in a pentagon and larger polygons every corner, in a quad the
@@ -60,10 +58,9 @@ bool carries(const GMap& map, Dart d) {
 }
 
 std::unique_ptr<Interaction> make_anisotropic_face(EmbeddedMap& map, const InteractionRequest& request) {
-  if (!has_face(map, 4, 1 << 30)) {
-    request.notes.emplace_back("shear was left out: no face has a diagonal, every one is a triangle");
+  const bool there = has_face(map, 4, 1 << 30);
+  if (!there && leave_out(request, "shear was left out: no face has a diagonal, every one is a triangle"))
     return nullptr;
-  }
   Pattern pattern{.owner = VertexOfFace,
                   .support = FaceOfVolume,
                   .units = {across_corner},
@@ -72,12 +69,12 @@ std::unique_ptr<Interaction> make_anisotropic_face(EmbeddedMap& map, const Inter
   if (map.dimension() == 3) pattern.fold.emplace_back("3");
   const StiffnessOf k = stiffness_of(request, &diagonal_stiffness);
   const double damping = request.settings.damping;
-  return make_interaction<1>(map, "shear anisotropic", spring_law(), pattern, damping,
-                             [=, surface = request.surface](const EmbeddedMap& body, Dart d, int) {
-                               if (surface && !body.map().is_free(3, d)) return UnitParameters{};
-                               if (!carries(body.map(), d)) return UnitParameters{};
-                               return along_face_diagonal(body, d, across_corner, k(body, d), damping);
-                             });
+  return make_or_await<1>(map, there, request, "shear anisotropic", spring_law(), pattern,
+                          [=, surface = request.surface](const EmbeddedMap& body, Dart d, int) {
+                            if (surface && !body.map().is_free(3, d)) return UnitParameters{};
+                            if (!carries(body.map(), d)) return UnitParameters{};
+                            return along_face_diagonal(body, d, across_corner, k(body, d), damping);
+                          });
 }
 
 } // namespace

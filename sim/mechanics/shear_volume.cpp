@@ -39,29 +39,24 @@ void refuse_surface(const InteractionRequest& request) {
 
 std::unique_ptr<Interaction> make_isotropic_volume(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_surface(request);
-  if (const auto why = reason_to_leave_out(map)) {
-    request.notes.push_back(*why);
-    return nullptr;
-  }
+  const auto missing = reason_to_leave_out(map);
+  if (missing && leave_out(request, *missing)) return nullptr;
   const Pattern pattern{
       .owner = Volume, .support = Volume, .units = volume_diagonals, .fold = {}, .present = &in_hexahedron};
   const StiffnessOf k = stiffness_of(request, nullptr);
   const double damping = request.settings.damping;
-  return make_interaction<4>(map, "shear isotropic volume", spring_law(), pattern, damping,
-                             [=](const EmbeddedMap& body, Dart d, int unit) {
-                               if (!in_hexahedron(body.map(), d, 0)) return UnitParameters{};
-                               return along_volume_diagonal(body, d,
-                                                            volume_diagonals[static_cast<std::size_t>(unit)],
-                                                            k(body, d), damping);
-                             });
+  return make_or_await<4>(map, !missing, request, "shear isotropic volume", spring_law(), pattern,
+                          [=](const EmbeddedMap& body, Dart d, int unit) {
+                            if (!in_hexahedron(body.map(), d, 0)) return UnitParameters{};
+                            return along_volume_diagonal(
+                                body, d, volume_diagonals[static_cast<std::size_t>(unit)], k(body, d), damping);
+                          });
 }
 
 std::unique_ptr<Interaction> make_anisotropic_volume(EmbeddedMap& map, const InteractionRequest& request) {
   refuse_surface(request);
-  if (const auto why = reason_to_leave_out(map)) {
-    request.notes.push_back(*why);
-    return nullptr;
-  }
+  const auto missing = reason_to_leave_out(map);
+  if (missing && leave_out(request, *missing)) return nullptr;
   const Pattern pattern{.owner = VertexOfVolume,
                         .support = Volume,
                         .units = {volume_diagonals.front()},
@@ -69,16 +64,16 @@ std::unique_ptr<Interaction> make_anisotropic_volume(EmbeddedMap& map, const Int
                         .present = &in_hexahedron};
   const StiffnessOf k = stiffness_of(request, nullptr);
   const double damping = request.settings.damping;
-  return make_interaction<1>(
-      map, "shear anisotropic volume", spring_law(), pattern, damping,
-      [=](const EmbeddedMap& body, Dart d, int) {
-        const GMap& m = body.map();
-        if (!in_hexahedron(m, d, 0)) return UnitParameters{};
-        const Dart far_end = m.follow(d, volume_diagonals.front().back());
-        if (smallest_dart(m, VertexOfVolume, far_end) < smallest_dart(m, VertexOfVolume, d))
-          return UnitParameters{}; // the other end carries it
-        return along_volume_diagonal(body, d, volume_diagonals.front(), k(body, d), damping);
-      });
+  return make_or_await<1>(map, !missing, request, "shear anisotropic volume", spring_law(), pattern,
+                          [=](const EmbeddedMap& body, Dart d, int) {
+                            const GMap& m = body.map();
+                            if (!in_hexahedron(m, d, 0)) return UnitParameters{};
+                            const Dart far_end = m.follow(d, volume_diagonals.front().back());
+                            if (smallest_dart(m, VertexOfVolume, far_end) < smallest_dart(m, VertexOfVolume, d))
+                              return UnitParameters{}; // the other end carries it
+                            return along_volume_diagonal(body, d, volume_diagonals.front(), k(body, d),
+                                                         damping);
+                          });
 }
 
 } // namespace

@@ -20,8 +20,8 @@ Impulse impact(const Vec3& u, const Vec3& normal, double friction, const Vec3& i
 
 double way_out(double before, double step) {
   constexpr double relaxation = 0.05; // [s]
-  constexpr double fastest = 0.1;     // [m/s]
-  return before > 0 ? before - std::min(before * std::min(1.0, step / relaxation), fastest * step) : 0;
+  constexpr double fastest_out = 0.1; // [m/s]
+  return before > 0 ? before - std::min(before * std::min(1.0, step / relaxation), fastest_out * step) : 0;
 }
 
 } // namespace rend

@@ -17,18 +17,26 @@ namespace rend {
 Program::Program(EmbeddedMap& map, const std::vector<std::unique_ptr<Interaction>>& interactions,
                  const MassColumn& mass, const DragColumn* drag, const ProgramOptions& options)
     : map_(&map), interactions_(&interactions), mass_(&mass), drag_(drag), options_(options) {
-  const Orbit corner = corner_orbit(map.dimension());
-  for (const auto& interaction : interactions) {
-    kernels_.push_back(&kernel_of(*interaction->law));
-    if (options.folded) folded_.push_back(Binder::of(map, *interaction, Folding{options.fold}, {}));
-    if (options.elementary) elementary_.push_back(Binder::of(map, *interaction, Folding::Off, corner));
-  }
-  for (Binder& binder : folded_) binder.bind();
-  for (Binder& binder : elementary_) binder.bind();
+  for (const auto& interaction : interactions) add_rows(*interaction);
   if (options.timed && !folded_.empty()) folded_times_ = std::make_unique<RowTimes>(folded_.size());
   if (options.timed && !elementary_.empty()) elementary_times_ = std::make_unique<RowTimes>(elementary_.size());
   recompute_masses();
   map.subscribe(changes_);
+}
+
+void Program::add_rows(const Interaction& interaction) {
+  const Orbit corner = corner_orbit(map_->dimension());
+  kernels_.push_back(&kernel_of(*interaction.law));
+  if (options_.folded) folded_.emplace_back(Binder::of(*map_, interaction, Folding{options_.fold}, {})).bind();
+  if (options_.elementary)
+    elementary_.emplace_back(Binder::of(*map_, interaction, Folding::Off, corner)).bind();
+}
+
+void Program::take_up_interactions() {
+  for (std::size_t n = kernels_.size(); n < interactions_->size(); ++n) add_rows(*(*interactions_)[n]);
+  if (folded_times_) folded_times_->resize(folded_.size());
+  if (elementary_times_) elementary_times_->resize(elementary_.size());
+  tiles_.clear();
 }
 
 Program::~Program() {

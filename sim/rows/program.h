@@ -59,7 +59,8 @@ public:
   void corner_forces_at(const std::vector<std::uint8_t>& mark, const Record* position, const Record* velocity,
                         Record* corner) const;
 
-  void rebind(); // after edits; does nothing if there were none
+  void rebind();               // after edits; does nothing if there were none
+  void take_up_interactions(); // after some were added behind those of the list that it was made with
   void reserve_for_separations();
 
   std::size_t vertices() const { return inverse_mass_.size(); }                   // slots
@@ -89,6 +90,7 @@ private:
   };
   void run(const Evaluation& what, std::size_t unit, const RangeFunction* whole) const;
   void run_part(const Evaluation& what, std::size_t begin, std::size_t end, const RangeFunction* whole) const;
+  void add_rows(const Interaction& interaction);
   void find_tiles() const;
   void recompute_masses(); // all masses, and the vertices of corners
   void update_masses();

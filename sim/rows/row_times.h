@@ -16,6 +16,7 @@ class RowTimes {
 public:
   explicit RowTimes(std::size_t interactions) : seconds_(interactions), reading_(clock_reading()) {}
   void count() { ++evaluations_; }
+  void resize(std::size_t interactions) { seconds_.resize(interactions); }
 
   long evaluations() const { return evaluations_; }
   double seconds(std::size_t interaction) const { return seconds_[interaction]; } // summed over all threads

@@ -342,7 +342,7 @@ void RuleOrScriptRunner::keep_furthest(Refusal& furthest) const {
 }
 
 bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts, Refusal* furthest,
-                                        const std::function<bool()>& may_stay) {
+                                        const std::function<std::string()>& fault) {
   over_budget_ = false;
   if (hooks_ == 2) {
     for (Dart d : darts) {
@@ -360,9 +360,10 @@ bool RuleOrScriptRunner::apply_at_first(Edit& edit, std::span<const Dart> darts,
     if (tried_.contains(d.value)) continue;
     const Edit::Savepoint before = edit.savepoint();
     const bool applied = apply(edit, d);
-    if (applied && (!may_stay || may_stay())) return true;
+    const std::string why = applied && fault ? fault() : std::string();
+    if (applied && why.empty()) return true;
     if (applied) edit.rollback(before);
-    if (applied && furthest) *furthest = {last_stage, unfit};
+    if (applied && furthest) *furthest = {last_stage, why};
     if (!applied && furthest) keep_furthest(*furthest);
     if (over_budget()) return false;
     orbit_.clear();

@@ -110,10 +110,10 @@ public:
   }
   // At one dart after another, one for each orbit of its hook, until it applies, or the map would grow too
   // large; with two hooks, at one pair after another. `furthest`, if given, becomes the refusal that came
-  // furthest, or stays if that is it. `may_stay`, for one hook, is asked wherever it has applied: if not, that
-  // is taken back, for the reason `unfit`.
+  // furthest, or stays if that is it. `fault`, for one hook, is asked wherever it has applied: if it gives a
+  // reason, that is taken back.
   bool apply_at_first(Edit& edit, std::span<const Dart> darts, Refusal* furthest = nullptr,
-                      const std::function<bool()>& may_stay = {});
+                      const std::function<std::string()>& fault = {});
   static constexpr const char* unfit = "it would make an element flat or inside out";
   std::string sentence() const; // why the last call returned false
   Refusal refusal() const;      // the same

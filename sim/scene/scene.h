@@ -120,6 +120,8 @@ private:
   StepFailure substep(double time, double step); // [s]
   void evaluate_forces();
   StepFailure apply_laws();
+  bool tear(Body& body, const std::function<void()>& sound);
+  void divide_steps();
   StepFailure integrate(double time, double step);        // [s]
   StepFailure resolve_contacts(double time, double step); // [s]
   void apply_contacts(double time, double step);

@@ -81,12 +81,19 @@ void Scene::return_to_start_of(long step) {
     bodies_[b]->integrator->restore_state(solver_states_[b]);
 }
 
-// With the number of substeps that the guard asks for. On failure, steps_done() counts the steps completed.
+// With the number of substeps that the guard asks for, once laws have changed what there is. On failure,
+// steps_done() counts the steps completed.
 StepFailure Scene::nominal_step() {
+  if (!returning_ && guard_->redoing()) throw_if_stop_is_due();
+  evaluate_forces();
+  if (const StepFailure failure = apply_laws(); failure != StepFailure::None) return failure;
   const int substeps = guard_->substeps(steps_done_);
   const double step = step_ / substeps;
   for (int n = 0; n < substeps; ++n) {
-    if (!returning_ && (n > 0 || guard_->redoing())) throw_if_stop_is_due();
+    if (n > 0) {
+      if (!returning_) throw_if_stop_is_due();
+      evaluate_forces();
+    }
     if (const StepFailure failure = substep(time() + n * step, step); failure != StepFailure::None)
       return failure;
   }
@@ -95,10 +102,9 @@ StepFailure Scene::nominal_step() {
   return guard_->after_step(steps_done_);
 }
 
+// From the forces of the current state.
 StepFailure Scene::substep(double time, double step) {
-  evaluate_forces();
-  StepFailure failure = apply_laws();
-  if (failure == StepFailure::None) failure = integrate(time, step);
+  StepFailure failure = integrate(time, step);
   if (failure == StepFailure::None) failure = resolve_contacts(time, step);
   if (failure != StepFailure::None) return failure;
   commit(step);
@@ -128,16 +134,38 @@ StepFailure Scene::apply_laws() {
     if (const StepFailure failure = guard_->before_change(steps_done_); failure != StepFailure::None)
       throw UnsoundState{failure};
   };
+  bool made_cells = false;
   try {
-    for (auto& body : bodies_) body->tear(time(), steps_done_, sound);
+    for (auto& body : bodies_) made_cells = tear(*body, sound) || made_cells;
   } catch (const UnsoundState& unsound) {
     return unsound.failure;
   } catch (const UserError& error) { // of a change that a law cannot make
     throw Unstable(Exit::Unstable, {}, error.what(), error.hint);
   }
+  if (made_cells) divide_steps();
   laws_applied_at_ = steps_done_;
   guard_->after_laws(steps_done_);
   return StepFailure::None;
+}
+
+// Whether some change may have made cells.
+bool Scene::tear(Body& body, const std::function<void()>& sound) {
+  const std::size_t before = body.events.size();
+  if (body.tear(time(), steps_done_, sound) == 0) return false;
+  return std::any_of(body.events.begin() + static_cast<std::ptrdiff_t>(before), body.events.end(),
+                     [&](const TearEvent& event) {
+                       return body.tear_laws[static_cast<std::size_t>(event.law)].settings().change->grows;
+                     });
+}
+
+// A step that was chosen for the elements at the start may be too large for those that laws have made.
+void Scene::divide_steps() {
+  if (!automatic_step() || scheme().solves || scheme().adaptive) return;
+  const double limit = stability_limit();
+  constexpr int most = 1024;
+  int substeps = 1;
+  while (substeps < most && step_ > substeps * limit) substeps *= 2;
+  guard_->divide_steps(substeps);
 }
 
 StepFailure Scene::integrate(double time, double step) {

@@ -81,7 +81,9 @@ public:
     }
   }
 
-  void add_elements(ElasticModel model, Rotation rotation, const ElasticMaterial& material, double thickness) {
+  // `mass`: that of the corners, which changes may have passed on; null: as of one density.
+  void add_elements(ElasticModel model, Rotation rotation, const ElasticMaterial& material, double thickness,
+                    const MassColumn* mass = nullptr) {
     for (const Polyhedron& p : elements_) {
       const auto at = element_at(map_.map(), p.first);
       if (!at) continue;
@@ -100,9 +102,11 @@ public:
       law->forces(unit.data(), state, f.data());
       stress_[p.first] = law->stress(unit.data(), state);
       strain_[p.first] = law->strain(unit.data(), state);
-      const double size = extent(p);
       for (std::size_t n = 0; n < corner.size(); ++n) {
         push(p, map_.vertex(corner[n]), f[n]);
+        const double size =
+            mass ? (*mass)[map_.slot(mass->orbit(), corner[n])] * static_cast<double>(corner.size())
+                 : extent(p);
         at_vertex_[map_.vertex(corner[n])].push_back({size, p.first});
       }
     }
@@ -242,7 +246,7 @@ private:
   std::map<Slot, Vec3> singles_at_;              // largest force of a single element [N]
   std::vector<Single> singles_;
   std::map<Dart, Eigen::Matrix3d> stress_, strain_;                // by element
-  std::map<Slot, std::vector<std::pair<double, Dart>>> at_vertex_; // extents and elements
+  std::map<Slot, std::vector<std::pair<double, Dart>>> at_vertex_; // extents or masses, and elements
 };
 
 } // namespace rend::plain

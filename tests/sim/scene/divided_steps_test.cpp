@@ -1,0 +1,51 @@
+// A step that was chosen for the elements at the start is divided where a law makes elements that need smaller
+// ones.
+#include "sim/presets.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace rend {
+namespace {
+
+// A stretched sheet of quads, whose law divides each face into triangles from its middle until that time [s].
+presets::Loaded starred(const std::string& step, double until) {
+  return presets::load(fmt::format(
+      R"(<scene><body><sheet pattern="quads" cells="6 4" size="0.6 0.4"/><mass density="1000" thickness="1e-3"/>
+         <elasticity young="2e5" thickness="1e-3"/><drive side="-x" velocity="-0.3 0 0"/>
+         <drive side="+x" velocity="0.3 0 0"/>
+         <tear criterion="strain" threshold="1e-5" rule="star-face" until="{}"/></body>
+         <world gravity="0 0 0"/><time step="{}" integrator="verlet" duration="1"/></scene>)",
+      until, step));
+}
+
+constexpr int divisions = 3; // steps with the law: each makes 4 triangles of a quad, 3 of a triangle
+
+TEST(DividedSteps, are_stable_for_the_elements_that_laws_have_made) {
+  const double step = starred("auto", 0)->step_size();
+  const auto scene = starred("auto", (divisions - 0.5) * step);
+  ASSERT_EQ(scene->step_size(), step);
+  EXPECT_GT(scene->stability_limit(scene->scheme()), step);
+  for (int n = 0; n < 200; ++n) scene->step();
+  EXPECT_GT(scene->tears(), 24u);
+  const double limit = scene->stability_limit(scene->scheme());
+  EXPECT_LT(limit, step);
+  EXPECT_LT(step / scene->guard().most_substeps, limit);
+  EXPECT_GT(step / scene->guard().most_substeps, limit / 2); // no more than are needed
+  EXPECT_EQ(scene->guard().rejected, 0);
+}
+
+// Steps need no division where what laws make allows them.
+TEST(DividedSteps, are_none_where_laws_make_nothing_smaller) {
+  const auto scene = presets::load(R"(<scene><body><sheet pattern="quads" cells="6 4" size="0.6 0.4"/>
+      <mass density="1000" thickness="1e-3"/><elasticity young="2e5" thickness="1e-3"/>
+      <drive side="-x" velocity="-0.3 0 0"/><drive side="+x" velocity="0.3 0 0"/>
+      <tear criterion="strain" threshold="1e-3" rule="unsew-edge"/></body>
+      <world gravity="0 0 0"/><time step="auto" integrator="verlet" duration="1"/></scene>)");
+  for (int n = 0; n < 1000 && scene->tears() == 0; ++n) scene->step();
+  EXPECT_GT(scene->tears(), 0u);
+  EXPECT_EQ(scene->guard().most_substeps, 1);
+}
+
+} // namespace
+} // namespace rend
