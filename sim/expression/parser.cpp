@@ -1,9 +1,8 @@
 #include "sim/expression/parser.h"
 
 #include "sim/base/wording.h"
+#include "sim/expression/code_builder.h"
 #include "sim/expression/functions.h"
-#include "sim/expression/operators.h"
-#include "sim/expression/tokens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +30,9 @@ public:
 
   ParsedExpression parse() {
     if (next().kind == Token::Kind::End) throw ExpressionError(1, "the expression is empty");
-    out_.type = expression(Precedence::Or);
+    const ValueType type = expression(Precedence::Or);
     if (next().kind != Token::Kind::End) refuse_rest();
-    return std::move(out_);
+    return code_.take(type);
   }
 
 private:
@@ -60,24 +59,13 @@ private:
     } else {
       right = expression(tighter(precedence));
     }
-    return emit_operator(symbol, {left, right});
+    return code_.emit_operator(symbol, {left, right});
   }
 
-  // left Skip right Join
   ValueType decision(const Token& symbol, Precedence precedence, ValueType left) {
-    const std::size_t skip = out_.program.size();
-    emit({.kind = Instruction::Kind::Skip,
-          .when = symbol.text == "or",
-          .result = ValueType::Condition,
-          .count = 1,
-          .column = column_of(symbol)});
+    const std::size_t skip = code_.emit_skip(symbol);
     const ValueType right = expression(tighter(precedence));
-    const ExpressionOperator& found = operator_for(symbol, {left, right});
-    out_.program[skip].index = static_cast<std::uint32_t>(out_.program.size());
-    emit({.kind = Instruction::Kind::Join,
-          .result = ValueType::Condition,
-          .index = static_cast<std::uint32_t>(&found - operators().data()),
-          .column = column_of(symbol)});
+    code_.emit_join(symbol, skip, {left, right});
     return ValueType::Condition;
   }
 
@@ -85,7 +73,7 @@ private:
     const Token& token = next();
     if (token.kind == Token::Kind::Number) {
       ++at_;
-      emit({.column = column_of(token), .number = token.number});
+      code_.emit({.column = column_of(token), .number = token.number});
       return ValueType::Scalar;
     }
     if (token.text == "(") return in_parentheses();
@@ -93,7 +81,7 @@ private:
       ++at_;
       const Deeper deeper(*this, token);
       const ValueType type = expression(token.text == "-" ? Precedence::Power : Precedence::Comparison);
-      return emit_operator(token, {type});
+      return code_.emit_operator(token, {type});
     }
     if (token.text == "if") return choice();
     if (token.kind == Token::Kind::Word && !is_keyword(token.text)) return word();
@@ -121,18 +109,18 @@ private:
       throw ExpressionError(open.column + 1,
                             fmt::format("'if' takes a condition first, here {}", a_value(type)),
                             "a condition is a comparison, such as x > 0");
-    const std::size_t branch = jump(Instruction::Kind::Branch, name);
+    const std::size_t branch = code_.emit_jump(Instruction::Kind::Branch, name);
     const ValueType first = value_of_choice(form);
-    const std::size_t leave = jump(Instruction::Kind::Jump, name);
-    out_.program[branch].index = static_cast<std::uint32_t>(leave);
+    const std::size_t leave = code_.emit_jump(Instruction::Kind::Jump, name);
+    code_.lead(branch, leave);
     const ValueType second = value_of_choice(form);
     if (first != second)
       throw ExpressionError(
           name.column, fmt::format("the two values of 'if' are {} and {}", a_value(first), a_value(second)),
           "they are of one type");
-    out_.program[leave].index = static_cast<std::uint32_t>(out_.program.size() - 1);
+    code_.lead(leave, code_.size() - 1);
     close(open);
-    emit({.kind = Instruction::Kind::Choice, .result = first, .count = 1, .column = column_of(name)});
+    code_.emit({.kind = Instruction::Kind::Choice, .result = first, .count = 1, .column = column_of(name)});
     return first;
   }
 
@@ -142,14 +130,6 @@ private:
     return expression(Precedence::Or);
   }
 
-  // Where it leads is told later. It takes a value from the stack: the condition, or, of two that wait for one
-  // place, the first.
-  std::size_t jump(Instruction::Kind kind, const Token& name) {
-    --values_;
-    out_.program.push_back({.kind = kind, .column = column_of(name)});
-    return out_.program.size() - 1;
-  }
-
   // A variable or a call.
   ValueType word() {
     const Token& name = take();
@@ -157,27 +137,21 @@ private:
     for (const BuiltIn& built_in : built_ins()) {
       if (built_in.declared.name != name.text) continue;
       const Arguments given = arguments(name, built_in.declared, called);
-      emit({.kind = Instruction::Kind::Function,
-            .result = built_in.declared.result,
-            .count = static_cast<std::uint8_t>(given.types.size()),
-            .index = static_cast<std::uint32_t>(&built_in - built_ins().data()),
-            .column = column_of(name),
-            .apply = built_in.apply});
+      code_.emit({.kind = Instruction::Kind::Function,
+                  .result = built_in.declared.result,
+                  .count = static_cast<std::uint8_t>(given.types.size()),
+                  .index = static_cast<std::uint32_t>(&built_in - built_ins().data()),
+                  .column = column_of(name),
+                  .apply = built_in.apply});
       return built_in.declared.result;
     }
     for (const ExpressionFunction& function : vocabulary_) {
       if (function.name != name.text) continue;
       if (function.is_name && called) return called_name(name, function);
       Arguments given = arguments(name, function, called);
-      const std::size_t names = given.names.size();
-      emit({.kind = Instruction::Kind::Call,
-            .result = function.result,
-            .count = static_cast<std::uint8_t>(given.types.size() - names),
-            .index = static_cast<std::uint32_t>(out_.calls.size()),
-            .column = column_of(name)});
-      out_.calls.push_back({static_cast<std::size_t>(&function - vocabulary_.data()), function.name,
-                            name.column, function.result, std::move(given.types), std::move(given.names),
-                            std::move(given.columns), !called});
+      code_.emit_call({static_cast<std::size_t>(&function - vocabulary_.data()), function.name, name.column,
+                       function.result, std::move(given.types), std::move(given.names),
+                       std::move(given.columns), !called});
       return function.result;
     }
     refuse_word(name, called);
@@ -191,18 +165,14 @@ private:
       throw ExpressionError(token.column, fmt::format("'{}' takes a name and a whole number", word.text),
                             signature(function));
     });
-    emit({.kind = Instruction::Kind::Call,
-          .result = function.result,
-          .index = static_cast<std::uint32_t>(out_.calls.size()),
-          .column = column_of(word)});
-    out_.calls.push_back({static_cast<std::size_t>(&function - vocabulary_.data()),
-                          name,
-                          word.column,
-                          function.result,
-                          {ValueType::Name},
-                          {name},
-                          {column},
-                          true});
+    code_.emit_call({static_cast<std::size_t>(&function - vocabulary_.data()),
+                     name,
+                     word.column,
+                     function.result,
+                     {ValueType::Name},
+                     {name},
+                     {column},
+                     true});
     return function.result;
   }
 
@@ -339,41 +309,6 @@ private:
                           hint);
   }
 
-  ValueType emit_operator(const Token& symbol, std::vector<ValueType> operands) {
-    const ExpressionOperator& found = operator_for(symbol, operands);
-    emit({.kind = Instruction::Kind::Operator,
-          .result = found.result,
-          .count = static_cast<std::uint8_t>(operands.size()),
-          .index = static_cast<std::uint32_t>(&found - operators().data()),
-          .column = column_of(symbol),
-          .apply = found.apply});
-    return found.result;
-  }
-
-  const ExpressionOperator& operator_for(const Token& symbol, const std::vector<ValueType>& operands) const {
-    const ExpressionOperator* found = find_operator(symbol.text, operands);
-    if (found) return *found;
-    std::string given = a_value(operands[0]);
-    if (operands.size() == 2)
-      given = operands[0] == operands[1] ? fmt::format("two {}s", type_word(operands[0]))
-                                         : given + " and " + a_value(operands[1]);
-    throw ExpressionError(
-        symbol.column,
-        fmt::format("'{}' takes {}, here {}", symbol.text, taken_by(symbol.text, operands.size()), given),
-        std::string(operand_hint(symbol.text, operands)));
-  }
-
-  // Counts the values on the stack.
-  void emit(const Instruction& instruction) {
-    const bool pushes =
-        instruction.kind != Instruction::Kind::Skip && instruction.kind != Instruction::Kind::Join;
-    values_ += (pushes ? 1 : 0) - instruction.count;
-    if (values_ > static_cast<int>(most_values))
-      throw ExpressionError(instruction.column,
-                            fmt::format("more than {} values wait for an operator here", most_values));
-    out_.program.push_back(instruction);
-  }
-
   // Lives as long as what is nested once more.
   struct Deeper {
     Deeper(Parser& parser_, const Token& token) : parser(parser_) {
@@ -397,8 +332,8 @@ private:
   std::vector<Token> tokens_;
   const std::vector<ExpressionFunction>& vocabulary_;
   std::size_t at_ = 0;
-  int depth_ = 0, values_ = 0;
-  ParsedExpression out_;
+  int depth_ = 0;
+  CodeBuilder code_;
 };
 
 } // namespace
