@@ -166,7 +166,8 @@ std::function<Exit()> declare_render(CLI::App& app) {
       ->type_name("DIR");
   app.add_option("--frames", options->frames,
                  "render only these frames, such as 7, 0-100, 0-100x2 (every second), 10- (to the end), or "
-                 "several separated by commas")
+                 "several separated by commas; the first and the last moment are both shown, so that 2 s at 30 "
+                 "a second have frames 0 to 60")
       ->type_name("LIST")
       ->check(some_word());
   app.add_option("--size", options->size, "width and height of the pictures in pixels; default: the preset's")

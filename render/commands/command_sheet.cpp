@@ -4,16 +4,15 @@
 #include "render/clip/named_files.h"
 #include "render/clip/session.h"
 #include "render/commands/command.h"
+#include "render/commands/sheet_row.h"
 #include "render/console/console.h"
 #include "render/console/number_option.h"
-#include "render/console/progress.h"
 #include "render/console/signals.h"
 #include "render/draw/device.h"
 #include "render/draw/hud.h"
 #include "render/draw/renderer.h"
 #include "render/files/output.h"
 #include "render/files/png.h"
-#include "render/picture/scene_picture.h"
 #include "render/picture/scene_preset.h"
 #include "sim/base/printable.h"
 #include "sim/base/wording.h"
@@ -24,13 +23,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <memory>
+#include <span>
 
 namespace rend {
 namespace {
 
-constexpr int moments = 3; // that are shown of a preset
-constexpr int gap = 6;     // [pixels]
+constexpr int gap = 6; // [pixels]
 
 struct SheetOptions {
   SessionOptions session; // of each preset: without its name and its attributes
@@ -48,7 +48,7 @@ struct Layout {
 };
 Layout layout_of(const SheetOptions& options, std::size_t scenes) {
   const int count = static_cast<int>(scenes);
-  if (options.ends == 0) return {moments, moments, count};
+  if (options.ends == 0) return {SheetRow::moments, SheetRow::moments, count};
   const int columns = std::min(options.ends, count);
   return {columns, 1, (count + columns - 1) / columns};
 }
@@ -56,17 +56,19 @@ Layout layout_of(const SheetOptions& options, std::size_t scenes) {
 // A preset, or one with a choice of values of a sweep.
 struct SheetScene {
   std::string preset;
-  std::vector<std::string> sets; // PATH=VALUE
-  std::string label;             // the values of the sweep; empty: there is none
+  std::size_t number;             // of the preset, among those of the command line
+  std::vector<std::string> sets;  // PATH=VALUE
+  std::vector<std::string> swept; // the values of the sweep, likewise; empty: there is none
 };
 
 std::vector<SheetScene> scenes_of(const SheetOptions& options) {
   const BatchSettings settings = batch_settings(scene_type(), options.sets, options.sweeps);
   std::vector<SheetScene> scenes;
-  for (const std::string& preset : options.presets) {
+  for (std::size_t n = 0; n < options.presets.size(); ++n) {
+    const std::string& preset = options.presets[n];
     load_scene(preset, {}); // a name that is wrong is told with those that are near
     for (const BatchJob& job : batch_jobs({preset}, settings.sweeps)) {
-      SheetScene scene{preset, settings.sets, fmt::format("{}", fmt::join(job.sets, "  "))};
+      SheetScene scene{preset, n, settings.sets, job.sets};
       scene.sets.insert(scene.sets.end(), job.sets.begin(), job.sets.end());
       scenes.push_back(std::move(scene));
     }
@@ -74,47 +76,30 @@ std::vector<SheetScene> scenes_of(const SheetOptions& options) {
   return scenes;
 }
 
-// The three frames of a row, chosen while the clip runs: the first; the one a twentieth of the clip after the
-// first tear (the middle one if nothing has torn by then); the last.
-class Row {
-public:
-  Row(long frames, bool end_alone)
-      : end_alone_(end_alone), middle_(frames / 2), last_(frames - 1), lag_(frames / 20) {}
+bool is_number(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
 
-  bool wants(long frame, bool torn) {
-    if (end_alone_) return frame == last_;
-    if (torn && !tear_) tear_ = std::min(frame + lag_, last_);
-    return frame == 0 || frame == last_ || frame == middle_ || frame == tear_;
-  }
-  void put(long frame, const Frame& picture) {
-    if (frame == 0) frames_[0] = picture;
-    if (frame == (tear_ ? *tear_ : middle_)) frames_[1] = picture;
-    if (frame == last_) frames_[2] = picture;
-  }
-  // The k-th of those that are shown.
-  const Frame& shown(int k) const { return frames_[static_cast<std::size_t>(end_alone_ ? moments - 1 : k)]; }
+// "body.tear.threshold=2 N": the unit of a threshold follows from its criterion.
+std::string with_unit(const std::string& set, const SheetRow& row) {
+  const Override one = parse_override(set);
+  if (!is_number(one.value)) return set;
+  const std::string unit =
+      one.path.ends_with(".threshold") ? row.threshold_unit() : overridden(scene_type(), one).unit;
+  return unit.empty() ? set : set + " " + unit;
+}
 
-private:
-  bool end_alone_;
-  long middle_, last_, lag_;
-  std::optional<long> tear_;
-  std::array<Frame, moments> frames_;
-};
+std::string tears_in_words(const SheetRow& row) {
+  return fmt::format("{} tear{}", row.tears(), row.tears() == 1 ? "" : "s");
+}
 
-Exit run(Session& session, double aspect, Row& row) {
-  FrameBuilder maker(session.picture(), session.scene(), aspect, session.clock().duration(),
-                     session.clock().frames());
-  const long last = session.clock().frames() - 1;
-  const GracefulStop graceful_stop; // a signal only ends the time loop; it is handled afterwards
-  Progress progress(session.quiet(), session.last_step(last), session.clock().duration(), 0);
-  Session::Callbacks calls;
-  calls.frame = [&](long frame) {
-    maker.observe();
-    if (row.wants(frame, session.scene().tears() > 0))
-      row.put(frame, maker.draw(frame, session.clock().time_of(frame)));
-  };
-  calls.step = [&] { progress.update(session.scene().steps_done(), session.scene().time(), 0); };
-  return exit_code_of(session, session.run(last, calls));
+// "body.tear.threshold=2 N: 12 tears"
+std::string label_of(const SheetScene& scene, const SheetRow& row) {
+  std::vector<std::string> values;
+  for (const std::string& set : scene.swept) values.push_back(with_unit(set, row));
+  return fmt::format("{}: {}", fmt::join(values, "  "), tears_in_words(row));
 }
 
 // Copies `tile` into `sheet` with its upper left corner at (x, y).
@@ -128,15 +113,55 @@ void write_label(Frame& frame, const std::string& label) {
   if (!label.empty()) frame.hud.lines.push_back({.text = printable(label), .x = 0.02F, .y = 0.93F});
 }
 
-// The scenes of the sheet as lines, where they are told apart by values.
-std::string list_of(const std::vector<SheetScene>& scenes, const Layout& layout) {
-  std::string out;
-  for (std::size_t n = 0; n < scenes.size(); ++n)
-    if (!scenes[n].label.empty())
-      out += fmt::format("  row {}{}: {} {}\n", layout.row(n) + 1,
-                         layout.shown == 1 ? fmt::format(", picture {}", layout.column(n, 0) + 1) : "",
-                         printable(scenes[n].preset), printable(scenes[n].label));
-  return out;
+// What stands where, a line for each scene.
+std::string line_of(const SheetScene& scene, const SheetRow& row, std::size_t n, const Layout& layout) {
+  const std::string picture = layout.shown == 1 ? fmt::format(", picture {}", layout.column(n, 0) + 1) : "";
+  const auto [start, middle, end] = row.times();
+  const std::string times = layout.shown == 1
+                                ? fmt::format("at {:.4g} s", end)
+                                : fmt::format("at {:.4g}, {:.4g} and {:.4g} s", start, middle, end);
+  return fmt::format("  row {}{}: {}{}{}, {}\n", layout.row(n) + 1, picture, printable(scene.preset),
+                     scene.swept.empty() ? ": " : " ",
+                     scene.swept.empty() ? tears_in_words(row) : printable(label_of(scene, row)), times);
+}
+
+// The pictures of a row, in their places.
+void draw(const SheetScene& scene, const SheetRow& row, std::size_t n, const Layout& layout,
+          const PictureSize& size, Image& sheet) {
+  const auto device = make_device();
+  Renderer renderer(size.width, size.height, row.samples());
+  Hud hud(size.width, size.height);
+  for (int k = 0; k < layout.shown; ++k) {
+    Frame frame = row.shown(k);
+    frame.transparent = false; // the sheet itself is opaque
+    renderer.draw(frame);
+    frame.hud = {};
+    if (k == 0 && !scene.swept.empty()) write_label(frame, label_of(scene, row));
+    if (!frame.hud.empty()) hud.draw(frame.hud);
+    paste(renderer.read(), layout.column(n, k) * (size.width + gap), layout.row(n) * (size.height + gap),
+          sheet);
+  }
+}
+
+// Simulates those of one preset, and draws them; adds a line for each.
+Exit add_rows(const SheetOptions& options, std::span<const SheetScene> scenes, std::size_t first,
+              const Layout& layout, Image& sheet, std::string& lines) {
+  const PictureSize size = parse_size(options.size);
+  std::vector<SheetRow> rows;
+  for (const SheetScene& scene : scenes) {
+    SessionOptions one = options.session;
+    one.preset = scene.preset;
+    one.sets = scene.sets;
+    rows.emplace_back(one, static_cast<double>(size.width) / size.height, layout.shown == 1);
+    if (const Exit end = rows.back().run(); end != Exit::Done) return end;
+  }
+  if (layout.shown > 1)
+    if (const Exit end = set_middles(rows); end != Exit::Done) return end;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    draw(scenes[n], rows[n], first + n, layout, size, sheet);
+    lines += line_of(scenes[n], rows[n], first + n, layout);
+  }
+  return Exit::Done;
 }
 
 Exit make_sheet(const SheetOptions& options) {
@@ -159,27 +184,12 @@ Exit make_sheet(const SheetOptions& options) {
   const Layout layout = layout_of(options, scenes.size());
   Image sheet(layout.columns * (size.width + gap) - gap, layout.rows * (size.height + gap) - gap);
   std::fill(sheet.pixels.begin(), sheet.pixels.end(), std::uint8_t{255});
-  for (std::size_t n = 0; n < scenes.size(); ++n) {
-    SessionOptions one = options.session;
-    one.preset = scenes[n].preset;
-    one.sets = scenes[n].sets;
-    Session session(one);
-    Row row(session.clock().frames(), layout.shown == 1);
-    const Exit end = run(session, static_cast<double>(size.width) / size.height, row);
-    if (end != Exit::Done) return end;
-    const auto device = make_device();
-    Renderer renderer(size.width, size.height, session.image().samples);
-    Hud hud(size.width, size.height);
-    for (int k = 0; k < layout.shown; ++k) {
-      Frame frame = row.shown(k);
-      frame.transparent = false; // the sheet itself is opaque
-      renderer.draw(frame);
-      frame.hud = {};
-      if (k == 0) write_label(frame, scenes[n].label);
-      if (!frame.hud.empty()) hud.draw(frame.hud);
-      paste(renderer.read(), layout.column(n, k) * (size.width + gap), layout.row(n) * (size.height + gap),
-            sheet);
-    }
+  std::string lines;
+  for (std::size_t first = 0, end = 0; first < scenes.size(); first = end) {
+    while (end < scenes.size() && scenes[end].number == scenes[first].number) ++end;
+    const std::span<const SheetScene> of_preset(scenes.data() + first, end - first);
+    if (const Exit code = add_rows(options, of_preset, first, layout, sheet, lines); code != Exit::Done)
+      return code;
   }
   const GracefulStop graceful_stop;
   write_png(file, sheet);
@@ -187,7 +197,7 @@ Exit make_sheet(const SheetOptions& options) {
   if (!options.session.quiet)
     print_result(fmt::format("{}: {} row{} of {} picture{}\n", printable(options.file), layout.rows,
                              layout.rows == 1 ? "" : "s", layout.columns, layout.columns == 1 ? "" : "s") +
-                 list_of(scenes, layout));
+                 lines);
   return Exit::Done;
 }
 
@@ -210,7 +220,9 @@ std::function<Exit()> declare_sheet(CLI::App& app) {
   app.add_option(
          "--set", options->sets,
          "replace an attribute of each preset, such as time.step=1e-4 (can be repeated); several values "
-         "separated by commas make one row each, unless the attribute is free text")
+         "separated by commas make one row each, unless the attribute is free text; their middle pictures are "
+         "at "
+         "one time, when the row that tears first has just torn")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   app.add_option(

@@ -16,6 +16,8 @@ namespace {
 constexpr int shadow_side = 1024;
 constexpr float shadow_spread = 2.0f; // [texels], of the four taps (percentage-closer filtering)
 constexpr float far_side_tint = 0.74f;
+// [pixels]: in lower pictures the line along torn edges gets thinner in proportion, and does not hide the body
+constexpr float full_torn_line = 120;
 // depth below the floor down to which bodies are drawn, in distances from eye to target
 constexpr double sunk = 0.002;
 constexpr float shadow_step_out = 2.5f; // offset of the shadow lookup along the normal [texels]
@@ -342,7 +344,8 @@ void Renderer::set_finish(const GlProgram& program, const FrameBody& body) {
 void Renderer::draw_body(const GlProgram& program, const Draw& draw) const {
   const FrameBody& body = *draw.body;
   program.set("cells", body.edges ? 1 : 0);
-  program.set("torn_reach", body.torn.width / 2);
+  const float thinner = std::min(static_cast<float>(height_) / full_torn_line, 1.0f);
+  program.set("torn_reach", thinner * body.torn.width / 2);
   if (body.filled) set_finish(program, body);
   Eigen::Vector4f back(0, 0, 0,
                        body.shades_back ? far_side_tint : 1); // the back's own tint, relative to the front's

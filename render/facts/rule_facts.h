@@ -38,7 +38,4 @@ nlohmann::ordered_json json_of(const RuleFacts& facts);
 std::string facts_in_words(const RuleFacts& facts);
 std::string list_in_words(const std::vector<RuleFacts>& all); // a line each
 
-// What an orbit is called: "edge". See the table in sim/README.md, "The map".
-std::string cell_in_words(Orbit orbit);
-
 } // namespace rend

@@ -24,8 +24,9 @@ reached from a dart by some of the links is an orbit, and cells are orbits: vert
 <0,1,2,3>. A hole's border is no cell: fill it with a face per side and sew-edges with="touching".
 
 GRAPHS. left="..." and right="..." hold items in any order, separated by spaces:
-  a*(0,1)  a hook: it stands for all darts of an orbit at once, here for those of one face. Each
-           connected part of the left graph has one hook, and the right graph has none.
+  a*(0,1)  a hook: it stands for all darts of an orbit at once, here for those of a face; a*(1,2,3)
+           for a vertex, a*(0,2,3) for an edge, a*(0,1,2) for a volume. Its links may be free, as α2
+           is at a border. Each connected part of the left graph has one, the right graph has none.
   b(_,2)   a node: one dart beside each dart of the hook's orbit. Position k of its label tells what
            the hook's k-th link becomes there: kept, renamed, or dropped (_). With a*(0,1), b's
            darts are not linked where α0 links those of a, and by α2 where α1 links those of a.
@@ -41,8 +42,8 @@ goes a node d that both lead to, by b-0-d and c-2-d; with a-0-c and a|2 goes c|2
 
 VALUES are elements within <rule>:
   <set node="c" position="..." rest="..." velocity="..."/>   the point of a new vertex, or where two
-      become one, which need a position; or of a kept one, which moves. Once a vertex. rest and
-      velocity follow; but in <tear> the rest position of a kept one stays, as its mass always does.
+      become one, as where a dart passes to another vertex: these need it; or of a kept one, which
+      moves. Once a vertex. rest, velocity follow; a kept one's mass stays, and in <tear> its rest.
   <when test="size(a, face) > 3" at="all|any" otherwise="why not"/>   a further condition, asked at
       the hook's dart, or at all or any darts of its orbit
   <where name="h" value="0.1"/>   an argument, a number or point(x, y, z), and its default
@@ -65,7 +66,7 @@ in later steps. Without each: once. Other attributes: arguments of NAME.
 
 USE. Rules and scripts stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> there.
   <apply rule="smooth" times="2" t="0.3"/>   in a <body>, after its shape: t is an argument; where
-      all vertices of the hook's orbit are selected, as by side="+x"; to="all": everywhere
+      all vertices of the hook's orbit are selected: side="+x"; a box around one edge; to="all"
   <create dimension="2"/>   a shape with nothing in it, with which rules begin: create-quad ...
   <subdivide times="3"/>    each face, or each volume, becomes one per corner
 rend rule list | show NAME: the rules there are; check FILE; draw NAME --in FILE -o F.svg: see it.
@@ -79,26 +80,25 @@ constexpr const char* page_examples =
        the triangle of a's side. Where α1 led, b and c go on by α2, to the next triangle. -->
   <rule name="star" about="a triangle on each side of a face of a sheet, around a new vertex c"
         left="a*(0,1) a|3"   right="a(0,_) b(_,2) c(1,2)   a-1-b b-0-c   a|3 b|3 c|3">
-    <set node="c" position="mean(a, face)"/>
-  </rule>
+    <set node="c" position="mean(a, face)"/> </rule>
   <!-- The hook is an edge: two darts a in each of its faces, which α0 joins, and α2 across. In a
        triangle b and c are the next side, and c's α1 leads where a's α0 leads: 1 in place of 0. -->
   <rule name="cut-edge" about="an edge of a sheet of triangles and its triangles are cut in two"
         left="a*(0,2) b(_,_) c(1,_)  a-1-b b-0-c  a|3 b|3 c|3"
         right="a(_,2) b(_,_) c(_,_) g(_,2) h(2,_) i(2,_)  a-1-b b-0-c a-0-g g-1-h h-0-i i-1-c
                a|3 b|3 c|3 g|3 h|3 i|3">
-    <set node="g" position="mean(a, edge)"/>
-  </rule>
+    <set node="g" position="mean(a, edge)"/> </rule>
   <script name="cut-in-half" about="a triangle off each corner of all faces" hook="a*(0,1,2,3)">
     <for each="e*(0,2,3)" apply="insert-vertex"/>
-    <for each="e*(1,3)" which="old" apply="cut-face-corner"/>
-  </script>
+    <for each="e*(1,3)" which="old" apply="cut-face-corner"/> </script>
+  <script name="cut-at" about="cut-edge at one edge, that with its middle at p" hook="a*(0,1,2)">
+    <where name="p" value="point(0, 0, 0)"/>
+    <for each="e*(0,2)" where="norm(mean(e, edge) - p) &lt; 1e-3" apply="cut-edge"/> </script>
   <rule name="smooth" about="vertices go a share t of the way to the mean of their neighbours"
         left="a*(1,2,3)" right="a(1,2,3)">
     <where name="t" value="0.5"/>
     <let name="goal" value="if(size(a, border) > 0, mean(a, border), mean(a, neighbours))"/>
-    <set node="a" position="lerp(a, goal, t)"/>
-  </rule>
+    <set node="a" position="lerp(a, goal, t)"/> </rule>
 </rules>
 )page";
 

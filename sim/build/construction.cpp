@@ -5,6 +5,7 @@
 #include "sim/build/read_settings.h"
 #include "sim/build/shape.h"
 #include "sim/mesh/dart_order.h"
+#include "sim/rules/cell_words.h"
 #include "sim/rules/rest_measures.h"
 #include "sim/rules/rounds.h"
 #include "sim/rules/sheet_in_space.h"
@@ -219,9 +220,9 @@ private:
   static std::string nothing_selected(const RuleOrScript& rule, const ApplySettings& settings) {
     if (rule.hooks() == 0 || !settings.where.given()) return "there is nothing that its hook stands for";
     return fmt::format(
-        "its hook stands for all darts of an orbit {}, and is tried where all vertices of that are "
+        "its hook stands for all darts of an orbit {} ({}), and is tried where all vertices of that are "
         "selected; to=\"all\" selects every one",
-        to_string(rule.hook_orbit()));
+        to_string(rule.hook_orbit()), cell_in_words(rule.hook_orbit()));
   }
 
   [[noreturn]] static void refuse_growth(const RuleOrScript& rule, const RoundResult& result, std::size_t most,

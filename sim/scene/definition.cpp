@@ -33,10 +33,10 @@ template <> const Fields<TimeSettings>& fields_of() {
                    "alpha only: the factor that a step leaves of motion too fast for it; 1: all, 0: none")
                 .at_least(0)
                 .at_most(1)),
-      field(&S::duration,
-            number("duration", "s",
-                   "length of the clip in simulated time; required, except with static, where the default is 1")
-                .at_least(0)),
+      field(&S::duration, number("duration", "s",
+                                 "length of the clip in simulated time; 0: the bodies "
+                                 "as they are built; required, except with static, where the default is 1")
+                              .at_least(0)),
       field(&S::mass_scaling,
             number(
                 "mass-scaling", "",

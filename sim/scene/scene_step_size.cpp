@@ -90,6 +90,7 @@ double Scene::stable_step() {
         fmt::format("no step is stable with the integrator '{}' here, because some motions are not damped",
                     scheme().name),
         "use symplectic, verlet or rk4, or add <viscosity>");
+  if (std::isinf(limit) && duration_ == 0) return 1; // a scene that is only built makes no step
   if (std::isinf(limit))
     time_.source.fail(
         "step",

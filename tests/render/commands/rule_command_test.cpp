@@ -273,7 +273,7 @@ TEST(RulePage, fits_on_a_page_and_names_all_functions) {
 TEST(RulePage, has_examples_that_work) {
   const TestFolder place;
   place.write("mine.xml", examples_of(place.rend("help rule").out));
-  ASSERT_EQ(place.rend("rule check mine.xml").out, "3 rules and 1 script are well formed\n");
+  ASSERT_EQ(place.rend("rule check mine.xml").out, "3 rules and 2 scripts are well formed\n");
   const auto build = [&](const std::string& shape) {
     place.write("s.xml", scene(shape));
     const Outcome outcome = place.rend("run s.xml --export obj -o out --json");
@@ -298,6 +298,11 @@ TEST(RulePage, has_examples_that_work) {
   const auto cut = build(two + "<apply rule=\"cut-edge\" box=\"-0.1 0.9 -1 1.1 1.1 1\"/>");
   EXPECT_EQ(count(cut, "v "), 5);
   EXPECT_EQ(count(cut, "f "), 3);
+  // One edge: that with its middle at p, or that with both ends in a box. The diagonal has two triangles.
+  EXPECT_EQ(build(two + "<apply rule=\"cut-at\" p=\"point(0.5, 1, 0)\"/>"), cut);
+  const auto inner = build(two + "<apply rule=\"cut-at\" p=\"point(0.5, 0.5, 0)\"/>");
+  EXPECT_EQ(count(inner, "f "), 4);
+  EXPECT_THAT(inner, testing::Contains("v 0.5 0.5 0"));
   // Of each of the four corners of two quads a triangle, and a quad in their middle.
   const auto halved = build("<sheet cells=\"2 1\" size=\"2 1\"/><apply rule=\"cut-in-half\" to=\"all\"/>");
   EXPECT_EQ(count(halved, "v "), 6 + 7);

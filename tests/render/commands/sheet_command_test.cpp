@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace rend {
 namespace {
@@ -64,7 +66,8 @@ TEST(Sheet, sets_attributes_of_all_presets) {
   EXPECT_EQ(place.rend(line + "-o c.png --set body.tear.thresold=1").code, 64);
 }
 
-// Each row is that of the preset with this value alone, but for the label on its first picture.
+// Each row is that of the preset with this value alone, but for the label on its first picture, and the middle
+// one, which is at one time in all rows: here when the row that tears has just torn.
 TEST(Sheet, makes_a_row_of_each_value_of_a_sweep_and_says_which) {
   NEEDS_PNG;
   const TestFolder place;
@@ -72,7 +75,9 @@ TEST(Sheet, makes_a_row_of_each_value_of_a_sweep_and_says_which) {
   const std::string line = "sheet pulled.xml --size 160x90 -o ", sweep = "body.tear.threshold=2,1e9";
   const Outcome made = place.rend(line + "both.png --sweep " + sweep);
   ASSERT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, testing::HasSubstr("row 2: pulled.xml body.tear.threshold=1e9"));
+  EXPECT_THAT(made.out, testing::HasSubstr("row 2: pulled.xml body.tear.threshold=1e9 N: 0 tears, at 0, "));
+  const auto tears = place.rend("run pulled.xml --json -q").json()["tears"].get<int>();
+  EXPECT_THAT(made.out, testing::HasSubstr(fmt::format("threshold=2 N: {} tears, at 0, ", tears)));
   ASSERT_EQ(place.rend(line + "same.png -q --set " + sweep).code, 0);
   EXPECT_EQ(read_png(place.path() / "same.png"), read_png(place.path() / "both.png"));
   const Image both = read_png(place.path() / "both.png");
@@ -81,12 +86,43 @@ TEST(Sheet, makes_a_row_of_each_value_of_a_sweep_and_says_which) {
     const std::string one = row == 0 ? "2" : "1e9";
     ASSERT_EQ(place.rend(line + "one.png -q --set body.tear.threshold=" + one).code, 0);
     const Image alone = read_png(place.path() / "one.png");
-    for (const int column : {1, 2})
-      EXPECT_EQ(part(both, column, row, 160, 90), part(alone, column, 0, 160, 90)) << row << " " << column;
+    EXPECT_EQ(part(both, 2, row, 160, 90), part(alone, 2, 0, 160, 90)) << row;
+    EXPECT_EQ(part(both, 1, row, 160, 90) == part(alone, 1, 0, 160, 90), row == 0);
     EXPECT_EQ(part(both, 0, row, 160, 90) == part(alone, 0, 0, 160, 90), !hud_available());
   }
   EXPECT_EQ(place.rend(line + "bad.png -q --sweep body.tear.threshold=1,x").code, 65);
   EXPECT_FALSE(std::filesystem::exists(place.path() / "bad.png"));
+}
+
+// The middle pictures of a sweep are the frames of one number, of rend render.
+TEST(Sheet, shows_all_rows_of_a_sweep_at_one_time_in_the_middle) {
+  NEEDS_PNG;
+  const TestFolder place;
+  place.write("pulled.xml", program::pulled);
+  const std::string sweep = "--sweep body.tear.threshold=1e9,2,4";
+  const Outcome made = place.rend("sheet pulled.xml --size 96x54 -o sheet.png " + sweep);
+  ASSERT_EQ(made.code, 0) << made.err;
+  const Image sheet = read_png(place.path() / "sheet.png");
+  const auto at = [&](std::size_t line) { // "..., at 0, T and 0.3 s"
+    std::istringstream lines(made.out);
+    std::string text;
+    for (std::size_t n = 0; n <= line; ++n) std::getline(lines, text);
+    return text.substr(text.find(", at 0, ") + 8);
+  };
+  EXPECT_EQ(at(1), at(2));
+  EXPECT_EQ(at(2), at(3));
+  const auto frame = std::lround(20 * std::stod(at(1)));
+  ASSERT_GT(frame, 0);
+  int row = 0;
+  for (const char* value : {"1e9", "2", "4"}) {
+    const std::string folder = std::string("all") + value;
+    ASSERT_EQ(
+        place.rend("render pulled.xml --size 96x54 -q -o " + folder + " --set body.tear.threshold=" + value)
+            .code,
+        0);
+    EXPECT_EQ(part(sheet, 1, row++, 96, 54), read_png(place.path() / folder / fmt::format("{:05d}.png", frame)))
+        << value;
+  }
 }
 
 TEST(Sheet, shows_the_ends_alone_side_by_side) {

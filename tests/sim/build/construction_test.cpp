@@ -182,7 +182,8 @@ TEST(Construction, refuses_what_is_no_body_in_a_sentence) {
   // Not all vertices of a face are selected.
   EXPECT_TRUE(says(
       hint_of(four_quads + R"xml(<apply rule="star-face" near="0 0 0"/>)xml"),
-      "its hook stands for all darts of an orbit <0,1>, and is tried where all vertices of that are selected"));
+      "its hook stands for all darts of an orbit <0,1> (face, one volume), and is tried where all vertices of "
+      "that are selected"));
   EXPECT_TRUE(says(refusal_of(R"xml(<create dimension="3"/><apply rule="create-quad"/>)xml"),
                    "rule 'create-quad' leaves a volume open"));
   EXPECT_TRUE(says(refusal_of(four_quads + R"xml(<apply rule="star-volume"/>)xml"),
@@ -228,6 +229,14 @@ TEST(Construction, a_sheet_becomes_a_solid) {
   EXPECT_TRUE(
       says(refusal_of(R"xml(<sheet cells="2 2" size="1 1"/><apply rule="extrude-sheet" side="+x"/>)xml"),
            "applies nowhere"));
+}
+
+// It has no step, so that nothing has to limit one.
+TEST(Construction, a_scene_of_no_duration_is_only_built) {
+  const auto built = presets::load(R"xml(<scene><body><create dimension="2"/><apply rule="create-quad"/>
+      <subdivide times="2"/><mass total="1"/></body><time duration="0"/></scene>)xml");
+  expect_same_shape(*built.body().map, *body_of(R"xml(<sheet cells="4 4" size="1 1"/>)xml").body().map);
+  EXPECT_EQ(built->duration(), 0);
 }
 
 // All vertices of a round go to the mean of where their neighbours were before it, whatever the numbers of
