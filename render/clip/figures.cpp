@@ -195,6 +195,7 @@ StateFigures state_of(const Session& session) {
   else
     state.laws = laws_of(session);
   state.energy = scene.energy();
+  state.falling = std::ranges::any_of(scene.world().spheres, [](const Sphere& one) { return one.falls(); });
   state.mass = scene.mass();
   state.momentum = scene.momentum();
   state.angular_momentum = scene.angular_momentum();

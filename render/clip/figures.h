@@ -85,6 +85,7 @@ struct StateFigures {
   std::vector<LawFigures> laws;
   std::vector<ReachFigures> reach; // of all criteria; empty unless asked for
   EnergyFigures energy;
+  bool falling = false;                                   // whether `energy` counts falling spheres, too
   double mass = 0;                                        // [kg]
   std::vector<std::pair<std::string, double>> added_mass; // [kg], of each body that mass scaling made heavier
   Vec3 momentum, angular_momentum;                        // [kg m/s], [kg m²/s]

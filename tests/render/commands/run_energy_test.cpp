@@ -44,6 +44,24 @@ TEST(RunEnergy, adds_up_in_json_and_in_the_diagnostics) {
   EXPECT_NEAR(now, start + number("work") - number("dissipated") + number("balance"), 1e-9 * std::abs(drives));
 }
 
+// A ball falls on a sheet: what contact does to both is work, and the words name both.
+TEST(RunEnergy, names_all_on_which_work_is_counted) {
+  const TestFolder place;
+  place.write("hit.xml", R"(<scene name="hit"><body><sheet cells="4 4" size="1 1"/><mass total="0.1"/>)"
+                         R"(<springs><stretch k="100"/></springs><fix side="-x"/><fix side="+x"/>)"
+                         R"(<contact with="obstacles"/></body><world>)"
+                         R"(<sphere centre="0.5 0.5 0.16" radius="0.1" mass="0.2"/></world>)"
+                         R"(<time step="1e-3" duration="0.3"/></scene>)");
+  EXPECT_THAT(
+      place.rend("run hit.xml -q").out,
+      HasSubstr("J of work done on bodies and falling spheres by loads, drives, contact, and changes of"));
+  const nlohmann::json e = place.rend("run hit.xml --json -q").json()["energy"];
+  EXPECT_EQ(e["work"], e["work_of"]["contact"]);
+  EXPECT_LT(e["work"], 0); // the ball's energy that the sheet has not taken up
+  place.write("bar.xml", bar(R"(<time integrator="verlet" step="auto" duration="0.01"/>)"));
+  EXPECT_THAT(place.rend("run bar.xml -q").out, HasSubstr("J of work done on bodies by loads"));
+}
+
 // What a preset can give at most adds up to a number.
 TEST(RunEnergy, is_a_number_at_the_bounds_of_presets) {
   const TestFolder place;

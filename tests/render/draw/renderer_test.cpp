@@ -223,25 +223,6 @@ TEST_F(RendererTest, ATornLineHasTheColourAndWidthThatItIsGiven) {
   EXPECT_NEAR(blue_pixels(48), 2 * 12, 2);
 }
 
-// In pictures of less than 120 rows it is thinner in proportion, so that it hides no more of the body.
-TEST_F(RendererTest, ATornLineIsThinnerInSmallPictures) {
-  Frame frame = front_view();
-  frame.bodies.push_back(screen(0, 0.5, grey, Line::Torn));
-  frame.bodies[0].torn = {.colour = {0.02f, 0.05f, 1.0f}, .width = 96};
-  const auto blue_rows = [&](int rows) {
-    Renderer renderer(rows * 4 / 3, rows, 4);
-    renderer.draw(frame);
-    const Image image = renderer.read();
-    int count = 0;
-    for (int y = 0; y < rows; ++y) count += image.at(rows * 2 / 3, y)[2] > image.at(rows * 2 / 3, y)[0] + 60;
-    return count;
-  };
-  EXPECT_NEAR(blue_rows(240), 2 * 24, 3);
-  EXPECT_NEAR(blue_rows(120), 2 * 24, 3);
-  EXPECT_NEAR(blue_rows(60), 24, 3);
-  EXPECT_NEAR(blue_rows(30), 12, 3);
-}
-
 TEST_F(RendererTest, EachBodyHasItsOwnTornLine) {
   Frame frame = front_view();
   frame.bodies.push_back(screen(0, 0.2f, grey, Line::Torn));
