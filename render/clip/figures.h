@@ -91,7 +91,8 @@ struct StateFigures {
   Vec3 momentum, angular_momentum;                        // [kg m/s], [kg m²/s]
   std::vector<ProbeFigures> probes;
   std::vector<AnswerFigures> answers;
-  std::vector<SphereFigures> spheres; // those that move, in the order of the preset
+  std::optional<bool> touched_nothing; // missed_obstacles.h
+  std::vector<SphereFigures> spheres;  // those that move, in the order of the preset
   GuardFigures guard;
   std::vector<std::pair<std::string, std::size_t>>
       rows;                              // live ones that the integrator evaluates, by interaction

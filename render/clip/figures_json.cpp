@@ -129,6 +129,7 @@ Json json_of(const StateFigures& s) {
              {"answers", list_of(s.answers)}};
   if (!s.reach.empty()) state["reach"] = list_of(s.reach);
   for (const auto& [name, added] : s.added_mass) state["added_mass"][name] = added;
+  if (s.touched_nothing) state["touched_nothing"] = *s.touched_nothing;
   if (!s.spheres.empty()) state["spheres"] = list_of(s.spheres);
   state["guard"] = json_of(s.guard);
   state["rows"] = std::move(rows);

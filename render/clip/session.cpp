@@ -2,6 +2,7 @@
 
 #include "render/clip/early_tears.h"
 #include "render/clip/inputs.h"
+#include "render/clip/missed_obstacles.h"
 #include "render/clip/picture_check.h"
 #include "render/clip/run_estimate.h"
 #include "render/console/console.h"
@@ -266,6 +267,13 @@ void note_substeps(const Scene& scene) {
       guard.rejected, guard.redone, guard.smallest));
 }
 
+// Of a whole clip alone: before its end they may still come.
+void note_missed_obstacles(const Scene& scene) {
+  if (scene.steps_done() == 0 || scene.time() < (1 - 1e-9) * scene.duration()) return;
+  if (touched_nothing(scene).value_or(false))
+    print_note("no body has touched anything: at the end " + obstacles_in_words(scene));
+}
+
 } // namespace
 
 const char* name_of(Stopped stopped) {
@@ -277,6 +285,7 @@ Exit exit_code_of(const Session& session, Stopped stopped) {
   if (!session.quiet()) {
     note_removed_bodies(session.scene());
     note_substeps(session.scene());
+    note_missed_obstacles(session.scene());
     for (const std::string& note : notes_on_early_tears(session)) print_note(note);
   }
   if (stopped == Stopped::No) return Exit::Done;

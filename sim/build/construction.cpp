@@ -98,7 +98,13 @@ public:
     check_hooks(what, settings);
     check_quantities(what, settings);
     RuleOrScriptRunner runner(what, {.wheres = arguments_of(what, settings)});
-    for (int n = 0; n < settings.times; ++n) round(what, runner, settings, n);
+    RoundResult all;
+    for (int n = 0; n < settings.times; ++n) {
+      const RoundResult one = round(what, runner, settings, n);
+      all.applied += one.applied;
+      all.skipped += one.skipped;
+    }
+    note_skipped(what, settings, all);
     note_open(what, settings);
   }
 
@@ -191,7 +197,8 @@ private:
   }
 
   // `done`: rounds before.
-  void round(const RuleOrScript& rule, RuleOrScriptRunner& runner, const ApplySettings& settings, int done) {
+  RoundResult round(const RuleOrScript& rule, RuleOrScriptRunner& runner, const ApplySettings& settings,
+                    int done) {
     EmbeddedMap& map = *body_.map;
     runner.context().most_darts = most_darts(map);
     std::vector<bool> chosen;
@@ -214,6 +221,19 @@ private:
                            fmt::format("{} '{}' applies nowhere{}", rule.kind(), rule.name(),
                                        result.reason.empty() ? "" : ": " + result.reason),
                            result.reason.empty() ? nothing_selected(rule, settings) : "");
+    return result;
+  }
+
+  // Places that overlap are left to a further round, which nobody may have thought of.
+  void note_skipped(const RuleOrScript& rule, const ApplySettings& settings, const RoundResult& all) {
+    if (all.skipped == 0) return;
+    const auto places = [](std::size_t n) { return fmt::format("{} place{}", n, n == 1 ? "" : "s"); };
+    body_.notes.push_back(fmt::format(
+        "{} '{}' was applied at {}{}, and skipped {} that overlap{} one before in the same round: times=\"{}\" "
+        "tries again",
+        rule.kind(), rule.name(), places(all.applied),
+        settings.times > 1 ? fmt::format(" in {} rounds", settings.times) : std::string(), places(all.skipped),
+        all.skipped == 1 ? "s" : "", settings.times + 1));
   }
 
   // No orbit was tried.

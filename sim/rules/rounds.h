@@ -6,6 +6,10 @@
 // round share one edit, and their expressions read the points from before it. A script uses up what its rules
 // have matched or made; it may match what is used up, but for its hook's orbit.
 //
+// A place is an orbit of the hook's kind that is selected. It is *skipped* where the rule matches, but would
+// touch what is used up: the next round applies it there, if it still matches. Of a script that is not known,
+// and all selected orbits with something used up are skipped.
+//
 // Before a round of a rule its darts are counted: the places where the rule matches, times the darts that it
 // adds at each. If the map would have more than the context's most_darts, the round is not begun. What a script
 // will add is not known before; there every application of a rule is asked, and the round is taken back.
@@ -19,7 +23,8 @@ namespace rend {
 
 struct RoundResult {
   std::size_t applied = 0;
-  std::size_t refused = 0; // orbits that were selected, and where the rule did not apply
+  std::size_t skipped = 0; // places
+  std::size_t refused = 0; // places where it does not apply
   std::string reason;      // of the first refusal; empty: none
 
   // The map would have too many darts, and is as before.

@@ -256,6 +256,7 @@ TEST(Script, in_rounds_takes_orbits_that_are_not_used_up) {
   const auto sheet = assets::grid(3, 3);
   const RoundResult result = apply_round(*sheet, runner);
   EXPECT_EQ(result.applied, 5u); // as on a chessboard
+  EXPECT_EQ(result.skipped, 4u);
   EXPECT_EQ(faces(*sheet), 9u + 3 * result.applied);
 }
 

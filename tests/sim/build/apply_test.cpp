@@ -1,4 +1,5 @@
-// A rule at one edge alone: selected by a box, or found by a test in a script.
+// Where an <apply> applies: at one edge alone, selected by a box or found by a test in a script; and not where
+// places overlap, of which it tells.
 #include "sim/topology/isomorphism.h"
 #include "tests/sim/presets.h"
 
@@ -6,9 +7,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace rend {
 namespace {
+
+// Of four quads in a row the rule takes two at a time: of the three edges between them one or two are left.
+TEST(Apply, notes_the_places_that_it_skips) {
+  const auto note_of = [](const std::string& body, const std::string& rule = "") {
+    const auto loaded = presets::load("<scene>" + rule + "<body>" + body +
+                                      R"xml(<mass total="1"/></body><time duration="0"/></scene>)xml");
+    for (const std::string& note : loaded.body().notes)
+      if (note.find("skipped") != std::string::npos) return note;
+    return std::string();
+  };
+  const std::string pair = R"xml(<rule name="pair" left="a*(0,2) b(_,_) c(_,_) d(0,_) a-1-b b-0-c c-1-d"
+      right="a(0,2) b(_,_) c(_,_) d(0,_) a-1-b b-0-c c-1-d"><when test="not free(a, 2)" at="all"/></rule>)xml";
+  const std::string row = R"xml(<sheet cells="4 1" size="4 1"/>)xml";
+  const std::string note = note_of(row + R"xml(<apply rule="pair" to="all"/>)xml", pair);
+  std::size_t applied = 0, skipped = 0;
+  ASSERT_EQ(std::sscanf(note.c_str(), "rule 'pair' was applied at %zu place%*[s, ]and skipped %zu place",
+                        &applied, &skipped),
+            2)
+      << note;
+  EXPECT_EQ(applied + skipped, 3u);
+  EXPECT_GE(applied, 1u);
+  EXPECT_GE(skipped, 1u);
+  EXPECT_NE(note.find("times=\"2\" tries again"), std::string::npos) << note;
+  EXPECT_EQ(note_of(row + R"xml(<subdivide/><apply rule="unsew-edge" to="all"/>)xml"), "");
+}
 
 presets::Loaded sheet_with(const std::string& apply, const std::string& rules = "") {
   return presets::load("<scene>" + rules +
