@@ -4,25 +4,23 @@ namespace rend {
 namespace {
 
 using namespace lanes;
-void (*kernel_of_kind(const KernelArguments& a, bool corners))(const KernelArguments&) {
+void run(const KernelArguments& a, bool corners) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
-  if (law.formulation() == Formulation::Enhanced)
-    return corners ? &enhanced_hexahedron_corners : &enhanced_hexahedra;
+  if (law.formulation() == Formulation::Enhanced) return enhanced_hexahedra(a, corners);
   switch (law.shape().kind) {
   case ElementKind::Triangle:
-    return corners ? &triangle_corners : &triangles;
+    return triangles(a, corners);
   case ElementKind::Quad:
-    return corners ? &quad_corners : &quads;
+    return quads(a, corners);
   case ElementKind::Tetrahedron:
-    return corners ? &tetrahedron_corners : &tetrahedra;
+    return tetrahedra(a, corners);
   case ElementKind::Hexahedron:
-    return corners ? &hexahedron_corners : &hexahedra;
+    return hexahedra(a, corners);
   case ElementKind::Prism:
-    return corners ? &prism_corners : &prisms;
+    return prisms(a, corners);
   case ElementKind::Pyramid:
-    return corners ? &pyramid_corners : &pyramids;
+    return pyramids(a, corners);
   }
-  return nullptr;
 }
 
 } // namespace
@@ -33,8 +31,7 @@ Kernel element_kernel() {
             return element && (element->formulation() == Formulation::Plain ||
                                element->shape().kind == ElementKind::Hexahedron);
           },
-          [](const KernelArguments& a) { kernel_of_kind(a, false)(a); },
-          [](const KernelArguments& a) { kernel_of_kind(a, true)(a); }};
+          [](const KernelArguments& a) { run(a, false); }, [](const KernelArguments& a) { run(a, true); }};
 }
 
 } // namespace rend

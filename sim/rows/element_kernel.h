@@ -37,9 +37,9 @@ REND_INLINE Matrix<Dim> gradient_at(int g, const Vector* D, const Inverse<Dim>& 
   return F;
 }
 
-// Two properties are tested at run time: whether a block writes outside its part's vertices, and, for elements
-// with several points, whether the material is damped. The cost is not measurable, and the compiler would
-// otherwise generate a kernel for each case.
+// Three properties are tested at run time: whether forces go to vertices or corners, whether a block writes
+// outside its part's vertices, and, for elements with several points, whether the material is damped. The cost
+// is not measurable, and the compiler would otherwise generate a kernel for each case.
 enum class Damping { No, Yes, Asked };
 
 template <class Shape, FrameRotation turning, Damping damping, bool enhanced = false> struct ElementLanes {
@@ -224,77 +224,72 @@ private:
   }
 };
 
-// The rows of a block; `whole`: all vertices that they write to belong to this part.
-template <class Lanes, bool corners>
-REND_INLINE void run_rows(const KernelArguments& a, const ElasticMaterial& m, std::size_t block, bool whole) {
-  constexpr int first = corners ? Lanes::N : 0; // index column
+// The rows of a block; `first`: index column of the first record that is written to; `whole`: all of them
+// belong to this part.
+template <class Lanes>
+REND_INLINE void run_rows(const KernelArguments& a, const ElasticMaterial& m, int first, std::size_t block,
+                          bool whole) {
   const std::size_t begin = a.rows.begin(block), end = begin + a.rows.padded_in(block);
   for (std::size_t at = begin; at < end; at += PackedRows::lanes) {
     Vector f[Lanes::N];
     Lanes::forces(a, m, at, f);
-    if (corners || whole)
+    if (whole)
       for (int n = 0; n < Lanes::N; ++n) scatter<true>(a, a.rows.index(first + n) + at, f[n]);
     else
       for (int n = 0; n < Lanes::N; ++n) scatter<false>(a, a.rows.index(first + n) + at, f[n]);
   }
 }
 
-template <class Lanes, bool corners>
-REND_INLINE void run_blocks(const KernelArguments& a, const ElasticMaterial& m) {
+template <class Lanes>
+REND_INLINE void run_blocks(const KernelArguments& a, const ElasticMaterial& m, bool corners) {
+  const int first = corners ? Lanes::N : 0;
   for (std::size_t block = a.first; block < a.last; ++block) {
     const PackedRows::Range range = a.rows.range(block);
-    const bool whole = range.low >= a.low && range.high < a.high;
-    if (corners || whole || (range.low < a.high && range.high >= a.low))
-      run_rows<Lanes, corners>(a, m, block, whole);
+    const bool whole = corners || (range.low >= a.low && range.high < a.high);
+    if (whole || (range.low < a.high && range.high >= a.low)) run_rows<Lanes>(a, m, first, block, whole);
   }
 }
 
-template <class Shape, FrameRotation turning, bool corners>
-REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMaterial& m) {
+template <class Shape, FrameRotation turning>
+REND_INLINE void run_damped_or_not(const KernelArguments& a, const ElasticMaterial& m, bool corners) {
   if constexpr (Shape::points > 1)
-    run_blocks<ElementLanes<Shape, turning, Damping::Asked>, corners>(a, m);
+    run_blocks<ElementLanes<Shape, turning, Damping::Asked>>(a, m, corners);
   else if (a.damped)
-    run_blocks<ElementLanes<Shape, turning, Damping::Yes>, corners>(a, m);
+    run_blocks<ElementLanes<Shape, turning, Damping::Yes>>(a, m, corners);
   else
-    run_blocks<ElementLanes<Shape, turning, Damping::No>, corners>(a, m);
+    run_blocks<ElementLanes<Shape, turning, Damping::No>>(a, m, corners);
 }
 
-template <class Shape, bool corners> REND_INLINE void run_enhanced_elements(const KernelArguments& a) {
+template <class Shape> REND_INLINE void run_enhanced_elements(const KernelArguments& a, bool corners) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
+  const ElasticMaterial& m = law.material();
   if (law.model() == ElasticModel::Linear)
-    run_blocks<ElementLanes<Shape, FrameRotation::None, Damping::Asked, true>, corners>(a, law.material());
+    run_blocks<ElementLanes<Shape, FrameRotation::None, Damping::Asked, true>>(a, m, corners);
   else if (law.rotation() == Rotation::Qr)
-    run_blocks<ElementLanes<Shape, FrameRotation::Qr, Damping::Asked, true>, corners>(a, law.material());
+    run_blocks<ElementLanes<Shape, FrameRotation::Qr, Damping::Asked, true>>(a, m, corners);
   else
-    run_blocks<ElementLanes<Shape, FrameRotation::Polar, Damping::Asked, true>, corners>(a, law.material());
+    run_blocks<ElementLanes<Shape, FrameRotation::Polar, Damping::Asked, true>>(a, m, corners);
 }
 
 // Chooses the loop for a law; run by at_width.
-template <class Shape, bool corners> REND_INLINE void run_elements(const KernelArguments& a) {
+template <class Shape> REND_INLINE void run_elements(const KernelArguments& a, bool corners) {
   const auto& law = static_cast<const ElementLaw&>(a.law);
   if (law.model() == ElasticModel::Linear)
-    run_damped_or_not<Shape, FrameRotation::None, corners>(a, law.material());
+    run_damped_or_not<Shape, FrameRotation::None>(a, law.material(), corners);
   else if (law.rotation() == Rotation::Qr)
-    run_damped_or_not<Shape, FrameRotation::Qr, corners>(a, law.material());
+    run_damped_or_not<Shape, FrameRotation::Qr>(a, law.material(), corners);
   else
-    run_damped_or_not<Shape, FrameRotation::Polar, corners>(a, law.material());
+    run_damped_or_not<Shape, FrameRotation::Polar>(a, law.material(), corners);
 }
 
-// In one file each, element_kernel_<kind>.cpp, since they take long to compile. `_corners`:
-// KernelArguments::corner_forces.
-void triangles(const KernelArguments& a);
-void quads(const KernelArguments& a);
-void tetrahedra(const KernelArguments& a);
-void hexahedra(const KernelArguments& a);
-void prisms(const KernelArguments& a);
-void pyramids(const KernelArguments& a);
-void triangle_corners(const KernelArguments& a);
-void quad_corners(const KernelArguments& a);
-void tetrahedron_corners(const KernelArguments& a);
-void hexahedron_corners(const KernelArguments& a);
-void prism_corners(const KernelArguments& a);
-void pyramid_corners(const KernelArguments& a);
-void enhanced_hexahedra(const KernelArguments& a);
-void enhanced_hexahedron_corners(const KernelArguments& a);
+// In one file each, element_kernel_<kind>.cpp, since they take long to compile. `corners`: as
+// Kernel::corner_forces.
+void triangles(const KernelArguments& a, bool corners);
+void quads(const KernelArguments& a, bool corners);
+void tetrahedra(const KernelArguments& a, bool corners);
+void hexahedra(const KernelArguments& a, bool corners);
+void prisms(const KernelArguments& a, bool corners);
+void pyramids(const KernelArguments& a, bool corners);
+void enhanced_hexahedra(const KernelArguments& a, bool corners);
 
 } // namespace rend::lanes

@@ -2,12 +2,8 @@
 
 namespace rend::lanes {
 
-void enhanced_hexahedra(const KernelArguments& a) {
-  at_width<run_enhanced_elements<HexahedronLanes, false>>(a);
-}
-
-void enhanced_hexahedron_corners(const KernelArguments& a) {
-  at_width<run_enhanced_elements<HexahedronLanes, true>>(a);
+void enhanced_hexahedra(const KernelArguments& a, bool corners) {
+  at_width<run_enhanced_elements<HexahedronLanes>>(a, corners);
 }
 
 } // namespace rend::lanes

@@ -2,12 +2,8 @@
 
 namespace rend::lanes {
 
-void hexahedra(const KernelArguments& a) {
-  at_width<run_elements<HexahedronLanes, false>>(a);
-}
-
-void hexahedron_corners(const KernelArguments& a) {
-  at_width<run_elements<HexahedronLanes, true>>(a);
+void hexahedra(const KernelArguments& a, bool corners) {
+  at_width<run_elements<HexahedronLanes>>(a, corners);
 }
 
 } // namespace rend::lanes

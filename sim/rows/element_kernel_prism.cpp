@@ -2,12 +2,8 @@
 
 namespace rend::lanes {
 
-void prisms(const KernelArguments& a) {
-  at_width<run_elements<PrismLanes, false>>(a);
-}
-
-void prism_corners(const KernelArguments& a) {
-  at_width<run_elements<PrismLanes, true>>(a);
+void prisms(const KernelArguments& a, bool corners) {
+  at_width<run_elements<PrismLanes>>(a, corners);
 }
 
 } // namespace rend::lanes

@@ -2,12 +2,8 @@
 
 namespace rend::lanes {
 
-void pyramids(const KernelArguments& a) {
-  at_width<run_elements<PyramidLanes, false>>(a);
-}
-
-void pyramid_corners(const KernelArguments& a) {
-  at_width<run_elements<PyramidLanes, true>>(a);
+void pyramids(const KernelArguments& a, bool corners) {
+  at_width<run_elements<PyramidLanes>>(a, corners);
 }
 
 } // namespace rend::lanes

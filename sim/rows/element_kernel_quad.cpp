@@ -2,12 +2,8 @@
 
 namespace rend::lanes {
 
-void quads(const KernelArguments& a) {
-  at_width<run_elements<QuadLanes, false>>(a);
-}
-
-void quad_corners(const KernelArguments& a) {
-  at_width<run_elements<QuadLanes, true>>(a);
+void quads(const KernelArguments& a, bool corners) {
+  at_width<run_elements<QuadLanes>>(a, corners);
 }
 
 } // namespace rend::lanes

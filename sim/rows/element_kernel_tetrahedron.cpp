@@ -2,12 +2,8 @@
 
 namespace rend::lanes {
 
-void tetrahedra(const KernelArguments& a) {
-  at_width<run_elements<SimplexLanes<3>, false>>(a);
-}
-
-void tetrahedron_corners(const KernelArguments& a) {
-  at_width<run_elements<SimplexLanes<3>, true>>(a);
+void tetrahedra(const KernelArguments& a, bool corners) {
+  at_width<run_elements<SimplexLanes<3>>>(a, corners);
 }
 
 } // namespace rend::lanes

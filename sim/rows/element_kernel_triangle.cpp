@@ -2,12 +2,8 @@
 
 namespace rend::lanes {
 
-void triangles(const KernelArguments& a) {
-  at_width<run_elements<SimplexLanes<2>, false>>(a);
-}
-
-void triangle_corners(const KernelArguments& a) {
-  at_width<run_elements<SimplexLanes<2>, true>>(a);
+void triangles(const KernelArguments& a, bool corners) {
+  at_width<run_elements<SimplexLanes<2>>>(a, corners);
 }
 
 } // namespace rend::lanes
