@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::available_memory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ TEST_F(AvailableMemory, is_of_the_group_of_a_container) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::available_memory_test

@@ -16,7 +16,7 @@
 #include <set>
 #include <sstream>
 
-namespace rend {
+namespace rend::batch_test {
 namespace {
 
 using program::content;
@@ -591,4 +591,4 @@ TEST_F(Batch, several_values_of_a_set_are_a_sweep_where_a_comma_is_no_part_of_a_
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::batch_test

@@ -14,7 +14,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace rend {
+namespace rend::child_test {
 namespace {
 
 constexpr const char* variable = "REND_TEST_WAITS";
@@ -50,4 +50,4 @@ TEST(Child, is_ended_by_a_signal_however_early_it_comes) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::child_test

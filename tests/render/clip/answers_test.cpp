@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-namespace rend {
+namespace rend::answers_test {
 namespace {
 
 using program::content;
@@ -149,4 +149,4 @@ TEST(Verify, no_preset_is_without_an_answer) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::answers_test

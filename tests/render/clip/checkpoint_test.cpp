@@ -10,7 +10,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::checkpoint_test {
 namespace {
 
 using program::content;
@@ -220,4 +220,4 @@ TEST_F(Checkpoint, a_file_that_is_nearly_all_holes_takes_neither_time_nor_memory
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::checkpoint_test

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-namespace rend {
+namespace rend::export_test {
 namespace {
 
 using program::content;
@@ -295,4 +295,4 @@ TEST_F(Export, that_cannot_be_is_refused_before_anything_is_done) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::export_test

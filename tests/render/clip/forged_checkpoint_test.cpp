@@ -25,7 +25,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace rend {
+namespace rend::forged_checkpoint_test {
 namespace {
 
 using program::content;
@@ -359,4 +359,4 @@ TEST_F(ForgedClip, ends_a_run_that_goes_on_from_it_in_words_or_not_at_all) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::forged_checkpoint_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::frame_clock_test {
 namespace {
 
 TEST(FrameClock, ShowsTheFirstStateAtOrAfterAFrame) {
@@ -157,4 +157,4 @@ TEST(PictureSize, IsWidthTimesHeight) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::frame_clock_test

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::law_figures_test {
 namespace {
 
 using nlohmann::json;
@@ -76,4 +76,4 @@ TEST_F(LawFigures, tell_the_sizes_of_fragments) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::law_figures_test

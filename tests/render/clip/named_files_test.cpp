@@ -8,7 +8,7 @@
 
 #include <map>
 
-namespace rend {
+namespace rend::named_files_test {
 namespace {
 
 using program::content;
@@ -150,4 +150,4 @@ TEST_F(NamedFilesOfDiff, findings_are_not_written_over_what_is_read) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::named_files_test

@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::pass_through_test {
 namespace {
 
 using testing::ElementsAre;
@@ -69,4 +69,4 @@ TEST(PassThrough, is_printed_by_render_and_listed_by_info_as_left_out) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::pass_through_test

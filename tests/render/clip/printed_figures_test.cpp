@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace rend {
+namespace rend::printed_figures_test {
 namespace {
 
 Figures figures() {
@@ -46,4 +46,4 @@ TEST(PrintedFigures, are_not_what_is_cut_off_or_something_else) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::printed_figures_test

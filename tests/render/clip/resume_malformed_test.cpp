@@ -8,7 +8,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::resume_malformed_test {
 namespace {
 
 using namespace test;
@@ -131,4 +131,4 @@ TEST_F(ResumeLies, pipes_and_folders_are_no_pictures) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::resume_malformed_test

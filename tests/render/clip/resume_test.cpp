@@ -12,7 +12,7 @@
 #include <chrono>
 #include <set>
 
-namespace rend {
+namespace rend::resume_test {
 namespace {
 
 using program::Files;
@@ -215,4 +215,4 @@ TEST_F(Resume, while_a_scene_is_built_a_signal_ends_at_once_and_leaves_nothing) 
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::resume_test

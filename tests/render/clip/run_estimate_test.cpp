@@ -7,7 +7,7 @@
 
 #include <regex>
 
-namespace rend {
+namespace rend::run_estimate_test {
 namespace {
 
 using testing::HasSubstr;
@@ -70,4 +70,4 @@ TEST(RunEstimate, is_told_by_the_program_within_the_first_seconds) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::run_estimate_test

@@ -10,7 +10,7 @@
 #include <array>
 #include <map>
 
-namespace rend {
+namespace rend::same_bytes_test {
 namespace {
 
 using program::content;
@@ -49,4 +49,4 @@ TEST(RepeatedRenders, give_the_same_bytes_on_any_number_of_threads) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::same_bytes_test

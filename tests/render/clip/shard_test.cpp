@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::shard_test {
 namespace {
 
 using program::Files;
@@ -67,4 +67,4 @@ TEST_F(Shards, refuses_what_is_no_shard_and_frames_that_run_backwards) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::shard_test

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::slow_motion_test {
 namespace {
 
 using program::Files;
@@ -147,4 +147,4 @@ TEST_F(BlurredClip, of_long_steps_goes_on_with_the_same_bytes) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::slow_motion_test

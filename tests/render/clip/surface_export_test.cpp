@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-namespace rend {
+namespace rend::surface_export_test {
 namespace {
 
 using program::content;
@@ -256,4 +256,4 @@ TEST_F(SurfaceExport, that_cannot_be_is_refused_before_anything_is_done) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::surface_export_test

@@ -7,7 +7,7 @@
 
 #include <regex>
 
-namespace rend {
+namespace rend::bad_presets_test {
 namespace {
 
 using program::Outcome;
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(All, BadPreset, testing::ValuesIn(bad_presets()), [](co
 });
 
 } // namespace
-} // namespace rend
+} // namespace rend::bad_presets_test

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::command_test {
 namespace {
 
 using program::content;
@@ -424,4 +424,4 @@ TEST_F(Program, HasNoArrayForWhatIsNotAskedFor) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::command_test

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-namespace rend {
+namespace rend::diff_command_test {
 namespace {
 
 using program::content;
@@ -484,4 +484,4 @@ TEST_F(Diff, takes_names_with_anything_in_them) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::diff_command_test

@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::diff_malformed_test {
 namespace {
 
 using namespace test;
@@ -121,4 +121,4 @@ TEST_F(DiffLies, a_mask_of_one_picture_is_the_trouble_of_that_one) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::diff_malformed_test

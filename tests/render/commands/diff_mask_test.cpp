@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::diff_mask_test {
 namespace {
 
 using program::Outcome;
@@ -62,4 +62,4 @@ TEST_F(DiffMask, may_lie_anywhere_where_the_command_line_says_so) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::diff_mask_test

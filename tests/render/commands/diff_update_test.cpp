@@ -10,7 +10,7 @@
 #include <map>
 #include <random>
 
-namespace rend {
+namespace rend::diff_update_test {
 namespace {
 
 using program::content;
@@ -209,4 +209,4 @@ TEST_F(DiffUpdate, changes_nothing_outside_of_what_is_expected_over_thirty_trees
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::diff_update_test

@@ -2,7 +2,7 @@
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
 
-namespace rend {
+namespace rend::far_away_test {
 namespace {
 
 using program::Outcome;
@@ -31,4 +31,4 @@ TEST(FarAway, what_has_left_is_not_in_the_picture) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::far_away_test

@@ -14,7 +14,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace rend {
+namespace rend::fatal_errors_test {
 namespace {
 
 using program::content;
@@ -159,4 +159,4 @@ TEST_F(WithoutMemory, a_batch_tells_of_the_job_that_had_none) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::fatal_errors_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::list_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,4 +72,4 @@ TEST(ListCommand, lists_figures_of_the_thesis_in_their_order) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::list_command_test

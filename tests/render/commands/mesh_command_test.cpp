@@ -13,7 +13,7 @@
 #include <map>
 #include <tuple>
 
-namespace rend {
+namespace rend::mesh_command_test {
 namespace {
 
 using program::Outcome;
@@ -518,4 +518,4 @@ TEST(MeshOfAPreset, of_hexagons_is_told_where_it_does_not_bend) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::mesh_command_test

@@ -10,7 +10,7 @@
 
 #include <sstream>
 
-namespace rend {
+namespace rend::names_test {
 namespace {
 
 using program::content;
@@ -170,4 +170,4 @@ TEST(JsonText, escapes_what_acts_and_is_read_as_it_was) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::names_test

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <sys/stat.h>
 
-namespace rend {
+namespace rend::outputs_test {
 namespace {
 
 using program::content;
@@ -127,4 +127,4 @@ TEST_F(Watched, so_is_the_folder_of_other_files) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::outputs_test

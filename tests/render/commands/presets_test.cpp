@@ -14,7 +14,7 @@
 #include <set>
 #include <sstream>
 
-namespace rend {
+namespace rend::presets_test {
 namespace {
 
 using program::content;
@@ -184,4 +184,4 @@ TEST(Pictures, of_the_torn_cloth_are_the_same_bytes_twice_and_show_something) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::presets_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace rend {
+namespace rend::reach_test {
 namespace {
 
 using nlohmann::json;
@@ -139,4 +139,4 @@ TEST(ReachOfALaw, leaves_the_run_as_it_is) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::reach_test

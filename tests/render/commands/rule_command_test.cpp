@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::rule_command_test {
 namespace {
 
 using program::Outcome;
@@ -333,4 +333,4 @@ TEST(RulePage, tells_enough_to_cap_a_hole) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rule_command_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace rend {
+namespace rend::rule_stop_test {
 namespace {
 
 using program::content;
@@ -82,4 +82,4 @@ TEST_F(RunRuleStop, is_not_needed_where_the_change_is_refused) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rule_stop_test

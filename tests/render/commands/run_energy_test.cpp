@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::run_energy_test {
 namespace {
 
 using program::Outcome;
@@ -105,4 +105,4 @@ TEST(RunEnergy, that_nothing_gave_ends_with_76) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::run_energy_test

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <map>
 
-namespace rend {
+namespace rend::run_profile_test {
 namespace {
 
 using program::Outcome;
@@ -76,4 +76,4 @@ TEST_F(ProfileOfARun, is_a_table_in_words) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::run_profile_test

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace rend {
+namespace rend::sheet_command_test {
 namespace {
 
 using program::Outcome;
@@ -155,4 +155,4 @@ TEST(Sheet, leaves_nothing_where_a_preset_is_bad) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::sheet_command_test

@@ -17,7 +17,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace rend {
+namespace rend::signals_test {
 namespace {
 
 using program::content;
@@ -271,4 +271,4 @@ TEST_F(SignalledProgram, of_many_jobs_ends_all_of_them) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::signals_test

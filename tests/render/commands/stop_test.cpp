@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::stop_test {
 namespace {
 
 using program::Outcome;
@@ -106,4 +106,4 @@ TEST_F(Stop, while_a_check_builds_its_scenes_is_answered) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::stop_test

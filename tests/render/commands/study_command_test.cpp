@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-namespace rend {
+namespace rend::study_command_test {
 namespace {
 
 using program::Outcome;
@@ -148,4 +148,4 @@ TEST(StudyCommand, refuses_before_it_runs) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::study_command_test

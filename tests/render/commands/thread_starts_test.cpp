@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <thread>
 
-namespace rend {
+namespace rend::thread_starts_test {
 namespace {
 
 using program::content;
@@ -142,4 +142,4 @@ TEST_F(ThreadStarts, a_batch_goes_on_with_as_many_programs_as_there_are) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::thread_starts_test

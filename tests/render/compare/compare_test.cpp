@@ -13,7 +13,7 @@
 #include <sys/resource.h>
 #include <thread>
 
-namespace rend {
+namespace rend::compare_test {
 namespace {
 
 using namespace test;
@@ -160,4 +160,4 @@ TEST(MemoryBudget, is_three_quarters_of_what_is_available_and_8_GiB_at_most) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::compare_test

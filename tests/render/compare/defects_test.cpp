@@ -15,7 +15,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::defects_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -275,4 +275,4 @@ TEST(RepeatedRenders, raise_no_false_alarm) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::defects_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::flip_test {
 namespace {
 
 using namespace test;
@@ -51,4 +51,4 @@ TEST(Flip, takes_pictures_smaller_than_its_filters) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::flip_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::metrics_test {
 namespace {
 
 using namespace test;
@@ -137,4 +137,4 @@ TEST(Transparency, counts_as_far_as_it_is_seen) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::metrics_test

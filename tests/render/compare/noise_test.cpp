@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace rend {
+namespace rend::noise_test {
 namespace {
 
 constexpr int frame_width = 80, frame_height = 60, repeats = 1000;
@@ -96,4 +96,4 @@ TEST(DiffUnderNoise, reports_how_often_it_catches_a_crack_that_has_moved_by_one_
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::noise_test

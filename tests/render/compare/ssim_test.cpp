@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::ssim_test {
 namespace {
 
 using namespace test;
@@ -70,4 +70,4 @@ TEST(Ssim, is_the_same_on_any_number_of_threads) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::ssim_test

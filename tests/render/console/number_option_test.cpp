@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::number_option_test {
 namespace {
 
 using program::Outcome;
@@ -60,4 +60,4 @@ TEST(NumberOption, takes_decimal_and_finite_numbers_alone) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::number_option_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::progress_test {
 namespace {
 
 using testing::AllOf;
@@ -34,4 +34,4 @@ TEST(ProgressBar, has_a_bar_where_there_is_room) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::progress_test

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace rend {
+namespace rend::time_limit_test {
 namespace {
 
 TEST(TimeLimit, tells_what_is_left_and_fails_then) {
@@ -53,4 +53,4 @@ TEST(TimeLimit, is_over_with_the_work) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::time_limit_test

@@ -12,7 +12,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::rule_diagram_test {
 namespace {
 
 using testing::HasSubstr;
@@ -179,4 +179,4 @@ TEST(Paint, writes_text_as_high_as_it_says) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rule_diagram_test

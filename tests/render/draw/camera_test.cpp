@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::camera_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -81,4 +81,4 @@ TEST(FrameAuto, LooksAtASinglePoint) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::camera_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace rend {
+namespace rend::composite_test {
 namespace {
 
 using namespace test;
@@ -273,4 +273,4 @@ TEST_F(CompositeTest, BlocksOfEveryKindComeOutAsByTheMostGeneralProgram) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::composite_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace rend {
+namespace rend::coverage_grid_test {
 namespace {
 
 using namespace test;
@@ -86,4 +86,4 @@ TEST(CoverageGrid, RunsHoldEverySquareOnceByItsKind) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::coverage_grid_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace rend {
+namespace rend::device_test {
 namespace {
 
 TEST(Device, SpeaksOpenGl33Core) {
@@ -31,4 +31,4 @@ TEST(Device, MovesToAnotherThread) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::device_test

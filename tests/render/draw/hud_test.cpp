@@ -8,7 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::hud_test {
 namespace {
 
 using namespace test;
@@ -162,4 +162,4 @@ TEST_F(HudTest, NothingToWriteChangesNothing) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::hud_test

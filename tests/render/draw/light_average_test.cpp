@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::light_average_test {
 namespace {
 
 using Picture = std::vector<std::uint8_t>;
@@ -77,4 +77,4 @@ TEST(LightAverage, WhatIsNotThereCountsAsTransparentAndHasNoColour) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::light_average_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::light_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -80,4 +80,4 @@ TEST(LitBounds, LeaveOutWhatFliesFarOutOfSight) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::light_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::motion_blur_test {
 namespace {
 
 using namespace test;
@@ -129,4 +129,4 @@ TEST_F(MotionBlurTest, AMovingCameraBlursToo) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::motion_blur_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::occlusion_test {
 namespace {
 
 using namespace test;
@@ -199,4 +199,4 @@ TEST_F(OcclusionTest, OfATransparentPictureOnlyTheColoursAreDarker) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::occlusion_test

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace rend {
+namespace rend::packing_test {
 namespace {
 
 using namespace test;
@@ -92,4 +92,4 @@ TEST(Packing, BoundsHoldAllCorners) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::packing_test

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <random>
 
-namespace rend {
+namespace rend::rect_painter_test {
 namespace {
 
 using namespace test;
@@ -85,4 +85,4 @@ TEST_F(RectPainterTest, WhatWasDrawnBeforeIsNotDrawnAgain) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rect_painter_test

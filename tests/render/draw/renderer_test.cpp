@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::renderer_test {
 namespace {
 
 using namespace test;
@@ -425,4 +425,4 @@ TEST_F(RendererTest, AFinishChangesTheLightAndNotTheShape) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::renderer_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::inventory_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -129,4 +129,4 @@ TEST(Inventory, says_why_something_is_not_there) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::inventory_test

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace rend {
+namespace rend::mesh_facts_test {
 namespace {
 
 using testing::AllOf;
@@ -71,4 +71,4 @@ TEST(Slivers, are_counted_and_the_worst_is_named) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::mesh_facts_test

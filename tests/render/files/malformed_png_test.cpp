@@ -11,7 +11,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::malformed_png_test {
 namespace {
 
 using namespace test;
@@ -174,4 +174,4 @@ TEST(PngLies, a_header_tells_what_reading_will_take) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::malformed_png_test

@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace rend {
+namespace rend::output_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ TEST(OutputFile, OverwritesWhatAKilledRunLeftBehind) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::output_test

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace rend {
+namespace rend::outside_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,4 +62,4 @@ TEST_F(OutsideProgram, is_ended_in_time_whatever_it_writes) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::outside_program_test

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-namespace rend {
+namespace rend::png_test {
 namespace {
 
 using namespace test;
@@ -119,4 +119,4 @@ TEST(Png, WhatCannotBeReadIsSaidAsInComparisons) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::png_test

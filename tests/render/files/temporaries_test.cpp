@@ -8,7 +8,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace rend {
+namespace rend::temporaries_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,4 +78,4 @@ TEST(Temporaries, one_that_is_being_created_is_waited_for) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::temporaries_test

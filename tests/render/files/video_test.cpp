@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace rend {
+namespace rend::video_test {
 namespace {
 
 using namespace test;
@@ -289,4 +289,4 @@ TEST_F(VideoTest, AFileThatCannotBeMadeOrIsNotKnownIsTheUsersError) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::video_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace rend {
+namespace rend::completion_test {
 namespace {
 
 using program::Outcome;
@@ -129,4 +129,4 @@ TEST_F(Completion, of_an_unknown_shell_is_refused_with_those_there_are) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::completion_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace rend {
+namespace rend::help_test {
 namespace {
 
 using small_table::scene;
@@ -71,4 +71,4 @@ TEST(Help, RefusesAnUnknownElement) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::help_test

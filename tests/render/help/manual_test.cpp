@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace rend {
+namespace rend::manual_test {
 namespace {
 
 using program::Outcome;
@@ -81,4 +81,4 @@ TEST(Version, tells_commit_and_libraries) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::manual_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace rend {
+namespace rend::schema_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST_F(SchemaTest, LeavesSomeCountsToTheReader) { // as schema.h says
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::schema_test

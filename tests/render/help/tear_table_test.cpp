@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace rend {
+namespace rend::tear_table_test {
 namespace {
 
 // The words of a page, without the lines that fold them.
@@ -52,4 +52,4 @@ TEST(TearTable, differs_in_colour_by_codes_alone) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::tear_table_test

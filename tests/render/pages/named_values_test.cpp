@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace rend {
+namespace rend::named_values_test {
 namespace {
 
 const NamedValues row{{"name", "a, \"b\""}, {"count", 3},    {"step", 1e-5},
@@ -26,4 +26,4 @@ TEST(NamedValues, are_a_line_of_csv_below_their_names) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::named_values_test

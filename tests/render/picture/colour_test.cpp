@@ -3,7 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::colour_test {
 namespace {
 
 int distance(const Colour& a, const Colour& b) {
@@ -43,4 +43,4 @@ TEST(Colour, ScaleIsOneTwoOrFiveTimesAPowerOfTen) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::colour_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::hud_text_test {
 namespace {
 
 TEST(HudText, StandsWhereItShouldWithValuesForTheWordsInBraces) {
@@ -45,4 +45,4 @@ TEST(HudText, RefusesOtherWordsAndBracesThatStayOpen) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::hud_text_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::obstacle_picture_test {
 namespace {
 
 Vec3 vec(const std::array<float, 3>& v) {
@@ -64,4 +64,4 @@ TEST(ObstaclePicture, a_box_that_moves_is_where_it_is_at_the_time) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::obstacle_picture_test

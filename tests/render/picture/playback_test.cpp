@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::playback_test {
 namespace {
 
 TEST(Playback, OfSpeedOneIsTheTimeOfTheSimulationToTheLastBit) {
@@ -79,4 +79,4 @@ TEST(Playback, RefusesKeysOutOfOrder) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::playback_test

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace rend {
+namespace rend::scene_picture_test {
 namespace {
 
 using Eigen::Vector3f;
@@ -379,4 +379,4 @@ TEST(FrameBuilder, darts_of_a_large_body_are_refused) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::scene_picture_test

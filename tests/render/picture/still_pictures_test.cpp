@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::still_pictures_test {
 namespace {
 
 // Two bodies, an obstacle of each kind, and what is said of their picture.
@@ -120,4 +120,4 @@ TEST(StillPictures, refuse_a_word_of_the_hud_that_there_is_not) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::still_pictures_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::viewpoint_test {
 namespace {
 
 std::unique_ptr<PresetNode> scene_with(const std::string& camera, const std::string& hold = "") {
@@ -73,4 +73,4 @@ TEST(Viewpoint, one_that_follows_loses_nothing_out_of_sight) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::viewpoint_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::pipeline_test {
 namespace {
 
 using namespace test;
@@ -132,4 +132,4 @@ TEST(Pipeline, AFolderThatCannotBeMadeIsTheUsersError) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::pipeline_test

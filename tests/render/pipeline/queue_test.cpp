@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace rend {
+namespace rend::queue_test {
 namespace {
 
 TEST(BoundedQueue, HandsThingsOnInOrderAndNeverHoldsMoreThanItMay) {
@@ -46,4 +46,4 @@ TEST(BoundedQueue, WakesAPusherWhenItIsAbandoned) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::queue_test

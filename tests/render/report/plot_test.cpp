@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace rend {
+namespace rend::plot_test {
 namespace {
 
 using testing::HasSubstr;
@@ -108,4 +108,4 @@ TEST(Gnuplot, says_what_it_does_not_understand) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::plot_test

@@ -10,7 +10,7 @@
 
 #include <map>
 
-namespace rend {
+namespace rend::lean_study_test {
 namespace {
 
 using program::Outcome;
@@ -96,4 +96,4 @@ TEST(LeanStudy, is_asked_for_with_any_number_of_presets_and_a_study_with_one) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::lean_study_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace rend {
+namespace rend::arc_tangent_test {
 namespace {
 
 REND_INLINE void in_lanes(const double* y, const double* x, double* angle, std::size_t count) {
@@ -89,4 +89,4 @@ TEST(ArcTangent, is_zero_at_the_origin_and_not_a_number_without_end) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::arc_tangent_test

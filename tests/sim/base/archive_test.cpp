@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-namespace rend {
+namespace rend::archive_test {
 namespace {
 
 struct Thing {
@@ -192,4 +192,4 @@ TEST(Archive, refuses_other_marks_and_other_numbers_and_what_is_left_over) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::archive_test

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-namespace rend {
+namespace rend::enum_words_test {
 namespace {
 
 enum class Colour { Red, Green, Blue };
@@ -24,4 +24,4 @@ TEST(EnumWords, does_not_compile_with_a_word_too_few_or_too_many) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::enum_words_test

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace rend {
+namespace rend::hash_test {
 namespace {
 
 TEST(Hash, is_that_of_xxh3) { // test vectors of the algorithm
@@ -30,4 +30,4 @@ TEST(Hash, depends_on_the_seed_and_on_the_order) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::hash_test

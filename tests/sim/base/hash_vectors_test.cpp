@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace rend {
+namespace rend::hash_vectors_test {
 namespace {
 
 std::vector<unsigned char> sanity_buffer(std::size_t bytes) {
@@ -44,4 +44,4 @@ TEST(Hash, does_not_depend_on_alignment) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::hash_vectors_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::markup_test {
 namespace {
 
 TEST(Markup, is_taken_out_of_text) {
@@ -16,4 +16,4 @@ TEST(Markup, of_single_quotes_is_taken_out_where_it_is_asked) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::markup_test

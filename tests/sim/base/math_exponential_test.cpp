@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace rend {
+namespace rend::math_exponential_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -142,4 +142,4 @@ TEST(DoubleDouble, sums_and_products_of_doubles_are_exact) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::math_exponential_test

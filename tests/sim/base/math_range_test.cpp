@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::math_range_test {
 namespace {
 
 constexpr long double exact_pi = 3.14159265358979323846264338327950288L;
@@ -50,4 +50,4 @@ TEST(ArcTangent, has_no_step_where_its_table_changes) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::math_range_test

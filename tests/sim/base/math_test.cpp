@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace rend {
+namespace rend::math_test {
 namespace {
 
 TEST(ArcTangent, agrees_with_the_library_for_all_directions) {
@@ -74,4 +74,4 @@ TEST(SineAndCosine, of_the_same_angle_are_a_unit_vector) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::math_test

@@ -5,7 +5,7 @@
 #include <clocale>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::parameters_test {
 namespace {
 
 const ElementType leaf{"leaf", "A leaf.", {number("area", "m2", "its area").above(0).is_required()}, {}};
@@ -246,4 +246,4 @@ TEST(Parameters, SaysWhatIsExpected) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::parameters_test

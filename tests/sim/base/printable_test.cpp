@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::printable_test {
 namespace {
 
 TEST(Printable, ShowsAsEscapesWhatWouldAct) {
@@ -29,4 +29,4 @@ TEST(Printable, TwiceShowsTheSame) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::printable_test

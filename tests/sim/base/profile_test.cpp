@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-namespace rend {
+namespace rend::profile_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -103,4 +103,4 @@ TEST(Profile, names_each_phase) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::profile_test

@@ -14,7 +14,7 @@
 #include <random>
 #include <vector>
 
-namespace rend {
+namespace rend::simd_width_test {
 namespace {
 
 // Products and sums that a fused multiply-add would round differently, roots, quotients, and a sum over lanes.
@@ -92,4 +92,4 @@ TEST(SimdWidth, AnUnknownWordIsRefused) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::simd_width_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::units_test {
 namespace {
 
 TEST(Units, have_the_prefix_that_leaves_one_to_three_digits) {
@@ -25,4 +25,4 @@ TEST(Units, beyond_the_prefixes_and_without_a_unit_there_are_powers_of_ten) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::units_test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace rend {
+namespace rend::wording_test {
 namespace {
 
 const std::vector<std::string> words = {"stretch", "shear", "bend", "thickness", "k", "eye"};
@@ -58,4 +58,4 @@ TEST(Wording, QuotesKeepATerminalSafe) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::wording_test

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::fragment_masses_test {
 namespace {
 
 using testing::DoubleNear;
@@ -45,4 +45,4 @@ TEST(FragmentMasses, are_those_of_the_quads_of_each) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::fragment_masses_test

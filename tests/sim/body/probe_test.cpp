@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::probe_test {
 namespace {
 
 using testing::HasSubstr;
@@ -149,4 +149,4 @@ TEST(Answer, is_refused_where_nothing_can_be_measured) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::probe_test

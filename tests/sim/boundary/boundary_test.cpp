@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <tuple>
 
-namespace rend {
+namespace rend::boundary_test {
 namespace {
 
 struct SeenFace {
@@ -100,4 +100,4 @@ TEST(Boundary, of_a_sheet_has_what_pictures_need_up_to_date_from_when_they_ask) 
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::boundary_test

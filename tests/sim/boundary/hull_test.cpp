@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-namespace rend {
+namespace rend::hull_test {
 namespace {
 
 // A prism over an L, one volume with two hexagons and six quads: not convex.
@@ -117,4 +117,4 @@ TEST(BoundaryFaces, are_the_same_in_whatever_order_they_came) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::hull_test

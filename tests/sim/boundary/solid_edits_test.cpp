@@ -11,7 +11,7 @@
 #include <map>
 #include <set>
 
-namespace rend {
+namespace rend::solid_edits_test {
 namespace {
 
 using namespace solids;
@@ -281,4 +281,4 @@ TEST(SolidSurface, of_an_edge_that_two_sheets_of_the_hull_touch_along_keeps_them
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::solid_edits_test

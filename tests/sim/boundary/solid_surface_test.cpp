@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-namespace rend {
+namespace rend::solid_surface_test {
 namespace {
 
 using namespace solids;
@@ -230,4 +230,4 @@ TEST(SolidSurface, marks_nothing_bare_where_nothing_may_tear) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::solid_surface_test

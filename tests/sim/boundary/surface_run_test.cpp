@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::surface_run_test {
 namespace {
 
 TEST(SurfaceOfARun, equals_a_new_one_after_every_step_that_tears) {
@@ -77,4 +77,4 @@ TEST(SurfaceOfACollapsedSheet, has_no_normals_and_no_nan) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::surface_run_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::surface_test {
 namespace {
 
 using namespace meshes;
@@ -255,4 +255,4 @@ TEST(Surface, of_a_face_that_gains_sides_grows_with_it_and_shrinks_again) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::surface_test

@@ -12,7 +12,7 @@
 
 #include <map>
 
-namespace rend {
+namespace rend::construction_test {
 namespace {
 
 // A scene of one body with that shape, rules of its own before it.
@@ -386,4 +386,4 @@ TEST(LawByRule, refuses_what_a_law_cannot_do) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::construction_test

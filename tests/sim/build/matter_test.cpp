@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::matter_test {
 namespace {
 
 using testing::HasSubstr;
@@ -254,4 +254,4 @@ TEST(Springs, have_a_formula_where_help_says_so) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::matter_test

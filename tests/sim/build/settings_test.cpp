@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::settings_test {
 namespace {
 
 using testing::HasSubstr;
@@ -242,4 +242,4 @@ TEST(Settings, have_the_defaults_that_the_table_of_parameters_tells) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::settings_test

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::start_motion_test {
 namespace {
 
 using testing::HasSubstr;
@@ -132,4 +132,4 @@ TEST(Ramp, over_is_until_by_its_length) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::start_motion_test

@@ -12,7 +12,7 @@
 #include <random>
 #include <set>
 
-namespace rend {
+namespace rend::case_test {
 namespace {
 
 const ReadPreset read = [](const CheckCase& which, const std::string* instead, const Sets& sets) {
@@ -93,4 +93,4 @@ TEST(CheckFamilies, HoldInTheirQuickCases) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::case_test

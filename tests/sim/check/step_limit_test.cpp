@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::step_limit_test {
 namespace {
 
 const Scheme& scheme(const char* name) {
@@ -77,4 +77,4 @@ TEST(StepLimit, SeesWhatDampingCouples) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::step_limit_test

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::contact_test {
 namespace {
 
 constexpr double thickness = 0.002;
@@ -102,4 +102,4 @@ TEST(FloorContact, is_left_out_where_nobody_asked_for_it) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::contact_test

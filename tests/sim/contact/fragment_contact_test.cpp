@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::fragment_contact_test {
 namespace {
 
 std::string moving(const std::string& name, const std::string& shape, const std::string& velocity,
@@ -222,4 +222,4 @@ TEST(FragmentContact, a_block_rests_on_a_sheet_that_is_held_along_its_fall) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::fragment_contact_test

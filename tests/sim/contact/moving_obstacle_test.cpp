@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::moving_obstacle_test {
 namespace {
 
 using presets::Loaded;
@@ -225,4 +225,4 @@ TEST(MovingObstacle, what_starts_in_a_box_as_it_is_turned_at_first_is_refused) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::moving_obstacle_test

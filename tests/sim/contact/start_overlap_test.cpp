@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::start_overlap_test {
 namespace {
 
 using testing::AllOf;
@@ -171,4 +171,4 @@ TEST(StartOverlap, what_touches_the_floor_is_lifted_without_being_thrown) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::start_overlap_test

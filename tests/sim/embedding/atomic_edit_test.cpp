@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace rend {
+namespace rend::atomic_edit_test {
 namespace {
 
 // Links, slots, free lists and values, and how far the arrays reach.
@@ -241,4 +241,4 @@ TEST(Savepoint, takes_back_points_and_parents) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::atomic_edit_test

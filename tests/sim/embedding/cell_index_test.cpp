@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-namespace rend {
+namespace rend::cell_index_test {
 namespace {
 
 Orbit orbit_of(int mask) {
@@ -272,4 +272,4 @@ TEST(CellIndex, a_dart_removed_and_used_again_in_one_edit_is_a_new_one) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::cell_index_test

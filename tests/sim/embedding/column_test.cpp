@@ -7,7 +7,7 @@
 
 #include <numeric>
 
-namespace rend {
+namespace rend::column_test {
 namespace {
 
 struct Calls {
@@ -173,4 +173,4 @@ TEST(Column, inserting_a_vertex_calls_birth_on_corners_of_both_faces) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::column_test

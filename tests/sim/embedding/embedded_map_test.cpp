@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace rend {
+namespace rend::embedded_map_test {
 namespace {
 
 Dart find_edge(const EmbeddedMap& body, const Vec3& from, const Vec3& to) {
@@ -175,4 +175,4 @@ TEST(EmbeddedMap, what_was_created_can_be_cut_off_in_the_same_edit) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::embedded_map_test

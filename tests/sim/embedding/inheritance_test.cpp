@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <map>
 
-namespace rend {
+namespace rend::inheritance_test {
 namespace {
 
 using namespace meshes;
@@ -386,4 +386,4 @@ TEST(Inheritance, of_elements_makes_them_as_a_body_built_of_the_parts_has_them) 
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::inheritance_test

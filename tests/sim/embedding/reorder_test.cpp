@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-namespace rend {
+namespace rend::reorder_test {
 namespace {
 
 // The position of each dart, and a value at its corner.
@@ -103,4 +103,4 @@ TEST(Reorder, is_worth_while_where_most_vertices_are_new_and_lie_anywhere) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::reorder_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-namespace rend {
+namespace rend::slot_table_test {
 namespace {
 
 // As for elements: four slots for each 24 darts, some darts removed.
@@ -98,4 +98,4 @@ TEST(SlotTable, renames_slots_packed_or_not) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::slot_table_test

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-namespace rend {
+namespace rend::obstacle_skin_test {
 namespace {
 
 // By cones over the triangles of its quads [m³].
@@ -90,4 +90,4 @@ TEST(ObstacleSkin, has_the_velocities_of_its_points) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::obstacle_skin_test

@@ -12,7 +12,7 @@
 #include <map>
 #include <set>
 
-namespace rend {
+namespace rend::skin_test {
 namespace {
 
 using Corner = std::array<double, 3>; // a position; unconnected bodies have no position in common here
@@ -186,4 +186,4 @@ TEST(Skin, of_a_band_with_one_side_has_all_its_faces) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::skin_test

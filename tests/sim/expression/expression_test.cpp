@@ -9,7 +9,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::expression_test {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -262,4 +262,4 @@ TEST(Expression, of_a_wrong_vocabulary_is_a_bug_of_the_caller) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::expression_test

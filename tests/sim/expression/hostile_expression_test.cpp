@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace rend {
+namespace rend::hostile_expression_test {
 namespace {
 
 std::string repeated(const std::string& text, int times) {
@@ -193,4 +193,4 @@ TEST(HostileExpression, of_random_bytes_is_refused_or_has_a_finite_value) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::hostile_expression_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace rend {
+namespace rend::noise_test {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -94,4 +94,4 @@ TEST(Noise, gives_the_same_values_for_ever) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::noise_test

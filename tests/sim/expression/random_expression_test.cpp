@@ -15,7 +15,7 @@
 #include <optional>
 #include <random>
 
-namespace rend {
+namespace rend::random_expression_test {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -251,4 +251,4 @@ TEST(RandomExpression, has_the_value_of_its_tree) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::random_expression_test

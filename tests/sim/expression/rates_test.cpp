@@ -12,7 +12,7 @@
 
 #include <set>
 
-namespace rend {
+namespace rend::rates_test {
 namespace {
 
 constexpr ValueType S = ValueType::Scalar, V = ValueType::Vector;
@@ -128,4 +128,4 @@ TEST(Rates, that_are_infinite_are_refused) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rates_test

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-namespace rend {
+namespace rend::change_test {
 namespace {
 
 using namespace torn;
@@ -238,4 +238,4 @@ TEST(Change, acts_on_one_kind_of_cell_and_is_the_default_of_it) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::change_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::criteria_test {
 namespace {
 
 using elements::NamedMap;
@@ -354,4 +354,4 @@ TEST(Criteria, do_not_see_a_turn_of_the_body) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::criteria_test

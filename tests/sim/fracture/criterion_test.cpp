@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::criterion_test {
 namespace {
 
 using namespace meshes;
@@ -180,4 +180,4 @@ TEST(Separate, opens_an_edge_once) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::criterion_test

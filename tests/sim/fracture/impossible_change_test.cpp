@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::impossible_change_test {
 namespace {
 
 // Each vertex that it finds goes to one line or plane: the last of an element would make it flat.
@@ -107,4 +107,4 @@ TEST(ImpossibleChangeOfSprings, ends_the_run_with_its_time_and_rule_and_leaves_t
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::impossible_change_test

@@ -11,7 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::law_quantities_test {
 namespace {
 
 using plain::PlainBody;
@@ -390,4 +390,4 @@ TEST(LawByRule, has_no_stress_where_the_body_has_springs_alone) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::law_quantities_test

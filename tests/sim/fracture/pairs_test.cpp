@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::pairs_test {
 namespace {
 
 using namespace torn;
@@ -140,4 +140,4 @@ TEST(Pairs, compute_forces_of_single_elements_only_where_the_change_is_made_at_a
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::pairs_test

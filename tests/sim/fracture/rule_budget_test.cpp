@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::rule_budget_test {
 namespace {
 
 using Findings = torn::RandomCriterion<Cell::Elements>;
@@ -56,4 +56,4 @@ TEST(RuleBudget, a_law_waits_where_there_is_no_room_for_their_bytes) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rule_budget_test

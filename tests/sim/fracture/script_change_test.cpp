@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::script_change_test {
 namespace {
 
 struct Twin {
@@ -133,4 +133,4 @@ TEST(ScriptChange, gives_the_state_hashes_of_the_functions_in_solids) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::script_change_test

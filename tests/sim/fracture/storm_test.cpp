@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::storm_test {
 namespace {
 
 using namespace torn;
@@ -155,4 +155,4 @@ TEST(Body, that_loses_its_last_element_goes_on_with_nothing) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::storm_test

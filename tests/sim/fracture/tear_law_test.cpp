@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace rend {
+namespace rend::tear_law_test {
 namespace {
 
 std::string pulled(const std::string& sheet, const std::string& laws, const std::string& speed = "0.5") {
@@ -153,4 +153,4 @@ TEST(ForceLaw, refuses_what_does_not_fit) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::tear_law_test

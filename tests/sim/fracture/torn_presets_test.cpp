@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace rend {
+namespace rend::torn_presets_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ INSTANTIATE_TEST_SUITE_P(All, TornPreset, testing::ValuesIn(presets_with_laws())
 });
 
 } // namespace
-} // namespace rend
+} // namespace rend::torn_presets_test

@@ -7,7 +7,7 @@
 
 #include <map>
 
-namespace rend {
+namespace rend::transfer_test {
 namespace {
 
 using namespace torn;
@@ -322,4 +322,4 @@ TEST(Transfer, is_told_in_the_words_of_sheets_and_solids) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::transfer_test

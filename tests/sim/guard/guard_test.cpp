@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <memory>
 
-namespace rend {
+namespace rend::guard_test {
 namespace {
 
 using testing::HasSubstr;
@@ -292,4 +292,4 @@ TEST(Guard, costs_no_memory_where_it_is_off) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::guard_test

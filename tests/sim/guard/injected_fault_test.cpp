@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::injected_fault_test {
 namespace {
 
 constexpr StepStage struck_stages[] = {StepStage::Forces, StepStage::Loads, StepStage::Integration,
@@ -69,4 +69,4 @@ TEST(Scene, counts_evaluations_of_the_internal_forces) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::injected_fault_test

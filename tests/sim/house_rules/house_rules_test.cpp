@@ -11,7 +11,7 @@
 
 #include <set>
 
-namespace rend {
+namespace rend::house_rules_test {
 namespace {
 
 using assets::at;
@@ -329,4 +329,4 @@ TEST(Remove, an_isolated_volume) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::house_rules_test

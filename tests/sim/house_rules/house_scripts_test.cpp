@@ -12,7 +12,7 @@
 #include <map>
 #include <set>
 
-namespace rend {
+namespace rend::house_scripts_test {
 namespace {
 
 // To all orbits of its hook.
@@ -188,4 +188,4 @@ TEST(HouseScripts, all_are_printed_and_have_a_line_about_them) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::house_scripts_test

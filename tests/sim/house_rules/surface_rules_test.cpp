@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-namespace rend {
+namespace rend::surface_rules_test {
 namespace {
 
 struct Surface {
@@ -337,4 +337,4 @@ TEST(ThesisRules, turn_is_a_rotation) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::surface_rules_test

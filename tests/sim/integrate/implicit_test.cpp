@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::implicit_test {
 namespace {
 
 using namespace solved;
@@ -127,4 +127,4 @@ TEST(Schemes, that_solve_say_what_it_took) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::implicit_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace rend {
+namespace rend::integrator_test {
 namespace {
 
 struct Phase {
@@ -346,4 +346,4 @@ TEST(State, knows_whether_it_is_finite) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::integrator_test

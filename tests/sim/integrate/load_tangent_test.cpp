@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::load_tangent_test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -90,4 +90,4 @@ TEST(ImplicitEuler, goes_where_rk4_goes_under_loads_that_follow) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::load_tangent_test

@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::lowest_eigenvalue_test {
 namespace {
 
 // −M⁻¹ ∂f/∂x at the free coordinates, by central differences.
@@ -77,4 +77,4 @@ TEST(LeastResistance, is_the_least_of_all_eigenvalues) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::lowest_eigenvalue_test

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::order_test {
 namespace {
 
 struct Smooth {
@@ -102,4 +102,4 @@ TEST(Orders, are_reached_on_smooth_scenes) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::order_test

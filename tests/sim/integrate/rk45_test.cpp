@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::rk45_test {
 namespace {
 
 using testing::HasSubstr;
@@ -305,4 +305,4 @@ TEST(Tolerance, belongs_to_adaptive_schemes) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rk45_test

@@ -10,7 +10,7 @@
 #include <complex>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::second_order_test {
 namespace {
 
 constexpr double omega = 17; // [rad/s]
@@ -199,4 +199,4 @@ TEST(SecondOrder, swings_a_stiff_pendulum_with_its_period) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::second_order_test

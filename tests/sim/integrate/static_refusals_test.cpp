@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::static_refusals_test {
 namespace {
 
 using namespace solved;
@@ -143,4 +143,4 @@ TEST(StaticSolve, refuses_what_springs_to_the_ground_let_slide) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::static_refusals_test

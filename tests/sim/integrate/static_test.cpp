@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::static_test {
 namespace {
 
 using namespace solved;
@@ -169,4 +169,4 @@ TEST(StaticSolve, takes_a_turn_without_loads) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::static_test

@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-namespace rend {
+namespace rend::torn_test {
 namespace {
 
 using namespace torn;
@@ -138,4 +138,4 @@ TEST(TornSolved, pieces_that_nothing_holds_fall_under_implicit) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::torn_test

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-namespace rend {
+namespace rend::vertex_loop_test {
 namespace {
 
 struct Many final : System {
@@ -74,4 +74,4 @@ TEST(VertexLoop, sees_a_number_that_is_not_finite_in_any_stretch) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::vertex_loop_test

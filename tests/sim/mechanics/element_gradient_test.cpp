@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::element_gradient_test {
 namespace {
 
 using namespace elements;
@@ -194,4 +194,4 @@ TEST(ElementLaw, force_is_minus_the_gradient_of_the_energy) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::element_gradient_test

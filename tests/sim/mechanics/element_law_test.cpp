@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::element_law_test {
 namespace {
 
 using namespace elements;
@@ -280,4 +280,4 @@ TEST(ElementLaw, an_element_without_volume_is_refused) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::element_law_test

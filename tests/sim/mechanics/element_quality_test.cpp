@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::element_quality_test {
 namespace {
 
 const double root2 = std::sqrt(2.0), root3 = std::sqrt(3.0);
@@ -150,4 +150,4 @@ TEST(MeshQuality, names_the_worst_elements_with_their_places) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::element_quality_test

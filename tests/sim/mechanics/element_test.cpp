@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::element_test {
 namespace {
 
 using namespace elements;
@@ -95,4 +95,4 @@ TEST(Element, a_volume_that_is_no_element_is_none) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::element_test

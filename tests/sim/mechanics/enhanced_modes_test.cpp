@@ -7,7 +7,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::enhanced_modes_test {
 namespace {
 
 using namespace elements;
@@ -200,4 +200,4 @@ TEST(EnhancedModes, bend_the_elastica) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::enhanced_modes_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::hinge_law_test {
 namespace {
 
 using meshes::Noise;
@@ -268,4 +268,4 @@ TEST(Hinge, lets_a_torn_cloth_fall_in_a_heap) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::hinge_law_test

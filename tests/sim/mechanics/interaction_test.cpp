@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::interaction_test {
 namespace {
 
 using namespace meshes;
@@ -178,4 +178,4 @@ TEST(Interaction, dissipates_by_its_damping) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::interaction_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::mass_tensor_test {
 namespace {
 
 using namespace elements;
@@ -83,4 +83,4 @@ TEST(MassTensor, bounds_the_step_as_the_elements_do) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::mass_tensor_test

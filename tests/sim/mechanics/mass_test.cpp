@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::mass_test {
 namespace {
 
 using namespace meshes;
@@ -131,4 +131,4 @@ TEST(MassOfSolids, drag_is_shared_by_the_corners_of_a_vertex) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::mass_test

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::rotation_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -80,4 +80,4 @@ TEST(RotationDerivative, is_how_the_rotation_turns) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rotation_test

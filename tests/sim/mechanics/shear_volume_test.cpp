@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace rend {
+namespace rend::shear_volume_test {
 namespace {
 
 using namespace elements;
@@ -131,4 +131,4 @@ TEST(SolidSprings, of_volumes_are_left_out_where_there_is_no_hexahedron) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::shear_volume_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::spring_law_test {
 namespace {
 
 using meshes::Noise;
@@ -60,4 +60,4 @@ TEST(Spring, without_length_gives_no_force) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::spring_law_test

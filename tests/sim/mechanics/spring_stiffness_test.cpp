@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::spring_stiffness_test {
 namespace {
 
 using namespace meshes;
@@ -199,4 +199,4 @@ TEST(Young, formula_gives_van_gelders_and_baudets_values) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::spring_stiffness_test

@@ -10,7 +10,7 @@
 
 #include "sim/mesh/mesh_files.h"
 
-namespace rend {
+namespace rend::bad_mesh_test {
 namespace {
 
 using files::Folder;
@@ -367,4 +367,4 @@ TEST(BadMesh, files_of_a_megabyte_that_are_made_to_be_slow_are_not) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::bad_mesh_test

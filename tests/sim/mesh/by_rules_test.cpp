@@ -14,7 +14,7 @@
 #include "sim/assets.h"
 #include "sim/random_meshes.h"
 
-namespace rend {
+namespace rend::by_rules_test {
 namespace {
 
 using Owned = std::unique_ptr<EmbeddedMap>;
@@ -314,4 +314,4 @@ TEST(Subdivision, of_a_deformed_body_puts_points_in_the_middle_and_looks_at_the_
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::by_rules_test

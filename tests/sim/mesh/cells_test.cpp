@@ -14,7 +14,7 @@
 #include <random>
 #include <set>
 
-namespace rend {
+namespace rend::cells_test {
 namespace {
 
 using testing::HasSubstr;
@@ -328,4 +328,4 @@ TEST(Tube, of_fig_7_14_is_a_ring_of_32_hexahedra) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::cells_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::closed_surface_test {
 namespace {
 
 // A unit cube of quads; one of them turned to the inside.
@@ -139,4 +139,4 @@ TEST(ClosedSurface, knows_what_fills_it) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::closed_surface_test

@@ -12,7 +12,7 @@
 #include <random>
 #include <set>
 
-namespace rend {
+namespace rend::locality_test {
 namespace {
 
 std::vector<std::uint32_t> shuffled(std::size_t count) {
@@ -113,4 +113,4 @@ TEST(Locality, of_a_long_bar_goes_slice_by_slice) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::locality_test

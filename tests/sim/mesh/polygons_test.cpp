@@ -12,7 +12,7 @@
 #include "sim/random_meshes.h"
 #include "sim/topology/walk.h"
 
-namespace rend {
+namespace rend::polygons_test {
 namespace {
 
 using testing::HasSubstr;
@@ -154,4 +154,4 @@ TEST(SheetFromPolygons, refuses_what_a_sheet_cannot_hold) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::polygons_test

@@ -15,7 +15,7 @@
 #include "sim/assets.h"
 #include "sim/mesh/mesh_files.h"
 
-namespace rend {
+namespace rend::reader_test {
 namespace {
 
 using files::Folder;
@@ -218,4 +218,4 @@ TEST(MeshFiles, may_have_tags_with_gaps) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::reader_test

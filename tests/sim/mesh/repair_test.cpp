@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::repair_test {
 namespace {
 
 struct Repaired {
@@ -73,4 +73,4 @@ TEST(Repair, refuses_what_is_no_sheet_or_is_nothing_afterwards) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::repair_test

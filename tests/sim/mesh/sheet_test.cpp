@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::sheet_test {
 namespace {
 
 using enum SheetPattern;
@@ -194,4 +194,4 @@ TEST(SheetGenerator, turns_a_moebius_band_by_half_a_turn_on_the_way_around) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::sheet_test

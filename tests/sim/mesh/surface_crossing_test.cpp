@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace rend {
+namespace rend::surface_crossing_test {
 namespace {
 
 ClosedSurface cube() {
@@ -65,4 +65,4 @@ TEST(SurfaceCrossing, is_also_where_sides_only_touch) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::surface_crossing_test

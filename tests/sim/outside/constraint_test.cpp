@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::constraint_test {
 namespace {
 
 using testing::HasSubstr;
@@ -277,4 +277,4 @@ TEST(Constraints, are_refused_where_they_mean_nothing) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::constraint_test

@@ -5,7 +5,7 @@
 #include "sim/outside/constraint.h"
 #include "sim/outside/patch.h"
 
-namespace rend {
+namespace rend::inherited_test {
 namespace {
 
 using namespace meshes;
@@ -122,4 +122,4 @@ TEST(Inherited, initial_border_keeps_torn_sides_torn) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::inherited_test

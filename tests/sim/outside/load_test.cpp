@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace rend {
+namespace rend::load_test {
 namespace {
 
 using Kind = LoadSettings::Kind;
@@ -360,4 +360,4 @@ TEST(Load, is_refused_where_it_means_nothing) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::load_test

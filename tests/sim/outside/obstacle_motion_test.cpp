@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::obstacle_motion_test {
 namespace {
 
 const Vec3 middle(0.5, -1, 2);
@@ -148,4 +148,4 @@ TEST(ObstacleMotion, refuses_what_does_not_fit_together) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::obstacle_motion_test

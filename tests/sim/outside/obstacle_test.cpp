@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::obstacle_test {
 namespace {
 
 using meshes::Noise;
@@ -328,4 +328,4 @@ TEST(ObstacleContact, leaves_a_body_at_rest_that_is_held_where_it_touches) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::obstacle_test

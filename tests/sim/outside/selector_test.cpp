@@ -6,7 +6,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::selector_test {
 namespace {
 
 // The rest positions selected by <fix>, of a placed cloth of 10 × 10 cells.
@@ -92,4 +92,4 @@ TEST(Placement, scales_rotates_about_x_then_y_then_z_and_moves) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::selector_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::solved_contact_test {
 namespace {
 
 using presets::load;
@@ -211,4 +211,4 @@ TEST(SolvedContact, forces_and_tangent_are_derivatives) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::solved_contact_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::wind_test {
 namespace {
 
 Vec3 total(const EmbeddedMap& map, const WindLoad& wind) {
@@ -81,4 +81,4 @@ TEST(Wind, blows_on_as_a_sheet_tears) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::wind_test

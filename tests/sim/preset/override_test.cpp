@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace rend {
+namespace rend::override_test {
 namespace {
 
 using namespace small_table;
@@ -118,4 +118,4 @@ TEST(Override, ReadsOrRefusesWhateverPathItIsGiven) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::override_test

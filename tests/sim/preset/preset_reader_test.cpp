@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace rend {
+namespace rend::preset_reader_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,4 +271,4 @@ TEST(PresetReader, ReadsOrRefusesWhateverItIsGiven) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::preset_reader_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::assembly_test {
 namespace {
 
 using namespace meshes;
@@ -104,4 +104,4 @@ TEST(Assembly, gives_the_same_bytes_on_any_number_of_threads) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::assembly_test

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace rend {
+namespace rend::binder_test {
 namespace {
 
 using namespace meshes;
@@ -225,4 +225,4 @@ TEST(Rebinding, of_words_that_reach_over_several_faces_equals_binding_from_scrat
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::binder_test

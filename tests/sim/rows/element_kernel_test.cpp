@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::element_kernel_test {
 namespace {
 
 using namespace elements;
@@ -117,4 +117,4 @@ TEST(ElementKernel, is_finite_for_flat_collapsed_and_inverted_bodies_beside_padd
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::element_kernel_test

@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rend {
+namespace rend::frequency_test {
 namespace {
 
 // Angular frequencies [rad/s] of the body at rest, increasing: the roots of the eigenvalues of M^-1/2 K M^-1/2
@@ -166,4 +166,4 @@ TEST(FrequencyBound, of_springs_from_vertices_to_their_neighbours_holds_before_a
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::frequency_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::kernels_test {
 namespace {
 
 using namespace meshes;
@@ -204,4 +204,4 @@ TEST(PlainKernel, gives_each_part_of_the_vertices_the_bytes_of_the_whole) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::kernels_test

@@ -7,7 +7,7 @@
 #include <array>
 #include <map>
 
-namespace rend {
+namespace rend::packed_rows_test {
 namespace {
 
 using meshes::Noise;
@@ -172,4 +172,4 @@ TEST(PackedRows, keep_what_the_next_rows_of_a_block_write_apart) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::packed_rows_test

@@ -10,7 +10,7 @@
 
 #include <cstring>
 
-namespace rend {
+namespace rend::program_test {
 namespace {
 
 using namespace meshes;
@@ -179,4 +179,4 @@ TEST(Separation, shares_the_drag_of_a_vertex_among_its_fragments) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::program_test

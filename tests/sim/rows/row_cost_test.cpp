@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::row_cost_test {
 namespace {
 
 const Binder& binder_of(const Body& body, const std::string& name) {
@@ -65,4 +65,4 @@ TEST(RowTimes, count_evaluations_and_seconds_where_they_are_asked_for) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::row_cost_test

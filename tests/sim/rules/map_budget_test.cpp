@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::map_budget_test {
 namespace {
 
 std::vector<std::uint8_t> bytes_of(EmbeddedMap& body) {
@@ -113,4 +113,4 @@ TEST(MapBudget, values_count_and_what_was_removed_does_not_lower_it) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::map_budget_test

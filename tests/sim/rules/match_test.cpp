@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::match_test {
 namespace {
 
 Dart sewn(const EmbeddedMap& body) {
@@ -182,4 +182,4 @@ TEST(Match, the_wrong_number_of_hooks_or_arguments_is_our_slip) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::match_test

@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <set>
 
-namespace rend {
+namespace rend::random_rules_test {
 namespace {
 
 bool near(const Vec3& a, const Vec3& b) {
@@ -232,4 +232,4 @@ TEST(RandomScripts, that_are_legal_break_no_axiom_and_refusals_change_no_byte) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::random_rules_test

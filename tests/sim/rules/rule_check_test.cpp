@@ -11,7 +11,7 @@
 
 #include <chrono>
 
-namespace rend {
+namespace rend::rule_check_test {
 namespace {
 
 struct Refusal {
@@ -531,4 +531,4 @@ TEST(RuleCheck, what_is_legal_though_it_looks_odd) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rule_check_test

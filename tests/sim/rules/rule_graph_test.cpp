@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::rule_graph_test {
 namespace {
 
 using Kind = RuleLink::Kind;
@@ -204,4 +204,4 @@ TEST(RuleGraph, bounds_its_text_its_nodes_and_their_names) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rule_graph_test

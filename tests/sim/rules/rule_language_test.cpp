@@ -11,7 +11,7 @@
 #include <random>
 #include <set>
 
-namespace rend {
+namespace rend::rule_language_test {
 namespace {
 
 // A rule that makes a dart b beside a dart a, at the place of the expression; lets before it.
@@ -270,4 +270,4 @@ TEST(ScriptMarks, that_no_step_sets_are_refused) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rule_language_test

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace rend {
+namespace rend::rules_test {
 namespace {
 
 using assets::at;
@@ -342,4 +342,4 @@ TEST(QuarterFaces, a_hundred_thousand_darts_take_a_moment) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rules_test

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::script_check_test {
 namespace {
 
 struct IllegalScript {
@@ -190,4 +190,4 @@ TEST(ScriptCheck, a_file_may_be_one_rule_or_one_script) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::script_check_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::script_test {
 namespace {
 
 // The last one of a file of rules.
@@ -273,4 +273,4 @@ TEST(Script, is_printed_and_read_back_equal) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::script_test

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::velocity_test {
 namespace {
 
 // Every vertex moves along a straight line of its own.
@@ -82,4 +82,4 @@ TEST(Velocity, that_is_given_is_taken_and_the_position_not_differentiated) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::velocity_test

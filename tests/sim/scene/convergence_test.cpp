@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::convergence_test {
 namespace {
 
 // The displacement of the body's first probe in static equilibrium [m].
@@ -62,4 +62,4 @@ TEST(Convergence, of_cooks_membrane_is_from_below_and_quads_are_ahead) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::convergence_test

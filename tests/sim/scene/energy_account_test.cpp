@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace rend {
+namespace rend::energy_account_test {
 namespace {
 
 using presets::load;
@@ -244,4 +244,4 @@ TEST(EnergyAccount, tells_what_a_scheme_gains) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::energy_account_test

@@ -11,7 +11,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace rend {
+namespace rend::forged_store_test {
 namespace {
 
 using testing::HasSubstr;
@@ -310,4 +310,4 @@ TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::forged_store_test

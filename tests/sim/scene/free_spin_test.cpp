@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::free_spin_test {
 namespace {
 
 struct Spinning {
@@ -64,4 +64,4 @@ TEST(FreeSpin, keeps_angular_momentum_to_round_off_and_energy_without_drift) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::free_spin_test

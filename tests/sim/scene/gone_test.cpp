@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::gone_test {
 namespace {
 
 std::string scene_of(const std::string& shape, const std::string& matter, const std::string& time) {
@@ -93,4 +93,4 @@ TEST(ForceLaw, on_a_body_that_is_wholly_fixed_is_noted) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::gone_test

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::mass_scaling_test {
 namespace {
 
 using testing::AllOf;
@@ -155,4 +155,4 @@ TEST(ElementSteps, have_the_limit_of_the_body_as_their_least) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::mass_scaling_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::number_anew_test {
 namespace {
 
 using namespace torn;
@@ -202,4 +202,4 @@ TEST(NumberAnew, at_every_change_leaves_the_course_of_a_scene_as_it_is) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::number_anew_test

@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace rend {
+namespace rend::same_bytes_test {
 namespace {
 
 struct Played {
@@ -91,4 +91,4 @@ TEST_P(SameBytes, on_any_number_of_threads_and_with_everything_built_anew_at_eac
 INSTANTIATE_TEST_SUITE_P(All, SameBytes, testing::ValuesIn(shipped::all_presets()), shipped::as_word);
 
 } // namespace
-} // namespace rend
+} // namespace rend::same_bytes_test

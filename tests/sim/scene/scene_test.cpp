@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::scene_test {
 namespace {
 
 using testing::Contains;
@@ -362,4 +362,4 @@ TEST(Mass, is_what_the_preset_says) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::scene_test

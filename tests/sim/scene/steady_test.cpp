@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::steady_test {
 namespace {
 
 constexpr long steps = 100;
@@ -95,4 +95,4 @@ TEST_P(SteadyScheme, asks_for_no_memory) {
 INSTANTIATE_TEST_SUITE_P(All, SteadyScheme, testing::ValuesIn(schemes()));
 
 } // namespace
-} // namespace rend
+} // namespace rend::steady_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <regex>
 
-namespace rend {
+namespace rend::step_cause_test {
 namespace {
 
 using testing::AllOf;
@@ -165,4 +165,4 @@ TEST(StepCause, is_nothing_where_nothing_limits_the_step) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::step_cause_test

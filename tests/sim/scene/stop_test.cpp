@@ -13,7 +13,7 @@
 #include <random>
 #include <thread>
 
-namespace rend {
+namespace rend::stop_test {
 namespace {
 
 struct Clip {
@@ -137,4 +137,4 @@ TEST(StoppedStatic, goes_on_to_the_bit) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::stop_test

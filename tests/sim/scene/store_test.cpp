@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace rend {
+namespace rend::store_test {
 namespace {
 
 std::vector<std::uint8_t> stored(Scene& scene) {
@@ -158,4 +158,4 @@ TEST(Store, refuses_what_was_of_another_scene) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::store_test

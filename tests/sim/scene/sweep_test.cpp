@@ -14,7 +14,7 @@
 #include <cstring>
 #include <mutex>
 
-namespace rend {
+namespace rend::sweep_test {
 namespace {
 
 bool sweeps(const Scene& scene) {
@@ -109,4 +109,4 @@ TEST(SweptSteps, tells_of_each_vertex_once_when_its_force_is_whole) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::sweep_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace rend {
+namespace rend::solve_test {
 namespace {
 
 // A grid of n × n × n vertices, each coupled to 26 others by random symmetric blocks, with a dominant diagonal.
@@ -237,4 +237,4 @@ TEST(LinearSolver, says_that_a_singular_matrix_is_not_solved) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::solve_test

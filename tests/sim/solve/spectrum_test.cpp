@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::spectrum_test {
 namespace {
 
 constexpr double half_turn = 3.14159265358979323846;
@@ -112,4 +112,4 @@ TEST(Spectrum, IsZeroWhereNothingCanMove) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::spectrum_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace rend {
+namespace rend::errors_test {
 namespace {
 
 // Points on the x axis with these masses, at rest at t = 0.
@@ -145,4 +145,4 @@ TEST(Sampler, finds_its_points_again_where_elements_are_gone_and_slots_were_numb
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::errors_test

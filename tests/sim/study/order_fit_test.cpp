@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace rend {
+namespace rend::order_fit_test {
 namespace {
 
 using testing::ElementsAre;
@@ -86,4 +86,4 @@ TEST(OrderFit, is_none_of_fewer_than_three_points) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::order_fit_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace rend {
+namespace rend::pareto_test {
 namespace {
 
 bool beats(const WorkPrecision& a, const WorkPrecision& b) {
@@ -50,4 +50,4 @@ TEST(TimeToReach, lies_on_the_power_law_between_two_runs) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::pareto_test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace rend {
+namespace rend::study_test {
 namespace {
 
 // Scenes from a format string with {0} (integrator), {1} (step) and {2} (tolerance, or empty).
@@ -170,4 +170,4 @@ TEST(Sweep, covers_two_decades_of_steps_that_meet_all_samples) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::study_test

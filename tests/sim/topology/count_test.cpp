@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::count_test {
 namespace {
 
 void expect_cells(const EmbeddedMap& body, std::size_t vertices, std::size_t edges, std::size_t faces,
@@ -95,4 +95,4 @@ TEST(Counts, fragments_are_numbered_by_their_smallest_dart) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::count_test

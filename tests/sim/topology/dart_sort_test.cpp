@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-namespace rend {
+namespace rend::dart_sort_test {
 namespace {
 
 // Few and many keys, dense and over the whole range of 32 bits.
@@ -30,4 +30,4 @@ TEST(DartSort, sorts_as_a_comparing_sort_does) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::dart_sort_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::isomorphism_test {
 namespace {
 
 TEST(Isomorphism, every_asset_is_isomorphic_to_itself_with_its_darts_renumbered) {
@@ -59,4 +59,4 @@ TEST(Isomorphism, extrusion_and_creation_make_the_same_quad) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::isomorphism_test

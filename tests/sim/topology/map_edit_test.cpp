@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::map_edit_test {
 namespace {
 
 // A face of n sides with its darts in order.
@@ -127,4 +127,4 @@ TEST(RemoveOrbit, leaves_the_neighbours_free) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::map_edit_test

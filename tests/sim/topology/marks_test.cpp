@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::marks_test {
 namespace {
 
 TEST(Marks, are_there_until_they_are_taken_away) {
@@ -29,4 +29,4 @@ TEST(Marks, stay_when_room_is_made_for_more) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::marks_test

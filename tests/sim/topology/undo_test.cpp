@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace rend {
+namespace rend::undo_test {
 namespace {
 
 // Links of all darts, capacity, and the list of free darts with its order.
@@ -119,4 +119,4 @@ TEST(Undo, of_a_rule_takes_back_what_it_created) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::undo_test

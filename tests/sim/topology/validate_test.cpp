@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::validate_test {
 namespace {
 
 TEST(Validate, every_asset_is_valid) {
@@ -48,4 +48,4 @@ TEST(Validate, sees_nothing_wrong_in_an_empty_map) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::validate_test

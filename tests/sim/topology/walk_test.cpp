@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-namespace rend {
+namespace rend::walk_test {
 namespace {
 
 // By definition: everything reachable by the links.
@@ -109,4 +109,4 @@ TEST(IndexMap, keeps_the_first_value_of_insert_and_the_last_of_assign) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::walk_test
