@@ -19,7 +19,6 @@
 #include "sim/preset/preset_reader.h"
 #include "sim/scene/step_cause.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,38 +29,38 @@
 
 namespace rend {
 
-void add_preset_options(CLI::App& app, SessionOptions& options) {
+void add_preset_options(const CommandLine& app, SessionOptions& options) {
   app.add_option("preset", options.preset, "the preset: a scene, as an XML file")
-      ->required()
-      ->type_name("PRESET");
+      .required()
+      .type_name("PRESET");
   app.add_option("--set", options.sets,
                  "replace an attribute of the preset, such as time.step=1e-4 (can be repeated)")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+      .type_name("PATH=VALUE")
+      .allow_extra_args(false);
   app.add_flag("--allow-path", options.allow_path,
                "allow the preset to name meshes and rules outside of its folder");
 }
 
-void add_run_options(CLI::App& app, SessionOptions& options) {
+void add_run_options(const CommandLine& app, SessionOptions& options) {
   add_preset_options(app, options);
   app.add_option("--steps", options.steps, "simulate N steps instead of the preset's duration")
-      ->type_name("N")
-      ->transform(whole_number(0, 1000000000));
+      .type_name("N")
+      .transform(whole_number(0, 1000000000));
   app.add_option("--fps", options.fps,
                  "frames per second, of pictures, exports and diagnostics; default: the preset's")
-      ->type_name("N")
-      ->transform(real_number(1e-6, 1e6));
+      .type_name("N")
+      .transform(real_number(1e-6, 1e6));
   app.add_option(
          "--threads", options.threads,
          "number of threads (the result is the same for any number); default: all that the machine has, of "
          "which a small scene uses fewer")
-      ->type_name("N")
-      ->transform(whole_number(1, 256));
+      .type_name("N")
+      .transform(whole_number(1, 256));
   app.add_option("--kernels", options.kernels,
                  "how forces are computed (flat: from arrays; walk: from the mesh, slowly, for comparison); "
                  "default: flat")
-      ->type_name("flat|walk")
-      ->check(CLI::IsMember({"flat", "walk"}));
+      .type_name("flat|walk")
+      .one_of({"flat", "walk"});
   app.add_flag("!--no-guard", options.guard,
                "stop with an error at a step that is too large, instead of repeating it as smaller steps");
   app.add_flag("-q,--quiet", options.quiet, "print no progress and no notes");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/clip/frame_clock.h"
+#include "render/console/command_line.h"
 #include "render/picture/scene_preset.h"
 #include "sim/base/wall_clock.h"
 #include "sim/scene/scene.h"
@@ -11,10 +12,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace rend {
 
@@ -34,8 +31,9 @@ struct SessionOptions {
   long reach_every = 1;         // steps between looks at them
   bool profile = false;         // the time of each stage of the step is measured
 };
-void add_preset_options(CLI::App& app, SessionOptions& options); // the preset and --set
-void add_run_options(CLI::App& app, SessionOptions& options);    // those, and the options of the simulation
+void add_preset_options(const CommandLine& app, SessionOptions& options); // the preset and --set
+void add_run_options(const CommandLine& app,
+                     SessionOptions& options); // those, and the options of the simulation
 
 enum class Stopped { No, Interrupted, Unstable };
 const char* name_of(Stopped stopped); // "unstable"

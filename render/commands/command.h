@@ -1,22 +1,19 @@
 // The commands of the program: one file each, and one entry in all_commands().
 #pragma once
 
+#include "render/console/command_line.h"
 #include "sim/base/error.h"
 
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace rend {
 
 struct Command {
   std::string name, what;
   // Declares the command's options, and returns the function that runs it after parsing.
-  std::function<Exit()> (*declare)(CLI::App& app);
+  std::function<Exit()> (*declare)(const CommandLine& app);
 };
 
 const std::vector<Command>& all_commands();

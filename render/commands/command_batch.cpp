@@ -23,7 +23,6 @@
 #include "sim/base/threads.h"
 #include "sim/base/wording.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -253,68 +252,68 @@ Exit batch(const BatchOptions& options) {
   return exit_code_of(report);
 }
 
-void declare_passed_on(CLI::App& app, BatchOptions& options) {
+void declare_passed_on(const CommandLine& app, BatchOptions& options) {
   app.add_option("--frames", options.frames,
                  "render only these frames, such as 7, 0-100, 0-100x5 (every fifth), 10- (to the end), or "
                  "several separated by commas")
-      ->type_name("LIST")
-      ->check(some_word());
+      .type_name("LIST")
+      .check(some_word());
   app.add_option("--size", options.size, "width and height of the pictures in pixels; default: the presets'")
-      ->type_name("WxH")
-      ->check(some_word());
+      .type_name("WxH")
+      .check(some_word());
   app.add_option("--fps", options.fps, "frames per second of the clip; default: the presets'")
-      ->type_name("N")
-      ->transform(real_number(1e-6, 1e6));
+      .type_name("N")
+      .transform(real_number(1e-6, 1e6));
   app.add_option("--video", options.video, "also write a video of each job")
-      ->type_name(choices(video_format_names()));
+      .type_name(choices(video_format_names()));
   app.add_flag("--no-png", options.no_png, "write no PNG files, only the video");
   app.add_option("--threads", options.threads,
                  "threads of each job; default: 1, or with --jobs 1 all that the machine has")
-      ->type_name("N")
-      ->transform(whole_number(1, 256));
+      .type_name("N")
+      .transform(whole_number(1, 256));
   app.add_option("--checkpoint-every", options.checkpoint_every,
                  "seconds between stored states, as for rend render")
-      ->type_name("S")
-      ->transform(real_number(0, 1e9));
+      .type_name("S")
+      .transform(real_number(0, 1e9));
   app.add_flag("--allow-path", options.allow_path,
                "allow presets to name meshes and rules outside of their folders");
 }
 
-std::function<Exit()> declare_batch(CLI::App& app) {
+std::function<Exit()> declare_batch(const CommandLine& app) {
   auto options = std::make_shared<BatchOptions>();
   app.add_option("inputs", options->inputs, "presets, and folders with presets")
-      ->required()
-      ->type_name("PRESET...");
+      .required()
+      .type_name("PRESET...");
   app.add_flag("--run", options->run,
                "make no pictures: simulate as rend run does, and write the figures of all jobs to figures.csv");
   app.add_option("-o,--output", options->folder,
                  "folder for the page index.html, one folder per job, and logs/")
-      ->type_name("DIR")
-      ->capture_default_str();
+      .type_name("DIR")
+      .show_default();
   app.add_option("--set", options->sets,
                  "replace an attribute in all jobs (can be repeated); several values separated by commas make "
                  "one job each, unless the attribute is free text")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+      .type_name("PATH=VALUE")
+      .allow_extra_args(false);
   app.add_option(
          "--sweep", options->sweeps,
          "make one job for each of these values of an attribute, free text included; 1:10:2 is the range "
          "from 1 to 10 in steps of 2; several sweeps make all combinations")
-      ->type_name("PATH=V,V,...")
-      ->allow_extra_args(false);
+      .type_name("PATH=V,V,...")
+      .allow_extra_args(false);
   app.add_option("-j,--jobs", options->jobs,
                  "run at most N jobs at once; default: the number of the machine's threads")
-      ->type_name("N")
-      ->transform(whole_number(1, 1024));
+      .type_name("N")
+      .transform(whole_number(1, 1024));
   app.add_option("--memory", options->memory,
                  "memory for all jobs together, such as 4G; default: 80 % of what is available")
-      ->type_name("SIZE")
-      ->check(some_word());
+      .type_name("SIZE")
+      .check(some_word());
   app.add_option("--shard", options->shard,
                  "run only part I of N of the jobs; default: the number of the Slurm array task, if there is "
                  "one. With fewer jobs than parts, each part renders some frames of each job")
-      ->type_name("I/N")
-      ->check(some_word());
+      .type_name("I/N")
+      .check(some_word());
   app.add_flag(
       "--resume", options->resume,
       "keep what is complete, and make the rest: pictures; with --run, results of jobs, and the table's "

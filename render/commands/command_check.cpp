@@ -17,7 +17,6 @@
 #include "sim/check/preset_check.h"
 #include "sim/preset/paths.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -207,16 +206,16 @@ Exit check(const CheckOptions& options) {
   return count(chapters).failed > 0 ? Exit::CheckFailed : Exit::Done;
 }
 
-std::function<Exit()> declare_check(CLI::App& app) {
+std::function<Exit()> declare_check(const CommandLine& app) {
   auto options = std::make_shared<CheckOptions>();
   app.add_option("presets", options->presets, "presets to check; without any, the built-in cases")
-      ->type_name("PRESET...");
+      .type_name("PRESET...");
   app.add_option("-o,--output", options->folder,
                  "folder for index.html, check.json and the presets of all cases; default: none is written")
-      ->type_name("DIR");
+      .type_name("DIR");
   app.add_option("--only", options->only, "run only cases whose name contains this (* and ? are wildcards)")
-      ->type_name("PATTERN")
-      ->allow_extra_args(false);
+      .type_name("PATTERN")
+      .allow_extra_args(false);
   app.add_flag("--allow-path", options->allow_path,
                "allow presets to name meshes and rules outside of their folders");
   app.add_flag("--quick", options->quick, "run only a few representative cases");
@@ -224,8 +223,8 @@ std::function<Exit()> declare_check(CLI::App& app) {
   app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
   app.add_option("--jobs", options->jobs,
                  "run at most N cases at once; default: the number of the machine's threads")
-      ->type_name("N")
-      ->transform(whole_number(1, 256));
+      .type_name("N")
+      .transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->quiet, "do not print a line for each case");
   return [options] { return check(*options); };
 }

@@ -19,7 +19,6 @@
 #include "sim/base/worker_threads.h"
 #include "sim/preset/paths.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -238,51 +237,51 @@ Exit run(DiffOptions& options) {
   }
 }
 
-std::function<Exit()> declare_diff(CLI::App& app) {
+std::function<Exit()> declare_diff(const CommandLine& app) {
   auto options = std::make_shared<DiffOptions>();
   app.add_option("expected", options->a, "the expected picture (PNG), or a folder of pictures")
-      ->group(required_by_command)
-      ->type_name("EXPECTED");
+      .group(required_by_command)
+      .type_name("EXPECTED");
   app.add_option("now", options->b,
                  "the picture to compare with it, or a folder with pictures of the same names")
-      ->group(required_by_command)
-      ->type_name("NOW");
+      .group(required_by_command)
+      .type_name("NOW");
   app.add_option("-t,--tolerances", options->tolerances,
                  "which differences are allowed, by picture (rend help tolerances); without it, none")
-      ->type_name("FILE.xml");
+      .type_name("FILE.xml");
   app.add_option("--limit", options->limits,
                  "set one limit for all pictures, such as max=1, flip=0.002, share=any or threshold=4 (can be "
                  "repeated)")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+      .type_name("NAME=VALUE")
+      .allow_extra_args(false);
   app.add_option("--mask", options->mask,
                  "a PNG of the same size: white pixels are compared, black ones are not")
-      ->type_name("FILE.png");
+      .type_name("FILE.png");
   app.add_flag("--allow-path", options->allow_path, "allow masks outside of the folder of the tolerances");
   app.add_option(
          "-o,--output", options->folder,
          "folder for a report: index.html, diff.json and maps of the differences; default: none is written")
-      ->type_name("DIR");
+      .type_name("DIR");
   app.add_option("--gitlab", options->gitlab,
                  "also write the failures as a GitLab Code Quality report to this file")
-      ->type_name("FILE.json");
+      .type_name("FILE.json");
   app.add_option("--github", options->github,
                  "also write the failures as GitHub annotations (workflow commands) to this file")
-      ->type_name("FILE");
+      .type_name("FILE");
   app.add_option("--junit", options->junit, "also write the results as JUnit XML to this file")
-      ->type_name("FILE.xml");
-  auto* json = app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
+      .type_name("FILE.xml");
+  const Option json = app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
   app.add_flag("--json-lines", options->json_lines,
                "print one JSON object per picture on stdout, one a line, each as soon as it is known")
-      ->excludes(json);
+      .excludes(json);
   app.add_option("--update", options->update,
                  "accept what there is now: names of pictures or folders, or patterns such as 'tear/*' or '*'; "
                  "new pictures are added to what is expected, and missing ones are removed from it")
-      ->type_name("NAME...")
-      ->expected(1, -1);
+      .type_name("NAME...")
+      .expected(1, -1);
   app.add_option("--threads", options->threads, "number of threads; default: all that the machine has")
-      ->type_name("N")
-      ->transform(whole_number(1, 256));
+      .type_name("N")
+      .transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->quiet, "print nothing but JSON and errors");
   app.footer("Exit code: 0 if all pictures match, 1 if one does not, 2 if one cannot be compared.");
   return [options] { return run(*options); };

@@ -14,7 +14,6 @@
 #include "render/report/machine.h"
 #include "sim/base/wording.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,19 +57,19 @@ void check_words(const HelpOptions& options) {
                                : "rend help " + options.topic + " prints the whole page");
 }
 
-std::string man_page(const CLI::App& root, bool of_presets) {
+std::string man_page(const CommandLine& root, bool of_presets) {
   const Machine build = this_machine();
   return of_presets ? manual_of_presets(scene_type(), build.version, build.date)
-                    : manual(usage_of(root), build.version, build.date);
+                    : manual(root.usage(), build.version, build.date);
 }
 
-std::string completion(const CLI::App& root, const std::string& name) {
+std::string completion(const CommandLine& root, const std::string& name) {
   const Shell* shell = find_shell(name);
   if (shell == nullptr)
     throw UserError(Exit::Usage, {},
                     name.empty() ? "no shell is named" : "there is no completion for " + in_quotes(name),
                     suggestion(name, shell_names(), "shells"));
-  CompletionSource source{usage_of(root), settable_attributes(scene_type()), element_names(scene_type())};
+  CompletionSource source{root.usage(), settable_attributes(scene_type()), element_names(scene_type())};
   for (const std::string& one : shell_names()) source.elements.push_back(one);
   return shell->script(source);
 }
@@ -90,7 +89,7 @@ std::string help_tolerances(const std::optional<std::string>& element, bool colo
   return help_elements(tolerances_type(), opening, element, colour, columns);
 }
 
-std::string page(const CLI::App& root, const HelpOptions& options) {
+std::string page(const CommandLine& root, const HelpOptions& options) {
   const std::size_t columns = text_columns(stdout, page_columns);
   if (options.topic == "preset") {
     const auto element = options.element.empty() ? std::nullopt : std::optional(options.element);
@@ -105,10 +104,7 @@ std::string page(const CLI::App& root, const HelpOptions& options) {
   if (options.topic == "schema") return schema(scene_type());
   if (options.topic == "man") return man_page(root, !options.element.empty());
   if (options.topic == "completion") return completion(root, options.element);
-  // App::help would print the page of the subcommand that was parsed, that is, of `help`.
-  if (options.topic.empty())
-    return root.get_formatter()->make_help(&root, root.get_name(), CLI::AppFormatMode::Normal);
-  return root.get_subcommand(options.topic)->help("rend");
+  return (options.topic.empty() ? root : root.command(options.topic)).page();
 }
 
 // `rend help camera` is `rend help preset camera`.
@@ -123,14 +119,14 @@ HelpOptions with_topic(const HelpOptions& options) {
   return {"preset", word};
 }
 
-Exit help(const CLI::App& root, const HelpOptions& given) {
+Exit help(const CommandLine& root, const HelpOptions& given) {
   const HelpOptions options = with_topic(given);
   check_words(options);
   print_trusted_result(page(root, options));
   return Exit::Done;
 }
 
-std::function<Exit()> declare_help(CLI::App& app) {
+std::function<Exit()> declare_help(const CommandLine& app) {
   auto options = std::make_shared<HelpOptions>();
   app.add_option("topic", options->topic,
                  "one of\n"
@@ -142,14 +138,14 @@ std::function<Exit()> declare_help(CLI::App& app) {
                  "man: the manual, for man\n"
                  "completion: a script for a shell\n"
                  "or a command, such as render")
-      ->type_name(choices(topics()) + "|COMMAND");
+      .type_name(choices(topics()) + "|COMMAND");
   app.add_option(
          "element", options->element,
          "after preset or tolerances: one element, such as stretch or body.springs; after man: preset; after "
          "completion: " +
              listed(shell_names()))
-      ->type_name("ELEMENT");
-  return [options, root = app.get_parent()] { return help(*root, *options); };
+      .type_name("ELEMENT");
+  return [options, root = app.parent()] { return help(root, *options); };
 }
 
 } // namespace

@@ -4,7 +4,6 @@
 #include "render/console/json_text.h"
 #include "render/facts/inventory.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <memory>
@@ -25,7 +24,7 @@ Exit info(InfoOptions options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare_info(CLI::App& app) {
+std::function<Exit()> declare_info(const CommandLine& app) {
   auto options = std::make_shared<InfoOptions>();
   add_preset_options(app, options->session);
   app.add_flag("--json", options->json, "print the same as one JSON object on stdout");

@@ -8,7 +8,6 @@
 #include "render/help/folding.h"
 #include "sim/base/printable.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -124,11 +123,11 @@ Exit list(const ListOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare_list(CLI::App& app) {
+std::function<Exit()> declare_list(const CommandLine& app) {
   auto options = std::make_shared<ListOptions>();
   app.add_option("folder", options->folder,
                  "folder of presets; default: presets in this folder, or those that rend was installed with")
-      ->type_name("DIR");
+      .type_name("DIR");
   app.add_flag("--thesis", options->thesis, "list only those that reproduce a figure of the thesis, by figure");
   app.add_flag("--json", options->json, "print the same as one JSON array on stdout");
   return [options] { return list(*options); };

@@ -14,7 +14,6 @@
 #include "sim/mesh/msh_writer.h"
 #include "sim/mesh/repair.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -128,38 +127,37 @@ Exit fill(const MeshOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare_mesh(CLI::App& app) {
+std::function<Exit()> declare_mesh(const CommandLine& app) {
   auto options = std::make_shared<MeshOptions>();
   auto chosen = std::make_shared<Exit (*)(const MeshOptions&)>(nullptr);
-  app.require_subcommand(1);
-  CLI::App* tell = app.add_subcommand("info", "show the cells, sizes and groups of a mesh");
-  tell->add_option("file", options->in, "a mesh: .msh, .obj, .off or .moka")->required()->type_name("FILE");
-  tell->add_flag("--json", options->json, "print the same as one JSON object on stdout");
-  tell->callback([chosen] { *chosen = info; });
-  CLI::App* change = app.add_subcommand("convert", "convert a mesh to .moka, or to .msh 2.2");
-  change->add_option("in", options->in, "a mesh: .msh, .obj, .off or .moka")->required()->type_name("IN");
-  change->add_option("out", options->out, "the file to write, .moka or .msh: its ending tells the format")
-      ->required()
-      ->type_name("OUT");
-  change->add_flag(
+  app.require_command();
+  const CommandLine tell = app.add_command("info", "show the cells, sizes and groups of a mesh");
+  tell.add_option("file", options->in, "a mesh: .msh, .obj, .off or .moka").required().type_name("FILE");
+  tell.add_flag("--json", options->json, "print the same as one JSON object on stdout");
+  tell.on_parsed([chosen] { *chosen = info; });
+  const CommandLine change = app.add_command("convert", "convert a mesh to .moka, or to .msh 2.2");
+  change.add_option("in", options->in, "a mesh: .msh, .obj, .off or .moka").required().type_name("IN");
+  change.add_option("out", options->out, "the file to write, .moka or .msh: its ending tells the format")
+      .required()
+      .type_name("OUT");
+  change.add_flag(
       "--repair", options->repair,
       "of a sheet: merge corners at the same point, drop polygons without area and copies of others");
-  change->callback([chosen] { *chosen = convert; });
-  CLI::App* full = app.add_subcommand("fill", "fill a closed surface with tetrahedra, by the program gmsh");
-  full->add_option("file", options->in, "a closed surface: .obj, .off or .msh")->required()->type_name("FILE");
-  full->add_option("--size", options->size, "length of the edges of tetrahedra, about [m]")
-      ->required()
-      ->transform(real_number(1e-9, 1e9))
-      ->type_name("METRES");
-  full->add_option("-o,--output", options->out, "the file to write: .msh or .moka")
-      ->required()
-      ->type_name("FILE");
-  full->add_option("--max-time", options->most_seconds,
-                   "give up after so many seconds, with all that the command does")
-      ->transform(real_number(0, 1e9))
-      ->capture_default_str()
-      ->type_name("SECONDS");
-  full->callback([chosen] { *chosen = fill; });
+  change.on_parsed([chosen] { *chosen = convert; });
+  const CommandLine full =
+      app.add_command("fill", "fill a closed surface with tetrahedra, by the program gmsh");
+  full.add_option("file", options->in, "a closed surface: .obj, .off or .msh").required().type_name("FILE");
+  full.add_option("--size", options->size, "length of the edges of tetrahedra, about [m]")
+      .required()
+      .transform(real_number(1e-9, 1e9))
+      .type_name("METRES");
+  full.add_option("-o,--output", options->out, "the file to write: .msh or .moka").required().type_name("FILE");
+  full.add_option("--max-time", options->most_seconds,
+                  "give up after so many seconds, with all that the command does")
+      .transform(real_number(0, 1e9))
+      .show_default()
+      .type_name("SECONDS");
+  full.on_parsed([chosen] { *chosen = fill; });
   return [options, chosen] { return (*chosen)(*options); };
 }
 

@@ -18,7 +18,6 @@
 #include "sim/base/printable.h"
 #include "sim/base/wording.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -159,37 +158,37 @@ std::string video_formats_in_words() {
   return out;
 }
 
-std::function<Exit()> declare_render(CLI::App& app) {
+std::function<Exit()> declare_render(const CommandLine& app) {
   auto options = std::make_shared<RenderOptions>();
   add_run_options(app, options->session);
   app.add_option("-o,--output", options->folder, "folder for the pictures and the video; default: out/SCENE")
-      ->type_name("DIR");
+      .type_name("DIR");
   app.add_option("--frames", options->frames,
                  "render only these frames, such as 7, 0-100, 0-100x2 (every second), 10- (to the end), or "
                  "several separated by commas; the first and the last moment are both shown, so that 2 s at 30 "
                  "a second have frames 0 to 60")
-      ->type_name("LIST")
-      ->check(some_word());
+      .type_name("LIST")
+      .check(some_word());
   app.add_option("--size", options->size, "width and height of the pictures in pixels; default: the preset's")
-      ->type_name("WxH")
-      ->check(some_word());
+      .type_name("WxH")
+      .check(some_word());
   app.add_option("--video", options->video,
                  "also write SCENE.mp4 (or another format): " + video_formats_in_words())
-      ->type_name(choices(video_format_names()));
+      .type_name(choices(video_format_names()));
   app.add_flag("--no-png", options->no_png, "write no PNG files, only the video");
   app.add_flag("--resume", options->resume,
                "keep pictures that are complete, and go on from where an earlier run was stopped");
   app.add_option(
          "--shard", options->shard,
          "render only block I of N of the frames; default: the number of the Slurm array task, if there is one")
-      ->type_name("I/N")
-      ->check(some_word());
+      .type_name("I/N")
+      .check(some_word());
   app.add_option("--checkpoint-every", options->checkpoint_every,
                  "store the run's state for --resume every S seconds of real time; 0: only when the run is "
                  "stopped by a signal")
-      ->type_name("S")
-      ->transform(real_number(0, 1e9))
-      ->capture_default_str();
+      .type_name("S")
+      .transform(real_number(0, 1e9))
+      .show_default();
   app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
   return [options] { return render(*options); };
 }

@@ -19,7 +19,6 @@
 #include "sim/house_rules/house_scripts.h"
 #include "sim/preset/paths.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -170,53 +169,55 @@ Exit draw_rule(const RuleOptions& options) {
 using Chosen = std::shared_ptr<Exit (*)(const RuleOptions&)>;
 using Options = std::shared_ptr<RuleOptions>;
 
-CLI::App* subcommand(CLI::App& app, const char* name, const char* what, const Chosen& chosen,
-                     Exit (*run)(const RuleOptions&)) {
-  CLI::App* made = app.add_subcommand(name, what);
-  made->callback([chosen, run] { *chosen = run; });
+CommandLine subcommand(const CommandLine& app, const char* name, const char* what, const Chosen& chosen,
+                       Exit (*run)(const RuleOptions&)) {
+  const CommandLine made = app.add_command(name, what);
+  made.on_parsed([chosen, run] { *chosen = run; });
   return made;
 }
 
-void add_file(CLI::App& app, const Options& options, const char* name) {
-  app.add_option(name, options->file, "a preset, or a file of rules")->type_name("FILE");
+void add_file(const CommandLine& app, const Options& options, const char* name) {
+  app.add_option(name, options->file, "a preset, or a file of rules").type_name("FILE");
   app.add_flag("--allow-path", options->allow_path, "allow the preset to name files outside of its folder");
 }
 
-void add_rule(CLI::App& app, const Options& options) {
+void add_rule(const CommandLine& app, const Options& options) {
   app.add_option("name", options->name, "a rule or script, as rend rule list names them")
-      ->required()
-      ->type_name("NAME");
+      .required()
+      .type_name("NAME");
   add_file(app, options, "--in");
 }
 
-std::function<Exit()> declare_rule(CLI::App& app) {
+std::function<Exit()> declare_rule(const CommandLine& app) {
   auto options = std::make_shared<RuleOptions>();
   auto chosen = std::make_shared<Exit (*)(const RuleOptions&)>(nullptr);
-  app.require_subcommand(1);
+  app.require_command();
   app.footer("rend help rule tells how rules are written.");
-  const auto json = [&](CLI::App* to, const char* what) { to->add_flag("--json", options->json, what); };
-  CLI::App* listing =
+  const auto json = [&](const CommandLine& to, const char* what) {
+    to.add_flag("--json", options->json, what);
+  };
+  const CommandLine listing =
       subcommand(app, "list", "list the built-in rules and scripts, and those of a file", chosen, list);
-  add_file(*listing, options, "file");
+  add_file(listing, options, "file");
   json(listing, "print the same as a JSON array on stdout");
-  CLI::App* showing =
+  const CommandLine showing =
       subcommand(app, "show", "show the text of one rule or script, and what it does", chosen, show_rule);
-  add_rule(*showing, options);
+  add_rule(showing, options);
   json(showing, "print the same as one JSON object on stdout");
-  CLI::App* checking = subcommand(
+  const CommandLine checking = subcommand(
       app, "check",
       "check that all rules and scripts of a file are well formed; without a file, the built-in ones", chosen,
       check);
-  add_file(*checking, options, "file");
-  CLI::App* drawing = subcommand(
+  add_file(checking, options, "file");
+  const CommandLine drawing = subcommand(
       app, "draw", "draw the two graphs of a rule, or the steps of a script, and a small map before and after",
       chosen, draw_rule);
-  add_rule(*drawing, options);
-  drawing->add_option("-o,--output", options->out, "the picture")->required()->type_name("FILE.svg|FILE.png");
+  add_rule(drawing, options);
+  drawing.add_option("-o,--output", options->out, "the picture").required().type_name("FILE.svg|FILE.png");
   std::vector<std::string> samples;
   for (const SampleMap& each : sample_maps()) samples.push_back(each.name);
-  drawing->add_option("--on", options->on, "the map: " + listed(samples) + "; default: the first one that fits")
-      ->type_name("MAP");
+  drawing.add_option("--on", options->on, "the map: " + listed(samples) + "; default: the first one that fits")
+      .type_name("MAP");
   return [options, chosen] { return (*chosen)(*options); };
 }
 

@@ -14,7 +14,6 @@
 #include "render/help/usage.h"
 #include "sim/base/profile.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -136,7 +135,7 @@ std::string export_formats_in_words() {
   return out;
 }
 
-std::function<Exit()> declare_run(CLI::App& app) {
+std::function<Exit()> declare_run(const CommandLine& app) {
   auto options = std::make_shared<RunOptions>();
   add_run_options(app, options->session);
   app.add_flag("--json", options->json, "print the results as one JSON object on stdout");
@@ -146,27 +145,27 @@ std::function<Exit()> declare_run(CLI::App& app) {
       "choose a threshold by");
   app.add_option("--reach-every", options->session.reach_every,
                  "with --reach: look at every Nth step only, which is quicker; values may come out too low")
-      ->type_name("N")
-      ->capture_default_str()
-      ->transform(whole_number(1, 1000000));
+      .type_name("N")
+      .show_default()
+      .transform(whole_number(1, 1000000));
   app.add_flag("--profile", options->session.profile,
                "also print where the time and the memory traffic went, by stage and by interaction");
   app.add_option("--diagnostics", options->diagnostics,
                  "also write energies, momenta and counts at every frame to this file, as CSV")
-      ->type_name("FILE");
+      .type_name("FILE");
   app.add_option("--events", options->events, "also write every tear to this file, one JSON object a line")
-      ->type_name("FILE");
+      .type_name("FILE");
   app.add_option("--export", options->format,
                  "also write the state at every frame to a file for other programs: " +
                      export_formats_in_words())
-      ->type_name(choices(export_format_names()));
+      .type_name(choices(export_format_names()));
   app.add_option("-o,--output", options->folder, "folder for the exported files; default: out/SCENE")
-      ->type_name("DIR");
+      .type_name("DIR");
   app.add_option("--frames", options->frames,
                  "export only these frames, such as 7, 0-100, 0-100x2 (every second), 10- (to the end), or "
                  "several separated by commas")
-      ->type_name("LIST")
-      ->check(some_word());
+      .type_name("LIST")
+      .check(some_word());
   return [options] { return run(*options); };
 }
 

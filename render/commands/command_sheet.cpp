@@ -18,7 +18,6 @@
 #include "sim/base/wording.h"
 #include "sim/preset/override.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -201,39 +200,38 @@ Exit make_sheet(const SheetOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare_sheet(CLI::App& app) {
+std::function<Exit()> declare_sheet(const CommandLine& app) {
   auto options = std::make_shared<SheetOptions>();
   app.add_option("presets", options->presets,
                  "presets; each makes one row of pictures (with --ends, one picture)")
-      ->required()
-      ->type_name("PRESET...");
+      .required()
+      .type_name("PRESET...");
   app.add_option("-o,--output", options->file, "file of the contact sheet (a file, not a folder)")
-      ->required()
-      ->type_name("FILE.png");
+      .required()
+      .type_name("FILE.png");
   app.add_option("--size", options->size, "width and height of each picture in pixels")
-      ->type_name("WxH")
-      ->check(some_word())
-      ->default_val("480x270");
+      .type_name("WxH")
+      .check(some_word())
+      .default_word("480x270");
   app.add_option("--ends", options->ends, "show only the end of each preset, N pictures in a row")
-      ->type_name("N")
-      ->transform(whole_number(1, 64));
+      .type_name("N")
+      .transform(whole_number(1, 64));
   app.add_option(
          "--set", options->sets,
          "replace an attribute of each preset, such as time.step=1e-4 (can be repeated); several values "
          "separated by commas make one row each, unless the attribute is free text; their middle pictures are "
-         "at "
-         "one time, when the row that tears first has just torn")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+         "at one time, when the row that tears first has just torn")
+      .type_name("PATH=VALUE")
+      .allow_extra_args(false);
   app.add_option(
          "--sweep", options->sweeps,
          "make one row (with --ends, one picture) for each of these values of an attribute, free text "
          "included; 1:10:2 is the range from 1 to 10 in steps of 2; several sweeps make all combinations")
-      ->type_name("PATH=V,V,...")
-      ->allow_extra_args(false);
+      .type_name("PATH=V,V,...")
+      .allow_extra_args(false);
   app.add_option("--threads", options->session.threads, "number of threads; default: all that the machine has")
-      ->type_name("N")
-      ->transform(whole_number(1, 256));
+      .type_name("N")
+      .transform(whole_number(1, 256));
   app.add_flag("-q,--quiet", options->session.quiet, "print no progress and no notes");
   return [options] { return make_sheet(*options); };
 }

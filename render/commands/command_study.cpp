@@ -15,7 +15,6 @@
 #include "sim/base/printable.h"
 #include "sim/preset/paths.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -195,7 +194,7 @@ Exit study(const StudyOptions& options) {
   return Exit::Done;
 }
 
-std::function<Exit()> declare_study(CLI::App& app) {
+std::function<Exit()> declare_study(const CommandLine& app) {
   auto options = std::make_shared<StudyOptions>();
   declare_study(app, *options);
   return [options] { return study(*options); };

@@ -12,7 +12,6 @@
 #include "sim/base/wording.h"
 #include "sim/mesh/mesh_name.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +19,6 @@
 #include <filesystem>
 #include <memory>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 
 namespace rend {
@@ -34,35 +32,19 @@ const std::vector<Command>& all_commands() {
 
 namespace {
 
-// Pages of help as rend writes them, in place of CLI11's.
-class Pages : public CLI::Formatter {
-public:
-  std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
-    std::string name = app->get_name();
-    for (const CLI::App* at = app->get_parent(); at != nullptr; at = at->get_parent())
-      name = at->get_name() + " " + name;
-    CommandUsage usage = usage_of(*app);
-    usage.footer = app->get_footer();
-    return command_page(usage, name, text_columns(stdout, page_columns));
-  }
-};
+std::string page_of(const CommandUsage& usage, const std::string& name) {
+  return command_page(usage, name, text_columns(stdout, page_columns));
+}
 
-std::unique_ptr<CLI::App> make_app(std::function<Exit()>& chosen) {
-  auto app = std::make_unique<CLI::App>(
-      "rend: simulates things that tear and break, and makes pictures of them.", "rend");
-  app->set_version_flag("--version", version_in_words,
-                        "print the version, the commit and the versions of libraries");
-  app->set_help_flag("-h,--help", "print this help");
-  app->require_subcommand(1);
-  app->footer(
+void declare_commands(const CommandLine& root, std::function<Exit()>& chosen) {
+  root.require_command();
+  root.footer(
       "rend COMMAND --help lists the options of a command. rend help preset explains what a preset may hold, "
       "rend help tolerances what rend diff may allow. Results go to stdout, progress and notes to stderr.");
-  app->formatter(std::make_shared<Pages>());
   for (const Command& command : all_commands()) {
-    CLI::App* sub = app->add_subcommand(command.name, command.what);
-    sub->callback([&chosen, run = command.declare(*sub)] { chosen = run; });
+    const CommandLine line = root.add_command(command.name, command.what);
+    line.on_parsed([&chosen, run = command.declare(line)] { chosen = run; });
   }
-  return app;
 }
 
 // Reports a missing or unknown command in plainer words than CLI11.
@@ -83,17 +65,18 @@ void check_command(int count, const char* const* arguments) {
 }
 
 // Options and words that the command does not take, as they were typed.
-[[noreturn]] void refuse_extras(const CLI::App& app, const CLI::App& command, const std::string& which,
-                                int count, const char* const* arguments) {
-  std::vector<std::string> left = app.remaining(true), options, words, known;
+[[noreturn]] void refuse_extras(const Refusal& refusal, int count, const char* const* arguments) {
+  const std::string& which = refusal.which;
+  std::vector<std::string> left = refusal.words, options, words, known;
   for (int n = 1; n < count; ++n) {
     const auto found = std::find(left.begin(), left.end(), arguments[n]);
     if (found == left.end()) continue;
     (found->size() > 1 && found->front() == '-' ? options : words).push_back(*found);
     left.erase(found);
   }
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (const OptionUsage& option : refusal.command.options)
+    for (const std::string& name : option.names)
+      if (name.starts_with("--")) known.push_back(name);
   const std::string all = which + " --help lists what it takes";
   if (options.empty())
     throw UserError(Exit::Usage, {},
@@ -111,11 +94,11 @@ void check_command(int count, const char* const* arguments) {
 }
 
 // A command of commands (mesh, rule) without one of them, or with a word that names none.
-[[noreturn]] void refuse_subcommand(const CLI::App& command, const std::string& which) {
+[[noreturn]] void refuse_subcommand(const Refusal& refusal) {
+  const std::string& which = refusal.which;
   std::vector<std::string> names;
-  for (const CLI::App* one : command.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(one->get_name());
-  for (const std::string& word : command.remaining(true))
+  for (const CommandUsage& one : refusal.command.commands) names.push_back(one.name);
+  for (const std::string& word : refusal.words)
     if (!word.starts_with('-'))
       throw UserError(Exit::Usage, {}, fmt::format("{} has no command {}", which, in_quotes(word)),
                       suggestion(word, names, "there are"));
@@ -123,31 +106,21 @@ void check_command(int count, const char* const* arguments) {
                   which + " --help tells what each does");
 }
 
-// The command that was parsed, and what it is called with its parents.
-const CLI::App* parsed_command(const CLI::App& app, std::string& which) {
-  const CLI::App* at = &app;
-  which = "rend";
-  while (!at->get_subcommands().empty()) {
-    at = at->get_subcommands().front();
-    which += " " + at->get_name();
-  }
-  return at;
-}
-
 // As the command's usage calls it: PRESET rather than preset.
-std::string name_of_argument(const std::string& name, const CLI::App& command) {
-  const CLI::Option* option = command.get_option_no_throw(name);
-  return option && option->get_positional() ? option->get_type_name() : name;
+std::string name_of_argument(const std::string& name, const CommandUsage& command) {
+  for (const OptionUsage& argument : command.positionals)
+    if (argument.names.front() == name) return argument.value;
+  return name;
 }
 
 // CLI11 puts the name of the type behind that of an option, and does not say what is wrong with it.
-std::string in_plain_words(const CLI::ParseError& error, const CLI::App& command) {
-  std::string what = error.what();
-  if (dynamic_cast<const CLI::RequiredError*>(&error)) {
+std::string in_plain_words(const Refusal& refusal) {
+  const std::string& what = refusal.what;
+  if (refusal.kind == Refusal::Kind::ArgumentMissing) {
     const std::size_t at = what.find(" is required");
-    if (at != std::string::npos) return name_of_argument(what.substr(0, at), command) + " is missing";
+    if (at != std::string::npos) return name_of_argument(what.substr(0, at), refusal.command) + " is missing";
   }
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && what.ends_with(" missing"))
+  if (refusal.kind == Refusal::Kind::ValueMissing && what.ends_with(" missing"))
     return what.substr(0, what.find(':')) + " needs a value";
   if (const std::size_t at = what.find(" not in {"); at != std::string::npos && what.ends_with('}')) {
     std::string choices;
@@ -161,27 +134,23 @@ std::string in_plain_words(const CLI::ParseError& error, const CLI::App& command
 Exit run_command_line(int count, const char* const* arguments) {
   simd_width(); // refuses a wrong REND_SIMD before anything is done
   std::function<Exit()> chosen;
-  const std::unique_ptr<CLI::App> app = make_app(chosen);
+  const ProgramLine line("rend", "rend: simulates things that tear and break, and makes pictures of them.",
+                         version_in_words, page_of);
+  declare_commands(line.root(), chosen);
   if (count < 2) {
-    print_progress(short_help(usage_of(*app), text_columns(stderr, page_columns)));
+    print_progress(short_help(line.root().usage(), text_columns(stderr, page_columns)));
     return Exit::Usage;
   }
   check_command(count, arguments);
   try {
-    app->parse(count, arguments);
-  } catch (const CLI::ParseError& error) {
-    std::ostringstream out, err;
-    if (app->exit(error, out, err) == 0) { // --help, --version
-      print_result(out.str());
+    if (const std::string text = line.parse(count, arguments); !text.empty()) { // --help, --version
+      print_result(text);
       return Exit::Done;
     }
-    std::string which;
-    const CLI::App* command = parsed_command(*app, which);
-    if (dynamic_cast<const CLI::ExtrasError*>(&error)) refuse_extras(*app, *command, which, count, arguments);
-    if (dynamic_cast<const CLI::RequiredError*>(&error) &&
-        std::string(error.what()).starts_with("A subcommand"))
-      refuse_subcommand(*command, which);
-    throw UserError(Exit::Usage, {}, in_plain_words(error, *command), which + " --help lists what it takes");
+  } catch (const Refusal& refusal) {
+    if (refusal.kind == Refusal::Kind::UnknownWords) refuse_extras(refusal, count, arguments);
+    if (refusal.kind == Refusal::Kind::CommandMissing) refuse_subcommand(refusal);
+    throw UserError(Exit::Usage, {}, in_plain_words(refusal), refusal.which + " --help lists what it takes");
   }
   return chosen();
 }

@@ -2,7 +2,6 @@
 
 #include "sim/base/wording.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -23,7 +22,7 @@ template <class T> std::optional<T> number_in(std::string_view text) {
 }
 
 // Rewrites the text in a form that can be read in one way only.
-template <class T> CLI::Validator number_between(T low, T high, const char* kind, const char* what) {
+template <class T> WordCheck number_between(T low, T high, const char* kind, const char* what) {
   const auto read = [=](std::string& text) -> std::string {
     const std::optional<T> value = number_in<T>(text);
     if (!value || !(*value >= low && *value <= high)) // also refuses nan
@@ -36,15 +35,15 @@ template <class T> CLI::Validator number_between(T low, T high, const char* kind
 
 } // namespace
 
-CLI::Validator whole_number(long low, long high) {
+WordCheck whole_number(long low, long high) {
   return number_between(low, high, "INT", "whole number");
 }
 
-CLI::Validator real_number(double low, double high) {
+WordCheck real_number(double low, double high) {
   return number_between(low, high, "FLOAT", "number");
 }
 
-CLI::Validator some_word() {
+WordCheck some_word() {
   return {[](std::string& text) { return std::string(text.empty() ? "the value is empty" : ""); }, ""};
 }
 

@@ -2,28 +2,12 @@
 
 #include "sim/base/parameters.h"
 
-#include <CLI/CLI.hpp>
-
 #include <functional>
 #include <map>
 #include <set>
 
 namespace rend {
 namespace {
-
-OptionUsage option_usage(const CLI::Option& option) {
-  OptionUsage out;
-  for (const std::string& name : option.get_snames()) out.names.emplace_back("-" + name);
-  for (const std::string& name : option.get_lnames()) out.names.emplace_back("--" + name);
-  if (out.names.empty()) out.names.push_back(option.get_name(true));
-  const std::string type = option.get_type_name(); // "N:INT in [1 - 256]" for a validated number
-  if (option.get_items_expected_max() > 0) out.value = type.substr(0, type.find(':'));
-  out.what = option.get_description();
-  out.fallback = option.get_default_str();
-  out.required = option.get_required() || option.get_group() == required_by_command;
-  out.repeated = option.get_expected_max() > 1;
-  return out;
-}
 
 // Visits every element at each of its positions, with its path without the root's name.
 void visit(const ElementType& type, const std::string& path,
@@ -34,16 +18,6 @@ void visit(const ElementType& type, const std::string& path,
 }
 
 } // namespace
-
-CommandUsage usage_of(const CLI::App& app) {
-  CommandUsage out{app.get_name(), app.get_description(), app.get_footer(), {}, {}, {}};
-  if (app.get_parent() != nullptr && app.get_parent()->get_footer() == out.footer) out.footer.clear();
-  for (const CLI::Option* option : app.get_options())
-    (option->get_positional() ? out.positionals : out.options).push_back(option_usage(*option));
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    out.commands.push_back(usage_of(*command));
-  return out;
-}
 
 std::string choices(const std::vector<std::string>& names) {
   std::string out;

@@ -5,7 +5,6 @@
 #include "sim/build/build_scene.h"
 #include "sim/preset/paths.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -159,35 +158,35 @@ std::shared_ptr<Scene> build(const Source& source, const Variant& variant) {
 
 } // namespace
 
-void declare_study(CLI::App& app, StudyOptions& options) {
+void declare_study(const CommandLine& app, StudyOptions& options) {
   add_preset_options(app, options.session);
-  app.get_option("preset")->required(false); // --lean has built-in scenes
-  app.add_option("further", options.further, "more presets; only with --lean")->type_name("PRESET...");
+  app.option("preset").required(false); // --lean has built-in scenes
+  app.add_option("further", options.further, "more presets; only with --lean").type_name("PRESET...");
   app.add_option("-o,--output", options.folder, "folder for page, plots and tables; default: out/SCENE-study")
-      ->type_name("DIR");
+      .type_name("DIR");
   app.add_option("--integrators", options.integrators,
                  "time schemes to compare, separated by commas; default: all but static")
-      ->type_name(choices(schemes_that_move()) + ",...");
+      .type_name(choices(schemes_that_move()) + ",...");
   app.add_option(
          "--steps", options.steps,
          "number of time steps to try for each scheme, from its largest stable one down to a hundredth of it")
-      ->type_name("N")
-      ->capture_default_str()
-      ->transform(whole_number(3, 64));
+      .type_name("N")
+      .show_default()
+      .transform(whole_number(3, 64));
   app.add_option("--duration", options.duration,
                  "how much of the clip is simulated; default: chosen for the scene, about 0.2 s")
-      ->type_name("SECONDS")
-      ->transform(real_number(1e-12, 1e9));
+      .type_name("SECONDS")
+      .transform(real_number(1e-12, 1e9));
   app.add_option("--refine", options.refine, "also study finer sheets, bars and tubes; factors such as 1,2,4")
-      ->type_name("a,b,c")
-      ->check(some_word());
+      .type_name("a,b,c")
+      .check(some_word());
   app.add_option("--sweep", options.sweeps, "also study these values of an attribute (can be repeated)")
-      ->type_name("PATH=a,b,c")
-      ->allow_extra_args(false);
+      .type_name("PATH=a,b,c")
+      .allow_extra_args(false);
   app.add_option("--reruns", options.reruns, "timed runs of each case; fewer if one takes over a second")
-      ->type_name("N")
-      ->capture_default_str()
-      ->transform(whole_number(1, 1000));
+      .type_name("N")
+      .show_default()
+      .transform(whole_number(1, 1000));
   app.add_flag("--quick", options.quick, "quicker and less exact: four steps of each scheme, three timed runs");
   app.add_flag("--lean", options.lean,
                "instead of schemes, measure what each feature of rend costs in time, bytes and pixels, on "

@@ -19,7 +19,7 @@ struct StudyOptions {
   bool lean = false;                // measure the cost of features instead of errors
   std::vector<std::string> further; // more presets, for `lean`
 };
-void declare_study(CLI::App& app, StudyOptions& options);
+void declare_study(const CommandLine& app, StudyOptions& options);
 
 struct StudyTask {
   std::string name; // of the scene
