@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const Vec3& v) {
+Json coordinates_of(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
@@ -40,7 +40,7 @@ Json obstacles_of(const World& world, const PictureSettings& picture) {
   for (std::size_t n = 0; n < world.boxes.size(); ++n)
     all.push_back({{"name", fmt::format("box {}", n + 1)},
                    {"kind", "box"},
-                   {"size", json_of(world.boxes[n].high - world.boxes[n].low)},
+                   {"size", coordinates_of(world.boxes[n].high - world.boxes[n].low)},
                    {"colour", text_of(look_at(picture.boxes, n).colour)}});
   return all;
 }
@@ -49,7 +49,7 @@ Json json_of(const Pose& pose, const Vec3& middle) {
   Json turn = Json::array();
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) turn.push_back(pose.turn(row, column));
-  return {{"middle", json_of(pose.of(middle))}, {"turn", std::move(turn)}};
+  return {{"middle", coordinates_of(pose.of(middle))}, {"turn", std::move(turn)}};
 }
 
 Json poses_of(const World& world, double time) {
@@ -91,11 +91,11 @@ Json SceneFile::frame(long frame, const std::string& file) const {
           {"file", file},
           {"time", scene.time()},
           {"camera",
-           {{"eye", json_of(camera.eye)},
-            {"target", json_of(camera.target)},
-            {"up", json_of(camera.up)},
+           {{"eye", coordinates_of(camera.eye)},
+            {"target", coordinates_of(camera.target)},
+            {"up", coordinates_of(camera.up)},
             {"fov", camera.fov}}},
-          {"light", json_of(lights_of(shown).key)},
+          {"light", coordinates_of(lights_of(shown).key)},
           {"obstacles", poses_of(scene.world(), scene.time())}};
 }
 

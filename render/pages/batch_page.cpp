@@ -71,7 +71,7 @@ Tone tone_of(BatchState state) {
 }
 
 // As JSON has it; nothing where no figures were printed, a dash where they do not know this one.
-Cell number_cell(const BatchResult& result, const std::optional<std::size_t>& number) {
+TableCell number_cell(const BatchResult& result, const std::optional<std::size_t>& number) {
   if (!result.figures) return {escaped("")};
   return {escaped(number ? std::to_string(*number) : "–")};
 }
@@ -93,10 +93,10 @@ Html name_of_job(const BatchReport& report, const BatchJob& job) {
   return name + Html{"<br>"} + muted(job.preset);
 }
 
-std::vector<Column> columns_of(const BatchReport& report) {
-  std::vector<Column> columns{{"job"}, {"state"}};
+std::vector<TableColumn> columns_of(const BatchReport& report) {
+  std::vector<TableColumn> columns{{"job"}, {"state"}};
   if (report.runs) {
-    const std::vector<Column> figures = run_columns(report);
+    const std::vector<TableColumn> figures = run_columns(report);
     columns.insert(columns.end(), figures.begin(), figures.end());
   } else {
     columns.insert(columns.begin(), {""});
@@ -106,7 +106,7 @@ std::vector<Column> columns_of(const BatchReport& report) {
   return columns;
 }
 
-std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
+std::vector<TableCell> row_of(const BatchReport& report, std::size_t n) {
   const BatchJob& job = report.jobs[n];
   const BatchResult& result = report.results[n];
   const PrintedFigures figures = result.figures.value_or(PrintedFigures{});
@@ -114,9 +114,9 @@ std::vector<Cell> row_of(const BatchReport& report, std::size_t n) {
   if (!result.message.empty()) words += paragraph(escaped(result.message));
   if (!result.log.empty())
     words += details(escaped("log"), escaped_lines(last_lines(result.log)), Details::Closed);
-  std::vector<Cell> row{{words, job.name}, {badge(tone_of(result.state()), name_of(result.state()))}};
+  std::vector<TableCell> row{{words, job.name}, {badge(tone_of(result.state()), name_of(result.state()))}};
   if (report.runs) {
-    const std::vector<Cell> cells = run_cells(report, n);
+    const std::vector<TableCell> cells = run_cells(report, n);
     row.insert(row.end(), cells.begin(), cells.end());
   } else {
     row.insert(row.begin(), {thumbnail(report.folder / job.name, job.name), job.name});

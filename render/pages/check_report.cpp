@@ -117,15 +117,16 @@ private:
   static std::string mark(const CheckCase& which) { return file_name(which.name); }
   Html matrix(const CheckChapter& chapter) const;
   Html cases(const CheckChapter& chapter) const;
-  std::vector<html::Cell> row(const CheckChapter& chapter, std::size_t n, const std::string& name) const;
+  std::vector<html::TableCell> row(const CheckChapter& chapter, std::size_t n, const std::string& name) const;
 
   const std::vector<CheckChapter>& chapters_;
 };
 
-const std::vector<html::Column> case_columns{
+const std::vector<html::TableColumn> case_columns{
     {"case"}, {"verdict"}, {"expected"}, {"what happened"}, number_column("s")};
 
-std::vector<html::Cell> Report::row(const CheckChapter& chapter, std::size_t n, const std::string& name) const {
+std::vector<html::TableCell> Report::row(const CheckChapter& chapter, std::size_t n,
+                                         const std::string& name) const {
   const CheckCase& which = chapter.cases[n];
   const CheckResult& result = chapter.results[n];
   const Html title = link(fmt::format("cases/{}.xml", file_name(which.name)), name);
@@ -146,7 +147,7 @@ Html Report::contents() const {
                       number_column("s")},
           .rows = {}};
   const auto number = [](std::size_t n) {
-    return html::Cell{n == 0 ? muted("-") : escaped(std::to_string(n)), {}};
+    return html::TableCell{n == 0 ? muted("-") : escaped(std::to_string(n)), {}};
   };
   for (const CheckChapter& chapter : chapters_) {
     const CheckCounts counts = count({chapter});
@@ -217,7 +218,7 @@ Html Report::matrix(const CheckChapter& chapter) const {
   Table t{.columns = {{""}}, .rows = {}};
   for (const std::string& name : across) t.columns.push_back({name});
   for (const std::string& name : down) {
-    std::vector<html::Cell> row{{escaped(name), {}}};
+    std::vector<html::TableCell> row{{escaped(name), {}}};
     for (const std::string& other : across) {
       Html cell;
       for (const std::size_t n : at[{name, other}]) {

@@ -52,23 +52,23 @@ std::string_view view(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-html::Cell figure_cell(double value, int digits = 3) {
+html::TableCell figure_cell(double value, int digits = 3) {
   return {escaped(in_digits(value, digits)), fmt::format("{}", value)};
 }
 
-const std::vector<html::Column> picture_columns{{"picture"},
-                                                {"state"},
-                                                number_column("max"),
-                                                number_column("mean"),
-                                                number_column("RMSE"),
-                                                number_column("PSNR"),
-                                                number_column("SSIM"),
-                                                number_column("FLIP"),
-                                                number_column("share"),
-                                                number_column("window")};
+const std::vector<html::TableColumn> picture_columns{{"picture"},
+                                                     {"state"},
+                                                     number_column("max"),
+                                                     number_column("mean"),
+                                                     number_column("RMSE"),
+                                                     number_column("PSNR"),
+                                                     number_column("SSIM"),
+                                                     number_column("FLIP"),
+                                                     number_column("share"),
+                                                     number_column("window")};
 
-std::vector<html::Cell> row_of(const CaseResult& one, const Html& name, const Html& state) {
-  std::vector<html::Cell> row{{name, one.paths.name}, {state, {}}};
+std::vector<html::TableCell> row_of(const CaseResult& one, const Html& name, const Html& state) {
+  std::vector<html::TableCell> row{{name, one.paths.name}, {state, {}}};
   if (!one.metrics) {
     for (std::size_t n = row.size(); n < picture_columns.size(); ++n) row.push_back({muted("-"), {}});
     return row;

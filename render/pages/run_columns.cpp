@@ -59,7 +59,7 @@ std::vector<std::string> swept_paths(const BatchReport& report) {
   return paths;
 }
 
-Cell cell_of(const Json& value) {
+TableCell cell_of(const Json& value) {
   if (value.is_number_integer()) return {escaped(value.dump()), value.dump()};
   if (value.is_number()) return {escaped(in_digits(value.get<double>(), 4)), value.dump()};
   return {escaped(value.is_string() ? value.get<std::string>() : "–")};
@@ -75,15 +75,15 @@ Json value_of(const Figure& figure, const Json& figures) {
 
 } // namespace
 
-std::vector<Column> run_columns(const BatchReport& report) {
-  std::vector<Column> columns;
+std::vector<TableColumn> run_columns(const BatchReport& report) {
+  std::vector<TableColumn> columns;
   for (const std::string& path : swept_paths(report)) columns.push_back(number_column(path));
   for (const Figure& figure : shown_figures()) columns.push_back(number_column(figure.name));
   return columns;
 }
 
-std::vector<Cell> run_cells(const BatchReport& report, std::size_t job) {
-  std::vector<Cell> cells;
+std::vector<TableCell> run_cells(const BatchReport& report, std::size_t job) {
+  std::vector<TableCell> cells;
   for (const std::string& path : swept_paths(report)) {
     const std::vector<std::string>& sets = report.jobs[job].sets;
     const auto set = std::find_if(sets.begin(), sets.end(),

@@ -7,8 +7,8 @@
 
 namespace rend {
 
-std::vector<html::Column> run_columns(const BatchReport& report);
-std::vector<html::Cell> run_cells(const BatchReport& report,
-                                  std::size_t job); // one per column; a dash: unknown
+std::vector<html::TableColumn> run_columns(const BatchReport& report);
+std::vector<html::TableCell> run_cells(const BatchReport& report,
+                                       std::size_t job); // one per column; a dash: unknown
 
 } // namespace rend

@@ -10,16 +10,15 @@ namespace rend {
 namespace {
 
 using namespace html;
-using html::Cell, html::Column, html::Table; // sim/embedding has a Column, too
 
-Cell text_cell(const std::string& text) {
+TableCell text_cell(const std::string& text) {
   return {escaped(text)};
 }
-Cell number_cell(double value, int digits = 3) {
+TableCell number_cell(double value, int digits = 3) {
   return {escaped(in_digits(value, digits)), fmt::format("{:.17g}", value)};
 }
-Cell number_cell(const std::optional<double>& value, int digits = 3) {
-  return value ? number_cell(*value, digits) : Cell{muted("–"), "inf"};
+TableCell number_cell(const std::optional<double>& value, int digits = 3) {
+  return value ? number_cell(*value, digits) : TableCell{muted("–"), "inf"};
 }
 
 std::string seconds_text(double seconds) {
@@ -27,7 +26,7 @@ std::string seconds_text(double seconds) {
   if (seconds < 1) return fmt::format("{:.3g} ms", 1e3 * seconds);
   return fmt::format("{:.3g} s", seconds);
 }
-Cell seconds_cell(double seconds) {
+TableCell seconds_cell(double seconds) {
   return {escaped(seconds_text(seconds)), fmt::format("{:.17g}", seconds)};
 }
 
@@ -40,13 +39,13 @@ bool many(const StudyReport& report) {
 }
 
 // Prepends a cell with the group's name if there are several groups.
-std::vector<Cell> begin_row(const StudyReport& report, std::size_t group) {
-  std::vector<Cell> row;
+std::vector<TableCell> begin_row(const StudyReport& report, std::size_t group) {
+  std::vector<TableCell> row;
   if (many(report)) row.push_back(text_cell(group_name(report, group)));
   return row;
 }
-std::vector<Column> begin_columns(const StudyReport& report) {
-  return many(report) ? std::vector<Column>{{"group"}} : std::vector<Column>{};
+std::vector<TableColumn> begin_columns(const StudyReport& report) {
+  return many(report) ? std::vector<TableColumn>{{"group"}} : std::vector<TableColumn>{};
 }
 
 Html reach_table(const StudyReport& report) {
@@ -82,13 +81,13 @@ Html reach_table(const StudyReport& report) {
 Html order_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
-  for (Column column : std::vector<Column>{{"scheme"},
-                                           number_column("theory"),
-                                           number_column("observed"),
-                                           number_column("95 % interval"),
-                                           number_column("points"),
-                                           {"steps"},
-                                           {""}})
+  for (TableColumn column : std::vector<TableColumn>{{"scheme"},
+                                                     number_column("theory"),
+                                                     number_column("observed"),
+                                                     number_column("95 % interval"),
+                                                     number_column("points"),
+                                                     {"steps"},
+                                                     {""}})
     table.columns.push_back(column);
   for (const StudyCurve& curve : report.curves) {
     auto row = begin_row(report, curve.group);
@@ -119,16 +118,16 @@ Html order_table(const StudyReport& report) {
 Html reference_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
-  for (Column column : std::vector<Column>{{"reference"},
-                                           {"second scheme"},
-                                           number_column("error bar"),
-                                           number_column("smallest error"),
-                                           {""},
-                                           number_column("motion [m]"),
-                                           number_column("speed [m/s]"),
-                                           number_column("energy [J]"),
-                                           number_column("vertices"),
-                                           number_column("elements")})
+  for (TableColumn column : std::vector<TableColumn>{{"reference"},
+                                                     {"second scheme"},
+                                                     number_column("error bar"),
+                                                     number_column("smallest error"),
+                                                     {""},
+                                                     number_column("motion [m]"),
+                                                     number_column("speed [m/s]"),
+                                                     number_column("energy [J]"),
+                                                     number_column("vertices"),
+                                                     number_column("elements")})
     table.columns.push_back(column);
   for (std::size_t g = 0; g < report.groups.size(); ++g) {
     const StudyReference& r = report.references[g];
@@ -156,22 +155,22 @@ std::string how_it_failed(const StudyRow& row) {
 Html row_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
-  for (Column column : std::vector<Column>{{"scheme"},
-                                           number_column("step [s]"),
-                                           number_column("steps"),
-                                           number_column("error"),
-                                           number_column("final"),
-                                           number_column("largest [m]"),
-                                           number_column("velocity"),
-                                           number_column("energy"),
-                                           number_column("run time"),
-                                           number_column("fastest"),
-                                           number_column("slowest"),
-                                           number_column("runs"),
-                                           number_column("forces"),
-                                           number_column("Newton"),
-                                           number_column("CG"),
-                                           number_column("factors")})
+  for (TableColumn column : std::vector<TableColumn>{{"scheme"},
+                                                     number_column("step [s]"),
+                                                     number_column("steps"),
+                                                     number_column("error"),
+                                                     number_column("final"),
+                                                     number_column("largest [m]"),
+                                                     number_column("velocity"),
+                                                     number_column("energy"),
+                                                     number_column("run time"),
+                                                     number_column("fastest"),
+                                                     number_column("slowest"),
+                                                     number_column("runs"),
+                                                     number_column("forces"),
+                                                     number_column("Newton"),
+                                                     number_column("CG"),
+                                                     number_column("factors")})
     table.columns.push_back(column);
   if (report.isolated) table.columns.push_back(number_column("momentum [kg m/s]"));
   if (report.tears)
@@ -186,7 +185,7 @@ Html row_table(const StudyReport& report) {
     row.push_back(number_cell(static_cast<double>(r.steps), 9));
     const bool done = !r.failed() && r.errors;
     const auto value = [&](double v, int digits = 3) {
-      return done ? number_cell(v, digits) : Cell{muted("–"), "inf"};
+      return done ? number_cell(v, digits) : TableCell{muted("–"), "inf"};
     };
     row.push_back(value(r.error));
     row.push_back(value(done ? r.errors->position.final / report.references[r.group].scales.length : 0));
@@ -197,7 +196,7 @@ Html row_table(const StudyReport& report) {
     row.push_back(number_cell(r.time.runs));
     for (long count : {r.counts.evaluations, r.counts.newton, r.counts.cg, r.counts.factorisations})
       row.push_back(number_cell(static_cast<double>(count), 9));
-    if (report.isolated) row.push_back(done ? number_cell(r.errors->momentum) : Cell{muted("–"), "inf"});
+    if (report.isolated) row.push_back(done ? number_cell(r.errors->momentum) : TableCell{muted("–"), "inf"});
     if (report.tears) {
       row.push_back(number_cell(r.first_tear, 6));
       row.push_back(number_cell(static_cast<double>(r.tears), 9));
@@ -217,8 +216,8 @@ Html row_table(const StudyReport& report) {
 Html answer_table(const StudyReport& report) {
   Table table;
   table.columns = begin_columns(report);
-  for (Column column :
-       std::vector<Column>{{"scheme"}, number_column("step [s]"), {"answer"}, number_column("error")})
+  for (TableColumn column :
+       std::vector<TableColumn>{{"scheme"}, number_column("step [s]"), {"answer"}, number_column("error")})
     table.columns.push_back(column);
   table.sortable = true;
   for (const StudyRow& r : report.rows) {

@@ -49,21 +49,21 @@ Html preformatted(std::string_view text); // a preset, a command
 enum class Details { Closed, Open };      // at first
 Html details(const Html& summary, const Html& body, Details at_first = Details::Closed);
 
-struct Column {
+struct TableColumn {
   std::string name;
   bool number = false; // right-aligned
 };
-inline Column number_column(std::string name) {
+inline TableColumn number_column(std::string name) {
   return {.name = std::move(name), .number = true};
 }
-struct Cell {
+struct TableCell {
   Html what;
   std::string order = {}; // sort key, a number or a word; empty: the shown text
 };
 struct Table {
-  std::vector<Column> columns;
-  std::vector<std::vector<Cell>> rows; // as many cells as columns (CHECK)
-  bool sortable = false;               // by clicking on a column's name
+  std::vector<TableColumn> columns;
+  std::vector<std::vector<TableCell>> rows; // as many cells as columns (CHECK)
+  bool sortable = false;                    // by clicking on a column's name
   std::string caption = {};
 };
 Html table(const Table& table);

@@ -258,4 +258,9 @@ template <class S> std::vector<AttributeType> attributes_of() {
   return attributes;
 }
 
+// An element of a preset whose attributes are S, without children.
+template <class S> ElementType element_type_of(const std::string& name, const std::string& what) {
+  return {name, what, attributes_of<S>(), {}};
+}
+
 } // namespace rend

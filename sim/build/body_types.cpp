@@ -7,10 +7,6 @@
 namespace rend {
 namespace {
 
-template <class S> ElementType element(const std::string& name, const std::string& what) {
-  return {name, what, attributes_of<S>(), {}};
-}
-
 void add_once(std::vector<std::string>& list, const std::string& word) {
   if (!word.empty() && std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
 }
@@ -86,8 +82,8 @@ const ElementType& springs_type() {
 
 std::vector<ChildType> shape_types() {
   static const ElementType place =
-      element<Placement>("place", "where the body is at rest: it is scaled, then rotated, then moved");
-  static const ElementType mass = element<MassSettings>("mass", "the mass of the body");
+      element_type_of<Placement>("place", "where the body is at rest: it is scaled, then rotated, then moved");
+  static const ElementType mass = element_type_of<MassSettings>("mass", "the mass of the body");
   std::vector<ChildType> types;
   for (const ShapeType& shape : all_shapes()) types.push_back({&shape.type(), 0, 1});
   types.push_back({&apply_type(), 0, -1});
@@ -98,19 +94,20 @@ std::vector<ChildType> shape_types() {
 }
 
 std::vector<ChildType> matter_types() {
-  static const ElementType elasticity = element<ElasticitySettings>(
+  static const ElementType elasticity = element_type_of<ElasticitySettings>(
       "elasticity",
       "a continuum: finite elements on triangles, quads, tetrahedra, hexahedra, prisms and pyramids");
-  static const ElementType viscosity = element<ViscositySettings>(
+  static const ElementType viscosity = element_type_of<ViscositySettings>(
       "viscosity", "drag of the surroundings: a force of -value times the velocity on each vertex");
   return {{&springs_type(), 0, 1}, {&elasticity, 0, 1}, {&viscosity, 0, 1}};
 }
 
 std::vector<ChildType> motion_types() {
   static const ElementType fix =
-      element<FixSettings>("fix", "holds the selected vertices where they are at rest");
-  static const ElementType drive = element<DriveSettings>("drive", "moves the selected vertices as prescribed");
-  static const ElementType load = element<LoadSettings>(
+      element_type_of<FixSettings>("fix", "holds the selected vertices where they are at rest");
+  static const ElementType drive =
+      element_type_of<DriveSettings>("drive", "moves the selected vertices as prescribed");
+  static const ElementType load = element_type_of<LoadSettings>(
       "load",
       "an external force on the selected boundary: spread by area over the outer faces of a solid, by length "
       "along the border of a sheet; where no whole face or edge is selected, in equal parts over the vertices");
@@ -118,23 +115,23 @@ std::vector<ChildType> motion_types() {
 }
 
 std::vector<ChildType> law_types() {
-  static const ElementType tear = element<LawSettings>(
+  static const ElementType tear = element_type_of<LawSettings>(
       "tear", "a law of tearing: wherever the criterion exceeds the threshold, the change is made");
   return {{&tear, 0, -1}};
 }
 
 std::vector<ChildType> probe_types() {
-  static const ElementType probe = element<ProbeSettings>(
+  static const ElementType probe = element_type_of<ProbeSettings>(
       "probe", "measures at the selected vertices: their mean position and displacement, the force of the "
                "supports where they are fixed or driven, and the mean stress of the elements there");
-  static const ElementType answer =
-      element<AnswerSettings>("answer", "the value that a probe should measure; `rend run` compares them, and "
-                                        "exits with 1 if they differ by more than the tolerance");
+  static const ElementType answer = element_type_of<AnswerSettings>(
+      "answer", "the value that a probe should measure; `rend run` compares them, and "
+                "exits with 1 if they differ by more than the tolerance");
   return {{&probe, 0, -1}, {&answer, 0, -1}};
 }
 
 const ElementType& contact_type() {
-  static const ElementType type = element<ContactSettings>(
+  static const ElementType type = element_type_of<ContactSettings>(
       "contact", "what the body collides with; without it, the body passes through everything");
   return type;
 }

@@ -14,10 +14,6 @@
 namespace rend {
 namespace {
 
-template <class S> ElementType element(const std::string& name, const std::string& what) {
-  return {name, what, attributes_of<S>(), {}};
-}
-
 template <class S> std::vector<S> read_all(const PresetNode& node, const char* name) {
   std::vector<S> all;
   for (const PresetNode* child : node.all(name)) all.push_back(read_settings<S>(*child));
@@ -172,10 +168,11 @@ private:
 } // namespace
 
 const ElementType& rule_type() {
-  static const ElementType set = element<RuleSetSettings>("set", "where the vertex of a node is");
-  static const ElementType when = element<RuleWhenSettings>("when", "a further condition of a match");
-  static const ElementType where = element<RuleWhereSettings>("where", "an argument of the rule");
-  static const ElementType let = element<RuleLetSettings>("let", "a name for an expression of the rule");
+  static const ElementType set = element_type_of<RuleSetSettings>("set", "where the vertex of a node is");
+  static const ElementType when = element_type_of<RuleWhenSettings>("when", "a further condition of a match");
+  static const ElementType where = element_type_of<RuleWhereSettings>("where", "an argument of the rule");
+  static const ElementType let =
+      element_type_of<RuleLetSettings>("let", "a name for an expression of the rule");
   static const ElementType type{
       "rule",
       "a change of the map, for <apply> and <tear>: what is matched, and what takes its place",
@@ -186,12 +183,12 @@ const ElementType& rule_type() {
 
 const ElementType& script_type() {
   static const ElementType step = [] {
-    ElementType made = element<ScriptStepSettings>("for", "for each cell of the hook's orbit, a rule");
+    ElementType made = element_type_of<ScriptStepSettings>("for", "for each cell of the hook's orbit, a rule");
     made.further = "an argument of what is applied: an expression";
     return made;
   }();
-  static const ElementType when = element<RuleWhenSettings>("when", "a further condition of its hook");
-  static const ElementType where = element<RuleWhereSettings>("where", "an argument of the script");
+  static const ElementType when = element_type_of<RuleWhenSettings>("when", "a further condition of its hook");
+  static const ElementType where = element_type_of<RuleWhereSettings>("where", "an argument of the script");
   static const ElementType type{
       "script",
       "several rules as one change, for <apply> and <tear>: all of it is done, or nothing",

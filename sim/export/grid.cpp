@@ -28,10 +28,6 @@ struct OnCells {
   std::vector<double> stress, equivalent; // empty: no body has finite elements
 };
 
-void append(std::vector<double>& to, const Vec3& v) {
-  to.insert(to.end(), {v.x(), v.y(), v.z()});
-}
-
 CellKind cell_kind(ElementKind kind) {
   switch (kind) {
   case ElementKind::Hexahedron:

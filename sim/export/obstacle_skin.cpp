@@ -72,10 +72,6 @@ ObstacleSkin skin_of(const Box& box, double time) {
   return out;
 }
 
-void append(std::vector<double>& to, const Vec3& v) {
-  to.insert(to.end(), {v.x(), v.y(), v.z()});
-}
-
 } // namespace
 
 Pose pose_of(const Sphere& sphere, double time) {

@@ -17,6 +17,10 @@
 
 namespace rend {
 
+inline void append(std::vector<double>& to, const Vec3& v) {
+  to.insert(to.end(), {v.x(), v.y(), v.z()});
+}
+
 struct SkinOfBody {
   std::string name;
   bool tears = false;                        // can tear: it has laws

@@ -23,9 +23,9 @@ Vec3 centre_of_element(const EmbeddedMap& map, const Record* position, Dart d) {
 }
 
 // For every corner at a vertex: whether its element lies on the positive side.
-class Sides {
+class CornerSides {
 public:
-  Sides(const EmbeddedMap& map, std::span<const Dart> darts, const Record* position, const Vec3& normal)
+  CornerSides(const EmbeddedMap& map, std::span<const Dart> darts, const Record* position, const Vec3& normal)
       : map_(map), corner_(corner_orbit(map.dimension())), slots_(corners_of(map, darts)) {
     const Vec3 here = position[map.vertex(darts.front())];
     for (Slot c : slots_) {
@@ -46,14 +46,14 @@ private:
 };
 
 // Whether a border at the vertex parts elements of different sides. d: one of the vertex's darts there.
-bool is_across(const GMap& map, const Sides& sides, Dart d) {
+bool is_across(const GMap& map, const CornerSides& sides, Dart d) {
   const int link = map.dimension();
   return !map.is_free(link, d) && sides.above(d) != sides.above(map.alpha(link, d));
 }
 
 // `darts`: of the vertex.
 bool split(Edit& edit, const ForceView& view, std::span<const Dart> darts, const Vec3& normal) {
-  const Sides sides(view.map, darts, view.position, normal);
+  const CornerSides sides(view.map, darts, view.position, normal);
   bool any = false;
   for (Dart d : darts) {
     if (!is_across(edit.map(), sides, d)) continue;
@@ -66,7 +66,7 @@ bool split(Edit& edit, const ForceView& view, std::span<const Dart> darts, const
 } // namespace
 
 bool can_be_split(const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
-  const Sides sides(view.map, darts, view.position, found.normal);
+  const CornerSides sides(view.map, darts, view.position, found.normal);
   return std::any_of(darts.begin(), darts.end(), [&](Dart d) { return is_across(view.map.map(), sides, d); });
 }
 

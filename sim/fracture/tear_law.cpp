@@ -23,7 +23,7 @@ template <class T> std::string told(const std::vector<T>& all) {
 }
 
 // The largest value first, then the smallest dart.
-bool larger(const Candidate& a, const Candidate& b) {
+bool has_larger_value(const Candidate& a, const Candidate& b) {
   return a.value != b.value ? a.value > b.value : a.dart < b.dart;
 }
 
@@ -140,7 +140,7 @@ const std::vector<Candidate>& TearLaw::find_and_note(const ForceView& view, doub
 }
 
 void TearLaw::sort_candidates() {
-  std::sort(candidates_.begin(), candidates_.end(), &larger);
+  std::sort(candidates_.begin(), candidates_.end(), &has_larger_value);
 }
 
 // Those above the largest value so far. Where nothing has been reached yet, from the threshold downwards: with
@@ -160,7 +160,8 @@ void TearLaw::find_largest(const ForceView& view) {
 void TearLaw::note_reached(const ForceView& view, double time) {
   const bool splits = std::isinf(settings_.threshold) && settings_.change->cell == Cell::Vertices;
   if (splits) sort_candidates();
-  auto one = splits ? candidates_.begin() : std::min_element(candidates_.begin(), candidates_.end(), &larger);
+  auto one = splits ? candidates_.begin()
+                    : std::min_element(candidates_.begin(), candidates_.end(), &has_larger_value);
   for (; one != candidates_.end() && one->value > reached_.value; ++one) {
     left_.clear();
     collect(view.map.map(), orbit_of(settings_.cell, view.map.dimension()), one->dart, left_);

@@ -163,7 +163,7 @@ const MshType& known_type(const Msh& msh, std::int64_t number, const std::string
 }
 
 // Reads the numbers of an element one by one, from text or binary 2.2.
-struct Fields {
+struct ElementNumbers {
   Scanner& in;
   std::int64_t next(const char* what) const {
     return in.binary ? in.raw<std::int32_t>(what) : in.integer(what);
@@ -172,15 +172,15 @@ struct Fields {
 
 void read_element_2(Msh& msh, const MshType& type, Origin origin, std::int64_t tags,
                     std::vector<std::uint64_t>& nodes) {
-  const Fields fields{msh.in};
+  const ElementNumbers numbers{msh.in};
   int group = 0;
   for (std::int64_t t = 0; t < tags; ++t) {
-    const std::int64_t tag = fields.next("a tag of an element");
+    const std::int64_t tag = numbers.next("a tag of an element");
     if (t == 0) group = group_number(msh.in, tag);
   }
   nodes.clear();
   for (int n = 0; n < type.nodes; ++n)
-    nodes.push_back(static_cast<std::uint64_t>(fields.next("a node of an element")));
+    nodes.push_back(static_cast<std::uint64_t>(numbers.next("a node of an element")));
   if (!msh.in.binary && !msh.in.line_ends())
     msh.in.source().fail(origin.offset, fmt::format("{} {} has more numbers on its line than {} nodes",
                                                     type.name, origin.tag, type.nodes));
@@ -195,29 +195,29 @@ std::int64_t tag_count(const Msh& msh, std::int64_t tags) {
 
 void read_elements_2(Msh& msh) {
   Scanner& in = msh.in;
-  const Fields fields{in};
+  const ElementNumbers numbers{in};
   const std::uint64_t count = in.size("the number of elements");
   in.check_count(count, msh.bytes(4) * 2, "elements");
   if (in.binary) in.rest_of_line();
   std::vector<std::uint64_t> nodes;
   for (std::uint64_t seen = 0; seen < count;) {
     if (in.binary) { // a header for several elements of one type
-      const MshType& type = known_type(msh, fields.next("the type of elements"), "the element");
-      const std::int64_t many = fields.next("the number of elements of that type");
+      const MshType& type = known_type(msh, numbers.next("the type of elements"), "the element");
+      const std::int64_t many = numbers.next("the number of elements of that type");
       if (many < 1 || static_cast<std::uint64_t>(many) > count - seen)
         in.fail(fmt::format("{} elements of a type do not fit into the {} that are left of those announced",
                             many, count - seen));
-      const std::int64_t tags = tag_count(msh, fields.next("the number of tags"));
+      const std::int64_t tags = tag_count(msh, numbers.next("the number of tags"));
       for (std::int64_t n = 0; n < many; ++n, ++seen) {
-        const std::int64_t number = fields.next("an element");
+        const std::int64_t number = numbers.next("an element");
         read_element_2(msh, type, {in.last(), static_cast<std::uint64_t>(number)}, tags, nodes);
       }
     } else {
-      const std::int64_t number = fields.next("an element");
+      const std::int64_t number = numbers.next("an element");
       const Origin origin{in.last(), static_cast<std::uint64_t>(number)};
       const MshType& type =
-          known_type(msh, fields.next("the type of an element"), fmt::format("element {}", number));
-      const std::int64_t tags = tag_count(msh, fields.next("the number of tags"));
+          known_type(msh, numbers.next("the type of an element"), fmt::format("element {}", number));
+      const std::int64_t tags = tag_count(msh, numbers.next("the number of tags"));
       read_element_2(msh, type, origin, tags, nodes);
       ++seen;
     }

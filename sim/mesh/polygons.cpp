@@ -59,13 +59,13 @@ void check(const PolygonMesh& mesh) {
 }
 
 // Side s runs from corner s to the next corner of its polygon; darts 2s and 2s+1 are its two ends.
-struct Sides {
+struct PolygonSides {
   std::vector<std::uint32_t> end;     // point at the far end of each side
   std::vector<std::uint32_t> polygon; // of each side
 };
 
-Sides link_polygons(MapEdit& edit, const PolygonMesh& mesh) {
-  Sides sides;
+PolygonSides link_polygons(MapEdit& edit, const PolygonMesh& mesh) {
+  PolygonSides sides;
   sides.end.resize(mesh.corners.size());
   sides.polygon.resize(mesh.corners.size());
   for (std::size_t n = 0; n < 2 * mesh.corners.size(); ++n) edit.add_dart();
@@ -84,7 +84,7 @@ Sides link_polygons(MapEdit& edit, const PolygonMesh& mesh) {
 
 // Sews the sides that join the same two points: sides are bucketed by their smaller point and sorted by the
 // other one. Linear, since few share a bucket, and n log n at worst.
-void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const Sides& sides) {
+void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const PolygonSides& sides) {
   const std::size_t count = mesh.corners.size();
   std::vector<std::uint32_t> start(mesh.points.size() + 1, 0), bucket(count);
   const auto low = [&](std::size_t s) { return std::min(mesh.corners[s], sides.end[s]); };
@@ -122,7 +122,7 @@ SewnSheet sew_polygons(const PolygonMesh& mesh) {
   GMap map(2);
   MapEdit edit(map);
   edit.reserve(2 * mesh.corners.size());
-  const Sides sides = link_polygons(edit, mesh);
+  const PolygonSides sides = link_polygons(edit, mesh);
   sew_sides(edit, mesh, sides);
   SewnSheet sheet;
   sheet.map = std::make_unique<EmbeddedMap>(std::move(map), [&](Dart d) {

@@ -20,10 +20,10 @@ struct Extent {
 };
 
 // The sides on which points are, measured by products of three lengths.
-class Sides {
+class CrossingSides {
 public:
   // `reach` [m]: of the coordinates, which are rounded.
-  Sides(double length, double reach)
+  CrossingSides(double length, double reach)
       : least_((round_off * length + coordinate_round_off * reach) * length * length) {}
   // Six times the volume of a tetrahedron; 0 within round-off.
   double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) const {
@@ -40,7 +40,7 @@ bool one_sign(double a, double b, double c) {
 }
 
 // The point at which the segment p q meets the triangle, if p and q are not both in its plane.
-std::optional<Vec3> pierced(const Vec3& p, const Vec3& q, const Corners& t, const Sides& sides) {
+std::optional<Vec3> pierced(const Vec3& p, const Vec3& q, const Corners& t, const CrossingSides& sides) {
   const double from = sides.volume(p, t[0], t[1], t[2]), to = sides.volume(q, t[0], t[1], t[2]);
   if (from * to > 0 || (from == 0 && to == 0)) return {};
   if (!one_sign(sides.volume(p, q, t[0], t[1]), sides.volume(p, q, t[1], t[2]), sides.volume(p, q, t[2], t[0])))
@@ -69,7 +69,7 @@ bool parted(const Corners& a, const Corners& b, const Flat& plane, double least)
 }
 
 // The middle of two triangles in one plane that overlap in an area.
-std::optional<Vec3> overlap(const Corners& a, const Corners& b, double length, const Sides& sides) {
+std::optional<Vec3> overlap(const Corners& a, const Corners& b, double length, const CrossingSides& sides) {
   for (const Vec3& x : b)
     if (sides.volume(x, a[0], a[1], a[2]) != 0) return {};
   int normal = 0;
@@ -116,7 +116,7 @@ private:
     double length = 0;
     for (const Corners& t : {a, b})
       for (std::size_t n = 0; n < 3; ++n) length = std::max(length, (t[n] - t[(n + 1) % 3]).norm());
-    const Sides sides(length, reach_);
+    const CrossingSides sides(length, reach_);
     if (const auto at = overlap(a, b, length, sides)) return at;
     const auto is_in = [](const Triangle& t, std::uint32_t p) {
       return std::find(t.begin(), t.end(), p) != t.end();
