@@ -1,5 +1,8 @@
 // The law of element_law.h, with the numbers of corners, rest axes and integration points known at compile
 // time: its force, its energy and its two tangents. Only element_law.cpp includes it.
+//
+// What belongs to corners is an array of vectors, not a matrix of 3 x N: expressions of 3 x 3 and 3 x 1 are
+// compiled once, those of 3 x N for each of six kinds, which took a minute.
 #pragma once
 
 #include "sim/mechanics/element_law.h"
@@ -7,6 +10,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -14,10 +18,42 @@
 
 namespace rend {
 
-// An element's gradients at one integration point; for a sheet the third row is 0.
+// A vector for each corner.
+template <int N> using CornerVectors = std::array<Vec3, static_cast<std::size_t>(N)>;
+
+// The sum of term(begin) .. term(end − 1), by halves.
+template <int begin, int end> double sum_by_halves(const auto& term) {
+  constexpr int middle = begin + (end - begin) / 2;
+  if constexpr (end - begin == 1)
+    return term(static_cast<std::size_t>(begin));
+  else
+    return sum_by_halves<begin, middle>(term) + sum_by_halves<middle, end>(term);
+}
+
+// Σ a_n b_nᵀ. In the order in which Eigen adds up the product of 3 x N and N x 3: states depend on it.
+template <std::size_t N>
+Eigen::Matrix3d sum_of_products(const std::array<Vec3, N>& a, const std::array<Vec3, N>& b) {
+  Eigen::Matrix3d sum;
+  for (int c = 0; c < 3; ++c) {
+    Eigen::Vector2d two = a[0].template head<2>() * b[0][c];
+    for (std::size_t n = 1; n < N; ++n) two += a[n].template head<2>() * b[n][c];
+    sum.col(c).head<2>() = two;
+    sum(2, c) = sum_by_halves<0, static_cast<int>(N)>([&](std::size_t n) { return a[n][2] * b[n][c]; });
+  }
+  return sum;
+}
+
+template <std::size_t N>
+std::array<Vec3, N> each_times(const Eigen::Matrix3d& matrix, const std::array<Vec3, N>& vectors) {
+  std::array<Vec3, N> out;
+  for (std::size_t n = 0; n < N; ++n) out[n] = matrix * vectors[n];
+  return out;
+}
+
+// An element's gradients at one integration point; for a sheet the third coordinate is 0.
 template <int N> struct PointOf {
-  Eigen::Matrix<double, 3, N> gradient; // [1/m]
-  double weight;                        // [m³]
+  CornerVectors<N> gradient; // [1/m]
+  double weight;             // [m³]
 };
 
 template <int N, int Dim, int Points> struct Decoded {
@@ -28,11 +64,11 @@ template <int N, int Dim, int Points> struct Decoded {
     for (std::size_t g = 0; g < points.size(); ++g, values += Dim * Dim + 1) {
       using Inverse = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
       const Eigen::Map<const Inverse> inverse(values);
-      points[g].gradient.setZero();
-      for (int n = 0; n < N; ++n) {
-        const double* reference = shape.points[g].gradient[static_cast<std::size_t>(n)].data();
-        points[g].gradient.col(n).template head<Dim>() =
-            inverse.transpose() * Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(reference);
+      for (std::size_t n = 0; n < N; ++n) {
+        points[g].gradient[n].setZero();
+        points[g].gradient[n].template head<Dim>() =
+            inverse.transpose() *
+            Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(shape.points[g].gradient[n].data());
       }
       points[g].weight = values[Dim * Dim];
       volume += points[g].weight;
@@ -59,7 +95,7 @@ public:
       for (std::size_t g = f; g < end_of(f); ++g) {
         const auto& point = at.element.points[g];
         const Matrix3d stress = point.weight * at.frame(g) * (stress_of(strain[g]) - moment);
-        for (int n = 0; n < N; ++n) force[n] -= stress * point.gradient.col(n);
+        for (std::size_t n = 0; n < N; ++n) force[n] -= stress * point.gradient[n];
       }
     }
   }
@@ -78,19 +114,21 @@ public:
     const State at(*this, unit, s);
     by_position.resize(3 * N, 3 * N);
     by_velocity.resize(3 * N, 3 * N);
-    Eigen::Map<Whole> K(by_position.data()), D(by_velocity.data());
+    Eigen::Map<Whole> K(by_position.data());
     turned_stiffness(at, K);
     if constexpr (enhanceable)
       if (at.modes) {
         const Coupling L = coupling(at);
         K -= L.transpose().lazyProduct(Coupling(at.modes->inverse.lazyProduct(L)));
       }
-    if (material().damping > 0)
-      D = material().damping * K;
+    const double damping = material().damping;
+    double* const D = by_velocity.data();
+    if (damping > 0)
+      for (int n = 0; n < 9 * N * N; ++n) D[n] = damping * K.data()[n];
     else
-      D.setZero();
+      std::fill_n(D, 9 * N * N, 0.0);
     if (model() != ElasticModel::Corotational) return;
-    if (tangent == Tangent::Exact) K += rotation_stiffness(at);
+    if (tangent == Tangent::Exact) add_rotation_stiffness(at, by_position.data());
     if (tangent == Tangent::Projected && !moment_of_frame()) add_tension(at, K);
   }
 
@@ -114,7 +152,7 @@ public:
 
 private:
   using Whole = Eigen::Matrix<double, 3 * N, 3 * N>;
-  using Corners = Eigen::Matrix<double, 3, N>;
+  using Corners = CornerVectors<N>;
   using Turns = Eigen::Matrix<double, 3 * N, 3>;
 
   using Tensors = std::array<Matrix3d, static_cast<std::size_t>(Points)>; // at each point, in the rotated frame
@@ -153,19 +191,19 @@ private:
 
     State(const ElementOf& law, const double* unit, const UnitState& s)
         : element(law.shape(), unit + law.first_point()) {
-      for (int n = 0; n < N; ++n) {
-        x.col(n) = s.position[n] - s.position[0];
-        moving.col(n) = x.col(n);
-        if (law.material().damping > 0)
-          moving.col(n) += law.material().damping * (s.velocity[n] - s.velocity[0]);
+      for (std::size_t n = 0; n < N; ++n) {
+        x[n] = s.position[n] - s.position[0];
+        moving[n] = x[n];
+        if (law.material().damping > 0) moving[n] += law.material().damping * (s.velocity[n] - s.velocity[0]);
+        gradient[n].setZero();
+        for (const auto& point : element.points)
+          gradient[n] += point.weight / element.volume * point.gradient[n];
       }
-      gradient.setZero();
-      for (const auto& point : element.points) gradient += point.weight / element.volume * point.gradient;
-      mean.noalias() = x * gradient.transpose();
+      mean = sum_of_products(x, gradient);
       R = law.turn(unit, mean);
       if constexpr (by_point)
         for (std::size_t g = 0; g < R_at.size(); ++g)
-          R_at[g] = law.turn(unit, x * element.points[g].gradient.transpose());
+          R_at[g] = law.turn(unit, sum_of_products(x, element.points[g].gradient));
       if (enhanceable && law.formulation() == Formulation::Enhanced) modes.emplace(unit + law.first_mode());
     }
   };
@@ -180,12 +218,12 @@ private:
 
     Turning(const ElementOf& law, const State& at, std::size_t f, const Tensors& strain)
         : frame(f), gradient(by_point ? at.element.points[f].gradient : at.gradient), R(at.frame(f)),
-          U(R.transpose() * (at.x * gradient.transpose())), derivative(law.rotation(), R, R * U) {
+          U(R.transpose() * sum_of_products(at.x, gradient)), derivative(law.rotation(), R, R * U) {
       if (!law.moment_of_frame()) return;
       Vec3 t = Vec3::Zero();
       for (std::size_t g = f; g < end_of(f); ++g) {
         const auto& point = at.element.points[g];
-        const Matrix3d at_point = R.transpose() * (at.x * point.gradient.transpose());
+        const Matrix3d at_point = R.transpose() * sum_of_products(at.x, point.gradient);
         t += point.weight * axial(law.stress_of(strain[g]) * at_point.transpose());
       }
       moment = derivative.moment(t / volume(at));
@@ -211,7 +249,7 @@ private:
   Tensors strains(const State& at, const Corners& x) const {
     Tensors e;
     for (std::size_t g = 0; g < e.size(); ++g)
-      e[g] = strain_of(at.frame(g).transpose() * (x * at.element.points[g].gradient.transpose()));
+      e[g] = strain_of(at.frame(g).transpose() * sum_of_products(x, at.element.points[g].gradient));
     if constexpr (enhanceable)
       if (at.modes) {
         Tensors sigma;
@@ -247,28 +285,30 @@ private:
       const auto& point = at.element.points[p];
       const Matrix3d& R = at.frame(p);
       const Matrix3d across = R.template leftCols<Dim>() * R.template leftCols<Dim>().transpose();
-      const Corners g = R * point.gradient;
+      const Corners g = each_times(R, point.gradient);
       const double lambda = point.weight * material().lambda, mu = point.weight * material().mu;
       for (int j = 0; j < N; ++j) {
-        const Vec3 lj = lambda * g.col(j), mj = mu * g.col(j);
+        const Vec3 &gj = g[static_cast<std::size_t>(j)], lj = lambda * gj, mj = mu * gj;
         for (int i = 0; i <= j; ++i) {
-          const double both = mj.dot(g.col(i));
+          const Vec3& gi = g[static_cast<std::size_t>(i)];
+          const double both = mj.dot(gi);
           for (int c = 0; c < 3; ++c)
             for (int r = 0; r < 3; ++r)
-              K(3 * i + r, 3 * j + c) += g(r, i) * lj(c) + mj(r) * g(c, i) + both * across(r, c);
+              K(3 * i + r, 3 * j + c) += gi(r) * lj(c) + mj(r) * gi(c) + both * across(r, c);
         }
       }
     }
-    for (int j = 0; j < N; ++j)
+    for (int j = 1; j < N; ++j)
       for (int i = 0; i < j; ++i)
-        K.template block<3, 3>(3 * j, 3 * i) = K.template block<3, 3>(3 * i, 3 * j).transpose();
+        for (int c = 0; c < 3; ++c)
+          for (int r = 0; r < 3; ++r) K(3 * j + c, 3 * i + r) = K(3 * i + r, 3 * j + c);
   }
 
   using Spins = Eigen::Matrix<double, 3, 3 * N>; // ω, or a moment, by positions
 
   // −∂f/∂R : ∂R/∂x, and the change of the moments' forces. If R turns by ω, −f_n changes by Z_n ω; a
   // displacement of corner m turns R by L(Ḡ_m) Rᵀ. Amplitudes of modes follow both.
-  Whole rotation_stiffness(const State& at) const {
+  void add_rotation_stiffness(const State& at, double* to) const {
     const Tensors strain = strains(at, at.x), moving = strains(at, at.moving);
     std::array<Spins, frames> spins;
     Coupling modes = Coupling::Zero(), moving_modes = Coupling::Zero(); // D⁻¹ ∂r/∂x
@@ -298,13 +338,13 @@ private:
     }
     if constexpr (enhanceable)
       if (at.modes) K -= coupling(at).transpose().lazyProduct(moving_modes);
-    return K;
+    for (std::size_t n = 0; n < 9 * N * N; ++n) to[n] += K.data()[n];
   }
 
   Spins turning_of(const Turning& frame) const {
     Spins W;
-    for (int m = 0; m < N; ++m)
-      W.template block<3, 3>(0, 3 * m) = frame.derivative.of(frame.gradient.col(m)) * frame.R.transpose();
+    for (std::size_t m = 0; m < N; ++m)
+      Eigen::Map<Matrix3d>(W.data() + 9 * m) = frame.derivative.of(frame.gradient[m]) * frame.R.transpose();
     return W;
   }
 
@@ -314,13 +354,13 @@ private:
                               Whole& K) const {
     const double volume = frame.volume(at);
     for (int column = 0; column < 3 * N; ++column) {
-      const Matrix3d spin = cross_matrix(spins.col(column));
-      const Matrix3d dU =
-          frame.R.row(column % 3).transpose() * frame.gradient.col(column / 3).transpose() - spin * frame.U;
-      const Matrix3d dZ = spin * frame.moment.Z +
-                          frame.derivative.moment_change(frame.moment.z, change.col(column) / volume, dU);
+      const Matrix3d spin = cross_matrix(Eigen::Map<const Vec3>(spins.data() + 3 * column));
+      const Vec3& gradient = frame.gradient[static_cast<std::size_t>(column / 3)];
+      const Matrix3d dU = frame.R.row(column % 3).transpose() * gradient.transpose() - spin * frame.U;
+      const Vec3 dt = Eigen::Map<const Vec3>(change.data() + 3 * column) / volume;
+      const Matrix3d dZ = spin * frame.moment.Z + frame.derivative.moment_change(frame.moment.z, dt, dU);
       const Matrix3d turned = volume * frame.R * dZ;
-      for (int n = 0; n < N; ++n) K.template block<3, 1>(3 * n, column) -= turned * frame.gradient.col(n);
+      for (std::size_t n = 0; n < N; ++n) Eigen::Map<Vec3>(&K(0, column) + 3 * n) -= turned * frame.gradient[n];
     }
   }
 
@@ -336,20 +376,24 @@ private:
       const auto [axes, along] = principal(sigma);
       const auto add = [&](double factor, const Corners& w) {
         if (!(factor > 0)) return;
-        for (int j = 0; j < N; ++j)
-          for (int i = 0; i < N; ++i)
-            K.template block<3, 3>(3 * i, 3 * j) += (point.weight * factor) * w.col(i) * w.col(j).transpose();
+        double scaled[3 * N], *to = K.data();
+        for (int i = 0; i < 3 * N; ++i) scaled[i] = point.weight * factor * w[0].data()[i];
+        for (int j = 0; j < 3 * N; ++j, to += 3 * N)
+          for (int i = 0; i < 3 * N; ++i) to[i] += scaled[i] * w[0].data()[j];
       };
       const auto stretch_along = [&](int a) { return axes.col(a).dot(stretch * axes.col(a)); };
       for (int c = Dim == 2 ? 2 : 0; c < 3; ++c) { // twist about axis c
         const int a = (c + 1) % 3, b = (c + 2) % 3;
         const double both = stretch_along(a) + stretch_along(b);
         const Matrix3d turn = R * cross_matrix(axes.col(c));
-        if (both > 0) add(0.5 * (along[a] + along[b]) / both, turn * point.gradient);
+        if (both > 0) add(0.5 * (along[a] + along[b]) / both, each_times(turn, point.gradient));
       }
       for (int a = 0; Dim == 2 && a < 2; ++a)
-        if (const double s = stretch_along(a); s > 0)
-          add(along[a] / s, R.col(2) * (axes.col(a).transpose() * point.gradient));
+        if (const double s = stretch_along(a); s > 0) {
+          Corners along_normal;
+          for (std::size_t n = 0; n < N; ++n) along_normal[n] = R.col(2) * axes.col(a).dot(point.gradient[n]);
+          add(along[a] / s, along_normal);
+        }
     }
   }
 
@@ -385,7 +429,7 @@ private:
       for (int a = 0; a < Dim; ++a) {
         const Vec3 W = at.modes->at(g, a);
         for (int n = 0; n < N; ++n) {
-          const Vec3 G = at.element.points[g].gradient.col(n);
+          const Vec3& G = at.element.points[g].gradient[static_cast<std::size_t>(n)];
           const Matrix3d block =
               mu * (G.dot(W) * Matrix3d::Identity() + G * W.transpose()) + lambda * W * G.transpose();
           L.template block<Dim, 3>(Dim * a, 3 * n) += (block * turned).template topRows<Dim>();
@@ -399,7 +443,7 @@ private:
   TurnCoupling coupling_by_turning(const State& at, const Corners& x, std::size_t f) const {
     TurnCoupling L = TurnCoupling::Zero();
     for (std::size_t g = f; g < end_of(f); ++g) {
-      const Matrix3d U = at.frame(g).transpose() * (x * at.element.points[g].gradient.transpose());
+      const Matrix3d U = at.frame(g).transpose() * sum_of_products(x, at.element.points[g].gradient);
       for (int axis = 0; axis < 3; ++axis) {
         const Matrix3d sigma = stress_of(symmetric(turned_about(axis, U)));
         for (int a = 0; a < Dim; ++a)
@@ -415,12 +459,12 @@ private:
     const Matrix3d& R = frame.R;
     for (std::size_t g = frame.frame; g < end_of(frame.frame); ++g) {
       const auto& point = at.element.points[g];
-      const Matrix3d U = R.transpose() * (x * point.gradient.transpose());
+      const Matrix3d U = R.transpose() * sum_of_products(x, point.gradient);
       const Matrix3d sigma = stress_of(strain[g]);
       for (int axis = 0; axis < 3; ++axis) {
         const Matrix3d change =
             point.weight * R * (turned_about(axis, sigma) - stress_of(symmetric(turned_about(axis, U))));
-        for (int n = 0; n < N; ++n) Z.template block<3, 1>(3 * n, axis) += change * point.gradient.col(n);
+        for (std::size_t n = 0; n < N; ++n) Eigen::Map<Vec3>(&Z(0, axis) + 3 * n) += change * point.gradient[n];
       }
     }
     return Z;
@@ -431,7 +475,7 @@ private:
     Matrix3d change = Matrix3d::Zero();
     for (std::size_t g = frame.frame; g < end_of(frame.frame); ++g) {
       const auto& point = at.element.points[g];
-      const Matrix3d U = frame.R.transpose() * (at.x * point.gradient.transpose());
+      const Matrix3d U = frame.R.transpose() * sum_of_products(at.x, point.gradient);
       const Matrix3d sigma = stress_of(strain[g]);
       for (int axis = 0; axis < 3; ++axis) {
         const Matrix3d dU = -turned_about(axis, U);
