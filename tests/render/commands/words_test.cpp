@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::words_test {
 namespace {
 
 using program::Outcome;
@@ -100,4 +100,4 @@ TEST_F(CommandWords, of_help_lead_on) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::words_test

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::awaited_interactions_test {
 namespace {
 
 using testing::Contains;
@@ -180,4 +180,4 @@ TEST(StoredNewKinds, with_interactions_that_are_not_there_are_refused) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::awaited_interactions_test

@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::rules_as_laws_test {
 namespace {
 
 struct Material {
@@ -311,4 +311,4 @@ INSTANTIATE_TEST_SUITE_P(Of, RulesAsLaws, testing::ValuesIn(materials()),
                          [](const auto& of) { return of.param.name; });
 
 } // namespace
-} // namespace rend
+} // namespace rend::rules_as_laws_test

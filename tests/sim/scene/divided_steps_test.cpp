@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::divided_steps_test {
 namespace {
 
 // A stretched sheet of quads, whose law divides each face into triangles from its middle until that time [s].
@@ -48,4 +48,4 @@ TEST(DividedSteps, are_none_where_laws_make_nothing_smaller) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::divided_steps_test
