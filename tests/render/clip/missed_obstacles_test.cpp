@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace rend {
+namespace rend::missed_obstacles_test {
 namespace {
 
 using program::TestFolder;
@@ -59,4 +59,4 @@ TEST(MissedObstacles, are_told_of_a_whole_clip_with_contact_alone) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::missed_obstacles_test

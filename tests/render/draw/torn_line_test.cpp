@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::torn_line_test {
 namespace {
 
 using namespace test;
@@ -32,4 +32,4 @@ TEST(TornLine, is_thinner_in_small_pictures) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::torn_line_test

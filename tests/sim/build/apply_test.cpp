@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace rend {
+namespace rend::apply_test {
 namespace {
 
 // Of four quads in a row the rule takes two at a time: of the three edges between them one or two are left.
@@ -67,4 +67,4 @@ TEST(OneEdge, is_selected_by_a_box_or_by_a_test_in_a_script) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::apply_test

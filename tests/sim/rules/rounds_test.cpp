@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rend {
+namespace rend::rounds_test {
 namespace {
 
 RuleOrScript made(const std::string& rules) {
@@ -63,4 +63,4 @@ TEST(Rounds, do_not_count_places_that_are_not_selected) {
 }
 
 } // namespace
-} // namespace rend
+} // namespace rend::rounds_test
