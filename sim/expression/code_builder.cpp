@@ -7,10 +7,6 @@
 namespace rend {
 namespace {
 
-std::uint32_t column_of(const ExpressionToken& token) {
-  return static_cast<std::uint32_t>(token.column);
-}
-
 std::uint32_t number_of(const ExpressionOperator& one) {
   return static_cast<std::uint32_t>(&one - operators().data());
 }

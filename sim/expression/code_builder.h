@@ -10,6 +10,11 @@
 
 namespace rend {
 
+// As instructions have it.
+inline std::uint32_t column_of(const ExpressionToken& token) {
+  return static_cast<std::uint32_t>(token.column);
+}
+
 class CodeBuilder {
 public:
   // ExpressionError: more values wait than the stack holds.

@@ -17,10 +17,6 @@ bool is_keyword(std::string_view word) {
   return word == "and" || word == "or" || word == "not" || word == "if";
 }
 
-std::uint32_t column_of(const Token& token) {
-  return static_cast<std::uint32_t>(token.column);
-}
-
 // Recursive descent by precedence (Pratt 1973). Each method reads what it is named after from the next token
 // on, emits code that pushes its value, and returns its type.
 class Parser {
