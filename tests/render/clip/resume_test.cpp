@@ -140,7 +140,7 @@ TEST_F(Resume, a_video_that_is_cut_short_by_a_signal_is_called_a_part) {
     ASSERT_EQ(first.code, 143) << format << first.err;
     EXPECT_FALSE(in(folder).contains("clip." + format));
     ASSERT_TRUE(in(folder).contains("clip.part." + format)) << format;
-    EXPECT_THAT(first.out, HasSubstr("the part " + folder + "/clip.part." + format + " of a video"));
+    EXPECT_THAT(first.out, HasSubstr(folder + "/clip.part." + format + ", a video that ends early"));
     const std::string probe = "ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 ";
     const Outcome frames = place.shell(probe + folder + "/clip.part." + format);
     EXPECT_EQ(frames.err, "") << format;
