@@ -121,6 +121,7 @@ void add_built(const Scene& scene, const Body& body, BodyFacts& facts) {
   facts.arrays = footprint_of(body);
   facts.bytes = by_part(facts.arrays);
   facts.left_out = left_out_of(scene, body);
+  facts.applied = body.applied;
   facts.notes = body.notes;
   if (body.assembly)
     facts.solver = SolvingFigures{body.integrator->solver(), body.assembly->pattern()->blocks()};

@@ -62,6 +62,7 @@ struct BytesByPart {
 struct BodyFacts {
   std::string name;
   int dimension = 2; // of a sheet; 3: of a solid
+  std::vector<AppliedRule> applied; // while it was constructed, in their order
   // Before the first step.
   std::size_t vertices = 0, edges = 0, elements = 0, darts = 0, fragments = 0;
   long euler = 0;             // characteristic

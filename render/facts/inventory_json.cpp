@@ -47,6 +47,10 @@ Json json_of(const LawFacts& law) {
           {"unit", law.unit},           {"change", law.change}, {"bytes", law.bytes}};
 }
 
+Json json_of(const AppliedRule& one) {
+  return {{"rule", one.rule}, {"line", one.line}, {"applied", one.applied}, {"skipped", one.skipped}};
+}
+
 Json json_of(const MemoryEntry& one) {
   return {{"part", one.part}, {"name", one.name}, {"per", one.per}, {"bytes", one.bytes}};
 }
@@ -69,6 +73,7 @@ template <class T> Json list_of(const std::vector<T>& all) {
 Json json_of(const BodyFacts& body) {
   Json json{{"name", body.name},
             {"kind", body.dimension == 2 ? "sheet" : "solid"},
+            {"applied", list_of(body.applied)},
             {"vertices", body.vertices},
             {"edges", body.edges},
             {"elements", body.elements},

@@ -107,6 +107,14 @@ std::string parts_in_words(const BytesByPart& bytes) {
   return out + fmt::format("in all {}", bytes_in_words(bytes.total));
 }
 
+std::string rules_in_words(const std::vector<AppliedRule>& rules) {
+  std::string out =
+      rules.empty() ? "" : fmt::format("  {:<66}{:>12}{:>20}\n", "rules", "line", "applied at places");
+  for (const AppliedRule& one : rules)
+    out += fmt::format("    {:<64}{:>12}{:>20}\n", printable(one.rule), one.line, one.applied);
+  return out;
+}
+
 std::string body_in_words(const BodyFacts& body) {
   std::string out =
       fmt::format("body {}: a {}\n", printable(body.name), body.dimension == 2 ? "sheet" : "solid");
@@ -114,7 +122,8 @@ std::string body_in_words(const BodyFacts& body) {
                      body.vertices, body.edges, body.elements, body.darts, body.fragments,
                      body.fragments == 1 ? "" : "s", body.euler);
   if (body.prescribed > 0) out += fmt::format("  {} vertices are prescribed\n", body.prescribed);
-  out += tables_in_words(body) + laws_in_words(body.laws) + arrays_in_words(body.arrays);
+  out += rules_in_words(body.applied) + tables_in_words(body) + laws_in_words(body.laws) +
+         arrays_in_words(body.arrays);
   out += folded_lines("  left out  ", body.left_out) + folded_lines("  note      ", body.notes);
   if (body.solver)
     out += fmt::format(

@@ -37,6 +37,13 @@ struct BodyEnergy {
   Work work;
 };
 
+// What an <apply> or <subdivide> did while the body was constructed (sim/build/construction.h), over its rounds.
+struct AppliedRule {
+  std::string rule;                     // or script
+  int line = 0;                         // of the element in its file; 0: it has none
+  std::size_t applied = 0, skipped = 0; // places; skipped: sim/rules/rounds.h
+};
+
 enum class WitnessAt { BeforeChanges, AfterChanges };
 
 struct Body final : System {
@@ -61,6 +68,7 @@ struct Body final : System {
   std::unique_ptr<SolvedContact> solved_contact; // null: the scheme does not solve, or nothing is in its way
   std::vector<Probe> probes;
   std::vector<Answer> answers;
+  std::vector<AppliedRule> applied;
   std::vector<std::string> notes;    // messages for the author of the preset
   std::vector<std::string> left_out; // what was not built for this body, and why
 

@@ -104,6 +104,7 @@ public:
       all.applied += one.applied;
       all.skipped += one.skipped;
     }
+    body_.applied.push_back({std::string(what.name()), settings.source.place().line, all.applied, all.skipped});
     note_skipped(what, settings, all);
     note_open(what, settings);
   }
