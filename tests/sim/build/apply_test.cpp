@@ -37,23 +37,24 @@ TEST(Apply, notes_the_places_that_it_skips) {
   EXPECT_EQ(note_of(row + R"xml(<subdivide/><apply rule="unsew-edge" to="all"/>)xml"), "");
 }
 
-// 9 quads become 36, then 144; of the 3 edges within a row of 4 quads, one is opened.
+// A star in each of 9 quads, and in the 36 triangles that these are then; all of a sheet is one place of
+// quarter-faces; of the 3 edges within a row of 4 quads, one is opened.
 TEST(Apply, counts_the_places) {
   const auto loaded = presets::load(R"xml(<scene>
-    <body><sheet cells="3 3" size="1 1"/>
-      <apply rule="quarter-faces" times="2"/>
+    <body name="quarters"><sheet cells="3 3" size="1 1"/>
+      <apply rule="star-face" times="2"/>
       <subdivide/>
       <mass total="1"/></body>
-    <body><sheet cells="4 1" size="4 1"/>
+    <body name="opened"><sheet cells="4 1" size="4 1"/>
       <apply rule="unsew-edge" box="1 0 0 1 1 0"/><mass total="1"/></body>
     <time duration="0"/></scene>)xml");
-  const AppliedRule &quartered = loaded.body(0).applied.at(0), &subdivided = loaded.body(0).applied.at(1);
-  EXPECT_EQ(quartered.rule, "quarter-faces");
-  EXPECT_EQ(quartered.line, 3);
-  EXPECT_EQ(quartered.applied, 9u + 36u);
-  EXPECT_EQ(quartered.skipped, 0u);
+  const AppliedRule &stars = loaded.body(0).applied.at(0), &subdivided = loaded.body(0).applied.at(1);
+  EXPECT_EQ(stars.rule, "star-face");
+  EXPECT_EQ(stars.line, 3);
+  EXPECT_EQ(stars.applied, 9u + 36u);
+  EXPECT_EQ(stars.skipped, 0u);
   EXPECT_EQ(subdivided.rule, "quarter-faces");
-  EXPECT_EQ(subdivided.applied, 144u);
+  EXPECT_EQ(subdivided.applied, 1u);
   const std::vector<AppliedRule>& opened = loaded.body(1).applied;
   ASSERT_EQ(opened.size(), 1u);
   EXPECT_EQ(opened[0].rule, "unsew-edge");
