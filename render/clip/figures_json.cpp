@@ -102,7 +102,9 @@ Json json_of(const EnergyFigures& e) {
       {"elastic", e.now.elastic},
       {"gravity", e.now.gravity},
       {"work", w.sum()},
-      {"work_of", {{"loads", w.loads}, {"drives", w.drives}, {"contact", w.contact}, {"changes", w.changes}}},
+      {"work_of",
+       {{"loads", w.loads}, {"drives", w.drives}, {"obstacles", w.contact.obstacles}, {"changes", w.changes}}},
+      {"contact", {{"impact", w.contact.impact}, {"friction", w.contact.friction}}},
       {"dissipated", e.dissipated},
       {"balance", e.balance}};
 }

@@ -151,10 +151,12 @@ std::string summary_of(const Figures& f) {
   out += laws_in_words(s.laws) + reach_in_words(s.reach);
   out += fmt::format("  energy     {:.6g} J kinetic, {:.6g} J elastic, {:.6g} J potential in gravity\n",
                      s.energy.now.kinetic, s.energy.now.elastic, s.energy.now.gravity);
-  out += fmt::format("             {:.6g} J of work done on bodies{} by loads, drives, contact, and changes of "
-                     "mass or gravity;\n             {:.6g} J dissipated, {:.3g} J unexplained\n",
-                     s.energy.now.work.sum(), s.falling ? " and falling spheres" : "", s.energy.dissipated,
-                     s.energy.balance);
+  out += fmt::format(
+      "             {:.6g} J of work done on bodies{} by loads, drives, moving obstacles, and "
+      "changes of mass or gravity;\n             {:.6g} J dissipated, {:.6g} J of it by contact, {:.3g} "
+      "J unexplained\n",
+      s.energy.now.work.sum(), s.falling ? " and falling spheres" : "", s.energy.dissipated,
+      s.energy.now.work.contact.lost(), s.energy.balance);
   for (const auto& [name, added] : s.added_mass)
     out += fmt::format("  mass       {} is heavier by {:.4g} kg for larger steps, in {:.6g} kg of all bodies\n",
                        printable(name), added, s.mass);

@@ -11,7 +11,7 @@ std::optional<bool> touched_nothing(const Scene& scene) {
     if (!body->contact || !body->contact->obstacles) continue;
     if (!body->work_meter) return {};
     collides = true;
-    touched = touched || body->work_meter->work().contact != 0;
+    touched = touched || body->work_meter->work().contact.touched;
   }
   return collides ? std::optional(!touched) : std::nullopt;
 }

@@ -1,8 +1,7 @@
 // Whether a clip ended without any contact: most often a sphere missed what it was meant to hit.
 //
-// Contact does work on a body wherever it changes a velocity or a position (sim/body/work_meter.h), and without
-// contact that work is exactly 0. It is one number for a body: the floor, pieces and other bodies count as
-// well, so that where anything was touched, nothing is known of a single sphere.
+// A body knows whether contact has acted on it (ContactWork::touched): the floor, pieces and other bodies
+// count as well, so that where anything was touched, nothing is known of a single sphere.
 #pragma once
 
 #include "sim/scene/scene.h"

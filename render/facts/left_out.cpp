@@ -84,7 +84,8 @@ std::vector<std::string> left_out_of(const Scene& scene) {
   if (!world.wind) out.emplace_back("wind: none");
   if (!world.has_obstacles()) out.emplace_back("obstacles: none");
   if (!world.floor) out.emplace_back("floor: none, and so no shadow on it");
-  if (!scene.contacts()) out.emplace_back("contact other than with the floor: no body asks for it");
+  if (!scene.contacts() || !scene.contacts()->with_faces())
+    out.emplace_back("contact other than with the floor: no body asks for it");
   out.emplace_back("surfaces and drawing: only rend render makes them");
   return out;
 }

@@ -38,8 +38,9 @@ public:
     const Contacts* contacts = scene_.contacts();
     if (!contacts) return;
     for (const auto& each : contacts->bodies())
-      add(PassStage::Contact, "obstacles, and " + each->body->name, each->faces.triangles().size(), "triangles",
-          1, each->bytes());
+      if (each->faces)
+        add(PassStage::Contact, "obstacles, and " + each->body->name, each->faces->triangles().size(),
+            "triangles", 1, each->bytes());
     if (const FragmentContact* fragments = contacts->fragments())
       add(PassStage::Contact, "fragments and bodies", fragments->pairs(), "pairs", 1, fragments->bytes());
   }

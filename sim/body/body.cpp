@@ -4,6 +4,7 @@
 #include "sim/base/profile.h"
 #include "sim/embedding/reorder.h"
 #include "sim/fracture/pairs.h"
+#include "sim/integrate/leapfrog.h"
 #include "sim/integrate/rigid_motions.h"
 #include "sim/mechanics/spring_law.h"
 #include "sim/topology/walk.h"
@@ -70,18 +71,16 @@ void Body::prepare(const Scheme& scheme, const RunSettings& settings) {
   map->subscribe(changes);
   if (solved_contact) rebind_solved_contact();
   if (tears()) reserve_for_separations();
-  make_work_meter(scheme);
-  constexpr std::size_t few = 64; // so that a first contact asks for no memory
-  if (floor_contact) touched_.reserve(std::min(few, vertices()));
+  make_work_meter();
   constrain(0, map->position().values().data(), map->velocity().values().data());
 }
 
 // An equilibrium has no account of work.
-void Body::make_work_meter(const Scheme& scheme) {
+void Body::make_work_meter() {
   const bool touched = floor_contact || (contact && contact->faces());
   if (integrator->has_inertia() &&
       (constraints.drives() || !loads.empty() || touched || tears() || changing_gravity))
-    work_meter = std::make_unique<WorkMeter>(scheme.shadow);
+    work_meter = std::make_unique<WorkMeter>();
 }
 
 MeteredBody Body::metered(const Record* internal_force) const {
@@ -191,14 +190,19 @@ void Body::evaluate() {
   if (work_meter) work_meter->settle(metered());
 }
 
-BodyEnergy Body::energy(double shadow_step, std::vector<Record>& scratch) {
+BodyEnergy Body::energy(const Scheme& scheme, double step, std::vector<Record>& scratch) {
   bind_program();
   const Record *x = map->position().values().data(), *v = map->velocity().values().data();
   BodyEnergy sum{.elastic = program->elastic_energy(x), .shadow = 0, .work = {}};
   if (work_meter) sum.work = work(scratch);
-  if (shadow_step == 0) return sum;
+  const double by_power = staggered ? 0.5 : scheme.shadow;
+  const double by_forces = staggered ? 0 : drifts_always ? 0.125 : scheme.force_shadow;
+  if (by_power == 0 && by_forces == 0) return sum;
   if (!work_meter) program->forces(x, v, scratch.data());
-  sum.shadow = shadow_step * power(metered(scratch.data()), time_);
+  const FreeMotion free = free_motion(metered(scratch.data()), time_);
+  const double h = last_step_ > 0 ? last_step_ : step;
+  if (by_power != 0) sum.shadow += by_power * h * free.power;
+  if (by_forces != 0) sum.shadow -= by_forces * h * h * free.squared_forces;
   return sum;
 }
 
@@ -325,16 +329,30 @@ void Body::advance(double time, double step) {
   next.resize(vertices());
   next.probe = Double4{};
   next_time_ = time + step;
-  move(time, step);
+  next.staggered = false;
+  if (drifts())
+    rend::drift(*this, time, step, current(), force.data(), next);
+  else
+    move(time, step);
   if (faulty.armed(StepStage::Integration)) inject_into_next();
   if (next.large) fence_streams(); // for schemes that write their state on this thread
-  if (work_meter) work_meter->measure(metered(), next_time_, next);
-  if (floor_contact) touch_floor(next_time_, step);
+}
+
+void Body::drift_again(double time, double step) {
+  const PhaseScope within(profile, Phase::Integration);
+  update_loads(time, map->position().values().data(), map->velocity().values().data());
+  next.probe = Double4{};
+  rend::drift(*this, time, step, current(), force.data(), next);
+}
+
+void Body::kick(double time, double step) {
+  const PhaseScope within(profile, Phase::Integration);
+  rend::kick(*this, time, step, current(), next, kick_force_);
 }
 
 StateView Body::current() const {
   return {map->position().values().data(), map->velocity().values().data(),
-          scheme_acceleration ? scheme_acceleration->values().data() : nullptr};
+          scheme_acceleration ? scheme_acceleration->values().data() : nullptr, staggered};
 }
 
 // By the scheme. Its fused advance evaluates the forces of the current state, and leaves the loads at them.
@@ -354,15 +372,6 @@ void Body::end_solved_contact() {
   solved_contact->end();
 }
 
-// Prescribed vertices ignore the floor.
-void Body::touch_floor(double time, double step) {
-  const PhaseScope within(profile, Phase::Contact);
-  touched_.clear();
-  floor_contact->apply(map->position().values().data(), next, step, touched_);
-  constrain(time, next.position.data(), next.velocity.data());
-  if (work_meter && !touched_.empty()) work_meter->after_contact(metered(), step, next, touched_);
-}
-
 void Body::restore_state(const State& start, double time) {
   map->position().values() = start.position;
   map->velocity().values() = start.velocity;
@@ -370,6 +379,7 @@ void Body::restore_state(const State& start, double time) {
     scheme_acceleration->values() = start.acceleration;
     scheme_acceleration->values().resize(vertices()); // none, if the state knows none
   }
+  staggered = start.staggered;
   time_ = time;
 }
 
@@ -409,7 +419,7 @@ void Body::store(Archive& archive, long done, double step) {
                 "a body is torn that nothing tears");
   std::vector<double> numbers = integrator->saved_state();
   archive.list(events, map->map().capacity(), "there are more tears than darts");
-  archive(deleted_at, evaluations, time_);
+  archive(deleted_at, evaluations, time_, last_step_, staggered);
   next.store(archive, map->cells(Vertex).slots());
   archive.same(numbers.size(), "numbers that its steps hand on");
   for (double& number : numbers) archive.unbounded(number);
@@ -429,6 +439,8 @@ void Body::check_read(long done, double step) const {
   const double now = static_cast<double>(done) * step;
   refuse_unless(is_count(evaluations), "forces were evaluated less often than never");
   refuse_unless(std::abs(time_ - now) <= 1e-3 * step, "a body has another time than the scene");
+  refuse_unless(last_step_ >= 0 && last_step_ <= 1.001 * step, "a step was longer than it is");
+  refuse_unless(!staggered || contact, "a body was touched that has no contact");
   refuse_unless(deleted_at.has_value() == (map->map().dart_count() == 0),
                 "a body is gone that is there, or the reverse");
   refuse_unless(!deleted_at || (*deleted_at >= 0 && *deleted_at <= now),
@@ -453,10 +465,13 @@ void Body::measure_gravity() {
 }
 
 void Body::commit() {
+  if (work_meter) work_meter->measure(metered(), next_time_, next);
   if (changing_gravity && work_meter) measure_gravity();
   map->position().values().swap(next.position);
   map->velocity().values().swap(next.velocity);
   if (scheme_acceleration) scheme_acceleration->values().swap(next.acceleration);
+  std::swap(staggered, next.staggered);
+  last_step_ = next_time_ - time_;
   time_ = next_time_;
 }
 

@@ -9,7 +9,7 @@
 #include "sim/fracture/tear_law.h"
 #include "sim/integrate/integrator.h"
 #include "sim/outside/constraint.h"
-#include "sim/outside/floor_contact.h"
+#include "sim/outside/contact_settings.h"
 #include "sim/outside/injected_fault.h"
 #include "sim/outside/load.h"
 #include "sim/outside/solved_contact.h"
@@ -37,7 +37,7 @@ struct BodyEnergy {
   Work work;
 };
 
-// What an <apply> or <subdivide> did while the body was constructed (sim/build/construction.h), over its rounds.
+// What an <apply> or <subdivide> did while the body was constructed (sim/build/construction.h).
 struct AppliedRule {
   std::string rule;                     // or script
   int line = 0;                         // of the element in its file; 0: it has none
@@ -77,6 +77,7 @@ struct Body final : System {
   std::unique_ptr<Integrator> integrator;
   std::vector<Record> force;                // internal [N] at the start of the step, one per vertex slot
   mutable std::vector<Record> corner_force; // [N], one per corner slot; empty unless a criterion needs elements
+  bool staggered = false;                   // the current state is (State::staggered)
   State next;      // written by the integrator: the old state stays unchanged until the step is accepted
   Changes changes; // since constraints and laws were last bound
   std::vector<TearEvent> events;
@@ -116,9 +117,9 @@ struct Body final : System {
   bool in_contact() const override { return solved_contact && solved_contact->near(); }
   bool tighten_contact(const Record* position) override;
 
-  // `shadow_step` [s]: weight of the shadow term × step; `scratch`: one record per vertex slot. Leaves the
-  // loads of the current state in `load`.
-  BodyEnergy energy(double shadow_step, std::vector<Record>& scratch);
+  // Of steps of `step` [s] by that scheme; `scratch`: one record per vertex slot. Leaves the loads of the
+  // current state in `load`.
+  BodyEnergy energy(const Scheme& scheme, double step, std::vector<Record>& scratch);
   Work work(std::vector<Record>& scratch); // CHECK: it has a meter
   void evaluate();                         // evaluates force and corner_force in the current state
   void defer_forces();                     // leaves the evaluation to advance(): if they are not needed before
@@ -133,8 +134,13 @@ struct Body final : System {
   // throw.
   int tear(double time, long number, const std::function<void()>& sound);
   void advance(double time, double step); // from the current state to `next`
-  void rebind();                          // program, constraints, laws
-  void commit();                          // `next` becomes the current state
+  // A step within which contact acts (leapfrog.h): where `drifts()`, advance() makes its drift alone; elsewhere
+  // drift_again() makes it in place of what advance() left. Then the kick, or `next` stays staggered.
+  bool drifts() const { return drifts_always || staggered; }
+  void drift_again(double time, double step);
+  void kick(double time, double step);
+  void rebind(); // program, constraints, laws
+  void commit(); // `next` becomes the current state
   // [s]: rollback: start, of the same topology, becomes the current state
   void restore_state(const State& start, double time);
   void inject_into_next(); // fault injection, see `faulty`
@@ -144,15 +150,16 @@ struct Body final : System {
   long evaluations = 0; // number of evaluations of the internal forces, without those for probes
   FaultInjector faulty;
 
+  bool drifts_always = false; // set by contacts
+
   // To be set before prepare().
   Profile* profile = nullptr;         // of the scene; null: none
   bool parallel_small_bodies = false; // see ProgramOptions
 
 private:
-  void make_work_meter(const Scheme& scheme);
+  void make_work_meter();
   void move(double time, double step);
   void end_solved_contact();
-  void touch_floor(double time, double step);
   void measure_gravity();
   StateView current() const;
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
@@ -164,10 +171,11 @@ private:
   void rebind_solved_contact();
   void reserve_for_separations();
   void clear_sums();
+  std::vector<Record> kick_force_; // [N], scratch
   bool forces_deferred_ = false;
   bool sums_ = false; // `force` carries Program::forces_with_sums(), and corner_force is only room
-  std::vector<TouchedVertex> touched_; // scratch: by the floor
   double time_ = 0, next_time_ = 0;    // [s], of the current state and of `next`
+  double last_step_ = 0;               // [s], that led to the current state; 0: none
   std::unique_ptr<Boundary> boundary_; // null: nobody asked for it
 };
 

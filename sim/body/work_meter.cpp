@@ -45,19 +45,19 @@ std::vector<Slot> loaded_vertices(const Loads& loads) {
   return all;
 }
 
-bool equal(const Record& a, const Record& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 } // namespace
 
-double power(const MeteredBody& body, double time) {
-  double sum = 0;
-  const auto of = [&](Slot v) -> Vec3 { return whole_force(body, v).cwiseProduct(body.velocity[v].vec()); };
+FreeMotion free_motion(const MeteredBody& body, double time) {
+  FreeMotion sum;
+  const auto add = [&](Slot v, const Vec3& axes, double sign) {
+    const Vec3 force = axes.cwiseProduct(whole_force(body, v));
+    sum.power += sign * force.dot(body.velocity[v].vec());
+    sum.squared_forces += sign * body.system.inverse_mass[v] * force.squaredNorm();
+  };
   for (Slot v = 0; v < body.system.vertices(); ++v)
-    if (body.system.inverse_mass[v] > 0) sum += of(v).sum();
+    if (body.system.inverse_mass[v] > 0) add(v, Vec3::Ones(), 1);
   for (const Slot v : body.constraints.vertices())
-    if (body.system.inverse_mass[v] > 0) sum -= of(v).dot(prescribed(body.constraints, v, time));
+    if (body.system.inverse_mass[v] > 0) add(v, prescribed(body.constraints, v, time), -1);
   return sum;
 }
 
@@ -70,7 +70,8 @@ Work& Work::operator+=(const Work& other) {
 }
 
 double Work::size() const {
-  return std::abs(loads) + std::abs(drives) + std::abs(contact);
+  return std::abs(loads) + std::abs(drives) + std::abs(contact.obstacles) + std::abs(contact.impact) +
+         std::abs(contact.friction);
 }
 
 void WorkMeter::list(const MeteredBody& body) {
@@ -80,19 +81,16 @@ void WorkMeter::list(const MeteredBody& body) {
   };
   become(entries_.loads, loaded_vertices(body.loads));
   become(entries_.drives, body.constraints.drives() ? body.constraints.vertices() : std::vector<Slot>{});
-  constexpr std::size_t few = 64; // so that a first contact asks for no memory
-  entries_.contact.reserve(std::min(few, body.system.vertices()));
   listed_ = true;
 }
 
 void WorkMeter::forget_vertices() {
   listed_ = false;
-  for (std::vector<Entry>* each : {&entries_.loads, &entries_.drives, &entries_.contact}) each->clear();
+  for (std::vector<Entry>* each : {&entries_.loads, &entries_.drives}) each->clear();
 }
 
 void WorkMeter::settle(const MeteredBody& body) {
   settled_ = work(body);
-  entries_.contact.clear();
   if (!listed_) list(body);
   for (Entry& e : entries_.loads) e = {e.vertex, Record(load_on(body, e.vertex)), {}};
   for (Entry& e : entries_.drives) e = {e.vertex, Record(whole_force(body, e.vertex)), {}};
@@ -116,37 +114,14 @@ void WorkMeter::measure(const MeteredBody& body, double time, const State& next)
   }
 }
 
-void WorkMeter::before_contact(const State& next) {
-  position_before_ = next.position;
-  velocity_before_ = next.velocity;
-}
-
-void WorkMeter::after_contact(const MeteredBody& body, double step, const State& next) {
-  thread_local std::vector<TouchedVertex> touched;
-  touched.clear();
-  for (Slot i = 0; i < next.position.size(); ++i)
-    if (!equal(next.position[i], position_before_[i]) || !equal(next.velocity[i], velocity_before_[i]))
-      touched.push_back({i, position_before_[i], velocity_before_[i]});
-  after_contact(body, step, next, touched);
-}
-
-void WorkMeter::after_contact(const MeteredBody& body, double step, const State& next,
-                              const std::vector<TouchedVertex>& before) {
-  for (const TouchedVertex& was : before) {
-    const Slot i = was.vertex;
-    const Vec3 w = next.velocity[i].vec(), v = was.velocity.vec();
-    const Vec3 shift = next.position[i].vec() - was.position.vec();
-    const Vec3 force = whole_force(body, i);
-    settled_.contact += 0.5 * mass_of(body, i) * (w.squaredNorm() - v.squaredNorm()) - 0.5 * force.dot(shift);
-    entries_.contact.push_back({i, Record(force), Record(Vec3(-0.5 * shift + shadow_ * step * (w - v)))});
-  }
+void WorkMeter::contact(const ContactWork& work) {
+  settled_.contact += work;
 }
 
 template <class Load, class Force> Work WorkMeter::with_pending(const Load& load, const Force& force) const {
   Work sum = settled_;
   for (const Entry& e : entries_.loads) sum.loads += load(e).dot(e.pending.vec());
   for (const Entry& e : entries_.drives) sum.drives += force(e).dot(e.pending.vec());
-  for (const Entry& e : entries_.contact) sum.contact += force(e).dot(e.pending.vec());
   return sum;
 }
 
@@ -165,7 +140,8 @@ void WorkMeter::Entry::store(Archive& archive) {
 }
 
 void WorkMeter::store(Archive& archive, std::size_t most) {
-  archive.unbounded(settled_.loads, settled_.drives, settled_.contact, settled_.changes);
+  archive.unbounded(settled_.loads, settled_.drives, settled_.changes);
+  settled_.contact.store(archive);
   const auto all = [&](std::vector<Entry>& entries, std::size_t at_most) {
     archive.list(entries, at_most, "work is done on more vertices than the body has");
     if (!archive.reading()) return;
@@ -173,12 +149,10 @@ void WorkMeter::store(Archive& archive, std::size_t most) {
   };
   all(entries_.loads, most);
   all(entries_.drives, most);
-  all(entries_.contact, 2 * most); // by the floor, and by other contact
 }
 
 std::size_t WorkMeter::bytes() const {
-  return bytes_of(entries_.loads) + bytes_of(entries_.drives) + bytes_of(entries_.contact) +
-         bytes_of(position_before_) + bytes_of(velocity_before_);
+  return bytes_of(entries_.loads) + bytes_of(entries_.drives);
 }
 
 } // namespace rend

@@ -6,11 +6,9 @@
 //
 //   loads    Σ ½ (L + L')·Δx
 //   drives   Σ Δ(½ m v²) − ½ (F + F')·Δx + m γ v'·Δx       along prescribed coordinates; γ: ambient drag
-//   contact  Σ Δ(½ m v²) − ½ (F + F')·δ + s h F'·Δv        Δv, δ: what contact adds to v' and x'
-//
-// s is the weight of the scheme's shadow term (Scheme::shadow) and h the step: with it, a vertex that rests
-// pressed against an obstacle takes no work. Sums are of the order of the scheme's, two at most. An adaptive
-// scheme is measured over the whole step.
+// Sums are of the order of the scheme's, two at most. An adaptive scheme is measured over the whole step. What
+// contact takes, and what moves as prescribed does through it, is told by the answer to contacts
+// (sim/contact/contact_answer.h) or by the solve (solved_contact.h).
 //
 //   changes  Δ of the potential in gravity, of matter that a change of the map takes away or adds, and where
 //            gravity grows
@@ -19,16 +17,19 @@
 // has no meter.
 #pragma once
 
+#include "sim/integrate/system.h"
 #include "sim/outside/constraint.h"
-#include "sim/outside/floor_contact.h"
+#include "sim/outside/contact_work.h"
 #include "sim/outside/load.h"
 
 namespace rend {
 
 struct Work {
-  double loads = 0, drives = 0, contact = 0, changes = 0; // [J]
+  double loads = 0, drives = 0, changes = 0; // [J]
+  ContactWork contact;
 
-  double sum() const { return loads + drives + contact + changes; }
+  // [J]: what was done to the body. What contact takes is lost: it is no cause of anything.
+  double sum() const { return loads + drives + contact.obstacles + changes; }
   double size() const; // [J], sum of magnitudes; without changes, which depend on the origin
   Work& operator+=(const Work& other);
 };
@@ -42,28 +43,25 @@ struct MeteredBody {
   const Record* force;               // [N], internal
 };
 
-// Of internal forces, loads and weight on free coordinates: Σ F·v [W].
-double power(const MeteredBody& body, double time);
+// Of internal forces, loads and weight F on free coordinates.
+struct FreeMotion {
+  double power = 0;          // [W], Σ F·v
+  double squared_forces = 0; // [N²/kg], Σ F²/m
+};
+FreeMotion free_motion(const MeteredBody& body, double time);
 
 class WorkMeter {
 public:
-  explicit WorkMeter(double shadow) : shadow_(shadow) {}
-
   // The calls of a step, in this order. Forces and loads of the current state are evaluated; called again if
   // they were evaluated anew, after a change of the map.
   void settle(const MeteredBody& body);
-  // After the scheme: `time` [s] at the end of the step.
+  // Of `next` as it is accepted, after contact; `time` [s] at the end of the step.
   void measure(const MeteredBody& body, double time, const State& next);
-  // Before and after contact changes `next`: all of it, or some vertices as they were before.
-  void before_contact(const State& next);
-  void after_contact(const MeteredBody& body, double step, const State& next);
-  void after_contact(const MeteredBody& body, double step, const State& next,
-                     const std::vector<TouchedVertex>& before);
+  void contact(const ContactWork& work); // of the step
 
   void forget_vertices(); // what is listed is of vertices before a change of the map; nothing is pending
   void rebind() { listed_ = false; }                         // after a change of the map
   void change(double energy) { settled_.changes += energy; } // [J], potential that it or gravity added
-  void contact(double work) { settled_.contact += work; }    // [J], by contact inside the solve of the step
 
   // Since the start. Of `body`, forces and loads are those of the current state; without it, those of the state
   // before stand in for what is pending.
@@ -77,21 +75,19 @@ private:
   struct Entry {
     Slot vertex = 0;
     Record force = {};   // [N], F or L at the start of the step
-    Record pending = {}; // [m], ½ Δx, ½ δ or s h Δv: F'·pending [J] is still to be added
+    Record pending = {}; // [m], ½ Δx: F'·pending [J] is still to be added
     void store(Archive& archive);
   };
   struct Entries {
-    std::vector<Entry> loads, drives, contact;
+    std::vector<Entry> loads, drives;
   };
   void list(const MeteredBody& body);
   // What is settled and what is pending: with F' or L' [N] of an entry.
   template <class Load, class Force> Work with_pending(const Load& load, const Force& force) const;
 
-  double shadow_;
   bool listed_ = false; // loads and drives have the vertices of the current map
   Work settled_;
   Entries entries_;
-  std::vector<Record> position_before_, velocity_before_; // [m], [m/s] by slot: scratch of before_contact()
 };
 
 } // namespace rend

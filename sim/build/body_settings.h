@@ -21,7 +21,7 @@
 #include "sim/mechanics/mass.h"
 #include "sim/mechanics/springs.h"
 #include "sim/outside/constraint.h"
-#include "sim/outside/floor_contact.h"
+#include "sim/outside/contact_settings.h"
 #include "sim/outside/load.h"
 
 #include <optional>

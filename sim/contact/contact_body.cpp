@@ -5,8 +5,13 @@
 
 namespace rend {
 
+ContactBody::ContactBody(Body& body_, ContactIn in) : body(&body_), in_(in) {
+  if (settings().faces()) faces.emplace(*body_.map, body_.boundary());
+}
+
 void ContactBody::prepare(double time) {
-  changed = faces.update();
+  changed = faces && faces->update();
+  of_start_ = in_ == ContactIn::Result || body->staggered;
   held_.clear();
   if (body->constraints.vertices().empty()) return;
   held_.assign(vertices(), 0);
@@ -16,6 +21,12 @@ void ContactBody::prepare(double time) {
 Vec3 ContactPoint::from() const {
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < 3; ++k) sum += weight[k] * body->from(vertex[k]);
+  return sum;
+}
+
+Vec3 ContactPoint::velocity_before() const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) sum += weight[k] * body->velocity_before(vertex[k]);
   return sum;
 }
 
@@ -45,20 +56,14 @@ double ContactPoint::leverage(const Vec3& normal) const {
   return whole > 0 ? most / whole : std::numeric_limits<double>::infinity();
 }
 
-void ContactPoint::apply_impulse(const Vec3& impulse, double step) const {
+double ContactPoint::work_of_supports(const Vec3& impulse) const {
+  double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 change = weight[k] * body->inverse_mass(vertex[k]).cwiseProduct(impulse);
-    Record &x = body->position(vertex[k]), &v = body->velocity(vertex[k]);
-    x = Record(x.vec() + step * change);
-    v = Record(v.vec() + change);
+    const Vec3 w = body->inverse_mass(vertex[k]);
+    for (int a = 0; a < 3; ++a)
+      if (w[a] == 0) sum -= weight[k] * impulse[a] * body->velocity(vertex[k]).vec()[a];
   }
-}
-
-void ContactPoint::displace(const Vec3& by) const {
-  for (std::size_t k = 0; k < 3; ++k) {
-    Record& x = body->position(vertex[k]);
-    x = Record(x.vec() + weight[k] * body->inverse_mass(vertex[k]).cwiseProduct(by));
-  }
+  return sum;
 }
 
 } // namespace rend

@@ -3,28 +3,39 @@
 // A point of a face, x = Σ b_i x_i with barycentric weights b_i, takes an impulse J as b_i J on each vertex,
 // which preserves momentum and angular momentum. Its inverse mass is then Σ b_i²/m_i, along each axis: a vertex
 // that is constrained along an axis has infinite mass along it, and its support takes the momentum.
+//
+// An impulse J during a step of size h changes the velocity of a vertex by J/m, and its position by h J/m.
 #pragma once
 
 #include "sim/body/body.h"
 #include "sim/contact/contact_faces.h"
-#include "sim/outside/impact.h"
+
+#include <optional>
 
 namespace rend {
 
+// n·K n: the inverse effective mass [1/kg] along n, with K = diag(inverse_masses).
+inline double inverse_mass_along(const Vec3& normal, const Vec3& inverse_masses) {
+  return normal.dot(inverse_masses.cwiseProduct(normal));
+}
+
 class ContactBody {
 public:
-  explicit ContactBody(Body& body_) : body(&body_), faces(*body_.map, body_.boundary()) {}
+  ContactBody(Body& body_, ContactIn in);
 
   // Called before the contacts of each step. `time` [s]: at the end of the step.
   void prepare(double time);
 
   Body* body;
-  ContactFaces faces;
-  bool changed = true; // whether the faces changed since the last step
+  std::optional<ContactFaces> faces; // none: it meets the floor alone
+  bool changed = true;               // whether the faces changed since the last step
+
+  // Scratch of the answer, one per vertex slot: its mover; none outside of it.
+  mutable std::vector<std::uint32_t> mover;
 
   const ContactSettings& settings() const { return *body->contact; }
   std::size_t vertices() const { return body->vertices(); } // slots
-  std::size_t bytes() const { return faces.bytes() + bytes_of(held_); }
+  std::size_t bytes() const { return (faces ? faces->bytes() : 0) + bytes_of(held_) + bytes_of(mover); }
   bool alive(Slot v) const { return body->inverse_mass[v] != 0; }
   // [1/kg] along x, y, z; 0: constrained, or free slot.
   Vec3 inverse_mass(Slot v) const {
@@ -34,10 +45,18 @@ public:
     return {axes & 1u ? 0 : w, axes & 2u ? 0 : w, axes & 4u ? 0 : w};
   }
   Vec3 from(Slot v) const { return body->map->position()[v]; } // [m], at the start of the step
+  // [m/s], u⁻ of leapfrog.h, before an impulse has changed the velocity.
+  Vec3 velocity_before(Slot v) const {
+    const Vec3 start = body->map->velocity()[v];
+    return of_start_ ? start : Vec3(2 * start - velocity(v).vec());
+  }
+  // At the end of the step; in one that drifts, the velocity is that of its middle.
   Record& position(Slot v) const { return body->next.position[v]; }
   Record& velocity(Slot v) const { return body->next.velocity[v]; }
 
 private:
+  ContactIn in_;
+  bool of_start_ = true;           // u⁻ is the velocity at the start of the step
   std::vector<std::uint8_t> held_; // one per vertex slot, bits 0, 1, 2: prescribed along x, y, z; empty: none
 };
 
@@ -49,9 +68,11 @@ struct ContactPoint {
 
   static ContactPoint at(const ContactBody& body, Slot v) { return {&body, {v, v, v}, {1, 0, 0}}; }
 
-  Vec3 from() const;         // [m], at the start of the step
-  Vec3 position() const;     // [m]
-  Vec3 velocity() const;     // [m/s]
+  // As those of ContactBody.
+  Vec3 from() const;
+  Vec3 velocity_before() const;
+  Vec3 position() const;
+  Vec3 velocity() const;
   Vec3 inverse_mass() const; // [1/kg] along x, y, z
   // The largest displacement of a vertex when the point is shifted by 1 along the normal: about 1, and more if
   // other vertices of the face, or axes in which the normal has a component, are constrained. Infinite if all
@@ -59,9 +80,8 @@ struct ContactPoint {
   double leverage(const Vec3& normal) const;
   // Whether it is constrained along the normal, or so nearly that corrections would be too large.
   bool held(const Vec3& normal) const { return leverage(normal) > 4; }
-  void apply_impulse(const Vec3& impulse,
-                     double step) const; // [N·s]: changes velocities, and positions by step × that
-  void displace(const Vec3& by) const;   // [kg·m]: changes positions only, each vertex by b_i/m_i of it
+  // [J]: what the supports of its prescribed vertices do while it takes the impulse
+  double work_of_supports(const Vec3& impulse) const;
 };
 
 } // namespace rend

@@ -84,7 +84,7 @@ public:
     });
     for (const Face& face : faces_)
       boxes_.push_back(
-          grown(around(*bodies[face.body], bodies[face.body]->faces.triangles()[face.triangle]), margin));
+          grown(around(*bodies[face.body], bodies[face.body]->faces->triangles()[face.triangle]), margin));
     std::vector<std::uint32_t> each(faces_.size());
     std::iota(each.begin(), each.end(), 0U);
     std::vector<Bounds> whole; // bounding box of each fragment
@@ -130,7 +130,7 @@ void ContactPairs::list(const ContactBody& body, BodyEntry& of) const {
   of.vertex_fragment.clear();
   of.face_fragment.clear();
   of.several = false;
-  for (const ContactFaces::Triangle& triangle : body.faces.triangles()) {
+  for (const ContactFaces::Triangle& triangle : body.faces->triangles()) {
     of.vertices.insert(of.vertices.end(), triangle.vertex.begin(), triangle.vertex.end());
     of.face_fragment.push_back(label[map.cells(FaceOfVolume).first_dart(triangle.face).value]);
     of.several = of.several || of.face_fragment.back() != of.face_fragment.front();
@@ -194,7 +194,7 @@ void ContactPairs::search(const Bodies& bodies) {
   for (std::uint32_t b = 0; b < bodies.size(); ++b) {
     if (!bodies[b]->settings().fragments) continue;
     thickness = std::max(thickness, bodies[b]->settings().thickness);
-    const auto& triangles = bodies[b]->faces.triangles();
+    const auto& triangles = bodies[b]->faces->triangles();
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       faces.push_back({b, of_[b].face_fragment[t], t});
       sizes += around(*bodies[b], triangles[t]).diagonal().norm();
@@ -219,7 +219,7 @@ void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const FaceT
     };
     trees.each_near(around(*bodies[b], v), own, [&](const FaceTrees::Face& face) {
       ContactPair pair{b, v, face.body, face.triangle};
-      const ContactFaces::Triangle& triangle = bodies[face.body]->faces.triangles()[face.triangle];
+      const ContactFaces::Triangle& triangle = bodies[face.body]->faces->triangles()[face.triangle];
       if (allowed(bodies, n, pair) && may_meet(*bodies[b], v, *bodies[face.body], triangle, reach) &&
           !joined(bodies, n, pair))
         pairs_.push_back(pair);
@@ -239,14 +239,14 @@ bool ContactPairs::same_fragment(std::size_t entry, const ContactPair& pair) con
 bool ContactPairs::allowed(const Bodies& bodies, std::size_t entry, const ContactPair& pair) const {
   if (!same_fragment(entry, pair)) return true;
   const ContactBody& body = *bodies[pair.body];
-  return body.settings().self && !is_corner(pair.vertex, body.faces.triangles()[pair.triangle]);
+  return body.settings().self && !is_corner(pair.vertex, body.faces->triangles()[pair.triangle]);
 }
 
 // Whether the pair is excluded because the material connects it; determines whether they are neighbours.
 bool ContactPairs::joined(const Bodies& bodies, std::size_t entry, ContactPair& pair) const {
   if (pair.body != pair.face_body) return false;
   const ContactBody& body = *bodies[pair.body];
-  const double apart = apart_at_rest(body, pair.vertex, body.faces.triangles()[pair.triangle]);
+  const double apart = apart_at_rest(body, pair.vertex, body.faces->triangles()[pair.triangle]);
   pair.neighbours = apart <= body.settings().thickness;
   return same_fragment(entry, pair) && apart <= 2 * body.settings().thickness;
 }
@@ -301,7 +301,7 @@ void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
   const std::vector<Slot>& vertices = of_[pair.body].vertices;
   refuse_unless(std::binary_search(vertices.begin(), vertices.end(), pair.vertex),
                 "contact is of a vertex that is not there");
-  refuse_unless(pair.triangle < bodies[pair.face_body]->faces.triangles().size(),
+  refuse_unless(pair.triangle < bodies[pair.face_body]->faces->triangles().size(),
                 "contact is with a face that is not there");
   const auto order = [](const ContactPair& p) { return std::tie(p.body, p.vertex, p.face_body, p.triangle); };
   refuse_unless(number == 0 || order(pairs_[number - 1]) < order(pair),

@@ -4,14 +4,16 @@
 
 namespace rend {
 
-std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::unique_ptr<Body>>& bodies) {
-  std::unique_ptr<Contacts> contacts(new Contacts(world));
+std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::unique_ptr<Body>>& bodies,
+                                       const Scheme& scheme) {
+  std::unique_ptr<Contacts> contacts(new Contacts(world, scheme));
   for (const auto& body : bodies)
-    if (body->contact && body->contact->faces())
-      contacts->bodies_.push_back(std::make_unique<ContactBody>(*body));
+    if (body->contact && (body->floor_contact || body->contact->faces()))
+      contacts->bodies_.push_back(std::make_unique<ContactBody>(*body, scheme.contact));
   for (const auto& body : contacts->bodies_)
     if (body->settings().fragments && !contacts->fragments_)
       contacts->fragments_ = std::make_unique<FragmentContact>();
+  for (const auto& body : contacts->bodies_) body->body->drifts_always = scheme.contact == ContactIn::Step;
   if (contacts->bodies_.empty() && world.spheres.empty()) return {};
   return contacts;
 }
@@ -19,33 +21,55 @@ std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::uniq
 void Contacts::advance(double time, double step) {
   for (auto& body : bodies_)
     if (!body->body->next.finite()) return; // the scene is about to stop
-  for (auto& body : bodies_) {
-    body->prepare(time + step);
-    if (body->body->work_meter) body->body->work_meter->before_contact(body->body->next);
-  }
-  if (fragments_) fragments_->advance(bodies_, step);
-  obstacles_.advance(bodies_, time, step);
+  for (auto& body : bodies_) body->prepare(time + step);
+  obstacles_.predict(time, step);
+  detect();
+  if (!answer_.empty() && in_ == ContactIn::StepInstead) drift_all(time, step);
+  answer_.solve(step);
+  answer_.account();
+  if (in_ != ContactIn::Result) end_step(time, step);
+}
+
+// In place of what the scheme has made.
+void Contacts::drift_all(double time, double step) {
+  for (auto& body : bodies_)
+    if (!body->body->drifts()) body->body->drift_again(time, step);
+  detect();
+}
+
+// As long as something touches, the state stays staggered.
+void Contacts::end_step(double time, double step) {
   for (auto& each : bodies_) {
     Body& body = *each->body;
-    touched_.clear();
-    if (body.floor_contact)
-      body.floor_contact->apply(body.map->position().values().data(), body.next, step, touched_);
-    body.constrain(time + step, body.next.position.data(), body.next.velocity.data());
-    if (body.work_meter) body.work_meter->after_contact(body.metered(), step, body.next);
+    if (!answer_.empty())
+      body.next.staggered = true;
+    else if (body.drifts())
+      body.kick(time, step);
   }
+}
+
+void Contacts::detect() {
+  answer_.begin();
+  if (fragments_) fragments_->detect(bodies_, answer_);
+  obstacles_.detect(bodies_, answer_);
+}
+
+bool Contacts::with_faces() const {
+  return std::any_of(bodies_.begin(), bodies_.end(), [](const auto& body) { return body->faces.has_value(); });
 }
 
 void Contacts::store(Archive& archive) {
   archive.mark("contacts");
   for (auto& body : bodies_) {
-    if (archive.reading()) body->faces.update();
+    if (!body->faces) continue;
+    if (archive.reading()) body->faces->update();
     archive(body->changed);
   }
   if (fragments_) fragments_->store(archive, bodies_);
 }
 
 std::size_t Contacts::bytes() const {
-  std::size_t sum = obstacles_.bytes() + (fragments_ ? fragments_->bytes() : 0);
+  std::size_t sum = obstacles_.bytes() + answer_.bytes() + (fragments_ ? fragments_->bytes() : 0);
   for (const auto& body : bodies_) sum += body->bytes();
   return sum;
 }

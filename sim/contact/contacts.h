@@ -1,6 +1,13 @@
-// All contacts of a scene other than with the floor (floor_contact.h, handled by the body), at the end of each
-// step, after every body has been advanced. Order: bodies and fragments among each other, obstacles, the floor;
-// prescribed vertices ignore all of them.
+// All contacts of a scene, at the end of each step, after every body has been advanced by itself:
+//
+//   detect       floor, spheres and boxes (obstacle_contact.h), bodies and fragments (fragment_contact.h)
+//   constraints  of one kind (contact_constraint.h)
+//   answer       by impulses, all at once (contact_answer.h)
+//
+// Within a step of velocity Verlet, and of other explicit schemes but symplectic Euler where something touches
+// (sim/integrate/leapfrog.h).
+//
+// Prescribed vertices take no impulse: their supports do.
 #pragma once
 
 #include "sim/contact/fragment_contact.h"
@@ -11,21 +18,29 @@ namespace rend {
 class Contacts {
 public:
   // Null if no body has contacts: they then cost nothing. Called before bodies are prepared.
-  static std::unique_ptr<Contacts> of(World& world, const std::vector<std::unique_ptr<Body>>& bodies);
+  static std::unique_ptr<Contacts> of(World& world, const std::vector<std::unique_ptr<Body>>& bodies,
+                                      const Scheme& scheme);
 
   void advance(double time, double step); // [s]: changes the `next` of bodies and spheres
 
   const std::vector<std::unique_ptr<ContactBody>>& bodies() const { return bodies_; }
   const FragmentContact* fragments() const { return fragments_.get(); } // null: not enabled in any body
+  bool with_faces() const; // some body can touch more than the floor, or there are spheres
   std::size_t bytes() const;
   void store(Archive& archive); // after the bodies: the state of the pair search
 
 private:
-  explicit Contacts(World& world) : obstacles_(world) {}
+  Contacts(World& world, const Scheme& scheme)
+      : in_(scheme.contact), obstacles_(world), answer_(scheme.solves) {}
+  void detect();
+  void drift_all(double time, double step);
+  void end_step(double time, double step);
+
+  ContactIn in_;
   std::vector<std::unique_ptr<ContactBody>> bodies_; // those with contact, in the order of the scene
   std::unique_ptr<FragmentContact> fragments_;       // null: not enabled in any body
   ObstacleContact obstacles_;
-  std::vector<TouchedVertex> touched_; // scratch: by the floor
+  ContactAnswer answer_;
 };
 
 } // namespace rend

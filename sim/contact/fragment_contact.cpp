@@ -1,18 +1,14 @@
 #include "sim/contact/fragment_contact.h"
 
-#include "sim/outside/obstacle.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace rend {
 namespace {
 
-constexpr int fragment_sweeps = 4;
-constexpr double fragment_relaxation = 0.05; // [s]
-constexpr double coincident = 1e-10;         // relative to the thickness and the face's size
-constexpr double deepest = 0.2; // relative to a face's size: the largest penetration of a solid's face
-constexpr double beside = 1.5;  // distance in thicknesses at which a path misses a face
+constexpr double coincident = 1e-10; // relative to the thickness and the face's size
+constexpr double deepest = 0.2;      // relative to a face's size: the largest penetration of a solid's face
+constexpr double beside = 1.5;       // distance in thicknesses at which a path misses a face
 
 TriangleCorners mixed(const TriangleCorners& a, const TriangleCorners& b, double share) {
   TriangleCorners out;
@@ -55,11 +51,11 @@ std::optional<Facing> facing(const Vec3& x, const TriangleCorners& face, bool so
 
 } // namespace
 
-std::optional<FragmentContact::Touch> FragmentContact::touch(const ContactPairs::Bodies& bodies,
-                                                             const ContactPair& pair, double step) const {
+std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodies& bodies,
+                                                        const ContactPair& pair) {
   const ContactBody &body = *bodies[pair.body], &other = *bodies[pair.face_body];
   const double thickness = ContactPairs::thickness(body, other);
-  const auto& slots = other.faces.triangles()[pair.triangle].vertex;
+  const auto& slots = other.faces->triangles()[pair.triangle].vertex;
   const Vec3 x0 = body.from(pair.vertex), x1 = body.position(pair.vertex);
   const TriangleCorners y0{other.from(slots[0]), other.from(slots[1]), other.from(slots[2])};
   const TriangleCorners y1{other.position(slots[0]), other.position(slots[1]), other.position(slots[2])};
@@ -75,44 +71,24 @@ std::optional<FragmentContact::Touch> FragmentContact::touch(const ContactPairs:
     start = facing(there, mixed(y0, y1, share), solid, thickness);
     if (!start || start->gap > beside * thickness || start->normal.dot(side) <= 0) return {};
   }
-  double wanted = std::min(thickness, before);
-  const double short_of = (before < 0 ? 0 : thickness) - before;
-  if (short_of > 0 && (before < 0 || !pair.neighbours))
-    wanted += std::min(1.0, step / fragment_relaxation) * short_of;
-  const double friction = std::max(body.settings().friction, other.settings().friction);
+  const double kept = before < 0 ? 0 : pair.neighbours ? std::min(thickness, before) : thickness;
   const ContactPoint vertex = ContactPoint::at(body, pair.vertex), face{&other, slots, start->weight};
   const Vec3 normal = start->normal;
-  return Touch{vertex, face, normal, wanted, friction, vertex.held(normal), face.held(normal)};
+  return ContactConstraint{.a = ContactSide::of(vertex, vertex.held(normal)),
+                           .b = ContactSide::of(face, face.held(normal)),
+                           .normal = normal,
+                           .apart = kept,
+                           .friction = std::max(body.settings().friction, other.settings().friction)};
 }
 
-void FragmentContact::meet(const Touch& touch, double step) {
-  Vec3 inverse_masses = Vec3::Zero();
-  if (!touch.vertex_held) inverse_masses += touch.vertex.inverse_mass();
-  if (!touch.face_held) inverse_masses += touch.face.inverse_mass();
-  const double w = inverse_mass_along(touch.normal, inverse_masses);
-  const double left = touch.gap - touch.normal.dot(touch.vertex.position() - touch.face.position());
-  if (left <= 0 || w == 0) return;
-  const Vec3 u = touch.vertex.velocity() - touch.face.velocity();
-  const Impulse impulse = impact(u, touch.normal, touch.friction, inverse_masses);
-  const Vec3 dragged = step * impulse.friction;
-  const double after = left - touch.normal.dot(inverse_masses.cwiseProduct(dragged));
-  const Vec3 by = dragged + std::max(0.0, after) / w * touch.normal;
-  if (!touch.vertex_held) {
-    touch.vertex.apply_impulse(impulse.whole(), 0);
-    touch.vertex.displace(by);
+void FragmentContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer) {
+  touching_ = 0;
+  for (const ContactPair& pair : pairs_.find(bodies)) {
+    const auto found = touch(bodies, pair);
+    if (!found) continue;
+    answer.add(*found);
+    ++touching_;
   }
-  if (!touch.face_held) {
-    touch.face.apply_impulse(-impulse.whole(), 0);
-    touch.face.displace(-by);
-  }
-}
-
-void FragmentContact::advance(const ContactPairs::Bodies& bodies, double step) {
-  touches_.clear();
-  for (const ContactPair& pair : pairs_.find(bodies))
-    if (auto found = touch(bodies, pair, step)) touches_.push_back(*found);
-  for (int sweep = 0; sweep < fragment_sweeps; ++sweep)
-    for (const Touch& touch : touches_) meet(touch, step);
 }
 
 } // namespace rend

@@ -6,8 +6,6 @@
 namespace rend {
 namespace {
 
-constexpr int obstacle_sweeps = 8;
-constexpr int passes = 2;            // over faces: moving one out may move its neighbour in
 constexpr double touching = 1e-9;    // [m]
 constexpr double own_friction = 0.5; // between obstacles without a friction of their own
 
@@ -23,9 +21,6 @@ struct MovingSphere {
     Bounds box(sphere->next_centre - reach, sphere->next_centre + reach);
     return box.extend(sphere->centre - reach).extend(sphere->centre + reach);
   }
-  double depth(const Vec3& from, double margin) const {
-    return sphere->radius + margin - (from - sphere->centre).norm();
-  }
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
     const Vec3 a = from - sphere->centre, b = to - sphere->next_centre;
     auto plane = Sphere::stop(a, b, sphere->radius + margin);
@@ -40,9 +35,6 @@ struct StandingBox {
   Vec3 velocity_at(const Vec3&) const { return Vec3::Zero(); }
   Bounds bounds(double margin) const {
     return {box->low - Vec3::Constant(margin), box->high + Vec3::Constant(margin)};
-  }
-  double depth(const Vec3& from, double margin) const {
-    return margin + std::min((from - box->low).minCoeff(), (box->high - from).minCoeff());
   }
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
     return box->stop(from, to, margin);
@@ -62,9 +54,6 @@ struct MovingBox {
       around.extend(way->from.of(corner)).extend(way->to.of(corner));
     }
     return around;
-  }
-  double depth(const Vec3& from, double margin) const {
-    return StandingBox{box}.depth(way->from.back(from), margin);
   }
   std::optional<Plane> stop(const Vec3& from, const Vec3& to, double margin) const {
     const auto plane = box->stop(way->from.back(from), way->to.back(to), margin);
@@ -86,8 +75,8 @@ Outside outside(const Bounds& near, const Vec3& x) {
   return static_cast<Outside>(code);
 }
 
-// Calls f(point, plane) for each vertex of the body that the obstacle stops. `codes`: the resulting outcode of
-// each slot.
+// Calls f(point, plane) for each vertex of the body that the obstacle stops. `codes`: the
+// outcode of each slot at the end of the step.
 template <class Shape, class F>
 void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;
@@ -98,10 +87,7 @@ void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Ou
     codes[v] = outside(near, to);
     if (codes[v] != 0 && (codes[v] & outside(near, body.from(v))) != 0) continue;
     if (!body.alive(v)) continue;
-    const auto plane = shape.stop(body.from(v), to, margin);
-    if (!plane) continue;
-    f(ContactPoint::at(body, v), *plane, shape.depth(body.from(v), margin));
-    codes[v] = outside(near, body.position(v));
+    if (const auto plane = shape.stop(body.from(v), to, margin)) f(ContactPoint::at(body, v), *plane);
   }
 }
 
@@ -109,47 +95,15 @@ void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Ou
 template <class Shape, class F>
 void for_each_face(const Shape& shape, const ContactBody& body, const std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;
-  for (const ContactFaces::Triangle& triangle : body.faces.triangles()) {
+  for (const ContactFaces::Triangle& triangle : body.faces->triangles()) {
     const auto [a, b, c] = triangle.vertex;
     if ((codes[a] & codes[b] & codes[c]) != 0) continue;
     const TriangleCorners x{body.position(a), body.position(b), body.position(c)};
     const ContactPoint point{&body, triangle.vertex, shape.deepest(x)};
     if (*std::max_element(point.weight.begin(), point.weight.end()) == 1) continue; // a vertex
     const auto plane = shape.stop(point.from(), point.position(), margin);
-    if (plane) f(point, *plane, shape.depth(point.from(), margin));
+    if (plane) f(point, *plane);
   }
-}
-
-// On positions only, leaving the penetration `kept` [m].
-void move_out(const ContactPoint& point, const Plane& plane, double kept) {
-  const double gap = plane.normal.dot(point.position()) - plane.offset + kept;
-  if (gap < 0) point.displace(-gap / inverse_mass_along(plane.normal, point.inverse_mass()) * plane.normal);
-}
-
-// Moves a point out of an obstacle with infinite mass.
-void keep_out(const ContactPoint& point, const Plane& plane, const Vec3& obstacle, double friction, double kept,
-              double step) {
-  if (plane.normal.dot(point.position()) >= plane.offset || point.held(plane.normal)) return;
-  const Impulse impulse = impact(point.velocity() - obstacle, plane.normal, friction, point.inverse_mass());
-  point.apply_impulse(impulse.whole(), 0);
-  point.displace(step * impulse.friction);
-  move_out(point, plane, kept);
-}
-
-// Of an obstacle that falls, the momentum was traded with the bodies before.
-enum class Momentum { Taken, TradedBefore };
-
-template <class Shape>
-void keep_body_out(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, double friction,
-                   double step, Momentum momentum) {
-  const auto act = [&](const ContactPoint& point, const Plane& plane, double before) {
-    const double kept = way_out(before, step);
-    if (momentum == Momentum::Taken)
-      return keep_out(point, plane, shape.velocity_at(point.position()), friction, kept, step);
-    if (!point.held(plane.normal)) move_out(point, plane, kept);
-  };
-  for_each_vertex(shape, body, codes, act);
-  for (int pass = 0; pass < passes; ++pass) for_each_face(shape, body, codes, act);
 }
 
 // The point of the box that is nearest to x.
@@ -164,11 +118,6 @@ std::optional<Plane> plane_against_standing(const Box& box, double radius, const
   if (distance >= radius) return {};
   if (distance == 0) return box.stop(start, to, radius);
   return Plane{from / distance, from.dot(at) / distance + radius};
-}
-
-// Contact with an object of infinite mass, whose surface has that velocity [m/s].
-void stop(Sphere& sphere, const Vec3& normal, double friction, const Vec3& surface = Vec3::Zero()) {
-  sphere.next_velocity += impact(sphere.next_velocity - surface, normal, friction, Vec3::Ones()).whole();
 }
 
 } // namespace
@@ -201,117 +150,102 @@ const RigidStep* ObstacleContact::step_of(const Box& box) const {
   return box.moves() ? &box_steps_[static_cast<std::size_t>(&box - world_.boxes.data())] : nullptr;
 }
 
-Vec3 ObstacleContact::velocity_at(const Sphere& sphere, const Vec3& x) const {
-  return MovingSphere{&sphere, step_of(sphere)}.velocity_at(x);
-}
-
-std::optional<Plane> ObstacleContact::plane_against(const Box& box, const Sphere& sphere) const {
-  const RigidStep* way = step_of(box);
-  if (!way) return plane_against_standing(box, sphere.radius, sphere.centre, sphere.next_centre);
-  const auto plane = plane_against_standing(box, sphere.radius, way->from.back(sphere.centre),
-                                            way->to.back(sphere.next_centre));
-  return plane ? std::optional(moved(way->to, *plane)) : std::nullopt;
-}
-
-void ObstacleContact::advance(const std::vector<std::unique_ptr<ContactBody>>& bodies, double time,
-                              double step) {
-  predict(time, step);
-  exchange_momentum(bodies, step);
+void ObstacleContact::detect(const std::vector<std::unique_ptr<ContactBody>>& bodies, ContactAnswer& answer) {
   for (const auto& body : bodies) {
+    detect_floor(*body, answer);
     if (!body->settings().obstacles) continue;
     const double own = body->settings().friction;
-    for (const Sphere& sphere : world_.spheres)
-      keep_body_out(MovingSphere{&sphere, step_of(sphere)}, *body, codes_, sphere.friction.value_or(own), step,
-                    sphere.falls() ? Momentum::TradedBefore : Momentum::Taken);
+    for (Sphere& sphere : world_.spheres) {
+      const MovingSphere shape{&sphere, step_of(sphere)};
+      const auto side = [&](const Vec3& at) {
+        return sphere.falls() ? ContactSide::of(sphere) : ContactSide::of_obstacle(shape.velocity_at(at));
+      };
+      detect_shape(shape, *body, sphere.friction.value_or(own), side, answer);
+    }
     for (const Box& box : world_.boxes) {
-      const double friction = box.friction.value_or(own);
+      const auto add = [&](const auto& shape) {
+        const auto side = [&](const Vec3& at) { return ContactSide::of_obstacle(shape.velocity_at(at)); };
+        detect_shape(shape, *body, box.friction.value_or(own), side, answer);
+      };
       if (const RigidStep* way = step_of(box))
-        keep_body_out(MovingBox{&box, way}, *body, codes_, friction, step, Momentum::Taken);
+        add(MovingBox{&box, way});
       else
-        keep_body_out(StandingBox{&box}, *body, codes_, friction, step, Momentum::Taken);
+        add(StandingBox{&box});
     }
   }
-}
-
-void ObstacleContact::exchange_momentum(const std::vector<std::unique_ptr<ContactBody>>& bodies, double step) {
-  touches_.clear();
-  bool falls = false;
-  for (std::size_t s = 0; s < world_.spheres.size(); ++s) {
-    if (!world_.spheres[s].falls()) continue;
-    falls = true;
-    for (const auto& body : bodies)
-      if (body->settings().obstacles) find_touches(s, *body);
-  }
-  if (!falls) return;
-  for (int sweep = 0; sweep < obstacle_sweeps; ++sweep) {
-    for (Touch& touch : touches_) meet(touch, step);
-    for (Sphere& a : world_.spheres)
-      for (Sphere& b : world_.spheres)
-        if (&a < &b) collide(a, b);
-    for (Sphere& sphere : world_.spheres)
-      if (sphere.falls()) support(sphere);
-  }
   for (Sphere& sphere : world_.spheres)
-    if (sphere.falls()) settle(sphere, step);
+    if (sphere.falls()) detect_around(sphere, answer);
 }
 
-void ObstacleContact::find_touches(std::size_t number, const ContactBody& body) {
-  const Sphere& sphere = world_.spheres[number];
-  const double friction = sphere.friction.value_or(body.settings().friction);
-  const auto keep = [&](const ContactPoint& point, const Plane& plane, double) {
-    touches_.push_back({number, point, plane.normal, friction, point.held(plane.normal)});
+void ObstacleContact::detect_floor(const ContactBody& body, ContactAnswer& answer) const {
+  if (!body.body->floor_contact) return;
+  const auto [height, friction] = *body.body->floor_contact;
+  for (Slot v = 0; v < body.vertices(); ++v)
+    if (body.position(v).z < height && body.inverse_mass(v).z() != 0)
+      answer.add({.a = ContactSide::of(ContactPoint::at(body, v), false),
+                  .b = ContactSide::of_obstacle(Vec3::Zero()),
+                  .normal = Vec3::UnitZ(),
+                  .apart = height,
+                  .friction = friction});
+}
+
+// `side(x)`: the obstacle's, at a place x.
+template <class Shape, class Side>
+void ObstacleContact::detect_shape(const Shape& shape, const ContactBody& body, double friction,
+                                   const Side& side, ContactAnswer& answer) {
+  const auto add = [&](const ContactPoint& point, const Plane& plane) {
+    const ContactSide other = side(point.position());
+    answer.add({.a = ContactSide::of(point, point.held(plane.normal)),
+                .b = other,
+                .normal = plane.normal,
+                .apart = plane.offset - plane.normal.dot(other.position()),
+                .friction = friction});
   };
-  const MovingSphere falling{&sphere, nullptr};
-  for_each_vertex(falling, body, codes_, keep);
-  for_each_face(falling, body, codes_, keep);
+  for_each_vertex(shape, body, codes_, add);
+  for_each_face(shape, body, codes_, add);
 }
 
-void ObstacleContact::meet(Touch& touch, double step) {
-  Sphere& sphere = world_.spheres[touch.sphere];
-  const double W = sphere.inverse_mass();
-  const Vec3 inverse_masses =
-      Vec3::Constant(W) + (touch.held ? Vec3(Vec3::Zero()) : touch.point.inverse_mass());
-  const Vec3 impulse =
-      impact(touch.point.velocity() - sphere.next_velocity, touch.normal, touch.friction, inverse_masses)
-          .whole();
-  if (!touch.held) touch.point.apply_impulse(impulse, step);
-  sphere.next_velocity -= W * impulse;
-}
-
-// Contacts of a falling sphere with the floor and boxes.
-void ObstacleContact::support(Sphere& sphere) {
+// Contacts of a falling sphere with the floor, boxes and spheres.
+void ObstacleContact::detect_around(Sphere& sphere, ContactAnswer& answer) {
   const double own = sphere.friction.value_or(own_friction);
-  if (world_.floor && sphere.next_centre.z() < world_.floor->z + sphere.radius)
-    stop(sphere, Vec3::UnitZ(), world_.floor->friction.value_or(own));
-  for (const Box& box : world_.boxes) {
-    const auto plane = plane_against(box, sphere);
-    if (!plane) continue;
-    const RigidStep* way = step_of(box);
-    const Vec3 touched = sphere.next_centre - sphere.radius * plane->normal;
-    stop(sphere, plane->normal, box.friction.value_or(own), way ? way->velocity(touched) : Vec3(Vec3::Zero()));
+  const auto add = [&](const Plane& plane, double friction, const Vec3& surface) {
+    answer.add({.a = ContactSide::of(sphere),
+                .b = ContactSide::of_obstacle(surface),
+                .normal = plane.normal,
+                .apart = plane.offset,
+                .friction = friction});
+  };
+  if (world_.floor && sphere.next_centre.z() < world_.floor->z + sphere.radius) {
+    const double height = world_.floor->z + sphere.radius;
+    add({Vec3::UnitZ(), height}, world_.floor->friction.value_or(own), Vec3::Zero());
   }
+  for (const Box& box : world_.boxes) {
+    const RigidStep* way = step_of(box);
+    const Vec3 from = way ? way->from.back(sphere.centre) : sphere.centre,
+               to = way ? way->to.back(sphere.next_centre) : sphere.next_centre;
+    auto plane = plane_against_standing(box, sphere.radius, from, to);
+    if (!plane) continue;
+    if (way) plane = moved(way->to, *plane);
+    const Vec3 touched = sphere.next_centre - sphere.radius * plane->normal;
+    add(*plane, box.friction.value_or(own), way ? way->velocity(touched) : Vec3(Vec3::Zero()));
+  }
+  for (Sphere& other : world_.spheres)
+    if (!other.falls() || &sphere < &other) detect_pair(sphere, other, answer);
 }
 
-void ObstacleContact::collide(Sphere& a, Sphere& b) {
-  const Vec3 apart = b.next_centre - a.next_centre;
-  const double distance = apart.norm(), w = a.inverse_mass() + b.inverse_mass();
-  if (w == 0 || distance == 0 || distance >= a.radius + b.radius) return;
-  const double friction = a.friction.value_or(b.friction.value_or(own_friction));
-  const Vec3 normal = apart / distance, touched = a.next_centre + a.radius * normal;
-  const Vec3 relative = velocity_at(b, touched) - velocity_at(a, touched);
-  const Vec3 impulse = impact(relative, normal, friction, Vec3::Constant(w)).whole();
-  a.next_velocity -= a.inverse_mass() * impulse;
-  b.next_velocity += b.inverse_mass() * impulse;
-}
-
-// Moves it with its velocity, but not into the floor or boxes.
-void ObstacleContact::settle(Sphere& sphere, double step) {
-  sphere.next_centre = sphere.centre + step * sphere.next_velocity;
-  for (const Box& box : world_.boxes)
-    if (const auto plane = plane_against(box, sphere))
-      sphere.next_centre +=
-          std::max(0.0, plane->offset - plane->normal.dot(sphere.next_centre)) * plane->normal;
-  if (world_.floor) sphere.next_centre.z() = std::max(sphere.next_centre.z(), world_.floor->z + sphere.radius);
+void ObstacleContact::detect_pair(Sphere& a, Sphere& b, ContactAnswer& answer) {
+  const Vec3 apart = a.next_centre - b.next_centre;
+  const double distance = apart.norm(), least = a.radius + b.radius;
+  if (&a == &b || distance == 0 || distance >= least) return;
+  const Vec3 normal = apart / distance, touched = b.next_centre + b.radius * normal;
+  const ContactSide other = b.falls()
+                                ? ContactSide::of(b)
+                                : ContactSide::of_obstacle(MovingSphere{&b, step_of(b)}.velocity_at(touched));
+  answer.add({.a = ContactSide::of(a),
+              .b = other,
+              .normal = normal,
+              .apart = least + normal.dot(b.next_centre - other.position()),
+              .friction = a.friction.value_or(b.friction.value_or(own_friction))});
 }
 
 } // namespace rend

@@ -53,6 +53,7 @@ void Rollback::save_start() {
     starts_[b].state.position.swap(bodies_[b]->next.position);
     starts_[b].state.velocity.swap(bodies_[b]->next.velocity);
     starts_[b].state.acceleration.swap(bodies_[b]->next.acceleration);
+    starts_[b].state.staggered = bodies_[b]->next.staggered;
   }
 }
 
@@ -101,11 +102,12 @@ double Rollback::measured_work() const {
     if (!starts_[b].meter) continue;
     const Work before = starts_[b].meter->work();
     work += bodies_[b]->work_meter->work();
-    work += {-before.loads, -before.drives, -before.contact, 0};
+    work +=
+        {.loads = -before.loads, .drives = -before.drives, .contact = {.obstacles = -before.contact.obstacles}};
   }
   for (std::size_t s = 0; s < spheres_.size(); ++s)
-    work.contact += world_.spheres[s].contact_work - spheres_[s].contact_work;
-  return work.loads + work.drives + work.contact;
+    work.contact.obstacles += world_.spheres[s].contact_work.obstacles - spheres_[s].contact_work.obstacles;
+  return work.loads + work.drives + work.contact.obstacles;
 }
 
 double Rollback::pending_work() const {

@@ -4,7 +4,8 @@
 // and those put aside before take their place (Body::commit swaps two buffers, this rotates three). The
 // topology is constant within a stretch: a change begins a new one.
 //
-// Kinetic and elastic energy K + U grow by the work of gravity, loads, drives and contact: that of gravity is
+// Kinetic and elastic energy K + U grow by the work of gravity, loads, drives and obstacles that move: that of
+// gravity is
 //
 //   Σ m g·Δx                     Δx: displacement since the start
 //
@@ -59,7 +60,8 @@ private:
   };
   struct SphereStart {
     Vec3 centre, velocity;
-    double contact_work = 0, gravity_work = 0; // [J]
+    ContactWork contact_work;
+    double gravity_work = 0; // [J]
     void store(Archive& archive);
   };
   static void keep_measures(const Body& body, Start& start);

@@ -31,7 +31,8 @@ Scheme implicit_euler() {
           .limit = &no_limit,
           .make = &make_integrator<ImplicitEuler>,
           .solves = true,
-          .solves_contact = true};
+          .solves_contact = true,
+          .contact = ContactIn::Result};
 }
 
 } // namespace rend

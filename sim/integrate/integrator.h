@@ -71,6 +71,10 @@ struct SchemeSettings {
   double rho_infinity = 0.5; // generalised-alpha: what a step leaves of motion that it does not resolve, 0 to 1
 };
 
+// Where contact acts in a step of a scheme (leapfrog.h): on its result; or within it, and within the step that
+// takes its place where something touches.
+enum class ContactIn { Result, Step, StepInstead };
+
 struct Scheme {
   std::string name, what;
   int order = 1;
@@ -84,6 +88,9 @@ struct Scheme {
   // The scheme keeps K + U + shadow · h Σ v·F rather than K + U (its shadow Hamiltonian to first order in the
   // step h; exact for linear forces)
   double shadow = 0;
+  // Further: − force_shadow · h² Σ F²/m, exact for linear forces in velocity Verlet.
+  double force_shadow = 0;
+  ContactIn contact = ContactIn::StepInstead;
   bool hands_on_acceleration = false;                   // from step to step: State::acceleration
   bool takes_rho_infinity = false;                      // SchemeSettings::rho_infinity
   bool has_account() const { return name != "static"; } // of energy: where bodies have inertia

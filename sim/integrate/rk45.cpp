@@ -309,7 +309,8 @@ Scheme runge_kutta_45() {
           .make = [](const SchemeSettings& settings) -> std::unique_ptr<Integrator> {
             return std::make_unique<RungeKutta45>(settings);
           },
-          .adaptive = true};
+          .adaptive = true,
+          .contact = ContactIn::Step};
 }
 
 } // namespace rend

@@ -406,7 +406,8 @@ Scheme static_solve() {
           .limit = &no_limit,
           .make = &make_integrator<StaticSolve>,
           .solves = true,
-          .solves_contact = true};
+          .solves_contact = true,
+          .contact = ContactIn::Result};
 }
 
 } // namespace rend

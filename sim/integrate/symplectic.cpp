@@ -14,7 +14,8 @@ Scheme symplectic_euler() {
           .evaluations = 1,
           .limit = &limit_symplectic,
           .make = &make_integrator<Euler<MovesBy::NewVelocity>>,
-          .shadow = 0.5};
+          .shadow = 0.5,
+          .contact = ContactIn::Result};
 }
 
 } // namespace rend

@@ -17,7 +17,7 @@ void State::store(Archive& archive, std::size_t most) {
   archive.list(position, most, "a state is of more vertices than the body has");
   archive.list(velocity, most, "a state is of more vertices than the body has");
   if (accelerates) archive.list(acceleration, most, "a state is of more vertices than the body has");
-  archive(large);
+  archive(large, staggered);
   archive.raw(&probe, sizeof probe);
   if (!archive.reading()) return;
   refuse_unless(position.size() == velocity.size(), "a state has not as many velocities as positions");

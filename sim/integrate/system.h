@@ -19,6 +19,7 @@ class Archive;
 struct StateView {
   const Record *position, *velocity;
   const Record* acceleration = nullptr; // null: none is known
+  bool staggered = false;               // as State has it
 };
 
 // Positions [m] and velocities [m/s], one per vertex slot.
@@ -28,6 +29,7 @@ struct State {
   // (VertexAcceleration). Of other schemes it is empty.
   std::vector<Record> acceleration;
   bool accelerates = false; // it has accelerations
+  bool staggered = false;   // velocities are those of the middle of the step before (leapfrog.h)
   void resize(std::size_t vertices) {
     large = vertices > 200000;
     position.resize(vertices);
@@ -35,7 +37,7 @@ struct State {
     if (accelerates) acceleration.resize(vertices);
   }
   StateView view() const {
-    return {position.data(), velocity.data(), accelerates ? acceleration.data() : nullptr};
+    return {position.data(), velocity.data(), accelerates ? acceleration.data() : nullptr, staggered};
   }
 
   // Writes the new state of a vertex, and accumulates |v|² and a test for finiteness: 0 · x is NaN unless x is

@@ -56,7 +56,9 @@ Scheme velocity_verlet() {
           .order = 2,
           .evaluations = 2,
           .limit = &limit_symplectic,
-          .make = &make_integrator<VelocityVerlet>};
+          .make = &make_integrator<VelocityVerlet>,
+          .force_shadow = 0.125,
+          .contact = ContactIn::Step};
 }
 
 } // namespace rend

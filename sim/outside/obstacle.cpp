@@ -89,14 +89,8 @@ bool Sphere::can_be_there(double time) const {
   return (centre - there).norm() <= 1e-9 * (radius + there.norm());
 }
 
-// Its motion without contact is symplectic Euler's, whose shadow term is counted (WorkMeter).
-void Sphere::commit(double step, const Vec3& gravity, const Vec3& later) {
-  if (falls()) {
-    const Vec3 change = next_velocity - velocity;
-    const Vec3 mean = 0.5 * (velocity + next_velocity + step * gravity);
-    contact_work += mass * (mean.dot(change) - gravity.dot(next_centre - centre));
-    gravity_work -= 0.5 * mass * (later - gravity).dot(centre + next_centre);
-  }
+void Sphere::commit(const Vec3& gravity, const Vec3& later) {
+  if (falls()) gravity_work -= 0.5 * mass * (later - gravity).dot(centre + next_centre);
   centre = next_centre;
   velocity = next_velocity;
 }
@@ -108,8 +102,9 @@ Plane tangent(const Vec3& at, double reach) {
   return {length > 0 ? Vec3(at / length) : Vec3(Vec3::UnitZ()), reach};
 }
 
-constexpr double grazing = 0.02; // relative to the radius: a path that crosses less deep is not stopped
-constexpr double alike = 0.8;    // cosine between two normals above which the later one is used
+constexpr double on_a_side = 1e-9; // relative to the size of a box
+constexpr double grazing = 0.02;   // relative to the radius: a path that crosses less deep is not stopped
+constexpr double alike = 0.8;      // cosine between two normals above which the later one is used
 
 // Where the path enters the sphere; `from` itself if that is inside.
 Vec3 met(const Vec3& from, const Vec3& way, double reach) {
@@ -136,10 +131,11 @@ std::optional<Plane> Sphere::stop(const Vec3& from, const Vec3& to, double reach
   return tangent(met(from, way, reach), reach);
 }
 
+// A point that touches a side may be a little below it, by round-off.
 std::optional<Plane> Box::stop(const Vec3& from, const Vec3& to, double margin) const {
   // in, out: parameters along the path; least: depth [m] of `from` below the nearest side
   double in = -1, out = 1, least = 1e300;
-  Plane entry, nearest;
+  Plane entry, exit, nearest;
   for (int axis = 0; axis < 3; ++axis) {
     const double ends[2] = {low[axis] - margin, high[axis] + margin};
     for (int end = 0; end < 2; ++end) {
@@ -151,8 +147,9 @@ std::optional<Plane> Box::stop(const Vec3& from, const Vec3& to, double margin) 
       if (above >= 0 && share > in) {
         in = share;
         entry = side;
-      } else if (above < 0 && above_later > 0) {
-        out = std::min(out, share);
+      } else if (above < 0 && above_later > 0 && share < out) {
+        out = share;
+        exit = side;
       }
       if (above < 0 && -above < least) {
         least = -above;
@@ -163,7 +160,8 @@ std::optional<Plane> Box::stop(const Vec3& from, const Vec3& to, double margin) 
   if (in >= out) return {}; // the path misses the box at a corner
   if (in >= 0) return entry;
   const bool inside = ((to - low).array() > -margin).all() && ((high - to).array() > -margin).all();
-  return inside ? std::optional(nearest) : std::nullopt;
+  const bool touched = least <= std::max(margin, on_a_side * (high - low).norm()); // and then went through
+  return inside || (touched && exit.normal != nearest.normal) ? std::optional(nearest) : std::nullopt;
 }
 
 Weights nearest_in_triangle(const TriangleCorners& x, const Vec3& point) {

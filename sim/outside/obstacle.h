@@ -5,13 +5,15 @@
 //
 //   sphere   the tangent plane above the point; if its normal differs much from that where the path enters
 //            the sphere, or the path crosses the sphere entirely, deeper than 0.02 of the radius, the latter
-//   box      the side through which the path enters; for a point that was inside, the nearest side
+//   box      the side through which the path enters; for a point that was inside, the nearest side, also where
+//            it was hardly inside and went through the box
 //
 // The path is a straight line, relative to the obstacle. So objects that are thinner than the motion of a step
 // are not missed. A sphere or box moves as prescribed (obstacle_motion.h). A sphere with mass falls instead: it
 // does not rotate, so that friction acts on it as on a sliding block.
 #pragma once
 
+#include "sim/outside/contact_work.h"
 #include "sim/outside/obstacle_motion.h"
 
 #include <array>
@@ -58,19 +60,19 @@ struct Sphere {
   Sphere() = default;
   explicit Sphere(const SphereSettings& settings); // UserError
 
-  double contact_work = 0; // [J], done on it by contact since the start, if it falls
-  double gravity_work = 0; // [J], of its potential, by gravity that grew since the start, if it falls
+  ContactWork contact_work; // of its contacts with obstacles since the start, if it falls
+  double gravity_work = 0;  // [J], of its potential, by gravity that grew since the start, if it falls
 
   bool falls() const { return mass > 0; }
   bool follows_keys() const { return !motion.keys.empty(); }
   bool moves() const { return falls() || !velocity.isZero(0) || follows_keys(); } // not: only turns
   double inverse_mass() const { return mass > 0 ? 1 / mass : 0; }                 // [1/kg]
 
-  // Its motion without contact; `time` [s] at the end of the step.
+  // Its motion without contact, by symplectic Euler; `time` [s] at the end of the step.
   void predict(double time, double step, const Vec3& gravity);
-  void commit(double step, const Vec3& gravity, const Vec3& later); // gravity at its start and end
-  void store(Archive& archive);                                     // the members that change
-  bool can_be_there(double time) const; // false: it follows keys, and is elsewhere at that time
+  void commit(const Vec3& gravity, const Vec3& later); // gravity at the start of the step and at its end
+  void store(Archive& archive);                        // the members that change
+  bool can_be_there(double time) const;                // false: it follows keys, and is elsewhere at that time
 
   // For a point that moved from → to [m] in the step, relative to the sphere's centre at its start and end;
   // `reach` [m] is the radius plus the distance to keep. nullopt: no contact.

@@ -1,7 +1,6 @@
 #include "sim/outside/solved_contact.h"
 
 #include "sim/integrate/rigid_motions.h"
-#include "sim/outside/impact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -154,6 +153,16 @@ Vec3 SolvedContact::VertexPlane::force(const Record* position, double epsilon) c
   return f - bound * (share < 1 ? (2 - share) / epsilon : 1 / length) * u;
 }
 
+// By the forces at the end of the step, along the way of the vertex and along that of the obstacle.
+ContactWork SolvedContact::VertexPlane::work(const Record* position, double epsilon) const {
+  const Vec3 normal = pressure(position) * plane.normal, across = force(position, epsilon) - normal;
+  const Vec3 relative = position[vertex].vec() - start;
+  return {.impact = -normal.dot(relative),
+          .friction = -across.dot(relative),
+          .obstacles = (normal + across).dot(start - from),
+          .touched = multiplier > 0};
+}
+
 double SolvedContact::epsilon() const {
   return creep * size_ * step_;
 }
@@ -212,14 +221,13 @@ bool SolvedContact::tighten(const Record* position) {
   }
   const bool open = deepest(position) > tolerance * size_ || changed > settled * largest;
   if (open && ++rounds_ <= most_rounds) return true;
-  for (const VertexPlane& each : planes_)
-    work_ += each.force(position, epsilon()).dot(position[each.vertex].vec() - each.from);
+  for (const VertexPlane& each : planes_) work_ += each.work(position, epsilon());
   return false;
 }
 
 void SolvedContact::end() {
   planes_.clear();
-  work_ = 0;
+  work_ = {};
 }
 
 } // namespace rend

@@ -1,7 +1,7 @@
 // Contact with the floor, spheres and boxes inside the solve of implicit schemes.
 //
-// Contact at the end of a step (floor_contact.h) pushes out what the solve has moved in, and what rests there
-// is compressed by its weight once more in every step. Here the solve knows of it. Each vertex near an
+// Contact at the end of a step (contact_settings.h) pushes out what the solve has moved in, and what rests
+// there is compressed by its weight once more in every step. Here the solve knows of it. Each vertex near an
 // obstacle stays in a half-space that is fixed for the step, that of the tangent plane at the point of the
 // obstacle nearest to the vertex, where the obstacle is at the end of the step:
 //
@@ -27,7 +27,9 @@
 // the end of the step.
 #pragma once
 
-#include "sim/outside/floor_contact.h"
+#include "sim/integrate/system.h"
+#include "sim/outside/contact_settings.h"
+#include "sim/outside/contact_work.h"
 #include "sim/outside/world.h"
 
 namespace rend {
@@ -53,7 +55,7 @@ public:
   double potential(const Record* position) const;                                         // [J], P
   // Moves the multipliers. True: by so much that the step is to be solved again. False: it is accepted.
   bool tighten(const Record* position);
-  double work() const { return work_; } // [J], by contact on the vertices in the steps accepted since end()
+  const ContactWork& work() const { return work_; } // in the steps accepted since end()
 
   double deepest(const Record* position) const; // [m], of what penetrates; 0: nothing
   std::size_t bytes() const { return bytes_of(planes_) + bytes_of(before_) + bytes_of(stiffness_); }
@@ -70,9 +72,10 @@ private:
     double bound = 0;           // [N], μ λ of the last solve
 
     double gap(const Record* position) const { return plane.normal.dot(position[vertex].vec()) - plane.offset; }
-    double pressure(const Record* position) const;            // |f_n| [N]
-    Vec3 sliding(const Record* position) const;               // u [m]
-    Vec3 force(const Record* position, double epsilon) const; // f_n + f_t [N]
+    double pressure(const Record* position) const;                  // |f_n| [N]
+    Vec3 sliding(const Record* position) const;                     // u [m]
+    Vec3 force(const Record* position, double epsilon) const;       // f_n + f_t [N]
+    ContactWork work(const Record* position, double epsilon) const; // of the step
   };
   template <class Nearest>
   void add_planes(const System& system, const StateView& now, std::uint32_t obstacle, double friction,
@@ -87,7 +90,7 @@ private:
   const ContactSettings& settings_;
   std::vector<double> stiffness_; // [N/m], one per vertex slot, of the body at rest
   std::vector<VertexPlane> planes_, before_;
-  double work_ = 0;  // [J]
+  ContactWork work_;
   double step_ = 0;  // [s]
   double reach_ = 0; // [m]: planes farther from their vertices are left out
   double size_ = 0;  // [m], of the body

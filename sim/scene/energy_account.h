@@ -2,12 +2,12 @@
 //
 //   B = K + U + G + S − W
 //
-// Kinetic, elastic and gravitational energy, the scheme's shadow term S = s h Σ v·F over free coordinates
-// (Scheme::shadow), and the work W that was measured (WorkMeter). Damping, friction, changes that release or
-// remove what is strained, and implicit schemes only lower B: what is missing since the start is *dissipated*.
-// Nothing may raise it: the largest rise above any earlier value is *gained*, without a cause. A rise is to be
-// seen beside the scale of the account, the largest K + U + |W| so far: schemes keep B to some order of their
-// step only.
+// Kinetic, elastic and gravitational energy, the scheme's shadow term S over free coordinates (Scheme::shadow,
+// force_shadow), and the work W of loads, drives and obstacles that move (WorkMeter). Damping, contact, changes
+// that release or remove what is strained, and implicit schemes only lower B: what is missing since
+// the start is *dissipated*. Nothing may raise it: the largest rise above any earlier value is *gained*,
+// without a cause. A rise is to be seen beside the scale of the account, the largest K + U + |W| so far:
+// schemes keep B to some order of their step only.
 //
 // It is sampled, since U costs as much as some evaluations of the forces.
 #pragma once

@@ -59,6 +59,7 @@ std::vector<MemoryEntry> footprint_of(const Body& body) {
   if (body.assembly) to.add("solver", "places of blocks and their pattern", "block", body.assembly->bytes());
   to.add("solver", "matrix, factors and preconditioner", "block", body.integrator->solver().bytes);
   to.add("integrator", "the scheme's own", "vertex", body.integrator->bytes());
+  if (body.drifts()) to.add("integrator", "forces of the kick", "vertex", body.vertices() * sizeof(Record));
   to.add("state", "forces at the start of the step", "vertex", bytes_of(body.force));
   to.add("state", "forces on corners", "corner", bytes_of(body.corner_force));
   to.add("state", "the state at the end of the step", "vertex", body.next.bytes());

@@ -33,7 +33,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
     if (options.count_fragments) body->fragment_counter = std::make_unique<FragmentCounter>();
   }
   check_contact();
-  contacts_ = Contacts::of(world_, bodies_);
+  contacts_ = Contacts::of(world_, bodies_, scheme());
   solve_contact();
   const RunSettings run{options.walk, options.threads, checked_settings()};
   clear_start(world_, bodies_);
@@ -43,6 +43,7 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
   set_step();
   set_looks(options.reach);
   guard_ = std::make_unique<Guard>(world_, bodies_, scheme(), step_, options.guard, profile_.get());
+  divide_for_contact();
   set_answers();
   bind_seconds_ = wall_clock() - start;
 }
@@ -227,11 +228,11 @@ EnergyFigures Scene::energy() const {
 
 namespace {
 
-// Of a velocity of 1e-12 of the body's size in a step.
+// Of a velocity of 1e-12 of the body's size in a step, or of lifting it by 1e-8 of its size.
 double body_round_off(const Body& body, double step) {
   const double size = extent(body.map->rest().values(), body.program->inverse_mass());
   const double speed = 1e-12 * size / step;
-  return total_mass(*body.map, *body.mass) * speed * speed;
+  return total_mass(*body.map, *body.mass) * std::max(speed * speed, 1e-8 * size * body.gravity.vec().norm());
 }
 
 } // namespace
@@ -244,7 +245,7 @@ EnergyState Scene::energy_state() const {
   static thread_local std::vector<Record> force;
   for (const auto& body : bodies_) {
     force.resize(body->vertices());
-    const BodyEnergy one = body->energy(scheme().shadow * step_, force);
+    const BodyEnergy one = body->energy(scheme(), step_, force);
     sum.elastic += one.elastic;
     sum.shadow += one.shadow;
     sum.work += one.work;

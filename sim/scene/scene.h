@@ -121,7 +121,8 @@ private:
   void evaluate_forces();
   StepFailure apply_laws();
   bool tear(Body& body, const std::function<void()>& sound);
-  void divide_steps();
+  void divide_steps(double limit);
+  void divide_for_contact();
   StepFailure integrate(double time, double step);        // [s]
   StepFailure resolve_contacts(double time, double step); // [s]
   void apply_contacts(double time, double step);

@@ -63,6 +63,13 @@ void Scene::refuse_so_many_steps() const {
       "look whether the material is too stiff or light, or the mesh is bad there (rend mesh info)");
 }
 
+// Where something touches, steps are those of velocity Verlet (ContactIn).
+void Scene::divide_for_contact() {
+  if ((scheme().contact == ContactIn::StepInstead || scheme().adaptive) && contacts_ &&
+      !contacts_->bodies().empty())
+    divide_steps(stability_limit(*find_scheme("verlet")));
+}
+
 double Scene::stability_limit() const {
   return stability_limit(scheme());
 }

@@ -1,5 +1,5 @@
 // Contact with the floor, against Coulomb's law.
-#include "sim/outside/floor_contact.h"
+#include "sim/outside/contact_settings.h"
 
 #include "sim/presets.h"
 
@@ -41,7 +41,7 @@ TEST(FloorContact, slows_a_sliding_sheet_by_friction_times_its_weight) {
 TEST(FloorContact, stops_it_and_does_not_turn_it_around) {
   const auto scene = sliding("0.8", "symplectic");
   for (int n = 0; n < 400; ++n) scene->step();
-  for (Slot v = 0; v < 16; ++v) EXPECT_EQ(velocity(scene, v), Vec3::Zero());
+  for (Slot v = 0; v < 16; ++v) EXPECT_LT(velocity(scene, v).norm(), 1e-14);
 }
 
 TEST(FloorContact, without_friction_keeps_its_speed) {
@@ -63,8 +63,8 @@ TEST(FloorContact, keeps_a_falling_cloth_above_the_floor) {
       scene->step();
       for (Slot v = 0; v < scene.body().vertices(); ++v) {
         const double z = scene.body().map->position()[v].z;
-        ASSERT_GE(z, 0.1 + thickness) << integrator;
-        touched = touched || z == 0.1 + thickness;
+        ASSERT_GE(z, 0.1 + thickness - 1e-12) << integrator;
+        touched = touched || z < 0.1 + thickness + 1e-12;
       }
     }
     EXPECT_TRUE(touched) << integrator;
@@ -82,7 +82,7 @@ TEST(FloorContact, lets_prescribed_vertices_pass) {
     const Vec3 rest = map.rest()[v];
     const double expected = rest == Vec3(0, 0, 0.11) ? 0.11 : rest == Vec3(1, 1, 0.11) ? 0.01 : 0;
     if (expected == 0) {
-      EXPECT_GE(map.position()[v].z, 0.1 + thickness);
+      EXPECT_GE(map.position()[v].z, 0.1 + thickness - 1e-12);
     } else {
       EXPECT_NEAR(map.position()[v].z, expected, 1e-15);
     }

@@ -164,7 +164,8 @@ TEST(MovingObstacle, what_pushes_a_sheet_does_the_work_that_is_in_it) {
     run(scene, time);
     const EnergyFigures e = scene->energy();
     EXPECT_LT(e.gained, 1e-2 * e.scale) << time;
-    EXPECT_NEAR(e.now.kinetic + e.now.elastic, e.now.work.contact - e.dissipated, 1e-2 * e.scale) << time;
+    EXPECT_NEAR(e.now.kinetic + e.now.elastic, e.now.work.contact.obstacles - e.dissipated, 1e-2 * e.scale)
+        << time;
   }
   const EnergyFigures e = scene->energy();
   EXPECT_GT(e.now.elastic, 1);

@@ -1,10 +1,11 @@
 // Spheres and boxes: against elementary geometry, Coulomb's and Newton's laws, and for what must never happen.
-#include "sim/outside/impact.h"
+#include "sim/contact/contact_faces.h"
 #include "sim/outside/obstacle.h"
 
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -183,26 +184,27 @@ TEST(ObstacleContact, a_fast_sphere_does_not_pass_through_a_cloth) {
   }
 }
 
-// A small cloth beside the centre of the path of a sphere that moves 70 or 700 mm a step: both stay on their
-// side of the tangent plane at the contact, and the relative normal velocity becomes 0.
+// A small cloth beside the centre of the path of a sphere. Both stay on their side of the tangent plane at the
+// contact, and the relative normal velocity becomes 0: within an error of the order of the step.
 TEST(ObstacleContact, a_fast_sphere_does_not_pass_what_it_hits_aside) {
-  for (const char* step : {"1e-3", "1e-2"}) {
-    const double tolerance =
-        step == std::string("1e-3") ? 0.25 : 0.02; // short distance per step: the plane at its end
-    for (double aside : {0.14, 0.16, 0.2, 0.28}) {
-      const auto scene = presets::load(
-          R"(<scene><body><sheet cells="1 1" size="0.001 0.001"/><place translate=")" + std::to_string(aside) +
-          R"( -0.0005 0"/><mass total="0.01"/><springs><stretch k="0.01"/></springs>
+  for (const double step : {1e-5, 1e-3, 1e-2}) { // 0.7, 70 and 700 mm a step
+    for (const double aside : {0.14, 0.16, 0.2, 0.28}) {
+      const auto scene = presets::load(fmt::format(
+          R"(<scene><body><sheet cells="1 1" size="0.001 0.001"/><place translate="{} -0.0005 0"/>
+          <mass total="0.01"/><springs><stretch k="0.01"/></springs>
           <contact thickness="0.002" friction="0"/></body><world gravity="0 0 0">
           <sphere centre="0 0 0.31" radius="0.3" velocity="0 0 -70" mass="1"/></world>
-          <time step=")" +
-          step + R"(" duration="1"/></scene>)");
+          <time step="{}" duration="1"/></scene>)",
+          aside, step));
       while (scene->time() < 0.0199) scene->step();
       const double sine = aside / 0.302, cosine = std::sqrt(1 - sine * sine);
       const Vec3 normal(sine, 0, -cosine), pushed = 70 * cosine / 1.01 * normal; // by a sphere of 1 kg
       const Vec3 got = total_momentum(*scene.body().map, *scene.body().mass) / 0.01;
+      const double tolerance = step < 1e-4 ? 0.02 : 0.7;
       EXPECT_LT((got - pushed).norm(), tolerance * pushed.norm())
           << aside << ' ' << step << ' ' << got.transpose();
+      for (const Record& x : scene.body().map->position().values())
+        EXPECT_GT((x.vec() - scene->world().spheres[0].centre).norm(), 0.3) << aside << ' ' << step;
     }
   }
 }
@@ -276,24 +278,6 @@ TEST(ObstacleContact, a_sphere_rests_on_a_sheet_that_is_held_along_its_fall) {
   }
   EXPECT_NEAR(scene->world().spheres[0].centre.z(), 0.624, 0.003);
   EXPECT_LT(scene->world().spheres[0].velocity.norm(), 0.02);
-}
-
-// The sum over vertices of the reaction of constraints: components along x and y must not be lost.
-TEST(ObstacleContact, what_is_held_along_one_axis_yields_along_the_others) {
-  const Vec3 u(0.3, -0.2, -2), n = Vec3(1, 2, 2) / 3;
-  for (double friction : {0.0, 0.4, 100.0}) {
-    for (const Vec3& inverse_masses : {Vec3(2, 2, 2), Vec3(2, 2, 0.5), Vec3(3, 0, 0), Vec3(0, 0, 0)}) {
-      const Impulse impulse = impact(u, n, friction, inverse_masses);
-      const Vec3 after = u + inverse_masses.cwiseProduct(impulse.whole());
-      const Vec3 pushed = u + inverse_masses.cwiseProduct(impulse.normal);
-      EXPECT_LE(impulse.whole().dot(u + after), 1e-12) << "its work";
-      EXPECT_LE(impulse.friction.norm(), friction * impulse.normal.norm() + 1e-12);
-      if (inverse_masses.isZero()) continue;
-      EXPECT_NEAR(pushed.dot(n), 0, 1e-12);
-      const bool sticks = friction == 100 && inverse_masses.x() == inverse_masses.z();
-      EXPECT_LT(after.norm(), sticks ? 1e-12 : 1e300);
-    }
-  }
 }
 
 // Initial overlap is resolved slowly. The elastic energy of a bar inflated around a sphere is at most about

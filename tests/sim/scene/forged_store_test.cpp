@@ -292,9 +292,10 @@ TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {
                                       <springs><stretch k="60"/></springs><fix side="-x"/>)",
                          R"(<time step="5e-3" integrator=")" + scheme + R"(" duration="1"/>)"),
         3);
-    std::size_t at = genuine.layout().body + 8 + 1 + 8 + 8; // no tears, not removed; evaluations, time
+    std::size_t at = genuine.layout().body + 8 + 1 + 8 + 8 + 8 +
+                     1; // no tears, not removed; evaluations, time, step; staggered
     for (int n = 0; n < 2; ++n) at += 8 + 32 * genuine.there<std::uint64_t>(at);
-    at += 1 + 32; // large, probe
+    at += 2 + 32; // large, staggered, probe
     ASSERT_EQ(genuine.there<std::uint64_t>(at), scheme == "static" ? 6u : 4u);
     EXPECT_THAT(genuine.with(at, 1ULL), HasSubstr("hand on")) << scheme;
     for (std::size_t n = 0; n < 4; ++n) {

@@ -1,6 +1,4 @@
-#include "sim/outside/floor_contact.h"
-
-#include "sim/outside/impact.h"
+#include "sim/outside/contact_settings.h"
 
 #include <algorithm>
 
@@ -29,17 +27,10 @@ template <> const Fields<ContactSettings>& fields_of() {
   return fields;
 }
 
-void FloorContact::apply(const Record* from, State& next, double step,
-                         std::vector<TouchedVertex>& touched) const {
-  for (std::size_t i = 0; i < next.position.size(); ++i) {
-    Record &x = next.position[i], &v = next.velocity[i];
-    if (!(x.z < height)) continue;
-    touched.push_back({static_cast<Slot>(i), x, v});
-    const Impulse change = impact(v, Vec3::UnitZ(), friction, Vec3::Ones());
-    const double least = height - way_out(height - from[i].z, step);
-    x = Record(x.x + step * change.friction.x(), x.y + step * change.friction.y(), std::max(x.z, least));
-    v = Record(v.vec() + change.whole());
-  }
+double way_out(double before, double step) {
+  constexpr double relaxation = 0.05; // [s]
+  constexpr double fastest_out = 0.1; // [m/s]
+  return before > 0 ? before - std::min(before * std::min(1.0, step / relaxation), fastest_out * step) : 0;
 }
 
 } // namespace rend

@@ -1,0 +1,100 @@
+// The answer to the contacts of a step: impulses that let nothing come too close, and make no energy.
+//
+// A contact acts in a step of size h as symplectic Euler takes a force: an impulse λ changes the velocity u' of
+// the step by λ/m, and the position by h λ/m. With the velocity u of the step before (leapfrog.h: those of the
+// middles of steps), it changes what the scheme keeps (K + U and its shadow term; exact for linear forces) by
+//
+//   ΔE = ½ λ·(u + u')
+//
+// with relative velocities of both sides. So with the normal n and the gap g at the end of the step, each
+// contact asks for
+//
+//   λ_n ≥ 0,   u'·n ≥ min(what makes g ≥ 0, −u·n),   with equality where λ_n > 0
+//
+// and none makes energy. What approaches is stopped: an impact is inelastic for the vertices that meet, and
+// keeps what elasticity keeps. A penetration is paid for by the velocity with which the point would go deeper:
+// it leaves at most as fast as it came; one that rests in something stays there. Where the forces of the step
+// turn around what was leaving, it may come back as far as it had gone. (CD-Lagrange schemes have the same
+// balance: Fekak et al. 2017; Di Stasio et al. 2019.)
+//
+// Schemes that solve lose energy in every step, and have contact of their own (solved_contact.h). What that has
+// left is stopped, and pushed out on positions only (way_out() in contact_settings.h).
+//
+// Friction λ_t takes the sliding velocity away, with |λ_t| ≤ μ λ_n, and so that λ_t·(u_t + u'_t) ≤ 0.
+//
+// All contacts of a step are one problem, solved by sweeps over them with accumulated impulses (projected
+// Gauss–Seidel) until no velocity changes by more than a tolerance, at most 12; what then still made energy is
+// scaled down. They act on *movers*, the vertices and
+// spheres that something touches, gathered for the sweeps; a contact is visited again only where one of its
+// movers has changed. Momentum is kept to round-off.
+#pragma once
+
+#include "sim/contact/contact_constraint.h"
+
+namespace rend {
+
+class ContactAnswer {
+public:
+  // `pushes`: of a scheme that solves.
+  explicit ContactAnswer(bool pushes) : pushes_(pushes) {}
+  void begin() { contacts_.clear(); } // a step
+  void add(const ContactConstraint& contact);
+  bool empty() const { return contacts_.empty(); }
+  void solve(double step); // [s]
+  void account() const;    // once solved: what contact took, to the meters of bodies and spheres
+
+  std::size_t touching() const; // contacts that took an impulse
+  std::size_t bytes() const { return bytes_of(contacts_) + bytes_of(movers_); }
+
+private:
+  // A vertex or a sphere.
+  struct Mover {
+    Vec3 start, velocity;    // [m/s]: without contact, and with it
+    Vec3 inverse_mass;       // [1/kg] along x, y, z
+    const ContactBody* body; // null: a sphere
+    Sphere* sphere;
+    Slot vertex;
+    long changed = 0; // the visit that changed it last, counted from 1
+  };
+  struct Part {
+    std::uint32_t mover = 0;
+    double weight = 0; // of its velocity in the approach of the contact
+    double pushed = 0; // of the impulse; 0: its side is held
+  };
+  struct Answered {
+    ContactConstraint contact;
+    Vec3 inverse_masses;               // [1/kg], of both sides, along x, y, z
+    double along = 0;                  // [1/kg], n·K n
+    Vec3 before, start = Vec3::Zero(); // [m/s], u; u' without contact
+    std::array<Part, 6> parts{};       // of a, then of b
+    std::size_t part_count = 0;
+    Vec3 surface = Vec3::Zero();  // [m/s], what obstacles add to the approach
+    double wanted = 0;            // [m/s], the least u'·n
+    double normal_impulse = 0;    // [N·s], λ_n
+    Vec3 friction = Vec3::Zero(); // [N·s], λ_t
+    long visited = 0;             // the last visit
+    Vec3 impulse() const { return normal_impulse * contact.normal + friction; }
+  };
+  std::uint32_t mover_of(const ContactBody& body, Slot vertex);
+  std::uint32_t mover_of(Sphere& sphere);
+  void gather(Answered& one, const ContactSide& side, double sign);
+  void gather(double step);
+  void push(double step);
+  void make_no_energy();
+  void sweep_all();
+  bool sweep(double tolerance);
+  void write_back(double step);
+  bool changed_since(const Answered& one) const;
+  Vec3 approach(const Answered& one) const;
+  void apply(const Answered& one, const Vec3& impulse, double tolerance);
+  void press(Answered& one, double tolerance);
+  void rub(Answered& one, double tolerance);
+  static Vec3 slowing(const Answered& one, const Vec3& u);
+
+  bool pushes_;
+  std::vector<Answered> contacts_;
+  std::vector<Mover> movers_;
+  long visits_ = 0;
+};
+
+} // namespace rend
