@@ -339,11 +339,11 @@ TEST_F(RendererTest, ThePictureIsTheSameForAnyNumberOfThreads) {
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   for (const int threads : {0, 1, 3}) {
     const std::string path = (folder / fmt::format("{}.png", threads)).string();
-    const std::string command =
-        fmt::format("env -u GTEST_TOTAL_SHARDS LP_NUM_THREADS={} REND_TEST_PICTURE={} '{}' "
-                    "--gtest_also_run_disabled_tests "
-                    "--gtest_filter=RendererTest.DISABLED_WritesAPicture > /dev/null 2>&1",
-                    threads, path, self);
+    const std::string command = fmt::format(
+        "env -u GTEST_TOTAL_SHARDS -u GTEST_SHARD_INDEX LP_NUM_THREADS={} REND_TEST_PICTURE={} '{}' "
+        "--gtest_also_run_disabled_tests "
+        "--gtest_filter=RendererTest.DISABLED_WritesAPicture > /dev/null 2>&1",
+        threads, path, self);
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_EQ(read_png(path), picture(rich_frame())) << threads << " threads";
   }

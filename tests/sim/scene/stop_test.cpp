@@ -69,7 +69,7 @@ TEST_P(StoppedScene, goes_on_to_the_bit) {
   const double seconds = wall_clock() - start;
   std::mt19937 random(5);
   int stopped = 0, lost = 0;
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < 60 && stopped < 8; ++trial) { // on a busy machine some stops come too late
     const ClipRun first(text), second(text);
     const double after = seconds * std::uniform_real_distribution<>(0, 0.9)(random);
     std::thread other([&] {
