@@ -11,7 +11,7 @@
 //                  supporting force. A static solve has neither a nor v.
 //   stress         the mean σ [Pa] of the elements that contain one of its vertices, with equal weights
 //
-// A floor is no support in this sense: it acts by impulses (sim/outside/contact_settings.h).
+// A floor is no support in this sense: it acts by impulses (sim/contact/contact_answer.h).
 #pragma once
 
 #include "sim/outside/selector.h"

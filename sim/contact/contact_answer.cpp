@@ -60,6 +60,9 @@ void ContactAnswer::gather(Answered& one, const ContactSide& side, double sign) 
 void ContactAnswer::gather(double step) {
   movers_.clear();
   visits_ = 0;
+  for (const Answered& one : contacts_) // first, so that they are found soon
+    for (const ContactSide* side : {&one.contact.a, &one.contact.b})
+      if (side->sphere()) mover_of(*side->sphere());
   for (Answered& one : contacts_) {
     gather(one, one.contact.a, 1);
     gather(one, one.contact.b, -1);

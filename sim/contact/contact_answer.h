@@ -23,10 +23,10 @@
 // Friction λ_t takes the sliding velocity away, with |λ_t| ≤ μ λ_n, and so that λ_t·(u_t + u'_t) ≤ 0.
 //
 // All contacts of a step are one problem, solved by sweeps over them with accumulated impulses (projected
-// Gauss–Seidel) until no velocity changes by more than a tolerance, at most 12; what then still made energy is
-// scaled down. They act on *movers*, the vertices and
-// spheres that something touches, gathered for the sweeps; a contact is visited again only where one of its
-// movers has changed. Momentum is kept to round-off.
+// Gauss–Seidel) until no velocity changes by more than a tolerance, at most 12 times; if the sum of all
+// impulses then still makes energy, they are scaled down. They act on *movers*, the vertices and spheres that
+// something touches, gathered for the sweeps; a contact is visited again only where one of its movers has
+// changed. Momentum is kept to round-off.
 #pragma once
 
 #include "sim/contact/contact_constraint.h"

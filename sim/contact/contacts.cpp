@@ -2,6 +2,8 @@
 
 #include "sim/base/archive.h"
 
+#include <algorithm>
+
 namespace rend {
 
 std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::unique_ptr<Body>>& bodies,

@@ -7,9 +7,9 @@
 //   for a face of a solid, n is its outward normal if x projects onto it
 //
 // so that vertices stay on their side of a sheet, and no orientation is needed. There is a contact if the gap
-// at the end of the step is less than the thickness, and less than it was. Fragments coincide exactly right
-// after a separation, and neighbours may be closer than the thickness at rest: for these, the gap that there
-// was is kept. Coincident points of sheets have no side yet and pass until they have one.
+// at the end of the step is less than the thickness; where vertex and face are neighbours, closer than that at
+// rest, if it is less than at the start of the step. (Fragments coincide right after a separation.) Coincident
+// points of sheets have no side yet and pass until they have one.
 //
 // Two bodies use the mean of their thicknesses and the larger friction. Limits: no edge-edge contacts (visible
 // if cells are much larger than the thickness); what is deeper below a solid's face than a fifth of its size is

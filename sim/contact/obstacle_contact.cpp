@@ -75,8 +75,8 @@ Outside outside(const Bounds& near, const Vec3& x) {
   return static_cast<Outside>(code);
 }
 
-// Calls f(point, plane) for each vertex of the body that the obstacle stops. `codes`: the
-// outcode of each slot at the end of the step.
+// Calls f(point, plane) for each vertex of the body that the obstacle stops. `codes`: the outcode of each slot
+// at the end of the step.
 template <class Shape, class F>
 void for_each_vertex(const Shape& shape, const ContactBody& body, std::vector<Outside>& codes, F&& f) {
   const double margin = body.settings().thickness;

@@ -4,7 +4,7 @@
 // Contact keeps out what comes in. What starts inside has no side from which it came, and what pushes it out
 // works on it, and throws it into the air. So a body
 // may touch, but not lie deeper than 1e-9 of its size in the floor, a sphere, a box, or another body that it
-// is in contact with. The distances that contact keeps do not count: between them, `way_out()` (impact.h) acts.
+// is in contact with. The distances that contact keeps do not count: what starts nearer stays as near.
 //
 // A depth is that of the deepest point that is found:
 //

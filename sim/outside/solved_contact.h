@@ -1,6 +1,6 @@
 // Contact with the floor, spheres and boxes inside the solve of implicit schemes.
 //
-// Contact at the end of a step (contact_settings.h) pushes out what the solve has moved in, and what rests
+// Contact after a solve (sim/contact/contact_answer.h) pushes out what the solve has moved in, and what rests
 // there is compressed by its weight once more in every step. Here the solve knows of it. Each vertex near an
 // obstacle stays in a half-space that is fixed for the step, that of the tangent plane at the point of the
 // obstacle nearest to the vertex, where the obstacle is at the end of the step:
