@@ -156,9 +156,9 @@ void Body::mark_prescribed(double time, std::uint8_t* axes) {
 }
 
 // Not with a full profile, which separates forces from integration, nor in bodies that tear, whose criteria
-// need the forces.
+// need the forces, nor in a step that drifts.
 bool Body::may_defer_forces() const {
-  return integrator->has_fused_advance() && !tears() && !(profile && profile->every_step()) &&
+  return !drifts() && integrator->has_fused_advance() && !tears() && !(profile && profile->every_step()) &&
          !program->options().walk && !parallel_small_bodies && !faulty.armed(StepStage::Forces);
 }
 
