@@ -55,7 +55,7 @@ const std::vector<CheckFamily>& all_families() {
   static const std::vector<CheckFamily> list{
       stiffness_family(), mass_family(),       poisson_family(), step_limit_family(), long_family(),
       shape_family(),     degenerate_family(), speed_family(),   size_family(),       tear_family(),
-      fault_family(),     energy_family(),     rest_family()};
+      fault_family(),     energy_family(),     rest_family(),    contact_family(),    contact_at_rest_family()};
   return list;
 }
 

@@ -18,5 +18,7 @@ CheckFamily tear_family();
 CheckFamily fault_family();
 CheckFamily energy_family();
 CheckFamily rest_family();
+CheckFamily contact_family();
+CheckFamily contact_at_rest_family();
 
 } // namespace rend

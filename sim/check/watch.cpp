@@ -10,6 +10,13 @@
 
 namespace rend {
 
+std::vector<Scheme> explicit_schemes(bool drag) {
+  std::vector<Scheme> all;
+  for (const Scheme& scheme : all_schemes())
+    if (!scheme.solves && scheme.limit({1, drag ? 0.1 : 0, drag ? 0.1 : 0}) > 0) all.push_back(scheme);
+  return all;
+}
+
 double energy(const Scene& scene) {
   return scene.kinetic_energy() + scene.elastic_energy() + scene.gravity_energy();
 }
@@ -110,6 +117,30 @@ double distortion(const Body& body) {
   return std::sqrt(sum / mass);
 }
 
+Vec3 mean_velocity(const Body& body) {
+  double mass = 0;
+  Vec3 sum = Vec3::Zero();
+  each_vertex(body, [&](double m, const Vec3&, const Vec3&, const Vec3& v) {
+    mass += m;
+    sum += m * v;
+  });
+  return sum / mass;
+}
+
+Vec3 mean_way(const Body& body) {
+  double mass = 0;
+  Vec3 sum = Vec3::Zero();
+  each_vertex(body, [&](double m, const Vec3& x, const Vec3& rest, const Vec3&) {
+    mass += m;
+    sum += m * (x - rest);
+  });
+  return sum / mass;
+}
+
+double rms_speed(const Scene& scene) {
+  return std::sqrt(2 * scene.kinetic_energy() / scene.mass());
+}
+
 Course run(Scene& scene, long steps, long every) {
   Course course;
   course.first_energy = course.least_energy = course.most_energy = energy(scene);
@@ -126,6 +157,10 @@ Course run(Scene& scene, long steps, long every) {
     course.why = error.what();
   }
   return course;
+}
+
+void go_to(Scene& scene, double time) {
+  while (scene.time() < time - 1e-9) scene.step();
 }
 
 bool is_finite(const Scene& scene) {

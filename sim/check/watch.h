@@ -7,6 +7,9 @@
 
 namespace rend {
 
+// Explicit ones that are stable where matter is not damped; or where all of it is, by `drag`.
+std::vector<Scheme> explicit_schemes(bool drag = false);
+
 double energy(const Scene& scene); // kinetic, elastic and gravitational [J]
 
 // Adds random velocities of up to `speed` [m/s] along each axis, to free coordinates.
@@ -25,6 +28,12 @@ double least_side(const Body& body); // the shortest side that is not 0 [m]
 // motion (Kabsch 1976) [m].
 double distortion(const Body& body);
 
+// Of the centre of mass.
+Vec3 mean_velocity(const Body& body); // [m/s]
+Vec3 mean_way(const Body& body);      // [m], since it was at rest
+
+double rms_speed(const Scene& scene); // [m/s], by mass
+
 // The course of a run.
 struct Course {
   bool stopped = false; // as unstable; reason in `why`
@@ -33,6 +42,8 @@ struct Course {
   double first_energy = 0, least_energy = 0, most_energy = 0; // [J], sampled every `every` steps
 };
 Course run(Scene& scene, long steps, long every = 1);
+
+void go_to(Scene& scene, double time); // [s]: the first state at or after it
 
 bool is_finite(const Scene& scene); // every number of its state
 
