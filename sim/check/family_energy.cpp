@@ -100,7 +100,6 @@ CheckCase moved(const Cause& cause, const Stuff& stuff, const Scheme& scheme, do
   one.column = fmt::format("{} {:g}", scheme.name, factor);
   one.quick = scheme.name == "symplectic" && stuff.name != "tetrahedra";
   const std::string name = scheme.name;
-  const bool touches = cause.body.find("<contact") != std::string::npos;
   one.run = [=](const Bench& bench, Finding& finding) {
     const double step = bench.open()->step_size();
     const Peak known = peak_of(*bench.open_text(text("verlet", in_short(step / 4))).scene);
@@ -111,11 +110,7 @@ CheckCase moved(const Cause& cause, const Stuff& stuff, const Scheme& scheme, do
     finding.at_most("notes of the run in small steps", known.told, 0);
     if (peak.told) return;
     const double ratio = peak.energy / known.energy;
-    if (ratio > most_ratio && touches && (name == "rk45" || name == "implicit")) {
-      finding.limit(finding.what,
-                    "contact shifts what went too deep after the step, which strains cells the more "
-                    "the longer the step is");
-    } else if (factor > 1 && ratio > most_ratio) {
+    if (factor > 1 && ratio > most_ratio) {
       finding.at_most("peak over that of small steps", ratio, most_above_limit);
       finding.limit(finding.what, "the step is above the stable one: the guard looks where motion has doubled, "
                                   "and between its looks energy may grow");
