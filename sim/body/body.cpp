@@ -196,7 +196,7 @@ BodyEnergy Body::energy(const Scheme& scheme, double step, std::vector<Record>& 
   BodyEnergy sum{.elastic = program->elastic_energy(x), .shadow = 0, .work = {}};
   if (work_meter) sum.work = work(scratch);
   const double by_power = staggered ? 0.5 : scheme.shadow;
-  const double by_forces = staggered ? 0 : drifts_always ? 0.125 : scheme.force_shadow;
+  const double by_forces = staggered ? 0 : drifts_always ? leapfrog_shadow : scheme.force_shadow;
   if (by_power == 0 && by_forces == 0) return sum;
   if (!work_meter) program->forces(x, v, scratch.data());
   const FreeMotion free = free_motion(metered(scratch.data()), time_);

@@ -20,6 +20,9 @@ namespace rend {
 // `force` [N]: of `now`, with its loads. Leaves x' and u in `next`.
 void drift(System& system, double time, double step, const StateView& now, const Record* force, State& next);
 
+// Of the shadow energy between such steps: the share of h² Σ F²/m that is subtracted (Scheme::force_shadow).
+inline constexpr double leapfrog_shadow = 0.125;
+
 // Of `next` as drift() and contact left it. `force`: scratch.
 void kick(System& system, double time, double step, const StateView& now, State& next,
           std::vector<Record>& force);

@@ -3,6 +3,7 @@
 // Order 2; damping is evaluated at the predicted velocity, which preserves the order. Stable up to 2/ω without
 // damping.
 #include "sim/integrate/integrator.h"
+#include "sim/integrate/leapfrog.h"
 #include "sim/integrate/vertex_loop.h"
 
 namespace rend {
@@ -57,7 +58,7 @@ Scheme velocity_verlet() {
           .evaluations = 2,
           .limit = &limit_symplectic,
           .make = &make_integrator<VelocityVerlet>,
-          .force_shadow = 0.125,
+          .force_shadow = leapfrog_shadow,
           .contact = ContactIn::Step};
 }
 
