@@ -175,7 +175,7 @@ private:
       open("xs:list");
       simple([&] {
         if (attribute.kind == AttributeKind::Words)
-          enumeration(attribute.words);
+          enumeration(attribute.names ? std::vector<std::string>() : attribute.words);
         else
           one_number(attribute);
       });

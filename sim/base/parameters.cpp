@@ -140,7 +140,8 @@ std::string expected(const AttributeType& type) {
   case AttributeKind::Word:
     return (type.words.size() > 1 ? "one of " : "") + listed(type.words);
   case AttributeKind::Words:
-    return "any of " + listed(type.words) + ", separated by spaces";
+    if (type.words.empty()) return "names, separated by spaces";
+    return (type.names ? "names, or any of " : "any of ") + listed(type.words) + ", separated by spaces";
   case AttributeKind::Flag:
     return "yes or no";
   case AttributeKind::Text:

@@ -45,6 +45,8 @@ struct AttributeType {
   std::vector<std::string> words;    // Word, Words, NumberOrWord
   double low = -1e300, high = 1e300; // inclusive bounds of each number
   bool open_low = false;             // low itself is refused (k > 0)
+  // Words: names of the preset as well, which the table cannot know: whoever reads the attribute checks them.
+  bool names = false;
 
   // Written as a chain: number("k", "N/m", "stiffness").at_least(0).is_required()
   AttributeType& is_required();

@@ -134,7 +134,8 @@ struct PresetNode::Reading {
       word(value.text);
       break;
     case AttributeKind::Words:
-      for (const std::string_view token : tokens_of(text)) value.words.push_back(word(token));
+      for (const std::string_view token : tokens_of(text))
+        value.words.push_back(type.names ? std::string(token) : word(token));
       break;
     case AttributeKind::Flag:
       if (value.text != "yes" && value.text != "no") fail("which is neither yes nor no");

@@ -42,7 +42,9 @@ void fields::check_numbers(const AttributeType& type, std::span<const double> va
 
 void fields::check_text(const AttributeType& type, const std::string& value, const SettingsSource& source) {
   if (value.empty() && type.required && !source.given(type.name)) refuse_missing(type, source);
-  if (value.empty() || (type.kind != AttributeKind::Word && type.kind != AttributeKind::Words)) return;
+  const bool listed_alone =
+      type.kind == AttributeKind::Word || (type.kind == AttributeKind::Words && !type.names);
+  if (value.empty() || !listed_alone) return;
   if (std::find(type.words.begin(), type.words.end(), value) == type.words.end())
     source.fail(type.name, fmt::format("{} is {}; expected {}", type.name, in_quotes(value), expected(type)),
                 suggestion(value, type.words));

@@ -112,7 +112,7 @@ template <class M> std::optional<std::string> default_of(const AttributeType& ty
   } else if constexpr (IsText<M>) {
     std::string out;
     for (const std::string& word : member) out += (out.empty() ? "" : " ") + word;
-    return out;
+    return out.empty() ? std::nullopt : std::optional(out);
   } else {
     if (is_absent(member)) return default_of(type, std::optional<double>());
     std::vector<double> numbers;

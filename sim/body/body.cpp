@@ -80,7 +80,7 @@ void Body::make_work_meter() {
   const bool touched = floor_contact || (contact && contact->faces());
   if (integrator->has_inertia() &&
       (constraints.drives() || !loads.empty() || touched || tears() || changing_gravity))
-    work_meter = std::make_unique<WorkMeter>();
+    work_meter = std::make_unique<WorkMeter>(touched ? contact_table.obstacles.size() : 0);
 }
 
 MeteredBody Body::metered(const Record* internal_force) const {
@@ -368,7 +368,10 @@ void Body::move(double time, double step) {
 }
 
 void Body::end_solved_contact() {
-  if (work_meter) work_meter->contact(solved_contact->work());
+  if (work_meter) {
+    work_meter->contact(solved_contact->work());
+    for (const std::uint32_t obstacle : solved_contact->touched()) work_meter->touch(obstacle);
+  }
   solved_contact->end();
 }
 

@@ -10,6 +10,7 @@
 #include "sim/integrate/integrator.h"
 #include "sim/outside/constraint.h"
 #include "sim/outside/contact_settings.h"
+#include "sim/outside/contact_table.h"
 #include "sim/outside/injected_fault.h"
 #include "sim/outside/load.h"
 #include "sim/outside/solved_contact.h"
@@ -65,6 +66,7 @@ struct Body final : System {
   long look_every = 1; // steps between looks at the largest values that the laws have reached
   std::optional<ContactSettings> contact; // as given by the preset
   std::optional<FloorContact> floor_contact;
+  ContactTable contact_table;                    // with each thing; empty until the scene has all bodies
   std::unique_ptr<SolvedContact> solved_contact; // null: the scheme does not solve, or nothing is in its way
   std::vector<Probe> probes;
   std::vector<Answer> answers;

@@ -118,6 +118,11 @@ void WorkMeter::contact(const ContactWork& work) {
   settled_.contact += work;
 }
 
+void WorkMeter::touch(std::size_t obstacle) {
+  CHECK(obstacle < touched_.size());
+  touched_[obstacle] = 1;
+}
+
 template <class Load, class Force> Work WorkMeter::with_pending(const Load& load, const Force& force) const {
   Work sum = settled_;
   for (const Entry& e : entries_.loads) sum.loads += load(e).dot(e.pending.vec());
@@ -142,6 +147,9 @@ void WorkMeter::Entry::store(Archive& archive) {
 void WorkMeter::store(Archive& archive, std::size_t most) {
   archive.unbounded(settled_.loads, settled_.drives, settled_.changes);
   settled_.contact.store(archive);
+  archive.fixed(touched_, "number of obstacles");
+  if (archive.reading())
+    for (const std::uint8_t each : touched_) refuse_unless(each <= 1, "an obstacle is touched more than once");
   const auto all = [&](std::vector<Entry>& entries, std::size_t at_most) {
     archive.list(entries, at_most, "work is done on more vertices than the body has");
     if (!archive.reading()) return;
@@ -152,7 +160,7 @@ void WorkMeter::store(Archive& archive, std::size_t most) {
 }
 
 std::size_t WorkMeter::bytes() const {
-  return bytes_of(entries_.loads) + bytes_of(entries_.drives);
+  return bytes_of(entries_.loads) + bytes_of(entries_.drives) + bytes_of(touched_);
 }
 
 } // namespace rend

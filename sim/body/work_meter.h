@@ -52,12 +52,15 @@ FreeMotion free_motion(const MeteredBody& body, double time);
 
 class WorkMeter {
 public:
+  explicit WorkMeter(std::size_t obstacles = 0) : touched_(obstacles) {} // World::obstacles(), if it meets them
+
   // The calls of a step, in this order. Forces and loads of the current state are evaluated; called again if
   // they were evaluated anew, after a change of the map.
   void settle(const MeteredBody& body);
   // Of `next` as it is accepted, after contact; `time` [s] at the end of the step.
   void measure(const MeteredBody& body, double time, const State& next);
   void contact(const ContactWork& work); // of the step
+  void touch(std::size_t obstacle);      // in the step; by its number in the world
 
   void forget_vertices(); // what is listed is of vertices before a change of the map; nothing is pending
   void rebind() { listed_ = false; }                         // after a change of the map
@@ -67,6 +70,8 @@ public:
   // before stand in for what is pending.
   Work work(const MeteredBody& body) const;
   Work work() const;
+
+  bool touched(std::size_t obstacle) const { return obstacle < touched_.size() && touched_[obstacle] != 0; }
 
   void store(Archive& archive, std::size_t most); // of a body with at most `most` vertex slots
   std::size_t bytes() const;
@@ -87,6 +92,7 @@ private:
 
   bool listed_ = false; // loads and drives have the vertices of the current map
   Work settled_;
+  std::vector<std::uint8_t> touched_; // one per obstacle: 1 if the body has touched it
   Entries entries_;
 };
 

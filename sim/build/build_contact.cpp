@@ -40,14 +40,13 @@ void build_contact(Body& body, const BodySettings& settings, const World& world)
   if (!settings.contact) return say_what_it_passes(body, world, {});
   ContactSettings contact = *settings.contact;
   check_settings(contact);
+  for (const ContactPairSettings& pair : contact.pairs) check_settings(pair);
   contact.floor = contact.floor || contact.obstacles;
   contact.fragments = contact.fragments || contact.self;
   check_world(contact, world);
   say_what_it_passes(body, world, contact);
   contact.obstacles = contact.obstacles && world.has_obstacles();
-  if (contact.floor && world.floor)
-    body.floor_contact =
-        FloorContact{world.floor->z + contact.thickness, world.floor->friction.value_or(contact.friction)};
+  if (contact.floor && world.floor) body.floor_contact = FloorContact{world.floor->z + contact.thickness};
   body.contact = contact;
 }
 

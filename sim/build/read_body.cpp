@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rend {
 namespace {
 
@@ -55,6 +57,58 @@ template <class S> void read_all(const PresetNode& node, const char* name, std::
   for (const PresetNode* child : node.all(name)) settings.push_back(read_settings<S>(*child));
 }
 
+ContactPairSettings read_contact_pair(const PresetNode& node) {
+  ContactPairSettings pair;
+  for (const Field<ContactPairSettings>& field : fields_of<ContactPairSettings>())
+    if (node.given(field.type.name)) field.take(pair, *node.find(field.type.name));
+  pair.source = source_of(node);
+  for (const char* of_all : {"not", "thickness", "overlap"})
+    if (node.given(of_all))
+      node.fail(of_all, fmt::format("{} counts for all that the body touches, not for a single thing", of_all),
+                "write it in the <contact> whose with= names no single thing");
+  return pair;
+}
+
+[[noreturn]] void refuse_without_kinds(const ContactPairSettings& pair, const std::vector<std::string>& kinds) {
+  const std::string near = suggestion(pair.with.front(), kinds);
+  pair.source.fail("with",
+                   fmt::format("{} is none of {}, and the body has no <contact> with one of these beside it",
+                               in_quotes(pair.with.front()), listed(kinds)),
+                   (near.empty() ? "" : near + " ") +
+                       "add <contact with=\"obstacles\"/>, or with=\"fragments\" for other bodies");
+}
+
+// One <contact> for all, and any number for single things, which name these.
+std::optional<ContactSettings> read_contact(const PresetNode& body) {
+  const std::vector<std::string>& kinds = fields_of<ContactSettings>().front().type.words;
+  const auto is_kind = [&](const std::string& word) {
+    return std::find(kinds.begin(), kinds.end(), word) != kinds.end();
+  };
+  std::optional<ContactSettings> contact;
+  std::vector<ContactPairSettings> pairs;
+  for (const PresetNode* node : body.all("contact")) {
+    const std::vector<std::string>& with = node->words("with");
+    const auto of_kind = std::count_if(with.begin(), with.end(), is_kind);
+    if (of_kind == 0) {
+      pairs.push_back(read_contact_pair(*node));
+      continue;
+    }
+    if (static_cast<std::size_t>(of_kind) < with.size()) {
+      const std::string& name = *std::find_if_not(with.begin(), with.end(), is_kind);
+      const std::string near = suggestion(name, kinds);
+      node->fail("with", in_quotes(name) + " is no kind of thing, as what stands beside it is",
+                 (near.empty() ? "" : near + " ") + "names have a <contact> of their own");
+    }
+    if (contact)
+      throw UserError(Exit::BadInput, node->place(), "the body has two <contact> for all that it touches",
+                      "write one; others name bodies, spheres or boxes, as in with=\"ball\"");
+    contact = read_settings<ContactSettings>(*node);
+  }
+  if (contact) contact->pairs = pairs;
+  if (!contact && !pairs.empty()) refuse_without_kinds(pairs.front(), kinds);
+  return contact;
+}
+
 } // namespace
 
 BodySettings read_body(const PresetNode& node) {
@@ -73,7 +127,7 @@ BodySettings read_body(const PresetNode& node) {
   }
   read_all(node, "load", body.loads);
   read_all(node, "tear", body.tears);
-  read_child(node, "contact", body.contact);
+  body.contact = read_contact(node);
   read_all(node, "probe", body.probes);
   read_all(node, "answer", body.answers);
   return body;

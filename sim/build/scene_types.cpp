@@ -12,7 +12,7 @@ const ElementType& body_type() {
     ElementType t{"body", "a body that deforms", attributes_of<BodySettings>(), {}};
     for (const auto& part : {shape_types(), matter_types(), motion_types(), law_types(), probe_types()})
       t.children.insert(t.children.end(), part.begin(), part.end());
-    t.children.push_back({&contact_type(), 0, 1});
+    t.children.push_back({&contact_type(), 0, -1});
     return t;
   }();
   return type;

@@ -23,8 +23,10 @@ void ContactAnswer::add(const ContactConstraint& contact) {
 }
 
 std::uint32_t ContactAnswer::mover_of(const ContactBody& body, Slot vertex) {
-  if (body.mover.size() != body.vertices()) body.mover.assign(body.vertices(), no_mover);
-  std::uint32_t& number = body.mover[vertex];
+  if (body.number >= mover_of_.size()) mover_of_.resize(body.number + 1);
+  std::vector<std::uint32_t>& of_body = mover_of_[body.number];
+  if (of_body.size() != body.vertices()) of_body.assign(body.vertices(), no_mover);
+  std::uint32_t& number = of_body[vertex];
   if (number == no_mover) {
     number = static_cast<std::uint32_t>(movers_.size());
     const Vec3 velocity = body.velocity(vertex);
@@ -68,8 +70,15 @@ void ContactAnswer::gather(double step) {
     gather(one, one.contact.b, -1);
     one.start = approach(one);
     const Vec3& n = one.contact.normal;
-    one.wanted = std::min(one.start.dot(n) - one.contact.gap() / step, -one.before.dot(n));
+    one.wanted = std::max(std::min(one.start.dot(n) - one.contact.gap() / step, -one.before.dot(n)),
+                          one.least_rebound());
   }
+}
+
+double ContactAnswer::Answered::least_rebound() const {
+  const double u = before.dot(contact.normal), given = (start - before).dot(contact.normal);
+  const bool impact = contact.restitution > 0 && -u > 2 * std::abs(given);
+  return impact ? -contact.restitution * u : -std::numeric_limits<double>::infinity();
 }
 
 Vec3 ContactAnswer::approach(const Answered& one) const {
@@ -207,7 +216,7 @@ void ContactAnswer::write_back(double step) {
     Record &x = mover.body->position(mover.vertex), &v = mover.body->velocity(mover.vertex);
     x = Record(x.vec() + step * (mover.velocity - v.vec()));
     v = Record(mover.velocity);
-    mover.body->mover[mover.vertex] = no_mover;
+    mover_of_[mover.body->number][mover.vertex] = no_mover;
   }
 }
 
@@ -215,16 +224,27 @@ void ContactAnswer::account() const {
   for (const Answered& one : contacts_) {
     const ContactSide &a = one.contact.a, &b = one.contact.b;
     const Vec3 twice = one.before + approach(one), impulse = one.impulse();
-    if (impulse.isZero(0)) continue;
-    const ContactWork work{.impact = -0.5 * one.normal_impulse * one.contact.normal.dot(twice),
-                           .friction = -0.5 * one.friction.dot(twice),
-                           .obstacles = a.work_of_supports(impulse) + b.work_of_supports(-impulse),
-                           .touched = true};
-    if (Sphere* sphere = a.sphere())
+    const double gap = one.contact.gap();
+    ContactWork work{.gap = gap + one.contact.kept, .overlap = std::max(0.0, -gap)};
+    work.touched = !impulse.isZero(0);
+    if (work.touched) {
+      work.impact = -0.5 * one.normal_impulse * one.contact.normal.dot(twice);
+      work.friction = -0.5 * one.friction.dot(twice);
+      work.obstacles = a.work_of_supports(impulse) + b.work_of_supports(-impulse);
+    }
+    if (Sphere* sphere = a.sphere()) {
       sphere->contact_work += work;
-    else if (WorkMeter* meter = a.body()->work_meter.get()) // none: an equilibrium
+    } else if (WorkMeter* meter = a.body()->work_meter.get()) { // none: an equilibrium
       meter->contact(work);
+      if (work.touched && one.contact.obstacle) meter->touch(*one.contact.obstacle);
+    }
   }
+}
+
+std::size_t ContactAnswer::mover_bytes() const {
+  std::size_t sum = 0;
+  for (const auto& of_body : mover_of_) sum += bytes_of(of_body);
+  return sum;
 }
 
 std::size_t ContactAnswer::touching() const {

@@ -12,7 +12,17 @@
 //   λ_n ≥ 0,   u'·n ≥ min(what makes g ≥ 0, −u·n),   with equality where λ_n > 0
 //
 // and none makes energy. What approaches is stopped: an impact is inelastic for the vertices that meet, and
-// keeps what elasticity keeps. A penetration is paid for by the velocity with which the point would go deeper:
+// keeps what elasticity keeps. With a coefficient of restitution e ≤ 1 it leaves with −e u·n at least (Newton's
+// law), which still is no more than −u·n, so that ΔE = ½ λ_n (1 − e) u·n ≤ 0. That is for impacts alone: what
+// rests or rolls is pressed on by forces in each step, and would never come to rest. It is an impact where
+//
+//   −u·n > 2 |(u'° − u)·n|              u'°: the velocity of the step without contact
+//
+// that is, where the approach is faster than what the forces of the step give in two of them. (Engines of games
+// compare with a fixed speed, which depends on the size of the scene: Box2D with 1 m/s, Bullet with 0.5 m/s.)
+// So what bounces under gravity g comes to rest once it strikes with less than 2 g h.
+//
+// A penetration is paid for by the velocity with which the point would go deeper:
 // it leaves at most as fast as it came; one that rests in something stays there. Where the forces of the step
 // turn around what was leaving, it may come back as far as it had gone. (CD-Lagrange schemes have the same
 // balance: Fekak et al. 2017; Di Stasio et al. 2019.)
@@ -35,7 +45,7 @@ namespace rend {
 
 class ContactAnswer {
 public:
-  // `pushes`: of a scheme that solves.
+  // `pushes`: of a scheme that solves; there is no restitution.
   explicit ContactAnswer(bool pushes) : pushes_(pushes) {}
   void begin() { contacts_.clear(); } // a step
   void add(const ContactConstraint& contact);
@@ -44,7 +54,7 @@ public:
   void account() const;    // once solved: what contact took, to the meters of bodies and spheres
 
   std::size_t touching() const; // contacts that took an impulse
-  std::size_t bytes() const { return bytes_of(contacts_) + bytes_of(movers_); }
+  std::size_t bytes() const { return bytes_of(contacts_) + bytes_of(movers_) + mover_bytes(); }
 
 private:
   // A vertex or a sphere.
@@ -73,6 +83,7 @@ private:
     double normal_impulse = 0;    // [N·s], λ_n
     Vec3 friction = Vec3::Zero(); // [N·s], λ_t
     long visited = 0;             // the last visit
+    double least_rebound() const; // [m/s], of u'·n; −infinity: it is no impact
     Vec3 impulse() const { return normal_impulse * contact.normal + friction; }
   };
   std::uint32_t mover_of(const ContactBody& body, Slot vertex);
@@ -91,9 +102,12 @@ private:
   void rub(Answered& one, double tolerance);
   static Vec3 slowing(const Answered& one, const Vec3& u);
 
+  std::size_t mover_bytes() const;
+
   bool pushes_;
   std::vector<Answered> contacts_;
   std::vector<Mover> movers_;
+  std::vector<std::vector<std::uint32_t>> mover_of_; // scratch, per body one per vertex slot; none: no mover
   long visits_ = 0;
 };
 

@@ -5,7 +5,8 @@
 
 namespace rend {
 
-ContactBody::ContactBody(Body& body_, ContactIn in) : body(&body_), in_(in) {
+ContactBody::ContactBody(Body& body_, ContactIn in, std::size_t number_)
+    : body(&body_), number(number_), in_(in) {
   if (settings().faces()) faces.emplace(*body_.map, body_.boundary());
 }
 

@@ -21,7 +21,8 @@ inline double inverse_mass_along(const Vec3& normal, const Vec3& inverse_masses)
 
 class ContactBody {
 public:
-  ContactBody(Body& body_, ContactIn in);
+  // `number_`: of the body in its scene.
+  ContactBody(Body& body_, ContactIn in, std::size_t number_ = 0);
 
   // Called before the contacts of each step. `time` [s]: at the end of the step.
   void prepare(double time);
@@ -29,13 +30,16 @@ public:
   Body* body;
   std::optional<ContactFaces> faces; // none: it meets the floor alone
   bool changed = true;               // whether the faces changed since the last step
-
-  // Scratch of the answer, one per vertex slot: its mover; none outside of it.
-  mutable std::vector<std::uint32_t> mover;
+  std::size_t number;
 
   const ContactSettings& settings() const { return *body->contact; }
+  // With another body, or between fragments of this one. CHECK: names are resolved (contact_names.h).
+  const ContactTerms& terms(const ContactBody& other) const {
+    CHECK(other.number < body->contact_table.bodies.size());
+    return body->contact_table.bodies[other.number];
+  }
   std::size_t vertices() const { return body->vertices(); } // slots
-  std::size_t bytes() const { return (faces ? faces->bytes() : 0) + bytes_of(held_) + bytes_of(mover); }
+  std::size_t bytes() const { return (faces ? faces->bytes() : 0) + bytes_of(held_); }
   bool alive(Slot v) const { return body->inverse_mass[v] != 0; }
   // [1/kg] along x, y, z; 0: constrained, or free slot.
   Vec3 inverse_mass(Slot v) const {

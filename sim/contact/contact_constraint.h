@@ -42,9 +42,13 @@ private:
 
 struct ContactConstraint {
   ContactSide a, b;
-  Vec3 normal;         // unit, from b to a
-  double apart = 0;    // [m]: the gap is n·(x_a − x_b) − apart, and is not to be negative
-  double friction = 0; // Coulomb's coefficient
+  Vec3 normal;            // unit, from b to a
+  double apart = 0;       // [m]: the gap is n·(x_a − x_b) − apart, and is not to be negative
+  double kept = 0;        // [m], of that: the distance that is kept between surfaces
+  double friction = 0;    // Coulomb's coefficient
+  double restitution = 0; // Newton's coefficient, 0 to 1
+  std::optional<std::size_t> obstacle =
+      {}; // its number in the world; none: b is no obstacle that a body touches
 
   double gap() const { return normal.dot(a.position() - b.position()) - apart; } // [m], at the end of the step
 };

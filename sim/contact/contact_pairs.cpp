@@ -33,12 +33,12 @@ Bounds grown(const Bounds& box, double by) {
 }
 
 // Calls f(object) for the objects below a node of a tree whose boxes intersect this one.
-template <class F> void meet(const Tree& tree, Tree::Index node, const Bounds& box, const F& f) {
+template <class F> void each_in(const Tree& tree, Tree::Index node, const Bounds& box, const F& f) {
   Tree::VolumeIterator below{}, below_end{};
   Tree::ObjectIterator object{}, object_end{};
   tree.getChildren(node, below, below_end, object, object_end);
   for (; below != below_end; ++below)
-    if (tree.getVolume(*below).intersects(box)) meet(tree, *below, box, f);
+    if (tree.getVolume(*below).intersects(box)) each_in(tree, *below, box, f);
   for (; object != object_end; ++object) f(*object);
 }
 
@@ -107,9 +107,9 @@ public:
   // of it) is true.
   template <class Skip, class F> void each_near(const Bounds& box, const Skip& skip, const F& f) const {
     if (faces_.empty()) return;
-    meet(fragments_, fragments_.getRootIndex(), box, [&](std::uint32_t n) {
+    each_in(fragments_, fragments_.getRootIndex(), box, [&](std::uint32_t n) {
       if (skip(faces_[first_[n]]) || !whole_[n].intersects(box)) return;
-      meet(trees_[n], trees_[n].getRootIndex(), box, [&](std::uint32_t face) {
+      each_in(trees_[n], trees_[n].getRootIndex(), box, [&](std::uint32_t face) {
         if (boxes_[face].intersects(box)) f(faces_[face]);
       });
     });
@@ -157,14 +157,14 @@ const std::vector<ContactPair>& ContactPairs::find(const Bodies& bodies) {
 }
 
 bool ContactPairs::anything(const Bodies& bodies) const {
-  std::size_t asking = 0;
-  bool several = false;
+  const auto asks = [&](std::size_t b) { return bodies[b]->settings().fragments; };
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (!bodies[b]->settings().fragments) continue;
-    ++asking;
-    several = several || of_[b].several || bodies[b]->settings().self;
+    if (!asks(b)) continue;
+    if (of_[b].several || bodies[b]->settings().self) return true;
+    for (std::size_t c = b + 1; c < bodies.size(); ++c)
+      if (asks(c) && meet(*bodies[b], *bodies[c])) return true;
   }
-  return several || asking > 1;
+  return false;
 }
 
 // Whether a vertex moved by half the skin since the last search. A common translation is subtracted.
@@ -214,10 +214,11 @@ void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const FaceT
     const Slot v = of.vertices[n];
     of.there.push_back(bodies[b]->position(v));
     const std::size_t begin = pairs_.size();
-    const auto own = [&](const FaceTrees::Face& face) {
-      return face.body == b && face.fragment == of.vertex_fragment[n] && !bodies[b]->settings().self;
+    const auto passes = [&](const FaceTrees::Face& face) {
+      const bool own = face.body == b && face.fragment == of.vertex_fragment[n] && !bodies[b]->settings().self;
+      return own || !meet(*bodies[b], *bodies[face.body]);
     };
-    trees.each_near(around(*bodies[b], v), own, [&](const FaceTrees::Face& face) {
+    trees.each_near(around(*bodies[b], v), passes, [&](const FaceTrees::Face& face) {
       ContactPair pair{b, v, face.body, face.triangle};
       const ContactFaces::Triangle& triangle = bodies[face.body]->faces->triangles()[face.triangle];
       if (allowed(bodies, n, pair) && may_meet(*bodies[b], v, *bodies[face.body], triangle, reach) &&

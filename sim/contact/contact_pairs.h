@@ -31,8 +31,8 @@ public:
   using Bodies = std::vector<std::unique_ptr<ContactBody>>;
 
   // The pairs of this step, sorted by body, vertex, body of the face, triangle. For bodies with contact of
-  // fragments: pairs of different bodies and of different fragments, and with `self` also those within a
-  // fragment that are not neighbours.
+  // fragments: pairs of different bodies that do not exclude each other, and of different fragments, and with
+  // `self` also those within a fragment that are not neighbours.
   const std::vector<ContactPair>& find(const Bodies& bodies);
 
   // The distance that two bodies keep [m].
@@ -59,6 +59,7 @@ private:
   void check_pair(const Bodies& bodies, std::size_t number) const; // throws ArchiveError
   void list(const ContactBody& body, BodyEntry& of) const;
   bool anything(const Bodies& bodies) const;
+  static bool meet(const ContactBody& a, const ContactBody& b) { return !a.terms(b).excluded; }
   bool stale(const Bodies& bodies) const;
   void search(const Bodies& bodies);
   // for the vertices of b

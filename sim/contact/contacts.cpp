@@ -1,6 +1,7 @@
 #include "sim/contact/contacts.h"
 
 #include "sim/base/archive.h"
+#include "sim/contact/contact_names.h"
 
 #include <algorithm>
 
@@ -8,10 +9,12 @@ namespace rend {
 
 std::unique_ptr<Contacts> Contacts::of(World& world, const std::vector<std::unique_ptr<Body>>& bodies,
                                        const Scheme& scheme) {
+  resolve_contact_names(world, bodies);
+  if (scheme.solves) refuse_restitution(world, bodies, scheme.name);
   std::unique_ptr<Contacts> contacts(new Contacts(world, scheme));
-  for (const auto& body : bodies)
-    if (body->contact && (body->floor_contact || body->contact->faces()))
-      contacts->bodies_.push_back(std::make_unique<ContactBody>(*body, scheme.contact));
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b]->contact && (bodies[b]->floor_contact || bodies[b]->contact->faces()))
+      contacts->bodies_.push_back(std::make_unique<ContactBody>(*bodies[b], scheme.contact, b));
   for (const auto& body : contacts->bodies_)
     if (body->settings().fragments && !contacts->fragments_)
       contacts->fragments_ = std::make_unique<FragmentContact>();

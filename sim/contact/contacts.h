@@ -17,7 +17,8 @@ namespace rend {
 
 class Contacts {
 public:
-  // Null if no body has contacts: they then cost nothing. Called before bodies are prepared.
+  // Null if no body has contacts: they then cost nothing. Called before bodies are prepared. UserError:
+  // contact_names.h.
   static std::unique_ptr<Contacts> of(World& world, const std::vector<std::unique_ptr<Body>>& bodies,
                                       const Scheme& scheme);
 

@@ -78,17 +78,14 @@ std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodi
                            .b = ContactSide::of(face, face.held(normal)),
                            .normal = normal,
                            .apart = kept,
-                           .friction = std::max(body.settings().friction, other.settings().friction)};
+                           .kept = kept,
+                           .friction = body.terms(other).friction,
+                           .restitution = body.terms(other).restitution};
 }
 
 void FragmentContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer) {
-  touching_ = 0;
-  for (const ContactPair& pair : pairs_.find(bodies)) {
-    const auto found = touch(bodies, pair);
-    if (!found) continue;
-    answer.add(*found);
-    ++touching_;
-  }
+  for (const ContactPair& pair : pairs_.find(bodies))
+    if (const auto found = touch(bodies, pair)) answer.add(*found);
 }
 
 } // namespace rend

@@ -11,9 +11,9 @@
 // rest, if it is less than at the start of the step. (Fragments coincide right after a separation.) Coincident
 // points of sheets have no side yet and pass until they have one.
 //
-// Two bodies use the mean of their thicknesses and the larger friction. Limits: no edge-edge contacts (visible
-// if cells are much larger than the thickness); what is deeper below a solid's face than a fifth of its size is
-// not seen.
+// Two bodies use the mean of their thicknesses, and the terms of contact_table.h. Limits: no edge-edge contacts
+// (visible if cells are much larger than the thickness); what is deeper below a solid's face than a fifth of its
+// size is not seen.
 #pragma once
 
 #include "sim/contact/contact_answer.h"
@@ -25,7 +25,6 @@ class FragmentContact {
 public:
   // Adds those of the bodies' `next` to the answer.
   void detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer);
-  std::size_t touching() const { return touching_; } // in the last step
   long searches() const { return pairs_.searches(); }
   std::size_t pairs() const { return pairs_.pairs(); } // candidates in the last step
   void store(Archive& archive, const ContactPairs::Bodies& bodies) { pairs_.store(archive, bodies); }
@@ -35,7 +34,6 @@ private:
   static std::optional<ContactConstraint> touch(const ContactPairs::Bodies& bodies, const ContactPair& pair);
 
   ContactPairs pairs_;
-  std::size_t touching_ = 0;
 };
 
 } // namespace rend

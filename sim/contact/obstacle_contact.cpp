@@ -154,18 +154,21 @@ void ObstacleContact::detect(const std::vector<std::unique_ptr<ContactBody>>& bo
   for (const auto& body : bodies) {
     detect_floor(*body, answer);
     if (!body->settings().obstacles) continue;
-    const double own = body->settings().friction;
-    for (Sphere& sphere : world_.spheres) {
+    for (std::size_t s = 0; s < world_.spheres.size(); ++s) {
+      if (body->body->contact_table.excludes_obstacle(world_.number_of_sphere(s))) continue;
+      Sphere& sphere = world_.spheres[s];
       const MovingSphere shape{&sphere, step_of(sphere)};
       const auto side = [&](const Vec3& at) {
         return sphere.falls() ? ContactSide::of(sphere) : ContactSide::of_obstacle(shape.velocity_at(at));
       };
-      detect_shape(shape, *body, sphere.friction.value_or(own), side, answer);
+      detect_shape(shape, *body, world_.number_of_sphere(s), side, answer);
     }
-    for (const Box& box : world_.boxes) {
+    for (std::size_t b = 0; b < world_.boxes.size(); ++b) {
+      if (body->body->contact_table.excludes_obstacle(world_.number_of_box(b))) continue;
+      const Box& box = world_.boxes[b];
       const auto add = [&](const auto& shape) {
         const auto side = [&](const Vec3& at) { return ContactSide::of_obstacle(shape.velocity_at(at)); };
-        detect_shape(shape, *body, box.friction.value_or(own), side, answer);
+        detect_shape(shape, *body, world_.number_of_box(b), side, answer);
       };
       if (const RigidStep* way = step_of(box))
         add(MovingBox{&box, way});
@@ -179,27 +182,35 @@ void ObstacleContact::detect(const std::vector<std::unique_ptr<ContactBody>>& bo
 
 void ObstacleContact::detect_floor(const ContactBody& body, ContactAnswer& answer) const {
   if (!body.body->floor_contact) return;
-  const auto [height, friction] = *body.body->floor_contact;
+  const double height = body.body->floor_contact->height;
+  const ContactTerms& terms = body.body->contact_table.obstacles[0];
   for (Slot v = 0; v < body.vertices(); ++v)
     if (body.position(v).z < height && body.inverse_mass(v).z() != 0)
       answer.add({.a = ContactSide::of(ContactPoint::at(body, v), false),
                   .b = ContactSide::of_obstacle(Vec3::Zero()),
                   .normal = Vec3::UnitZ(),
                   .apart = height,
-                  .friction = friction});
+                  .kept = body.settings().thickness,
+                  .friction = terms.friction,
+                  .restitution = terms.restitution,
+                  .obstacle = 0});
 }
 
-// `side(x)`: the obstacle's, at a place x.
+// `number`: of the obstacle; `side(x)`: its side, at a place x.
 template <class Shape, class Side>
-void ObstacleContact::detect_shape(const Shape& shape, const ContactBody& body, double friction,
+void ObstacleContact::detect_shape(const Shape& shape, const ContactBody& body, std::size_t number,
                                    const Side& side, ContactAnswer& answer) {
+  const ContactTerms& terms = body.body->contact_table.obstacles[number];
   const auto add = [&](const ContactPoint& point, const Plane& plane) {
     const ContactSide other = side(point.position());
     answer.add({.a = ContactSide::of(point, point.held(plane.normal)),
                 .b = other,
                 .normal = plane.normal,
                 .apart = plane.offset - plane.normal.dot(other.position()),
-                .friction = friction});
+                .kept = body.settings().thickness,
+                .friction = terms.friction,
+                .restitution = terms.restitution,
+                .obstacle = number});
   };
   for_each_vertex(shape, body, codes_, add);
   for_each_face(shape, body, codes_, add);
@@ -207,17 +218,20 @@ void ObstacleContact::detect_shape(const Shape& shape, const ContactBody& body, 
 
 // Contacts of a falling sphere with the floor, boxes and spheres.
 void ObstacleContact::detect_around(Sphere& sphere, ContactAnswer& answer) {
-  const double own = sphere.friction.value_or(own_friction);
-  const auto add = [&](const Plane& plane, double friction, const Vec3& surface) {
+  const double own = sphere.friction.value_or(own_friction), bounce = sphere.restitution.value_or(0);
+  const auto add = [&](const Plane& plane, double friction, double restitution, const Vec3& surface) {
     answer.add({.a = ContactSide::of(sphere),
                 .b = ContactSide::of_obstacle(surface),
                 .normal = plane.normal,
                 .apart = plane.offset,
-                .friction = friction});
+                .friction = friction,
+                .restitution = restitution});
   };
   if (world_.floor && sphere.next_centre.z() < world_.floor->z + sphere.radius) {
     const double height = world_.floor->z + sphere.radius;
-    add({Vec3::UnitZ(), height}, world_.floor->friction.value_or(own), Vec3::Zero());
+    const Floor& floor = *world_.floor;
+    add({Vec3::UnitZ(), height}, floor.friction.value_or(own), floor.restitution.value_or(bounce),
+        Vec3::Zero());
   }
   for (const Box& box : world_.boxes) {
     const RigidStep* way = step_of(box);
@@ -227,7 +241,8 @@ void ObstacleContact::detect_around(Sphere& sphere, ContactAnswer& answer) {
     if (!plane) continue;
     if (way) plane = moved(way->to, *plane);
     const Vec3 touched = sphere.next_centre - sphere.radius * plane->normal;
-    add(*plane, box.friction.value_or(own), way ? way->velocity(touched) : Vec3(Vec3::Zero()));
+    add(*plane, box.friction.value_or(own), box.restitution.value_or(bounce),
+        way ? way->velocity(touched) : Vec3(Vec3::Zero()));
   }
   for (Sphere& other : world_.spheres)
     if (!other.falls() || &sphere < &other) detect_pair(sphere, other, answer);
@@ -245,7 +260,8 @@ void ObstacleContact::detect_pair(Sphere& a, Sphere& b, ContactAnswer& answer) {
               .b = other,
               .normal = normal,
               .apart = least + normal.dot(b.next_centre - other.position()),
-              .friction = a.friction.value_or(b.friction.value_or(own_friction))});
+              .friction = a.friction.value_or(b.friction.value_or(own_friction)),
+              .restitution = a.restitution.value_or(b.restitution.value_or(0))});
 }
 
 } // namespace rend

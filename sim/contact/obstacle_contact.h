@@ -35,7 +35,7 @@ private:
   const RigidStep* step_of(const Box& box) const;       // null: it stands still
   void detect_floor(const ContactBody& body, ContactAnswer& answer) const;
   template <class Shape, class Side>
-  void detect_shape(const Shape& shape, const ContactBody& body, double friction, const Side& side,
+  void detect_shape(const Shape& shape, const ContactBody& body, std::size_t number, const Side& side,
                     ContactAnswer& answer);
   void detect_around(Sphere& sphere, ContactAnswer& answer);
   void detect_pair(Sphere& a, Sphere& b, ContactAnswer& answer);

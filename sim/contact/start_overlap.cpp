@@ -274,12 +274,16 @@ std::vector<StartOverlap> overlaps_of(const World& world, const std::vector<std:
   for (std::size_t n = 0; n < all.size(); ++n) {
     const Starting& body = *all[n];
     if (body.body->floor_contact && world.floor) keep(body, in_floor(body, world.floor->z), "the floor");
+    const ContactTable& table = body.body->contact_table;
+    const auto keep_obstacle = [&](std::size_t number, const auto& shape) {
+      if (!table.excludes_obstacle(number)) keep(body, in_obstacle(body, shape), world.called(number));
+    };
     for (std::size_t s = 0; s < world.spheres.size() && body.settings().obstacles; ++s)
-      keep(body, in_obstacle(body, StartingSphere{&world.spheres[s]}), fmt::format("sphere {}", s + 1));
+      keep_obstacle(world.number_of_sphere(s), StartingSphere{&world.spheres[s]});
     for (std::size_t b = 0; b < world.boxes.size() && body.settings().obstacles; ++b)
-      keep(body, in_obstacle(body, StartingBox{&world.boxes[b]}), fmt::format("box {}", b + 1));
+      keep_obstacle(world.number_of_box(b), StartingBox{&world.boxes[b]});
     for (std::size_t m = n + 1; m < all.size() && body.settings().fragments; ++m) {
-      if (!all[m]->settings().fragments) continue;
+      if (!all[m]->settings().fragments || table.excludes_body(all[m]->number)) continue;
       auto overlap = in_each_other(body, *all[m]);
       if (overlap) overlap->other = all[m]->number;
       keep(body, overlap, fmt::format("body '{}'", all[m]->body->name));

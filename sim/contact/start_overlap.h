@@ -29,7 +29,7 @@ namespace rend {
 
 struct StartOverlap {
   std::size_t body = 0;             // that is in contact ...
-  std::string with;                 // ... with this: "the floor", "sphere 1", "box 2", "body 'b'"
+  std::string with;                 // ... with this: World::called(), or "body 'b'"
   std::optional<std::size_t> other; // the other body
   double depth = 0;                 // [m]
   Vec3 at = Vec3::Zero();           // [m], the deepest point

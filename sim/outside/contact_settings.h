@@ -5,6 +5,14 @@
 
 namespace rend {
 
+// How it collides with single things: what is given here counts for them in place of what counts for all.
+struct ContactPairSettings {
+  std::vector<std::string> with = {}; // names of bodies, spheres, boxes or of the floor
+  std::optional<double> friction = {}, restitution = {};
+  SettingsSource source = {};
+};
+template <> const Fields<ContactPairSettings>& fields_of();
+
 struct ContactSettings {
   bool floor = false;
   bool obstacles = true;    // spheres and boxes; and the floor
@@ -12,7 +20,10 @@ struct ContactSettings {
   bool self = false;        // faces of the same fragment as well; and `fragments`
   double thickness = 0.002; // [m], kept from all of them
   double friction = 0.5;    // coefficient, where the obstacle has none of its own
+  double restitution = 0;   // likewise, of impacts: 0 to 1
   enum class Overlap { Refuse, Push } overlap = Overlap::Refuse; // what starts inside something
+  std::vector<std::string> excluded = {};                        // names of what it passes through
+  std::vector<ContactPairSettings> pairs = {};
   SettingsSource source = {};
 
   bool push() const { return overlap == Overlap::Push; }
@@ -27,8 +38,7 @@ double way_out(double before, double step);
 
 // With the floor, of a body that meets it.
 struct FloorContact {
-  double height = 0;   // [m], the floor's plus the body's thickness
-  double friction = 0; // coefficient
+  double height = 0; // [m], the floor's plus the body's thickness
 };
 
 } // namespace rend

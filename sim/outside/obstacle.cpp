@@ -19,6 +19,18 @@ AttributeType friction_attribute() {
       .at_least(0);
 }
 
+AttributeType restitution_attribute() {
+  return number("restitution", "",
+                "the share of its normal speed with which what strikes it leaves again; default: that of each "
+                "body's <contact>, and 0 for other obstacles")
+      .at_least(0)
+      .at_most(1);
+}
+
+AttributeType obstacle_name_attribute() {
+  return text("name", "for <contact>, without blanks; that of no other obstacle or body");
+}
+
 template <> const Fields<SphereSettings>& fields_of() {
   using S = SphereSettings;
   static const Fields<S> fields{
@@ -31,7 +43,9 @@ template <> const Fields<SphereSettings>& fields_of() {
                 .above(0)
                 .at_most(heaviest)),
       field(&S::rotate, rotate_attribute()),
-      field(&S::friction, friction_attribute())};
+      field(&S::friction, friction_attribute()),
+      field(&S::restitution, restitution_attribute()),
+      field(&S::name, obstacle_name_attribute())};
   return fields;
 }
 
@@ -40,7 +54,9 @@ template <> const Fields<Box>& fields_of() {
   static const Fields<S> fields =
       Fields<S>{field(&S::low, position("low", "the corner with the smallest x, y and z").is_required()),
                 field(&S::high, position("high", "the corner with the largest x, y and z").is_required())} +
-      fields_of_part(&S::motion) + Fields<S>{field(&S::friction, friction_attribute())};
+      fields_of_part(&S::motion) +
+      Fields<S>{field(&S::friction, friction_attribute()), field(&S::restitution, restitution_attribute()),
+                field(&S::name, obstacle_name_attribute())};
   return fields;
 }
 
@@ -53,7 +69,8 @@ void check_box(const Box& box) {
 
 Sphere::Sphere(const SphereSettings& settings)
     : start(settings.centre), radius(settings.radius), mass(settings.mass.value_or(0)),
-      friction(settings.friction), velocity(settings.velocity), next_velocity(settings.velocity) {
+      friction(settings.friction), restitution(settings.restitution), name(settings.name),
+      source(settings.source), velocity(settings.velocity), next_velocity(settings.velocity) {
   check_settings(settings);
   motion.velocity = settings.velocity;
   motion.rotate = settings.rotate;

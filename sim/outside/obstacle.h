@@ -33,8 +33,10 @@ struct Plane {
 // A plane of an obstacle as the preset puts it, where the obstacle is.
 Plane moved(const Pose& pose, const Plane& plane);
 
-// Coulomb's coefficient, of all that slides on it.
+// Of all that touches an obstacle: Coulomb's coefficient, and Newton's of restitution.
 AttributeType friction_attribute();
+AttributeType restitution_attribute();
+AttributeType obstacle_name_attribute();
 
 struct SphereSettings {
   Vec3 centre = Vec3::Zero();                       // [m], at time 0
@@ -44,15 +46,19 @@ struct SphereSettings {
   std::optional<std::array<double, 4>> rotate = {}; // the axis x y z, and the rate [degrees/s]
   std::vector<ObstacleKey> keys = {};               // of a prescribed motion
   std::optional<double> friction = {};              // none: that of the body
+  std::optional<double> restitution = {};           // likewise
+  std::string name = {};                            // empty: none
   SettingsSource source = {};
 };
 template <> const Fields<SphereSettings>& fields_of();
 
 struct Sphere {
-  Vec3 start = Vec3::Zero();      // [m], its centre at time 0
-  double radius = 0, mass = 0;    // [m], [kg]; mass 0: moves as prescribed
-  std::optional<double> friction; // Coulomb's coefficient; none: that of the body
-  ObstacleMotion motion;          // by keys, and its rotation
+  Vec3 start = Vec3::Zero();                   // [m], its centre at time 0
+  double radius = 0, mass = 0;                 // [m], [kg]; mass 0: moves as prescribed
+  std::optional<double> friction, restitution; // coefficients; none: those of the body
+  ObstacleMotion motion;                       // by keys, and its rotation
+  std::string name;                            // empty: none
+  SettingsSource source;
 
   Vec3 centre = start, velocity = Vec3::Zero();           // [m], [m/s], of the current state
   Vec3 next_centre = start, next_velocity = Vec3::Zero(); // at the end of the current step
@@ -80,9 +86,10 @@ struct Sphere {
 };
 
 struct Box {
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero(); // [m]
-  std::optional<double> friction = {};
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();          // [m]
+  std::optional<double> friction = {}, restitution = {}; // coefficients; none: those of the body
   ObstacleMotion motion = {};
+  std::string name = {}; // empty: none
   SettingsSource source = {};
 
   Vec3 middle() const { return 0.5 * (low + high); }

@@ -48,8 +48,9 @@ void SolvedContact::rebind(System& system, const std::vector<Record>& rest) {
 // `nearest(X)`: the plane of the obstacle as the preset puts it, for a vertex at X of its points; the
 // obstacle goes its `way`. What is in the obstacle already is left to contact after the step.
 template <class Nearest>
-void SolvedContact::add_planes(const System& system, const StateView& now, std::uint32_t obstacle,
-                               double friction, const RigidStep& way, const Nearest& nearest) {
+void SolvedContact::add_planes(const System& system, const StateView& now, std::size_t obstacle,
+                               const RigidStep& way, const Nearest& nearest) {
+  if (table_.excludes_obstacle(obstacle)) return;
   const double margin = settings_.thickness + skin * size_;
   for (std::size_t i = 0; i < system.vertices(); ++i) {
     if (system.inverse_mass[i] == 0) continue;
@@ -59,27 +60,28 @@ void SolvedContact::add_planes(const System& system, const StateView& now, std::
     plane->offset += margin;
     const double gap = plane->normal.dot(X) - plane->offset;
     if (gap > reach_) continue;
-    plane->offset -= way_out(-gap, step_);
+    const double still = way_out(-gap, step_);
+    plane->offset -= still;
     planes_.push_back({.vertex = static_cast<Slot>(i),
-                       .obstacle = obstacle,
+                       .obstacle = static_cast<std::uint32_t>(obstacle),
                        .plane = moved(way.to, *plane),
                        .from = x,
                        .start = way.to.of(X),
-                       .friction = friction,
-                       .stiffness = penalty * (stiffness_[i] + 1 / (system.inverse_mass[i] * step_ * step_))});
+                       .friction = table_.obstacles[obstacle].friction,
+                       .stiffness = penalty * (stiffness_[i] + 1 / (system.inverse_mass[i] * step_ * step_)),
+                       .still = still});
   }
 }
 
 void SolvedContact::add_obstacles(const System& system, double end, const StateView& now) {
-  std::uint32_t number = 1;
   const auto way = [&](const ObstacleMotion& motion, const Vec3& middle) {
     return motion.moves() ? RigidStep{motion.at(middle, end - step_), motion.at(middle, end), step_}
                           : RigidStep{};
   };
-  for (const Sphere& sphere : world_.spheres) {
-    const std::uint32_t own = number++;
+  for (std::size_t s = 0; s < world_.spheres.size(); ++s) {
+    const Sphere& sphere = world_.spheres[s];
     if (sphere.falls()) continue;
-    add_planes(system, now, own, sphere.friction.value_or(settings_.friction), way(sphere.motion, sphere.start),
+    add_planes(system, now, world_.number_of_sphere(s), way(sphere.motion, sphere.start),
                [&](const Vec3& X) -> std::optional<Plane> {
                  const Vec3 from = X - sphere.start;
                  const double distance = from.norm();
@@ -87,9 +89,11 @@ void SolvedContact::add_obstacles(const System& system, double end, const StateV
                  return Plane{from / distance, from.dot(sphere.start) / distance + sphere.radius};
                });
   }
-  for (const Box& box : world_.boxes)
-    add_planes(system, now, number++, box.friction.value_or(settings_.friction), way(box.motion, box.middle()),
+  for (std::size_t b = 0; b < world_.boxes.size(); ++b) {
+    const Box& box = world_.boxes[b];
+    add_planes(system, now, world_.number_of_box(b), way(box.motion, box.middle()),
                [&](const Vec3& X) { return beside(box, X); });
+  }
 }
 
 // [m/s], of vertices and of what moves towards them.
@@ -117,7 +121,7 @@ void SolvedContact::begin(const System& system, double end, double step, const S
   planes_.clear();
   reach_ = 4 * step * (fastest(system, end, now) + step * system.gravity.vec().norm()) + 0.01 * size_;
   if (settings_.floor && world_.floor)
-    add_planes(system, now, 0, world_.floor->friction.value_or(settings_.friction), {}, [&](const Vec3&) {
+    add_planes(system, now, 0, {}, [&](const Vec3&) {
       return std::optional<Plane>(Plane{Vec3::UnitZ(), world_.floor->z});
     });
   if (settings_.obstacles) add_obstacles(system, end, now);
@@ -154,13 +158,15 @@ Vec3 SolvedContact::VertexPlane::force(const Record* position, double epsilon) c
 }
 
 // By the forces at the end of the step, along the way of the vertex and along that of the obstacle.
-ContactWork SolvedContact::VertexPlane::work(const Record* position, double epsilon) const {
+ContactWork SolvedContact::VertexPlane::work(const Record* position, double epsilon, double thickness) const {
   const Vec3 normal = pressure(position) * plane.normal, across = force(position, epsilon) - normal;
   const Vec3 relative = position[vertex].vec() - start;
   return {.impact = -normal.dot(relative),
           .friction = -across.dot(relative),
           .obstacles = (normal + across).dot(start - from),
-          .touched = multiplier > 0};
+          .touched = true,
+          .gap = thickness + gap(position) - still,
+          .overlap = std::max(0.0, still - gap(position))};
 }
 
 double SolvedContact::epsilon() const {
@@ -221,12 +227,17 @@ bool SolvedContact::tighten(const Record* position) {
   }
   const bool open = deepest(position) > tolerance * size_ || changed > settled * largest;
   if (open && ++rounds_ <= most_rounds) return true;
-  for (const VertexPlane& each : planes_) work_ += each.work(position, epsilon());
+  for (const VertexPlane& each : planes_) {
+    if (each.multiplier == 0) continue;
+    work_ += each.work(position, epsilon(), settings_.thickness);
+    touched_.push_back(each.obstacle);
+  }
   return false;
 }
 
 void SolvedContact::end() {
   planes_.clear();
+  touched_.clear();
   work_ = {};
 }
 

@@ -29,6 +29,7 @@
 
 #include "sim/integrate/system.h"
 #include "sim/outside/contact_settings.h"
+#include "sim/outside/contact_table.h"
 #include "sim/outside/contact_work.h"
 #include "sim/outside/world.h"
 
@@ -36,8 +37,9 @@ namespace rend {
 
 class SolvedContact {
 public:
-  // The world must outlive it.
-  SolvedContact(const World& world, const ContactSettings& settings) : world_(world), settings_(settings) {}
+  // All of them must outlive it.
+  SolvedContact(const World& world, const ContactSettings& settings, const ContactTable& table)
+      : world_(world), settings_(settings), table_(table) {}
 
   // Of the system as it is at rest, one position per vertex slot [m]: penalty stiffnesses follow from its
   // stiffness. After a change of the map.
@@ -55,31 +57,36 @@ public:
   double potential(const Record* position) const;                                         // [J], P
   // Moves the multipliers. True: by so much that the step is to be solved again. False: it is accepted.
   bool tighten(const Record* position);
-  const ContactWork& work() const { return work_; } // in the steps accepted since end()
+  // In the steps accepted since end(); touched obstacles in any order, also more than once.
+  const ContactWork& work() const { return work_; }
+  const std::vector<std::uint32_t>& touched() const { return touched_; }
 
   double deepest(const Record* position) const; // [m], of what penetrates; 0: nothing
-  std::size_t bytes() const { return bytes_of(planes_) + bytes_of(before_) + bytes_of(stiffness_); }
+  std::size_t bytes() const {
+    return bytes_of(planes_) + bytes_of(before_) + bytes_of(stiffness_) + bytes_of(touched_);
+  }
 
 private:
   struct VertexPlane {
     Slot vertex = 0;
-    std::uint32_t obstacle = 0; // 0: the floor; then spheres, then boxes
+    std::uint32_t obstacle = 0; // its number in the world
     Plane plane;                // at the end of the step
     Vec3 from, start;           // [m]: at the start; and where it would be if it moved with the obstacle
     double friction = 0;        // coefficient
     double stiffness = 0;       // k [N/m]
     double multiplier = 0;      // λ [N]
     double bound = 0;           // [N], μ λ of the last solve
+    double still = 0;           // [m], how deep it may still be at the end of the step (way_out())
 
     double gap(const Record* position) const { return plane.normal.dot(position[vertex].vec()) - plane.offset; }
-    double pressure(const Record* position) const;                  // |f_n| [N]
-    Vec3 sliding(const Record* position) const;                     // u [m]
-    Vec3 force(const Record* position, double epsilon) const;       // f_n + f_t [N]
-    ContactWork work(const Record* position, double epsilon) const; // of the step
+    double pressure(const Record* position) const;                                    // |f_n| [N]
+    Vec3 sliding(const Record* position) const;                                       // u [m]
+    Vec3 force(const Record* position, double epsilon) const;                         // f_n + f_t [N]
+    ContactWork work(const Record* position, double epsilon, double thickness) const; // of the step
   };
   template <class Nearest>
-  void add_planes(const System& system, const StateView& now, std::uint32_t obstacle, double friction,
-                  const RigidStep& way, const Nearest& nearest);
+  void add_planes(const System& system, const StateView& now, std::size_t obstacle, const RigidStep& way,
+                  const Nearest& nearest);
   double fastest(const System& system, double end, const StateView& now) const;
   void add_obstacles(const System& system, double end, const StateView& now);
   void first_multipliers(const System& system, const StateView& now, const Record* force);
@@ -88,13 +95,15 @@ private:
 
   const World& world_;
   const ContactSettings& settings_;
+  const ContactTable& table_;
   std::vector<double> stiffness_; // [N/m], one per vertex slot, of the body at rest
   std::vector<VertexPlane> planes_, before_;
   ContactWork work_;
-  double step_ = 0;  // [s]
-  double reach_ = 0; // [m]: planes farther from their vertices are left out
-  double size_ = 0;  // [m], of the body
-  int rounds_ = 0;   // of tighten() in this step
+  std::vector<std::uint32_t> touched_; // obstacles, by number
+  double step_ = 0;                    // [s]
+  double reach_ = 0;                   // [m]: planes farther from their vertices are left out
+  double size_ = 0;                    // [m], of the body
+  int rounds_ = 0;                     // of tighten() in this step
 };
 
 } // namespace rend

@@ -2,12 +2,15 @@
 
 #include "sim/base/reach.h"
 
+#include <fmt/format.h>
+
 namespace rend {
 
 template <> const Fields<Floor>& fields_of() {
   using S = Floor;
-  static const Fields<S> fields{field(&S::z, within(number("z", "m", "its height"), farthest)),
-                                field(&S::friction, friction_attribute())};
+  static const Fields<S> fields{
+      field(&S::z, within(number("z", "m", "its height"), farthest)), field(&S::friction, friction_attribute()),
+      field(&S::restitution, restitution_attribute()), field(&S::name, obstacle_name_attribute())};
   return fields;
 }
 
@@ -19,6 +22,14 @@ template <> const Fields<World>& fields_of() {
           &S::over,
           number("over", "s", "gravity grows linearly from 0 to its full value during this time").at_least(0))};
   return fields;
+}
+
+std::string World::called(std::size_t number) const {
+  if (number == 0) return floor && !floor->name.empty() ? "the floor " + in_quotes(floor->name) : "the floor";
+  const bool round = number <= spheres.size();
+  const std::size_t n = round ? number : number - spheres.size();
+  const std::string& name = round ? spheres[n - 1].name : boxes[n - 1].name;
+  return fmt::format("{} {}", round ? "sphere" : "box", name.empty() ? std::to_string(n) : in_quotes(name));
 }
 
 void check_world(const World& world) {

@@ -5,13 +5,15 @@
 #include "sim/outside/obstacle.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace rend {
 
 struct Floor {
-  double z = 0;                        // [m]
-  std::optional<double> friction = {}; // Coulomb's coefficient; none: that of the body
+  double z = 0;                                          // [m]
+  std::optional<double> friction = {}, restitution = {}; // coefficients; none: those of the body
+  std::string name = {};                                 // empty: none
   SettingsSource source = {};
 };
 template <> const Fields<Floor>& fields_of();
@@ -28,6 +30,12 @@ struct World {
   double gravity_share(double time) const { return ramp(time, over); } // 0 to 1
   Vec3 gravity_at(double time) const { return gravity_share(time) * gravity; }
   bool has_obstacles() const { return !spheres.empty() || !boxes.empty(); } // besides the floor
+
+  // Obstacles by number: 0 is the floor, whether there is one or not, then follow the spheres, then the boxes.
+  std::size_t number_of_sphere(std::size_t s) const { return 1 + s; }
+  std::size_t number_of_box(std::size_t b) const { return 1 + spheres.size() + b; }
+  std::size_t obstacles() const { return 1 + spheres.size() + boxes.size(); }
+  std::string called(std::size_t number) const; // "the floor", "sphere 1", "box 'table'"
 };
 template <> const Fields<World>& fields_of(); // those of its own
 

@@ -86,7 +86,7 @@ void Scene::solve_contact() {
   if (!scheme().solves_contact) return;
   for (auto& body : bodies_)
     if (body->contact && (body->floor_contact || body->contact->obstacles))
-      body->solved_contact = std::make_unique<SolvedContact>(world_, *body->contact);
+      body->solved_contact = std::make_unique<SolvedContact>(world_, *body->contact, body->contact_table);
 }
 
 SchemeSettings Scene::checked_settings() const {

@@ -85,7 +85,8 @@ private:
                               .b = draw_(0, 1) < 0.3 || b.held(normal) ? ContactSide::of(sphere_)
                                                                        : ContactSide::of(b, false),
                               .normal = normal,
-                              .friction = draw_(0, 1)};
+                              .friction = draw_(0, 1),
+                              .restitution = draw_(0, 1)};
     contact.apart = contact.gap() + draw_(0, 0.03);
     answer_.add(contact);
   }
