@@ -1,7 +1,6 @@
 #include "render/clip/figures.h"
 
 #include "render/clip/early_tears.h"
-#include "render/clip/missed_obstacles.h"
 #include "sim/body/fragment_masses.h"
 #include "sim/fracture/pairs.h"
 #include "sim/scene/memory.h"
@@ -203,6 +202,7 @@ StateFigures state_of(const Session& session) {
   state.probes = probes_of(scene);
   state.answers = answers_of(scene);
   state.touched_nothing = touched_nothing(scene);
+  state.obstacles = obstacles_of(scene);
   state.spheres = spheres_of(scene);
   state.guard = scene.guard();
   state.rows = rows_of(scene);

@@ -2,6 +2,7 @@
 // a contract with tests, benchmarks and `rend batch`.
 #pragma once
 
+#include "render/clip/missed_obstacles.h"
 #include "render/clip/printed_figures.h"
 #include "render/clip/session.h"
 #include "render/pipeline/pipeline.h"
@@ -91,8 +92,9 @@ struct StateFigures {
   Vec3 momentum, angular_momentum;                        // [kg m/s], [kg m²/s]
   std::vector<ProbeFigures> probes;
   std::vector<AnswerFigures> answers;
-  std::optional<bool> touched_nothing; // missed_obstacles.h
-  std::vector<SphereFigures> spheres;  // those that move, in the order of the preset
+  std::optional<bool> touched_nothing;    // missed_obstacles.h
+  std::vector<ObstacleFigures> obstacles; // likewise; empty: none that a body collides with
+  std::vector<SphereFigures> spheres;     // those that move, in the order of the preset
   GuardFigures guard;
   std::vector<std::pair<std::string, std::size_t>>
       rows;                              // live ones that the integrator evaluates, by interaction

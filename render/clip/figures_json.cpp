@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace rend {
 namespace {
 
@@ -89,10 +91,26 @@ Json json_of(const SolvingFigures& solver) {
           {"bytes", solver.all.bytes}};
 }
 
+Json json_of(const ObstacleFigures& obstacle) {
+  Json out{{"kind", obstacle.kind}, {"number", obstacle.number}};
+  if (!obstacle.name.empty()) out["name"] = obstacle.name;
+  out["touched"] = obstacle.touched;
+  return out;
+}
+
 template <class T> Json list_of(const std::vector<T>& all) {
   Json list = Json::array();
   for (const T& one : all) list.push_back(json_of(one));
   return list;
+}
+
+// The distances: null where nothing was in contact.
+Json json_of(const ContactWork& contact) {
+  Json out{{"impact", contact.impact}, {"friction", contact.friction}, {"gap", nullptr}, {"overlap", nullptr}};
+  if (std::isinf(contact.gap)) return out;
+  out["gap"] = contact.gap;
+  out["overlap"] = contact.overlap;
+  return out;
 }
 
 Json json_of(const EnergyFigures& e) {
@@ -104,7 +122,7 @@ Json json_of(const EnergyFigures& e) {
       {"work", w.sum()},
       {"work_of",
        {{"loads", w.loads}, {"drives", w.drives}, {"obstacles", w.contact.obstacles}, {"changes", w.changes}}},
-      {"contact", {{"impact", w.contact.impact}, {"friction", w.contact.friction}}},
+      {"contact", json_of(w.contact)},
       {"dissipated", e.dissipated},
       {"balance", e.balance}};
 }
@@ -131,6 +149,7 @@ Json json_of(const StateFigures& s) {
              {"answers", list_of(s.answers)}};
   if (!s.reach.empty()) state["reach"] = list_of(s.reach);
   for (const auto& [name, added] : s.added_mass) state["added_mass"][name] = added;
+  if (!s.obstacles.empty()) state["obstacles"] = list_of(s.obstacles);
   if (s.touched_nothing) state["touched_nothing"] = *s.touched_nothing;
   if (!s.spheres.empty()) state["spheres"] = list_of(s.spheres);
   state["guard"] = json_of(s.guard);

@@ -16,16 +16,39 @@ std::optional<bool> touched_nothing(const Scene& scene) {
   return collides ? std::optional(!touched) : std::nullopt;
 }
 
-std::string obstacles_in_words(const Scene& scene) {
-  std::string out;
-  const auto add = [&](const char* kind, std::size_t number, const Vec3& at) {
-    out += fmt::format("{}{} {} at ({:.4g}, {:.4g}, {:.4g}) m", out.empty() ? "" : ", ", kind, number, at.x(),
-                       at.y(), at.z());
-  };
+std::vector<ObstacleFigures> obstacles_of(const Scene& scene) {
   const World& world = scene.world();
-  for (std::size_t n = 0; n < world.spheres.size(); ++n) add("sphere", n + 1, world.spheres[n].centre);
-  for (std::size_t n = 0; n < world.boxes.size(); ++n)
-    add("box", n + 1, world.boxes[n].pose(scene.time()).of(world.boxes[n].middle()));
+  std::vector<ObstacleFigures> all;
+  const auto add = [&](std::size_t obstacle, const char* kind, std::size_t number, const std::string& name) {
+    bool collides = false, touched = false;
+    for (const auto& body : scene.bodies()) {
+      const bool meets =
+          obstacle == 0 ? body->floor_contact.has_value() : body->contact && body->contact->obstacles;
+      if (!meets || !body->work_meter || body->contact_table.excludes_obstacle(obstacle)) continue;
+      collides = true;
+      touched = touched || body->work_meter->touched(obstacle);
+    }
+    if (collides) all.push_back({obstacle, kind, number, name, touched});
+  };
+  if (world.floor) add(0, "floor", 1, world.floor->name);
+  for (std::size_t s = 0; s < world.spheres.size(); ++s)
+    add(world.number_of_sphere(s), "sphere", s + 1, world.spheres[s].name);
+  for (std::size_t b = 0; b < world.boxes.size(); ++b)
+    add(world.number_of_box(b), "box", b + 1, world.boxes[b].name);
+  return all;
+}
+
+std::string untouched_in_words(const Scene& scene) {
+  const World& world = scene.world();
+  std::string out;
+  for (const ObstacleFigures& one : obstacles_of(scene)) {
+    if (one.touched || one.kind == "floor") continue;
+    const std::size_t n = one.number - 1;
+    const Vec3 at = one.kind == "sphere" ? world.spheres[n].centre
+                                         : world.boxes[n].pose(scene.time()).of(world.boxes[n].middle());
+    out += fmt::format("{}{} at ({:.4g}, {:.4g}, {:.4g}) m", out.empty() ? "" : ", ",
+                       world.called(one.obstacle), at.x(), at.y(), at.z());
+  }
   return out;
 }
 

@@ -269,8 +269,11 @@ void note_substeps(const Scene& scene) {
 // Of a whole clip alone: before its end they may still come.
 void note_missed_obstacles(const Scene& scene) {
   if (scene.steps_done() == 0 || scene.time() < (1 - 1e-9) * scene.duration()) return;
-  if (touched_nothing(scene).value_or(false))
-    print_note("no body has touched anything: at the end " + obstacles_in_words(scene));
+  const std::string untouched = untouched_in_words(scene);
+  if (!untouched.empty())
+    print_note((touched_nothing(scene).value_or(false) ? "no body has touched anything: at the end "
+                                                       : "no body has touched, at the end, ") +
+               untouched);
 }
 
 } // namespace

@@ -58,5 +58,44 @@ TEST(MissedObstacles, are_told_of_a_whole_clip_with_contact_alone) {
   EXPECT_FALSE(place.rend("run pulled.xml --json -q").json().contains("touched_nothing"));
 }
 
+// A ball that hits, and a box that nothing touches; the floor is far below.
+TEST(MissedObstacles, are_told_one_by_one) {
+  const TestFolder place;
+  std::string text = dropped_at("0.5 0.5 0.16");
+  text.replace(text.find("<sphere"), 7,
+               R"(<floor z="-9"/><box name="table" low="3 3 0" high="4 4 1"/><sphere)");
+  place.write("a.xml", text);
+  const auto run = place.rend("run a.xml --json");
+  EXPECT_THAT(run.err, HasSubstr("note: no body has touched, at the end, box 'table' at (3.5, 3.5, 0.5) m"));
+  const auto obstacles = run.json()["obstacles"];
+  ASSERT_EQ(obstacles.size(), 3u);
+  EXPECT_EQ(obstacles[0].dump(), R"({"kind":"floor","number":1,"touched":false})");
+  EXPECT_EQ(obstacles[1].dump(), R"({"kind":"sphere","number":1,"touched":true})");
+  EXPECT_EQ(obstacles[2].dump(), R"({"kind":"box","name":"table","number":1,"touched":false})");
+}
+
+TEST(MissedObstacles, are_none_that_every_body_passes_through) {
+  const TestFolder place;
+  std::string text = dropped_at("0.5 0.5 0.16", R"(<contact not="table"/>)");
+  text.replace(text.find("<sphere"), 7, R"(<box name="table" low="3 3 0" high="4 4 1"/><sphere)");
+  place.write("a.xml", text);
+  const auto run = place.rend("run a.xml --json");
+  EXPECT_THAT(run.err, Not(HasSubstr("touched")));
+  EXPECT_EQ(run.json()["obstacles"].size(), 1u);
+}
+
+TEST(ContactFigures, tell_how_near_things_came_and_null_without_contact) {
+  const TestFolder place;
+  place.write("hit.xml", dropped_at("0.5 0.5 0.16"));
+  place.write("none.xml", dropped_at("3 0.5 0.16", ""));
+  const auto hit = place.rend("run hit.xml --json -q").json()["energy"]["contact"],
+             none = place.rend("run none.xml --json -q").json();
+  EXPECT_NEAR(hit["gap"].get<double>(), 0.002, 1e-6);
+  EXPECT_NEAR(hit["overlap"].get<double>(), 0, 1e-6);
+  EXPECT_TRUE(none["energy"]["contact"]["gap"].is_null());
+  EXPECT_TRUE(none["energy"]["contact"]["overlap"].is_null());
+  EXPECT_FALSE(none.contains("obstacles"));
+}
+
 } // namespace
 } // namespace rend::missed_obstacles_test
