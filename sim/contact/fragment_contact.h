@@ -12,8 +12,8 @@
 // points of sheets have no side yet and pass until they have one.
 //
 // Two bodies use the mean of their thicknesses, and the terms of contact_table.h. Limits: no edge-edge contacts
-// (visible if cells are much larger than the thickness); what is deeper below a solid's face than a fifth of its
-// size is not seen.
+// (visible if cells are much larger than the thickness); what is deeper below a solid's face than a fifth of
+// its size is not seen.
 #pragma once
 
 #include "sim/contact/contact_answer.h"

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -19,6 +20,18 @@ std::string sheet(const std::string& name, const std::string& place, const std::
 
 std::string time_of(const std::string& integrator) {
   return "<time step=\"1e-3\" duration=\"9\" integrator=\"" + integrator + "\"/></scene>";
+}
+
+double mean_height(const presets::Loaded& scene, std::size_t b) {
+  double sum = 0;
+  for (Slot v = 0; v < 9; ++v) sum += scene.body(b).map->position()[v].z;
+  return sum / 9;
+}
+
+double highest(const presets::Loaded& scene, std::size_t b) {
+  double most = -1;
+  for (Slot v = 0; v < 9; ++v) most = std::max(most, scene.body(b).map->position()[v].z);
+  return most;
 }
 
 // Gravity is that of a slope of 1 in 2.
@@ -88,8 +101,8 @@ TEST(ContactNames, what_excludes_a_sphere_falls_through_it_and_the_other_does_no
                                      R"(<world><sphere name="ball" centre="0 0 0" radius="0.2"/></world>)" +
                                      time_of(integrator));
     for (int n = 0; n < 300; ++n) scene->step();
-    EXPECT_LT(scene.body(0).map->position()[4].z, -0.1);
-    EXPECT_GT(scene.body(1).map->position()[4].z, 0.2);
+    EXPECT_LT(highest(scene, 0), -0.1);
+    EXPECT_GT(highest(scene, 1), 0.2);
     const ContactWork none = scene.body(0).work_meter->work().contact;
     EXPECT_FALSE(none.touched);
     EXPECT_TRUE(std::isinf(none.gap)) << "it was in no contact at all";
@@ -101,14 +114,14 @@ TEST(ContactNames, what_excludes_a_sphere_falls_through_it_and_the_other_does_no
 TEST(ContactNames, bodies_that_exclude_each_other_pass_and_are_not_searched_for_pairs) {
   const std::string falls = R"(<drive all="yes" velocity="0 0 -1" until="0.0015" then="free"/>)",
                     fragments = R"(<contact with="fragments"/>)";
-  const auto with = two(fragments, falls + fragments, "0.05 0.05 0.1"),
-             without = two(fragments, falls + R"(<contact with="fragments" not="a"/>)", "0.05 0.05 0.1");
+  const auto with = two(fragments, falls + fragments, "0 0 0.1"),
+             without = two(fragments, falls + R"(<contact with="fragments" not="a"/>)", "0 0 0.1");
   for (int n = 0; n < 200; ++n) {
     with->step();
     without->step();
   }
-  EXPECT_GT(with.body(1).map->position()[0].z, with.body(0).map->position()[0].z);
-  EXPECT_LT(without.body(1).map->position()[0].z, -0.09);
+  EXPECT_GT(mean_height(with, 1), mean_height(with, 0));
+  EXPECT_LT(highest(without, 1), -0.09);
   EXPECT_GT(with->contacts()->fragments()->searches(), 0);
   EXPECT_EQ(without->contacts()->fragments()->searches(), 0);
   EXPECT_EQ(without->contacts()->fragments()->pairs(), 0u);
