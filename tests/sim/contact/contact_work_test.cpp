@@ -79,8 +79,8 @@ TEST(ContactWork, lives_in_checkpoints) {
   expect_same(whole, second);
 }
 
-// A sheet that falls flat loses all its motion in the step in which it strikes. The fault comes after contact of
-// that step: what it had found is found again by those that are made in its place.
+// A sheet that falls flat loses all its motion in the step in which it strikes. The fault comes after contact
+// of that step: what it had found is found again by those that are made in its place.
 TEST(ContactWork, returns_with_a_rollback) {
   const auto flat = [](const SceneOptions& options) {
     return presets::load(R"(<scene><body><sheet cells="2 2" size="1 1"/><place translate="0 0 0.05"/>
