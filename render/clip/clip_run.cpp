@@ -115,15 +115,11 @@ Stopped ClipRun::simulate() {
   if (options_.checkpoint_every > 0) due_ = wall_clock() + options_.checkpoint_every;
   Session::Callbacks calls;
   const auto tell = [&] { progress.update(session_.scene().steps_done(), session_.scene().time(), next); };
-  const bool shutter = session_.clock().has_shutter();
-  if (shutter)
-    calls.moment = [&](long frame) {
-      if (frame > first_ && session_.clock().first_step(frame) == session_.scene().steps_done())
-        checkpoint_if_due(frame); // before anything of the frame is remembered
-      frame_output_->expose(frame);
-    };
+  calls.between = [&](long frame) {
+    if (frame > first_) checkpoint_if_due(frame);
+  };
+  if (session_.clock().has_shutter()) calls.moment = [&](long frame) { frame_output_->expose(frame); };
   calls.frame = [&](long frame) {
-    if (frame > first_ && !shutter) checkpoint_if_due(frame);
     frame_output_->take(frame);
     next = frame + 1;
     tell();

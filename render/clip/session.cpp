@@ -91,6 +91,7 @@ Session::Session(const SessionOptions& options) : options_(options) {
       std::make_unique<Scene>(read_scene(*preset_), SceneOptions{.walk = options.kernels == "walk",
                                                                  .threads = threads(),
                                                                  .count_fragments = options.count_fragments,
+                                                                 .set_between_steps = false,
                                                                  .guard = options.guard,
                                                                  .reach = options.reach,
                                                                  .profile = options.profile});
@@ -152,26 +153,33 @@ long Session::last_step(long last_frame) const {
   return to_the_end ? clock_->steps() : clock_->step_of(last_frame);
 }
 
-// Calls back for the frames of a run, in the order of the states that they need.
-class Session::FrameWatch {
+// Goes through the states that the frames of a run need, in the order of their steps.
+class Session::FrameCursor {
 public:
-  FrameWatch(const FrameClock& clock, const Session::Callbacks& calls, long first_frame, long last_frame)
-      : clock_(clock), calls_(calls), frame_(first_frame), last_(last_frame) {
+  FrameCursor(const FrameClock& clock, bool moments, long first_frame, long last_frame)
+      : clock_(clock), moments_(moments), frame_(first_frame), last_(last_frame) {
     find_steps();
   }
 
+  long frame() const { return frame_; } // the next one
   bool is_due(long done) const { return done >= taken_ || done >= looks_.front(); }
-  void call(long done) {
+  // Something of an earlier state is remembered for the next frame.
+  bool is_shutter_open() const { return looks_.front() > first_look_; }
+
+  // Passes the state after so many steps; `calls`: what is called with it. The state may be stored only if it
+  // is the scene's own, and none that was kept.
+  enum class Passed { Current, Kept };
+  void pass(long done, const Callbacks& calls, Passed state) {
     while (is_due(done)) {
-      if (done == looks_.front()) calls_.moment(frame_);
+      if (state == Passed::Current && calls.between && !is_shutter_open()) calls.between(frame_);
+      if (done == looks_.front() && calls.moment) calls.moment(frame_);
       while (looks_.front() <= done) looks_.pop_front();
       if (done < taken_) return;
-      calls_.frame(frame_++);
+      if (calls.frame) calls.frame(frame_);
+      ++frame_;
       find_steps();
     }
   }
-  // Something of an earlier state is remembered for the next frame.
-  bool is_shutter_open(long done) const { return first_look_ < done; }
 
 private:
   static constexpr long never = std::numeric_limits<long>::max();
@@ -179,7 +187,7 @@ private:
   void find_steps() {
     looks_.clear();
     taken_ = frame_ <= last_ ? clock_.step_of(frame_) : never;
-    if (calls_.moment && frame_ <= last_)
+    if (moments_ && frame_ <= last_)
       for (const Moment& moment : clock_.moments_of(frame_))
         for (long step = moment.share < 1 ? moment.step - 1 : moment.step; step <= moment.step; ++step)
           if (looks_.empty() || looks_.back() < step) looks_.push_back(step);
@@ -188,22 +196,49 @@ private:
   }
 
   const FrameClock& clock_;
-  const Session::Callbacks& calls_;
+  bool moments_;
   long frame_, last_;       // the next frame, the last one
   long taken_ = never;      // the step at which the next one is taken
   std::deque<long> looks_;  // the steps whose states it looks at, from the next one on; ends with `never`
   long first_look_ = never; // the first of all of them
 };
 
+struct Session::FrameWatch {
+  FrameCursor asked; // for what the scene was asked
+  FrameCursor shown; // what it has shown: once it was certain
+};
+
 Stopped Session::loop(long first_frame, long last_frame, const Callbacks& calls, double& callback_seconds) {
   const long last_step = this->last_step(last_frame);
-  FrameWatch watch(*clock_, calls, first_frame, last_frame);
+  const FrameCursor start(*clock_, calls.moment != nullptr, first_frame, last_frame);
+  FrameWatch watch{start, start};
+  Stopped stopped = Stopped::Interrupted;
   try {
-    return loop(watch, last_step, calls, callback_seconds);
+    stopped = loop(watch, last_step, calls, callback_seconds);
   } catch (const StopRequested&) {
-    can_be_stored_ = scene_->can_be_stored() && !watch.is_shutter_open(scene_->steps_done());
-    return Stopped::Interrupted;
+    can_be_stored_ = scene_->can_be_stored();
   }
+  if (stopped == Stopped::No) return stopped;
+  if (can_be_stored_) scene_->return_to_settled();
+  can_be_stored_ = can_be_stored_ && !watch.shown.is_shutter_open();
+  return stopped;
+}
+
+// Asks for the current state, if a frame needs it.
+void Session::look(FrameWatch& watch, const Callbacks& calls, double& callback_seconds) {
+  using Passed = FrameCursor::Passed;
+  const long done = scene_->steps_done();
+  if (!watch.asked.is_due(done)) return;
+  const auto timed = [&](const auto& call) {
+    const double since = wall_clock();
+    call();
+    callback_seconds += wall_clock() - since;
+  };
+  const Passed state = scene_->is_settled() ? Passed::Current : Passed::Kept;
+  if (state == Passed::Kept && calls.between && !scene_->keeps_states() && !watch.shown.is_shutter_open())
+    timed([&] { calls.between(watch.shown.frame()); });
+  scene_->show_when_settled([&, timed, done, state] { timed([&] { watch.shown.pass(done, calls, state); }); });
+  watch.asked.pass(done, {}, Passed::Kept);
 }
 
 namespace {
@@ -233,17 +268,14 @@ Stopped Session::loop(FrameWatch& watch, long last_step, const Callbacks& calls,
   };
   while (true) {
     const long done = scene_->steps_done();
-    if (watch.is_due(done) || done >= last_step) scene_->check_sound();
-    if (watch.is_due(done)) {
-      const double since = wall_clock();
-      watch.call(done);
-      callback_seconds += wall_clock() - since;
-    }
+    if (watch.asked.is_due(done) || done >= last_step) scene_->check_sound();
+    look(watch, calls, callback_seconds);
     if (done >= last_step) {
+      scene_->settle();
       scene_->check_account();
       return Stopped::No;
     }
-    if (stop_signal() != 0 && !watch.is_shutter_open(done)) return Stopped::Interrupted;
+    if (stop_signal() != 0 && !watch.shown.is_shutter_open()) return Stopped::Interrupted;
     step();
     if (calls.step) calls.step();
   }

@@ -60,18 +60,22 @@ public:
 
   // Callbacks of the time loop.
   struct Callbacks {
-    std::function<void(long frame)> frame; // at the state of each frame, from frame 0 on
-    std::function<void()> step;            // after each step; may be empty
+    // At the state of each frame, from frame 0 on, once it is certain (Scene::show_when_settled).
+    std::function<void(long frame)> frame;
+    std::function<void()> step; // after each step; may be empty
     // Before that, at each state that the picture of the frame looks at while the shutter is open
     // (FrameClock); may be empty.
     std::function<void(long frame)> moment = {};
+    // Where nothing of this frame or a later one has been looked at, and all earlier ones have been shown: the
+    // state may be stored. Not for every frame; may be empty.
+    std::function<void(long frame)> between = {};
   };
   // The number of steps that run() does up to this last frame.
   long last_step(long last_frame) const;
   // Steps until frame `last_frame` (or the end of the clip, if it is the last frame), a signal, or an
-  // instability, which failure() then describes. A signal that comes while the shutter is open ends it at the
-  // frame, or where that takes longer than the grace of a stop (stop_request.h). To resume, restore first a
-  // state stored when `first_frame` was the next frame.
+  // instability, which failure() then describes. After a signal the scene goes back to where its last frame was
+  // certain; while the shutter is open it goes on until it is not, or for no longer than the grace of a stop
+  // (stop_request.h). To resume, restore first a state stored when `first_frame` was the next frame.
   Stopped run(long last_frame, const Callbacks& calls, long first_frame = 0);
 
   // Whether a run that was interrupted can go on from the state where it stopped: not where the shutter is
@@ -82,9 +86,11 @@ public:
   double step_seconds() const { return step_seconds_; } // in the time loop, without the calls at frames
 
 private:
-  class FrameWatch;
+  class FrameCursor;
+  struct FrameWatch;
   Stopped loop(long first_frame, long last_frame, const Callbacks& calls, double& callback_seconds);
   Stopped loop(FrameWatch& watch, long last_step, const Callbacks& calls, double& callback_seconds);
+  void look(FrameWatch& watch, const Callbacks& calls, double& callback_seconds);
   void check_counts() const;
 
   SessionOptions options_;

@@ -386,6 +386,15 @@ void Body::restore_state(const State& start, double time) {
   time_ = time;
 }
 
+void Body::exchange_state(State& other, double& time, double& last_step) {
+  map->position().values().swap(other.position);
+  map->velocity().values().swap(other.velocity);
+  if (scheme_acceleration) scheme_acceleration->values().swap(other.acceleration);
+  std::swap(staggered, other.staggered);
+  std::swap(time_, time);
+  std::swap(last_step_, last_step);
+}
+
 void Body::inject_into_next() {
   faulty.inject(program->inverse_mass(), vertices(), next.velocity.data());
   next.probe_all();

@@ -145,7 +145,10 @@ struct Body final : System {
   void commit(); // `next` becomes the current state
   // [s]: rollback: start, of the same topology, becomes the current state
   void restore_state(const State& start, double time);
-  void inject_into_next(); // fault injection, see `faulty`
+  // Of the same topology; [s]: its time, and the step that led to it.
+  void exchange_state(State& other, double& time, double& last_step);
+  double last_step() const { return last_step_; } // [s], that led to the current state; 0: none
+  void inject_into_next();                        // fault injection, see `faulty`
   // Between steps; `done` steps of `step` [s] each. Everything that later steps depend on.
   void store(Archive& archive, long done, double step);
 

@@ -289,7 +289,8 @@ private:
       throw ExpressionError(token.column, "',' stands outside the arguments of a function",
                             "the decimal point is '.'; a vector is point(x, y, z)");
     throw ExpressionError(token.column,
-                          fmt::format("an operator is expected before {}", in_quotes(token.text)));
+                          fmt::format("an operator is expected before {}", in_quotes(token.text)),
+                          "a vector is point(x, y, z)");
   }
 
   [[noreturn]] void refuse_word(const Token& name, bool called) const {

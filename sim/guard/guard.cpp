@@ -89,6 +89,14 @@ void Guard::divide_steps(int least) {
   figures_.most_substeps = std::max(figures_.most_substeps, least_substeps_);
 }
 
+StepFailure Guard::end_stretch(long done) {
+  if (settled() || redoing_ || done == rollback_->first()) return StepFailure::None;
+  const PhaseScope within(profile_, Phase::Guard);
+  const StepFailure failure = update_budget(done, Look::AsNeeded);
+  if (failure == StepFailure::None) begins_ = true;
+  return failure;
+}
+
 StepFailure Guard::update_budget(long step, Look look) {
   if (settled_ == step) return StepFailure::None;
   const Rollback::Account account = rollback_->account();

@@ -48,6 +48,8 @@ public:
   std::size_t bytes() const { return rollback_ ? rollback_->bytes() : 0; }
   bool on() const { return rollback_.has_value(); }
   bool begins_at(long step) const { return rollback_ && rollback_->first() == step; } // a stretch
+  // Whether the steps that led to the current state will not be redone.
+  bool settled() const { return !energy_ || begins_; }
 
   // The calls of a step, in this order; `step`: steps done before it.
   int substeps(long step) const;        // number of substeps, after the laws
@@ -63,6 +65,9 @@ public:
     rollback_->save_start();
   }
   StepFailure after_step(long done); // steps done including this one
+
+  // At the end of a run: ends the stretch here, where `done` steps were made.
+  StepFailure end_stretch(long done);
 
   // After one of these, or the state itself, reported trouble at `done` steps: restores the start of the
   // stretch, to be repeated up to the same step. Returns the steps done there; nullopt: no smaller substeps are

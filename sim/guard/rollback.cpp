@@ -10,15 +10,9 @@ namespace rend {
 Rollback::Rollback(World& world, const Bodies& bodies, double step)
     : world_(world), bodies_(bodies), step_(step), starts_(bodies.size()), spheres_(world.spheres.size()) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    keep_measures(*bodies[b], starts_[b]);
+    starts_[b].copy_measures(*bodies[b]);
     starts_[b].state.accelerates = bodies[b]->next.accelerates;
   }
-}
-
-void Rollback::keep_measures(const Body& body, Start& start) {
-  if (body.work_meter) start.meter = *body.work_meter;
-  start.reached.clear();
-  for (const TearLaw& law : body.tear_laws) start.reached.push_back(law.reached());
 }
 
 void Rollback::reserve_for_separations() {
@@ -35,15 +29,8 @@ void Rollback::reserve_for_separations() {
 void Rollback::begin(long step) {
   first_ = step;
   aside_ = false;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Body& body = *bodies_[b];
-    starts_[b].time = body.time();
-    keep_measures(body, starts_[b]);
-  }
-  for (std::size_t s = 0; s < spheres_.size(); ++s) {
-    const Sphere& sphere = world_.spheres[s];
-    spheres_[s] = {sphere.centre, sphere.velocity, sphere.contact_work, sphere.gravity_work};
-  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) starts_[b].copy_measures(*bodies_[b]);
+  for (std::size_t s = 0; s < spheres_.size(); ++s) spheres_[s].copy(world_.spheres[s]);
 }
 
 void Rollback::save_start() {
@@ -66,16 +53,9 @@ bool Rollback::fits() const {
 void Rollback::restore() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (aside_) bodies_[b]->restore_state(starts_[b].state, starts_[b].time);
-    if (starts_[b].meter) *bodies_[b]->work_meter = *starts_[b].meter;
-    for (std::size_t n = 0; n < starts_[b].reached.size(); ++n)
-      bodies_[b]->tear_laws[n].restore_reached(starts_[b].reached[n]);
+    starts_[b].restore_measures(*bodies_[b]);
   }
-  for (std::size_t s = 0; s < spheres_.size(); ++s) {
-    world_.spheres[s].centre = spheres_[s].centre;
-    world_.spheres[s].velocity = spheres_[s].velocity;
-    world_.spheres[s].contact_work = spheres_[s].contact_work;
-    world_.spheres[s].gravity_work = spheres_[s].gravity_work;
-  }
+  for (std::size_t s = 0; s < spheres_.size(); ++s) spheres_[s].restore(world_.spheres[s]);
 }
 
 Rollback::Account Rollback::account() const {
@@ -133,11 +113,11 @@ double Rollback::of_gravity(double whole, double from, double until) const {
   return std::max(whole * world_.gravity_share(from), whole * world_.gravity_share(until));
 }
 
-const Record* Rollback::from(const Body& body, const Start& start) const {
+const Record* Rollback::from(const Body& body, const BodyCopy& start) const {
   return aside_ ? start.state.position.data() : body.map->position().values().data();
 }
 
-void Rollback::add(const Body& body, const Start& start, Account& sum) const {
+void Rollback::add(const Body& body, const BodyCopy& start, Account& sum) const {
   const Record *x = body.map->position().values().data(), *v = body.map->velocity().values().data();
   const Record* x0 = from(body, start);
   const double* inverse = body.program->inverse_mass();
@@ -167,17 +147,6 @@ void Rollback::add_loads(const Body& body, Account& sum) const {
     sum.headroom += 2 * body.inverse_mass[i] * body.load[i].vec().squaredNorm() * step_ * step_;
 }
 
-void Rollback::Start::store(Archive& archive, std::size_t most) {
-  state.store(archive, most);
-  archive(time);
-  if (meter) meter->store(archive, most);
-  for (Reached& each : reached) each.store(archive);
-}
-
-void Rollback::SphereStart::store(Archive& archive) {
-  archive(centre, velocity, contact_work, gravity_work);
-}
-
 void Rollback::store(Archive& archive, long done) {
   archive(first_, aside_);
   archive.same(starts_.size(), "number of bodies");
@@ -194,7 +163,7 @@ void Rollback::check_read(long done) const {
                 "a stretch of steps starts elsewhere");
   for (std::size_t b = 0; aside_ && b < starts_.size(); ++b) {
     const Body& body = *bodies_[b];
-    const Start& start = starts_[b];
+    const BodyCopy& start = starts_[b];
     refuse_unless(start.state.position.size() == body.vertices(), "a stretch starts with another body");
     refuse_unless(std::abs(start.time - static_cast<double>(first_) * step_) <= 1e-3 * step_,
                   "a stretch starts at another time");
@@ -203,7 +172,7 @@ void Rollback::check_read(long done) const {
 
 std::size_t Rollback::bytes() const {
   std::size_t sum = 0;
-  for (const Start& start : starts_) sum += start.state.bytes() + (start.meter ? start.meter->bytes() : 0);
+  for (const BodyCopy& start : starts_) sum += start.state.bytes() + (start.meter ? start.meter->bytes() : 0);
   return sum;
 }
 

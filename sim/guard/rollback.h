@@ -12,18 +12,15 @@
 // and the rest is measured (WorkMeter). Headroom is the velocity gained in two steps under gravity and loads.
 #pragma once
 
-#include "sim/body/body.h"
-#include "sim/outside/world.h"
+#include "sim/guard/state_copy.h"
 
-#include <memory>
-#include <optional>
 #include <vector>
 
 namespace rend {
 
 class Rollback {
 public:
-  using Bodies = std::vector<std::unique_ptr<Body>>;
+  using Bodies = StateCopy::Bodies;
   static constexpr long longest = 64;                        // maximal number of steps of a stretch
   Rollback(World& world, const Bodies& bodies, double step); // step [s]
   void reserve_for_separations();
@@ -51,34 +48,20 @@ public:
   void store(Archive& archive, long done); // `done` steps were made; after the bodies
 
 private:
-  struct Start { // per body
-    State state;
-    double time = 0;                                // [s]
-    std::optional<WorkMeter> meter;                 // none: nothing does work on the body
-    std::vector<Reached> reached;                   // one per law
-    void store(Archive& archive, std::size_t most); // of at most `most` vertices
-  };
-  struct SphereStart {
-    Vec3 centre, velocity;
-    ContactWork contact_work;
-    double gravity_work = 0; // [J]
-    void store(Archive& archive);
-  };
-  static void keep_measures(const Body& body, Start& start);
   void check_read(long done) const; // throws ArchiveError
-  void add(const Body& body, const Start& start, Account& sum) const;
+  void add(const Body& body, const BodyCopy& start, Account& sum) const;
   void add_loads(const Body& body, Account& sum) const;
-  double measured_work() const;                                     // [J], since the start, of all but gravity
-  double of_gravity(double whole, double from, double until) const; // [J]
-  const Record* from(const Body& body, const Start& start) const;   // [m], positions at the start
+  double measured_work() const;                                      // [J], since the start, of all but gravity
+  double of_gravity(double whole, double from, double until) const;  // [J]
+  const Record* from(const Body& body, const BodyCopy& start) const; // [m], positions at the start
 
   World& world_;
   const Bodies& bodies_;
   double step_; // [s]
   long first_ = 0;
-  bool aside_ = false;        // whether the start is in starts_, and no longer the current state
-  std::vector<Start> starts_; // one per body
-  std::vector<SphereStart> spheres_;
+  bool aside_ = false; // whether the start is in starts_, and no longer the current state
+  std::vector<BodyCopy> starts_;
+  std::vector<SphereCopy> spheres_;
 };
 
 } // namespace rend

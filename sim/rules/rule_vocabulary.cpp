@@ -122,7 +122,8 @@ std::vector<ExpressionFunction> rule_vocabulary(const RuleGraph& left, std::span
        {Name, Name},
        Vector,
        "of the vertices of its vertex, edge, face, volume, component; of those across the edges at its vertex "
-       "(neighbours), or along the border (border); of the middles of the faces, volumes there"},
+       "(neighbours), or along the border of a sheet or the surface of a solid (border); of the middles of the "
+       "faces, volumes at it (faces, volumes)"},
       {"lerp", {Vector, Vector, Scalar}, Vector, "(1 - t) u + t v"},
       {"along",
        {Name, Name, Scalar},

@@ -21,7 +21,8 @@ Scene::Scene(SceneDefinition definition, const SceneOptions& options)
       profile_(std::make_unique<Profile>(options.profile ? Profile::Extent::EveryStep
                                                          : Profile::Extent::SampledSteps)),
       bodies_(std::move(definition.bodies)), time_(definition.time), duration_(duration_of(time_)),
-      step_place_(time_.source.place("step")), fault_(options.fault) {
+      step_place_(time_.source.place("step")), finds_set_states_(options.set_between_steps),
+      fault_(options.fault) {
   const double start = wall_clock();
   if (bodies_.empty()) throw UserError(Exit::BadInput, {}, "a scene needs a body", "add a <body>");
   check_world(world_);

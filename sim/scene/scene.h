@@ -5,6 +5,7 @@
 #include "sim/guard/step_failure.h"
 #include "sim/scene/definition.h"
 #include "sim/scene/energy_account.h"
+#include "sim/scene/kept_state.h"
 
 #include <optional>
 
@@ -14,6 +15,8 @@ struct SceneOptions {
   bool walk = false; // --kernels walk
   int threads = 1;
   bool count_fragments = false; // events count fragments
+  // Somebody may set the state between steps: where a stretch of steps is to be redone, it is found out.
+  bool set_between_steps = true;
   bool guard = true; // false: failed steps are not redone; a state that is not finite still stops the run
   std::optional<Fault> fault = {};
   bool reach = false;                 // no body tears: the largest values of all criteria are found instead
@@ -61,6 +64,18 @@ public:
   void step();
   // False after a stop within laws, or within a step without a guard: what came of it is no state of the run.
   bool can_be_stored() const { return can_be_stored_; }
+
+  // Calls `show` with the current state, once it is certain that the steps which led to it will not be redone:
+  // at once, within a later step() or in settle(). Meanwhile the state is kept (kept_state.h). If `show` throws,
+  // the scene is unusable.
+  void show_when_settled(std::function<void()> show);
+  bool is_settled() const;                             // certain already
+  bool keeps_states() const { return !kept_.empty(); } // that are not shown yet
+  // Ends the stretch of steps, as at the end of a run; may redo steps, and throw as step() does. All that is
+  // kept is shown.
+  void settle();
+  // After a stop: goes back to the last state that is certain, and forgets those that are kept.
+  void return_to_settled();
 
   // Without a guard: throws Unstable if the step does not resolve the motion of the current state. Called
   // before a state is shown.
@@ -113,7 +128,11 @@ private:
   double stability_limit() const; // [s]
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
+  void reach(long goal); // steps done
   StepFailure try_step();
+  void keep_again();
+  bool has_states_to_show() const;
+  void show_settled();
   void keep_solver_states();
   void return_to_start_of(long step);
   StepFailure nominal_step();
@@ -152,8 +171,10 @@ private:
   EnergyAccount account_; // of scenes without inertia (static): never opened
   // why the last attempt of the step failed; nullopt: it did not, or it is not finite
   std::optional<NotConverged> not_converged_;
-  long laws_applied_at_ = -1;  // steps_done() when the laws were last applied
-  std::vector<State> current_; // scratch, one per body
+  bool finds_set_states_ = true;
+  std::vector<KeptState> kept_; // in order of their steps
+  long laws_applied_at_ = -1;   // steps_done() when the laws were last applied
+  std::vector<State> current_;  // scratch, one per body
   std::optional<Fault> fault_;
   std::vector<std::vector<double>> solver_states_; // per body, at the start of a step of a scheme that solves
   bool returning_ = false;                         // steps are repeated that have been made before

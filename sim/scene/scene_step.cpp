@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <utility>
 
 namespace rend {
 namespace {
@@ -25,6 +27,8 @@ struct UnsoundState { // thrown if the state about to be torn is not sound
   StepFailure failure;
 };
 
+struct StatesToShow {}; // thrown before a change of topology: those that are kept are of the one before
+
 } // namespace
 
 void Scene::step() {
@@ -33,17 +37,82 @@ void Scene::step() {
   if (account_.due(entry) && scheme().has_account()) account_.add(entry, energy_state());
   if (scheme().solves || scheme().adaptive) keep_solver_states();
   try {
-    while (steps_done_ <= entry) {
-      const StepFailure failure = try_step();
-      if (failure != StepFailure::None)
-        redo(failure, entry);
-      else if (time() >= next_answer_)
-        measure_answers();
-    }
+    reach(entry + 1);
   } catch (const StopRequested&) {
     return_to_start_of(entry);
     throw;
   }
+}
+
+void Scene::reach(long goal) {
+  while (steps_done_ < goal) {
+    try {
+      const StepFailure failure = try_step();
+      if (failure != StepFailure::None)
+        redo(failure, goal - 1);
+      else if (time() >= next_answer_)
+        measure_answers();
+    } catch (const StatesToShow&) { // the same step is tried again
+    }
+    if (is_settled()) show_settled();
+  }
+}
+
+bool Scene::is_settled() const {
+  return guard_->settled();
+}
+
+void Scene::show_when_settled(std::function<void()> show) {
+  if (is_settled()) return show();
+  kept_.push_back({.step = steps_done_, .show = std::move(show)});
+  keep_again();
+}
+
+// The current state, where it is to be shown.
+void Scene::keep_again() {
+  for (KeptState& one : kept_) {
+    if (one.step != steps_done_) continue;
+    one.state.copy(world_, bodies_);
+    one.account = account_;
+  }
+}
+
+// Not those of later steps, which are being redone.
+bool Scene::has_states_to_show() const {
+  return !kept_.empty() && kept_.front().step <= steps_done_;
+}
+
+void Scene::show_settled() {
+  if (!has_states_to_show()) return;
+  const auto exchange = [&](KeptState& one) {
+    one.state.exchange(world_, bodies_);
+    std::swap(one.account, account_);
+    std::swap(one.step, steps_done_);
+  };
+  const auto later =
+      std::find_if(kept_.begin(), kept_.end(), [&](const KeptState& one) { return one.step > steps_done_; });
+  std::vector<KeptState> all(std::make_move_iterator(kept_.begin()), std::make_move_iterator(later));
+  kept_.erase(kept_.begin(), later);
+  for (KeptState& one : all) {
+    exchange(one);
+    one.show();
+    exchange(one);
+  }
+}
+
+void Scene::settle() {
+  const long end = steps_done_;
+  for (StepFailure failure; (failure = guard_->end_stretch(end)) != StepFailure::None;) {
+    redo(failure, end - 1);
+    reach(end);
+  }
+  show_settled();
+}
+
+void Scene::return_to_settled() {
+  if (kept_.empty()) return;
+  kept_.clear();
+  return_to(guard_->restore_start());
 }
 
 StepFailure Scene::try_step() {
@@ -99,7 +168,9 @@ StepFailure Scene::nominal_step() {
   }
   ++steps_done_;
   not_converged_.reset();
-  return guard_->after_step(steps_done_);
+  const StepFailure failure = guard_->after_step(steps_done_);
+  if (failure == StepFailure::None && !kept_.empty()) keep_again();
+  return failure;
 }
 
 // From the forces of the current state.
@@ -133,6 +204,7 @@ StepFailure Scene::apply_laws() {
   const auto sound = [&] {
     if (const StepFailure failure = guard_->before_change(steps_done_); failure != StepFailure::None)
       throw UnsoundState{failure};
+    if (has_states_to_show()) throw StatesToShow();
   };
   bool made_cells = false;
   try {
@@ -247,6 +319,7 @@ bool Scene::state_was_set() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->restore_state(current_[b], time);
   world_.spheres = spheres;
   return_to(done);
+  keep_again();
   laws_applied_at_ = done - 1; // nothing tore in between
   guard_->discard_start();
   account_.restart();
@@ -254,7 +327,8 @@ bool Scene::state_was_set() {
 }
 
 void Scene::redo(StepFailure failure, long entry) {
-  if (!guard_->redoing() && guard_->on() && guard_->has_advanced(steps_done_) && state_was_set()) return;
+  const bool may_be_set = finds_set_states_ && !guard_->redoing() && guard_->on();
+  if (may_be_set && guard_->has_advanced(steps_done_) && state_was_set()) return;
   if (const auto step = guard_->roll_back(failure, steps_done_))
     return_to(*step);
   else

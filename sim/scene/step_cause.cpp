@@ -216,13 +216,14 @@ StepCause by_scheme(const ElementSteps& body, const Scheme& scheme, double step)
 StepCause unusual_cause_of_body(const ElementSteps& body, const Scheme& scheme, double step) {
   using Of = StepCause::Of;
   if (StepCause cause = by_scheme(body, scheme, step); cause.of != Of::Nothing) return cause;
+  // first: what is flat limits the step through its damping, too
+  if (const FewElements few = few_that_limit(body, scheme, step); few.gain >= matters)
+    return {.of = Of::FewElements, .gain = few.gain, .words = few.words};
   if (body.least_undamped(scheme) >= matters * step) {
     const Parts parts(body, scheme);
     if (StepCause cause = by_damping(parts, step); cause.of != Of::Nothing) return cause;
     if (StepCause cause = by_drag(parts, step); cause.of != Of::Nothing) return cause;
   }
-  if (const FewElements few = few_that_limit(body, scheme, step); few.gain >= matters)
-    return {.of = Of::FewElements, .gain = few.gain, .words = few.words};
   return {};
 }
 
