@@ -43,7 +43,7 @@ goes a node d that both lead to, by b-0-d and c-2-d; with a-0-c and a|2 goes c|2
 VALUES are elements within <rule>:
   <set node="c" position="..." rest="..." velocity="..."/>   the point of a new vertex, or where two
       become one, as where a dart passes to another vertex: these need it; or of a kept one, which
-      moves. One for each vertex. rest, velocity follow; a kept one's mass stays, in <tear> its rest.
+      moves. Once a vertex. rest, velocity follow; a kept one's mass stays, in <tear> its rest.
   <when test="size(a, face) > 3" at="all|any" otherwise="why not"/>   a further condition, asked at
       the hook's dart, or at all or any darts of its orbit
   <where name="h" value="0.1"/>   an argument, a number or point(x, y, z), and its default
@@ -52,8 +52,8 @@ may-fold="yes" of <rule>: darts of the left graph may coincide; for rules that o
 In XML a < within an attribute is written &lt; and & is &amp;: test="size(a, face) &lt; 5".
 
 EXPRESSIONS know numbers, + - * / ^, < <= > >= == !=, and, or, not, if(test, u, v). A node is its
-point before the rule; where one is named, alpha(a, 2) may stand: the dart across α2. A value must be
-the same at all darts of its vertex: in an edge's middle mean(a, edge) is, and a, one of its two ends, is not:
+point before the rule; alpha(a, 2), the dart across α2, may stand for a. A value must be the same at
+all darts of its vertex: in an edge's middle mean(a, edge) is, and a, one of its two ends, is not:
 )page";
 
 constexpr const char* page_use = R"page(
@@ -66,13 +66,9 @@ in later steps. Without each: once. Other attributes: arguments of NAME.
 
 USE. Rules and scripts stand in a <scene>, or in a file of <rules>: <rules file="mine.xml"/> there.
   <apply rule="smooth" times="2" t="0.3"/>   in a <body>, after its shape: t is an argument; where
-      all vertices of the hook's orbit are selected: side="+x"; a box around one edge; to="all".
-      A round visits the places in the map's order. One that touches what an earlier one has
-      changed waits for the next round (times=): a box around several edges may flip others of them
-  <create dimension="2"/>   a shape with nothing in it, with which rules begin: create-quad ...
-  <mesh file="cube.obj"/>   a surface from a file; a closed one is a sheet without a border
-  <subdivide times="3"/>    each face, or each volume, becomes one per corner
-A scene that is only built has duration="0"; rend run S.xml --export obj writes what was built.
+      all vertices of the hook's orbit are selected: side="+x"; a box around one edge; to="all"
+  <create dimension="2"/>   nothing, for rules like create-quad; <mesh file="cube.obj"/>: a surface
+To build alone: duration="0"; rend run S.xml --export obj -o DIR writes it.
 rend rule list | show NAME: the rules there are; check FILE; draw NAME --in FILE -o F.svg: see it.
 
 EXAMPLES, a file of rules:

@@ -290,7 +290,7 @@ private:
                             "the decimal point is '.'; a vector is point(x, y, z)");
     throw ExpressionError(token.column,
                           fmt::format("an operator is expected before {}", in_quotes(token.text)),
-                          "a vector is point(x, y, z)");
+                          "a vector is written as point(x, y, z)");
   }
 
   [[noreturn]] void refuse_word(const Token& name, bool called) const {

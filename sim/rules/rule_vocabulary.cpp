@@ -122,8 +122,7 @@ std::vector<ExpressionFunction> rule_vocabulary(const RuleGraph& left, std::span
        {Name, Name},
        Vector,
        "of the vertices of its vertex, edge, face, volume, component; of those across the edges at its vertex "
-       "(neighbours), or along the border of a sheet or the surface of a solid (border); of the middles of the "
-       "faces, volumes at it (faces, volumes)"},
+       "(neighbours), or along the border or hull (border); of the middles of the faces, volumes there"},
       {"lerp", {Vector, Vector, Scalar}, Vector, "(1 - t) u + t v"},
       {"along",
        {Name, Name, Scalar},

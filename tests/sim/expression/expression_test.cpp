@@ -211,8 +211,10 @@ TEST(Expression, names_the_place_of_errors_of_form) {
   EXPECT_EQ(refusal("1 + * 2"), "column 5: a value is expected before '*'");
   EXPECT_EQ(refusal("(1 + 2"), "column 7: ')' is missing, which closes '(' of column 1");
   EXPECT_EQ(refusal("1 + 2)"), "column 6: this ')' closes nothing");
-  EXPECT_EQ(refusal("1 2"), "column 3: an operator is expected before '2'");
-  EXPECT_EQ(refusal("(1 2)"), "column 4: an operator is expected before '2'");
+  EXPECT_EQ(refusal("1 2"),
+            "column 3: an operator is expected before '2' | a vector is written as point(x, y, z)");
+  EXPECT_EQ(refusal("(1 2)"),
+            "column 4: an operator is expected before '2' | a vector is written as point(x, y, z)");
   EXPECT_EQ(refusal("2time"),
             "column 1: '2time' is not a number | numbers are as 2, 0.5 or 1e-4; a product has its "
             "'*'");
