@@ -107,9 +107,10 @@ void paste(const Image& tile, int x, int y, Image& sheet) {
     std::copy_n(tile.row(r), tile.stride(), sheet.row(y + r) + 3 * static_cast<std::size_t>(x));
 }
 
-// What a picture shows, in its lower left corner; so large that it can be read where the sheet is shown small.
+// What a picture shows, in its lower left corner, large enough to be read where the sheet is shown small.
 void write_label(Frame& frame, const std::string& label) {
-  if (!label.empty()) frame.hud.lines.push_back({.text = printable(label), .x = 0.02F, .y = 0.92F, .large = true});
+  if (!label.empty())
+    frame.hud.lines.push_back({.text = printable(label), .x = 0.02F, .y = 0.92F, .large = true});
 }
 
 // What stands where, a line for each scene.

@@ -66,11 +66,11 @@ public:
   bool can_be_stored() const { return can_be_stored_; }
 
   // Calls `show` with the current state, once it is certain that the steps which led to it will not be redone:
-  // at once, within a later step() or in settle(). Meanwhile the state is kept (kept_state.h). If `show` throws,
+  // at once, within a later step() or in settle(). Meanwhile the state is kept (kept_state.h). If it throws,
   // the scene is unusable.
   void show_when_settled(std::function<void()> show);
   bool is_settled() const;                             // certain already
-  bool keeps_states() const { return !kept_.empty(); } // that are not shown yet
+  bool keeps_states() const { return !kept_.empty(); } // not shown yet
   // Ends the stretch of steps, as at the end of a run; may redo steps, and throw as step() does. All that is
   // kept is shown.
   void settle();
