@@ -28,7 +28,7 @@ import tempfile
 from pathlib import Path
 
 SCHEMES = ["symplectic", "symplectic", "verlet", "rk4", "rk45", "midpoint", "explicit"]
-MOST_SECONDS = 120  # of computing, for a run: on a busy machine it may take longer
+MOST_SECONDS = 300  # of computing, for a run: on a busy machine it may take longer
 
 
 def limit_time():
@@ -106,9 +106,10 @@ class Judge:
         preset, table = self.folder / f"{name}.xml", self.folder / f"{name}.csv"
         preset.write_text(xml)
         table.unlink(missing_ok=True)
-        done = subprocess.run([self.rend, "run", preset, "--json", "-q", "--diagnostics", table],
+        done = subprocess.run([self.rend, "run", preset, "--json", "-q", "--threads", "1",
+                               "--diagnostics", table],
                               capture_output=True, text=True, preexec_fn=limit_time)
-        if done.returncode == -signal.SIGXCPU:
+        if done.returncode == 128 + signal.SIGXCPU:
             return None, [], {}, f"no end after {MOST_SECONDS} s"
         rows = []
         if table.exists():
