@@ -8,7 +8,8 @@ namespace rend {
 namespace {
 
 constexpr int most_sweeps = 12;
-constexpr double settled = 1e-6; // relative to the fastest approach: changes of velocity that are none
+constexpr double given_back = 0.5; // of the speed with which a point came: what it may leave with
+constexpr double settled = 1e-6;   // relative to the fastest approach: changes of velocity that are none
 constexpr std::uint32_t no_mover = std::numeric_limits<std::uint32_t>::max();
 
 } // namespace
@@ -70,8 +71,8 @@ void ContactAnswer::gather(double step) {
     gather(one, one.contact.b, -1);
     one.start = approach(one);
     const Vec3& n = one.contact.normal;
-    one.wanted = std::max(std::min(one.start.dot(n) - one.contact.gap() / step, -one.before.dot(n)),
-                          one.least_rebound());
+    const double came = -one.before.dot(n), most = came > 0 ? given_back * came : came;
+    one.wanted = std::max(std::min(one.start.dot(n) - one.contact.gap() / step, most), one.least_rebound());
   }
 }
 

@@ -9,12 +9,13 @@
 // with relative velocities of both sides. So with the normal n and the gap g at the end of the step, each
 // contact asks for
 //
-//   λ_n ≥ 0,   u'·n ≥ min(what makes g ≥ 0, −u·n),   with equality where λ_n > 0
+//   λ_n ≥ 0,   u'·n ≥ min(what makes g ≥ 0, c (−u·n)),   with equality where λ_n > 0
 //
-// and none makes energy. What approaches is stopped: an impact is inelastic for the vertices that meet, and
-// keeps what elasticity keeps. With a coefficient of restitution e ≤ 1 it leaves with −e u·n at least (Newton's
-// law), which still is no more than −u·n, so that ΔE = ½ λ_n (1 − e) u·n ≤ 0. That is for impacts alone: what
-// rests or rolls is pressed on by forces in each step, and would never come to rest. It is an impact where
+// with c = ½ where it came, −u·n > 0, and 1 where it was leaving, and none makes energy. What approaches is
+// stopped: an impact is inelastic for the vertices that meet, and keeps what elasticity keeps. With a
+// coefficient of restitution e ≤ 1 it leaves with −e u·n at least (Newton's law), which still is no more than
+// −u·n, so that ΔE = ½ λ_n (1 − e) u·n ≤ 0. That is for impacts alone: what rests or rolls is pressed on by
+// forces in each step, and would never come to rest. It is an impact where
 //
 //   −u·n > 2 |(u'° − u)·n|              u'°: the velocity of the step without contact
 //
@@ -22,10 +23,11 @@
 // compare with a fixed speed, which depends on the size of the scene: Box2D with 1 m/s, Bullet with 0.5 m/s.)
 // So what bounces under gravity g comes to rest once it strikes with less than 2 g h.
 //
-// A penetration is paid for by the velocity with which the point would go deeper:
-// it leaves at most as fast as it came; one that rests in something stays there. Where the forces of the step
-// turn around what was leaving, it may come back as far as it had gone. (CD-Lagrange schemes have the same
-// balance: Fekak et al. 2017; Di Stasio et al. 2019.)
+// A penetration is paid for by the velocity with which the point would go deeper: it leaves at most half as
+// fast as it came. (As fast would make no energy either; but what sinks in a first step, and is given back
+// whole, hops for ever: a block would lie in every second step only.) One that rests in something stays there.
+// Where the forces of the step turn around what was leaving, it may come back as far as it had gone.
+// (CD-Lagrange schemes have the same balance: Fekak et al. 2017; Di Stasio et al. 2019.)
 //
 // Schemes that solve lose energy in every step, and have contact of their own (solved_contact.h). What that has
 // left is stopped, and pushed out on positions only (way_out() in contact_settings.h).

@@ -94,15 +94,15 @@ TEST(KeptState, no_discarded_attempt_is_shown) {
 // Where a state is certain at once, it is that of a run that nobody looks at.
 TEST(KeptState, looking_alters_no_step) {
   for (const char* text : {turning, tearing}) {
-    const Watched run = watch(text, 300);
+    const Watched run = watch(text, 600);
     const presets::Loaded alone = presets::load(text);
     int compared = 0;
-    for (long n = 0; n <= 300; ++n) {
+    for (long n = 0; n <= 600; ++n) {
       if (alone->is_settled()) {
         expect_equal(of(*alone.scene), run.all[static_cast<std::size_t>(n)]);
         ++compared;
       }
-      if (n < 300) alone->step();
+      if (n < 600) alone->step();
     }
     alone->settle();
     EXPECT_EQ(alone->hash(), run.end);

@@ -16,7 +16,7 @@ namespace rend::steady_test {
 namespace {
 
 constexpr long steps = 100;
-constexpr int windows = 4; // of that many steps
+constexpr int windows = 8; // of that many steps
 
 // Events after which a step is not steady.
 struct Events {
