@@ -1,21 +1,18 @@
 #include "sim/contact/contact_pairs.h"
 
 #include "sim/base/archive.h"
+#include "sim/contact/box_tree.h"
 #include "sim/outside/obstacle.h"
 #include "sim/topology/count.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
-#include <unsupported/Eigen/BVH>
 
 namespace rend {
 namespace {
 
-using Bounds = Eigen::AlignedBox3d;
-
-using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;
+using Bounds = BoxTree::Box;
 
 // The bounding box of its motion in the step.
 Bounds around(const ContactBody& body, Slot v) {
@@ -30,16 +27,6 @@ Bounds around(const ContactBody& body, const ContactFaces::Triangle& triangle) {
 
 Bounds grown(const Bounds& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
-}
-
-// Calls f(object) for the objects below a node of a tree whose boxes intersect this one.
-template <class F> void each_in(const Tree& tree, Tree::Index node, const Bounds& box, const F& f) {
-  Tree::VolumeIterator below{}, below_end{};
-  Tree::ObjectIterator object{}, object_end{};
-  tree.getChildren(node, below, below_end, object, object_end);
-  for (; below != below_end; ++below)
-    if (tree.getVolume(*below).intersects(box)) each_in(tree, *below, box, f);
-  for (; object != object_end; ++object) f(*object);
 }
 
 // Whether they may come within `thickness` before one of them has moved by half the skin: from their distance
@@ -82,45 +69,36 @@ public:
     std::stable_sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) {
       return std::tie(a.body, a.fragment) < std::tie(b.body, b.fragment);
     });
-    for (const Face& face : faces_)
-      boxes_.push_back(
-          grown(around(*bodies[face.body], bodies[face.body]->faces->triangles()[face.triangle]), margin));
-    std::vector<std::uint32_t> each(faces_.size());
-    std::iota(each.begin(), each.end(), 0U);
-    std::vector<Bounds> whole; // bounding box of each fragment
+    std::vector<Bounds> boxes, whole; // of the faces of a fragment, of each fragment
     for (std::size_t begin = 0, end = 0; begin < faces_.size(); begin = end) {
-      Bounds box;
-      while (end < faces_.size() && faces_[end].body == faces_[begin].body &&
-             faces_[end].fragment == faces_[begin].fragment)
-        box.extend(boxes_[end++]);
-      const auto at = static_cast<std::ptrdiff_t>(begin), to = static_cast<std::ptrdiff_t>(end);
-      trees_.emplace_back(each.begin() + at, each.begin() + to, boxes_.begin() + at, boxes_.begin() + to);
+      boxes.clear();
+      for (; end < faces_.size() && faces_[end].body == faces_[begin].body &&
+             faces_[end].fragment == faces_[begin].fragment;
+           ++end) {
+        const ContactBody& body = *bodies[faces_[end].body];
+        boxes.push_back(grown(around(body, body.faces->triangles()[faces_[end].triangle]), margin));
+      }
       first_.push_back(static_cast<std::uint32_t>(begin));
-      whole.push_back(box);
+      trees_.emplace_back(boxes);
+      whole.push_back(trees_.back().bounds());
     }
-    fragments_ = Tree(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(trees_.size()), whole.begin(),
-                      whole.end());
-    whole_ = std::move(whole);
+    fragments_ = BoxTree(whole);
   }
 
   // Calls f(face) for the faces whose boxes intersect this one, without the fragments for which skip(any face
   // of it) is true.
   template <class Skip, class F> void each_near(const Bounds& box, const Skip& skip, const F& f) const {
-    if (faces_.empty()) return;
-    each_in(fragments_, fragments_.getRootIndex(), box, [&](std::uint32_t n) {
-      if (skip(faces_[first_[n]]) || !whole_[n].intersects(box)) return;
-      each_in(trees_[n], trees_[n].getRootIndex(), box, [&](std::uint32_t face) {
-        if (boxes_[face].intersects(box)) f(faces_[face]);
-      });
+    fragments_.each_in(box, [&](std::uint32_t n) {
+      if (skip(faces_[first_[n]])) return;
+      trees_[n].each_in(box, [&](std::uint32_t face) { f(faces_[first_[n] + face]); });
     });
   }
 
 private:
-  std::vector<Face> faces_;           // sorted by body and fragment
-  std::vector<Bounds> boxes_, whole_; // [m], one per face, one per fragment
-  std::vector<Tree> trees_;           // one per fragment
-  std::vector<std::uint32_t> first_;  // one per fragment: its first face
-  Tree fragments_;
+  std::vector<Face> faces_;          // sorted by body and fragment
+  std::vector<BoxTree> trees_;       // one per fragment
+  std::vector<std::uint32_t> first_; // one per fragment: its first face
+  BoxTree fragments_;
 };
 
 void ContactPairs::list(const ContactBody& body, BodyEntry& of) const {

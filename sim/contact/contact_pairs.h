@@ -2,12 +2,11 @@
 //
 // Faces are triangles (contact_faces.h). Those of each fragment are in a tree of bounding boxes, and these
 // trees in a tree above, so that the query of a vertex skips the faces of its own fragment, which are most of
-// those near it. Trees are Eigen's KdBVH (unsupported/Eigen/BVH, MPL 2), since Eigen is a dependency already, a
-// tree is a pure function of the boxes, and results are sorted, so that they do not depend on the order of a
-// search. (Bullet's btDbvt and FCL would be new dependencies, for single precision or for whole bodies.) The
-// trees are static; so pairs are searched with a margin (skin), and again when a vertex has moved by half of it
-// relative to the mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967), or when a map was changed. The
-// pairs always include all that touch, so results do not depend on when they were searched.
+// those near it (box_tree.h). Results are sorted, so that they do not depend on the order of a search.
+// (Bullet's btDbvt and FCL would be new dependencies, for single precision or for whole bodies.) The trees are
+// static; so pairs are searched with a margin (skin), and again when a vertex has moved by half of it relative
+// to the mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967), or when a map was changed. The pairs
+// always include all that touch, so results do not depend on when they were searched.
 #pragma once
 
 #include "sim/contact/contact_body.h"
