@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <regex>
 
 namespace rend::step_cause_test {
 namespace {
@@ -49,10 +48,12 @@ struct Promise {
   double gain = 0;
 };
 Promise promise_of(const std::string& words) {
-  std::smatch found;
-  if (!std::regex_search(words, found, std::regex("with ([-+.e0-9]+).* it is ([.0-9]+) times longer")))
-    return {};
-  return {found[1], std::stod(found[2])};
+  const std::string before_value = "with ", before_gain = " it is ";
+  const std::size_t value = words.find(before_value), gain = words.find(before_gain, value);
+  if (value == std::string::npos || gain == std::string::npos) return {};
+  const std::size_t digits = value + before_value.size();
+  return {words.substr(digits, words.find_first_not_of("-+.e0123456789", digits) - digits),
+          std::stod(words.substr(gain + before_gain.size()))};
 }
 
 TEST(StepCause, is_the_damping_of_elements_and_a_lower_one_gives_the_step_it_promises) {
