@@ -24,6 +24,29 @@ const char* normal_of(const ExpressionCall& call) {
   return call.names[1] == "vertex" ? "normal" : "face"; // as directions are called
 }
 
+constexpr double least_weight = 1e-12; // a smaller one is round-off
+
+// Whether weights are those of a mean. One vertex that is named twice counts once, by the sum; what has no
+// weight is no parent.
+bool made_a_mean(std::vector<Parent>& parents) {
+  std::vector<Parent> distinct;
+  double sum = 0;
+  for (const Parent& each : parents) {
+    const auto same = std::ranges::find(distinct, each.dart, &Parent::dart);
+    if (same == distinct.end())
+      distinct.push_back(each);
+    else
+      same->weight += each.weight;
+    sum += each.weight;
+  }
+  if (std::ranges::any_of(distinct, [](const Parent& each) { return each.weight < -least_weight; }) ||
+      std::abs(sum - 1) > least_weight)
+    return false;
+  std::erase_if(distinct, [](const Parent& each) { return each.weight < least_weight; });
+  parents = std::move(distinct);
+  return true;
+}
+
 } // namespace
 
 Dart RuleValues::dart(std::string_view name, std::size_t instance) const {
@@ -257,26 +280,71 @@ Point RuleValues::point(const Rule::Set& set, std::size_t instance) const {
 
 void RuleValues::parents(const Rule::Set& set, std::size_t instance, std::vector<Parent>& out) const {
   out.clear();
+  if (!set.position) return;
   std::vector<bool> met(rule_.lets.size());
-  if (set.position) add_parents(*set.position, instance, met, out);
+  std::vector<Source> sources;
+  add_sources(*set.position, met, sources);
+  if (sources.size() > 1 && weigh(*set.position, instance, sources)) {
+    for (const Source& source : sources) add_parents(source, instance, out);
+    if (made_a_mean(out)) return;
+    out.clear();
+  }
+  for (const Source& source : sources) add_parents({source.call, 1}, instance, out);
   for (Parent& parent : out) parent.weight = 1 / static_cast<double>(out.size());
 }
 
-void RuleValues::add_parents(const Expression& expression, std::size_t instance, std::vector<bool>& met,
-                             std::vector<Parent>& out) const {
+void RuleValues::add_sources(const Expression& expression, std::vector<bool>& met,
+                             std::vector<Source>& out) const {
   for (const ExpressionCall& call : expression.calls()) {
     if (const Rule::Let* let = rule_.find_let(call)) {
       const auto n = static_cast<std::size_t>(let - rule_.lets.data());
       if (met[n]) continue;
       met[n] = true;
-      add_parents(let->value, instance, met, out);
-    } else if (call.function == static_cast<std::size_t>(RuleFunction::Mean)) {
-      for (Dart d : mean_of(call, instance).vertices) out.push_back({d, 1});
-    } else if (is_node(call, rule_.left) || call.function <= static_cast<std::size_t>(RuleFunction::Copy) ||
+      add_sources(let->value, met, out);
+    } else if (is_node(call, rule_.left) || call.function <= static_cast<std::size_t>(RuleFunction::Mean) ||
                call.function == static_cast<std::size_t>(RuleFunction::Along)) {
-      out.push_back({dart(dart_of_call(call, rule_.left), instance), 1});
+      out.push_back({&call, 0});
     }
   }
+}
+
+void RuleValues::add_parents(const Source& source, std::size_t instance, std::vector<Parent>& out) const {
+  if (source.call->function != static_cast<std::size_t>(RuleFunction::Mean)) {
+    out.push_back({dart(dart_of_call(*source.call, rule_.left), instance), source.weight});
+    return;
+  }
+  const std::vector<Dart>& vertices = mean_of(*source.call, instance).vertices;
+  for (Dart d : vertices) out.push_back({d, source.weight / static_cast<double>(vertices.size())});
+}
+
+bool RuleValues::weigh(const Expression& expression, std::size_t instance, std::span<Source> sources) const {
+  try {
+    for (Source& source : sources) {
+      const Vec3 rate = to_vec(rate_by(source, expression, instance));
+      source.weight = rate.x();
+      if ((rate.array() - rate.x()).abs().maxCoeff() > least_weight) return false;
+    }
+    return true;
+  } catch (const ExpressionError&) { // a rate that is not finite
+    return false;
+  }
+}
+
+Value RuleValues::rate_by(const Source& source, const Expression& expression, std::size_t instance) const {
+  const auto rate = [&](const ExpressionCall& each, std::span<const Value> arguments,
+                        std::span<const Value> rates) -> Value {
+    if (&each == source.call) return vector_value(1, 1, 1);
+    if (const Rule::Let* let = rule_.find_let(each)) return rate_by(source, let->value, instance);
+    if (each.function != static_cast<std::size_t>(RuleFunction::Lerp)) return {};
+    const double t = arguments[2].scalar();
+    return to_value((1 - t) * to_vec(rates[0]) + t * to_vec(rates[1]));
+  };
+  return expression
+      .evaluate_with_rate([&](const ExpressionCall& each, std::size_t, std::span<const Value> arguments,
+                              std::span<const Value> rates) -> ValueAndRate {
+        return {call(each, arguments, instance, PointPart::Position), rate(each, arguments, rates)};
+      })
+      .rate;
 }
 
 Value RuleValues::value(const Expression& expression, std::size_t instance) const {

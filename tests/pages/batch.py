@@ -44,13 +44,14 @@ def rows(driver):
     return driver.find_elements(By.CSS_SELECTOR, "table.sortable tbody tr")
 
 
-def name_of(row):
-    return row.find_element(By.TAG_NAME, "a").text
-
-
 def column(driver, name):
     heads = driver.find_elements(By.CSS_SELECTOR, "table.sortable th")
     return next(n for n, head in enumerate(heads) if head.text.strip().startswith(name)), heads
+
+
+def name_of(row):  # a job that failed has no link
+    at, _ = column(row.parent, "job")
+    return row.find_elements(By.TAG_NAME, "td")[at].text
 
 
 def states_and_pictures(driver, jobs):

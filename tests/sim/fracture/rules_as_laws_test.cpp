@@ -146,9 +146,17 @@ std::map<Dart, Eigen::Matrix3d> stresses(const Body& body) {
 
 // Springs along sides that were divided are in series: their stiffness is not that of a new spring.
 bool divides_sides(const std::string& rule) {
-  static const std::set<std::string> dividing{"catmull-clark",        "divide-tetrahedra", "divide-volumes",
-                                              "halve-tetrahedra",     "halve-triangles",   "insert-vertex",
-                                              "insert-vertex-border", "quarter-faces",     "sponge"};
+  static const std::set<std::string> dividing{"catmull-clark",
+                                              "divide-edge-of-tetrahedra",
+                                              "divide-edge-of-triangles",
+                                              "divide-tetrahedra",
+                                              "divide-volumes",
+                                              "halve-tetrahedra",
+                                              "halve-triangles",
+                                              "insert-vertex",
+                                              "insert-vertex-border",
+                                              "quarter-faces",
+                                              "sponge"};
   return dividing.contains(rule);
 }
 
