@@ -114,8 +114,8 @@ TEST_F(Names, of_jobs_stand_in_lists_and_pages_as_escapes) {
   place.write("javascript:x#?%.xml", program::pulled);
   const std::string name = "batch 'EVIL.xml' bad.xml 'javascript:x#?%.xml' --frames 0 -o ";
   const Outcome batch = rend(name + "'out EVIL'", 1);
-  const std::string line = "  " + shown; // the time that is left follows, unless this job was the last to end
-  EXPECT_THAT(batch.err, AnyOf(HasSubstr(line + "  about"), HasSubstr(line + "\n")));
+  const std::string job = "  " + shown; // the time that is left follows, unless this job was the last to end
+  EXPECT_THAT(batch.err, AnyOf(HasSubstr(job + "  about"), HasSubstr(job + "\n")));
   EXPECT_THAT(batch.out, HasSubstr("2 of 3 jobs done"));
   EXPECT_THAT(batch.out, HasSubstr("failed: bad: bad.xml:1:1: <scene> needs a <body>"));
   const std::string page = content(place.path() / ("out " + evil) / "index.html");

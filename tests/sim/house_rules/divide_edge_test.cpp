@@ -115,13 +115,13 @@ TEST(DivideEdge, weights_are_those_of_the_expression) {
   expect("a + share*(A - a)", {0.7, 0.3, 0});
   expect("0.7*a + 0.3*A", {0.7, 0.3, 0});
   expect("lerp(a, A, share) + 0*c", {0.7, 0.3, 0});
-  expect("lerp(a, mean(c, edge), 0.5) + 0*A", {0.5 + 0.25, 0, 0.25}); // c's edge leads from c to a
+  expect("lerp(a, mean(a, edge), 0.5) + 0*A", {0.75, 0.25, 0});
   expect("lerp(a, A, dot(point(0.5, 0, 0) - a, point(1, 0.3, 0)) / dot(A - a, point(1, 0.3, 0)))",
          {0.5, 0.5, 0}); // where a plane crosses the edge
-  expect("lerp(a, A, 0.4) + 0.001*normal(a, face)", {0.6, 0.4, 0});
+  expect("lerp(a, A, 0.4) + 0.001*normal(a, vertex)", {0.6, 0.4, 0});
   expect("a + norm(A - a)/norm(C - A)*0.3*(A - a)",
          {3. / 7, 3. / 7, 1. / 7}); // it turns with the points: as often as named
-  expect("a + 0.5*(A - a)*if(norm(c - a) > 0, 1, 0)", {0.5, 0.5, 0});
+  expect("a + 0.5*(A - a)*if(norm(A - a) > 0, 1, 0)", {0.5, 0.5, 0});
 }
 
 TEST(DivideEdge, weights_go_through_a_let) {
