@@ -17,7 +17,11 @@ struct InitialBorder {
   std::string name = "born border";
   Orbit orbit;
   Orbit support = SingleDart;
-  Value birth(const EmbeddedMap& map, Dart d) const { return map.map().is_free(map.dimension(), d) ? 1 : 0; }
+  // In a map that may grow, a new side comes to be inside an element, and was never on the boundary: a cut
+  // opens it where it makes it. At the start no map may grow yet.
+  Value birth(const EmbeddedMap& map, Dart d) const {
+    return !map.grows() && map.map().is_free(map.dimension(), d) ? 1 : 0;
+  }
   Value split(const Value& whole) const { return whole; }
   Value merge(const Value& kept, const Value&) const { return kept; }
   // A side that was cut from others: as all of them were.

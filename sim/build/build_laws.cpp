@@ -17,6 +17,11 @@ void let_grow(Body& body) {
   if (body.map->dimension() == 2) body.map->add(FaceSense{});
 }
 
+bool lets_grow(const LawSettings& law, const RuleBook& rules) {
+  return law.rule.empty() ? law.change && law.change->grows
+                          : find_rule(rules, law.rule, law.source, "rule").grows();
+}
+
 void take_rule(LawSettings& law, const RuleBook& rules, const CriterionRequest& request) {
   if (law.change) law.source.fail("rule", "<tear> has both a change and a rule", "give one of them");
   const RuleOrScript what = find_rule(rules, law.rule, law.source, "rule");
@@ -47,6 +52,12 @@ LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) 
   if (const std::string lacking = law.criterion->lacking(request); !lacking.empty())
     source.fail("criterion", fmt::format("'{}' {}", law.criterion->name, lacking));
   law.unit = law.criterion->unit_there ? law.criterion->unit_there(request) : law.criterion->unit;
+  if (law.change->lacking)
+    if (const std::string lacking = law.change->lacking(request); !lacking.empty())
+      source.fail(
+          "change", fmt::format("'{}' {}", law.change->name, lacking),
+          "make the sheet of triangles, with <elasticity>; or take change=\"split-vertex\", which parts "
+          "whole elements");
   if (law.until < law.from) source.fail("until", "the law ends before it starts: until is less than from");
   return law;
 }
@@ -86,10 +97,9 @@ void build_laws(Body& body, const BodySettings& settings) {
   if (wholly_fixed(body))
     body.notes.push_back("tearing: every vertex is fixed, so nothing moves and the forces never change");
   body.border = &body.map->add(InitialBorder(body.map->dimension()));
-  // first, since criteria must know which cells there may be
+  // before the laws, since criteria must know which cells there may be; after the border, which is that of now
   for (const LawSettings& asked : settings.tears)
-    if (!asked.rule.empty() && find_rule(settings.rules, asked.rule, asked.source, "rule").grows())
-      let_grow(body);
+    if (lets_grow(asked, settings.rules)) let_grow(body);
   if (body.map->grows())
     note_shear(body);
   else

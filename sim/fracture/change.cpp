@@ -3,7 +3,7 @@
 namespace rend {
 
 const std::vector<ChangeType>& all_changes() {
-  static const std::vector<ChangeType> list{separate(), delete_element(), split_vertex(), delete_edge()};
+  static const std::vector<ChangeType> list{separate(), delete_element(), split_vertex(), delete_edge(), cut()};
   return list;
 }
 

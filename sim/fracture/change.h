@@ -1,9 +1,9 @@
 // Topological changes: what a law does when its criterion exceeds the threshold (thesis 7.3; sim/README.md,
 // "Tearing").
 //
-// Every change of this list is composed of one operation, the separation of two elements; rules are changes as
-// well (rule_change.h). Embeddings are updated by their own policies. To add one: a file with a function
-// `ChangeType my_change()`, and its name in all_changes().
+// Every change of this list but `cut` is composed of one operation, the separation of two elements; rules are
+// changes as well (rule_change.h), and a cut divides elements by rules. Embeddings are updated by their own
+// policies. To add one: a file with a function `ChangeType my_change()`, and its name in all_changes().
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
@@ -26,10 +26,10 @@ using Refusals = std::map<std::string, std::uint64_t>;
 class ChangeMemory {
 public:
   virtual ~ChangeMemory() = default;
-  virtual void begin(const ForceView& view) = 0; // before the first call of an edit
-  virtual void settle_candidate(bool made) = 0;  // after the calls at all places of one candidate
-  virtual const Refusals& refusals() const = 0;  // of candidates
-  virtual void store(Archive& archive) = 0;      // the refusals
+  virtual void begin(const ForceView& view) = 0;               // before the first call of an edit
+  virtual void settle_candidate(bool made) = 0;                // after the calls at all places of one candidate
+  virtual const Refusals& refusals() const = 0;                // of candidates
+  virtual void store(Archive& archive) = 0;                    // the refusals
   virtual void make_anew(const CriterionRequest& request) = 0; // the body has got further interactions
   virtual void rebind(const Changes& changes) = 0;
   virtual void reserve_for_separations() = 0; // see EmbeddedMap
@@ -46,6 +46,10 @@ struct ChangeType {
   bool grows = false;                        // it may create darts and links (rule_change.h)
   bool keeps_matter = false;                 // it only separates: no element is created or removed
   std::shared_ptr<ChangeMemory> memory = {}; // null: it keeps nothing
+  // Of changes that keep something for each law: the change of one law of such a body. Null: it keeps nothing.
+  std::function<std::shared_ptr<const ChangeType>(const CriterionRequest&)> of_law = {};
+  // Why it can't be made in such a body, a sentence that goes on after its name; empty: it can. Null: always.
+  std::function<std::string(const CriterionRequest&)> lacking = {};
 };
 
 const std::vector<ChangeType>& all_changes();
@@ -55,6 +59,7 @@ ChangeType separate();
 ChangeType delete_element();
 ChangeType split_vertex();
 ChangeType delete_edge();
+ChangeType cut();
 
 // Separates the element of d from all its neighbours and removes it.
 void remove_element_of(Edit& edit, Dart d);

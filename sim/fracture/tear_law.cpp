@@ -4,6 +4,7 @@
 #include "sim/base/stop_request.h"
 #include "sim/fracture/counted_change.h"
 #include "sim/fracture/split_vertex.h"
+#include "sim/fracture/touched_darts.h"
 #include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 
@@ -82,24 +83,6 @@ void add_others(const GMap& map, Orbit orbit, std::span<const Dart> cell, std::s
   }
 }
 
-// Of an edit: the darts whose links it has changed so far.
-class TouchedDarts {
-public:
-  void clear() {
-    read_.fill(0);
-    darts_.clear();
-  }
-  bool any_of(const Journal& journal, std::span<const Dart> darts) {
-    for (std::size_t i = 0; i < read_.size(); ++i)
-      for (; read_[i] < journal.touched[i].size(); ++read_[i])
-        darts_.insert(journal.touched[i][read_[i]].value);
-    return std::any_of(darts.begin(), darts.end(), [&](Dart d) { return darts_.contains(d.value); });
-  }
-
-private:
-  std::array<std::size_t, 4> read_{}; // of the journal
-  IndexSet darts_;
-};
 thread_local TouchedDarts touched;
 
 } // namespace
@@ -108,7 +91,8 @@ TearLaw::TearLaw(const CriterionRequest& request, const LawSettings& settings)
     : settings_(settings), transfer_(&transfer(settings.cell, settings.change->cell, request.map.dimension())),
       criterion_(settings.criterion->make(request)) {
   if (settings_.change->memory || std::isinf(settings_.threshold)) return;
-  settings_.by_rule = counted(*settings_.change); // as a rule, it is one of this law alone
+  const ChangeType& change = *settings_.change; // as a rule, it is one of this law alone then
+  settings_.by_rule = change.of_law ? change.of_law(request) : counted(change);
   settings_.change = settings_.by_rule.get();
 }
 

@@ -228,9 +228,10 @@ TEST(SplitVertex, makes_of_every_vertex_of_solids_as_many_fragments_as_lists_say
   }
 }
 
-TEST(Change, acts_on_one_kind_of_cell_and_is_the_default_of_it) {
+TEST(Change, that_parts_whole_elements_is_the_default_of_its_kind_of_cell) {
   std::set<Cell> cells;
   for (const ChangeType& type : all_changes()) {
+    if (type.grows) continue; // asked for by its name alone
     EXPECT_TRUE(cells.insert(type.cell).second) << type.name;
     EXPECT_EQ(default_change(type.cell).name, type.name);
   }
