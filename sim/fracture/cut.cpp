@@ -10,7 +10,7 @@
 // the half that leads furthest away from the border's two edges: so a crack does not turn back along its wake.
 //
 // No slivers: where m lies within a quarter of the edge from one of its ends, or a part would be smaller than a
-// twentieth of what the body's elements were on average at the start, the cut runs along the edge to that end:
+// twentieth of the smallest element at the start, the cut runs along the edge to that end:
 // it bends. A vertex at whose elements something changed in this step waits for the next one: the plane that
 // its criterion found belongs to elements that are not there any more. So does one beside such elements.
 #include "sim/base/archive.h"
@@ -23,13 +23,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 
 namespace rend {
 namespace {
 
 constexpr double nearest_share = 0.25;     // of an edge, from its end
-constexpr double smallest_part = 1.0 / 20; // of the mean element at the start
+constexpr double smallest_part = 1.0 / 20; // of the smallest element at the start
 constexpr std::size_t most_elements = 4;   // times as many as at the start
 constexpr double most_along = 0.866;       // cos 30°: a cut this close to the border runs along it
 
@@ -127,12 +127,9 @@ private:
 class Cuts final : public ChangeMemory {
 public:
   explicit Cuts(const CriterionRequest& request) : runner_(rule("divide-edge-of-triangles")) {
-    std::size_t elements = 0;
-    for_each_face(request.map, [&](Dart d) {
-      ++elements;
-      least_ += twice_area(request.map, d);
-    });
-    if (elements > 0) least_ *= smallest_part / static_cast<double>(elements);
+    double smallest = std::numeric_limits<double>::infinity();
+    for_each_face(request.map, [&](Dart d) { smallest = std::min(smallest, twice_area(request.map, d)); });
+    least_ = smallest_part * smallest;
     runner_.context().most_darts = most_elements * request.map.map().dart_count();
   }
 
