@@ -88,12 +88,13 @@ TEST(DivideEdge, refuses_a_share_that_is_not_inside_the_edge) {
 std::vector<double> weights(const std::string& place, const std::vector<RuleSettings>& with = {}) {
   RuleSettings settings = with.empty() ? divide_edge_of_triangles() : with[0];
   settings.sets[0].position = place;
+  const Rule rule(settings);
   const auto body = assets::triangulated_grid(2, 2);
   body->add(CornerMass{.density = 1}.on(*body));
   const Dart a{0u}, A = body->map().alpha(0, a);
   std::vector<double> found(3);
   body->edit([&](Edit& edit) {
-    const Applied done = apply(Rule(settings), edit, a, {{"share", scalar_value(0.3)}});
+    const Applied done = apply(rule, edit, a, {{"share", scalar_value(0.3)}});
     ASSERT_TRUE(done.ok) << done.reason;
     for (const Parent& parent : edit.parents(done.dart("g"), Vertex)) {
       const Slot v = body->vertex(parent.dart);
