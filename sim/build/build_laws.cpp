@@ -54,10 +54,9 @@ LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) 
   law.unit = law.criterion->unit_there ? law.criterion->unit_there(request) : law.criterion->unit;
   if (law.change->lacking)
     if (const std::string lacking = law.change->lacking(request); !lacking.empty())
-      source.fail(
-          "change", fmt::format("'{}' {}", law.change->name, lacking),
-          "make the sheet of triangles, with <elasticity>; or take change=\"split-vertex\", which parts "
-          "whole elements");
+      source.fail("change", fmt::format("'{}' {}", law.change->name, lacking),
+                  "rend help tear tells what each change needs; change=\"split-vertex\" parts whole elements "
+                  "of every kind");
   if (law.until < law.from) source.fail("until", "the law ends before it starts: until is less than from");
   return law;
 }

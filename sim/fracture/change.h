@@ -46,7 +46,7 @@ struct ChangeType {
   bool grows = false;                        // it may create darts and links (rule_change.h)
   bool keeps_matter = false;                 // it only separates: no element is created or removed
   std::shared_ptr<ChangeMemory> memory = {}; // null: it keeps nothing
-  // Of changes that keep something for each law: the change of one law of such a body. Null: it keeps nothing.
+  // Makes the change of one law of such a body, where it keeps something for each law. Null: it keeps nothing.
   std::function<std::shared_ptr<const ChangeType>(const CriterionRequest&)> of_law = {};
   // Why it can't be made in such a body, a sentence that goes on after its name; empty: it can. Null: always.
   std::function<std::string(const CriterionRequest&)> lacking = {};

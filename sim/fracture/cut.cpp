@@ -36,6 +36,7 @@ constexpr double most_along = 0.866;       // cos 30°: a cut this close to the 
 constexpr const char* nothing_crosses = "the plane crosses no element at the vertex that leads into the body";
 constexpr const char* waits = "another cut of the same step has changed an element at the vertex";
 constexpr const char* full = "the body has four times as many elements as at the start";
+constexpr const char* divides_none = "the elements at the edge that the plane crosses cannot be divided";
 
 bool has_triangles_alone(const EmbeddedMap& map) {
   bool alone = true;
@@ -126,11 +127,15 @@ private:
 // Of one law.
 class Cuts final : public ChangeMemory {
 public:
-  explicit Cuts(const CriterionRequest& request) : runner_(rule("divide-edge-of-triangles")) {
+  explicit Cuts(const CriterionRequest& request)
+      : runner_(rule("divide-edge-of-triangles")),
+        cut_edge_(static_cast<std::size_t>(runner_.rule().right.find("h"))) {
     double smallest = std::numeric_limits<double>::infinity();
     for_each_face(request.map, [&](Dart d) { smallest = std::min(smallest, twice_area(request.map, d)); });
     least_ = smallest_part * smallest;
-    runner_.context().most_darts = most_elements * request.map.map().dart_count();
+    const std::size_t darts = most_elements * request.map.map().dart_count();
+    runner_.context().most_darts = std::min(darts, most_darts(request.map));
+    over_budget_ = darts <= runner_.context().most_darts ? full : beyond_budget;
   }
 
   bool apply(Edit& edit, const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
@@ -143,7 +148,7 @@ public:
       edges.push_back(half.share > 0 ? divided(edit, half) : half.edge);
       if (edges.back() != Dart{}) continue;
       edit.rollback(before);
-      return refuse(runner_.over_budget() ? full : nothing_crosses);
+      return refuse(runner_.over_budget() ? over_budget_ : divides_none);
     }
     for (Dart d : edges) unsew(edit, 2, d);
     return true;
@@ -156,7 +161,7 @@ public:
   }
   const Refusals& refusals() const override { return refusals_; }
   void store(Archive& archive) override {
-    archive.table(refusals_, 3, "a cut was refused for more reasons than there are");
+    archive.table(refusals_, 4, "a cut was refused for more reasons than there are");
   }
   void make_anew(const CriterionRequest&) override {}
   void rebind(const Changes&) override {}
@@ -185,12 +190,13 @@ private:
   Dart divided(Edit& edit, const Half& half) {
     runner_.context().wheres = {scalar_value(half.share)};
     if (!runner_.apply(edit, half.across)) return {};
-    static const auto node = static_cast<std::size_t>(runner_.rule().right.find("h"));
-    return runner_.darts()[node]; // of the first instance, the hook's own side
+    return runner_.darts()[cut_edge_]; // of the first instance, the hook's own side
   }
 
   RuleRunner runner_;
-  double least_ = 0; // twice the area at rest of the smallest part [m²]
+  std::size_t cut_edge_;              // the node of its right graph on the new edge to the vertex
+  const char* over_budget_ = nullptr; // why the map may not grow further
+  double least_ = 0;                  // twice the area at rest of the smallest part [m²]
   TouchedDarts touched_;
   std::vector<Dart> star_; // scratch
   const char* why_ = nullptr;
@@ -218,8 +224,9 @@ std::shared_ptr<const ChangeType> of_law(const CriterionRequest& request) {
 
 ChangeType cut() {
   return {.name = "cut",
-          .what = "a crack along the plane across the force, through the elements at the vertex, which are "
-                  "divided there (sheets of triangles)",
+          .what =
+              "the elements around the vertex are divided along the plane across the force, and parted there "
+              "(sheets of triangles with <elasticity>)",
           .cell = Cell::Vertices,
           .apply = {},
           .grows = true,

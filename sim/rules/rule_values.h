@@ -59,9 +59,9 @@ public:
   Point moved(const Rule::Set& set, std::size_t instance, const Point& was) const;
   bool holds(const Rule::When& when) const;
   Value value(const Expression& expression, std::size_t instance) const; // over positions
-  // The vertices that the position is made of, with the weights that they have in it: 1 - t and t in
-  // lerp(a, b, t). Weights are equal where it is no mean of vertices, with weights that are constant and not
-  // negative. None: it is made of numbers.
+  // The vertices that the position is made of, with their weights in it: 1 − t and t in lerp(a, b, t). They are
+  // equal where the position is no mean of vertices whose weights are constant and not negative. None: the
+  // position is made of numbers.
   void parents(const Rule::Set& set, std::size_t instance, std::vector<Parent>& out) const;
 
 private:
@@ -99,7 +99,7 @@ private:
   void add_parents(const Source& source, std::size_t instance, std::vector<Parent>& out) const;
   // False where the value is no mean of its sources.
   bool weigh(const Expression& expression, std::size_t instance, std::span<Source> sources) const;
-  // The rate of the value where the source alone moves, and what is no vector stands still.
+  // d(value)/ds, where the source alone moves by s (1, 1, 1) and the t of every lerp stands still.
   Value rate_by(const Source& source, const Expression& expression, std::size_t instance) const;
 
   // What a let was found to be: expressions may use it often.

@@ -1,4 +1,4 @@
-// Edges that are divided at a share of their length, and what is born there inherits.
+// Edges that are divided at a share of their length: what is made, and from whom the new vertex inherits.
 #include "sim/house_rules/house_rules.h"
 #include "sim/mechanics/mass.h"
 #include "sim/mesh/bar.h"
@@ -16,7 +16,7 @@ namespace {
 
 using meshes::Noise;
 
-// By Σ ± det of the corners at rest, element by element.
+// The area [m²] or volume [m³] at rest, summed element by element.
 double size_at_rest(const EmbeddedMap& body) {
   const bool solid = body.map().dimension() == 3;
   const Orbit element = solid ? Volume : Face;
@@ -84,9 +84,8 @@ TEST(DivideEdge, refuses_a_share_that_is_not_inside_the_edge) {
   EXPECT_FALSE(apply(rule("divide-edge-of-triangles"), *assets::single_quad(), Dart{0u}).ok);
 }
 
-// Of the vertex that is born where its place is given by an expression: shares of a, of A, of others.
-std::vector<double> weights(const std::string& place, const std::vector<RuleSettings>& with = {}) {
-  RuleSettings settings = with.empty() ? divide_edge_of_triangles() : with[0];
+// How much a, A and other vertices count as parents of a vertex whose place is given by an expression.
+std::vector<double> weights(const std::string& place, RuleSettings settings = divide_edge_of_triangles()) {
   settings.sets[0].position = place;
   const Rule rule(settings);
   const auto body = assets::triangulated_grid(2, 2);
@@ -120,15 +119,16 @@ TEST(DivideEdge, weights_are_those_of_the_expression) {
   expect("lerp(a, A, dot(point(0.5, 0, 0) - a, point(1, 0.3, 0)) / dot(A - a, point(1, 0.3, 0)))",
          {0.5, 0.5, 0}); // where a plane crosses the edge
   expect("lerp(a, A, 0.4) + 0.001*normal(a, vertex)", {0.6, 0.4, 0});
-  expect("a + norm(A - a)*0.3*(A - a)", {0.6, 0.4, 0}); // it turns with the points: as often as each is named
+  expect("a + norm(A - a)*0.3*(A - a)",
+         {0.6, 0.4, 0}); // weights that move with the points: by how often each is named
   expect("a + 0.5*(A - a)*if(norm(A - a) > 0, 1, 0)", {0.5, 0.5, 0});
 }
 
 TEST(DivideEdge, weights_go_through_a_let) {
   RuleSettings settings = divide_edge_of_triangles();
   settings.lets = {{.name = "middle", .value = "lerp(a, A, share)"}};
-  expect_weights("middle", {0.7, 0.3, 0}, weights("middle", {settings}));
-  expect_weights("lerp(a, middle, 0.5)", {0.85, 0.15, 0}, weights("lerp(a, middle, 0.5)", {settings}));
+  expect_weights("middle", {0.7, 0.3, 0}, weights("middle", settings));
+  expect_weights("lerp(a, middle, 0.5)", {0.85, 0.15, 0}, weights("lerp(a, middle, 0.5)", settings));
 }
 
 } // namespace
