@@ -1,7 +1,6 @@
 // Messages of commands, as someone reads them who knows no more than the line that was typed: they name what
 // was typed, and what to type instead.
 #include "tests/render/commands/program_run.h"
-
 #include "tests/render/needs.h"
 
 #include <gmock/gmock.h>
