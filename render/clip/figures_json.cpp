@@ -115,16 +115,19 @@ Json json_of(const ContactWork& contact) {
 
 Json json_of(const EnergyFigures& e) {
   const Work& w = e.now.work;
-  return {
-      {"kinetic", e.now.kinetic},
-      {"elastic", e.now.elastic},
-      {"gravity", e.now.gravity},
-      {"work", w.sum()},
-      {"work_of",
-       {{"loads", w.loads}, {"drives", w.drives}, {"obstacles", w.contact.obstacles}, {"changes", w.changes}}},
-      {"contact", json_of(w.contact)},
-      {"dissipated", e.dissipated},
-      {"balance", e.balance}};
+  return {{"kinetic", e.now.kinetic},
+          {"elastic", e.now.elastic},
+          {"gravity", e.now.gravity},
+          {"work", w.sum()},
+          {"work_of",
+           {{"loads", w.loads},
+            {"drives", w.drives},
+            {"obstacles", w.contact.obstacles},
+            {"changes", w.changes},
+            {"remesh", w.remesh}}},
+          {"contact", json_of(w.contact)},
+          {"dissipated", e.dissipated},
+          {"balance", e.balance}};
 }
 
 Json json_of(const StateFigures& s) {

@@ -153,7 +153,7 @@ std::string summary_of(const Figures& f) {
                      s.energy.now.kinetic, s.energy.now.elastic, s.energy.now.gravity);
   out += fmt::format(
       "             {:.6g} J of work done on bodies{} by loads, drives, moving obstacles, and "
-      "changes of mass or gravity;\n             {:.6g} J dissipated, {:.6g} J of it by contact, {:.3g} "
+      "changes of mass, mesh or gravity;\n             {:.6g} J dissipated, {:.6g} J of it by contact, {:.3g} "
       "J unexplained\n",
       s.energy.now.work.sum(), s.falling ? " and falling spheres" : "", s.energy.dissipated,
       s.energy.now.work.contact.lost(), s.energy.balance);

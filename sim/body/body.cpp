@@ -222,7 +222,8 @@ ForceView Body::view() const {
           force.data(),
           corner_force.empty() || sums_ ? nullptr : corner_force.data(),
           sums_ ? corner_force.data() : nullptr,
-          time_};
+          time_,
+          constraints.vertices()};
 }
 
 void Body::clear_sums() {
@@ -267,8 +268,12 @@ int Body::apply_law(std::size_t number, double time, long step, const std::funct
   if (tear_laws[number].find_and_note(now, time, step % look_every == 0).empty()) return 0;
   sound();
   if (change_observer) change_observer(WitnessAt::BeforeChanges);
-  const int made = make_changes(number, now, time, step);
+  const bool remeshes = work_meter && tear_laws[number].settings().change->grows;
+  double before = 0;
+  const auto weigh = [&] { before = energy_of_matter(); };
+  const int made = make_changes(number, now, time, step, remeshes ? std::function<void()>(weigh) : nullptr);
   if (made > 0) follow_changes();
+  if (made > 0 && remeshes) work_meter->remesh(energy_of_matter() - before);
   if (change_observer) change_observer(WitnessAt::AfterChanges);
   return made;
 }
@@ -277,9 +282,10 @@ namespace {
 
 // What a rule makes may be nothing that the body's interactions can be put on. Then nothing has changed, and
 // the run ends.
-int apply_or_stop(Body& body, TearLaw& law, const ForceView& now, double time, long step) {
+int apply_or_stop(Body& body, TearLaw& law, const ForceView& now, double time, long step,
+                  const std::function<void()>& before_closing) {
   try {
-    return law.apply(*body.map, now, body.events, body.fragment_counter.get());
+    return law.apply(*body.map, now, body.events, body.fragment_counter.get(), before_closing);
   } catch (const UserError& error) {
     throw UserError(
         Exit::Unstable, law.settings().source.place(),
@@ -292,13 +298,23 @@ int apply_or_stop(Body& body, TearLaw& law, const ForceView& now, double time, l
 
 } // namespace
 
-int Body::make_changes(std::size_t number, const ForceView& now, double time, long step) {
+// Kinetic and elastic [J], by the rows and masses that are bound.
+double Body::energy_of_matter() const {
+  const double* w = program->inverse_mass();
+  double kinetic = 0;
+  for (Slot v = 0; v < program->vertices(); ++v)
+    if (w[v] > 0) kinetic += 0.5 / w[v] * map->velocity()[v].vec().squaredNorm();
+  return kinetic + program->elastic_energy(map->position().values().data());
+}
+
+int Body::make_changes(std::size_t number, const ForceView& now, double time, long step,
+                       const std::function<void()>& before_closing) {
   const PhaseScope within(profile, Phase::Changes);
   const std::size_t before = events.size();
   const bool weighs =
       work_meter && !tear_laws[number].settings().change->keeps_matter && !Vec3(gravity).isZero(0);
   const double potential = weighs ? gravity_energy(*map, *mass, gravity) : 0;
-  const int made = apply_or_stop(*this, tear_laws[number], now, time, step);
+  const int made = apply_or_stop(*this, tear_laws[number], now, time, step, before_closing);
   if (made > 0 && weighs) work_meter->change(gravity_energy(*map, *mass, gravity) - potential);
   for (std::size_t e = before; e < events.size(); ++e) {
     events[e].time = time;

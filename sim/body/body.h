@@ -168,7 +168,10 @@ private:
   void measure_gravity();
   StateView current() const;
   int apply_law(std::size_t number, double time, long step, const std::function<void()>& sound);
-  int make_changes(std::size_t number, const ForceView& now, double time, long step);
+  double energy_of_matter() const;
+  // `before_closing`: see TearLaw::apply.
+  int make_changes(std::size_t number, const ForceView& now, double time, long step,
+                   const std::function<void()>& before_closing);
   void follow_changes();
   void take_up_interactions();
   void check_read(long done, double step) const; // throws ArchiveError

@@ -66,6 +66,7 @@ Work& Work::operator+=(const Work& other) {
   drives += other.drives;
   contact += other.contact;
   changes += other.changes;
+  remesh += other.remesh;
   return *this;
 }
 
@@ -145,7 +146,7 @@ void WorkMeter::Entry::store(Archive& archive) {
 }
 
 void WorkMeter::store(Archive& archive, std::size_t most) {
-  archive.unbounded(settled_.loads, settled_.drives, settled_.changes);
+  archive.unbounded(settled_.loads, settled_.drives, settled_.changes, settled_.remesh);
   settled_.contact.store(archive);
   archive.fixed(touched_, "number of obstacles");
   if (archive.reading())

@@ -12,6 +12,8 @@
 //
 //   changes  Δ of the potential in gravity, of matter that a change of the map takes away or adds, and where
 //            gravity grows
+//   remesh   Δ(K + U) where a law divides elements or moves vertices: mass goes to other vertices, and springs
+//            that are divided or turn may be strained otherwise than before
 //
 // F' is known once the forces of the next step are: until then it is pending. A body on which nothing does work
 // has no meter.
@@ -25,11 +27,11 @@
 namespace rend {
 
 struct Work {
-  double loads = 0, drives = 0, changes = 0; // [J]
+  double loads = 0, drives = 0, changes = 0, remesh = 0; // [J]
   ContactWork contact;
 
   // [J]: what was done to the body. What contact takes is lost: it is no cause of anything.
-  double sum() const { return loads + drives + contact.obstacles + changes; }
+  double sum() const { return loads + drives + contact.obstacles + changes + remesh; }
   double size() const; // [J], sum of magnitudes; without changes, which depend on the origin
   Work& operator+=(const Work& other);
 };
@@ -65,6 +67,8 @@ public:
   void forget_vertices(); // what is listed is of vertices before a change of the map; nothing is pending
   void rebind() { listed_ = false; }                         // after a change of the map
   void change(double energy) { settled_.changes += energy; } // [J], potential that it or gravity added
+
+  void remesh(double energy) { settled_.remesh += energy; } // [J]
 
   // Since the start. Of `body`, forces and loads are those of the current state; without it, those of the state
   // before stand in for what is pending.

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,8 @@ struct ForceView {
   // Not null: instead of `corner`, the fourth lane of `force` holds Program::forces_with_sums(), and this is a
   // buffer for Program::corner_forces_at(), for the vertices where the sums do not rule out a candidate.
   Record* corner_buffer = nullptr;
-  double time = 0; // [s]
+  double time = 0;                 // [s]
+  std::span<const Slot> held = {}; // vertices with a prescribed motion, increasing
 };
 
 // What a criterion has found where a change is made.

@@ -189,7 +189,7 @@ const Refusals& TearLaw::refusals() const {
 }
 
 int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,
-                   FragmentCounter* fragment_counter) {
+                   FragmentCounter* fragment_counter, const std::function<void()>& before_closing) {
   note_cells(map.map());
   if (transfer_->find) note_places(view);
   int made = 0;
@@ -211,6 +211,7 @@ int TearLaw::apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEven
       if (fragment_counter) fragment_counter->note(*edit.journal());
       ++made;
     }
+    if (made > 0 && before_closing) before_closing();
   };
   try {
     map.edit(change);

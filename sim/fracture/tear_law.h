@@ -74,9 +74,10 @@ public:
   void store(Archive& archive, double now);
 
   // Makes the changes at the candidates of find(). Returns how many were made; appends an event for each, and
-  // notes it in `fragment_counter` if given.
+  // notes it in `fragment_counter` if given. `before_closing` is called once if any were made, while all values
+  // and rows are still those before.
   int apply(EmbeddedMap& map, const ForceView& view, std::vector<TearEvent>& events,
-            FragmentCounter* fragment_counter = nullptr);
+            FragmentCounter* fragment_counter = nullptr, const std::function<void()>& before_closing = {});
 
   void rebind(const Changes& changes);
   void reserve_for_separations();

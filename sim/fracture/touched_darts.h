@@ -1,5 +1,5 @@
-// The darts whose links an edit has changed so far, read from its journal piece by piece: whether a change of
-// the same step has been at a cell already.
+// The darts whose links an edit has changed so far, read from its journal piece by piece, and others that are
+// added: whether a change of the same step has been at a cell already.
 #pragma once
 
 #include "sim/topology/index_set.h"
@@ -16,6 +16,10 @@ public:
   void clear() { // of another edit
     read_.fill(0);
     darts_.clear();
+  }
+  // Darts whose links stay, but not the values that depend on them.
+  void add(std::span<const Dart> darts) {
+    for (Dart d : darts) darts_.insert(d.value);
   }
   // `journal`: of the edit. What has been taken back since the last call counts as touched.
   bool any_of(const Journal& journal, std::span<const Dart> darts) {
