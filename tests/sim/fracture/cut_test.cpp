@@ -209,7 +209,7 @@ TEST(Cut, at_the_tip_of_a_crack_turns_as_the_largest_hoop_stress_asks) {
     for (const int sectors : {8, 11, 16})
       for (const double turned : {0.0, 0.15, 0.3}) {
         const auto body = sheet_with_slit(sectors, turned);
-        EXPECT_NEAR(turn_at(*body, tip), tip.hoop_angle(), 3.5)
+        EXPECT_NEAR(turn_at(*body, tip), tip.hoop_angle(), 4)
             << tip.one << " " << tip.two << ", " << sectors << " sectors, turned by " << turned;
       }
 }
