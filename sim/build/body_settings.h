@@ -34,6 +34,7 @@ struct BodySettings {
   std::string name = "body"; // to tell bodies apart
   ShapeSettings shape = SheetShape{};
   std::vector<ApplySettings> applies = {}; // rules that construct, before the body is placed
+  std::vector<SlitSettings> slits = {};    // likewise, after them
   Placement place = {};
   MassSettings mass = {};
   std::optional<SpringsSettings> springs = {};

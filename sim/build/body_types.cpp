@@ -84,10 +84,13 @@ std::vector<ChildType> shape_types() {
   static const ElementType place =
       element_type_of<Placement>("place", "where the body is at rest: it is scaled, then rotated, then moved");
   static const ElementType mass = element_type_of<MassSettings>("mass", "the mass of the body");
+  static const ElementType slit = element_type_of<SlitSettings>(
+      "slit", "a cut that a sheet of triangles has from the start: the notch of a specimen, a perforation");
   std::vector<ChildType> types;
   for (const ShapeType& shape : all_shapes()) types.push_back({&shape.type(), 0, 1});
   types.push_back({&apply_type(), 0, -1});
   types.push_back({&subdivide_type(), 0, -1});
+  types.push_back({&slit, 0, -1});
   types.push_back({&place, 0, 1});
   types.push_back({&mass, 1, 1});
   return types;

@@ -66,10 +66,10 @@ void build_shape(Body& body, const BodySettings& settings) {
   check_settings(settings.place);
   std::visit(
       [&](const auto& shape) {
-        const bool by_rules = !settings.applies.empty();
+        const bool by_rules = !settings.applies.empty() || !settings.slits.empty();
         make_map(body, shape, by_rules ? Placement{} : settings.place);
         if (by_rules || body.map->map().dart_count() == 0)
-          construct(body, settings.applies, settings.rules, settings.place, shape.source);
+          construct(body, settings.applies, settings.slits, settings.rules, settings.place, shape.source);
         check_reach(body, shape.source);
       },
       settings.shape);

@@ -370,10 +370,11 @@ ApplySettings read_apply(const PresetNode& node) {
   return settings;
 }
 
-void construct(Body& body, const std::vector<ApplySettings>& applies, const RuleBook& rules,
-               const Placement& place, const SettingsSource& shape) {
+void construct(Body& body, const std::vector<ApplySettings>& applies, const std::vector<SlitSettings>& slits,
+               const RuleBook& rules, const Placement& place, const SettingsSource& shape) {
   Construction construction(body, rules, shape);
   for (const ApplySettings& settings : applies) construction.apply(settings);
+  cut_slits(*body.map, slits);
   construction.finish(place);
 }
 

@@ -22,6 +22,7 @@
 
 #include "sim/base/settings.h"
 #include "sim/build/rule_book.h"
+#include "sim/build/slit.h"
 #include "sim/outside/selector.h"
 
 #include <map>
@@ -49,9 +50,10 @@ const ElementType& subdivide_type();
 // Of an <apply>, or of a <subdivide>, which is short for the rule that does so in the body's dimension.
 ApplySettings read_apply(const PresetNode& node);
 
-// Applies them in their order to the map of the body, then places and orders it. UserError: a rule that applies
-// nowhere, or lets the map grow too large, and cells that are none of the standard ones.
-void construct(Body& body, const std::vector<ApplySettings>& applies, const RuleBook& rules,
-               const Placement& place, const SettingsSource& shape);
+// Applies rules in their order to the map of the body, cuts slits, then places and orders it. UserError: a rule
+// that applies nowhere, or lets the map grow too large; cells that are none of the standard ones; a slit that
+// cannot be cut.
+void construct(Body& body, const std::vector<ApplySettings>& applies, const std::vector<SlitSettings>& slits,
+               const RuleBook& rules, const Placement& place, const SettingsSource& shape);
 
 } // namespace rend

@@ -1,0 +1,32 @@
+// Slits: cuts that a sheet of triangles has from the start: the notch of a specimen, a perforation.
+//
+//   <body> <sheet pattern="triangles" cells="20 10" size="2 1"/> <slit along="0.8 0.5 0  1.2 0.6 0"/> </body>
+//   <slit along="-1 0.5 0  3 0.5 0" dash="0.04 0.02"/>    cut for 0.04 m, left for 0.02 m, and so on
+//
+// Points are those of the shape, before it is placed. A slit goes through the cells as a crack does
+// (sim/fracture/triangle_cut.h): from vertex to vertex, straight on to the next of its points; at each of its
+// points within the sheet a vertex is put. It may begin and end outside. Both of its sides are free, and part
+// of the border at the start. Slits may cross.
+#pragma once
+
+#include "sim/base/settings.h"
+#include "sim/embedding/embedded_map.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rend {
+
+struct SlitSettings {
+  std::vector<double> along = {};               // x y z of each point, one after another [m]
+  std::optional<std::vector<double>> dash = {}; // lengths that are cut and left in turn [m]; none: all is cut
+  SettingsSource source = {};
+};
+template <> const Fields<SlitSettings>& fields_of();
+
+// Velocities are 0, positions those at rest. UserError: a slit outside of its body or without a length; a body
+// that is no sheet of triangles.
+void cut_slits(EmbeddedMap& map, std::span<const SlitSettings> slits);
+
+} // namespace rend

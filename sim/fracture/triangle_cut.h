@@ -1,0 +1,81 @@
+// How a cut leaves a vertex v of a sheet of triangles through the edge bc opposite to it, at
+//
+//   m = (1 − t) b + t c
+//
+// without slivers. Where m lies within a quarter of the edge from one of its ends, or a part would be too small
+// or thin, the cut runs along the edge to that end, which moves to m, within the matter: its rest position is
+// that of m, its position where m is; it keeps its velocity, and the elements around it their masses. An end on
+// a border or one that is held stays where it is, and so does one around which an element would become too
+// small or thin, or tilt. Then the edge is divided at m after all, or as close to it as no part becomes too
+// small or thin, if that is closer than the end; or else the cut bends to that end.
+#pragma once
+
+#include "sim/rules/apply.h"
+
+#include <optional>
+#include <span>
+
+namespace rend {
+
+// What cuts may leave of a sheet of triangles, at rest: a twentieth of its smallest element, and a quarter of
+// the sine of its least angle.
+struct SmallestParts {
+  double twice_area = 0; // [m²]
+  double sine = 0;       // of an angle
+};
+SmallestParts smallest_parts(const EmbeddedMap& map); // of what there is now
+
+// Before an edit. Positions and velocities: one per vertex slot.
+struct SheetState {
+  const EmbeddedMap& map;
+  const Record *position, *velocity; // [m], [m/s]
+  std::span<const Slot> held;        // vertices that do not move, increasing
+};
+
+// Through the edge opposite to a vertex.
+struct CutWay {
+  Dart edge = {};                  // at the vertex, along which it is cut; none: after the division
+  Dart across = {};                // of the edge that is divided, at the end from which the share counts
+  double share = 0;                // 0: nothing is divided
+  std::optional<Point> moved = {}; // where the other end of the edge moves; none: it stays
+  Vec3 to = Vec3::Zero();          // where it leads [m]
+};
+
+class TriangleCut {
+public:
+  TriangleCut(const SheetState& state, const SmallestParts& least)
+      : state_(state), map_(state.map.map()), least_(least) {}
+
+  // In the triangle of d from the vertex of d, with the edge of d at b. None: it can only bend to where the
+  // sheet is open already.
+  std::optional<CutWay> through(Dart d, double t) const;
+  // Whether the vertex of d may become that point of the matter.
+  bool may_move(Dart d, const Point& to) const;
+
+private:
+  Vec3 at(Dart d) const { return state_.position[state_.map.vertex(d)].vec(); }
+  Point between(Dart a, Dart b, double share) const;
+  bool keeps_shape(Dart d, const Point& to) const;
+  bool leaves_room(Dart across, double share) const;
+  std::optional<double> nearest_with_room(Dart across, double t) const;
+
+  SheetState state_;
+  const GMap& map_;
+  const SmallestParts& least_;
+};
+
+// Divides edges of triangles.
+class EdgeDivision {
+public:
+  EdgeDivision();
+  RuleRunner& runner() { return runner_; }
+  // The edge from the opposite vertex in the triangle of `across` to the vertex that is born, at the latter;
+  // none: the edge could not be divided, and nothing changed.
+  Dart divided(Edit& edit, Dart across, double share);
+
+private:
+  RuleRunner runner_;
+  std::size_t cut_edge_; // the node of its right graph on that edge
+};
+
+} // namespace rend

@@ -1,0 +1,115 @@
+// Slits: where they open a sheet, what they keep, and where cracks go on from them.
+#include "sim/build/slit.h"
+#include "sim/mechanics/mass.h"
+#include "sim/random_meshes.h"
+#include "sim/topology/count.h"
+#include "sim/topology/walk.h"
+
+#include <gtest/gtest.h>
+
+namespace rend::slit_test {
+namespace {
+
+SlitSettings slit(std::vector<double> along, std::optional<std::vector<double>> dash = {}) {
+  return {.along = std::move(along), .dash = std::move(dash)};
+}
+
+std::unique_ptr<EmbeddedMap> flat(SheetPattern pattern, unsigned seed) {
+  PolygonMesh mesh = meshes::warped(meshes::sheet(pattern, 12, 9), 0.15, seed);
+  for (Vec3& x : mesh.points) x.z() = 0;
+  return sheet_from(mesh);
+}
+
+double area(const EmbeddedMap& map) {
+  double sum = 0;
+  for_each_face(map, [&](Dart d) { sum += rest_area(map, d); });
+  return sum;
+}
+
+double border_length(const EmbeddedMap& map) {
+  double sum = 0;
+  map.map().for_each_dart([&](Dart d) {
+    if (map.map().is_free(2, d)) sum += (map.rest_of(d) - map.rest_of(map.map().alpha(0, d))).norm() / 2;
+  });
+  return sum;
+}
+
+class SlitOf : public testing::TestWithParam<SheetPattern> {};
+
+TEST_P(SlitOf, a_sheet_opens_its_line_and_keeps_the_area) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    const auto map = flat(GetParam(), seed);
+    meshes::Noise noise(seed);
+    const auto inside = [&] { return Vec3(6 + 4 * noise(), 4.5 + 3 * noise(), 0); };
+    const Vec3 a = inside(), b = inside(), c = inside();
+    if ((b - a).norm() < 2 || (c - b).norm() < 2 || (c - b).dot(b - a) < 0) continue; // back along the way
+    const double before = area(*map), border = border_length(*map), line = (b - a).norm() + (c - b).norm();
+    cut_slits(*map, std::vector{slit({a.x(), a.y(), 0, b.x(), b.y(), 0, c.x(), c.y(), 0})});
+    EXPECT_EQ(validate(*map), std::nullopt);
+    EXPECT_NEAR(area(*map), before, 1e-12 * before);
+    EXPECT_NEAR(border_length(*map) - border, 2 * line, 0.02 * line) << seed;
+    EXPECT_EQ(count_cells(map->map()).fragments, 1u);
+  }
+}
+
+TEST_P(SlitOf, a_sheet_from_side_to_side_parts_it) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    const auto map = flat(GetParam(), seed);
+    meshes::Noise noise(seed);
+    const double y = 4.5 + 3 * noise(), z = 4.5 + 3 * noise();
+    cut_slits(*map, std::vector{slit({-1, y, 0, 13, z, 0})});
+    EXPECT_EQ(validate(*map), std::nullopt);
+    EXPECT_EQ(count_cells(map->map()).fragments, 2u) << seed;
+  }
+}
+
+TEST_P(SlitOf, a_sheet_that_cross_part_it_in_four) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    const auto map = flat(GetParam(), seed);
+    cut_slits(*map, std::vector{slit({-1, 4, 0, 13, 5.2, 0}), slit({5, -1, 0, 7.1, 10, 0})});
+    EXPECT_EQ(validate(*map), std::nullopt);
+    EXPECT_EQ(count_cells(map->map()).fragments, 4u) << seed;
+  }
+}
+
+TEST_P(SlitOf, a_sheet_with_dashes_opens_those_alone) {
+  const auto map = flat(GetParam(), 5);
+  const double border = border_length(*map);
+  cut_slits(*map,
+            std::vector{slit({1, 3, 0, 11, 6, 0}, {{1.5, 1}})}); // 10.44 m: four dashes, one of them 0.44 m
+  EXPECT_NEAR(border_length(*map) - border, 2 * (4 * 1.5 + std::hypot(10, 3) - 10),
+              0.3); // ends may lie a tenth of an edge off
+  EXPECT_EQ(count_cells(map->map()).fragments, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEach, SlitOf, testing::Values(SheetPattern::Triangles, SheetPattern::Crossed),
+                         [](const auto& of) {
+                           return std::string(of.param == SheetPattern::Triangles ? "triangles" : "crossed");
+                         });
+
+std::string refusal(const SlitSettings& settings, SheetPattern pattern = SheetPattern::Triangles) {
+  const auto map = flat(pattern, 1);
+  try {
+    cut_slits(*map, std::vector{settings});
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code, Exit::BadInput);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Slit, refuses_what_it_cannot_cut) {
+  EXPECT_EQ(refusal(slit({20, 1, 0, 21, 1, 0})), "the slit lies outside of its body");
+  EXPECT_EQ(refusal(slit({3, 1, 5, 4, 1, 5})), "the slit lies outside of its body");
+  EXPECT_EQ(refusal(slit({3, 1, 0, 3, 1, 0})), "two points of the slit are the same");
+  EXPECT_EQ(refusal(slit({3, 1, 0})), "3 numbers are no points of a slit");
+  EXPECT_EQ(refusal(slit({3, 1, 0, 5, 1, 0, 6})), "7 numbers are no points of a slit");
+  EXPECT_EQ(refusal(slit({3, 1, 0, 5, 1, 0}, {{0.1}})), "a length to cut has none to leave after it");
+  EXPECT_EQ(refusal(slit({3, 1, 0, 5, 1, 0}, {{1e-9, 1e-9}})), "the slit would have more than 10000 parts");
+  EXPECT_EQ(refusal(slit({3, 1, 0, 15, 1, 0, 5, 2, 0})), "the slit leaves its body between two of its points");
+  EXPECT_EQ(refusal(slit({3, 1, 0, 5, 1, 0}), SheetPattern::Quads),
+            "slits go through sheets of triangles, and this body is none");
+}
+
+} // namespace
+} // namespace rend::slit_test
