@@ -68,7 +68,7 @@ private:
   Edge ends_of(Dart d) const { return std::minmax(map_.vertex(d), map_.vertex(g_.alpha(0, d))); }
   TriangleCut cutter() const {
     const Record* x = map_.position().values().data();
-    return {{map_, x, map_.velocity().values().data(), pinned_}, least_};
+    return {{map_, x, map_.velocity().values().data(), pinned_, false}, least_};
   }
   [[noreturn]] static void refuse_gap(const SettingsSource& source) {
     source.fail("along", "the slit leaves its body between two of its points",

@@ -11,7 +11,8 @@
 //
 // The plane is that of crack_plane.h, whatever the criterion; where nothing pulls, that of the criterion.
 //
-// Vertices near the plane move onto it, so that there are no slivers (triangle_cut.h).
+// Vertices near the plane move onto it, so that there are no slivers (triangle_cut.h); not where there are
+// springs: their strain differs from edge to edge, so that a vertex that moves would strain them.
 //
 // A vertex at whose elements something changed in this step waits for the next one: the plane that its
 // criterion found belongs to elements that are not there any more. So does one beside such elements.
@@ -54,9 +55,11 @@ struct Half {
 // What the plane meets at one vertex, in the state before the edit.
 class Crossing {
 public:
-  Crossing(const ForceView& view, std::span<const Dart> darts, const Vec3& normal, const SmallestParts& least)
-      : view_(view), map_(view.map.map()), cut_({view.map, view.position, view.velocity, view.held}, least),
-        darts_(darts), normal_(normal), here_(at(darts.front())) {}
+  Crossing(const ForceView& view, std::span<const Dart> darts, const Vec3& normal, const SmallestParts& least,
+           bool rigid)
+      : view_(view), map_(view.map.map()),
+        cut_({view.map, view.position, view.velocity, view.held, rigid}, least), darts_(darts), normal_(normal),
+        here_(at(darts.front())) {}
 
   // Those to be cut.
   std::vector<Half> halves() const {
@@ -115,7 +118,7 @@ public:
 
   bool apply(Edit& edit, const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
     if (touched_.any_of(*edit.journal(), star_of(edit.map(), darts))) return refuse(waits);
-    std::vector<Half> halves = Crossing(view, darts, plane_at(view, found, darts), least_).halves();
+    std::vector<Half> halves = Crossing(view, darts, plane_at(view, found, darts), least_, rigid_).halves();
     if (halves.empty()) return refuse(nothing_crosses);
     if (!settle_moves(edit, halves)) return refuse(waits);
     const Edit::Savepoint before = edit.savepoint();
@@ -143,7 +146,12 @@ public:
   void store(Archive& archive) override {
     archive.table(refusals_, 4, "a cut was refused for more reasons than there are");
   }
-  void make_anew(const CriterionRequest& request) override { plane_.emplace(request); }
+  void make_anew(const CriterionRequest& request) override {
+    plane_.emplace(request);
+    rigid_ = std::ranges::any_of(request.interactions, [](const auto& each) {
+      return each->law->particles() != 3 || !dynamic_cast<const ElementLaw*>(each->law.get());
+    });
+  }
   void rebind(const Changes&) override {}
   void reserve_for_separations() override {}
   std::size_t bytes() const override { return 0; }
@@ -200,6 +208,7 @@ private:
   const char* over_budget_ = nullptr; // why the map may not grow further
   SmallestParts least_;
   bool compression_;
+  bool rigid_ = false; // there are springs, whose strain is no value of the matter: no vertex moves
   std::optional<CrackPlane> plane_;
   TouchedDarts touched_;
   IndexSet changing_;                // scratch: darts of the elements that a cut divides, or moves a corner of

@@ -82,7 +82,7 @@ Point TriangleCut::between(Dart a, Dart b, double share) const {
 }
 
 bool TriangleCut::may_move(Dart d, const Point& to) const {
-  if (std::ranges::binary_search(state_.held, state_.map.vertex(d))) return false;
+  if (state_.rigid || std::ranges::binary_search(state_.held, state_.map.vertex(d))) return false;
   const std::vector<Dart> around = darts_of(map_, Vertex, d);
   return std::ranges::all_of(around, [&](Dart e) { return !map_.is_free(2, e) && keeps_shape(e, to); });
 }

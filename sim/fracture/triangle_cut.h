@@ -30,6 +30,7 @@ struct SheetState {
   const EmbeddedMap& map;
   const Record *position, *velocity; // [m], [m/s]
   std::span<const Slot> held;        // vertices that do not move, increasing
+  bool rigid = false;                // no vertex moves
 };
 
 // Through the edge opposite to a vertex.
