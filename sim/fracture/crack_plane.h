@@ -5,7 +5,7 @@
 // over the elements e at the vertex, m their masses, σ_i and n_i principal stresses and axes. Compression does
 // not open a crack, and the square weighs what pulls most, as the singular field at a tip does. Integrated over
 // a disc around the tip of a straight crack in plane stress, n turns the crack by these angles; the last row is
-// what the largest hoop stress asks for (Erdogan & Sih 1963):
+// what the largest hoop stress asks for (Erdogan & Sih 1963); a dot: not computed:
 //
 //   K_II / K_I        0.2    0.5    1      2      ∞
 //   Σ m σ             .      .      38.0°  .      .       what vertex-stress measures

@@ -25,8 +25,6 @@
 #include "sim/topology/walk.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <optional>
 
 namespace rend {

@@ -6,8 +6,8 @@
 // or thin, the cut runs along the edge to that end, which moves to m, within the matter: its rest position is
 // that of m, its position where m is; it keeps its velocity, and the elements around it their masses. An end on
 // a border or one that is held stays where it is, and so does one around which an element would become too
-// small or thin, or tilt. Then the edge is divided at m after all, or as close to it as no part becomes too
-// small or thin, if that is closer than the end; or else the cut bends to that end.
+// small or thin, or tilt. Then the edge is divided at m, or at the nearest place that leaves no part too small
+// or thin, if there is one closer to m than the end; or else the cut bends to that end.
 #pragma once
 
 #include "sim/rules/apply.h"

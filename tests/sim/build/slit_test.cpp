@@ -1,4 +1,4 @@
-// Slits: where they open a sheet, what they keep, and where cracks go on from them.
+// Slits: where they open a sheet, what they keep, and what is refused.
 #include "sim/build/slit.h"
 #include "sim/mechanics/mass.h"
 #include "sim/random_meshes.h"
