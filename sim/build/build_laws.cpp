@@ -99,6 +99,8 @@ void build_laws(Body& body, const BodySettings& settings) {
   // before the laws, since criteria must know which cells there may be; after the border, which is that of now
   for (const LawSettings& asked : settings.tears)
     if (lets_grow(asked, settings.rules)) let_grow(body);
+  for (const LawSettings& asked : settings.tears)
+    if (asked.change && asked.change->prepare) asked.change->prepare(*body.map);
   if (body.map->grows())
     note_shear(body);
   else

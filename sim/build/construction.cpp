@@ -1,4 +1,5 @@
 #include "sim/build/construction.h"
+#include "sim/fracture/start_triangle.h"
 
 #include "sim/body/body.h"
 #include "sim/build/constructed_cells.h"
@@ -376,6 +377,8 @@ void construct(Body& body, const std::vector<ApplySettings>& applies, const std:
   for (const ApplySettings& settings : applies) construction.apply(settings);
   cut_slits(*body.map, slits);
   construction.finish(place);
+  if (Column<StartTriangle>* start = find_start_triangles(*body.map))
+    for (TriangleSizes& sizes : start->values()) sizes.scale(place.scale);
 }
 
 } // namespace rend

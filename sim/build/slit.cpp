@@ -18,7 +18,7 @@ namespace rend {
 namespace {
 
 constexpr double slack = 1e-9; // of a triangle, in barycentric coordinates
-constexpr std::size_t most_dashes = 10'000;
+constexpr int most_dashes = 10'000;
 
 // A point of the sheet, in the triangle of a dart.
 struct Found {
@@ -33,20 +33,19 @@ struct Found {
 // The cutter of a sheet's slits: divides elements first, and opens all edges at the end.
 class Slits {
 public:
-  explicit Slits(EmbeddedMap& map) : map_(map), g_(map.map()), least_(smallest_parts(map)) {}
+  explicit Slits(EmbeddedMap& map) : map_(map), g_(map.map()) {
+    add_start_triangles(map_);
+    start_ = find_start_triangles(map_);
+  }
 
   // False: all of it lies outside.
-  bool cut(const std::vector<Vec3>& points, const SettingsSource& source) {
-    Dart here = start(points[0], points[1]);
-    if (here == Dart{}) return false;
-    for (std::size_t n = 1; n < points.size(); ++n) {
-      pin(here);
-      const Slot from = map_.vertex(here);
-      const Dart goal = vertex_at(points[n]);
-      if (goal == Dart{} && n + 1 < points.size()) refuse_gap(source);
-      here = march(map_.cells(Vertex).first_dart(from), points[n], goal);
-      if (goal != Dart{} && map_.vertex(here) != map_.vertex(goal)) refuse_gap(source);
-    }
+  bool cut(const std::vector<Vec3>& points, const std::optional<std::vector<double>>& dash,
+           const SettingsSource& source) {
+    if (!march(points, source)) return false;
+    if (dash)
+      cut_dashes(*dash, source);
+    else
+      cut_between(0, path_.size() - 1);
     return true;
   }
 
@@ -63,12 +62,77 @@ public:
 
 private:
   using Edge = std::pair<Slot, Slot>; // the smaller one first
+  struct Passed {
+    Slot vertex;
+    double at; // [m], along the line from its first point
+  };
+
+  // Leaves the way in path_. False: all of it lies outside.
+  bool march(const std::vector<Vec3>& points, const SettingsSource& source) {
+    Dart here = start(points[0], points[1]);
+    if (here == Dart{}) return false;
+    path_.clear();
+    double before = 0;
+    for (std::size_t n = 1; n < points.size(); ++n) {
+      from_ = points[n - 1];
+      way_ = (points[n] - from_).normalized();
+      before_ = before;
+      before += (points[n] - from_).norm();
+      if (n == 1) pass(here);
+      pin(here);
+      const Slot from = map_.vertex(here);
+      const Dart goal = vertex_at(points[n]);
+      if (goal == Dart{} && n + 1 < points.size()) refuse_gap(source);
+      here = march(map_.cells(Vertex).first_dart(from), points[n], goal);
+      if (goal != Dart{} && map_.vertex(here) != map_.vertex(goal)) refuse_gap(source);
+    }
+    return true;
+  }
+
+  void pass(Dart d) { path_.push_back({map_.vertex(d), before_ + (at(d) - from_).dot(way_)}); }
+
+  // By places in path_.
+  void cut_between(std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) edges_.insert(std::minmax(path_[n].vertex, path_[n + 1].vertex));
+  }
+
+  // A dash begins and ends at a vertex.
+  void cut_dashes(const std::vector<double>& lengths, const SettingsSource& source) {
+    std::size_t first = 0;
+    double end = 0;
+    for (std::size_t n = 0; end < path_.back().at; ++n) {
+      end += lengths[n % lengths.size()];
+      if (end <= path_.front().at) continue;
+      const std::size_t last = end < path_.back().at ? vertex_along(end) : path_.size() - 1;
+      if (last == first && first > 0 && last + 1 < path_.size())
+        source.fail(
+            "dash",
+            fmt::format("the elements are too large for a length of {:g} m", lengths[n % lengths.size()]),
+            "take smaller cells");
+      if (n % 2 == 0) cut_between(first, last);
+      first = last;
+    }
+  }
+
+  // A place in path_: of a vertex within a quarter of an edge, or one that is created, or else the nearest.
+  std::size_t vertex_along(double goal) {
+    std::size_t n = 0;
+    while (n + 2 < path_.size() && path_[n + 1].at < goal) ++n;
+    const double share = (goal - path_[n].at) / (path_[n + 1].at - path_[n].at);
+    if (std::min(share, 1 - share) > 0.25)
+      for (Dart d : darts_of(g_, Vertex, map_.cells(Vertex).first_dart(path_[n].vertex)))
+        if (map_.vertex(g_.alpha(0, d)) == path_[n + 1].vertex && cutter().leaves_room(d, share)) {
+          divide(d, share);
+          return n + 1;
+        }
+    return share < 0.5 ? n : n + 1;
+  }
 
   Vec3 at(Dart d) const { return map_.rest_of(d); }
   Edge ends_of(Dart d) const { return std::minmax(map_.vertex(d), map_.vertex(g_.alpha(0, d))); }
   TriangleCut cutter() const {
     const Record* x = map_.position().values().data();
-    return {{map_, x, map_.velocity().values().data(), pinned_, false}, least_};
+    return TriangleCut({map_, *start_, x, map_.velocity().values().data(), pinned_, false});
   }
   [[noreturn]] static void refuse_gap(const SettingsSource& source) {
     source.fail("along", "the slit leaves its body between two of its points",
@@ -109,12 +173,14 @@ private:
       map_.edit([&](Edit& edit) { edit.move(found->corner, to); });
       return found->corner;
     }
-    const bool on_edge = found->smallest < slack;
-    if (on_edge && g_.is_free(2, found->edge) && found->largest > 0.75) return found->corner; // on the border
-    if (on_edge || found->smallest < 0.1) {
+    const bool on_edge = found->smallest < slack, border = g_.is_free(2, found->edge);
+    if (found->largest > (on_edge && border ? 0.75 : 0.9)) return found->corner;
+    const bool fixed = border || is_cut(ends_of(found->edge));
+    if (on_edge || found->smallest < 0.1 || !fixed) {
       const Dart born = divide(found->edge, found->share);
       if (born == Dart{}) return found->corner;
-      if (!on_edge && cutter().may_move(born, to)) map_.edit([&](Edit& edit) { edit.move(born, to); });
+      if (!on_edge && !fixed && (found->smallest >= 0.1 || cutter().may_move(born, to)))
+        map_.edit([&](Edit& edit) { edit.move(born, to); });
       return born;
     }
     Dart born;
@@ -204,62 +270,53 @@ private:
     return {};
   }
 
-  // The other end of an edge, which is cut.
+  bool is_cut(const Edge& edge) const {
+    const auto same = [&](const Passed& a, const Passed& b) {
+      return Edge(std::minmax(a.vertex, b.vertex)) == edge;
+    };
+    return edges_.contains(edge) || std::ranges::adjacent_find(path_, same) != path_.end();
+  }
+
+  // The other end of an edge, which is on the way.
   Dart along(Dart d) {
-    edges_.insert(ends_of(d));
+    pass(g_.alpha(0, d));
     pin(g_.alpha(0, d));
     return g_.alpha(0, d);
   }
 
-  // The vertex that is born; of an edge that is cut, both parts are.
+  // The vertex that is born; of an edge that is cut or on the way, both parts are.
   Dart divide(Dart edge, double share) {
     const Edge ends = ends_of(edge);
+    const Slot first = map_.vertex(edge);
     Dart born;
     map_.edit([&](Edit& edit) { born = division_.divided(edit, edge, share); });
     if (born != Dart{} && edges_.erase(ends) > 0)
       for (Slot end : {ends.first, ends.second}) edges_.insert(std::minmax(map_.vertex(born), end));
+    for (std::size_t n = 0; born != Dart{} && n + 1 < path_.size(); ++n) {
+      const Passed a = path_[n], b = path_[n + 1];
+      if (Edge(std::minmax(a.vertex, b.vertex)) != ends) continue;
+      const double part = a.vertex == first ? share : 1 - share;
+      path_.insert(path_.begin() + static_cast<std::ptrdiff_t>(++n),
+                   {map_.vertex(born), a.at + part * (b.at - a.at)});
+    }
     return born;
   }
 
   EmbeddedMap& map_;
   const GMap& g_;
-  SmallestParts least_;
+  const Column<StartTriangle>* start_ = nullptr;
   EdgeDivision division_;
   std::vector<Slot> pinned_; // vertices of slits, increasing
   std::set<Edge> edges_;     // that are cut
+  std::vector<Passed> path_; // of the slit that is being cut, without edges_
+  Vec3 from_, way_;          // [m], and a unit vector: the line on which it is now
+  double before_ = 0;        // [m], the length of those before
 };
 
-// The parts of a line that are cut.
-std::vector<std::vector<Vec3>> dashes(const std::vector<Vec3>& points,
-                                      const std::optional<std::vector<double>>& dash,
-                                      const SettingsSource& source) {
-  if (!dash) return {points};
-  const std::vector<double>& lengths = *dash;
-  std::vector<std::vector<Vec3>> parts;
-  std::size_t n = 0; // of the length that runs
-  double left = lengths[0];
-  const auto begin = [&](const Vec3& x) {
-    if (n % 2 == 0) parts.push_back({x});
-  };
-  begin(points[0]);
-  for (std::size_t p = 1; p < points.size(); ++p) {
-    Vec3 here = points[p - 1];
-    for (double rest = (points[p] - here).norm(); rest > 0;) {
-      const double go = std::min(rest, left);
-      here = go < rest ? Vec3(here + go * (points[p] - here).normalized()) : points[p];
-      rest = go < rest ? rest - go : 0;
-      left -= go;
-      if (n % 2 == 0) parts.back().push_back(here);
-      if (left > 0) continue;
-      ++n;
-      left = lengths[n % lengths.size()];
-      if (parts.size() > most_dashes)
-        source.fail("dash", fmt::format("the slit would have more than {} parts", most_dashes),
-                    "lengths are in metres");
-      if (rest > 0 || p + 1 < points.size()) begin(here);
-    }
-  }
-  return parts;
+double length_of(const std::vector<Vec3>& points) {
+  double sum = 0;
+  for (std::size_t n = 1; n < points.size(); ++n) sum += (points[n] - points[n - 1]).norm();
+  return sum;
 }
 
 std::vector<Vec3> points_of(const SlitSettings& slit) {
@@ -276,6 +333,9 @@ std::vector<Vec3> points_of(const SlitSettings& slit) {
   }
   if (slit.dash && (slit.dash->empty() || slit.dash->size() % 2 != 0))
     slit.source.fail("dash", "a length to cut has none to leave after it", "dash=\"0.02 0.01\"");
+  if (slit.dash && length_of(points) > most_dashes * *std::ranges::min_element(*slit.dash))
+    slit.source.fail("dash", fmt::format("the slit may have more than {} parts", most_dashes),
+                     "lengths are in metres");
   return points;
 }
 
@@ -302,10 +362,7 @@ void cut_slits(EmbeddedMap& map, std::span<const SlitSettings> slits) {
                               "pattern=\"triangles\" or \"crossed\" of <sheet>");
   Slits all(map);
   for (const SlitSettings& slit : slits) {
-    bool meets = false;
-    for (const std::vector<Vec3>& part : dashes(points_of(slit), slit.dash, slit.source))
-      meets = all.cut(part, slit.source) || meets;
-    if (!meets)
+    if (!all.cut(points_of(slit), slit.dash, slit.source))
       slit.source.fail(
           "along", "the slit lies outside of its body",
           "its points are those of the shape, before it is placed; the first and the last may lie outside");

@@ -46,6 +46,8 @@ struct ChangeType {
   bool grows = false;                        // it may create darts and links (rule_change.h)
   bool keeps_matter = false;                 // it only separates: no element is created or removed
   std::shared_ptr<ChangeMemory> memory = {}; // null: it keeps nothing
+  // Gives such a body the embeddings that it needs. Null: it needs none of its own.
+  void (*prepare)(EmbeddedMap&) = nullptr;
   // Makes the change of one law of such a body, where it keeps something for each law. Null: it keeps nothing.
   std::function<std::shared_ptr<const ChangeType>(const CriterionRequest&)> of_law = {};
   // Why it can't be made in such a body, a sentence that goes on after its name; empty: it can. Null: always.

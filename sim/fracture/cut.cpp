@@ -53,10 +53,10 @@ struct Half {
 // What the plane meets at one vertex, in the state before the edit.
 class Crossing {
 public:
-  Crossing(const ForceView& view, std::span<const Dart> darts, const Vec3& normal, const SmallestParts& least,
-           bool rigid)
+  Crossing(const ForceView& view, std::span<const Dart> darts, const Vec3& normal,
+           const Column<StartTriangle>& start, bool rigid)
       : view_(view), map_(view.map.map()),
-        cut_({view.map, view.position, view.velocity, view.held, rigid}, least), darts_(darts), normal_(normal),
+        cut_({view.map, start, view.position, view.velocity, view.held, rigid}), darts_(darts), normal_(normal),
         here_(at(darts.front())) {}
 
   // Those to be cut.
@@ -106,7 +106,7 @@ private:
 class Cuts final : public ChangeMemory {
 public:
   explicit Cuts(const CriterionRequest& request)
-      : least_(smallest_parts(request.map)), compression_(request.compression) {
+      : start_(find_start_triangles(request.map)), compression_(request.compression) {
     make_anew(request);
     const std::size_t darts = most_elements * request.map.map().dart_count();
     std::size_t& most = division_.runner().context().most_darts;
@@ -116,7 +116,7 @@ public:
 
   bool apply(Edit& edit, const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
     if (touched_.any_of(*edit.journal(), star_of(edit.map(), darts))) return refuse(waits);
-    std::vector<Half> halves = Crossing(view, darts, plane_at(view, found, darts), least_, rigid_).halves();
+    std::vector<Half> halves = Crossing(view, darts, plane_at(view, found, darts), *start_, rigid_).halves();
     if (halves.empty()) return refuse(nothing_crosses);
     if (!settle_moves(edit, halves)) return refuse(waits);
     const Edit::Savepoint before = edit.savepoint();
@@ -204,7 +204,7 @@ private:
 
   EdgeDivision division_;
   const char* over_budget_ = nullptr; // why the map may not grow further
-  SmallestParts least_;
+  const Column<StartTriangle>* start_;
   bool compression_;
   bool rigid_ = false; // there are springs, whose strain is no value of the matter: no vertex moves
   std::optional<CrackPlane> plane_;
@@ -243,6 +243,7 @@ ChangeType cut() {
           .cell = Cell::Vertices,
           .apply = {},
           .grows = true,
+          .prepare = add_start_triangles,
           .of_law = of_law,
           .lacking = lacking};
 }

@@ -5,14 +5,13 @@
 #include "sim/topology/walk.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace rend {
 namespace {
 
 constexpr double nearest_share = 0.25;     // of an edge, from its end
-constexpr double smallest_part = 1.0 / 20; // of the smallest element
-constexpr double least_sine = 1.0 / 4;     // of the least angle
+constexpr double smallest_part = 1.0 / 20; // of the area of the triangle of the start
+constexpr double least_sine = 1.0 / 4;     // of that of its least angle
 constexpr double least_cosine = 0.9;       // between an element's normals before and after a corner moves
 
 // Of the triangle of d at rest, first the corner of d.
@@ -24,27 +23,14 @@ struct Corners {
   Corners(const Vec3& a_, const Vec3& b_, const Vec3& c_) : a(a_), b(b_), c(c_) {}
 
   Vec3 normal() const { return (b - a).cross(c - a); } // [m²], as long as twice the area
-  double sine() const {                                // of the least angle
-    const double u = (b - a).norm(), v = (c - b).norm(), w = (a - c).norm();
-    return normal().norm() * std::min({u, v, w}) / (u * v * w);
-  }
 };
 
-bool keeps(const Corners& rest, const SmallestParts& least) {
-  return rest.normal().norm() >= least.twice_area && rest.sine() >= least.sine;
+bool keeps(const Corners& rest, const TriangleSizes& start) {
+  const TriangleSizes now(rest.a, rest.b, rest.c);
+  return now.twice_area >= smallest_part * start.twice_area && now.sine >= least_sine * start.sine;
 }
 
 } // namespace
-
-SmallestParts smallest_parts(const EmbeddedMap& map) {
-  SmallestParts least{std::numeric_limits<double>::infinity(), 1};
-  for_each_face(map, [&](Dart d) {
-    const Corners corners(map, d);
-    least.twice_area = std::min(least.twice_area, smallest_part * corners.normal().norm());
-    least.sine = std::min(least.sine, least_sine * corners.sine());
-  });
-  return least;
-}
 
 std::optional<CutWay> TriangleCut::through(Dart d, double t) const {
   const Dart other = map_.alpha(1, d), across = map_.alpha(1, map_.alpha(0, d));
@@ -87,12 +73,16 @@ bool TriangleCut::may_move(Dart d, const Point& to) const {
   return std::ranges::all_of(around, [&](Dart e) { return !map_.is_free(2, e) && keeps_shape(e, to); });
 }
 
+const TriangleSizes& TriangleCut::start_of(Dart d) const {
+  return state_.start[state_.map.slot(FaceOfVolume, d)];
+}
+
 // The triangle of d, if the vertex of d moves.
 bool TriangleCut::keeps_shape(Dart d, const Point& to) const {
   const Corners rest(state_.map, d), rest_then(to.rest, rest.b, rest.c);
   const Vec3 b = at(map_.alpha(0, d)), c = at(map_.alpha(0, map_.alpha(1, d)));
   const Vec3 normal = Corners(at(d), b, c).normal(), then = Corners(to.position, b, c).normal();
-  return rest_then.normal().dot(rest.normal()) > 0 && keeps(rest_then, least_) &&
+  return rest_then.normal().dot(rest.normal()) > 0 && keeps(rest_then, start_of(d)) &&
          then.dot(normal) >= least_cosine * then.norm() * normal.norm();
 }
 
@@ -101,7 +91,8 @@ bool TriangleCut::leaves_room(Dart across, double share) const {
   for (Dart d : {across, map_.alpha(2, across)}) {
     const Corners whole(state_.map, d); // divided from a to b
     const Vec3 m = whole.a + share * (whole.b - whole.a);
-    if (!keeps({whole.a, m, whole.c}, least_) || !keeps({m, whole.b, whole.c}, least_)) return false;
+    const TriangleSizes& start = start_of(d);
+    if (!keeps({whole.a, m, whole.c}, start) || !keeps({m, whole.b, whole.c}, start)) return false;
   }
   return true;
 }

@@ -8,8 +8,12 @@
 // a border or one that is held stays where it is, and so does one around which an element would become too
 // small or thin, or tilt. Then the edge is divided at m, or at the nearest place that leaves no part too small
 // or thin, if there is one closer to m than the end; or else the cut bends to that end.
+//
+// A part of a triangle of the start (start_triangle.h) is too small below a twentieth of its area, too thin
+// below a quarter of the sine of its least angle.
 #pragma once
 
+#include "sim/fracture/start_triangle.h"
 #include "sim/rules/apply.h"
 
 #include <optional>
@@ -17,20 +21,13 @@
 
 namespace rend {
 
-// What cuts may leave of a sheet of triangles, at rest: a twentieth of its smallest element, and a quarter of
-// the sine of its least angle.
-struct SmallestParts {
-  double twice_area = 0; // [m²]
-  double sine = 0;       // of an angle
-};
-SmallestParts smallest_parts(const EmbeddedMap& map); // of what there is now
-
 // Before an edit. Positions and velocities: one per vertex slot.
 struct SheetState {
   const EmbeddedMap& map;
-  const Record *position, *velocity; // [m], [m/s]
-  std::span<const Slot> held;        // vertices that do not move, increasing
-  bool rigid = false;                // no vertex moves
+  const Column<StartTriangle>& start; // of that map
+  const Record *position, *velocity;  // [m], [m/s]
+  std::span<const Slot> held;         // vertices that do not move, increasing
+  bool rigid = false;                 // no vertex moves
 };
 
 // Through the edge opposite to a vertex.
@@ -44,25 +41,25 @@ struct CutWay {
 
 class TriangleCut {
 public:
-  TriangleCut(const SheetState& state, const SmallestParts& least)
-      : state_(state), map_(state.map.map()), least_(least) {}
+  explicit TriangleCut(const SheetState& state) : state_(state), map_(state.map.map()) {}
 
   // In the triangle of d from the vertex of d, with the edge of d at b. None: it can only bend to where the
   // sheet is open already.
   std::optional<CutWay> through(Dart d, double t) const;
   // Whether the vertex of d may become that point of the matter.
   bool may_move(Dart d, const Point& to) const;
+  // Whether the elements at an edge may be divided at that share of it, counted from the dart.
+  bool leaves_room(Dart across, double share) const;
 
 private:
   Vec3 at(Dart d) const { return state_.position[state_.map.vertex(d)].vec(); }
   Point between(Dart a, Dart b, double share) const;
+  const TriangleSizes& start_of(Dart d) const;
   bool keeps_shape(Dart d, const Point& to) const;
-  bool leaves_room(Dart across, double share) const;
   std::optional<double> nearest_with_room(Dart across, double t) const;
 
   SheetState state_;
   const GMap& map_;
-  const SmallestParts& least_;
 };
 
 // Divides edges of triangles.

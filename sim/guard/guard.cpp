@@ -26,7 +26,7 @@ constexpr double same = 0.1;
 constexpr double close = 1.25;
 
 bool is_substep_count(int substeps) {
-  return substeps >= 1 && substeps <= most_substeps && (substeps & (substeps - 1)) == 0;
+  return substeps >= 1 && substeps <= most_substeps;
 }
 
 } // namespace

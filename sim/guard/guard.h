@@ -24,7 +24,7 @@
 // themselves: for them only finiteness is tested.
 //
 // Where a law makes elements for which a step that was chosen automatically is too large, all later steps have
-// as many substeps as make it stable (Scene::divide_steps); the above holds beyond that.
+// as many substeps as make it stable, of any number (Scene::parts_within); the above holds beyond that.
 //
 // Everything depends on numbers of steps and on sums in a fixed order: the same for any number of threads,
 // whatever is displayed.

@@ -11,6 +11,8 @@
 
 namespace rend {
 
+struct FrequencyBounds;
+
 struct SceneOptions {
   bool walk = false; // --kernels walk
   int threads = 1;
@@ -125,7 +127,9 @@ private:
   void scale_masses();
   double stable_step();
   SchemeSettings checked_settings() const;
-  double stability_limit() const; // [s]
+  double stability_limit() const;  // [s]
+  double limit_until_torn() const; // [s]: as long as nothing is separated
+  double limit_by(const Scheme& scheme, FrequencyBounds (*bounds_of)(const Body&)) const;
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
   void reach(long goal); // steps done
@@ -140,7 +144,7 @@ private:
   void evaluate_forces();
   StepFailure apply_laws();
   bool tear(Body& body, const std::function<void()>& sound);
-  void divide_steps(double limit);
+  int parts_within(double limit) const;
   void divide_for_contact();
   StepFailure integrate(double time, double step);        // [s]
   StepFailure resolve_contacts(double time, double step); // [s]

@@ -165,7 +165,8 @@ StepFailure Scene::apply_laws() {
     throw Unstable(Exit::Unstable, {}, error.what(), error.hint);
   }
   // one that was chosen for the elements at the start may be too large for those that laws have made
-  if (made_cells && automatic_step() && !scheme().solves && !scheme().adaptive) divide_steps(stability_limit());
+  if (made_cells && automatic_step() && !scheme().solves && !scheme().adaptive)
+    guard_->divide_steps(parts_within(limit_until_torn()));
   laws_applied_at_ = steps_done_;
   guard_->after_laws(steps_done_);
   return StepFailure::None;
@@ -181,12 +182,10 @@ bool Scene::tear(Body& body, const std::function<void()>& sound) {
                      });
 }
 
-// `limit` [s]: no part is longer.
-void Scene::divide_steps(double limit) {
-  constexpr int most = 1024;
-  int substeps = 1;
-  while (substeps < most && step_ > substeps * limit) substeps *= 2;
-  guard_->divide_steps(substeps);
+// The least number of parts of a step, none of which is longer than that [s].
+int Scene::parts_within(double limit) const {
+  constexpr double most = 1024;
+  return static_cast<int>(std::clamp(std::ceil(step_ / limit), 1.0, most));
 }
 
 StepFailure Scene::integrate(double time, double step) {

@@ -1,4 +1,5 @@
 // The size of the steps of a scene.
+#include "sim/guard/guard.h"
 #include "sim/rows/frequency.h"
 #include "sim/scene/mass_scaling.h"
 #include "sim/scene/scene.h"
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace rend {
@@ -67,7 +69,8 @@ void Scene::refuse_so_many_steps() const {
 void Scene::divide_for_contact() {
   if ((scheme().contact == ContactIn::StepInstead || scheme().adaptive) && contacts_ &&
       !contacts_->bodies().empty())
-    divide_steps(stability_limit(*find_scheme("verlet")));
+    guard_->divide_steps(static_cast<int>(
+        std::bit_ceil(static_cast<unsigned>(parts_within(stability_limit(*find_scheme("verlet")))))));
 }
 
 double Scene::stability_limit() const {
@@ -75,9 +78,22 @@ double Scene::stability_limit() const {
 }
 
 double Scene::stability_limit(const Scheme& scheme) const {
+  return limit_by(scheme, [](const Body& body) {
+    return frequency_bounds(*body.map, body.interactions, *body.mass, body.drag);
+  });
+}
+
+double Scene::limit_until_torn() const {
+  return limit_by(scheme(), [](const Body& body) {
+    return bounds_by_vertices(corner_bounds(*body.map, body.interactions, *body.mass), *body.map, *body.mass,
+                              body.drag);
+  });
+}
+
+double Scene::limit_by(const Scheme& scheme, FrequencyBounds (*bounds_of)(const Body&)) const {
   double limit = std::numeric_limits<double>::infinity();
   for (const auto& body : bodies_) {
-    const FrequencyBounds b = frequency_bounds(*body->map, body->interactions, *body->mass, body->drag);
+    const FrequencyBounds b = bounds_of(*body);
     const double wind = body->loads.damping_rate(*body->map, body->program->inverse_mass());
     limit = std::min(limit, scheme.limit({b.omega_squared, b.damping_rate + wind + body->uniform_drag,
                                           b.least_drag_rate + body->uniform_drag}));

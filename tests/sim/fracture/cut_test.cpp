@@ -4,6 +4,7 @@
 #include "sim/boundary/face_sense.h"
 #include "sim/build/build_scene.h"
 #include "sim/fracture/change.h"
+#include "sim/fracture/start_triangle.h"
 #include "sim/fracture/torn_bodies.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
@@ -64,6 +65,7 @@ std::unique_ptr<Body> sheet_of_triangles(unsigned seed) {
   auto map = sheet_from(meshes::warped(meshes::sheet(SheetPattern::Triangles, 4, 4), 0.15, seed));
   map->let_grow();
   map->add(FaceSense{});
+  add_start_triangles(*map);
   return torn::body(std::move(map), {}, "symplectic", true, seed % 2 == 0);
 }
 
@@ -91,6 +93,7 @@ std::unique_ptr<Body> flat_sheet_of_triangles(unsigned seed) {
   auto map = sheet_from(mesh);
   map->let_grow();
   map->add(FaceSense{});
+  add_start_triangles(*map);
   return torn::body(std::move(map), {}, "symplectic", true, false);
 }
 
@@ -171,6 +174,7 @@ std::unique_ptr<Body> sheet_with_slit(int sectors, double turned) {
   auto map = sheet_from(mesh);
   map->let_grow();
   map->add(FaceSense{});
+  add_start_triangles(*map);
   return torn::body(std::move(map), {}, "symplectic", true, false);
 }
 
@@ -274,6 +278,7 @@ TEST(Cut, leaves_no_slivers_after_500) {
     auto map = sheet_from(mesh);
     map->let_grow();
     map->add(FaceSense{});
+    add_start_triangles(*map);
     const auto body = torn::body(std::move(map), {}, "symplectic", true, false);
     const auto change = cuts_of(*body);
     const double least = angles(*body).front();
