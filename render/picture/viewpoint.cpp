@@ -38,7 +38,7 @@ Bounds bounds_to_frame(const Body& body, double duration) {
   Bounds room = box;
   for (const Motion& motion : body.constraints.motions())
     for (int n = 0; n < 8; ++n)
-      room.extend(in_reach(corner_of(box, n) + motion.offset(corner_of(box, n), duration)));
+      room.extend(in_reach(corner_of(box, n) + motion.offset(corner_of(box, n), motion.at(duration))));
   const Vec3 gravity = body.gravity;
   if (gravity.norm() == 0) return room;
   int vertical = 0;

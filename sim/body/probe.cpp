@@ -90,7 +90,7 @@ Vec3 Probe::reaction(Body& body) const {
     std::array<bool, 3> held{};
     body.constraints.for_each_motion(s, [&](const Motion& motion) {
       if (!motion.acts(time)) return;
-      const Vec3 a = motion.acceleration_at(map.rest()[s], time);
+      const Vec3 a = motion.acceleration_at(map.rest()[s], motion.at(time));
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!motion.axes[axis]) continue;
         held[axis] = true;

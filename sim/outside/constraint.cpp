@@ -116,48 +116,51 @@ Motion motion_of(const DriveSettings& settings) {
 
 namespace {
 
-constexpr double radians = pi / 180; // in a degree
+constexpr double radians = pi / 180;     // in a degree
+constexpr std::size_t most_motions = 64; // bits of a MotionMask
 
 } // namespace
 
-double Motion::elapsed(double time) const {
-  return std::clamp(time, from, std::max(from, until)) - from;
+Motion::Moment Motion::at(double time) const {
+  Moment now;
+  now.acts = acts(time);
+  // a vertex released at `until` leaves with the drive's velocity
+  const bool over = then_free ? time > until : time >= until;
+  now.moves = time >= from && !over;
+  now.elapsed = std::clamp(time, from, std::max(from, until)) - from;
+  now.share = std::isfinite(until) && until > from ? now.elapsed / (until - from) : (time >= from ? 1.0 : 0.0);
+  if (rate == 0) return now;
+  now.cosine = cosine_of_degrees(rate * now.elapsed);
+  now.sine = sine_of_degrees(rate * now.elapsed);
+  return now;
 }
 
-Vec3 Motion::turned(const Vec3& rest, double time) const {
-  const double angle = rate * elapsed(time), c = cosine_of_degrees(angle), s = sine_of_degrees(angle);
+Vec3 Motion::turned(const Vec3& rest, const Moment& now) const {
+  const double c = now.cosine, s = now.sine;
   const Vec3 r = rest - centre;
   return c * r + s * axis.cross(r) + (1 - c) * axis.dot(r) * axis;
 }
 
-Vec3 Motion::offset(const Vec3& rest, double time) const {
-  const double s = elapsed(time);
-  const double share = std::isfinite(until) && until > from ? s / (until - from) : (time >= from ? 1.0 : 0.0);
-  const Vec3 turn = rate != 0 ? Vec3(turned(rest, time) - (rest - centre)) : Vec3(0, 0, 0);
-  return s * velocity + share * (displacement + gradient * rest) + turn;
+Vec3 Motion::offset(const Vec3& rest, const Moment& now) const {
+  const Vec3 turn = rate != 0 ? Vec3(turned(rest, now) - (rest - centre)) : Vec3(0, 0, 0);
+  return now.elapsed * velocity + now.share * (displacement + gradient * rest) + turn;
 }
 
-bool Motion::moves(double time) const {
-  // a vertex released at `until` leaves with the drive's velocity
-  const bool over = then_free ? time > until : time >= until;
-  return time >= from && !over;
-}
-
-Vec3 Motion::velocity_at(const Vec3& rest, double time) const {
-  if (!moves(time)) return Vec3::Zero();
+Vec3 Motion::velocity_at(const Vec3& rest, const Moment& now) const {
+  if (!now.moves) return Vec3::Zero();
   Vec3 v = velocity;
   if (!std::isinf(until) && until > from) v += (displacement + gradient * rest) / (until - from);
-  if (rate != 0) v += radians * rate * axis.cross(turned(rest, time));
+  if (rate != 0) v += radians * rate * axis.cross(turned(rest, now));
   return v;
 }
 
-Vec3 Motion::acceleration_at(const Vec3& rest, double time) const {
-  if (rate == 0 || !moves(time)) return Vec3::Zero();
-  return radians * rate * axis.cross(radians * rate * axis.cross(turned(rest, time)));
+Vec3 Motion::acceleration_at(const Vec3& rest, const Moment& now) const {
+  if (rate == 0 || !now.moves) return Vec3::Zero();
+  return radians * rate * axis.cross(radians * rate * axis.cross(turned(rest, now)));
 }
 
 void Constraints::add(EmbeddedMap& map, const Motion& motion, const std::vector<Slot>& vertices) {
-  CHECK(motions_.size() < 64);
+  CHECK(motions_.size() < most_motions);
   if (!motion_mask_) motion_mask_ = &map.add(MotionMask{});
   for (Slot v : vertices) (*motion_mask_)[v] |= std::uint64_t{1} << motions_.size();
   motions_.push_back(motion);
@@ -185,13 +188,15 @@ void Constraints::rebind(const EmbeddedMap& map, const Changes& changes) {
 }
 
 void Constraints::apply(const EmbeddedMap& map, double time, Record* position, Record* velocity) const {
+  std::array<Motion::Moment, most_motions> now;
+  for (std::size_t k = 0; k < motions_.size(); ++k) now[k] = motions_[k].at(time);
   for (Slot vertex : vertices_) {
     const Vec3 rest = map.rest()[vertex];
     Vec3 x = position[vertex], v = velocity[vertex];
     std::uint64_t mask = (*motion_mask_)[vertex];
     for (std::size_t k = 0; mask; ++k, mask >>= 1) {
-      if ((mask & 1) == 0 || !motions_[k].acts(time)) continue;
-      const Vec3 offset = motions_[k].offset(rest, time), speed = motions_[k].velocity_at(rest, time);
+      if ((mask & 1) == 0 || !now[k].acts) continue;
+      const Vec3 offset = motions_[k].offset(rest, now[k]), speed = motions_[k].velocity_at(rest, now[k]);
       for (int axis = 0; axis < 3; ++axis) {
         if (!motions_[k].axes[static_cast<std::size_t>(axis)]) continue;
         x[axis] = rest[axis] + offset[axis];

@@ -60,15 +60,22 @@ struct Motion {
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   bool then_free = false;
 
+  // What is the same for all vertices at one time.
+  struct Moment {
+    bool acts = false, moves = false; // moves: between from and until
+    double elapsed = 0, share = 0;    // s [s]; of displacement and gradient
+    double cosine = 1, sine = 0;      // of the angle
+  };
+  Moment at(double time) const;
+
   bool acts(double time) const { return !then_free || time <= until; }
-  Vec3 offset(const Vec3& rest, double time) const; // x − X
-  Vec3 velocity_at(const Vec3& rest, double time) const;
-  Vec3 acceleration_at(const Vec3& rest, double time) const; // [m/s²], without the jumps at from and until
-  bool moves(double time) const;                             // between from and until
+  Vec3 offset(const Vec3& rest, const Moment& now) const; // x − X
+  Vec3 velocity_at(const Vec3& rest, const Moment& now) const;
+  Vec3 acceleration_at(const Vec3& rest,
+                       const Moment& now) const; // [m/s²], without the jumps at from and until
 
 private:
-  Vec3 turned(const Vec3& rest, double time) const; // R (X − c)
-  double elapsed(double time) const;                // s
+  Vec3 turned(const Vec3& rest, const Moment& now) const; // R (X − c)
 };
 
 Motion motion_of(const FixSettings& settings);

@@ -134,9 +134,10 @@ TEST(Motion, has_the_derivatives_of_its_place) {
   motion.until = 3;
   const Vec3 x(1, 2, 3);
   const double h = 1e-4, t = 1.2;
-  const Vec3 before = motion.offset(x, t - h), at = motion.offset(x, t), after = motion.offset(x, t + h);
-  EXPECT_NEAR(((after - before) / (2 * h) - motion.velocity_at(x, t)).norm(), 0, 1e-7);
-  EXPECT_NEAR(((after - 2 * at + before) / (h * h) - motion.acceleration_at(x, t)).norm(), 0, 1e-6);
+  const Vec3 before = motion.offset(x, motion.at(t - h)), at = motion.offset(x, motion.at(t)),
+             after = motion.offset(x, motion.at(t + h));
+  EXPECT_NEAR(((after - before) / (2 * h) - motion.velocity_at(x, motion.at(t))).norm(), 0, 1e-7);
+  EXPECT_NEAR(((after - 2 * at + before) / (h * h) - motion.acceleration_at(x, motion.at(t))).norm(), 0, 1e-6);
 }
 
 TEST(Drive, without_an_end_puts_its_vertices_there_at_once) {
