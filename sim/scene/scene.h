@@ -128,7 +128,7 @@ private:
   double stable_step();
   SchemeSettings checked_settings() const;
   double stability_limit() const;  // [s]
-  double limit_until_torn() const; // [s]: as long as nothing is separated
+  double limit_until_torn() const; // [s]: as long as no body that grows is torn
   double limit_by(const Scheme& scheme, FrequencyBounds (*bounds_of)(const Body&)) const;
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
@@ -143,7 +143,6 @@ private:
   StepFailure substep(double time, double step); // [s]
   void evaluate_forces();
   StepFailure apply_laws();
-  bool tear(Body& body, const std::function<void()>& sound);
   int parts_within(double limit) const;
   void divide_for_contact();
   StepFailure integrate(double time, double step);        // [s]

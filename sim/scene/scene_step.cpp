@@ -156,30 +156,22 @@ StepFailure Scene::apply_laws() {
       throw UnsoundState{failure};
     if (has_states_to_show()) throw StatesToShow();
   };
-  bool made_cells = false;
+  bool bounds_changed = false;
   try {
-    for (auto& body : bodies_) made_cells = tear(*body, sound) || made_cells;
+    for (auto& body : bodies_)
+      if (body->tear(time(), steps_done_, sound) > 0 && body->map->grows()) bounds_changed = true;
   } catch (const UnsoundState& unsound) {
     return unsound.failure;
   } catch (const UserError& error) { // of a change that a law cannot make
     throw Unstable(Exit::Unstable, {}, error.what(), error.hint);
   }
-  // one that was chosen for the elements at the start may be too large for those that laws have made
-  if (made_cells && automatic_step() && !scheme().solves && !scheme().adaptive)
+  // A step that was chosen for the elements at the start may be too large for those that laws have made; and
+  // the bound of what there is then holds until something is separated.
+  if (bounds_changed && automatic_step() && !scheme().solves && !scheme().adaptive)
     guard_->divide_steps(parts_within(limit_until_torn()));
   laws_applied_at_ = steps_done_;
   guard_->after_laws(steps_done_);
   return StepFailure::None;
-}
-
-// Whether some change may have made cells.
-bool Scene::tear(Body& body, const std::function<void()>& sound) {
-  const std::size_t before = body.events.size();
-  if (body.tear(time(), steps_done_, sound) == 0) return false;
-  return std::any_of(body.events.begin() + static_cast<std::ptrdiff_t>(before), body.events.end(),
-                     [&](const TearEvent& event) {
-                       return body.tear_laws[static_cast<std::size_t>(event.law)].settings().change->grows;
-                     });
 }
 
 // The least number of parts of a step, none of which is longer than that [s].

@@ -85,8 +85,9 @@ double Scene::stability_limit(const Scheme& scheme) const {
 
 double Scene::limit_until_torn() const {
   return limit_by(scheme(), [](const Body& body) {
-    return bounds_by_vertices(corner_bounds(*body.map, body.interactions, *body.mass), *body.map, *body.mass,
-                              body.drag);
+    const CornerBounds sums = corner_bounds(*body.map, body.interactions, *body.mass);
+    return body.map->grows() ? bounds_by_vertices(sums, *body.map, *body.mass, body.drag)
+                             : frequency_bounds(sums, *body.map, *body.mass, body.drag);
   });
 }
 
