@@ -1,6 +1,7 @@
 // A step that was chosen for the elements at the start is divided where a law makes elements that need smaller
 // ones.
 #include "sim/presets.h"
+#include "sim/rows/frequency.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,10 +29,14 @@ TEST(DividedSteps, are_stable_for_the_elements_that_laws_have_made) {
   EXPECT_GT(scene->stability_limit(scene->scheme()), step);
   for (int n = 0; n < 200; ++n) scene->step();
   EXPECT_GT(scene->tears(), 24u);
-  const double limit = scene->stability_limit(scene->scheme());
-  EXPECT_LT(limit, step);
-  EXPECT_LT(step / scene->guard().most_substeps, limit);
-  EXPECT_GT(step / scene->guard().most_substeps, limit / 2); // no more than are needed
+  EXPECT_LT(scene->stability_limit(scene->scheme()), step);
+  const Body& body = scene.body();
+  const CornerBounds sums = corner_bounds(*body.map, body.interactions, *body.mass);
+  const FrequencyBounds found = bounds_by_vertices(sums, *body.map, *body.mass, body.drag);
+  const double limit = scene->scheme().limit({found.omega_squared, found.damping_rate, found.least_drag_rate});
+  const int parts = scene->guard().most_substeps;
+  EXPECT_LE(step / parts, limit);
+  EXPECT_GT(step / (parts - 1), limit); // no more than are needed
   EXPECT_EQ(scene->guard().rejected, 0);
 }
 
