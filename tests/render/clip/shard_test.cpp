@@ -31,7 +31,7 @@ TEST_F(Shards, shards_make_the_bytes_of_one_run) {
 // One frame and two shards: the first has none.
 TEST_F(Shards, a_shard_without_frames_leaves_the_checkpoint_of_one_that_has_some) {
   NEEDS_PNG;
-  const std::string line = "render clip.xml --set time.step=5e-5 -o c --shard 1/2";
+  const std::string line = "render clip.xml --set time.step=2e-5 -o c --shard 1/2";
   EXPECT_EQ(stopped_when("[ -e c/00000.png ]", line).code, 143);
   const Files before = in("c");
   ASSERT_TRUE(before.contains("clip.1-of-2.checkpoint"));
