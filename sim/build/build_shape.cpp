@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rend {
@@ -49,6 +50,13 @@ void check(const MassSettings& mass, bool sheet) {
                 "leave it out, or give the density");
 }
 
+// Only a change that prepares the map asks for them (ChangeType::prepare).
+KeepStart keep_start(const BodySettings& settings) {
+  const bool asked = std::ranges::any_of(
+      settings.tears, [](const LawSettings& law) { return law.change && law.change->prepare; });
+  return asked ? KeepStart::Yes : KeepStart::No;
+}
+
 void build_mass(Body& body, const MassSettings& settings) {
   const bool sheet = body.map->dimension() == 2;
   check(settings, sheet);
@@ -69,7 +77,8 @@ void build_shape(Body& body, const BodySettings& settings) {
         const bool by_rules = !settings.applies.empty() || !settings.slits.empty();
         make_map(body, shape, by_rules ? Placement{} : settings.place);
         if (by_rules || body.map->map().dart_count() == 0)
-          construct(body, settings.applies, settings.slits, settings.rules, settings.place, shape.source);
+          construct(body, settings.applies, settings.slits, settings.rules, settings.place,
+                    keep_start(settings), shape.source);
         check_reach(body, shape.source);
       },
       settings.shape);

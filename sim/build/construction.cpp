@@ -1,10 +1,10 @@
 #include "sim/build/construction.h"
-#include "sim/fracture/start_triangle.h"
 
 #include "sim/body/body.h"
 #include "sim/build/constructed_cells.h"
 #include "sim/build/read_settings.h"
 #include "sim/build/shape.h"
+#include "sim/fracture/start_triangle.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/rules/cell_words.h"
 #include "sim/rules/rest_measures.h"
@@ -111,12 +111,13 @@ public:
   }
 
   // The body's map, as if it came from a file.
-  void finish(const Placement& place) {
+  void finish(const Placement& place, KeepStart keep_start) {
     check_shapes();
     MapMesh mesh = map_mesh();
     place.apply(mesh.points);
     check_cells(mesh, shape_, opened_);
-    mesh = renumbered(mesh, mesh.map.dimension() == 3 ? cell_order(mesh) : face_order(mesh.map));
+    const std::vector<Dart> order = mesh.map.dimension() == 3 ? cell_order(mesh) : face_order(mesh.map);
+    mesh = renumbered(mesh, order);
     std::vector<std::uint32_t> point; // of each vertex slot
     const std::vector<std::uint64_t> masks = groups_ ? groups_->values() : std::vector<std::uint64_t>();
     auto map = std::make_unique<EmbeddedMap>(std::move(mesh.map), [&](Dart d) {
@@ -133,6 +134,7 @@ public:
       ++bit;
     }
     body_.groups = std::move(groups);
+    if (keep_start == KeepStart::Yes) hand_on_start_triangles(*body_.map, *map, order, place.scale);
     body_.map = std::move(map);
   }
 
@@ -372,13 +374,12 @@ ApplySettings read_apply(const PresetNode& node) {
 }
 
 void construct(Body& body, const std::vector<ApplySettings>& applies, const std::vector<SlitSettings>& slits,
-               const RuleBook& rules, const Placement& place, const SettingsSource& shape) {
+               const RuleBook& rules, const Placement& place, KeepStart keep_start,
+               const SettingsSource& shape) {
   Construction construction(body, rules, shape);
   for (const ApplySettings& settings : applies) construction.apply(settings);
   cut_slits(*body.map, slits);
-  construction.finish(place);
-  if (Column<StartTriangle>* start = find_start_triangles(*body.map))
-    for (TriangleSizes& sizes : start->values()) sizes.scale(place.scale);
+  construction.finish(place, keep_start);
 }
 
 } // namespace rend

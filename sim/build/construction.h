@@ -50,10 +50,14 @@ const ElementType& subdivide_type();
 // Of an <apply>, or of a <subdivide>, which is short for the rule that does so in the body's dimension.
 ApplySettings read_apply(const PresetNode& node);
 
+// Whether elements still know after slits of which triangle they are a part (sim/fracture/start_triangle.h).
+enum class KeepStart { No, Yes };
+
 // Applies rules in their order to the map of the body, cuts slits, then places and orders it. UserError: a rule
 // that applies nowhere, or lets the map grow too large; cells that are none of the standard ones; a slit that
 // cannot be cut.
 void construct(Body& body, const std::vector<ApplySettings>& applies, const std::vector<SlitSettings>& slits,
-               const RuleBook& rules, const Placement& place, const SettingsSource& shape);
+               const RuleBook& rules, const Placement& place, KeepStart keep_start,
+               const SettingsSource& shape);
 
 } // namespace rend

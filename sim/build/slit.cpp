@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace rend {
 namespace {
@@ -45,7 +46,7 @@ public:
     if (dash)
       cut_dashes(*dash, source);
     else
-      cut_between(0, path_.size() - 1);
+      cut_edges([](double) { return true; });
     return true;
   }
 
@@ -66,12 +67,15 @@ private:
     Slot vertex;
     double at; // [m], along the line from its first point
   };
+  struct Stretch {
+    double begin, end; // [m], along the line
+  };
 
   // Leaves the way in path_. False: all of it lies outside.
   bool march(const std::vector<Vec3>& points, const SettingsSource& source) {
+    path_.clear();
     Dart here = start(points[0], points[1]);
     if (here == Dart{}) return false;
-    path_.clear();
     double before = 0;
     for (std::size_t n = 1; n < points.size(); ++n) {
       from_ = points[n - 1];
@@ -91,27 +95,32 @@ private:
 
   void pass(Dart d) { path_.push_back({map_.vertex(d), before_ + (at(d) - from_).dot(way_)}); }
 
-  // By places in path_.
-  void cut_between(std::size_t first, std::size_t last) {
-    for (std::size_t n = first; n < last; ++n) edges_.insert(std::minmax(path_[n].vertex, path_[n + 1].vertex));
+  // What is cut and what is left, in turn. First all their ends become vertices, which divides edges of the way.
+  void cut_dashes(const std::vector<double>& lengths, const SettingsSource& source) {
+    std::vector<Stretch> dashes;
+    double end = 0, last = path_.front().at;
+    for (std::size_t n = 0; end < path_.back().at; ++n) {
+      const double length = lengths[n % lengths.size()], begin = std::exchange(end, end + length);
+      if (end <= path_.front().at) continue;
+      const double here = end < path_.back().at ? path_[vertex_along(end)].at : path_.back().at;
+      const double within = std::min(end, path_.back().at) - std::max(begin, path_.front().at);
+      if (within > length / 2 && here <= last)
+        source.fail("dash", fmt::format("the elements are too large for a length of {:g} m", length),
+                    "take smaller cells");
+      if (n % 2 == 0) dashes.push_back({last, here});
+      last = here;
+    }
+    cut_edges([&](double middle) {
+      const auto dash = std::ranges::upper_bound(dashes, middle, {}, &Stretch::end);
+      return dash != dashes.end() && dash->begin < middle;
+    });
   }
 
-  // A dash begins and ends at a vertex.
-  void cut_dashes(const std::vector<double>& lengths, const SettingsSource& source) {
-    std::size_t first = 0;
-    double end = 0;
-    for (std::size_t n = 0; end < path_.back().at; ++n) {
-      end += lengths[n % lengths.size()];
-      if (end <= path_.front().at) continue;
-      const std::size_t last = end < path_.back().at ? vertex_along(end) : path_.size() - 1;
-      if (last == first && first > 0 && last + 1 < path_.size())
-        source.fail(
-            "dash",
-            fmt::format("the elements are too large for a length of {:g} m", lengths[n % lengths.size()]),
-            "take smaller cells");
-      if (n % 2 == 0) cut_between(first, last);
-      first = last;
-    }
+  // Of the way, by their middles.
+  template <class Chosen> void cut_edges(const Chosen& chosen) {
+    for (std::size_t n = 0; n + 1 < path_.size(); ++n)
+      if (chosen((path_[n].at + path_[n + 1].at) / 2))
+        edges_.insert(std::minmax(path_[n].vertex, path_[n + 1].vertex));
   }
 
   // A place in path_: of a vertex within a quarter of an edge, or one that is created, or else the nearest.
@@ -121,10 +130,11 @@ private:
     const double share = (goal - path_[n].at) / (path_[n + 1].at - path_[n].at);
     if (std::min(share, 1 - share) > 0.25)
       for (Dart d : darts_of(g_, Vertex, map_.cells(Vertex).first_dart(path_[n].vertex)))
-        if (map_.vertex(g_.alpha(0, d)) == path_[n + 1].vertex && cutter().leaves_room(d, share)) {
-          divide(d, share);
-          return n + 1;
-        }
+        if (map_.vertex(g_.alpha(0, d)) == path_[n + 1].vertex && cutter().leaves_room(d, share))
+          if (const Dart born = divide(d, share); born != Dart{}) {
+            pin(born);
+            return n + 1;
+          }
     return share < 0.5 ? n : n + 1;
   }
 
@@ -176,7 +186,7 @@ private:
     const bool on_edge = found->smallest < slack, border = g_.is_free(2, found->edge);
     if (found->largest > (on_edge && border ? 0.75 : 0.9)) return found->corner;
     const bool fixed = border || is_cut(ends_of(found->edge));
-    if (on_edge || found->smallest < 0.1 || !fixed) {
+    if (on_edge || found->smallest < 0.1 || (!fixed && reaches(found->edge, point))) {
       const Dart born = divide(found->edge, found->share);
       if (born == Dart{}) return found->corner;
       if (!on_edge && !fixed && (found->smallest >= 0.1 || cutter().may_move(born, to)))
@@ -187,6 +197,15 @@ private:
     map_.edit([&](Edit& edit) { born = apply(rule("star-face"), edit, found->corner).dart("c"); });
     map_.edit([&](Edit& edit) { edit.move(born, to); });
     return born;
+  }
+
+  // Whether the two parts of the triangle beyond an edge could meet at that point instead of on the edge.
+  bool reaches(Dart edge, const Vec3& point) const {
+    constexpr double least = 0.1; // of that triangle
+    const Vec3 a = at(edge), b = at(g_.alpha(0, edge)), c = at(g_.alpha(0, g_.alpha(1, g_.alpha(2, edge))));
+    const Vec3 normal = (b - a).cross(c - a);
+    return std::min((point - a).cross(c - a).dot(normal), (b - point).cross(c - point).dot(normal)) >=
+           least * normal.squaredNorm();
   }
 
   // The nearest of the triangles above which the point lies.
@@ -308,7 +327,7 @@ private:
   EdgeDivision division_;
   std::vector<Slot> pinned_; // vertices of slits, increasing
   std::set<Edge> edges_;     // that are cut
-  std::vector<Passed> path_; // of the slit that is being cut, without edges_
+  std::vector<Passed> path_; // of the slit that is being cut, whose edges are not in edges_ yet
   Vec3 from_, way_;          // [m], and a unit vector: the line on which it is now
   double before_ = 0;        // [m], the length of those before
 };

@@ -17,6 +17,7 @@
 // A vertex at whose elements something changed in this step waits for the next one: the plane that its
 // criterion found belongs to elements that are not there any more. So does one beside such elements.
 #include "sim/base/archive.h"
+#include "sim/base/check.h"
 #include "sim/fracture/change.h"
 #include "sim/fracture/crack_plane.h"
 #include "sim/fracture/element_scan.h"
@@ -107,6 +108,7 @@ class Cuts final : public ChangeMemory {
 public:
   explicit Cuts(const CriterionRequest& request)
       : start_(find_start_triangles(request.map)), compression_(request.compression) {
+    CHECK(start_); // ChangeType::prepare
     make_anew(request);
     const std::size_t darts = most_elements * request.map.map().dart_count();
     std::size_t& most = division_.runner().context().most_darts;

@@ -29,4 +29,17 @@ void add_start_triangles(EmbeddedMap& map) {
   if (map.dimension() == 2 && !find_start_triangles(map)) map.add(StartTriangle{});
 }
 
+void hand_on_start_triangles(const EmbeddedMap& from, EmbeddedMap& to, std::span<const Dart> order,
+                             double scale) {
+  const Column<StartTriangle>* old = find_start_triangles(from);
+  if (!old) return;
+  add_start_triangles(to);
+  Column<StartTriangle>& start = *find_start_triangles(to);
+  for_each_face(to, [&](Dart d) {
+    TriangleSizes& sizes = start[to.slot(FaceOfVolume, d)];
+    sizes = (*old)[from.slot(FaceOfVolume, order[d.value])];
+    sizes.scale(scale);
+  });
+}
+
 } // namespace rend

@@ -5,6 +5,8 @@
 
 #include "sim/embedding/embedded_map.h"
 
+#include <span>
+
 namespace rend {
 
 struct TriangleSizes {
@@ -34,5 +36,10 @@ Column<StartTriangle>* find_start_triangles(EmbeddedMap& map);
 
 // Adds it to a sheet that has none: its elements as they are now. No sheet: nothing.
 void add_start_triangles(EmbeddedMap& map);
+
+// To a map that was made from another one: order[n] is the dart there of dart n here, lengths are `scale` times
+// as long. A map without the embedding hands on nothing.
+void hand_on_start_triangles(const EmbeddedMap& from, EmbeddedMap& to, std::span<const Dart> order,
+                             double scale);
 
 } // namespace rend

@@ -15,7 +15,6 @@ constexpr long period = Rollback::longest;
 constexpr long exact_period = 4096; // steps between reductions of B
 // steps between tests of neighbours, unless speeds alone rule out that they pass each other
 constexpr long passing_period = 32;
-constexpr int most_substeps = 1024;
 constexpr long memory = 8;            // steps whose motion S is compared with, and at most twice as many
 constexpr double more = 1.25;         // growth of K before U is tested again
 constexpr double least_motion = 1e-6; // rest lengths per step: slower motion is no explosion
@@ -26,7 +25,7 @@ constexpr double same = 0.1;
 constexpr double close = 1.25;
 
 bool is_substep_count(int substeps) {
-  return substeps >= 1 && substeps <= most_substeps;
+  return substeps >= 1 && substeps <= Guard::most_substeps;
 }
 
 } // namespace
@@ -43,7 +42,8 @@ Guard::Guard(World& world, const Rollback::Bodies& bodies, const Scheme& scheme,
 }
 
 int Guard::substeps(long step) const {
-  return redoing_ && step >= from_ && step < goal_ ? substeps_ : planned_substeps(step);
+  const int planned = planned_substeps(step);
+  return redoing_ && step >= from_ && step < goal_ ? std::max(substeps_, planned) : planned;
 }
 
 bool Guard::needs_forces() const {
@@ -190,7 +190,7 @@ StepFailure Guard::end_redo(long done) {
   const Rollback::Account account = rollback_->account();
   const EnergyTest now = test_energy(account);
   const double growth = now.energy - start_.value_or(0) - now.work;
-  const bool fits = now.energy <= now.limit, last = 2 * substeps_ > most_substeps;
+  const bool fits = now.energy <= now.limit, last = substeps_ == most_substeps;
   const bool converged =
       growth_ && std::isfinite(*growth_) && std::abs(growth - *growth_) <= same * std::abs(*growth_);
   if (!converged && !(fits && (last || now.energy <= close / factor * now.limit))) {
@@ -233,7 +233,7 @@ std::optional<long> Guard::roll_back(StepFailure failure, long done) {
   }
   const bool first = !redoing_;
   redoing_ = true;
-  substeps_ *= 2;
+  substeps_ = substeps_ < most_substeps ? std::min(2 * substeps_, most_substeps) : most_substeps + 1;
   if (substeps_ > most_substeps) {
     if (from_ <= rollback_->first()) return {};
     figures_.rejected += from_ - rollback_->first();
@@ -297,7 +297,7 @@ void Guard::check_read(long done) const {
                     hold_until_ <= done + longest_hold,
                 "parts of steps stay for longer than they would");
   refuse_unless(is_substep_count(hold_substeps_) && is_substep_count(least_substeps_) && substeps_ >= 1 &&
-                    substeps_ <= 2 * most_substeps,
+                    substeps_ <= most_substeps + 1,
                 "a step has no such parts");
 }
 

@@ -144,6 +144,7 @@ private:
   void evaluate_forces();
   StepFailure apply_laws();
   int parts_within(double limit) const;
+  bool touches_by_verlet() const;
   void divide_for_contact();
   StepFailure integrate(double time, double step);        // [s]
   StepFailure resolve_contacts(double time, double step); // [s]

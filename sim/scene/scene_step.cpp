@@ -174,12 +174,6 @@ StepFailure Scene::apply_laws() {
   return StepFailure::None;
 }
 
-// The least number of parts of a step, none of which is longer than that [s].
-int Scene::parts_within(double limit) const {
-  constexpr double most = 1024;
-  return static_cast<int>(std::clamp(std::ceil(step_ / limit), 1.0, most));
-}
-
 StepFailure Scene::integrate(double time, double step) {
   for (auto& body : bodies_) {
     try {
@@ -302,7 +296,8 @@ void Scene::fail_step(StepFailure failure, long entry) {
     return_to(guard_->restore_start());
     while (steps_done_ < entry && try_step() == StepFailure::None) continue;
   }
-  const std::string parts = guard_->on() ? ", even with the step divided by 1024" : "";
+  const std::string parts =
+      guard_->on() ? fmt::format(", even with the step divided by {}", Guard::most_substeps) : "";
   if (failure == StepFailure::NotFinite && not_converged_)
     stop(*body, not_converged_->what() + parts, not_converged_->hint);
   if (failure == StepFailure::NotFinite) what = find_non_finite(body) + parts;
@@ -365,7 +360,7 @@ void Scene::check_account() const {
 }
 
 void Scene::stop(const Body& body, const std::string& what) const {
-  const double limit = stability_limit(), tried = guard_->on() ? step_ / 1024 : step_;
+  const double limit = stability_limit(), tried = guard_->on() ? step_ / Guard::most_substeps : step_;
   std::string hint;
   if (limit <= 0)
     hint = fmt::format("no step is stable with '{}' here; use symplectic, verlet or rk4", scheme().name);

@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace rend {
 namespace {
+
+constexpr double margin = 0.9; // of what is stable
 
 // Whose limit counts: of an adaptive scheme symplectic's.
 const Scheme& limiting(const Scheme& scheme) {
@@ -65,12 +66,19 @@ void Scene::refuse_so_many_steps() const {
       "look whether the material is too stiff or light, or the mesh is bad there (rend mesh info)");
 }
 
+// The least number of parts of a step, none of which is longer than that [s].
+int Scene::parts_within(double limit) const {
+  return static_cast<int>(std::clamp(std::ceil(step_ / limit), 1.0, double{Guard::most_substeps}));
+}
+
 // Where something touches, steps are those of velocity Verlet (ContactIn).
+bool Scene::touches_by_verlet() const {
+  return (scheme().contact == ContactIn::StepInstead || scheme().adaptive) && contacts_ &&
+         !contacts_->bodies().empty();
+}
+
 void Scene::divide_for_contact() {
-  if ((scheme().contact == ContactIn::StepInstead || scheme().adaptive) && contacts_ &&
-      !contacts_->bodies().empty())
-    guard_->divide_steps(static_cast<int>(
-        std::bit_ceil(static_cast<unsigned>(parts_within(stability_limit(*find_scheme("verlet")))))));
+  if (touches_by_verlet()) guard_->divide_steps(parts_within(stability_limit(*find_scheme("verlet"))));
 }
 
 double Scene::stability_limit() const {
@@ -83,12 +91,15 @@ double Scene::stability_limit(const Scheme& scheme) const {
   });
 }
 
+// With a margin, as that of an automatic step.
 double Scene::limit_until_torn() const {
-  return limit_by(scheme(), [](const Body& body) {
+  const auto bounds = [](const Body& body) {
     const CornerBounds sums = corner_bounds(*body.map, body.interactions, *body.mass);
     return body.map->grows() ? bounds_by_vertices(sums, *body.map, *body.mass, body.drag)
                              : frequency_bounds(sums, *body.map, *body.mass, body.drag);
-  });
+  };
+  const double own = limit_by(scheme(), bounds);
+  return margin * (touches_by_verlet() ? std::min(own, limit_by(*find_scheme("verlet"), bounds)) : own);
 }
 
 double Scene::limit_by(const Scheme& scheme, FrequencyBounds (*bounds_of)(const Body&)) const {
@@ -125,8 +136,8 @@ double Scene::stable_step() {
         scheme().solves ? "give a step in seconds, such as step=\"0.01\"" : "give a step in seconds");
   constexpr double told = 10; // the gain from which a cause is told; rend info tells any
   if (const StepCause cause = unusual_cause_of_step(steps, own); cause.gain >= told)
-    notes_.push_back(fmt::format("step=\"auto\" is {:.3g} s: {}", 0.9 * limit, cause.words));
-  return 0.9 * limit;
+    notes_.push_back(fmt::format("step=\"auto\" is {:.3g} s: {}", margin * limit, cause.words));
+  return margin * limit;
 }
 
 } // namespace rend

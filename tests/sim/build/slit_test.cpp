@@ -1,6 +1,8 @@
 // Slits: where they open a sheet, what they keep, and what is refused.
 #include "sim/build/slit.h"
+#include "sim/fracture/start_triangle.h"
 #include "sim/mechanics/mass.h"
+#include "sim/presets.h"
 #include "sim/random_meshes.h"
 #include "sim/topology/count.h"
 #include "sim/topology/walk.h"
@@ -91,6 +93,32 @@ TEST_P(SlitOf, a_sheet_with_dashes_opens_those_alone) {
   EXPECT_NEAR(error, 0, 0.4); // three standard errors
 }
 
+TEST_P(SlitOf, a_body_that_cuts_tear_keeps_the_sizes_of_the_start) {
+  const std::string pattern = GetParam() == SheetPattern::Triangles ? "triangles" : "crossed";
+  const auto text = [&](const std::string& change) {
+    return "<scene><body><sheet pattern=\"" + pattern +
+           R"(" cells="8 5" size="1.6 1"/><slit along="0.13 0.2 0  1.51 0.55 0"/>
+        <slit along="0.4 -0.1 0  1.2 1.1 0"/><place scale="3" rotate="0 0 20"/>
+        <mass density="1000" thickness="1e-3"/>
+        <elasticity model="linear" young="1e5" poisson="0.3" thickness="1e-3"/>
+        <tear criterion="vertex-stress" threshold="1e9" change=")" +
+           change + R"("/></body><world gravity="0 0 0"/><time duration="1"/></scene>)";
+  };
+  const auto cut = presets::load(text("cut")), parted = presets::load(text("separate"));
+  EXPECT_EQ(find_start_triangles(*parted.body().map), nullptr);
+  const EmbeddedMap& map = *cut.body().map;
+  const Column<StartTriangle>* start = find_start_triangles(map);
+  ASSERT_NE(start, nullptr);
+  const double cell = 0.6 * 0.6, whole = pattern == "triangles" ? cell : cell / 2; // twice the area [m²]
+  std::size_t parts = 0;
+  for_each_face(map, [&](Dart d) {
+    EXPECT_NEAR((*start)[map.slot(FaceOfVolume, d)].twice_area, whole, 1e-12 * whole);
+    EXPECT_GE(2 * rest_area(map, d), 0.049 * whole);
+    ++parts;
+  });
+  EXPECT_GT(parts, pattern == "triangles" ? 80u : 160u);
+}
+
 INSTANTIATE_TEST_SUITE_P(OfEach, SlitOf, testing::Values(SheetPattern::Triangles, SheetPattern::Crossed),
                          [](const auto& of) {
                            return std::string(of.param == SheetPattern::Triangles ? "triangles" : "crossed");
@@ -116,6 +144,7 @@ TEST(Slit, refuses_what_it_cannot_cut) {
   EXPECT_EQ(refusal(slit({3, 1, 0, 5, 1, 0}, {{0.1}})), "a length to cut has none to leave after it");
   EXPECT_EQ(refusal(slit({3, 1, 0, 5, 1, 0}, {{1e-9, 1e-9}})), "the slit may have more than 10000 parts");
   EXPECT_EQ(refusal(slit({3, 1, 0, 9, 1, 0}, {{1, 0.1}})), "the elements are too large for a length of 0.1 m");
+  EXPECT_EQ(refusal(slit({3, 1, 0, 9, 1, 0}, {{0.1, 1}})), "the elements are too large for a length of 0.1 m");
   EXPECT_EQ(refusal(slit({3, 1, 0, 15, 1, 0, 5, 2, 0})), "the slit leaves its body between two of its points");
   EXPECT_EQ(refusal(slit({3, 1, 0, 5, 1, 0}), SheetPattern::Quads),
             "slits go through sheets of triangles, and this body is none");

@@ -130,8 +130,6 @@ template <class F> void separate_all(Body& body, F&& look) {
   }
 }
 
-// A spring from each vertex to its place: √(k/m) of the lightest vertex, which in the end is the lightest
-// corner.
 // A slit leaves elements of many sizes.
 TEST(FrequencyBound, by_vertices_lies_between_the_highest_frequency_and_the_bound_by_corners) {
   double sum = 0;
@@ -157,6 +155,8 @@ TEST(FrequencyBound, by_vertices_lies_between_the_highest_frequency_and_the_boun
   EXPECT_LT(sum / scenes, 0.95);
 }
 
+// A spring from each vertex to its place: √(k/m) of the lightest vertex, which in the end is the lightest
+// corner.
 TEST(FrequencyBound, of_springs_to_the_ground_is_that_of_the_lightest_fragment_to_come) {
   for (auto& each : elements::irregular_maps()) {
     SCOPED_TRACE(each.name);
