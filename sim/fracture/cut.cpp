@@ -12,7 +12,7 @@
 // The plane is that of crack_plane.h, whatever the criterion; where nothing pulls, that of the criterion.
 //
 // Vertices near the plane move onto it, so that there are no slivers (triangle_cut.h); not where there are
-// springs: their strain differs from edge to edge, so that a vertex that moves would strain them.
+// springs in the plane: their strain differs from edge to edge, so that a vertex that moves would strain them.
 //
 // A vertex at whose elements something changed in this step waits for the next one: the plane that its
 // criterion found belongs to elements that are not there any more. So does one beside such elements.
@@ -23,6 +23,7 @@
 #include "sim/fracture/element_scan.h"
 #include "sim/fracture/touched_darts.h"
 #include "sim/fracture/triangle_cut.h"
+#include "sim/mechanics/hinge_law.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -149,7 +150,8 @@ public:
   void make_anew(const CriterionRequest& request) override {
     plane_.emplace(request);
     rigid_ = std::ranges::any_of(request.interactions, [](const auto& each) {
-      return each->law->particles() != 3 || !dynamic_cast<const ElementLaw*>(each->law.get());
+      const bool triangles = each->law->particles() == 3 && dynamic_cast<const ElementLaw*>(each->law.get());
+      return !triangles && each->law != hinge_law();
     });
   }
   void rebind(const Changes&) override {}
@@ -208,7 +210,7 @@ private:
   const char* over_budget_ = nullptr; // why the map may not grow further
   const Column<StartTriangle>* start_;
   bool compression_;
-  bool rigid_ = false; // there are springs, whose strain is no value of the matter: no vertex moves
+  bool rigid_ = false; // no vertex moves: there are springs, whose strain is no value of the matter
   std::optional<CrackPlane> plane_;
   TouchedDarts touched_;
   IndexSet changing_;                // scratch: darts of the elements that a cut divides, or moves a corner of
