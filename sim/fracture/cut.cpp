@@ -14,6 +14,9 @@
 // Vertices near the plane move onto it, so that there are no slivers (triangle_cut.h); not where there are
 // springs in the plane: their strain differs from edge to edge, so that a vertex that moves would strain them.
 //
+// A crack goes on from its tip: a vertex of an element at which a crack ends is not cut itself. So no bridges are
+// left ahead of a crack, and its flanks do not fray.
+//
 // A vertex at whose elements something changed in this step waits for the next one: the plane that its
 // criterion found belongs to elements that are not there any more. So does one beside such elements.
 #include "sim/base/archive.h"
@@ -37,6 +40,7 @@ constexpr double most_along = 0.866;     // cos 30°: a cut this close to the bo
 
 constexpr const char* nothing_crosses = "the plane crosses no element at the vertex that leads into the body";
 constexpr const char* waits = "another cut of the same step has changed an element at the vertex";
+constexpr const char* beside_tip = "a crack ends beside the vertex, and goes on from there";
 constexpr const char* full = "the body has four times as many elements as at the start";
 constexpr const char* divides_none = "the elements at the edge that the plane crosses cannot be divided";
 
@@ -119,6 +123,7 @@ public:
 
   bool apply(Edit& edit, const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
     if (touched_.any_of(*edit.journal(), star_of(edit.map(), darts))) return refuse(waits);
+    if (!is_tip(view.map, darts) && is_beside_tip(edit, view.map, darts)) return refuse(beside_tip);
     std::vector<Half> halves = Crossing(view, darts, plane_at(view, found, darts), *start_, rigid_).halves();
     if (halves.empty()) return refuse(nothing_crosses);
     if (!settle_moves(edit, halves)) return refuse(waits);
@@ -145,7 +150,7 @@ public:
   }
   const Refusals& refusals() const override { return refusals_; }
   void store(Archive& archive) override {
-    archive.table(refusals_, 4, "a cut was refused for more reasons than there are");
+    archive.table(refusals_, 5, "a cut was refused for more reasons than there are");
   }
   void make_anew(const CriterionRequest& request) override {
     plane_.emplace(request);
@@ -192,6 +197,14 @@ private:
       return false;
     });
     return !halves.empty();
+  }
+
+  // Whether an element at the vertex has a corner where a crack ends.
+  bool is_beside_tip(const Edit& edit, const EmbeddedMap& map, std::span<const Dart> darts) {
+    return std::ranges::any_of(darts, [&](Dart d) {
+      const std::vector<Dart> other = darts_of(edit.map(), Vertex, edit.map().alpha(0, d));
+      return !touched_.any_of(*edit.journal(), other) && is_tip(map, other);
+    });
   }
 
   // The darts of all elements that a cut there may divide: at the vertex, and beyond the edges opposite to it.

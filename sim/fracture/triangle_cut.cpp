@@ -1,10 +1,12 @@
 #include "sim/fracture/triangle_cut.h"
 
+#include "sim/base/math.h"
 #include "sim/house_rules/house_rules.h"
 #include "sim/mechanics/interaction.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rend {
 namespace {
@@ -95,6 +97,19 @@ bool TriangleCut::leaves_room(Dart across, double share) const {
     if (!keeps({whole.a, m, whole.c}, start) || !keeps({m, whole.b, whole.c}, start)) return false;
   }
   return true;
+}
+
+bool is_tip(const EmbeddedMap& map, std::span<const Dart> darts) {
+  const GMap& g = map.map();
+  if (std::ranges::none_of(darts, [&](Dart d) { return g.is_free(2, d); })) return false;
+  double angle = 0; // of the matter
+  for (Dart d : darts) {
+    if (g.alpha(1, d) < d) continue;
+    const Corners rest(map, d);
+    const Vec3 one = rest.b - rest.a, other = rest.c - rest.a;
+    angle += std::atan2(one.cross(other).norm(), one.dot(other));
+  }
+  return angle > 1.5 * pi;
 }
 
 EdgeDivision::EdgeDivision()

@@ -221,6 +221,25 @@ TEST(Cut, at_the_tip_of_a_crack_turns_as_the_largest_hoop_stress_asks) {
       }
 }
 
+TEST(Cut, goes_on_from_the_tip_of_a_crack_and_not_from_vertices_beside_it) {
+  const auto body = sheet_with_slit(11, 0.1);
+  const auto change = cuts_of(*body);
+  const auto at_distance = [&](double distance) { // from the tip, without the slit
+    std::vector<Dart> darts;
+    for (Slot v = 0; v < body->vertices(); ++v)
+      if (const Vec3 rest = body->map->rest()[v];
+          std::abs(rest.norm() - distance) < 1e-9 && std::abs(rest.y()) > 1e-9)
+        darts.push_back(body->map->cells(Vertex).first_dart(v));
+    return darts;
+  };
+  const std::vector<Dart> beside = at_distance(1), further = at_distance(2);
+  ASSERT_FALSE(beside.empty());
+  ASSERT_FALSE(further.empty());
+  for (Dart d : beside) EXPECT_FALSE(cut_at(*body, *change, d, Vec3(0.6, 0.8, 0)));
+  EXPECT_EQ(change->memory->refusals().begin()->second, beside.size());
+  EXPECT_TRUE(cut_at(*body, *change, further.front(), Vec3(0.6, 0.8, 0)));
+}
+
 TEST(Cut, leaves_what_is_built_from_scratch) {
   Noise noise(11);
   long cuts = 0;
@@ -228,7 +247,7 @@ TEST(Cut, leaves_what_is_built_from_scratch) {
     const auto body = sheet_of_triangles(100 + n);
     const auto change = cuts_of(*body);
     Seen seen(*body);
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < 150; ++k) {
       Dart d{noise.below(body->map->map().capacity())};
       cuts += cut_at(*body, *change, d, in_plane(noise));
       ASSERT_EQ(validate(*body->map), std::nullopt);
