@@ -95,7 +95,7 @@ private:
 
   void pass(Dart d) { path_.push_back({map_.vertex(d), before_ + (at(d) - from_).dot(way_)}); }
 
-  // What is cut and what is left, in turn. First all their ends become vertices, which divides edges of the way.
+  // What is cut and what is left, in turn. All ends become vertices first, which divides edges of the way.
   void cut_dashes(const std::vector<double>& lengths, const SettingsSource& source) {
     std::vector<Stretch> dashes;
     double end = 0, last = path_.front().at;

@@ -6,9 +6,9 @@
 // Points are those of the shape, before it is placed. A slit goes through the cells as a crack does
 // (sim/fracture/triangle_cut.h): from vertex to vertex, straight to the next of its points. Near each point
 // within the sheet a vertex is moved or created: at the point, or at most a tenth of an element beside it; on
-// the border, an end may be moved to a vertex within a quarter of an edge. A slit may begin and end outside; it
-// ends where it leaves its body, at a hole too. Both of its sides are free, and part of the border at the start.
-// Slits may cross.
+// the border, an end may be moved to a vertex within a quarter of an edge. A slit may begin and end outside;
+// it ends where it leaves its body, at a hole too. Both of its sides are free, and part of the border at the
+// start. Slits may cross.
 //
 // With dashes the way is the same, and its edges are opened where a dash is. A dash ends at a vertex on the way
 // within a quarter of an edge, or at one that is created, if no part is too small then; or else at the nearest.

@@ -14,8 +14,8 @@
 // Vertices near the plane move onto it, so that there are no slivers (triangle_cut.h); not where there are
 // springs in the plane: their strain differs from edge to edge, so that a vertex that moves would strain them.
 //
-// A crack goes on from its tip: a vertex of an element at which a crack ends is not cut itself. So no bridges are
-// left ahead of a crack, and its flanks do not fray.
+// A crack goes on from its tip: a vertex of an element at which a crack ends is not cut itself. So no bridges
+// are left ahead of a crack, and its flanks do not fray.
 //
 // A vertex at whose elements something changed in this step waits for the next one: the plane that its
 // criterion found belongs to elements that are not there any more. So does one beside such elements.

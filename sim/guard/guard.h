@@ -12,8 +12,8 @@
 // instability is found whether it explodes in three steps or grows over thousands, and B never follows it
 // upwards.
 //
-// If a test fails, the stretch is repeated up to the same step with twice as many substeps per step each time, up to 1024; then the
-// nominal step is used again. If that fails again soon, the substeps are kept for a while, twice as long each
+// If a test fails, the stretch is repeated up to the same step with twice as many substeps per step each time,
+// up to 1024; then the nominal step is used again. If that fails again soon, the substeps are kept for a while, twice as long each
 // time: each failure of the nominal step costs its stretch, and leaves a trace of the motion that would have
 // exploded. A single step that is not finite is first redone alone.
 //
@@ -58,7 +58,7 @@ public:
   void before_laws(long step);          // with the forces of that state
   StepFailure before_change(long step); // of topology; may be called more than once
   void after_laws(long step);
-  // Until the next such call, each step in so many substeps at least: there are elements that need smaller ones.
+  // Until the next such call, each step in so many substeps at least: elements need smaller ones.
   void divide_steps(int least);
   void after_substep() {
     if (!rollback_) return;
