@@ -1,5 +1,7 @@
 #include "sim/fracture/start_triangle.h"
 
+#include "sim/mechanics/interaction.h"
+
 #include <algorithm>
 
 namespace rend {

@@ -13,9 +13,9 @@
 // upwards.
 //
 // If a test fails, the stretch is repeated up to the same step with twice as many substeps per step each time,
-// up to 1024; then the nominal step is used again. If that fails again soon, the substeps are kept for a while, twice as long each
-// time: each failure of the nominal step costs its stretch, and leaves a trace of the motion that would have
-// exploded. A single step that is not finite is first redone alone.
+// up to 1024; then the nominal step is used again. If that fails again soon, the substeps are kept for a while,
+// twice as long each time: each failure of the nominal step costs its stretch, and leaves a trace of the motion
+// that would have exploded. A single step that is not finite is first redone alone.
 //
 // A repetition is accepted if the energy is close to the budget, or if half the step gives the same growth
 // (within a tenth). Growth beyond the bound that smaller substeps do not change is not caused by the step
