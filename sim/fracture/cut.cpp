@@ -14,8 +14,8 @@
 // Vertices near the plane move onto it, so that there are no slivers (triangle_cut.h); not where there are
 // springs in the plane: their strain differs from edge to edge, so that a vertex that moves would strain them.
 //
-// A crack goes on from its tip: a vertex of an element at which a crack ends is not cut itself. So no bridges
-// are left ahead of a crack, and its flanks do not fray.
+// A crack goes on from its tip: a vertex at most two edges away from where one ends is not cut itself. So no
+// bridges are left ahead of a crack, and its flanks do not fray.
 //
 // A vertex at whose elements something changed in this step waits for the next one: the plane that its
 // criterion found belongs to elements that are not there any more. So does one beside such elements.
@@ -199,11 +199,15 @@ private:
     return !halves.empty();
   }
 
-  // Whether an element at the vertex has a corner where a crack ends.
+  // Whether a crack ends at most two edges away from the vertex.
   bool is_beside_tip(const Edit& edit, const EmbeddedMap& map, std::span<const Dart> darts) {
+    const auto ends_at = [&](Dart d, std::vector<Dart>& around) {
+      around = darts_of(edit.map(), Vertex, edit.map().alpha(0, d));
+      return !touched_.any_of(*edit.journal(), around) && is_tip(map, around);
+    };
+    std::vector<Dart> first, second;
     return std::ranges::any_of(darts, [&](Dart d) {
-      const std::vector<Dart> other = darts_of(edit.map(), Vertex, edit.map().alpha(0, d));
-      return !touched_.any_of(*edit.journal(), other) && is_tip(map, other);
+      return ends_at(d, first) || std::ranges::any_of(first, [&](Dart e) { return ends_at(e, second); });
     });
   }
 

@@ -232,22 +232,25 @@ TEST(Cut, goes_on_from_the_tip_of_a_crack_and_not_from_vertices_beside_it) {
         darts.push_back(body->map->cells(Vertex).first_dart(v));
     return darts;
   };
-  const std::vector<Dart> beside = at_distance(1), further = at_distance(2);
-  ASSERT_FALSE(beside.empty());
-  ASSERT_FALSE(further.empty());
-  for (Dart d : beside) EXPECT_FALSE(cut_at(*body, *change, d, Vec3(0.6, 0.8, 0)));
-  EXPECT_EQ(change->memory->refusals().begin()->second, beside.size());
-  EXPECT_TRUE(cut_at(*body, *change, further.front(), Vec3(0.6, 0.8, 0)));
+  std::size_t refused = 0;
+  for (const double distance : {1, 2}) // as many edges
+    for (Dart d : at_distance(distance)) {
+      EXPECT_FALSE(cut_at(*body, *change, d, Vec3(0.6, 0.8, 0)));
+      ++refused;
+    }
+  EXPECT_EQ(change->memory->refusals().begin()->second, refused);
+  EXPECT_TRUE(
+      std::ranges::any_of(at_distance(3), [&](Dart d) { return cut_at(*body, *change, d, Vec3(1, 0, 0)); }));
 }
 
 TEST(Cut, leaves_what_is_built_from_scratch) {
   Noise noise(11);
   long cuts = 0;
-  for (unsigned n = 0; n < 20; ++n) {
+  for (unsigned n = 0; n < 80; ++n) {
     const auto body = sheet_of_triangles(100 + n);
     const auto change = cuts_of(*body);
     Seen seen(*body);
-    for (int k = 0; k < 150; ++k) {
+    for (int k = 0; k < 200; ++k) {
       Dart d{noise.below(body->map->map().capacity())};
       cuts += cut_at(*body, *change, d, in_plane(noise));
       ASSERT_EQ(validate(*body->map), std::nullopt);
@@ -258,7 +261,7 @@ TEST(Cut, leaves_what_is_built_from_scratch) {
       if (HasFailure()) FAIL() << "after cut " << cuts << " of body " << n;
     }
   }
-  EXPECT_GT(cuts, 700);
+  EXPECT_GT(cuts, 2000);
 }
 
 TEST(Cut, makes_no_part_below_a_twentieth_and_no_more_than_four_times_the_elements) {
