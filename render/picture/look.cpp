@@ -7,10 +7,10 @@ namespace {
 Field<LookSettings> torn() {
   return {text("torn",
                "of a sheet: colour of the line along torn edges, #rrggbb, or none for no line; default: "
-               "orange"),
+               "orange, and none where change=\"cut\" alone tears the body"),
           [](LookSettings& look, const AttributeValue& value) {
             look.torn_edges = value.text != "none";
-            look.torn = look.torn_edges ? colour_called(value.text) : std::nullopt;
+            look.torn = *look.torn_edges ? colour_called(value.text) : std::nullopt;
           },
           [](const LookSettings&, const SettingsSource&) {}};
 }

@@ -20,7 +20,8 @@ struct LookSettings {
   ColourBy by = ColourBy::Plain;   // the largest principal strain or stress [Pa], or force [N]
   std::optional<double> most = {}; // the quantity at the end of the scale; none: the most seen so far
   bool edges = true;               // of cells
-  bool torn_edges = true;          // whether a line is drawn along edges exposed by tearing ...
+  // Whether a line is drawn along edges exposed by tearing; none: if anything but cuts tears the body ...
+  std::optional<bool> torn_edges = {};
   std::optional<Colour> torn = {}; // ... in this colour; none: orange
   double torn_width = 3.4;         // [pixels] in a picture of height 720
   DrawStyle as = DrawStyle::Surface;

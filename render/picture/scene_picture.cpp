@@ -28,6 +28,15 @@ Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const s
       as_floats(x), as_floats(normal), {colour[0], colour[1], colour[2], 255}, {line(0), line(1), line(2), 0}};
 }
 
+// Their edges need no line to be seen.
+bool torn_by_cuts_alone(const Body& body) {
+  const bool others = std::ranges::any_of(body.tear_laws, [](const TearLaw& law) {
+    const ChangeType* change = law.settings().change;
+    return !change || change->name != "cut";
+  });
+  return !body.tear_laws.empty() && !others;
+}
+
 } // namespace
 
 BodyPicture::BodyPicture(Body& body, LookSettings look)
@@ -115,7 +124,7 @@ FrameBody BodyPicture::draw() {
 }
 
 TornLine BodyPicture::torn_line() const {
-  if (!look_.torn_edges) return {.width = 0};
+  if (!look_.torn_edges.value_or(!torn_by_cuts_alone(*body_))) return {.width = 0};
   TornLine line{.width = static_cast<float>(look_.torn_width)};
   for (std::size_t c = 0; look_.torn && c < 3; ++c) {
     const float share = static_cast<float>((*look_.torn)[c]) / 255;

@@ -96,6 +96,26 @@ TEST(Picture, DrawsTornEdgesAsThePresetSays) {
   EXPECT_EQ(line.colour, (std::array<float, 3>{0, 1, 0.2f * 0.2f}));
 }
 
+TEST(Picture, DrawsNoLineWhereCutsAloneTear) {
+  const auto width = [](const std::string& laws_and_look) {
+    const auto preset = load_scene_text(
+        R"(<scene name="cut"><body><sheet pattern="triangles" cells="4 2" size="1 0.5"/><mass total="0.1"/>)"
+        R"(<elasticity model="corotational" young="1e5" thickness="1e-3"/>)" +
+            laws_and_look + R"(</body><time duration="1"/></scene>)",
+        "cut.xml");
+    Scene scene(read_scene(*preset), {});
+    FrameBuilder maker(picture_settings(*preset), scene, 1.5, 1.0, 31);
+    maker.observe();
+    return maker.draw(0, 0).bodies.at(0).torn.width;
+  };
+  const std::string cut = R"(<tear criterion="vertex-stress" threshold="1e4" change="cut"/>)";
+  const std::string split = R"(<tear criterion="vertex-stress" threshold="1e4" change="split-vertex"/>)";
+  EXPECT_EQ(width(cut), 0);
+  EXPECT_EQ(width(split), TornLine{}.width);
+  EXPECT_EQ(width(cut + split), TornLine{}.width);
+  EXPECT_EQ(width(cut + R"(<look torn="#00ff33"/>)"), TornLine{}.width);
+}
+
 TEST(Picture, TurnsNormalsToTheSideOfTheirTriangle) {
   for (const char* sheet : {quads, moebius}) {
     Shown shown(sheet);
