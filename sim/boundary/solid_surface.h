@@ -18,7 +18,7 @@
 #pragma once
 
 #include "sim/boundary/boundary_faces.h"
-#include "sim/boundary/initial_border.h"
+#include "sim/embedding/initial_border.h"
 #include "sim/topology/marks.h"
 
 namespace rend {

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "sim/boundary/face_sense.h"
-#include "sim/boundary/initial_border.h"
+#include "sim/embedding/initial_border.h"
 #include "sim/boundary/line_kind.h"
 #include "sim/rows/packed_rows.h"
 

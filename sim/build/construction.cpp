@@ -4,7 +4,7 @@
 #include "sim/build/constructed_cells.h"
 #include "sim/build/read_settings.h"
 #include "sim/build/shape.h"
-#include "sim/fracture/start_triangle.h"
+#include "sim/fracture/start_element.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/rules/cell_words.h"
 #include "sim/rules/rest_measures.h"
@@ -134,7 +134,7 @@ public:
       ++bit;
     }
     body_.groups = std::move(groups);
-    if (keep_start == KeepStart::Yes) hand_on_start_triangles(*body_.map, *map, order, place.scale);
+    if (keep_start == KeepStart::Yes) hand_on_start_elements(*body_.map, *map, order, place.scale);
     body_.map = std::move(map);
   }
 

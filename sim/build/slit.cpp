@@ -35,8 +35,8 @@ struct Found {
 class Slits {
 public:
   explicit Slits(EmbeddedMap& map) : map_(map), g_(map.map()) {
-    add_start_triangles(map_);
-    start_ = find_start_triangles(map_);
+    add_start_elements(map_);
+    start_ = find_start_elements(map_);
   }
 
   // False: all of it lies outside.
@@ -323,7 +323,7 @@ private:
 
   EmbeddedMap& map_;
   const GMap& g_;
-  const Column<StartTriangle>* start_ = nullptr;
+  const Column<StartElement>* start_ = nullptr;
   EdgeDivision division_;
   std::vector<Slot> pinned_; // vertices of slits, increasing
   std::set<Edge> edges_;     // that are cut

@@ -11,10 +11,8 @@
 namespace rend {
 namespace {
 
-constexpr double nearest_share = 0.25;     // of an edge, from its end
-constexpr double smallest_part = 1.0 / 20; // of the area of the triangle of the start
-constexpr double least_sine = 1.0 / 4;     // of that of its least angle
-constexpr double least_cosine = 0.9;       // between an element's normals before and after a corner moves
+constexpr double nearest_share = 0.25; // of an edge, from its end
+constexpr double least_cosine = 0.9;   // between an element's normals before and after a corner moves
 
 // Of the triangle of d at rest, first the corner of d.
 struct Corners {
@@ -27,9 +25,8 @@ struct Corners {
   Vec3 normal() const { return (b - a).cross(c - a); } // [m²], as long as twice the area
 };
 
-bool keeps(const Corners& rest, const TriangleSizes& start) {
-  const TriangleSizes now(rest.a, rest.b, rest.c);
-  return now.twice_area >= smallest_part * start.twice_area && now.sine >= least_sine * start.sine;
+bool keeps(const Corners& rest, const ElementSizes& start) {
+  return ElementSizes(rest.a, rest.b, rest.c).keeps(start);
 }
 
 } // namespace
@@ -75,7 +72,7 @@ bool TriangleCut::may_move(Dart d, const Point& to) const {
   return std::ranges::all_of(around, [&](Dart e) { return !map_.is_free(2, e) && keeps_shape(e, to); });
 }
 
-const TriangleSizes& TriangleCut::start_of(Dart d) const {
+const ElementSizes& TriangleCut::start_of(Dart d) const {
   return state_.start[state_.map.slot(FaceOfVolume, d)];
 }
 
@@ -93,7 +90,7 @@ bool TriangleCut::leaves_room(Dart across, double share) const {
   for (Dart d : {across, map_.alpha(2, across)}) {
     const Corners whole(state_.map, d); // divided from a to b
     const Vec3 m = whole.a + share * (whole.b - whole.a);
-    const TriangleSizes& start = start_of(d);
+    const ElementSizes& start = start_of(d);
     if (!keeps({whole.a, m, whole.c}, start) || !keeps({m, whole.b, whole.c}, start)) return false;
   }
   return true;

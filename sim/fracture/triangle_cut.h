@@ -9,11 +9,11 @@
 // small or thin, or tilt. Then the edge is divided at m, or at the nearest place that leaves no part too small
 // or thin, if there is one closer to m than the end; or else the cut bends to that end.
 //
-// A part of a triangle of the start (start_triangle.h) is too small below a twentieth of its area, too thin
+// A part of a triangle of the start (start_element.h) is too small below a twentieth of its area, too thin
 // below a quarter of the sine of its least angle.
 #pragma once
 
-#include "sim/fracture/start_triangle.h"
+#include "sim/fracture/start_element.h"
 #include "sim/rules/apply.h"
 
 #include <optional>
@@ -24,10 +24,10 @@ namespace rend {
 // Before an edit. Positions and velocities: one per vertex slot.
 struct SheetState {
   const EmbeddedMap& map;
-  const Column<StartTriangle>& start; // of that map
-  const Record *position, *velocity;  // [m], [m/s]
-  std::span<const Slot> held;         // vertices that do not move, increasing
-  bool rigid = false;                 // no vertex moves
+  const Column<StartElement>& start; // of that map
+  const Record *position, *velocity; // [m], [m/s]
+  std::span<const Slot> held;        // vertices that do not move, increasing
+  bool rigid = false;                // no vertex moves
 };
 
 // Through the edge opposite to a vertex.
@@ -54,7 +54,7 @@ public:
 private:
   Vec3 at(Dart d) const { return state_.position[state_.map.vertex(d)].vec(); }
   Point between(Dart a, Dart b, double share) const;
-  const TriangleSizes& start_of(Dart d) const;
+  const ElementSizes& start_of(Dart d) const;
   bool keeps_shape(Dart d, const Point& to) const;
   std::optional<double> nearest_with_room(Dart across, double t) const;
 

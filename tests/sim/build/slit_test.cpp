@@ -1,6 +1,6 @@
 // Slits: where they open a sheet, what they keep, and what is refused.
 #include "sim/build/slit.h"
-#include "sim/fracture/start_triangle.h"
+#include "sim/fracture/start_element.h"
 #include "sim/mechanics/mass.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
@@ -105,14 +105,14 @@ TEST_P(SlitOf, a_body_that_cuts_tear_keeps_the_sizes_of_the_start) {
            change + R"("/></body><world gravity="0 0 0"/><time duration="1"/></scene>)";
   };
   const auto cut = presets::load(text("cut")), parted = presets::load(text("separate"));
-  EXPECT_EQ(find_start_triangles(*parted.body().map), nullptr);
+  EXPECT_EQ(find_start_elements(*parted.body().map), nullptr);
   const EmbeddedMap& map = *cut.body().map;
-  const Column<StartTriangle>* start = find_start_triangles(map);
+  const Column<StartElement>* start = find_start_elements(map);
   ASSERT_NE(start, nullptr);
   const double cell = 0.6 * 0.6, whole = pattern == "triangles" ? cell : cell / 2; // twice the area [m²]
   std::size_t parts = 0;
   for_each_face(map, [&](Dart d) {
-    EXPECT_NEAR((*start)[map.slot(FaceOfVolume, d)].twice_area, whole, 1e-12 * whole);
+    EXPECT_NEAR((*start)[map.slot(FaceOfVolume, d)].size, whole, 1e-12 * whole);
     EXPECT_GE(2 * rest_area(map, d), 0.049 * whole);
     ++parts;
   });

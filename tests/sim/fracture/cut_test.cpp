@@ -3,12 +3,10 @@
 #include "render/picture/scene_preset.h"
 #include "sim/boundary/face_sense.h"
 #include "sim/build/build_scene.h"
-#include "sim/fracture/change.h"
-#include "sim/fracture/start_triangle.h"
-#include "sim/fracture/torn_bodies.h"
+#include "sim/fracture/cuts.h"
+#include "sim/fracture/start_element.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
-#include "sim/rows/continuum.h"
 #include "sim/scene/scene.h"
 #include "sim/shipped_presets.h"
 
@@ -19,21 +17,8 @@
 namespace rend::cut_test {
 namespace {
 
+using namespace cuts;
 using namespace torn;
-
-// Cuts at one vertex, by the plane with that normal.
-bool cut_at(Body& body, const ChangeType& change, Dart d, const Vec3& normal) {
-  bool made = false;
-  const ForceView view = body.view();
-  change.memory->begin(view);
-  body.map->edit([&](Edit& edit) {
-    made = change.apply(edit, view, normal, darts_of(body.map->map(), Vertex, d));
-    change.memory->settle_candidate(made);
-  });
-  body.rebind();
-  body.evaluate();
-  return made;
-}
 
 // Of the triangle of d, at rest [m²].
 double area_of(const Body& body, Dart d) {
@@ -49,42 +34,17 @@ double area(const Body& body) {
   return sum;
 }
 
-// Of elasticity, without the springs [J].
-double energy(const Body& body) {
-  double sum = 0;
-  for_each_unit(*body.map, body.interactions, [&](const Interaction& interaction, Dart d, std::size_t unit) {
-    const CurrentUnit now(*body.map, interaction, d, unit, meshes::positions(body), nullptr);
-    if (now.acts() && interaction.name.starts_with("co-rotational"))
-      sum += interaction.law->energy(now.values, now.state());
-  });
-  return sum;
-}
-
 // With springs, where no vertex moves, or without.
 std::unique_ptr<Body> sheet_of_triangles(unsigned seed) {
   auto map = sheet_from(meshes::warped(meshes::sheet(SheetPattern::Triangles, 4, 4), 0.15, seed));
   map->let_grow();
   map->add(FaceSense{});
-  add_start_triangles(*map);
+  add_start_elements(*map);
   return torn::body(std::move(map), {}, "symplectic", true, seed % 2 == 0);
-}
-
-std::shared_ptr<const ChangeType> cuts_of(Body& body) {
-  return find_change("cut")->of_law(
-      body.request_for(LawSettings{.criterion = find_criterion("vertex-stress")}));
 }
 
 Vec3 in_plane(Noise& noise) {
   return Vec3(noise(), noise(), 0.2 * noise()).normalized();
-}
-
-// In the plane, pulled along the normal: each element has the same strain.
-void stretch(Body& body, const Vec3& normal) {
-  for (Slot v = 0; v < body.vertices(); ++v) {
-    const Vec3 rest = body.map->rest()[v];
-    body.map->position().values()[v] = Record(Vec3(rest + 0.1 * normal.dot(rest) * normal));
-  }
-  body.evaluate();
 }
 
 std::unique_ptr<Body> flat_sheet_of_triangles(unsigned seed) {
@@ -93,7 +53,7 @@ std::unique_ptr<Body> flat_sheet_of_triangles(unsigned seed) {
   auto map = sheet_from(mesh);
   map->let_grow();
   map->add(FaceSense{});
-  add_start_triangles(*map);
+  add_start_elements(*map);
   return torn::body(std::move(map), {}, "symplectic", true, false);
 }
 
@@ -174,7 +134,7 @@ std::unique_ptr<Body> sheet_with_slit(int sectors, double turned) {
   auto map = sheet_from(mesh);
   map->let_grow();
   map->add(FaceSense{});
-  add_start_triangles(*map);
+  add_start_elements(*map);
   return torn::body(std::move(map), {}, "symplectic", true, false);
 }
 
@@ -300,7 +260,7 @@ TEST(Cut, leaves_no_slivers_after_500) {
     auto map = sheet_from(mesh);
     map->let_grow();
     map->add(FaceSense{});
-    add_start_triangles(*map);
+    add_start_elements(*map);
     const auto body = torn::body(std::move(map), {}, "symplectic", true, false);
     const auto change = cuts_of(*body);
     const double least = angles(*body).front();

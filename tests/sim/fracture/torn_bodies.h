@@ -97,11 +97,11 @@ inline void watch(Body& body) {
   }
 }
 
-// Co-rotational elements and, if asked for, springs along edges; viscous drag, one fixed vertex; displaced at
-// random.
+// Elements, co-rotational unless asked for otherwise, and springs along edges; viscous drag, one fixed vertex;
+// displaced at random.
 inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::vector<RandomChange>& laws = {},
                                   const std::string& scheme = "symplectic", bool watched = false,
-                                  bool springs = true) {
+                                  bool springs = true, const elements::Elastic& elastic = {}) {
   auto made = std::make_unique<Body>();
   made->name = "torn";
   made->map = std::move(map);
@@ -111,7 +111,7 @@ inline std::unique_ptr<Body> body(std::unique_ptr<EmbeddedMap> map, const std::v
   CornerDrag drag;
   drag.per_vertex = 0.1;
   made->drag = &made->map->add(drag.on(*made->map));
-  elements::add_elasticity(*made, {});
+  elements::add_elasticity(*made, elastic);
   if (springs) made->interactions.push_back(meshes::interaction(*made->map, {"stretch", "", 60, 0.3}));
   made->constraints.add(*made->map, Motion{}, {made->map->vertex(Dart{0u})});
   made->border = &made->map->add(InitialBorder(made->map->dimension()));

@@ -1,6 +1,6 @@
 // What acts from outside, after cells were divided: vertices that are held; points, edges and faces that are
 // loaded. And which sides are torn.
-#include "sim/boundary/initial_border.h"
+#include "sim/embedding/initial_border.h"
 #include "sim/divided.h"
 #include "sim/outside/constraint.h"
 #include "sim/outside/patch.h"

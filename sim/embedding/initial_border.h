@@ -33,4 +33,11 @@ struct InitialBorder {
 };
 using BorderColumn = Column<InitialBorder>;
 
+// The embedding of this map; null: it has none.
+inline const BorderColumn* find_initial_border(const EmbeddedMap& map) {
+  for (const auto& column : map.columns())
+    if (const auto* found = dynamic_cast<const BorderColumn*>(column.get())) return found;
+  return nullptr;
+}
+
 } // namespace rend

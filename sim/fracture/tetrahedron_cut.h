@@ -1,0 +1,115 @@
+// How a cut leaves a vertex v of a solid of tetrahedra through the elements around it, without slivers. Each
+// other vertex of these elements lies on one side of the surface of the cut (cut_surface.h) or on it. An edge
+// bc between two of them on different sides is to be divided where the surface crosses it, at
+//
+//   m = (1 − t) b + t c,   t = s_b / (s_b − s_c)      s: heights above the surface
+//
+// with all tetrahedra around it. Where m lies within a quarter of the edge from one of its ends, or a part
+// would be too small or thin (start_element.h), that end counts as lying on the surface, and moves to m within
+// the matter: its rest position is that of m, its position where m is; it keeps its velocity, and the elements
+// around it their masses. It stays where it is, and the cut bends to it, if it is on a border, is held, or an
+// element around it would become too small or thin. On the surface, it removes crossings and adds none, so that
+// this comes to an end before anything is divided.
+//
+// A vertex whose side is fixed takes no part in that; the edge is divided a quarter away from it at least.
+#pragma once
+
+#include "sim/fracture/cut_surface.h"
+#include "sim/fracture/start_element.h"
+#include "sim/topology/index_set.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rend {
+
+// Before an edit. Positions and velocities: one per vertex slot.
+struct SolidState {
+  const EmbeddedMap& map;
+  const Column<StartElement>& start;                  // of that map
+  const Record *position, *velocity;                  // [m], [m/s]
+  std::span<const Slot> held;                         // vertices that do not move, increasing
+  bool rigid = false;                                 // no vertex moves
+  std::function<bool(std::span<const Dart>)> changed; // whether elements with these darts have changed since
+};
+
+struct TetrahedronCutPlan {
+  struct Division {
+    Dart across; // of the edge, at the end from which the share counts
+    double share;
+  };
+  struct Move {
+    Dart dart; // of the vertex
+    Point to;
+  };
+  std::vector<Division> divisions;
+  std::vector<Move> moves;
+  std::vector<std::pair<Slot, int>> sides; // −1, 0 or 1, of all other vertices of elements at v, by their slots
+
+  int side_of(Slot vertex) const; // CHECK: it is one of them
+};
+
+class TetrahedronCut {
+public:
+  // `darts`: of v.
+  TetrahedronCut(const SolidState& state, std::span<const Dart> darts, const CutSurface& surface);
+
+  // None: there is no way that leaves no part too small or thin.
+  std::optional<TetrahedronCutPlan> plan();
+
+private:
+  struct Corner { // another vertex of an element at v
+    Dart dart;    // of it
+    Slot slot;
+    CutSurface::Side side;
+    bool may_move = true;
+    std::optional<Point> moved = {};
+  };
+  struct LinkEdge {
+    std::size_t b, c; // corners
+    Dart across;      // at b
+  };
+  struct Tetrahedron {
+    std::array<std::uint32_t, 4> point;
+    std::size_t whole; // of which it is a part
+  };
+  struct Crossing {
+    const LinkEdge* edge;
+    std::optional<std::size_t> end; // to which it may bend: the nearer one, if that is free
+    double share, from_end;
+  };
+
+  bool crosses(const LinkEdge& edge) const;
+  double share_of(const LinkEdge& edge) const;
+  std::optional<std::size_t> free_end(const LinkEdge& edge, double share) const;
+  bool bend_nearest(double below, const std::function<bool(const LinkEdge&)>& among);
+  void bend(const LinkEdge& edge, std::size_t end, double share);
+  bool may_move(const Corner& corner) const;
+  bool give_way_in(std::size_t whole);
+
+  // What the plan makes of the elements.
+  std::optional<std::size_t> element_without_room();
+  void collect_elements();
+  void add_element(Dart d);
+  std::uint32_t point_of(Dart d);
+  void divide_elements();
+  bool has_room(const Tetrahedron& part) const;
+
+  SolidState state_;
+  const GMap& map_;
+  std::vector<Dart> darts_;
+  std::vector<Corner> corners_;
+  std::vector<LinkEdge> edges_;
+  IndexMap corner_of_; // vertex slot → index in corners_
+
+  std::vector<Dart> elements_; // a dart of each that is divided or has a corner that moves
+  std::vector<Tetrahedron> wholes_, parts_;
+  std::vector<Vec3> rest_, now_;           // of their points [m]
+  std::vector<Vec3> rest_were_, now_were_; // before the moves
+  IndexMap point_of_, element_of_;         // vertex slot → point; element slot → 0
+};
+
+} // namespace rend
