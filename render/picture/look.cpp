@@ -45,11 +45,11 @@ template <> const Fields<LookSettings>& fields_of() {
                           .above(0)),
       field(&S::edges, flag("edges", "whether the edges of cells are drawn")),
       torn(),
-      field(&S::torn_width,
-            number("torn-width", "",
-                   "width of that line: pixels in a picture of height 720; in others in proportion")
-                .above(0)
-                .at_most(100)),
+      field(&S::torn_width, number("torn-width", "",
+                                   "width of that line, where there is one: pixels in a picture of height 720; "
+                                   "in others in proportion")
+                                .above(0)
+                                .at_most(100)),
       field(&S::as, word("as", {"surface", "wires", "exploded", "darts"},
                          "how the body is shown\nsurface: its surface\nwires: only the edges of its "
                          "surface\nexploded: every cell separately, moved away from the middle\ndarts: the "

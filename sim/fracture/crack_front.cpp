@@ -8,7 +8,7 @@
 namespace rend {
 namespace {
 
-constexpr double front_angle = 1.5 * M_PI; // of the matter around a front edge, at least
+constexpr double front_angle = 300 * M_PI / 180; // of the matter around a front edge, at least
 
 } // namespace
 

@@ -1,5 +1,5 @@
 // The border around a vertex v of a solid of tetrahedra, and where a crack front passes through it. A front
-// edge is a border edge around which there is matter over more than 270° at rest: the tip of a crack that was
+// edge is a border edge around which there is matter over more than 300° at rest: the tip of a crack that was
 // torn, or of a notch that the mesh has from the start. The border edges at v form cycles: one around v on the
 // outer surface, one more for each crack that does not reach it.
 #pragma once

@@ -7,7 +7,7 @@
 // so that only the half of the plane that begins at the front is cut: a crack leaves no bridges between two of
 // its vertices, and does not turn back along its wake.
 //
-// A front edge is a border edge around which there is matter over more than 270° at rest: the tip of a crack,
+// A front edge is a border edge around which there is matter over more than 300° at rest: the tip of a crack,
 // or of a notch that the mesh has from the start. All else is of the state that is cut: N_A and N_B the outward
 // normals of the two faces at a front edge from v along e, u_A and u_B the directions in them away from it,
 //

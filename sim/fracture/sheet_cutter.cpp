@@ -98,8 +98,7 @@ public:
   }
 
   const char* cut(Edit& edit, const CutPlace& place, TouchedDarts& touched) override {
-    if (!is_tip(place.view.map, place.darts) && is_beside_tip(edit, place, touched))
-      return CutRefusal::beside_tip;
+    if (const char* why = wait_for_tip(edit, place, touched)) return why;
     std::vector<Half> halves = Crossing(place, *start_, !may_move()).halves();
     if (halves.empty()) return CutRefusal::nothing_crosses;
     if (!settle_moves(edit, halves, touched)) return CutRefusal::waits;
@@ -120,17 +119,28 @@ public:
   }
 
 private:
-  // Whether a crack ends at most two edges away from the vertex.
-  static bool is_beside_tip(const Edit& edit, const CutPlace& place, TouchedDarts& touched) {
+  // Why the vertex is not cut if a crack ends at most two edges away, or another cut of the step came as close.
+  static const char* wait_for_tip(const Edit& edit, const CutPlace& place, TouchedDarts& touched) {
+    if (is_tip(place.view.map, place.darts)) return nullptr;
     const GMap& map = edit.map();
-    const auto ends_at = [&](Dart d, std::vector<Dart>& around) {
-      around = darts_of(map, Vertex, map.alpha(0, d));
-      return !touched.any_of(*edit.journal(), around) && is_tip(place.view.map, around);
+    std::vector<Dart> around, first, second;
+    for (Dart d : place.darts) around.push_back(map.alpha(0, d));
+    const auto look = [&](std::span<const Dart> ends, std::vector<Dart>& further) -> const char* {
+      for (Dart d : ends) {
+        if (map.alpha(2, d) < d) continue; // the same edge
+        further = darts_of(map, Vertex, d);
+        if (touched.any_of(*edit.journal(), further)) return CutRefusal::waits;
+        if (is_tip(place.view.map, further)) return CutRefusal::beside_tip;
+      }
+      return nullptr;
     };
-    std::vector<Dart> first, second;
-    return std::ranges::any_of(place.darts, [&](Dart d) {
-      return ends_at(d, first) || std::ranges::any_of(first, [&](Dart e) { return ends_at(e, second); });
-    });
+    if (const char* why = look(around, first)) return why;
+    for (Dart d : around) {
+      first = darts_of(map, Vertex, d);
+      for (Dart& e : first) e = map.alpha(0, e);
+      if (const char* why = look(first, second)) return why;
+    }
+    return nullptr;
   }
 
   // A vertex moves only if no element around it changes otherwise: the half waits. False: so does the vertex.

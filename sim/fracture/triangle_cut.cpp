@@ -11,8 +11,9 @@
 namespace rend {
 namespace {
 
-constexpr double nearest_share = 0.25; // of an edge, from its end
-constexpr double least_cosine = 0.9;   // between an element's normals before and after a corner moves
+constexpr double nearest_share = 0.25;       // of an edge, from its end
+constexpr double tip_angle = 300 * pi / 180; // of the matter around it, at least
+constexpr double least_cosine = 0.9;         // between an element's normals before and after a corner moves
 
 // Of the triangle of d at rest, first the corner of d.
 struct Corners {
@@ -106,7 +107,7 @@ bool is_tip(const EmbeddedMap& map, std::span<const Dart> darts) {
     const Vec3 one = rest.b - rest.a, other = rest.c - rest.a;
     angle += std::atan2(one.cross(other).norm(), one.dot(other));
   }
-  return angle > 1.5 * pi;
+  return angle > tip_angle;
 }
 
 EdgeDivision::EdgeDivision()

@@ -62,7 +62,7 @@ private:
   const GMap& map_;
 };
 
-// Whether a crack, or a notch of less than a right angle, ends at the vertex with these darts.
+// Whether a crack, or a notch of less than 60°, ends at the vertex with these darts.
 bool is_tip(const EmbeddedMap& map, std::span<const Dart> darts);
 
 // Divides edges of triangles.

@@ -42,8 +42,7 @@ Guard::Guard(World& world, const Rollback::Bodies& bodies, const Scheme& scheme,
 }
 
 int Guard::substeps(long step) const {
-  const int planned = planned_substeps(step);
-  return redoing_ && step >= from_ && step < goal_ ? std::max(substeps_, planned) : planned;
+  return redoing_ && step >= from_ && step < goal_ ? substeps_ : planned_substeps(step);
 }
 
 bool Guard::needs_forces() const {
@@ -238,7 +237,7 @@ std::optional<long> Guard::roll_back(StepFailure failure, long done) {
     if (from_ <= rollback_->first()) return {};
     figures_.rejected += from_ - rollback_->first();
     from_ = rollback_->first();
-    substeps_ = std::min(2 * least_substeps_, most_substeps);
+    substeps_ = std::min(std::max(2 * least_substeps_, planned_substeps(from_)), most_substeps);
   }
   from_ = std::max(from_, rollback_->first());
   rollback_->restore();

@@ -145,6 +145,7 @@ private:
   StepFailure apply_laws();
   int parts_within(double limit) const;
   bool touches_by_verlet() const;
+  bool divides_for_bounds() const;
   void divide_for_contact();
   StepFailure integrate(double time, double step);        // [s]
   StepFailure resolve_contacts(double time, double step); // [s]

@@ -167,8 +167,7 @@ StepFailure Scene::apply_laws() {
   }
   // A step that was chosen for the elements at the start may be too large for those that laws have made; and
   // the bound of what there is then holds until something is separated.
-  if (bounds_changed && automatic_step() && !scheme().solves && !scheme().adaptive)
-    guard_->divide_steps(parts_within(limit_until_torn()));
+  if (bounds_changed && divides_for_bounds()) guard_->divide_steps(parts_within(limit_until_torn()));
   laws_applied_at_ = steps_done_;
   guard_->after_laws(steps_done_);
   return StepFailure::None;

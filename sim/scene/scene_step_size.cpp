@@ -91,6 +91,11 @@ double Scene::stability_limit(const Scheme& scheme) const {
   });
 }
 
+// A step that was given is divided only where something touches; an adaptive scheme divides its own.
+bool Scene::divides_for_bounds() const {
+  return touches_by_verlet() || (automatic_step() && !scheme().solves && !scheme().adaptive);
+}
+
 // With a margin, as that of an automatic step.
 double Scene::limit_until_torn() const {
   const auto bounds = [](const Body& body) {
@@ -98,8 +103,10 @@ double Scene::limit_until_torn() const {
     return body.map->grows() ? bounds_by_vertices(sums, *body.map, *body.mass, body.drag)
                              : frequency_bounds(sums, *body.map, *body.mass, body.drag);
   };
-  const double own = limit_by(scheme(), bounds);
-  return margin * (touches_by_verlet() ? std::min(own, limit_by(*find_scheme("verlet"), bounds)) : own);
+  double limit = std::numeric_limits<double>::infinity();
+  if (automatic_step() && !scheme().adaptive) limit = limit_by(scheme(), bounds);
+  if (touches_by_verlet()) limit = std::min(limit, limit_by(*find_scheme("verlet"), bounds));
+  return margin * limit;
 }
 
 double Scene::limit_by(const Scheme& scheme, FrequencyBounds (*bounds_of)(const Body&)) const {

@@ -181,26 +181,50 @@ TEST(Cut, at_the_tip_of_a_crack_turns_as_the_largest_hoop_stress_asks) {
       }
 }
 
+// A dart of each vertex at that distance from the tip, without the slit.
+std::vector<Dart> at_distance(const Body& body, double distance) {
+  std::vector<Dart> darts;
+  for (Slot v = 0; v < body.vertices(); ++v)
+    if (const Vec3 rest = body.map->rest()[v];
+        std::abs(rest.norm() - distance) < 1e-9 && (distance == 0 || std::abs(rest.y()) > 1e-9))
+      darts.push_back(body.map->cells(Vertex).first_dart(v));
+  return darts;
+}
+
 TEST(Cut, goes_on_from_the_tip_of_a_crack_and_not_from_vertices_beside_it) {
   const auto body = sheet_with_slit(11, 0.1);
   const auto change = cuts_of(*body);
-  const auto at_distance = [&](double distance) { // from the tip, without the slit
-    std::vector<Dart> darts;
-    for (Slot v = 0; v < body->vertices(); ++v)
-      if (const Vec3 rest = body->map->rest()[v];
-          std::abs(rest.norm() - distance) < 1e-9 && std::abs(rest.y()) > 1e-9)
-        darts.push_back(body->map->cells(Vertex).first_dart(v));
-    return darts;
-  };
   std::size_t refused = 0;
   for (const double distance : {1, 2}) // as many edges
-    for (Dart d : at_distance(distance)) {
+    for (Dart d : at_distance(*body, distance)) {
       EXPECT_FALSE(cut_at(*body, *change, d, Vec3(0.6, 0.8, 0)));
       ++refused;
     }
-  EXPECT_EQ(change->memory->refusals().begin()->second, refused);
-  EXPECT_TRUE(
-      std::ranges::any_of(at_distance(3), [&](Dart d) { return cut_at(*body, *change, d, Vec3(1, 0, 0)); }));
+  ASSERT_GT(refused, 0u);
+  EXPECT_EQ(change->memory->refusals(),
+            (Refusals{{"a crack ends beside the vertex, and goes on from there", refused}}));
+  EXPECT_TRUE(std::ranges::any_of(at_distance(*body, 3),
+                                  [&](Dart d) { return cut_at(*body, *change, d, Vec3(1, 0, 0)); }));
+}
+
+// Nor from those beside where it was, and where it has come to in the same step.
+TEST(Cut, goes_on_from_the_tip_alone_within_a_step) {
+  for (const double distance : {1, 2}) {
+    const auto body = sheet_with_slit(11, 0.1);
+    const auto change = cuts_of(*body);
+    const Dart tip = at_distance(*body, 0).front();
+    const std::vector<Dart> beside = at_distance(*body, distance);
+    ASSERT_FALSE(beside.empty());
+    const ForceView view = body->view();
+    change->memory->begin(view);
+    body->map->edit([&](Edit& edit) {
+      const auto cut = [&](Dart d, const Vec3& normal) {
+        return change->apply(edit, view, normal, darts_of(body->map->map(), Vertex, d));
+      };
+      EXPECT_TRUE(cut(tip, Vec3(0, 1, 0)));
+      for (Dart d : beside) EXPECT_FALSE(cut(d, Vec3(0.6, 0.8, 0)));
+    });
+  }
 }
 
 TEST(Cut, leaves_what_is_built_from_scratch) {
