@@ -18,22 +18,26 @@ using testing::HasSubstr;
 SceneDefinition flag_of_structs() {
   BodySettings flag;
   flag.name = "flag";
-  flag.shape = SheetShape{.pattern = SheetPattern::Crossed, .nx = 48, .ny = 32, .size = {{1.5, 1}}};
+  flag.shape = SheetShape{.pattern = SheetPattern::Crossed, .nx = 36, .ny = 24, .size = {{1.5, 1}}};
   flag.place = Placement{.rotate = {90, 0, 0}, .translate = {-0.7, 0, 0.9}};
   flag.mass.total = 0.25;
-  flag.springs =
-      SpringsSettings{.springs = {{.type = find_interaction("stretch"), .k = 150, .damping = 0.02},
-                                  {.type = find_interaction("bend", "angular"), .k = 4e-5, .damping = 2e-6}}};
-  flag.viscosity = ViscositySettings{.value = 0.05, .per = ViscositySettings::Per::Body};
+  flag.springs = SpringsSettings{.springs = {{.type = find_interaction("bend", "angular"), .k = 4e-5}}};
+  flag.elasticity = ElasticitySettings{.model = ContinuumModel::Corotational,
+                                       .young = 2e5,
+                                       .poisson = 0.3,
+                                       .thickness = 1e-3,
+                                       .damping_mass = 0.2,
+                                       .damping_stiffness = 1e-5};
   flag.motions = {FixSettings{.where = {.side = "-x"}}};
-  flag.tears = {LawSettings{.criterion = find_criterion("atomic-border"), .threshold = 1.05}};
+  flag.tears = {LawSettings{
+      .criterion = find_criterion("vertex-stress"), .threshold = 5.2e4, .change = find_change("cut")}};
   flag.contact = ContactSettings{.floor = true, .obstacles = false, .friction = 0.6};
 
   SceneDefinition scene;
   scene.name = "flag";
   scene.world.floor = Floor{.z = 0};
   scene.world.boxes = {Box{.low = {-0.725, -0.012, 0}, .high = {-0.701, 0.012, 1.96}}};
-  scene.world.wind = Wind{.velocity = {15, 3, 1.5}, .drag = 0.7};
+  scene.world.wind = Wind{.velocity = {12, 2.4, 1.2}, .drag = 0.7};
   scene.time.duration = 4;
   add_body(scene, flag);
   return scene;
