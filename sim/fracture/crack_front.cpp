@@ -1,14 +1,14 @@
 #include "sim/fracture/crack_front.h"
 
+#include "sim/base/math.h"
 #include "sim/topology/index_set.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rend {
 namespace {
 
-constexpr double front_angle = 300 * M_PI / 180; // of the matter around a front edge, at least
+constexpr double front_angle = 300 * pi / 180; // of the matter around a front edge, at least
 
 } // namespace
 
@@ -46,7 +46,7 @@ CrackFront::BorderEdge CrackFront::edge_after(Dart d) const {
   for (;;) {
     const Dart other = g.alpha(2, found.after);
     const Vec3 a = away(found.after), b = away(other);
-    found.angle += std::atan2(a.cross(b).norm(), a.dot(b));
+    found.angle += arc_tangent(a.cross(b).norm(), a.dot(b));
     found.after = other;
     if (g.is_free(3, other)) return found;
     found.after = g.alpha(3, other);

@@ -1,5 +1,6 @@
 #include "sim/fracture/cut_surface.h"
 
+#include "sim/base/math.h"
 #include "sim/embedding/initial_border.h"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ const CutSurface::Front* CutSurface::front_before(const Vec3& away) const {
 }
 
 double CutSurface::angle_of(const Front& front, const Vec3& away) const {
-  return std::atan2(away.dot(front.across), away.dot(front.wake));
+  return arc_tangent(away.dot(front.across), away.dot(front.wake));
 }
 
 void CutSurface::add_front(const Cycle& cycle) {
@@ -92,7 +93,7 @@ bool CutSurface::set_wake(Front& front, const Cycle& cycle) const {
   front.wake = wake.normalized();
   front.across = front.middle.cross(front.wake);
   const auto angle = [&](std::size_t n) { return angle_of(front, to(cycle.edges[n].after)); };
-  const double one = angle(cycle.fronts.front()), opposite = one > 0 ? one - M_PI : one + M_PI,
+  const double one = angle(cycle.fronts.front()), opposite = one > 0 ? one - pi : one + pi,
                other = cycle.fronts.size() == 2 ? angle(cycle.fronts[1]) : opposite;
   front.from = std::min(one, other);
   front.to = std::max(one, other);

@@ -74,11 +74,12 @@ void hand_on_start_elements(const EmbeddedMap& from, EmbeddedMap& to, std::span<
   if (!old) return;
   add_start_elements(to);
   Column<StartElement>& start = *find_start_elements(to);
+  const double factor = (to.dimension() == 3 ? scale : 1) * scale * scale;
   const CellIndex& elements = to.cells(start.orbit());
   for (Slot e = 0; e < elements.slots(); ++e) {
     if (!elements.alive(e)) continue;
     start[e] = (*old)[from.slot(old->orbit(), order[elements.first_dart(e).value])];
-    start[e].size *= std::pow(scale, to.dimension());
+    start[e].size *= factor;
   }
 }
 

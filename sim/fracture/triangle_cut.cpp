@@ -6,7 +6,6 @@
 #include "sim/topology/walk.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rend {
 namespace {
@@ -105,7 +104,7 @@ bool is_tip(const EmbeddedMap& map, std::span<const Dart> darts) {
     if (g.alpha(1, d) < d) continue;
     const Corners rest(map, d);
     const Vec3 one = rest.b - rest.a, other = rest.c - rest.a;
-    angle += std::atan2(one.cross(other).norm(), one.dot(other));
+    angle += arc_tangent(one.cross(other).norm(), one.dot(other));
   }
   return angle > tip_angle;
 }
