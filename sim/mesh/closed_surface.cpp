@@ -1,5 +1,7 @@
 #include "sim/mesh/closed_surface.h"
 
+#include "sim/base/math.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -140,7 +142,7 @@ ClosedSurface closed_surface(const MeshFile& file) {
   drop_unused(surface);
   if (signed_volume(surface) < 0)
     for (Triangle& t : surface.triangles) std::swap(t[1], t[2]);
-  if (!(surface.volume() > tolerance * std::pow(surface.size(), 3)))
+  if (!(surface.volume() > tolerance * power(surface.size(), 3)))
     file.source.fail("the surface encloses no volume");
   return surface;
 }
@@ -197,7 +199,7 @@ void check_cells_to_fill(const ClosedSurface& surface, double size) {
         fmt::format("the solid would have about {:.2g} tetrahedra of this size; at most {:.0e} are made", cells,
                     most_cells),
         fmt::format("take a larger --size, of {:.2g} m or more",
-                    std::cbrt(in_a_cube * surface.volume() / most_cells)));
+                    power(in_a_cube * surface.volume() / most_cells, 1.0 / 3)));
 }
 
 void divide_edges(ClosedSurface& surface, double most) {

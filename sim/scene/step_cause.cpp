@@ -1,5 +1,7 @@
 #include "sim/scene/step_cause.h"
 
+#include "sim/base/math.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -141,10 +143,10 @@ std::string times(double gain) {
 // that without this damping.
 double lower_damping(const Parts& parts, const Damping& damping) {
   const double enough = 0.8 * parts.step(damping, 0);
-  double power = std::pow(10, std::floor(std::log10(damping.value)));
-  for (int decade = 0; decade < 12; ++decade, power /= 10)
+  double unit = power(10, std::floor(logarithm(damping.value) / logarithm(10)));
+  for (int decade = 0; decade < 12; ++decade, unit /= 10)
     for (const double digit : {9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0})
-      if (const double value = digit * power;
+      if (const double value = digit * unit;
           value < damping.value && parts.step(damping, value / damping.value) >= enough)
         return value;
   return 0;
