@@ -61,6 +61,9 @@ bool SolidSurface::update() {
   // Vertices with other slots; if vertices were merged, the rest shape of elements changed.
   for (Dart d : changes_.moved[Vertex.mask])
     if (map.alive(d)) queue_volume(d);
+  for (Dart moved : changes_.reshaped)
+    if (map.alive(moved))
+      for (Dart d : darts_of(map, Vertex, moved)) queue_volume(d);
   changes_.clear();
   bind();
   empty_queue();

@@ -16,37 +16,32 @@ struct EmbeddedMap::Closing {
   std::size_t published = 0;             // lists of subscribers
   std::vector<std::unique_ptr<Heirs>> heirs;
   std::vector<const Heirs*> heirs_of; // of each column; null: it has none. Empty: no column has
-  std::vector<Dart> reshaped;         // of vertices that moved, and have another rest position
-
-  void find_reshaped(const EmbeddedMap& map, const Edit& edit);
-  void initialise_around_reshaped(EmbeddedMap& map, ColumnBase& column, const Heirs* done_by_them) const;
 };
 
 // While vertices have their old rest positions.
-void EmbeddedMap::Closing::find_reshaped(const EmbeddedMap& map, const Edit& edit) {
+void EmbeddedMap::find_reshaped(const Edit& edit) {
   for (const auto& [d, point] : edit.moves_)
-    if (map.map_.alive(d) && map.rest_of(d) != point.rest) reshaped.push_back(d);
+    if (map_.alive(d) && rest_of(d) != point.rest) reshaped_.push_back(d);
 }
 
 // What depends on rest positions, but not masses: matter is neither made nor lost where it is moved.
-void EmbeddedMap::Closing::initialise_around_reshaped(EmbeddedMap& map, ColumnBase& column,
-                                                      const Heirs* done_by_them) const {
+void EmbeddedMap::initialise_around_reshaped(ColumnBase& column, const Heirs* done_by_them) {
   thread_local std::vector<Dart> darts;
-  if (reshaped.empty() || column.support() == SingleDart || !column.masses().empty()) return;
-  const CellIndex& index = *map.cells_[column.orbit().mask];
+  if (reshaped_.empty() || column.support() == SingleDart || !column.masses().empty()) return;
+  const CellIndex& index = *cells_[column.orbit().mask];
   IndexSet seen, done; // darts, slots
   if (done_by_them) done_by_them->each_slot([&](Slot slot) { done.insert(slot); });
-  for (Dart moved : reshaped)
-    for (Dart around : darts_of(map.map_, Vertex, moved)) {
+  for (Dart moved : reshaped_)
+    for (Dart around : darts_of(map_, Vertex, moved)) {
       if (seen.contains(around.value)) continue;
       darts.clear();
-      collect(map.map_, column.support(), around, darts);
+      collect(map_, column.support(), around, darts);
       for (Dart d : darts) {
         seen.insert(d.value);
         const Slot slot = index.slot(d);
         if (!done.insert(slot)) continue;
-        column.initialise(map, index, slot);
-        map.initialised_[column.orbit().mask].push_back(slot);
+        column.initialise(*this, index, slot);
+        initialised_[column.orbit().mask].push_back(slot);
       }
     }
 }
@@ -74,6 +69,7 @@ void EmbeddedMap::edit(const std::function<void(Edit&)>& change) {
 }
 
 void EmbeddedMap::close(const Edit& edit, Closing& closing) {
+  reshaped_.clear();
   if (edit.lineage_ && !edit.lineage_->empty()) find_heirs(edit, closing);
   for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
     initialised_[mask].clear();
@@ -126,13 +122,13 @@ void EmbeddedMap::bring_columns_up_to_date(const Edit& edit, Closing& closing) {
     // position and rest come before: the columns that follow depend on rest positions
     if (column.get() == velocity_) {
       give_points(edit);
-      closing.find_reshaped(*this, edit);
+      find_reshaped(edit);
       move_vertices(edit);
       for (const auto& each : closing.heirs) each->weigh(*this);
     }
     if (heirs) column->inherit(*this, *cells_[mask], *heirs);
     initialise_reshaped(*column, edit, heirs);
-    closing.initialise_around_reshaped(*this, *column, heirs);
+    initialise_around_reshaped(*column, heirs);
     if (heirs)
       heirs->restore_momentum(*this, column->masses(), [&](Slot v, const Vec3& shift) {
         velocity_->write(v, Record((*velocity_)[v].vec() + shift));
@@ -215,6 +211,7 @@ void EmbeddedMap::initialise_reshaped(ColumnBase& column, const Edit&, const Hei
 // Calls f(list of a subscriber, what is appended to it) in an order that is always the same.
 template <class F> void EmbeddedMap::each_publication(F&& f) {
   for (Changes* changes : readers_) {
+    f(changes->reshaped, reshaped_);
     for (std::size_t i = 0; i < 4; ++i) f(changes->touched[i], journal_.touched[i]);
     for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
       if (!cells_[mask]) continue;

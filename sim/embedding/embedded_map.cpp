@@ -19,6 +19,7 @@ void Changes::clear() {
   for (auto& list : touched) list.clear();
   for (auto& list : moved) list.clear();
   for (auto& list : slots) list.clear();
+  reshaped.clear();
   any = whole = false;
 }
 

@@ -53,6 +53,7 @@ struct Changes {
   std::array<std::vector<Dart>, orbit_kinds> moved; // [orbit]: darts with another slot
   // [orbit]: slots of touched orbits, freed slots, and slots whose value was initialised again
   std::array<std::vector<Slot>, orbit_kinds> slots;
+  std::vector<Dart> reshaped; // of vertices with another rest position
   bool any = false;
   bool whole = false; // the map was replaced: everything may differ, and the lists are empty
   void clear();
@@ -142,6 +143,8 @@ private:
   void give_points(const Edit& edit);
   void move_vertices(const Edit& edit);
   void initialise_reshaped(ColumnBase& column, const Edit& edit, const Heirs* heirs);
+  void find_reshaped(const Edit& edit);
+  void initialise_around_reshaped(ColumnBase& column, const Heirs* done_by_them);
   void publish(Closing& closing);
   template <class F> void each_publication(F&& f);
   void publish_whole();
@@ -153,6 +156,8 @@ private:
   std::array<SlotEvents, orbit_kinds> events_; // of the edit that is being closed
   // slots whose values were initialised again, of the edit that is being closed
   std::array<std::vector<Slot>, orbit_kinds> initialised_;
+  // darts of vertices with another rest position, of the edit that is being closed
+  std::vector<Dart> reshaped_;
   std::vector<std::unique_ptr<ColumnBase>> columns_;
   VertexColumn *position_ = nullptr, *rest_ = nullptr, *velocity_ = nullptr;
   std::vector<Changes*> readers_;

@@ -114,10 +114,7 @@ public:
       edit.rollback(before);
       return why;
     }
-    for (const auto& [dart, to] : plan->moves) {
-      edit.move(dart, to);
-      note_elements(edit.map(), dart, touched);
-    }
+    for (const auto& [dart, to] : plan->moves) move(edit, dart, to, touched);
     for (Dart d : faces)
       if (!edit.map().is_free(3, d)) unsew(edit, 3, d);
     return nullptr;
@@ -129,6 +126,13 @@ private:
       division_.context().wheres = {scalar_value(each.share)};
       return division_.apply(edit, each.across);
     });
+  }
+
+  // Also what will have been separated of it.
+  void move(Edit& edit, Dart vertex, const Point& to, TouchedDarts& touched) {
+    for (Dart d : darts_of(edit.map(), Vertex, vertex))
+      if (d == smallest_dart(edit.map(), VertexOfVolume, d)) edit.move(d, to);
+    note_elements(edit.map(), vertex, touched);
   }
 
   // All that have a corner at the vertex of d.

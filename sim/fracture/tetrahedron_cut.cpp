@@ -9,7 +9,8 @@
 namespace rend {
 namespace {
 
-constexpr double nearest_to_end = 0.25; // share of an edge
+constexpr double nearest_to_end = 0.25;  // share of an edge
+constexpr double most_off_border = 1e-9; // sine of the angle between a move and a face of the border
 
 double six_volumes(const std::vector<Vec3>& at, const std::array<std::uint32_t, 4>& p) {
   return (at[p[1]] - at[p[0]]).cross(at[p[2]] - at[p[0]]).dot(at[p[3]] - at[p[0]]);
@@ -103,22 +104,38 @@ void TetrahedronCut::bend(const LinkEdge& edge, std::size_t end, double share) {
   const Corner& far = corners_[end == edge.b ? edge.c : edge.b];
   const double along = end == edge.b ? share : 1 - share;
   corner.side.height = 0;
-  corner.may_move = corner.may_move && along < 0.5 && may_move(corner);
-  if (!corner.may_move) return;
   const Vec3 here = state_.position[corner.slot].vec(), rest = state_.map.rest_of(corner.dart);
-  corner.moved = Point{.position = here + along * (state_.position[far.slot].vec() - here),
-                       .rest = rest + along * (state_.map.rest_of(far.dart) - rest),
-                       .velocity = state_.velocity[corner.slot].vec()};
+  const Point to{.position = here + along * (state_.position[far.slot].vec() - here),
+                 .rest = rest + along * (state_.map.rest_of(far.dart) - rest),
+                 .velocity = state_.velocity[corner.slot].vec()};
+  corner.may_move = corner.may_move && along < 0.5 && may_move(corner, far.slot, to.rest);
+  if (corner.may_move) corner.moved = to;
 }
 
-bool TetrahedronCut::may_move(const Corner& corner) const {
+bool TetrahedronCut::may_move(const Corner& corner, Slot towards, const Vec3& to) const {
   if (state_.rigid || std::ranges::binary_search(state_.held, corner.slot)) return false;
   std::vector<Dart> around = darts_of(map_, Vertex, corner.dart);
-  if (std::ranges::any_of(around, [&](Dart d) { return map_.is_free(3, d); })) return false;
+  if (!keeps_border(around, towards, to)) return false;
   const std::size_t own = around.size();
   for (std::size_t n = 0; n < own; ++n)
     around.push_back(map_.alpha(1, map_.alpha(0, around[n]))); // opposite faces
   return !state_.changed(around);
+}
+
+// The vertex with these darts is inside, or moves along an edge of the border, in the planes of all its faces there.
+bool TetrahedronCut::keeps_border(std::span<const Dart> darts, Slot towards, const Vec3& to) const {
+  const auto open = [&](Dart d) { return map_.is_free(3, d); };
+  if (std::ranges::none_of(darts, open)) return true;
+  const Vec3 from = state_.map.rest_of(darts.front());
+  bool along_border = false;
+  for (Dart d : darts) {
+    if (!open(d)) continue;
+    along_border = along_border || state_.map.vertex(map_.alpha(0, d)) == towards;
+    const Vec3 b = state_.map.rest_of(map_.alpha(0, d)) - from,
+               c = state_.map.rest_of(map_.alpha(0, map_.alpha(1, d))) - from, normal = b.cross(c);
+    if (std::abs(normal.dot(to - from)) > most_off_border * normal.norm() * (to - from).norm()) return false;
+  }
+  return along_border;
 }
 
 // A corner of that element that has moved goes back; if none has, the cut bends to one of them.

@@ -7,9 +7,9 @@
 // with all tetrahedra around it. Where m lies within a quarter of the edge from one of its ends, or a part
 // would be too small or thin (start_element.h), that end counts as lying on the surface, and moves to m within
 // the matter: its rest position is that of m, its position where m is; it keeps its velocity, and the elements
-// around it their masses. It stays where it is, and the cut bends to it, if it is on a border, is held, or an
-// element around it would become too small or thin. On the surface, it removes crossings and adds none, so that
-// this comes to an end before anything is divided.
+// around it their masses. It stays where it is, and the cut bends to it, if it is held, or an element around it
+// would become too small or thin. On a border it moves along edges of the border alone, in the planes of all its
+// faces: a flat face stays flat, a sharp edge where it is.
 //
 // A vertex whose side is fixed takes no part in that; the edge is divided a quarter away from it at least.
 #pragma once
@@ -87,7 +87,8 @@ private:
   std::optional<std::size_t> free_end(const LinkEdge& edge, double share) const;
   bool bend_nearest(double below, const std::function<bool(const LinkEdge&)>& among);
   void bend(const LinkEdge& edge, std::size_t end, double share);
-  bool may_move(const Corner& corner) const;
+  bool may_move(const Corner& corner, Slot towards, const Vec3& to) const; // to: at rest
+  bool keeps_border(std::span<const Dart> darts, Slot towards, const Vec3& to) const;
   bool give_way_in(std::size_t whole);
 
   // What the plan makes of the elements.
