@@ -55,18 +55,6 @@ void for_each_bounded_unit(const EmbeddedMap& map, std::span<const Interaction* 
   }
 }
 
-// Of a corner, or of those of a vertex.
-struct Sums {
-  double mass = 0, stiffness = 0, damping = 0, drag = 0; // [kg], [N/m], [N·s/m], [N·s/m]
-};
-
-void add(const Sums& at, FrequencyBounds& bounds) {
-  if (at.mass <= 0) return;
-  bounds.omega_squared = std::max(bounds.omega_squared, at.stiffness / at.mass);
-  bounds.damping_rate = std::max(bounds.damping_rate, (at.damping + at.drag) / at.mass);
-  bounds.least_drag_rate = std::min(bounds.least_drag_rate, at.drag / at.mass);
-}
-
 } // namespace
 
 CornerBounds corner_bounds(const EmbeddedMap& map,
@@ -109,26 +97,13 @@ FrequencyBounds frequency_bounds(const CornerBounds& sums, const EmbeddedMap& ma
                                  const DragColumn* drag) {
   const CellIndex& corners = map.cells(mass.orbit());
   FrequencyBounds bounds{0, 0, 1e300};
-  for (Slot corner = 0; corner < corners.slots(); ++corner)
-    if (corners.alive(corner))
-      add({mass[corner], sums.stiffness[corner], sums.damping[corner], drag ? (*drag)[corner] : 0}, bounds);
-  return bounds;
-}
-
-FrequencyBounds bounds_by_vertices(const CornerBounds& sums, const EmbeddedMap& map, const MassColumn& mass,
-                                   const DragColumn* drag) {
-  const CellIndex& corners = map.cells(mass.orbit());
-  std::vector<Sums> vertices(map.cells(Vertex).slots());
   for (Slot corner = 0; corner < corners.slots(); ++corner) {
-    if (!corners.alive(corner)) continue;
-    Sums& v = vertices[map.vertex(corners.first_dart(corner))];
-    v.mass += mass[corner];
-    v.stiffness += sums.stiffness[corner];
-    v.damping += sums.damping[corner];
-    if (drag) v.drag += (*drag)[corner];
+    const double m = mass[corner], own = drag ? (*drag)[corner] : 0;
+    if (!corners.alive(corner) || m <= 0) continue;
+    bounds.omega_squared = std::max(bounds.omega_squared, sums.stiffness[corner] / m);
+    bounds.damping_rate = std::max(bounds.damping_rate, (sums.damping[corner] + own) / m);
+    bounds.least_drag_rate = std::min(bounds.least_drag_rate, own / m);
   }
-  FrequencyBounds bounds{0, 0, 1e300};
-  for (const Sums& v : vertices) add(v, bounds);
   return bounds;
 }
 

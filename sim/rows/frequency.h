@@ -5,12 +5,9 @@
 // divided by the corner's mass; the maximum bounds the whole body (Irons: no eigenvalue of an assembly exceeds
 // the largest of its elements), and no separation changes it, since a separation changes no corner.
 //
-// Until something is separated, the corners of a vertex are one: their sums by their common mass bound the body
-// as well. That is less where a small element meets large ones, as cuts leave them.
-//
 // A separation divides some owners, such as a Vertex, and each fragment takes over the whole unit, from its own
 // smallest dart. Such a unit therefore counts in full at each element corner of the owner: then the bound holds
-// before and after, however light a fragment is.
+// before and after, however light a fragment is. Until something is separated a lower one holds (vertex_bounds.h).
 #pragma once
 
 #include "sim/mechanics/interaction.h"
@@ -35,10 +32,6 @@ CornerBounds corner_bounds(const EmbeddedMap& map, std::span<const Interaction* 
 CornerBounds corner_bounds(const EmbeddedMap& map,
                            const std::vector<std::unique_ptr<Interaction>>& interactions,
                            const MassColumn& mass);
-
-// Until something is separated.
-FrequencyBounds bounds_by_vertices(const CornerBounds& bounds, const EmbeddedMap& map, const MassColumn& mass,
-                                   const DragColumn* drag);
 
 // Whatever is separated.
 FrequencyBounds frequency_bounds(const CornerBounds& bounds, const EmbeddedMap& map, const MassColumn& mass,

@@ -7,6 +7,7 @@
 #include "sim/contact/start_overlap.h"
 #include "sim/guard/guard.h"
 #include "sim/integrate/rigid_motions.h"
+#include "sim/rows/vertex_bounds.h"
 #include "sim/topology/count.h"
 
 #include <fmt/format.h>

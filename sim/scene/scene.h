@@ -7,6 +7,7 @@
 #include "sim/scene/energy_account.h"
 #include "sim/scene/kept_state.h"
 
+#include <functional>
 #include <optional>
 
 namespace rend {
@@ -37,6 +38,7 @@ struct Unstable : UserError {
 };
 
 class Guard;
+class VertexBounds;
 
 class Scene {
 public:
@@ -127,9 +129,11 @@ private:
   void scale_masses();
   double stable_step();
   SchemeSettings checked_settings() const;
-  double stability_limit() const;  // [s]
-  double limit_until_torn() const; // [s]: as long as no body that grows is torn
-  double limit_by(const Scheme& scheme, FrequencyBounds (*bounds_of)(const Body&)) const;
+  double stability_limit() const; // [s]
+  double limit_until_torn();      // [s]: as long as no body that grows is torn
+  FrequencyBounds bounds_until_torn(std::size_t body);
+  double limit_by(const Scheme& scheme,
+                  const std::function<FrequencyBounds(std::size_t body)>& bounds_of) const;
   [[noreturn]] void stop(const Body& body, const std::string& what) const;
   [[noreturn]] void stop(const Body& body, const std::string& what, const std::string& hint) const;
   void reach(long goal); // steps done
@@ -163,7 +167,8 @@ private:
   World world_;
   std::unique_ptr<Profile> profile_;
   std::vector<std::unique_ptr<Body>> bodies_;
-  std::unique_ptr<Contacts> contacts_; // null: no body has contact with more than the floor
+  std::vector<std::unique_ptr<VertexBounds>> bounds_; // of bodies that grow and were torn; null: of others
+  std::unique_ptr<Contacts> contacts_;                // null: no body has contact with more than the floor
   TimeSettings time_;
   double duration_ = 0; // [s]
   Place step_place_;    // in the preset, for messages

@@ -1,6 +1,7 @@
 // The size of the steps of a scene.
 #include "sim/guard/guard.h"
 #include "sim/rows/frequency.h"
+#include "sim/rows/vertex_bounds.h"
 #include "sim/scene/mass_scaling.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/step_cause.h"
@@ -86,7 +87,8 @@ double Scene::stability_limit() const {
 }
 
 double Scene::stability_limit(const Scheme& scheme) const {
-  return limit_by(scheme, [](const Body& body) {
+  return limit_by(scheme, [&](std::size_t n) {
+    const Body& body = *bodies_[n];
     return frequency_bounds(*body.map, body.interactions, *body.mass, body.drag);
   });
 }
@@ -96,26 +98,35 @@ bool Scene::divides_for_bounds() const {
   return touches_by_verlet() || (automatic_step() && !scheme().solves && !scheme().adaptive);
 }
 
+FrequencyBounds Scene::bounds_until_torn(std::size_t n) {
+  const Body& body = *bodies_[n];
+  if (!body.map->grows()) return frequency_bounds(*body.map, body.interactions, *body.mass, body.drag);
+  bounds_.resize(bodies_.size());
+  if (!bounds_[n])
+    bounds_[n] = std::make_unique<VertexBounds>(*body.map, body.interactions, *body.mass, body.drag);
+  return bounds_[n]->bounds();
+}
+
 // With a margin, as that of an automatic step.
-double Scene::limit_until_torn() const {
-  const auto bounds = [](const Body& body) {
-    const CornerBounds sums = corner_bounds(*body.map, body.interactions, *body.mass);
-    return body.map->grows() ? bounds_by_vertices(sums, *body.map, *body.mass, body.drag)
-                             : frequency_bounds(sums, *body.map, *body.mass, body.drag);
-  };
+double Scene::limit_until_torn() {
+  std::vector<FrequencyBounds> found;
+  for (std::size_t n = 0; n < bodies_.size(); ++n) found.push_back(bounds_until_torn(n));
+  const auto bounds = [&](std::size_t n) { return found[n]; };
   double limit = std::numeric_limits<double>::infinity();
   if (automatic_step() && !scheme().adaptive) limit = limit_by(scheme(), bounds);
   if (touches_by_verlet()) limit = std::min(limit, limit_by(*find_scheme("verlet"), bounds));
   return margin * limit;
 }
 
-double Scene::limit_by(const Scheme& scheme, FrequencyBounds (*bounds_of)(const Body&)) const {
+double Scene::limit_by(const Scheme& scheme,
+                       const std::function<FrequencyBounds(std::size_t body)>& bounds_of) const {
   double limit = std::numeric_limits<double>::infinity();
-  for (const auto& body : bodies_) {
-    const FrequencyBounds b = bounds_of(*body);
-    const double wind = body->loads.damping_rate(*body->map, body->program->inverse_mass());
-    limit = std::min(limit, scheme.limit({b.omega_squared, b.damping_rate + wind + body->uniform_drag,
-                                          b.least_drag_rate + body->uniform_drag}));
+  for (std::size_t n = 0; n < bodies_.size(); ++n) {
+    const Body& body = *bodies_[n];
+    const FrequencyBounds b = bounds_of(n);
+    const double wind = body.loads.damping_rate(*body.map, body.program->inverse_mass());
+    limit = std::min(limit, scheme.limit({b.omega_squared, b.damping_rate + wind + body.uniform_drag,
+                                          b.least_drag_rate + body.uniform_drag}));
   }
   return limit;
 }

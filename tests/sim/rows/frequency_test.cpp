@@ -130,31 +130,6 @@ template <class F> void separate_all(Body& body, F&& look) {
   }
 }
 
-// A slit leaves elements of many sizes.
-TEST(FrequencyBound, by_vertices_lies_between_the_highest_frequency_and_the_bound_by_corners) {
-  double sum = 0;
-  int scenes = 0;
-  for (const std::string pattern : {"triangles", "crossed"})
-    for (const std::string along : {"0.13 0.2 0  1.71 0.55 0", "0.4 -0.1 0  1.2 1.1 0"}) {
-      const auto s = presets::load("<scene><body><sheet pattern=\"" + pattern +
-                                   "\" cells=\"8 5\" size=\"2 1\"/><slit along=\"" + along +
-                                   R"("/><mass density="1000" thickness="1e-3"/>
-             <elasticity model="corotational" young="1e5" poisson="0.3" thickness="1e-3"/></body>
-             <world gravity="0 0 0"/><time step="1" integrator="static" duration="1"/></scene>)");
-      Body& body = s.body();
-      const CornerBounds sums = corner_bounds(*body.map, body.interactions, *body.mass);
-      const double highest = frequencies(body).back(),
-                   by_vertices =
-                       std::sqrt(bounds_by_vertices(sums, *body.map, *body.mass, nullptr).omega_squared),
-                   by_corners = std::sqrt(frequency_bounds(sums, *body.map, *body.mass, nullptr).omega_squared);
-      EXPECT_GE(by_vertices, highest) << pattern << along;
-      EXPECT_LE(by_vertices, by_corners) << pattern << along;
-      sum += by_vertices / by_corners;
-      ++scenes;
-    }
-  EXPECT_LT(sum / scenes, 0.95);
-}
-
 // A spring from each vertex to its place: √(k/m) of the lightest vertex, which in the end is the lightest
 // corner.
 TEST(FrequencyBound, of_springs_to_the_ground_is_that_of_the_lightest_fragment_to_come) {

@@ -1,7 +1,7 @@
 // A step that was chosen for the elements at the start is divided where a law makes elements that need smaller
 // ones.
 #include "sim/presets.h"
-#include "sim/rows/frequency.h"
+#include "sim/rows/vertex_bounds.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,8 +31,7 @@ TEST(DividedSteps, are_stable_for_the_elements_that_laws_have_made) {
   EXPECT_GT(scene->tears(), 24u);
   EXPECT_LT(scene->stability_limit(scene->scheme()), step);
   const Body& body = scene.body();
-  const CornerBounds sums = corner_bounds(*body.map, body.interactions, *body.mass);
-  const FrequencyBounds found = bounds_by_vertices(sums, *body.map, *body.mass, body.drag);
+  const FrequencyBounds found = VertexBounds(*body.map, body.interactions, *body.mass, body.drag).bounds();
   const double limit = scene->scheme().limit({found.omega_squared, found.damping_rate, found.least_drag_rate});
   const int parts = scene->guard().most_substeps;
   EXPECT_LE(step / parts, limit);
