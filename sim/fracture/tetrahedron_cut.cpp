@@ -122,7 +122,8 @@ bool TetrahedronCut::may_move(const Corner& corner, Slot towards, const Vec3& to
   return !state_.changed(around);
 }
 
-// The vertex with these darts is inside, or moves along an edge of the border, in the planes of all its faces there.
+// The vertex with these darts is inside, or moves along an edge of the border, in the planes of all faces
+// there.
 bool TetrahedronCut::keeps_border(std::span<const Dart> darts, Slot towards, const Vec3& to) const {
   const auto open = [&](Dart d) { return map_.is_free(3, d); };
   if (std::ranges::none_of(darts, open)) return true;

@@ -7,7 +7,8 @@
 //
 // A separation divides some owners, such as a Vertex, and each fragment takes over the whole unit, from its own
 // smallest dart. Such a unit therefore counts in full at each element corner of the owner: then the bound holds
-// before and after, however light a fragment is. Until something is separated a lower one holds (vertex_bounds.h).
+// before and after, however light a fragment is. Until something is separated a lower one holds
+// (vertex_bounds.h).
 #pragma once
 
 #include "sim/mechanics/interaction.h"

@@ -6,9 +6,9 @@
 //
 //   ω² ≤ max over v of  Σ D_c / M_v,   M_v = Σ m_c        over the corners c of v
 //
-// which is less than the bound by corners where a small element meets large ones, as cuts leave them. The D_c of
-// a unit follow from weights of its corners, and any weights give a bound. First these are the masses m_c. Then,
-// where the bound is high, shares of the masses of the vertices,
+// which is less than the bound by corners where a small element meets large ones, as cuts leave them. The D_c
+// of a unit follow from weights of its corners, and any weights give a bound. First these are the masses m_c.
+// Then, where the bound is high, shares of the masses of the vertices,
 //
 //   w_c = M_v D_c / Σ D,
 //
@@ -39,8 +39,8 @@ public:
   FrequencyBounds bounds(int rounds = 4);
 
 private:
-  // The units of an interaction that elements own. Index spaces: units, those of an owner slot one after another;
-  // corners of units, `stride` for each.
+  // The units of an interaction that elements own, those of an owner slot one after another; `stride` corners
+  // each.
   struct Units {
     const Interaction* interaction;
     std::size_t stride;

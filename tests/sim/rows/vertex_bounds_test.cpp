@@ -1,4 +1,5 @@
-// The bound of the highest frequency until something is separated: above the true one, found anew and kept alike.
+// The bound of the highest frequency until something is separated is above the true one; found anew and kept,
+// it is the same.
 #include "sim/rows/vertex_bounds.h"
 
 #include "sim/presets.h"
