@@ -53,7 +53,7 @@ struct Changes {
   std::array<std::vector<Dart>, orbit_kinds> moved; // [orbit]: darts with another slot
   // [orbit]: slots of touched orbits, freed slots, and slots whose value was initialised again
   std::array<std::vector<Slot>, orbit_kinds> slots;
-  std::vector<Dart> reshaped; // of vertices with another rest position
+  std::vector<Dart> reshaped; // darts of vertices with another rest position, one of each or more
   bool any = false;
   bool whole = false; // the map was replaced: everything may differ, and the lists are empty
   void clear();

@@ -9,7 +9,8 @@
 // the matter: its rest position is that of m, its position where m is; it keeps its velocity, and the elements
 // around it their masses. It stays where it is, and the cut bends to it, if it is held, or an element around it
 // would become too small or thin. On a border it moves along edges of the border alone, in the planes of all
-// faces there: a flat side stays flat, a sharp edge where it is.
+// faces there: a flat side stays flat, a sharp edge where it is. Vertices on the surface remove crossings and
+// add none, so that this comes to an end before anything is divided.
 //
 // A vertex whose side is fixed takes no part in that; the edge is divided a quarter away from it at least.
 #pragma once

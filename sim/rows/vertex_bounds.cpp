@@ -1,7 +1,6 @@
 #include "sim/rows/vertex_bounds.h"
 
 #include "sim/base/stop_request.h"
-#include "sim/topology/walk.h"
 
 #include <algorithm>
 #include <array>
@@ -51,25 +50,14 @@ FrequencyBounds VertexBounds::bounds(int rounds) {
   return least;
 }
 
+// A unit is initialised again, and so listed, where one of its particles is at another place at rest.
 void VertexBounds::forget_changed() {
-  if (!changes_.any) return;
-  if (changes_.whole) {
-    for (Units& units : of_elements_) units.known.clear();
-  } else {
-    for (Units& units : of_elements_)
-      for (Slot owner : changes_.slots[units.interaction->pattern.owner.mask])
-        if (owner < units.known.size()) units.known[owner] = 0;
-    for (Dart moved : changes_.reshaped)
-      if (map_.map().alive(moved))
-        for (Dart d : darts_of(map_.map(), Vertex, moved)) forget_around(d);
+  for (Units& units : of_elements_) {
+    if (changes_.whole) units.known.clear();
+    for (Slot owner : changes_.slots[units.interaction->pattern.owner.mask])
+      if (owner < units.known.size()) units.known[owner] = 0;
   }
   changes_.clear();
-}
-
-void VertexBounds::forget_around(Dart d) {
-  for (Units& units : of_elements_)
-    if (const Slot owner = map_.slot(units.interaction->pattern.owner, d); owner < units.known.size())
-      units.known[owner] = 0;
 }
 
 void VertexBounds::find_unknown(Units& units) {
@@ -106,7 +94,6 @@ void VertexBounds::find(Units& units, Slot owner) {
   }
 }
 
-// Masses: of its corners [kg].
 void VertexBounds::evaluate(Units& units, Slot owner, std::size_t unit, const double* mass) {
   const Interaction& interaction = *units.interaction;
   const std::vector<Word>& words = interaction.pattern.units[unit];
@@ -118,7 +105,6 @@ void VertexBounds::evaluate(Units& units, Slot owner, std::size_t unit, const do
                          &units.damping[begin]);
 }
 
-// One per vertex slot.
 std::vector<VertexBounds::Sums> VertexBounds::sums_at_vertices(const std::vector<Slot>& vertex_of,
                                                                const CornerBounds& others) const {
   std::vector<Sums> at(map_.cells(Vertex).slots());

@@ -15,8 +15,8 @@
 // so that small elements have more of it: no eigenvalue of a unit with these weights exceeds the bound before
 // (its matrix is at most diag D, and D_c/w_c = Σ D/M_v), nor does what they give at any vertex.
 //
-// Units of elements are evaluated when an edit has touched their element, other ones each time. Equal maps have
-// equal bounds, whatever happened before.
+// With the masses m_c, units of elements are evaluated when an edit has touched their element, other ones each
+// time. Equal maps have equal bounds, whatever happened before.
 #pragma once
 
 #include "sim/rows/frequency.h"
@@ -45,18 +45,18 @@ private:
     const Interaction* interaction;
     std::size_t stride;
     std::vector<char> known;                // per owner slot
-    std::vector<Slot> corner;               // no_slot: the unit is not present
-    std::vector<double> stiffness, damping; // at the corner [N/m], [N·s/m]
+    std::vector<Slot> corner;               // per corner; no_slot: the unit is not present
+    std::vector<double> stiffness, damping; // per corner [N/m], [N·s/m]
   };
   struct Sums {
     double mass = 0, stiffness = 0, damping = 0, drag = 0; // [kg], [N/m], [N·s/m], [N·s/m]
   };
 
   void forget_changed();
-  void forget_around(Dart d);
   void find_unknown(Units& units);
   void find(Units& units, Slot owner);
-  void evaluate(Units& units, Slot owner, std::size_t unit, const double* mass);
+  void evaluate(Units& units, Slot owner, std::size_t unit, const double* mass); // of its corners [kg]
+  // vertex_of: one per corner slot. Sums: one per vertex slot.
   std::vector<Sums> sums_at_vertices(const std::vector<Slot>& vertex_of, const CornerBounds& others) const;
   void share_masses(const std::vector<Slot>& vertex_of, const std::vector<Sums>& at, double above);
 

@@ -67,7 +67,8 @@ Dart some_dart(const Body& body, Noise& noise) {
 // With flat sides, on which vertices move, and with warped ones.
 TEST(SolidCut, keeps_volume_elastic_energy_mass_and_momentum) {
   Noise noise(7);
-  for (const auto& [model, warp] : {std::pair{"corotational", 0.0}, {"corotational", 0.1}, {"linear", 0.0}}) {
+  for (const auto& [model, warp] :
+       {std::pair{"corotational", 0.0}, {"corotational", 0.1}, {"linear", 0.0}, {"linear", 0.1}}) {
     int cuts = 0, divisions = 0, moves = 0;
     for (unsigned n = 0; n < 40; ++n) {
       const auto body = bar_of_tetrahedra(n, false, {.model = model}, warp);

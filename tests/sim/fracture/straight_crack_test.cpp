@@ -168,7 +168,7 @@ TEST_P(StraightCrack, goes_on_across_the_pull) {
     std::puts(figures.c_str());
     SCOPED_TRACE(figures);
     EXPECT_EQ(crack.fragments, 2u);
-    EXPECT_LE(crack.length, 1.05 * way);
+    EXPECT_LE(crack.length, 1.03 * way);
     EXPECT_GE(crack.length, 0.93 * way);
     EXPECT_LE(crack.furthest, 1.6 * edge);
     EXPECT_LE(crack.mean, 0.7 * edge);

@@ -1,15 +1,17 @@
 // Natural frequencies: eigenvalues of the assembled stiffness over the lumped masses, against those of bars
 // and beams that are fixed at one end (tests/README.md, "Closed forms"), and against the bound that limits the
 // step.
-#include "sim/rows/frequency.h"
+#include "sim/rows/vertex_bounds.h"
 
 #include "sim/base/math.h"
 #include "sim/elements.h"
 #include "sim/ground_springs.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"
+#include "sim/scene/scene.h"
 
 #include <Eigen/Eigenvalues>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -128,6 +130,78 @@ template <class F> void separate_all(Body& body, F&& look) {
     body.rebind();
     look();
   }
+}
+
+presets::Loaded slit_sheet(const std::string& pattern, const std::string& along) {
+  return presets::load(fmt::format(
+      R"(<scene><body><sheet pattern="{}" cells="8 5" size="2 1"/><slit along="{}"/>
+           <mass density="1000" thickness="1e-3"/>
+           <elasticity model="corotational" young="1e5" poisson="0.3" thickness="1e-3"/></body>
+         <world gravity="0 0 0"/><time step="1" integrator="static" duration="1"/></scene>)",
+      pattern, along));
+}
+
+presets::Loaded torn_bar() {
+  return presets::load(R"(<scene><body><bar pattern="tetrahedra" cells="6 2 2" size="3 1 1"/>
+      <mass density="1000"/><elasticity model="corotational" young="1e5" poisson="0.3" damping-mass="2"/>
+      <drive side="-x" velocity="-0.3 0 0"/><drive side="+x" velocity="0.3 0 0"/>
+      <tear criterion="vertex-stress" threshold="4e3" change="cut" max-per-step="1"/></body>
+      <world gravity="0 0 0"/><time step="5e-3" integrator="implicit" duration="2"/></scene>)");
+}
+
+double bound(Body& body, int rounds) {
+  return std::sqrt(
+      VertexBounds(*body.map, body.interactions, *body.mass, body.drag).bounds(rounds).omega_squared);
+}
+
+// A slit leaves elements of many sizes.
+TEST(VertexBounds, come_down_to_the_highest_frequency_and_stay_above_it) {
+  double first = 0, last = 0;
+  for (const std::string pattern : {"triangles", "crossed"})
+    for (const std::string along : {"0.13 0.2 0  1.71 0.55 0", "0.4 -0.1 0  1.2 1.1 0"}) {
+      const auto scene = slit_sheet(pattern, along);
+      Body& body = scene.body();
+      const double highest = frequencies(body).back();
+      double above =
+          std::sqrt(frequency_bounds(*body.map, body.interactions, *body.mass, nullptr).omega_squared);
+      for (int rounds = 0; rounds < 8; ++rounds) {
+        const double now = bound(body, rounds);
+        EXPECT_GE(now, highest) << pattern << along;
+        EXPECT_LE(now, above) << pattern << along;
+        above = now;
+      }
+      first += bound(body, 0) / highest / 4;
+      last += bound(body, 4) / highest / 4;
+    }
+  EXPECT_LT(last, 1.25);
+  EXPECT_LT(last, 0.9 * first);
+}
+
+TEST(VertexBounds, that_were_kept_through_cuts_are_those_found_anew) {
+  const auto scene = torn_bar();
+  Body& body = scene.body();
+  VertexBounds kept(*body.map, body.interactions, *body.mass, body.drag);
+  kept.bounds();
+  const std::vector<Record> start = body.map->rest().values();
+  std::size_t tears = 0;
+  int compared = 0;
+  while (scene->time() < 1.2 && compared < 60) {
+    scene->step();
+    if (scene->tears() == tears) continue;
+    tears = scene->tears();
+    ++compared;
+    const FrequencyBounds now = kept.bounds(),
+                          anew = VertexBounds(*body.map, body.interactions, *body.mass, body.drag).bounds();
+    ASSERT_EQ(now.omega_squared, anew.omega_squared);
+    ASSERT_EQ(now.damping_rate, anew.damping_rate);
+    ASSERT_EQ(now.least_drag_rate, anew.least_drag_rate);
+  }
+  EXPECT_GT(compared, 10);
+  const std::vector<Record>& rest = body.map->rest().values();
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < start.size(); ++v) moved += start[v].vec() != rest[v].vec() ? 1 : 0;
+  EXPECT_GT(moved, 0u);
+  EXPECT_GE(bound(body, 4), frequencies(body).back());
 }
 
 // A spring from each vertex to its place: √(k/m) of the lightest vertex, which in the end is the lightest
