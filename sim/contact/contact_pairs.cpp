@@ -29,10 +29,11 @@ Bounds grown(const Bounds& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
-// Whether they may come within `thickness` before one of them has moved by half the skin: from their distance
-// at the end of the step, and their relative motion in it.
-bool may_meet(const ContactBody& body, Slot v, const ContactBody& other, const ContactFaces::Triangle& triangle,
-              double reach) {
+// By how much they may move together before they touch; none: they do not meet before one of them has moved by
+// half the skin. From their distance at the end of the step, and their relative motion in it. What is behind
+// the face of a solid may touch it at any distance.
+std::optional<double> clearance(const ContactBody& body, Slot v, const ContactBody& other,
+                                const ContactFaces::Triangle& triangle, double reach) {
   const Vec3 x = body.position(v), moved = x - body.from(v);
   TriangleCorners y;
   double most = 0;
@@ -41,7 +42,12 @@ bool may_meet(const ContactBody& body, Slot v, const ContactBody& other, const C
     most = std::max(most, (moved - (y[k] - other.from(triangle.vertex[k]))).squaredNorm());
   }
   const Weights w = nearest_in_triangle(y, x);
-  return (x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2]).norm() <= reach + std::sqrt(most);
+  const Vec3 way = x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2];
+  const double distance = way.norm();
+  if (!(distance <= reach + std::sqrt(most))) return {};
+  const bool solid = other.body->map->dimension() == 3;
+  if (solid && way.dot((y[1] - y[0]).cross(y[2] - y[0])) <= 0) return 0;
+  return std::max(0.0, distance - ContactPairs::beside * ContactPairs::thickness(body, other));
 }
 
 bool is_corner(Slot v, const ContactFaces::Triangle& triangle) {
@@ -127,10 +133,12 @@ const std::vector<ContactPair>& ContactPairs::find(const Bodies& bodies) {
     changed = true;
   }
   listed_ = true;
-  if (!anything(bodies))
+  if (!anything(bodies)) {
     pairs_.clear();
-  else if (changed || stale(bodies))
+  } else if (changed || stale(bodies)) {
     search(bodies);
+    measure_moves(bodies);
+  }
   return pairs_;
 }
 
@@ -146,23 +154,43 @@ bool ContactPairs::anything(const Bodies& bodies) const {
 }
 
 // Whether a vertex moved by half the skin since the last search. A common translation is subtracted.
-bool ContactPairs::stale(const Bodies& bodies) const {
+bool ContactPairs::stale(const Bodies& bodies) {
+  const auto listed_since = [](const BodyEntry& of) { return of.there.size() != of.vertices.size(); };
+  return std::ranges::any_of(of_, listed_since) || !(measure_moves(bodies) <= 0.25 * skin_ * skin_);
+}
+
+// Of all since the last search.
+Vec3 ContactPairs::measure_mean(const Bodies& bodies) const {
   Vec3 mean = Vec3::Zero();
   std::size_t count = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const BodyEntry& of = of_[b];
-    if (of.there.size() != of.vertices.size()) return true;
     for (std::size_t n = 0; n < of.vertices.size(); ++n)
       mean += bodies[b]->position(of.vertices[n]).vec() - of.there[n];
     count += of.vertices.size();
   }
   if (count > 0) mean /= static_cast<double>(count);
-  const double most = 0.25 * skin_ * skin_;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (std::size_t n = 0; n < of_[b].vertices.size(); ++n)
-      if ((bodies[b]->position(of_[b].vertices[n]).vec() - of_[b].there[n] - mean).squaredNorm() > most)
-        return true;
-  return false;
+  return mean;
+}
+
+// The largest square at the end of the step [m²].
+double ContactPairs::measure_moves(const Bodies& bodies) {
+  const Vec3 mean = measure_mean(bodies);
+  double most = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    BodyEntry& of = of_[b];
+    if (of.vertices.empty()) continue;
+    of.moved.resize(bodies[b]->vertices());
+    for (std::size_t n = 0; n < of.vertices.size(); ++n) {
+      const Slot v = of.vertices[n];
+      const Vec3 then = of.there[n] + mean;
+      const double start = (bodies[b]->from(v) - then).squaredNorm(),
+                   end = (bodies[b]->position(v).vec() - then).squaredNorm();
+      of.moved[v] = std::sqrt(std::max(start, end));
+      most = std::max(most, end);
+    }
+  }
+  return most;
 }
 
 void ContactPairs::search(const Bodies& bodies) {
@@ -199,9 +227,11 @@ void ContactPairs::search_for(const Bodies& bodies, std::uint32_t b, const FaceT
     trees.each_near(around(*bodies[b], v), passes, [&](const FaceTrees::Face& face) {
       ContactPair pair{b, v, face.body, face.triangle};
       const ContactFaces::Triangle& triangle = bodies[face.body]->faces->triangles()[face.triangle];
-      if (allowed(bodies, n, pair) && may_meet(*bodies[b], v, *bodies[face.body], triangle, reach) &&
-          !joined(bodies, n, pair))
-        pairs_.push_back(pair);
+      if (!allowed(bodies, n, pair)) return;
+      const auto clear = clearance(*bodies[b], v, *bodies[face.body], triangle, reach);
+      if (!clear || joined(bodies, n, pair)) return;
+      pair.clear = *clear;
+      pairs_.push_back(pair);
     });
     std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(begin), pairs_.end(),
               [](const ContactPair& a, const ContactPair& other) {
@@ -231,7 +261,7 @@ bool ContactPairs::joined(const Bodies& bodies, std::size_t entry, ContactPair& 
 }
 
 void ContactPair::store(Archive& archive) {
-  archive(body, vertex, face_body, triangle, neighbours);
+  archive(body, vertex, face_body, triangle, neighbours, clear);
 }
 
 void ContactPairs::BodyEntry::store(Archive& archive, std::size_t most) {
@@ -283,6 +313,7 @@ void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
   refuse_unless(pair.triangle < bodies[pair.face_body]->faces->triangles().size(),
                 "contact is with a face that is not there");
   const auto order = [](const ContactPair& p) { return std::tie(p.body, p.vertex, p.face_body, p.triangle); };
+  refuse_unless(pair.clear >= 0 && std::isfinite(pair.clear), "contact is at no distance");
   refuse_unless(number == 0 || order(pairs_[number - 1]) < order(pair),
                 "contact is listed in disorder, or twice");
 }
@@ -290,8 +321,8 @@ void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
 std::size_t ContactPairs::bytes() const {
   std::size_t sum = bytes_of(pairs_);
   for (const BodyEntry& of : of_)
-    sum +=
-        bytes_of(of.vertices) + bytes_of(of.vertex_fragment) + bytes_of(of.face_fragment) + bytes_of(of.there);
+    sum += bytes_of(of.vertices) + bytes_of(of.vertex_fragment) + bytes_of(of.face_fragment) +
+           bytes_of(of.there) + bytes_of(of.moved);
   return sum;
 }
 

@@ -7,10 +7,15 @@
 // static; so pairs are searched with a margin (skin), and again when a vertex has moved by half of it relative
 // to the mean of all (Verlet's neighbour lists, Phys. Rev. 159, 1967), or when a map was changed. The pairs
 // always include all that touch, so results do not depend on when they were searched.
+//
+// A pair that was searched at a distance d, and whose vertex and corners have moved by m_v and m_k since then,
+// relative to the mean of all, is at d − m_v − max m_k at least, whatever the face does between its corners: a
+// pair that is too far apart by that is passed over without a look at its face.
 #pragma once
 
 #include "sim/contact/contact_body.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace rend {
@@ -21,6 +26,7 @@ struct ContactPair {
   std::uint32_t face_body = 0;
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
   bool neighbours = false;    // closer than the thickness at rest
+  double clear = 0; // [m]: by how much the two may move together before they touch; 0: they may touch at once
 
   void store(Archive& archive);
 };
@@ -33,6 +39,15 @@ public:
   // fragments: pairs of different bodies that do not exclude each other, and of different fragments, and with
   // `self` also those within a fragment that are not neighbours.
   const std::vector<ContactPair>& find(const Bodies& bodies);
+
+  // Whether such a pair is too far apart to touch within this step.
+  bool apart(const Bodies& bodies, const ContactPair& pair) const {
+    const auto& corner = bodies[pair.face_body]->faces->triangles()[pair.triangle].vertex;
+    const std::vector<double>& moved = of_[pair.face_body].moved;
+    const double most = std::max({moved[corner[0]], moved[corner[1]], moved[corner[2]]});
+    return pair.clear > of_[pair.body].moved[pair.vertex] + most;
+  }
+  static constexpr double beside = 1.5; // distance in thicknesses at which a path misses a face
 
   // The distance that two bodies keep [m].
   static double thickness(const ContactBody& a, const ContactBody& b) {
@@ -50,7 +65,9 @@ private:
     std::vector<std::uint32_t> vertex_fragment; // one per entry of `vertices`
     std::vector<std::uint32_t> face_fragment;   // one per triangle
     std::vector<Vec3> there; // [m], positions at the last search, one per entry of `vertices`
-    bool several = false;    // more than one fragment
+    // [m], one per vertex slot, of those of its faces: how far it is from there within this step, at most
+    std::vector<double> moved;
+    bool several = false; // more than one fragment
 
     void store(Archive& archive, std::size_t most); // `most`: bound of the number of vertices or triangles
     bool same_lists(const BodyEntry& other) const;  // without the positions
@@ -59,7 +76,9 @@ private:
   void list(const ContactBody& body, BodyEntry& of) const;
   bool anything(const Bodies& bodies) const;
   static bool meet(const ContactBody& a, const ContactBody& b) { return !a.terms(b).excluded; }
-  bool stale(const Bodies& bodies) const;
+  bool stale(const Bodies& bodies);
+  Vec3 measure_mean(const Bodies& bodies) const;
+  double measure_moves(const Bodies& bodies);
   void search(const Bodies& bodies);
   // for the vertices of b
   void search_for(const Bodies& bodies, std::uint32_t b, const FaceTrees& trees, double reach);

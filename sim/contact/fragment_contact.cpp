@@ -8,7 +8,6 @@ namespace {
 
 constexpr double coincident = 1e-10; // relative to the thickness and the face's size
 constexpr double deepest = 0.2;      // relative to a face's size: the largest penetration of a solid's face
-constexpr double beside = 1.5;       // distance in thicknesses at which a path misses a face
 
 TriangleCorners mixed(const TriangleCorners& a, const TriangleCorners& b, double share) {
   TriangleCorners out;
@@ -69,7 +68,7 @@ std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodi
     const Vec3 there = x0 + share * (x1 - x0);
     const Vec3 side = start->normal;
     start = facing(there, mixed(y0, y1, share), solid, thickness);
-    if (!start || start->gap > beside * thickness || start->normal.dot(side) <= 0) return {};
+    if (!start || start->gap > ContactPairs::beside * thickness || start->normal.dot(side) <= 0) return {};
   }
   const double kept = before < 0 ? 0 : pair.neighbours ? std::min(thickness, before) : thickness;
   const ContactPoint vertex = ContactPoint::at(body, pair.vertex), face{&other, slots, start->weight};
@@ -84,8 +83,10 @@ std::optional<ContactConstraint> FragmentContact::touch(const ContactPairs::Bodi
 }
 
 void FragmentContact::detect(const ContactPairs::Bodies& bodies, ContactAnswer& answer) {
-  for (const ContactPair& pair : pairs_.find(bodies))
+  for (const ContactPair& pair : pairs_.find(bodies)) {
+    if (pairs_.apart(bodies, pair)) continue;
     if (const auto found = touch(bodies, pair)) answer.add(*found);
+  }
 }
 
 } // namespace rend
