@@ -231,7 +231,7 @@ void Body::clear_sums() {
 }
 
 CriterionRequest Body::request_for(const LawSettings& law) const {
-  return {*map, interactions, *mass, law.kind, law.compression};
+  return {*map, interactions, *mass, law.kind, law.compression, LeastPart::of_size(law.smallest_part)};
 }
 
 void Body::watch_all_criteria() {

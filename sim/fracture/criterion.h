@@ -6,6 +6,7 @@
 #pragma once
 
 #include "sim/fracture/cell.h"
+#include "sim/fracture/least_part.h"
 #include "sim/rows/program.h"
 
 #include <functional>
@@ -63,8 +64,9 @@ struct CriterionRequest {
   EmbeddedMap& map;
   const std::vector<std::unique_ptr<Interaction>>& interactions;
   const MassColumn& mass;
-  std::string kind;         // of springs: "stretch", "shear", "bend"; empty: not given
-  bool compression = false; // negative eigenvalues count too
+  std::string kind;          // of springs: "stretch", "shear", "bend"; empty: not given
+  bool compression = false;  // negative eigenvalues count too
+  LeastPart least_part = {}; // that a cut leaves
 };
 
 struct CriterionType {

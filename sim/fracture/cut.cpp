@@ -46,6 +46,7 @@ public:
   explicit Cuts(const CriterionRequest& request)
       : cutter_(cutter_of(request.map)), compression_(request.compression) {
     make_anew(request);
+    cutter_->leave(request.least_part);
     const std::size_t darts = most_elements * request.map.map().dart_count();
     std::size_t& most = cutter_->runner().context().most_darts;
     most = std::min(darts, most_darts(request.map));

@@ -44,12 +44,15 @@ public:
   virtual RuleRunner& runner() = 0; // that divides elements
 
   void let_move(bool may) { may_move_ = may; } // whether vertices may move
+  void leave(const LeastPart& least) { least_ = least; }
 
 protected:
   bool may_move() const { return may_move_; }
+  const LeastPart& least() const { return least_; }
 
 private:
   bool may_move_ = true;
+  LeastPart least_;
 };
 
 // CHECK: the map knows its elements of the start.

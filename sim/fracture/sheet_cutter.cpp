@@ -32,9 +32,9 @@ struct Half {
 // What the plane meets at one vertex, in the state before the edit.
 class Crossing {
 public:
-  Crossing(const CutPlace& place, const Column<StartElement>& start, bool rigid)
+  Crossing(const CutPlace& place, const Column<StartElement>& start, bool rigid, const LeastPart& least)
       : view_(place.view), map_(view_.map.map()),
-        cut_({view_.map, start, view_.position, view_.velocity, view_.held, rigid}), darts_(place.darts),
+        cut_({view_.map, start, view_.position, view_.velocity, view_.held, rigid, least}), darts_(place.darts),
         normal_(place.normal), here_(at(darts_.front())) {}
 
   // Those to be cut.
@@ -99,7 +99,7 @@ public:
 
   const char* cut(Edit& edit, const CutPlace& place, TouchedDarts& touched) override {
     if (const char* why = wait_for_tip(edit, place, touched)) return why;
-    std::vector<Half> halves = Crossing(place, *start_, !may_move()).halves();
+    std::vector<Half> halves = Crossing(place, *start_, !may_move(), least()).halves();
     if (halves.empty()) return CutRefusal::nothing_crosses;
     if (!settle_moves(edit, halves, touched)) return CutRefusal::waits;
     const Edit::Savepoint before = edit.savepoint();

@@ -101,8 +101,8 @@ public:
     if (surface.along_border()) return CutRefusal::nothing_crosses;
     const auto changed = [&](std::span<const Dart> some) { return touched.any_of(*edit.journal(), some); };
     const auto plan =
-        TetrahedronCut({view.map, *start_, view.position, view.velocity, view.held, !may_move(), changed},
-                       place.darts, surface)
+        TetrahedronCut({view.map, *start_, view.position, view.velocity, view.held, !may_move(), least()},
+                       changed, place.darts, surface)
             .plan();
     if (!plan) return CutRefusal::no_room;
     const Edit::Savepoint before = edit.savepoint();

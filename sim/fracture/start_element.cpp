@@ -7,13 +7,6 @@
 #include <cmath>
 
 namespace rend {
-namespace {
-
-constexpr double smallest_part = 1.0 / 20; // of the size of the element of the start
-constexpr double least_sine = 1.0 / 4;     // of that of its least angle
-
-} // namespace
-
 ElementSizes::ElementSizes(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double u = (b - a).norm(), v = (c - b).norm(), w = (a - c).norm();
   size = (b - a).cross(c - a).norm();
@@ -35,10 +28,6 @@ ElementSizes::ElementSizes(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
       const std::size_t i = n == 0 ? (m == 1 ? 2 : 1) : 0, j = 6 - n - m - i;
       sine = std::min(sine, size * (corner[i] - corner[j]).norm() / (area[n] * area[m]));
     }
-}
-
-bool ElementSizes::keeps(const ElementSizes& start) const {
-  return size >= smallest_part * start.size && sine >= least_sine * start.sine;
 }
 
 StartElement StartElement::on(const EmbeddedMap& map) const {

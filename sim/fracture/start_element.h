@@ -5,6 +5,7 @@
 #pragma once
 
 #include "sim/embedding/embedded_map.h"
+#include "sim/fracture/least_part.h"
 
 #include <span>
 
@@ -17,7 +18,10 @@ struct ElementSizes {
   ElementSizes() = default;
   ElementSizes(const Vec3& a, const Vec3& b, const Vec3& c);                // of a triangle [m]
   ElementSizes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d); // of a tetrahedron [m]
-  bool keeps(const ElementSizes& start) const; // whether a part of it is neither too small nor too thin
+  // Whether it may be a part of that element.
+  bool may_be_part(const ElementSizes& start, const LeastPart& least) const {
+    return size >= least.size * start.size && sine >= least.sine * start.sine;
+  }
 };
 
 struct StartElement {

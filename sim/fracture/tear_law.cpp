@@ -52,6 +52,13 @@ template <> const Fields<LawSettings>& fields_of() {
       field(&S::rule,
             text("rule",
                  "a rule to apply instead of a change: one of this scene, or a built-in one (rend rule list)")),
+      field(
+          &S::smallest_part,
+          number("smallest-part", "",
+                 "of cut: the least part of an element of the start that it leaves, as a share of its area or "
+                 "volume. More makes a longer step and a coarser crack")
+              .at_least(0.01)
+              .at_most(0.2)),
       field(&S::from, number("from", "s", "start time; nothing tears before it").at_least(0)),
       field(&S::until, number("until", "s", "end time; without it, to the end of the clip").at_least(0)),
       field(&S::max_per_step,

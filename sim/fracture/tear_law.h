@@ -29,6 +29,7 @@ struct LawSettings {
   bool compression = false;
   const ChangeType* change = nullptr; // one of all_changes(); null: that of the criterion's cell
   std::string rule = {};              // instead of a change: the name of a rule; empty: none
+  double smallest_part = LeastPart{}.size;
   double from = 0, until = std::numeric_limits<double>::infinity(); // [s]
   int max_per_step = 0;                                             // 0: any number
   SettingsSource source = {};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace rend {
 namespace {
@@ -24,8 +25,9 @@ int TetrahedronCutPlan::side_of(Slot vertex) const {
   return at->second;
 }
 
-TetrahedronCut::TetrahedronCut(const SolidState& state, std::span<const Dart> darts, const CutSurface& surface)
-    : state_(state), map_(state.map.map()), darts_(darts.begin(), darts.end()) {
+TetrahedronCut::TetrahedronCut(const CutState& state, Changed changed, std::span<const Dart> darts,
+                               const CutSurface& surface)
+    : state_(state), changed_(std::move(changed)), map_(state.map.map()), darts_(darts.begin(), darts.end()) {
   for (Dart d : darts_) {
     const Dart there = map_.alpha(0, d);
     const Slot slot = state_.map.vertex(there);
@@ -119,7 +121,7 @@ bool TetrahedronCut::may_move(const Corner& corner, Slot towards, const Vec3& to
   const std::size_t own = around.size();
   for (std::size_t n = 0; n < own; ++n)
     around.push_back(map_.alpha(1, map_.alpha(0, around[n]))); // opposite faces
-  return !state_.changed(around);
+  return !changed_(around);
 }
 
 // The vertex with these darts is inside, or moves along an edge of the border, in the planes of all faces
@@ -235,7 +237,7 @@ bool TetrahedronCut::has_room(const Tetrahedron& part) const {
   };
   if (turned(rest_, rest_were_) || turned(now_, now_were_)) return false;
   const ElementSizes& start = state_.start[state_.map.slot(Volume, elements_[part.whole])];
-  return ElementSizes(rest_[p[0]], rest_[p[1]], rest_[p[2]], rest_[p[3]]).keeps(start);
+  return ElementSizes(rest_[p[0]], rest_[p[1]], rest_[p[2]], rest_[p[3]]).may_be_part(start, state_.least);
 }
 
 } // namespace rend

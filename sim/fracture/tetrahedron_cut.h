@@ -15,8 +15,8 @@
 // A vertex whose side is fixed takes no part in that; the edge is divided a quarter away from it at least.
 #pragma once
 
+#include "sim/fracture/cut_state.h"
 #include "sim/fracture/cut_surface.h"
-#include "sim/fracture/start_element.h"
 #include "sim/topology/index_set.h"
 
 #include <array>
@@ -26,16 +26,6 @@
 #include <vector>
 
 namespace rend {
-
-// Before an edit. Positions and velocities: one per vertex slot.
-struct SolidState {
-  const EmbeddedMap& map;
-  const Column<StartElement>& start;                  // of that map
-  const Record *position, *velocity;                  // [m], [m/s]
-  std::span<const Slot> held;                         // vertices that do not move, increasing
-  bool rigid = false;                                 // no vertex moves
-  std::function<bool(std::span<const Dart>)> changed; // whether elements with these darts have changed since
-};
 
 struct TetrahedronCutPlan {
   struct Division {
@@ -55,8 +45,11 @@ struct TetrahedronCutPlan {
 
 class TetrahedronCut {
 public:
+  using Changed = std::function<bool(std::span<const Dart>)>; // whether elements with these darts have, since
+
   // `darts`: of v.
-  TetrahedronCut(const SolidState& state, std::span<const Dart> darts, const CutSurface& surface);
+  TetrahedronCut(const CutState& state, Changed changed, std::span<const Dart> darts,
+                 const CutSurface& surface);
 
   // None: there is no way that leaves no part too small or thin.
   std::optional<TetrahedronCutPlan> plan();
@@ -100,7 +93,8 @@ private:
   void divide_elements();
   bool has_room(const Tetrahedron& part) const;
 
-  SolidState state_;
+  CutState state_;
+  Changed changed_;
   const GMap& map_;
   std::vector<Dart> darts_;
   std::vector<Corner> corners_;

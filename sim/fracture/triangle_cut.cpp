@@ -25,10 +25,6 @@ struct Corners {
   Vec3 normal() const { return (b - a).cross(c - a); } // [m²], as long as twice the area
 };
 
-bool keeps(const Corners& rest, const ElementSizes& start) {
-  return ElementSizes(rest.a, rest.b, rest.c).keeps(start);
-}
-
 } // namespace
 
 std::optional<CutWay> TriangleCut::through(Dart d, double t) const {
@@ -81,8 +77,12 @@ bool TriangleCut::keeps_shape(Dart d, const Point& to) const {
   const Corners rest(state_.map, d), rest_then(to.rest, rest.b, rest.c);
   const Vec3 b = at(map_.alpha(0, d)), c = at(map_.alpha(0, map_.alpha(1, d)));
   const Vec3 normal = Corners(at(d), b, c).normal(), then = Corners(to.position, b, c).normal();
-  return rest_then.normal().dot(rest.normal()) > 0 && keeps(rest_then, start_of(d)) &&
+  return rest_then.normal().dot(rest.normal()) > 0 && may_be_part(to.rest, rest.b, rest.c, d) &&
          then.dot(normal) >= least_cosine * then.norm() * normal.norm();
+}
+
+bool TriangleCut::may_be_part(const Vec3& a, const Vec3& b, const Vec3& c, Dart whole) const {
+  return ElementSizes(a, b, c).may_be_part(start_of(whole), state_.least);
 }
 
 // For the parts of the triangles on both sides of an edge that is divided at that share.
@@ -90,8 +90,7 @@ bool TriangleCut::leaves_room(Dart across, double share) const {
   for (Dart d : {across, map_.alpha(2, across)}) {
     const Corners whole(state_.map, d); // divided from a to b
     const Vec3 m = whole.a + share * (whole.b - whole.a);
-    const ElementSizes& start = start_of(d);
-    if (!keeps({whole.a, m, whole.c}, start) || !keeps({m, whole.b, whole.c}, start)) return false;
+    if (!may_be_part(whole.a, m, whole.c, d) || !may_be_part(m, whole.b, whole.c, d)) return false;
   }
   return true;
 }

@@ -9,26 +9,16 @@
 // small or thin, or tilt. Then the edge is divided at m, or at the nearest place that leaves no part too small
 // or thin, if there is one closer to m than the end; or else the cut bends to that end.
 //
-// A part of a triangle of the start (start_element.h) is too small below a twentieth of its area, too thin
-// below a quarter of the sine of its least angle.
+// A part of a triangle of the start (start_element.h) is too small below a share of its area, too thin below a
+// share of the sine of its least angle: a twentieth and a quarter, unless a law says otherwise.
 #pragma once
 
-#include "sim/fracture/start_element.h"
+#include "sim/fracture/cut_state.h"
 #include "sim/rules/apply.h"
 
 #include <optional>
-#include <span>
 
 namespace rend {
-
-// Before an edit. Positions and velocities: one per vertex slot.
-struct SheetState {
-  const EmbeddedMap& map;
-  const Column<StartElement>& start; // of that map
-  const Record *position, *velocity; // [m], [m/s]
-  std::span<const Slot> held;        // vertices that do not move, increasing
-  bool rigid = false;                // no vertex moves
-};
 
 // Through the edge opposite to a vertex.
 struct CutWay {
@@ -41,7 +31,7 @@ struct CutWay {
 
 class TriangleCut {
 public:
-  explicit TriangleCut(const SheetState& state) : state_(state), map_(state.map.map()) {}
+  explicit TriangleCut(const CutState& state) : state_(state), map_(state.map.map()) {}
 
   // In the triangle of d from the vertex of d, with the edge of d at b. None: it can only bend to where the
   // sheet is open already.
@@ -56,9 +46,10 @@ private:
   Point between(Dart a, Dart b, double share) const;
   const ElementSizes& start_of(Dart d) const;
   bool keeps_shape(Dart d, const Point& to) const;
+  bool may_be_part(const Vec3& a, const Vec3& b, const Vec3& c, Dart whole) const; // [m], at rest
   std::optional<double> nearest_with_room(Dart across, double t) const;
 
-  SheetState state_;
+  CutState state_;
   const GMap& map_;
 };
 

@@ -20,9 +20,9 @@ inline bool cut_at(Body& body, const ChangeType& change, Dart d, const Vec3& nor
   return made;
 }
 
-inline std::shared_ptr<const ChangeType> cuts_of(Body& body) {
-  return find_change("cut")->of_law(
-      body.request_for(LawSettings{.criterion = find_criterion("vertex-stress")}));
+inline std::shared_ptr<const ChangeType> cuts_of(Body& body, double smallest_part = 1.0 / 20) {
+  return find_change("cut")->of_law(body.request_for(
+      LawSettings{.criterion = find_criterion("vertex-stress"), .smallest_part = smallest_part}));
 }
 
 // Pulled along the normal: each element has the same strain.

@@ -119,17 +119,19 @@ TEST(SolidCut, leaves_what_is_built_from_scratch) {
   EXPECT_GT(cuts, 250);
 }
 
-TEST(SolidCut, makes_no_part_below_a_twentieth_and_no_more_than_four_times_the_elements) {
-  Noise noise(13);
-  const auto body = bar_of_tetrahedra(3, false);
-  const auto change = cuts_of(*body);
-  const std::vector<double> start = sizes(*body);
-  const double smallest = std::ranges::min(start);
-  for (int k = 0; k < 1000; ++k) cut_at(*body, *change, some_dart(*body, noise), direction(noise));
-  const std::vector<double> now = sizes(*body);
-  EXPECT_GT(now.size(), 3 * start.size() / 2);
-  EXPECT_LE(now.size(), 4 * start.size());
-  EXPECT_GE(std::ranges::min(now), smallest / 20 * (1 - 1e-12));
+TEST(SolidCut, makes_no_part_below_its_share_and_no_more_than_four_times_the_elements) {
+  for (const double share : {1.0 / 20, 0.15}) {
+    Noise noise(13);
+    const auto body = bar_of_tetrahedra(3, false);
+    const auto change = cuts_of(*body, share);
+    const std::vector<double> start = sizes(*body);
+    const double smallest = std::ranges::min(start);
+    for (int k = 0; k < 1000; ++k) cut_at(*body, *change, some_dart(*body, noise), direction(noise));
+    const std::vector<double> now = sizes(*body);
+    EXPECT_GT(now.size(), (share < 0.1 ? 3 : 2) * start.size() / 2);
+    EXPECT_LE(now.size(), 4 * start.size());
+    EXPECT_GE(std::ranges::min(now), share * smallest * (1 - 1e-12));
+  }
 }
 
 struct Section {

@@ -88,6 +88,24 @@ TEST_P(StoredPreset, goes_on_to_the_bit) {
 
 INSTANTIATE_TEST_SUITE_P(All, StoredPreset, testing::ValuesIn(shipped::all_presets()), shipped::as_word);
 
+// Within the crack, steps are divided by bounds that are kept from tear to tear.
+TEST(Store, a_scene_goes_on_from_within_a_crack_that_is_cut) {
+  for (const char* name : {"tear/notched-strip-cut", "fracture/notched-bar-cut"}) {
+    StoredRun first(name), other(name);
+    for (std::size_t tears : {1, 4, 12}) {
+      while (first.scene->tears() < tears) first.scene->step();
+      restore(*other.scene, stored(*first.scene));
+      const std::size_t before = first.scene->tears();
+      for (int n = 0; n < 4000 && first.scene->tears() < before + 4; n += 20) {
+        go(*first.scene, 20);
+        go(*other.scene, 20);
+      }
+      EXPECT_GE(first.scene->tears(), before + 4) << name;
+      expect_same(*first.scene, *other.scene);
+    }
+  }
+}
+
 TEST(Store, a_scene_goes_on_from_any_step_with_every_scheme) {
   for (const Scheme& scheme : all_schemes()) {
     const std::string time = R"(<time step="1e-3" integrator=")" + scheme.name + R"(" duration="1"/>)";
