@@ -15,11 +15,13 @@
 namespace rend {
 namespace {
 
-// The world and the body of presets/showcase/slab.xml, with the given number of cells, without its <look>.
+// The world and the body of presets/showcase/slab.xml, with the given number of cells, without its <look>, and
+// split at vertices instead of cut.
 std::string slab(const std::string& cells) {
   std::ifstream file(std::string(REND_ROOT) + "/presets/showcase/slab.xml");
   std::string text{std::istreambuf_iterator<char>(file), {}};
-  const std::regex others(R"re( fragments|<(look|camera|image)[^>]*/>| colour="[^"]*")re");
+  const std::regex others(
+      R"re( fragments|<(look|camera|image)[^>]*/>| (colour|change|smallest-part)="[^"]*")re");
   text = std::regex_replace(text, others, "");
   return std::regex_replace(text, std::regex(R"re(cells="[^"]*")re"), "cells=\"" + cells + "\"");
 }

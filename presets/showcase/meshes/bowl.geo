@@ -1,7 +1,7 @@
-// A bowl of prisms, one layer thick: a curve turned about the z axis, which grows by its thickness.
+// A bowl of tetrahedra, one layer thick: a curve turned about the z axis, which grows by its thickness.
 //
 //   gmsh bowl.geo -3 -format msh41 -bin -o bowl.msh
-DefineConstant[ size = 0.0125, thickness = 0.009 ];
+DefineConstant[ size = 0.026, thickness = 0.009 ];
 
 Point(1) = {0, 0, 0}; Point(2) = {0.05, 0, 0.006}; Point(3) = {0.1, 0, 0.042}; Point(4) = {0.128, 0, 0.1};
 Spline(1) = {1, 2, 3, 4};
@@ -11,7 +11,7 @@ For n In {0 : 3}
   curve = out[0];
   side[n] = out[1];
 EndFor
-wall[] = Extrude { Surface{side[]}; Layers{1, thickness}; Recombine; Using Index[0]; };
+wall[] = Extrude { Surface{side[]}; Layers{1, thickness}; Using Index[0]; };
 
 Physical Volume("bowl") = Volume{:};
 Mesh.MeshSizeMax = size;
