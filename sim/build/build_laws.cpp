@@ -51,9 +51,9 @@ LawSettings completed(LawSettings law, const Body& body, const RuleBook& rules) 
     source.fail("kind", fmt::format("'{}' {}", criterion.name(), refusal));
   if (const std::string lacking = law.criterion->lacking(request); !lacking.empty())
     source.fail("criterion", fmt::format("'{}' {}", law.criterion->name, lacking));
-  if (source.given("smallest-part") && !law.change->of_law)
+  if (source.given("smallest-part") && !law.change->has_least_part)
     source.fail("smallest-part", fmt::format("'{}' does not use smallest-part", law.change->name),
-                "leave it out: only change=\"cut\" leaves parts of elements");
+                "leave it out: only change=\"cut\" has a least part");
   law.unit = law.criterion->unit_there ? law.criterion->unit_there(request) : law.criterion->unit;
   if (law.change->lacking)
     if (const std::string lacking = law.change->lacking(request); !lacking.empty())

@@ -29,9 +29,8 @@ Bounds grown(const Bounds& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
-// By how much they may move together before they touch; none: they do not meet before one of them has moved by
-// half the skin. From their distance at the end of the step, and their relative motion in it. What is behind
-// the face of a solid may touch it at any distance.
+// ContactPair::clear; none: they do not meet before one of them has moved by half the skin. From their distance
+// at the end of the step, and their relative motion in it.
 std::optional<double> clearance(const ContactBody& body, Slot v, const ContactBody& other,
                                 const ContactFaces::Triangle& triangle, double reach) {
   const Vec3 x = body.position(v), moved = x - body.from(v);
@@ -42,12 +41,13 @@ std::optional<double> clearance(const ContactBody& body, Slot v, const ContactBo
     most = std::max(most, (moved - (y[k] - other.from(triangle.vertex[k]))).squaredNorm());
   }
   const Weights w = nearest_in_triangle(y, x);
-  const Vec3 way = x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2];
-  const double distance = way.norm();
+  const double distance = (x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2]).norm();
   if (!(distance <= reach + std::sqrt(most))) return {};
-  const bool solid = other.body->map->dimension() == 3;
-  if (solid && way.dot((y[1] - y[0]).cross(y[2] - y[0])) <= 0) return 0;
-  return std::max(0.0, distance - ContactPairs::beside * ContactPairs::thickness(body, other));
+  double touches = ContactPairs::beside * ContactPairs::thickness(body, other);
+  if (other.body->map->dimension() == 3)
+    for (std::size_t k = 0; k < 3; ++k)
+      touches = std::max(touches, ContactPairs::deepest * (y[k] - y[(k + 1) % 3]).norm());
+  return std::max(0.0, distance - touches);
 }
 
 bool is_corner(Slot v, const ContactFaces::Triangle& triangle) {
@@ -135,7 +135,7 @@ const std::vector<ContactPair>& ContactPairs::find(const Bodies& bodies) {
   listed_ = true;
   if (!anything(bodies)) {
     pairs_.clear();
-  } else if (changed || stale(bodies)) {
+  } else if (changed || listed_since_search() || measure_moves(bodies) > 0.25 * skin_ * skin_) {
     search(bodies);
     measure_moves(bodies);
   }
@@ -153,10 +153,8 @@ bool ContactPairs::anything(const Bodies& bodies) const {
   return false;
 }
 
-// Whether a vertex moved by half the skin since the last search. A common translation is subtracted.
-bool ContactPairs::stale(const Bodies& bodies) {
-  const auto listed_since = [](const BodyEntry& of) { return of.there.size() != of.vertices.size(); };
-  return std::ranges::any_of(of_, listed_since) || !(measure_moves(bodies) <= 0.25 * skin_ * skin_);
+bool ContactPairs::listed_since_search() const {
+  return std::ranges::any_of(of_, [](const BodyEntry& of) { return of.there.size() != of.vertices.size(); });
 }
 
 // Of all since the last search.
@@ -312,8 +310,9 @@ void ContactPairs::check_pair(const Bodies& bodies, std::size_t number) const {
                 "contact is of a vertex that is not there");
   refuse_unless(pair.triangle < bodies[pair.face_body]->faces->triangles().size(),
                 "contact is with a face that is not there");
+  refuse_unless(pair.clear >= 0 && std::isfinite(pair.clear),
+                "contact is of a vertex and a face at no possible distance");
   const auto order = [](const ContactPair& p) { return std::tie(p.body, p.vertex, p.face_body, p.triangle); };
-  refuse_unless(pair.clear >= 0 && std::isfinite(pair.clear), "contact is at no distance");
   refuse_unless(number == 0 || order(pairs_[number - 1]) < order(pair),
                 "contact is listed in disorder, or twice");
 }

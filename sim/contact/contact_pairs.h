@@ -9,8 +9,13 @@
 // always include all that touch, so results do not depend on when they were searched.
 //
 // A pair that was searched at a distance d, and whose vertex and corners have moved by m_v and m_k since then,
-// relative to the mean of all, is at d − m_v − max m_k at least, whatever the face does between its corners: a
-// pair that is too far apart by that is passed over without a look at its face.
+// relative to the mean of all, is at
+//
+//   d − m_v − max m_k
+//
+// at least. A vertex touches a face from less than 1.5 thicknesses; from behind the face of a solid, at a depth
+// of up to a fifth of √(2 area), which is no more than a fifth of e + 2 max m_k, with its longest edge e at the
+// search. A pair that is farther apart is passed over without a look at its face.
 #pragma once
 
 #include "sim/contact/contact_body.h"
@@ -26,7 +31,7 @@ struct ContactPair {
   std::uint32_t face_body = 0;
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
   bool neighbours = false;    // closer than the thickness at rest
-  double clear = 0; // [m]: by how much the two may move together before they touch; 0: they may touch at once
+  double clear = 0; // [m]: at the search, its distance less that from which it touches; 0: no more than that
 
   void store(Archive& archive);
 };
@@ -40,14 +45,15 @@ public:
   // `self` also those within a fragment that are not neighbours.
   const std::vector<ContactPair>& find(const Bodies& bodies);
 
-  // Whether such a pair is too far apart to touch within this step.
+  // Whether a pair of the last find() is too far apart to touch within this step.
   bool apart(const Bodies& bodies, const ContactPair& pair) const {
     const auto& corner = bodies[pair.face_body]->faces->triangles()[pair.triangle].vertex;
     const std::vector<double>& moved = of_[pair.face_body].moved;
     const double most = std::max({moved[corner[0]], moved[corner[1]], moved[corner[2]]});
-    return pair.clear > of_[pair.body].moved[pair.vertex] + most;
+    return pair.clear > of_[pair.body].moved[pair.vertex] + (1 + 2 * deepest) * most;
   }
-  static constexpr double beside = 1.5; // distance in thicknesses at which a path misses a face
+  static constexpr double beside = 1.5;  // distance in thicknesses at which a path misses a face
+  static constexpr double deepest = 0.2; // relative to a face's size: the largest penetration of a solid's face
 
   // The distance that two bodies keep [m].
   static double thickness(const ContactBody& a, const ContactBody& b) {
@@ -65,7 +71,8 @@ private:
     std::vector<std::uint32_t> vertex_fragment; // one per entry of `vertices`
     std::vector<std::uint32_t> face_fragment;   // one per triangle
     std::vector<Vec3> there; // [m], positions at the last search, one per entry of `vertices`
-    // [m], one per vertex slot, of those of its faces: how far it is from there within this step, at most
+    // [m], one per vertex slot, of those of its faces: how far it is from there within this step, at most,
+    // relative to the mean of all
     std::vector<double> moved;
     bool several = false; // more than one fragment
 
@@ -76,7 +83,7 @@ private:
   void list(const ContactBody& body, BodyEntry& of) const;
   bool anything(const Bodies& bodies) const;
   static bool meet(const ContactBody& a, const ContactBody& b) { return !a.terms(b).excluded; }
-  bool stale(const Bodies& bodies);
+  bool listed_since_search() const;
   Vec3 measure_mean(const Bodies& bodies) const;
   double measure_moves(const Bodies& bodies);
   void search(const Bodies& bodies);

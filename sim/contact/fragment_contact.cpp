@@ -7,7 +7,6 @@ namespace rend {
 namespace {
 
 constexpr double coincident = 1e-10; // relative to the thickness and the face's size
-constexpr double deepest = 0.2;      // relative to a face's size: the largest penetration of a solid's face
 
 TriangleCorners mixed(const TriangleCorners& a, const TriangleCorners& b, double share) {
   TriangleCorners out;
@@ -40,7 +39,8 @@ std::optional<Facing> facing(const Vec3& x, const TriangleCorners& face, bool so
   if (solid && size > 0 && (over(out.weight) || !known)) {
     out.normal = area / size;
     out.gap = out.normal.dot(way);
-    return out.gap > -std::max(thickness, deepest * std::sqrt(size)) ? std::optional(out) : std::nullopt;
+    return out.gap > -std::max(thickness, ContactPairs::deepest * std::sqrt(size)) ? std::optional(out)
+                                                                                   : std::nullopt;
   }
   if (!known || (solid && way.dot(area) < 0)) return {};
   out.normal = way / distance;

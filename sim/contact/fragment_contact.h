@@ -30,9 +30,10 @@ public:
   void store(Archive& archive, const ContactPairs::Bodies& bodies) { pairs_.store(archive, bodies); }
   std::size_t bytes() const { return pairs_.bytes(); }
 
-private:
+  // Of one pair, whether or not it was found; none: nothing touches in this step.
   static std::optional<ContactConstraint> touch(const ContactPairs::Bodies& bodies, const ContactPair& pair);
 
+private:
   ContactPairs pairs_;
 };
 

@@ -45,6 +45,7 @@ struct ChangeType {
   std::function<bool(Edit&, const ForceView&, const FoundPlace&, std::span<const Dart> darts)> apply;
   bool grows = false;                        // it may create darts and links (rule_change.h)
   bool keeps_matter = false;                 // it only separates: no element is created or removed
+  bool has_least_part = false;               // it takes the law's smallest-part
   std::shared_ptr<ChangeMemory> memory = {}; // null: it keeps nothing
   // Gives such a body the embeddings that it needs. Null: it needs none of its own.
   void (*prepare)(EmbeddedMap&) = nullptr;

@@ -125,6 +125,7 @@ ChangeType cut() {
           .cell = Cell::Vertices,
           .apply = {},
           .grows = true,
+          .has_least_part = true,
           .prepare = add_start_elements,
           .of_law = of_law,
           .lacking = lacking};

@@ -10,7 +10,7 @@
 // or thin, if there is one closer to m than the end; or else the cut bends to that end.
 //
 // A part of a triangle of the start (start_element.h) is too small below a share of its area, too thin below a
-// share of the sine of its least angle: a twentieth and a quarter, unless a law says otherwise.
+// share of the sine of its least angle (least_part.h).
 #pragma once
 
 #include "sim/fracture/cut_state.h"

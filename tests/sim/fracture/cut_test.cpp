@@ -248,24 +248,6 @@ TEST(Cut, leaves_what_is_built_from_scratch) {
   EXPECT_GT(cuts, 2000);
 }
 
-TEST(Cut, makes_no_part_below_its_share_and_no_more_than_four_times_the_elements) {
-  for (const double share : {1.0 / 20, 0.15}) {
-    Noise noise(13);
-    const auto body = sheet_of_triangles(3);
-    const auto change = cuts_of(*body, share);
-    const std::size_t elements = count_cells(body->map->map()).faces;
-    double smallest = area(*body), after = smallest;
-    for_each_face(*body->map, [&](Dart d) { smallest = std::min(smallest, area_of(*body, d)); });
-    for (int k = 0; k < 1000; ++k)
-      cut_at(*body, *change, Dart{noise.below(body->map->map().capacity())}, in_plane(noise));
-    EXPECT_GT(count_cells(body->map->map()).faces, (share < 0.1 ? 2 : 1) * elements);
-    EXPECT_LE(count_cells(body->map->map()).faces, 4 * elements);
-    for_each_face(*body->map, [&](Dart d) { after = std::min(after, area_of(*body, d)); });
-    EXPECT_GE(after, share * smallest * (1 - 1e-12));
-    EXPECT_LT(after, 3 * share * smallest);
-  }
-}
-
 // Of all elements at rest, in increasing order [degrees].
 std::vector<double> angles(const Body& body) {
   std::vector<double> all;
@@ -278,6 +260,31 @@ std::vector<double> angles(const Body& body) {
   });
   std::ranges::sort(all);
   return all;
+}
+
+double least_sine(const Body& body) {
+  const std::vector<double> all = angles(body);
+  return std::min(std::sin(all.front() * M_PI / 180), std::sin(all.back() * M_PI / 180));
+}
+
+TEST(Cut, makes_no_part_below_its_share_and_no_more_than_four_times_the_elements) {
+  for (const double share : {1.0 / 20, 0.15}) {
+    Noise noise(13);
+    const auto body = sheet_of_triangles(3);
+    const auto change = cuts_of(*body, share);
+    const std::size_t elements = count_cells(body->map->map()).faces;
+    double smallest = area(*body), after = smallest;
+    const double sine = least_sine(*body);
+    for_each_face(*body->map, [&](Dart d) { smallest = std::min(smallest, area_of(*body, d)); });
+    for (int k = 0; k < 1000; ++k)
+      cut_at(*body, *change, Dart{noise.below(body->map->map().capacity())}, in_plane(noise));
+    EXPECT_GT(count_cells(body->map->map()).faces, (share < 0.1 ? 2 : 1) * elements);
+    EXPECT_LE(count_cells(body->map->map()).faces, 4 * elements);
+    for_each_face(*body->map, [&](Dart d) { after = std::min(after, area_of(*body, d)); });
+    EXPECT_GE(after, share * smallest * (1 - 1e-12));
+    EXPECT_LT(after, 3 * share * smallest);
+    EXPECT_GE(least_sine(*body), (share < 0.1 ? 0.25 : 0.6) * sine);
+  }
 }
 
 TEST(Cut, leaves_no_slivers_after_500) {

@@ -131,6 +131,7 @@ TEST(SolidCut, makes_no_part_below_its_share_and_no_more_than_four_times_the_ele
     EXPECT_GT(now.size(), (share < 0.1 ? 3 : 2) * start.size() / 2);
     EXPECT_LE(now.size(), 4 * start.size());
     EXPECT_GE(std::ranges::min(now), share * smallest * (1 - 1e-12));
+    EXPECT_LT(std::ranges::min(now), 3 * share * smallest);
   }
 }
 
