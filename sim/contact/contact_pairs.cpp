@@ -29,6 +29,18 @@ Bounds grown(const Bounds& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
+// By how much both may move until the vertex may be as deep behind the face of a solid as it is still seen: the
+// larger of two bounds. `off` [m]: from the nearest point of the face.
+double clear_of_depth(const Vec3& off, const TriangleCorners& y) {
+  constexpr double deepest = ContactPairs::deepest;
+  const Vec3 area = (y[1] - y[0]).cross(y[2] - y[0]);
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (y[k] - y[(k + 1) % 3]).norm());
+  const double by_size = (off.norm() - deepest * longest) / (1 + 2 * deepest);
+  if (longest == 0 || off.dot(area) < 0) return by_size;
+  return std::max(by_size, std::min(0.94 * off.norm(), area.norm() / (8 * longest)));
+}
+
 // ContactPair::clear; none: they do not meet before one of them has moved by half the skin. From their distance
 // at the end of the step, and their relative motion in it.
 std::optional<double> clearance(const ContactBody& body, Slot v, const ContactBody& other,
@@ -41,13 +53,12 @@ std::optional<double> clearance(const ContactBody& body, Slot v, const ContactBo
     most = std::max(most, (moved - (y[k] - other.from(triangle.vertex[k]))).squaredNorm());
   }
   const Weights w = nearest_in_triangle(y, x);
-  const double distance = (x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2]).norm();
+  const Vec3 off = x - w[0] * y[0] - w[1] * y[1] - w[2] * y[2];
+  const double distance = off.norm();
   if (!(distance <= reach + std::sqrt(most))) return {};
-  double touches = ContactPairs::beside * ContactPairs::thickness(body, other);
-  if (other.body->map->dimension() == 3)
-    for (std::size_t k = 0; k < 3; ++k)
-      touches = std::max(touches, ContactPairs::deepest * (y[k] - y[(k + 1) % 3]).norm());
-  return std::max(0.0, distance - touches);
+  const double clear = distance - ContactPairs::beside * ContactPairs::thickness(body, other);
+  const bool solid = other.body->map->dimension() == 3;
+  return std::max(0.0, solid ? std::min(clear, clear_of_depth(off, y)) : clear);
 }
 
 bool is_corner(Slot v, const ContactFaces::Triangle& triangle) {
@@ -157,23 +168,20 @@ bool ContactPairs::listed_since_search() const {
   return std::ranges::any_of(of_, [](const BodyEntry& of) { return of.there.size() != of.vertices.size(); });
 }
 
-// Of all since the last search.
-Vec3 ContactPairs::measure_mean(const Bodies& bodies) const {
-  Vec3 mean = Vec3::Zero();
+// Relative to the mean of all, at the start of the step and at its end. The largest square at the end [m²].
+double ContactPairs::measure_moves(const Bodies& bodies) {
+  Vec3 mean_start = Vec3::Zero(), mean_end = Vec3::Zero();
   std::size_t count = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const BodyEntry& of = of_[b];
-    for (std::size_t n = 0; n < of.vertices.size(); ++n)
-      mean += bodies[b]->position(of.vertices[n]).vec() - of.there[n];
+    for (std::size_t n = 0; n < of.vertices.size(); ++n) {
+      mean_start += bodies[b]->from(of.vertices[n]) - of.there[n];
+      mean_end += bodies[b]->position(of.vertices[n]).vec() - of.there[n];
+    }
     count += of.vertices.size();
   }
-  if (count > 0) mean /= static_cast<double>(count);
-  return mean;
-}
-
-// The largest square at the end of the step [m²].
-double ContactPairs::measure_moves(const Bodies& bodies) {
-  const Vec3 mean = measure_mean(bodies);
+  if (count > 0) mean_start /= static_cast<double>(count);
+  if (count > 0) mean_end /= static_cast<double>(count);
   double most = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     BodyEntry& of = of_[b];
@@ -181,9 +189,8 @@ double ContactPairs::measure_moves(const Bodies& bodies) {
     of.moved.resize(bodies[b]->vertices());
     for (std::size_t n = 0; n < of.vertices.size(); ++n) {
       const Slot v = of.vertices[n];
-      const Vec3 then = of.there[n] + mean;
-      const double start = (bodies[b]->from(v) - then).squaredNorm(),
-                   end = (bodies[b]->position(v).vec() - then).squaredNorm();
+      const double start = (bodies[b]->from(v) - of.there[n] - mean_start).squaredNorm(),
+                   end = (bodies[b]->position(v).vec() - of.there[n] - mean_end).squaredNorm();
       of.moved[v] = std::sqrt(std::max(start, end));
       most = std::max(most, end);
     }

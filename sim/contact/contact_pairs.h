@@ -14,8 +14,16 @@
 //   d − m_v − max m_k
 //
 // at least. A vertex touches a face from less than 1.5 thicknesses; from behind the face of a solid, at a depth
-// of up to a fifth of √(2 area), which is no more than a fifth of e + 2 max m_k, with its longest edge e at the
-// search. A pair that is farther apart is passed over without a look at its face.
+// g of up to a fifth of √(2 area) (fragment_contact.h). A pair that is farther apart by that is passed over
+// without a look at its face. Of the depth two bounds are known, with M = m_v + max m_k:
+//
+//   g ≤ (e + 2 max m_k)/5          e: the longest edge at the search
+//   M ≥ 0.94 d, if M ≤ a/8         a: the smallest height of the triangle then; the vertex was in front
+//
+// The second: let p' be the point of the face above the vertex x' = p' − g n', and p the same point of it at the
+// search. Heights above the plane of the search change by less than a/8, so its normal turns by less than
+// tan⁻¹ ⅓, and n'·(x − p) ≥ −|x − p|/3; hence M² ≥ |x − p + g n'|² ≥ r² − ⅔ g r + g² ≥ 8/9 r² with
+// r = |x − p| ≥ d.
 #pragma once
 
 #include "sim/contact/contact_body.h"
@@ -31,7 +39,7 @@ struct ContactPair {
   std::uint32_t face_body = 0;
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
   bool neighbours = false;    // closer than the thickness at rest
-  double clear = 0; // [m]: at the search, its distance less that from which it touches; 0: no more than that
+  double clear = 0; // [m]: below this sum M of moves since the search, it does not touch; 0: it may at once
 
   void store(Archive& archive);
 };
@@ -50,7 +58,7 @@ public:
     const auto& corner = bodies[pair.face_body]->faces->triangles()[pair.triangle].vertex;
     const std::vector<double>& moved = of_[pair.face_body].moved;
     const double most = std::max({moved[corner[0]], moved[corner[1]], moved[corner[2]]});
-    return pair.clear > of_[pair.body].moved[pair.vertex] + (1 + 2 * deepest) * most;
+    return pair.clear > of_[pair.body].moved[pair.vertex] + most;
   }
   static constexpr double beside = 1.5;  // distance in thicknesses at which a path misses a face
   static constexpr double deepest = 0.2; // relative to a face's size: the largest penetration of a solid's face
@@ -84,7 +92,6 @@ private:
   bool anything(const Bodies& bodies) const;
   static bool meet(const ContactBody& a, const ContactBody& b) { return !a.terms(b).excluded; }
   bool listed_since_search() const;
-  Vec3 measure_mean(const Bodies& bodies) const;
   double measure_moves(const Bodies& bodies);
   void search(const Bodies& bodies);
   // for the vertices of b

@@ -83,6 +83,7 @@ TEST_P(FoundPairs, miss_nothing_that_is_close_and_pass_over_nothing_that_touches
   const auto scene = presets::load(
       "<scene><body name=\"a\">" + body + R"(<place translate="0 0 0.36"/></body><body name="b">)" + body +
       R"(</body><world gravity="0 0 0"/><time step="1e-4" duration="1"/></scene>)");
+  scene->step();
   ContactPairs::Bodies bodies;
   for (std::size_t b = 0; b < 2; ++b) {
     scene.body(b).next.position = scene.body(b).map->position().values();
@@ -121,8 +122,8 @@ TEST_P(FoundPairs, miss_nothing_that_is_close_and_pass_over_nothing_that_touches
               << "step " << n << ", vertex " << v << " of " << b << ", triangle " << t;
         }
   }
-  EXPECT_GT(touching, 500);
-  EXPECT_GT(passed_over, 500);
+  EXPECT_GT(touching, 300);
+  EXPECT_GT(passed_over, 300);
   EXPECT_LT(pairs.searches(), 190) << "in 200 steps";
 }
 
