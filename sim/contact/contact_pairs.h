@@ -20,8 +20,8 @@
 //   g ≤ (e + 2 max m_k)/5          e: the longest edge at the search
 //   M ≥ 0.94 d, if M ≤ a/8         a: the smallest height of the triangle then; the vertex was in front
 //
-// The second: let p' be the point of the face above the vertex x' = p' − g n', and p the same point of it at the
-// search. Heights above the plane of the search change by less than a/8, so its normal turns by less than
+// The second: let p' be the point of the face above the vertex x' = p' − g n', and p the same point of it at
+// the search. Heights above the plane of the search change by less than a/8, so its normal turns by less than
 // tan⁻¹ ⅓, and n'·(x − p) ≥ −|x − p|/3; hence M² ≥ |x − p + g n'|² ≥ r² − ⅔ g r + g² ≥ 8/9 r² with
 // r = |x − p| ≥ d.
 #pragma once
