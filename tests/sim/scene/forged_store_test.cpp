@@ -281,7 +281,8 @@ TEST(ForgedStore, contact_is_of_vertices_and_faces_that_there_are) {
   EXPECT_THAT(genuine.with(pair + 4, 1U << 31U), HasSubstr("vertex that is not there"));
   EXPECT_THAT(genuine.with(pair + 8, 9U), HasSubstr("bodies that are not there"));
   EXPECT_THAT(genuine.with(pair + 12, 1U << 31U), HasSubstr("face that is not there"));
-  EXPECT_THAT(genuine.with(pair + 17 + 4, genuine.there<Slot>(pair + 4) - 1), testing::Not(""));
+  EXPECT_THAT(genuine.with(pair + 17, -1.0), HasSubstr("no possible distance"));
+  EXPECT_THAT(genuine.with(pair + 25 + 4, genuine.there<Slot>(pair + 4) - 1), testing::Not(""));
 }
 
 TEST(ForgedStore, what_a_scheme_hands_on_is_what_it_would) {
