@@ -39,7 +39,7 @@ struct ContactPair {
   std::uint32_t face_body = 0;
   std::uint32_t triangle = 0; // index into the body's ContactFaces::triangles()
   bool neighbours = false;    // closer than the thickness at rest
-  double clear = 0; // [m]: below this sum M of moves since the search, it does not touch; 0: it may at once
+  double clear = 0; // [m]: the two do not touch while their moves since the search, M, sum to less than this
 
   void store(Archive& archive);
 };

@@ -57,8 +57,7 @@ template <> const Fields<LawSettings>& fields_of() {
           number("smallest-part", "",
                  "of cut: the least part of an element of the start that it leaves, as a share of its area or "
                  "volume; from 0.0625 on, the sine of its least angle too is four times that share of what it "
-                 "was. "
-                 "More makes longer steps and a coarser crack")
+                 "was. More makes longer steps and a coarser crack")
               .at_least(0.01)
               .at_most(0.2)),
       field(&S::from, number("from", "s", "start time; nothing tears before it").at_least(0)),

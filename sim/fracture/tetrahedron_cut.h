@@ -45,7 +45,8 @@ struct TetrahedronCutPlan {
 
 class TetrahedronCut {
 public:
-  using Changed = std::function<bool(std::span<const Dart>)>; // whether elements with these darts have, since
+  // Whether elements with these darts have changed in this edit.
+  using Changed = std::function<bool(std::span<const Dart>)>;
 
   // `darts`: of v.
   TetrahedronCut(const CutState& state, Changed changed, std::span<const Dart> darts,
