@@ -25,9 +25,7 @@ struct FaceSense {
 
 // The embedding of this map; null: it has none, and all walks from smallest darts show fronts.
 inline const Column<FaceSense>* find_face_sense(const EmbeddedMap& map) {
-  for (const auto& column : map.columns())
-    if (const auto* found = dynamic_cast<const Column<FaceSense>*>(column.get())) return found;
-  return nullptr;
+  return find_column<FaceSense>(map);
 }
 
 } // namespace rend

@@ -4,7 +4,7 @@
 #include "sim/build/constructed_cells.h"
 #include "sim/build/read_settings.h"
 #include "sim/build/shape.h"
-#include "sim/fracture/start_element.h"
+#include "sim/cuts/start_element.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/rules/cell_words.h"
 #include "sim/rules/rest_measures.h"

@@ -50,7 +50,7 @@ const ElementType& subdivide_type();
 // Of an <apply>, or of a <subdivide>, which is short for the rule that does so in the body's dimension.
 ApplySettings read_apply(const PresetNode& node);
 
-// Whether elements still know after slits of which triangle they are a part (sim/fracture/start_element.h).
+// Whether elements still know after slits of which triangle they are a part (sim/cuts/start_element.h).
 enum class KeepStart { No, Yes };
 
 // Applies rules in their order to the map of the body, cuts slits, then places and orders it. UserError: a rule

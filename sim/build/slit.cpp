@@ -1,7 +1,7 @@
 #include "sim/build/slit.h"
 
 #include "sim/base/reach.h"
-#include "sim/fracture/triangle_cut.h"
+#include "sim/cuts/triangle_cut.h"
 #include "sim/house_rules/house_rules.h"
 #include "sim/mechanics/interaction.h"
 #include "sim/outside/selector.h"

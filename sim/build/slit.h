@@ -4,7 +4,7 @@
 //   <slit along="-1 0.5 0  3 0.5 0" dash="0.04 0.02"/>    cut for 0.04 m, left for 0.02 m, and so on
 //
 // Points are those of the shape, before it is placed. A slit goes through the cells as a crack does
-// (sim/fracture/triangle_cut.h): from vertex to vertex, straight to the next of its points. Near each point
+// (sim/cuts/triangle_cut.h): from vertex to vertex, straight to the next of its points. Near each point
 // within the sheet a vertex is moved or created: at the point, or at most a tenth of an element beside it; on
 // the border, an end may be moved to a vertex within a quarter of an edge. A slit may begin and end outside;
 // it ends where it leaves its body, at a hole too. Both of its sides are free, and part of the border at the

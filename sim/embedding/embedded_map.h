@@ -236,4 +236,11 @@ private:
 // Describes the first fault.
 std::optional<std::string> validate(const EmbeddedMap& embedded);
 
+// The embedding of this policy; null: the map has none.
+template <class Policy> const Column<Policy>* find_column(const EmbeddedMap& map) {
+  for (const auto& column : map.columns())
+    if (const auto* found = dynamic_cast<const Column<Policy>*>(column.get())) return found;
+  return nullptr;
+}
+
 } // namespace rend

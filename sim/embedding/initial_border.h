@@ -35,9 +35,7 @@ using BorderColumn = Column<InitialBorder>;
 
 // The embedding of this map; null: it has none.
 inline const BorderColumn* find_initial_border(const EmbeddedMap& map) {
-  for (const auto& column : map.columns())
-    if (const auto* found = dynamic_cast<const BorderColumn*>(column.get())) return found;
-  return nullptr;
+  return find_column<InitialBorder>(map);
 }
 
 } // namespace rend

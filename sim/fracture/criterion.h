@@ -6,7 +6,7 @@
 #pragma once
 
 #include "sim/fracture/cell.h"
-#include "sim/fracture/least_part.h"
+#include "sim/cuts/least_part.h"
 #include "sim/rows/program.h"
 
 #include <functional>

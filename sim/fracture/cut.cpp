@@ -3,7 +3,8 @@
 // (sheet_cutter.cpp), tetrahedra of solids (solid_cutter.cpp). A division displaces no matter: in linear
 // elements neither strain nor elastic energy changes.
 //
-// The plane is that of crack_plane.h, whatever the criterion; where nothing pulls, that of the criterion.
+// The plane is that of crack_plane.h, whatever the criterion; where nothing pulls, that of the criterion. At
+// the tip of a crack in a sheet that is torn out of its plane it is that of tearing_mode.h.
 //
 // Vertices near the plane move onto it, so that there are no slivers; not in a body with springs (other than
 // those that bend at edges): their strain differs from edge to edge, so that a vertex that moves would strain
@@ -12,10 +13,12 @@
 // A vertex at whose elements something changed in this step waits for the next one: the plane that its
 // criterion found belongs to elements that are not there any more. So does one beside such elements.
 #include "sim/base/archive.h"
+#include "sim/cuts/cutter.h"
+#include "sim/cuts/triangle_cut.h"
 #include "sim/fracture/change.h"
 #include "sim/fracture/crack_plane.h"
-#include "sim/fracture/cutter.h"
 #include "sim/fracture/element_scan.h"
+#include "sim/fracture/tearing_mode.h"
 #include "sim/mechanics/hinge_law.h"
 #include "sim/topology/walk.h"
 
@@ -56,7 +59,7 @@ public:
   bool apply(Edit& edit, const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
     why_ = touched_.any_of(*edit.journal(), cutter_->around(edit.map(), darts))
                ? CutRefusal::waits
-               : cutter_->cut(edit, {view, darts, plane_at(view, found, darts)}, touched_);
+               : cutter_->cut(edit, place(view, found, darts), touched_);
     if (why_ == CutRefusal::divides_none && cutter_->runner().over_budget()) why_ = over_budget_;
     return !why_;
   }
@@ -72,6 +75,7 @@ public:
   }
   void make_anew(const CriterionRequest& request) override {
     plane_.emplace(request);
+    if (request.map.dimension() == 2) tearing_.emplace(request);
     const int corners = request.map.dimension() + 1;
     cutter_->let_move(std::ranges::all_of(request.interactions, [&](const auto& each) {
       const bool simplices =
@@ -84,6 +88,17 @@ public:
   std::size_t bytes() const override { return 0; }
 
 private:
+  CutPlace place(const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
+    CutPlace place{view.map, view.position, view.velocity, view.held, darts};
+    const bool tip = tearing_ && !compression_ && is_tip(view.map, darts);
+    if (const auto torn = tip ? tearing_->at(view, darts) : std::nullopt) {
+      place.normal = torn->normal;
+      place.ahead = torn->ahead;
+    } else {
+      place.normal = plane_at(view, found, darts);
+    }
+    return place;
+  }
   // A law that breaks under compression asks for the plane across that.
   Vec3 plane_at(const ForceView& view, const FoundPlace& found, std::span<const Dart> darts) {
     const Vec3 across_tension = compression_ ? Vec3::Zero() : plane_->at(view, darts);
@@ -94,6 +109,7 @@ private:
   const char* over_budget_ = nullptr; // why the map may not grow further
   bool compression_;
   std::optional<CrackPlane> plane_;
+  std::optional<TearingMode> tearing_; // in sheets
   TouchedDarts touched_;
   const char* why_ = nullptr; // the last call was refused
   Refusals refusals_;

@@ -4,7 +4,7 @@
 #include "sim/base/stop_request.h"
 #include "sim/fracture/counted_change.h"
 #include "sim/fracture/split_vertex.h"
-#include "sim/fracture/touched_darts.h"
+#include "sim/cuts/touched_darts.h"
 #include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 

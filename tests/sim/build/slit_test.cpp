@@ -1,6 +1,6 @@
 // Slits: where they open a sheet, what they keep, and what is refused.
 #include "sim/build/slit.h"
-#include "sim/fracture/start_element.h"
+#include "sim/cuts/start_element.h"
 #include "sim/mechanics/mass.h"
 #include "sim/presets.h"
 #include "sim/random_meshes.h"

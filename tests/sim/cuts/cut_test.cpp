@@ -3,8 +3,8 @@
 #include "render/picture/scene_preset.h"
 #include "sim/boundary/face_sense.h"
 #include "sim/build/build_scene.h"
-#include "sim/fracture/cuts.h"
-#include "sim/fracture/start_element.h"
+#include "sim/cuts/cuts.h"
+#include "sim/cuts/start_element.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
 #include "sim/scene/scene.h"
@@ -138,8 +138,9 @@ std::unique_ptr<Body> sheet_with_slit(int sectors, double turned) {
   return torn::body(std::move(map), {}, "symplectic", true, false);
 }
 
-// The direction of the edge that a cut at the tip opens [degrees].
-double turn_at(Body& body, const Tip& tip) {
+// The direction at rest of the edge that a cut at the tip opens [degrees], where what is at (r, angle) at rest
+// is at place_of(r, angle).
+template <class PlaceOf> double turn_at(Body& body, const PlaceOf& place_of) {
   const GMap& g = body.map->map();
   Dart at_tip{0u};
   for (Slot v = 0; v < body.vertices(); ++v) {
@@ -150,7 +151,7 @@ double turn_at(Body& body, const Tip& tip) {
     if (std::abs(angle) > M_PI - 1e-9) // on the side of the slit on which its element lies
       angle = std::copysign(M_PI, body.map->rest_of(g.alpha(0, g.alpha(1, g.alpha(0, d)))).y() +
                                       body.map->rest_of(g.alpha(0, g.alpha(1, d))).y());
-    body.map->position().values()[v] = Record(Vec3(rest + 1e-4 * tip.displacement(rest.norm(), angle)));
+    body.map->position().values()[v] = Record(Vec3(place_of(rest.norm(), angle)));
   }
   body.evaluate();
   std::set<std::pair<double, double>> open;
@@ -176,8 +177,28 @@ TEST(Cut, at_the_tip_of_a_crack_turns_as_the_largest_hoop_stress_asks) {
     for (const int sectors : {8, 11, 16})
       for (const double turned : {0.0, 0.15, 0.3}) {
         const auto body = sheet_with_slit(sectors, turned);
-        EXPECT_NEAR(turn_at(*body, tip), tip.hoop_angle(), 4)
+        const auto place_of = [&](double r, double angle) {
+          return Vec3(r * Vec3(std::cos(angle), std::sin(angle), 0) + 1e-4 * tip.displacement(r, angle));
+        };
+        EXPECT_NEAR(turn_at(*body, place_of), tip.hoop_angle(), 4)
             << tip.one << " " << tip.two << ", " << sectors << " sectors, turned by " << turned;
+      }
+}
+
+// The flanks are folded up and down by that angle, and pulled: tension runs along them. Ahead of the tip the
+// sheet is tilted.
+TEST(Cut, at_the_tip_of_a_crack_goes_on_between_flanks_that_are_pulled_up_and_down) {
+  for (const double folded : {60.0, 75.0, 90.0})
+    for (const int sectors : {8, 11, 16})
+      for (const double turned : {0.0, 0.15, 0.3}) {
+        const auto body = sheet_with_slit(sectors, turned);
+        const double up = std::sin(folded * M_PI / 180), along = std::cos(folded * M_PI / 180);
+        const auto place_of = [&](double r, double angle) {
+          const double x = r * std::cos(angle), y = r * std::sin(angle), leg = std::max(-1.05 * x, 0.0);
+          return Vec3(std::max(x, 0.0) - along * leg, y, 0.1 * y + std::copysign(up * leg, angle));
+        };
+        EXPECT_NEAR(turn_at(*body, place_of), 0, 15)
+            << "folded by " << folded << ", " << sectors << " sectors, turned by " << turned;
       }
 }
 

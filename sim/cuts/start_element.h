@@ -4,8 +4,8 @@
 // tetrahedra.
 #pragma once
 
+#include "sim/cuts/least_part.h"
 #include "sim/embedding/embedded_map.h"
-#include "sim/fracture/least_part.h"
 
 #include <span>
 

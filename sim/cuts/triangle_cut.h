@@ -13,7 +13,7 @@
 // share of the sine of its least angle (least_part.h).
 #pragma once
 
-#include "sim/fracture/cut_state.h"
+#include "sim/cuts/cut_state.h"
 #include "sim/rules/apply.h"
 
 #include <optional>

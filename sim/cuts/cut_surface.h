@@ -18,7 +18,7 @@
 // w.
 #pragma once
 
-#include "sim/fracture/crack_front.h"
+#include "sim/cuts/crack_front.h"
 
 #include <span>
 #include <vector>

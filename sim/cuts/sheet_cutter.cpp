@@ -12,8 +12,8 @@
 // A crack goes on from its tip: a vertex at most two edges away from where one ends is not cut itself. So no
 // bridges are left ahead of a crack, and its flanks do not fray.
 #include "sim/base/check.h"
-#include "sim/fracture/cutter.h"
-#include "sim/fracture/triangle_cut.h"
+#include "sim/cuts/cutter.h"
+#include "sim/cuts/triangle_cut.h"
 #include "sim/topology/walk.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace rend {
 namespace {
 
-constexpr double most_along = 0.866; // cos 30°: a cut this close to the border runs along it
+constexpr double most_along_rim = 0.866; // cos 30°: a cut this close to the border runs along it
 
 // One half of the plane.
 struct Half {
@@ -32,10 +32,9 @@ struct Half {
 // What the plane meets at one vertex, in the state before the edit.
 class Crossing {
 public:
-  Crossing(const CutPlace& place, const Column<StartElement>& start, bool rigid, const LeastPart& least)
-      : view_(place.view), map_(view_.map.map()),
-        cut_({view_.map, start, view_.position, view_.velocity, view_.held, rigid, least}), darts_(place.darts),
-        normal_(place.normal), here_(at(darts_.front())) {}
+  Crossing(const CutPlace& place, const CutState& state)
+      : place_(place), map_(place.map.map()), cut_(state), darts_(place.darts), normal_(place.normal),
+        here_(at(darts_.front())) {}
 
   // Those to be cut.
   std::vector<Half> halves() const {
@@ -44,17 +43,20 @@ public:
       if (d < map_.alpha(1, d)) add_half(d, all);
     const std::vector<Vec3> border = border_edges();
     if (border.empty() || all.empty()) return all;
+    if (!place_.ahead.isZero(0))
+      return {*std::ranges::max_element(all, {},
+                                        [&](const Half& half) { return half.direction.dot(place_.ahead); })};
     const auto along = [&](const Half& half) {
       double most = -1;
       for (const Vec3& edge : border) most = std::max(most, edge.dot(half.direction));
       return most;
     };
     const Half best = *std::ranges::min_element(all, {}, along);
-    return along(best) < most_along ? std::vector{best} : std::vector<Half>{};
+    return along(best) < most_along_rim ? std::vector{best} : std::vector<Half>{};
   }
 
 private:
-  Vec3 at(Dart d) const { return view_.position[view_.map.vertex(d)].vec(); }
+  Vec3 at(Dart d) const { return place_.position[place_.map.vertex(d)].vec(); }
   Vec3 direction_to(const Vec3& point) const { return (point - here_).normalized(); }
 
   // By the corner of d, in its triangle v b c.
@@ -72,7 +74,7 @@ private:
     return edges;
   }
 
-  const ForceView& view_;
+  const CutPlace& place_;
   const GMap& map_;
   TriangleCut cut_;
   std::span<const Dart> darts_; // of the vertex
@@ -99,7 +101,7 @@ public:
 
   const char* cut(Edit& edit, const CutPlace& place, TouchedDarts& touched) override {
     if (const char* why = wait_for_tip(edit, place, touched)) return why;
-    std::vector<Half> halves = Crossing(place, *start_, !may_move(), least()).halves();
+    std::vector<Half> halves = Crossing(place, state_at(place, *start_)).halves();
     if (halves.empty()) return CutRefusal::nothing_crosses;
     if (!settle_moves(edit, halves, touched)) return CutRefusal::waits;
     const Edit::Savepoint before = edit.savepoint();
@@ -121,7 +123,7 @@ public:
 private:
   // Why the vertex is not cut if a crack ends at most two edges away, or another cut of the step came as close.
   static const char* wait_for_tip(const Edit& edit, const CutPlace& place, TouchedDarts& touched) {
-    if (is_tip(place.view.map, place.darts)) return nullptr;
+    if (is_tip(place.map, place.darts)) return nullptr;
     const GMap& map = edit.map();
     std::vector<Dart> around, first, second;
     for (Dart d : place.darts) around.push_back(map.alpha(0, d));
@@ -130,7 +132,7 @@ private:
         if (map.alpha(2, d) < d) continue; // the same edge
         further = darts_of(map, Vertex, d);
         if (touched.any_of(*edit.journal(), further)) return CutRefusal::waits;
-        if (is_tip(place.view.map, further)) return CutRefusal::beside_tip;
+        if (is_tip(place.map, further)) return CutRefusal::beside_tip;
       }
       return nullptr;
     };

@@ -1,9 +1,9 @@
 // Cuts in solids of tetrahedra: what they keep, what they leave, and that a bar parts in a smooth section.
 #include "sim/build/build_scene.h"
+#include "sim/cuts/crack_front.h"
+#include "sim/cuts/cuts.h"
+#include "sim/cuts/start_element.h"
 #include "sim/fracture/change.h"
-#include "sim/fracture/crack_front.h"
-#include "sim/fracture/cuts.h"
-#include "sim/fracture/start_element.h"
 #include "sim/fracture/torn_checks.h"
 #include "sim/presets.h"
 #include "sim/scene/scene.h"

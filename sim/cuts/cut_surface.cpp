@@ -1,4 +1,4 @@
-#include "sim/fracture/cut_surface.h"
+#include "sim/cuts/cut_surface.h"
 
 #include "sim/base/math.h"
 #include "sim/embedding/initial_border.h"

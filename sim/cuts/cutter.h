@@ -1,10 +1,9 @@
 // How a cut goes through the elements around a vertex: one way for each kind of element. What all have in
-// common, the plane and what waits for the next step, is in cut.cpp.
+// common, the plane and what waits for the next step, is in sim/fracture/cut.cpp.
 #pragma once
 
-#include "sim/fracture/criterion.h"
-#include "sim/fracture/start_element.h"
-#include "sim/fracture/touched_darts.h"
+#include "sim/cuts/cut_state.h"
+#include "sim/cuts/touched_darts.h"
 #include "sim/rules/apply.h"
 
 #include <memory>
@@ -26,9 +25,12 @@ struct CutRefusal { // by which refusals are counted
 
 // In the state before the edit. No element that is cut has changed in the edit.
 struct CutPlace {
-  const ForceView& view;
-  std::span<const Dart> darts; // of the vertex
-  Vec3 normal;                 // of the plane
+  const EmbeddedMap& map;
+  const Record *position, *velocity; // [m], [m/s], one per vertex slot
+  std::span<const Slot> held;        // vertices that do not move, increasing
+  std::span<const Dart> darts;       // of the vertex
+  Vec3 normal = Vec3::Zero();        // of the plane
+  Vec3 ahead = Vec3::Zero();         // where a crack in a sheet goes on, a unit vector; 0: away from its flanks
 };
 
 class Cutter {
@@ -47,8 +49,9 @@ public:
   void leave(const LeastPart& least) { least_ = least; }
 
 protected:
-  bool may_move() const { return may_move_; }
-  const LeastPart& least() const { return least_; }
+  CutState state_at(const CutPlace& place, const Column<StartElement>& start) const {
+    return {place.map, start, place.position, place.velocity, place.held, !may_move_, least_};
+  }
 
 private:
   bool may_move_ = true;

@@ -15,8 +15,8 @@
 // A vertex whose side is fixed takes no part in that; the edge is divided a quarter away from it at least.
 #pragma once
 
-#include "sim/fracture/cut_state.h"
-#include "sim/fracture/cut_surface.h"
+#include "sim/cuts/cut_state.h"
+#include "sim/cuts/cut_surface.h"
 #include "sim/topology/index_set.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // What a cut knows of a body, before an edit.
 #pragma once
 
-#include "sim/fracture/start_element.h"
+#include "sim/cuts/start_element.h"
 
 #include <span>
 

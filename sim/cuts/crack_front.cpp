@@ -1,4 +1,4 @@
-#include "sim/fracture/crack_front.h"
+#include "sim/cuts/crack_front.h"
 
 #include "sim/base/math.h"
 #include "sim/topology/index_set.h"

@@ -1,4 +1,4 @@
-#include "sim/fracture/triangle_cut.h"
+#include "sim/cuts/triangle_cut.h"
 
 #include "sim/base/math.h"
 #include "sim/house_rules/house_rules.h"

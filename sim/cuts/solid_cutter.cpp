@@ -4,8 +4,8 @@
 // tetrahedron at v has its other vertices on one side, and those that lie on the surface: one with all three of
 // them there is on the side of its centre. Every face at v between tetrahedra on different sides is separated.
 #include "sim/base/check.h"
-#include "sim/fracture/cutter.h"
-#include "sim/fracture/tetrahedron_cut.h"
+#include "sim/cuts/cutter.h"
+#include "sim/cuts/tetrahedron_cut.h"
 #include "sim/house_rules/house_rules.h"
 #include "sim/topology/walk.h"
 
@@ -18,7 +18,7 @@ namespace {
 class StarSides {
 public:
   StarSides(const Edit& edit, const CutPlace& place, const CutSurface& surface, const TetrahedronCutPlan& plan)
-      : edit_(edit), map_(edit.map()), view_(place.view), surface_(surface), plan_(plan),
+      : edit_(edit), map_(edit.map()), place_(place), surface_(surface), plan_(plan),
         darts_(darts_of(map_, Vertex, place.darts.front())) {
     for (Dart d : darts_) {
       if (side_.find(d.value) != IndexMap::none) continue;
@@ -62,13 +62,13 @@ private:
       if (!old && !edit_.is_new(e)) old = e;
     });
     if (!old) return {0, edit_.point(there).position};
-    const Slot slot = view_.map.vertex(*old);
-    return {plan_.side_of(slot), view_.position[slot].vec()};
+    const Slot slot = place_.map.vertex(*old);
+    return {plan_.side_of(slot), place_.position[slot].vec()};
   }
 
   const Edit& edit_;
   const GMap& map_;
-  const ForceView& view_;
+  const CutPlace& place_;
   const CutSurface& surface_;
   const TetrahedronCutPlan& plan_;
   std::vector<Dart> darts_, corner_;
@@ -94,16 +94,12 @@ public:
   }
 
   const char* cut(Edit& edit, const CutPlace& place, TouchedDarts& touched) override {
-    const ForceView& view = place.view;
-    const CutSurface surface(view.map, view.position, place.darts.front(), CrackFront(view.map, place.darts),
+    const CutSurface surface(place.map, place.position, place.darts.front(), CrackFront(place.map, place.darts),
                              place.normal);
     if (!surface.understood()) return CutRefusal::fronts_meet;
     if (surface.along_border()) return CutRefusal::nothing_crosses;
     const auto changed = [&](std::span<const Dart> some) { return touched.any_of(*edit.journal(), some); };
-    const auto plan =
-        TetrahedronCut({view.map, *start_, view.position, view.velocity, view.held, !may_move(), least()},
-                       changed, place.darts, surface)
-            .plan();
+    const auto plan = TetrahedronCut(state_at(place, *start_), changed, place.darts, surface).plan();
     if (!plan) return CutRefusal::no_room;
     const Edit::Savepoint before = edit.savepoint();
     const char* why = divide(edit, plan->divisions) ? nullptr : CutRefusal::divides_none;

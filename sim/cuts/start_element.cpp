@@ -1,4 +1,4 @@
-#include "sim/fracture/start_element.h"
+#include "sim/cuts/start_element.h"
 
 #include "sim/mechanics/mass.h"
 
@@ -44,9 +44,7 @@ ElementSizes StartElement::birth(const EmbeddedMap& map, Dart d) const {
 }
 
 const Column<StartElement>* find_start_elements(const EmbeddedMap& map) {
-  for (const auto& column : map.columns())
-    if (const auto* found = dynamic_cast<const Column<StartElement>*>(column.get())) return found;
-  return nullptr;
+  return find_column<StartElement>(map);
 }
 
 Column<StartElement>* find_start_elements(EmbeddedMap& map) {

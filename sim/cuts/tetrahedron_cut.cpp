@@ -1,4 +1,4 @@
-#include "sim/fracture/tetrahedron_cut.h"
+#include "sim/cuts/tetrahedron_cut.h"
 
 #include "sim/base/check.h"
 #include "sim/topology/walk.h"
