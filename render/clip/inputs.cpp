@@ -24,8 +24,8 @@ std::uint64_t hash_of(const std::filesystem::path& path) {
 
 std::string hashes_of_files(const PresetNode& scene) {
   std::string words;
-  for (const PresetNode* node : files_of(scene))
-    words += fmt::format("{} {:016x}\n", node->name(), hash_of(named_path(*node)));
+  for (const FileOfPreset& file : files_of(scene))
+    words += fmt::format("{} {:016x}\n", file.node->name(), hash_of(file.path()));
   return words;
 }
 

@@ -1,4 +1,4 @@
-// The files that a scene depends on besides its preset: meshes and rules.
+// The files that a scene depends on besides its preset: meshes, rules and pictures.
 #pragma once
 
 #include "sim/base/parameters.h"

@@ -64,8 +64,8 @@ void NamedFiles::reads(const std::string& what, const fs::path& path) {
 }
 
 void NamedFiles::reads_files(const PresetNode& scene) {
-  for (const PresetNode* node : files_of(scene))
-    reads(node->name() == "mesh" ? "the mesh" : "the file of rules", named_path(*node));
+  for (const FileOfPreset& file : files_of(scene))
+    reads(file.node->name() == "rules" ? "the file of rules" : "the " + file.noun(), file.path());
 }
 
 void NamedFiles::add(Output output) {

@@ -38,7 +38,7 @@ void add_preset_options(const CommandLine& app, SessionOptions& options) {
       .type_name("PATH=VALUE")
       .allow_extra_args(false);
   app.add_flag("--allow-path", options.allow_path,
-               "allow the preset to name meshes and rules outside of its folder");
+               "allow the preset to name meshes, rules and pictures outside of its folder");
 }
 
 void add_run_options(const CommandLine& app, SessionOptions& options) {

@@ -24,7 +24,7 @@ struct SessionOptions {
   int threads = 0;               // 0: as many as the machine has
   std::string kernels = "flat";  // or walk
   bool quiet = false;
-  bool allow_path = false;      // meshes may lie outside the preset's folder
+  bool allow_path = false;      // meshes, rules, pictures may lie outside the preset's folder
   bool guard = true;            // bad steps are rolled back and redone in substeps
   bool count_fragments = false; // events record how many fragments there are
   bool reach = false;           // largest values of all criteria, without tearing

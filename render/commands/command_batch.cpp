@@ -276,7 +276,7 @@ void declare_passed_on(const CommandLine& app, BatchOptions& options) {
       .type_name("S")
       .transform(real_number(0, 1e9));
   app.add_flag("--allow-path", options.allow_path,
-               "allow presets to name meshes and rules outside of their folders");
+               "allow presets to name meshes, rules and pictures outside of their folders");
 }
 
 std::function<Exit()> declare_batch(const CommandLine& app) {

@@ -217,7 +217,7 @@ std::function<Exit()> declare_check(const CommandLine& app) {
       .type_name("PATTERN")
       .allow_extra_args(false);
   app.add_flag("--allow-path", options->allow_path,
-               "allow presets to name meshes and rules outside of their folders");
+               "allow presets to name meshes, rules and pictures outside of their folders");
   app.add_flag("--quick", options->quick, "run only a few representative cases");
   app.add_flag("--list", options->list, "print the names of the cases, one a line, and run none");
   app.add_flag("--json", options->json, "print the results as one JSON object on stdout");

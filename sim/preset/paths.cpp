@@ -12,11 +12,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check(const PresetNode& node) {
-  if (stays_below(fs::path(node.place().file).parent_path(), node.text("file"))) return;
-  node.fail("file", fmt::format("{} is outside of the preset's folder", in_quotes(node.text("file"))),
-            fmt::format("put the {} beside the preset, or allow it with --allow-path",
-                        node.name() == "mesh" ? "mesh" : "file"));
+void check(const FileOfPreset& file) {
+  if (stays_below(file.folder, file.name())) return;
+  file.node->fail(file.attribute, fmt::format("{} is outside of the preset's folder", in_quotes(file.name())),
+                  fmt::format("put the {} beside the preset, or allow it with --allow-path", file.noun()));
+}
+
+// Those of an element that names one by its `file`.
+FileOfPreset file_of(const PresetNode& node) {
+  return {&node, "file", fs::path(node.place().file).parent_path()};
 }
 
 } // namespace
@@ -47,15 +51,34 @@ std::filesystem::path named_path(const PresetNode& node) {
   return mesh_path(node.place(), node.text("file"));
 }
 
-std::vector<const PresetNode*> files_of(const PresetNode& scene) {
-  std::vector<const PresetNode*> files = scene.all("rules");
-  for (const PresetNode* body : scene.all("body"))
-    for (const PresetNode* mesh : body->all("mesh")) files.push_back(mesh);
+const std::string& FileOfPreset::name() const {
+  return node->text(attribute);
+}
+
+std::filesystem::path FileOfPreset::path() const {
+  return (folder / name()).lexically_normal();
+}
+
+std::string FileOfPreset::noun() const {
+  return node->name() == "mesh" ? "mesh" : node->name() == "look" ? "picture" : "file";
+}
+
+// A <look> may come from the command line alone: its files are relative to the scene's own.
+std::vector<FileOfPreset> files_of(const PresetNode& scene) {
+  std::vector<FileOfPreset> files;
+  const fs::path folder = fs::path(scene.place().file).parent_path();
+  for (const PresetNode* rules : scene.all("rules")) files.push_back(file_of(*rules));
+  for (const PresetNode* body : scene.all("body")) {
+    for (const PresetNode* mesh : body->all("mesh")) files.push_back(file_of(*mesh));
+    for (const PresetNode* look : body->all("look"))
+      for (const char* attribute : {"texture", "texture-back", "texture-inside"})
+        if (look->find(attribute)) files.push_back({look, attribute, folder});
+  }
   return files;
 }
 
 void check_paths(const PresetNode& scene) {
-  for (const PresetNode* node : files_of(scene)) check(*node);
+  for (const FileOfPreset& file : files_of(scene)) check(file);
 }
 
 } // namespace rend

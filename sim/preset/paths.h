@@ -14,7 +14,7 @@ namespace rend {
 // false for an absolute name, for "..", and for a symbolic link that leads out.
 bool stays_below(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-// UserError, at the attribute, for a <mesh> or <rules> of a preset whose file is not.
+// UserError, at the attribute, for a <mesh>, <rules> or <look> of a preset that names a file which is not.
 void check_paths(const PresetNode& scene);
 
 // Whether `path`, after following links, is `folder` or is below it. A file that does not exist is located by
@@ -26,7 +26,16 @@ bool lies_in(const std::filesystem::path& path, const std::filesystem::path& fol
 std::filesystem::path mesh_path(const Place& preset, const std::string& file);
 std::filesystem::path named_path(const PresetNode& node);
 
-// The elements of a scene that name a file: its meshes and files of rules.
-std::vector<const PresetNode*> files_of(const PresetNode& scene);
+// A file that an element of a scene names: a mesh, a file of rules, or the picture of a look.
+struct FileOfPreset {
+  const PresetNode* node = nullptr;
+  std::string attribute;        // that names it
+  std::filesystem::path folder; // to which the name is relative
+
+  const std::string& name() const; // as the preset has it
+  std::filesystem::path path() const;
+  std::string noun() const; // mesh, picture, file
+};
+std::vector<FileOfPreset> files_of(const PresetNode& scene);
 
 } // namespace rend
