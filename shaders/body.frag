@@ -1,5 +1,7 @@
 // Cloth and solids under a key light with a shadow, a fill light, the sky and light reflected by the ground.
-// TORN: the colour of torn edges, linear.
+// TORN: the colour of torn edges, linear. FRONT, BACK: pictures take the place of the colours of either side;
+// CUT_OUT: that of the front has holes. Their texels are decoded already, and multiplied by alpha
+// (render/draw/texture.h).
 in vec4 to_eye; // see body.vert
 in vec4 across;
 in vec4 albedo;
@@ -10,6 +12,14 @@ flat in vec4 far_side;
 flat in vec3 squares;
 
 uniform sampler2DShadow shadow;
+#if FRONT
+in vec2 on_front;
+uniform sampler2D front;
+#endif
+#if BACK
+in vec2 on_back;
+uniform sampler2D back;
+#endif
 
 out vec4 pixel;
 
@@ -37,13 +47,27 @@ vec2 lines() {
 }
 
 void main() {
+#if FRONT
+  vec4 texel = texture(front, on_front);
+#if CUT_OUT
+  vec3 own = texel.rgb / max(texel.a, 0.25);
+#else
+  vec3 own = texel.rgb;
+#endif
+#else
+  vec3 own = albedo.rgb;
+#endif
   float near = inversesqrt(dot(to_eye.xyz, to_eye.xyz)), unit = inversesqrt(dot(across.xyz, across.xyz));
   if (!gl_FrontFacing) unit = -unit;
   float to_key = unit * across.w, up = 0.5 + 0.5 * (unit * turned.x);
   float to_viewer = unit * near * dot(across.xyz, to_eye.xyz), facing = max(to_viewer, 0.0);
   // At the silhouette both sides are shaded alike, or samples of the far side would speckle it.
   float behind = gl_FrontFacing ? 0.0 : min(4.0 * facing, 1.0);
-  vec3 surface = albedo.rgb * (1.0 + behind * (far_side.w - 1.0)) + behind * far_side.rgb;
+#if BACK
+  vec3 surface = mix(own, texture(back, on_back).rgb, behind);
+#else
+  vec3 surface = own * (1.0 + behind * (far_side.w - 1.0)) + behind * far_side.rgb;
+#endif
 
   vec2 line = lines();
 #if WIRES // lines only, with premultiplied alpha
@@ -73,5 +97,8 @@ void main() {
   if (squares.z > 0.5) sheen = squared * squared;
   vec3 shine = (0.4 * rim_light * rim * up) * vec3(0.9, 0.95, 1.0) + (gloss * sheen * direct);
   pixel = vec4(encode(surface * (light + rim * rim_light * up) + shine * (1.0 - line.x)), 1.0);
+#endif
+#if CUT_OUT
+  if (texel.a < 0.5) discard;
 #endif
 }

@@ -7,6 +7,9 @@ layout(location = 0) in vec3 position; // [m]
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 colour;   // sRGB
 layout(location = 3) in uvec4 line;    // [k]: kind of line along the side opposite to corner k
+#if FRONT || BACK
+layout(location = 4) in vec2 place;    // in the picture
+#endif
 
 uniform mat4 world_to_clip;
 uniform mat4 world_to_shadow; // to the texture: [0, 1]³
@@ -19,7 +22,7 @@ uniform float torn_reach;     // half the width of torn edges [pixels]; 0: they 
 uniform float hidden_below;   // height below which nothing is visible: under the floor [m]
 uniform vec4 finish;          // finish.h: gloss, rim, transmission, wrap / (1 + wrap)
 uniform vec3 sheen;           // 1 for each squaring of the sheen: once, twice more, four times more
-uniform vec4 back;            // the far side's own colour, sRGB; w: share of the near side's colour
+uniform vec4 far_colour;      // the far side's own colour, sRGB; w: share of the near side's colour
 
 out vec4 to_eye;    // [m]; w: dot product with key
 out vec4 across;    // the normal; w: dot product with key
@@ -30,8 +33,15 @@ out vec2 turned;    // dot products of the normal with sky and fill
 // triangle is low: its strength is ink times slope x height + start, clamped to [0, 1]; ink is negative for
 // torn edges. w: finish
 flat out vec4 reach, slope, start, ink;
-flat out vec4 far_side; // linear; w: back.w
+flat out vec4 far_side; // linear; w: far_colour.w
 flat out vec3 squares;  // sheen
+#if FRONT
+out vec2 on_front;
+#endif
+#if BACK
+uniform float back_height; // v - 1/2 in the picture of the back, over that in the front's
+out vec2 on_back;
+#endif
 
 // The line of that kind: half width [pixels], slope [1/pixel], start, ink.
 vec4 line_of(uint kind) {
@@ -61,6 +71,12 @@ void main() {
   slope = vec4(parts[1], finish.y);
   start = vec4(parts[2], finish.z);
   ink = vec4(parts[3], finish.w);
-  far_side = vec4(decode(back.rgb), back.w);
+  far_side = vec4(decode(far_colour.rgb), far_colour.w);
   squares = sheen;
+#if FRONT
+  on_front = place;
+#endif
+#if BACK // seen from behind it reads from left to right
+  on_back = vec2(1.0 - place.x, 0.5 + back_height * (place.y - 0.5));
+#endif
 }

@@ -114,7 +114,7 @@ FloorShadow::FloorShadow() {
 
 void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& towards_key,
                         const Eigen::AlignedBox3d& lit, const std::vector<std::span<const Corner>>& triangles,
-                        const std::function<void()>& draw) {
+                        const std::function<void()>& draw, std::optional<int> holes) {
   const double contact = contact_reach * scale;      // [m]
   const Eigen::Vector3d around(contact, contact, 0); // margin for the blur, which extends beyond the bodies
   const Eigen::AlignedBox3d covered(lit.min() - around, lit.max() + around);
@@ -137,13 +137,17 @@ void FloorShadow::build(double floor_z, double scale, const Eigen::Vector3d& tow
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MAX);
+  if (holes && !cut_out_occluder_)
+    cut_out_occluder_.emplace("occluder.vert", "occluder.frag", "#define CUT_OUT\n");
+  const GlProgram& occluder = holes ? *cut_out_occluder_ : occluder_;
   const auto occluders = [&](const LightView& view, double reach, float sharpness) {
     return [&, reach, sharpness] {
-      occluder_.use();
-      occluder_.set("world_to_clip", view.world_to_clip);
-      occluder_.set("floor_z", static_cast<float>(floor_z));
-      occluder_.set("reach", static_cast<float>(reach));
-      occluder_.set("sharpness", sharpness);
+      occluder.use();
+      occluder.set("world_to_clip", view.world_to_clip);
+      occluder.set("floor_z", static_cast<float>(floor_z));
+      occluder.set("reach", static_cast<float>(reach));
+      occluder.set("sharpness", sharpness);
+      if (holes) occluder.set("front", *holes);
       draw();
     };
   };

@@ -14,6 +14,7 @@
 #include "render/draw/rect_painter.h"
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,9 +42,11 @@ public:
   FloorShadow();
   // `draw` issues the draw calls of all bodies that cast shadows (positions in attribute 0); these lie in `lit`
   // and have these triangles, three corners each. scale: a characteristic length of the picture [m], by which
-  // the reach of contact shadows is chosen. towards_key: unit, above the floor.
+  // the reach of contact shadows is chosen. towards_key: unit, above the floor. holes: where some bodies have
+  // holes, the texture unit in which `draw` puts the picture of each (places in it in attribute 4).
   void build(double floor_z, double scale, const Eigen::Vector3d& towards_key, const Eigen::AlignedBox3d& lit,
-             const std::vector<std::span<const Corner>>& triangles, const std::function<void()>& draw);
+             const std::vector<std::span<const Corner>>& triangles, const std::function<void()>& draw,
+             std::optional<int> holes = {});
   // x: the share of key light that is blocked, y: of all light. 256² texels: the square that build() covers,
   // seen along the key light.
   GLuint shade() const { return shade_.name(); }
@@ -64,6 +67,7 @@ private:
   void render_shade(double contact_level, const Eigen::Matrix<double, 2, 3>& contact_of_floor);
 
   GlProgram occluder_{"occluder.vert", "occluder.frag"};
+  std::optional<GlProgram> cut_out_occluder_; // created for the first frame in which something has holes
   GlProgram halve_{"screen.vert", "halve.frag"};
   GlProgram shade_program_{"boxes.vert", "settle.frag"};
   MipPyramid key_{512, 5}, contact_{256, 5};

@@ -7,11 +7,13 @@
 
 #include "render/draw/finish.h"
 #include "render/draw/hud_content.h"
+#include "render/draw/texture.h"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -54,9 +56,26 @@ struct TornLine {
   bool operator==(const TornLine&) const = default;
 };
 
+// A place in a picture: u to the right, v up; the picture covers 0 to 1.
+using TexturePoint = std::array<float, 2>;
+
+// How a picture goes on beyond 0 and 1.
+enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
+
+// The pictures on a body. Those of a sheet's two sides lie back to back, so that both read from left to right.
+struct FrameTexture {
+  std::shared_ptr<const Texture> front, back; // null: plain; back: of a sheet
+  Wrap wrap = Wrap::Repeat;
+  float back_height = 1; // v - 1/2 in `back`, over that in `front`: pictures of other proportions are as wide
+
+  bool any() const { return front || back; }
+};
+
 struct FrameBody {
   std::vector<Corner> corners; // three per triangle
-  bool edges = true;           // draw lines of cells and creases (torn and border lines are drawn in any case)
+  FrameTexture texture;
+  std::vector<TexturePoint> texture_points; // one per corner; empty without a texture
+  bool edges = true; // draw lines of cells and creases (torn and border lines are drawn in any case)
   TornLine torn;
   // a sheet; false: a solid, whose triangles are counter-clockwise seen from outside, with back faces culled
   bool two_sided = true;

@@ -3,6 +3,7 @@
 #include "sim/base/check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace rend {
@@ -18,8 +19,8 @@ bool is_too_far(std::span<const Corner, 3> triangle) {
   });
 }
 
-// Prepares the three corners of a triangle; wound: their order defines the front.
-void orient(Corner* corner, bool keeps_order) {
+// Prepares the three corners of a triangle. True: the last two changed places.
+bool orient(Corner* corner, bool keeps_order) {
   const ConstMap a(corner[0].position.data()), b(corner[1].position.data()), c(corner[2].position.data());
   const Vector3f across = (b - a).cross(c - a); // twice the area times the normal, counter-clockwise
   // The sum is finite if each number is: what is too far has been left out.
@@ -30,12 +31,18 @@ void orient(Corner* corner, bool keeps_order) {
   const bool flat = normals.isZero(0.0f);
   if (flat) {
     const float length = across.norm();
-    if (!(length > 0)) return;
+    if (!(length > 0)) return false;
     for (int k = 0; k < 3; ++k) Eigen::Map<Vector3f>(corner[k].normal.data()) = across / length;
   } else if (!keeps_order && normals.dot(across) < 0) {
     std::swap(corner[1], corner[2]);
     for (int k = 0; k < 3; ++k) std::swap(corner[k].line[1], corner[k].line[2]);
+    return true;
   }
+  return false;
+}
+
+bool is_finite(const TexturePoint& point) {
+  return std::isfinite(point[0]) && std::isfinite(point[1]);
 }
 
 } // namespace
@@ -46,14 +53,21 @@ Eigen::AlignedBox3d bounds_of(std::span<const Corner> corners) {
   return bounds.isEmpty() ? Eigen::AlignedBox3d() : bounds.cast<double>();
 }
 
-void pack(const FrameBody& body, std::vector<Corner>& packed) {
+void pack(const FrameBody& body, std::vector<Corner>& packed, std::vector<TexturePoint>& points) {
+  const bool textured = body.texture.any();
   CHECK(body.corners.size() % 3 == 0);
+  CHECK(body.texture_points.size() == (textured ? body.corners.size() : 0));
   packed.reserve(packed.size() + body.corners.size());
   for (std::size_t i = 0; i < body.corners.size(); i += 3) {
     const std::span<const Corner, 3> triangle(&body.corners[i], 3);
     if (is_too_far(triangle)) continue;
     packed.insert(packed.end(), triangle.begin(), triangle.end());
-    orient(&packed[packed.size() - 3], !body.two_sided);
+    const bool turned = orient(&packed[packed.size() - 3], !body.two_sided);
+    for (const std::size_t k : {std::size_t{0}, std::size_t{turned ? 2U : 1U}, std::size_t{turned ? 1U : 2U}}) {
+      if (!textured) break;
+      points.push_back(body.texture_points[i + k]);
+      CHECK_NOTE(is_finite(points.back()), "a place in a picture is not finite");
+    }
   }
 }
 

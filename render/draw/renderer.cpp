@@ -199,8 +199,9 @@ void Renderer::draw_plain(const Frame& frame) {
   glEnable(GL_DEPTH_CLAMP);
   draw_shadow_map(light);
   if (frame.floor && !frame.transparent)
-    floor_shadow_.build(frame.floor->z, view.distance, lights.key, lit, shadow_casters(),
-                        [this] { draw_all(); });
+    floor_shadow_.build(
+        frame.floor->z, view.distance, lights.key, lit, shadow_casters(), [this] { draw_all(); },
+        holes_ ? std::optional(UploadedTextures::front_unit) : std::nullopt);
   glDisable(GL_DEPTH_CLAMP);
 
   blocks_.clear();
@@ -217,11 +218,13 @@ void Renderer::draw_plain(const Frame& frame) {
 
 void Renderer::upload(const Frame& frame) {
   packed_.clear();
+  points_.clear();
   draws_.clear();
   for (const auto* bodies : {&frame.bodies, &frame.obstacles})
     for (const FrameBody& body : *bodies) {
       const std::size_t first = packed_.size();
-      pack(body, packed_);
+      if (body.texture.any()) points_.resize(first);
+      pack(body, packed_, points_);
       const auto packed = std::span(packed_).subspan(first);
       if (packed.empty()) continue;
       draws_.push_back(
@@ -234,6 +237,23 @@ void Renderer::upload(const Frame& frame) {
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_ * sizeof(Corner)), nullptr, GL_STREAM_DRAW);
   }
   glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(packed_.size() * sizeof(Corner)), packed_.data());
+  upload_texture_points(frame);
+}
+
+// Without pictures none of it is there.
+void Renderer::upload_texture_points(const Frame& frame) {
+  constexpr GLuint attribute = 4;
+  textures_.take_those_of(frame);
+  holes_ = std::ranges::any_of(
+      frame.bodies, [](const FrameBody& body) { return body.texture.front && body.texture.front->cut_out; });
+  glBindVertexArray(corners_array_.name());
+  if (points_.empty()) return glDisableVertexAttribArray(attribute);
+  points_.resize(packed_.size());
+  glBindBuffer(GL_ARRAY_BUFFER, points_buffer_.name());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points_.size() * sizeof(TexturePoint)), points_.data(),
+               GL_STREAM_DRAW);
+  glVertexAttribPointer(attribute, 2, GL_FLOAT, GL_FALSE, sizeof(TexturePoint), nullptr);
+  glEnableVertexAttribArray(attribute);
 }
 
 std::span<const Corner> Renderer::corners_of(const Draw& draw) const {
@@ -249,8 +269,11 @@ std::vector<std::span<const Corner>> Renderer::shadow_casters() const {
 
 void Renderer::draw_all() const {
   glBindVertexArray(corners_array_.name());
-  for (const Draw& draw : draws_)
-    if (draw.body->filled) glDrawArrays(GL_TRIANGLES, draw.first, draw.count); // wire frames cast no shadow
+  for (const Draw& draw : draws_) {
+    if (!draw.body->filled) continue; // wire frames cast no shadow
+    if (holes_) textures_.bind_holes(draw.body->texture);
+    glDrawArrays(GL_TRIANGLES, draw.first, draw.count);
+  }
 }
 
 void Renderer::draw_shadow_map(const LightView& light) {
@@ -263,8 +286,11 @@ void Renderer::draw_shadow_map(const LightView& light) {
   glScissor(1, 1, shadow_side - 2, shadow_side - 2);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2, 2);
-  depth_.use();
-  depth_.set("world_to_clip", light.world_to_clip);
+  if (holes_ && !cut_out_depth_) cut_out_depth_.emplace("depth.vert", "depth.frag", "#define CUT_OUT\n");
+  const GlProgram& depth = holes_ ? *cut_out_depth_ : depth_;
+  depth.use();
+  depth.set("world_to_clip", light.world_to_clip);
+  if (holes_) depth.set("front", UploadedTextures::front_unit);
   draw_all();
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_SCISSOR_TEST);
@@ -302,12 +328,16 @@ void Renderer::draw_bodies(const Frame& frame, const View& view, const Lights& l
 
 const GlProgram& Renderer::body_program(const FrameBody& body) {
   const auto& torn = body.torn.colour;
-  const auto key = std::pair(body.filled, torn);
-  if (const auto at = body_programs_.find(key); at != body_programs_.end()) return at->second;
+  const FrameTexture& texture = body.texture;
+  const BodyKind kind{body.filled, torn, texture.front != nullptr, texture.back != nullptr,
+                      texture.front && texture.front->cut_out};
+  if (const auto at = body_programs_.find(kind); at != body_programs_.end()) return at->second;
   return body_programs_
-      .try_emplace(key, "body.vert", "body.frag",
-                   fmt::format("#define WIRES {}\n#define SHADOW_SPREAD {}\n#define TORN vec3({}, {}, {})\n",
-                               body.filled ? 0 : 1, shadow_spread / shadow_side, torn[0], torn[1], torn[2]))
+      .try_emplace(kind, "body.vert", "body.frag",
+                   fmt::format("#define WIRES {:d}\n#define SHADOW_SPREAD {}\n#define TORN vec3({}, {}, {})\n"
+                               "#define FRONT {:d}\n#define BACK {:d}\n#define CUT_OUT {:d}\n",
+                               !kind.filled, shadow_spread / shadow_side, torn[0], torn[1], torn[2], kind.front,
+                               kind.back, kind.cut_out))
       .first->second;
 }
 
@@ -341,6 +371,15 @@ void Renderer::set_finish(const GlProgram& program, const FrameBody& body) {
   program.set("sheen", Eigen::Vector3f(bit(0), bit(1), bit(2)));
 }
 
+void Renderer::set_texture(const GlProgram& program, const FrameTexture& texture) const {
+  if (!texture.any()) return;
+  textures_.bind(texture);
+  if (texture.front) program.set("front", UploadedTextures::front_unit);
+  if (!texture.back) return;
+  program.set("back", UploadedTextures::back_unit);
+  program.set("back_height", texture.back_height);
+}
+
 void Renderer::draw_body(const GlProgram& program, const Draw& draw) const {
   const FrameBody& body = *draw.body;
   program.set("cells", body.edges ? 1 : 0);
@@ -353,7 +392,8 @@ void Renderer::draw_body(const GlProgram& program, const Draw& draw) const {
     const auto& colour = *body.back;
     back = Eigen::Vector4f(colour[0], colour[1], colour[2], 0) / 255;
   }
-  program.set("back", back);
+  if (!body.texture.back) program.set("far_colour", back);
+  set_texture(program, body.texture);
   const bool culled = !body.two_sided && body.filled;
   (culled ? glEnable : glDisable)(GL_CULL_FACE);
   if (!body.filled) {

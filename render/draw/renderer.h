@@ -24,6 +24,7 @@
 #include "render/draw/light.h"
 #include "render/draw/motion_blur.h"
 #include "render/draw/occlusion.h"
+#include "render/draw/uploaded_textures.h"
 #include "render/files/image.h"
 
 #include <array>
@@ -57,6 +58,13 @@ private:
     const FrameBody* body = nullptr; // of the current frame
     Eigen::AlignedBox3d bounds;      // [m]
   };
+  struct BodyKind { // a variant of the program of bodies
+    bool filled;
+    std::array<float, 3>
+        torn; // the colour of torn edges: a uniform would cost every fragment (shaders/body.vert)
+    bool front, back, cut_out; // has pictures, and one with holes
+    auto operator<=>(const BodyKind&) const = default;
+  };
 
   void draw_plain(const Frame& frame);
   void make_target(int width, int height);
@@ -69,9 +77,10 @@ private:
   void make_shadow_map();
   void make_vertex_array();
   void upload(const Frame& frame);
+  void upload_texture_points(const Frame& frame);
   std::span<const Corner> corners_of(const Draw& draw) const;
   std::vector<std::span<const Corner>> shadow_casters() const; // bodies that cast shadows
-  void draw_all() const;                                       // of these bodies
+  void draw_all() const; // of these bodies; where some have holes, for a program that leaves holes out
   void draw_shadow_map(const LightView& light);
   void draw_bodies(const Frame& frame, const View& view, const Lights& lights, const LightView& light,
                    const BodyTargets& bodies);
@@ -79,6 +88,7 @@ private:
   void set_view(const GlProgram& program, const Frame& frame, const View& view) const;
   static void set_light(const GlProgram& program, const Lights& lights, const LightView& light);
   static void set_finish(const GlProgram& program, const FrameBody& body);
+  void set_texture(const GlProgram& program, const FrameTexture& texture) const;
   void draw_body(const GlProgram& program, const Draw& draw) const;
   BodyTargets body_targets(const PixelRect& covered) const;
   void occlude(const Frame& frame, const View& view, const BodyTargets& bodies);
@@ -89,9 +99,10 @@ private:
   int samples_per_texel_; // samples per texel: 1 or 4
   bool transparent_ = false;
   GlProgram depth_{"depth.vert", "depth.frag"};
-  // of bodies, by whether they are filled, and by the colour of their torn edges: a uniform would cost every
-  // fragment (shaders/body.vert)
-  std::map<std::pair<bool, std::array<float, 3>>, GlProgram> body_programs_;
+  std::optional<GlProgram> cut_out_depth_; // created for the first frame in which something has holes
+  std::map<BodyKind, GlProgram> body_programs_;
+  UploadedTextures textures_;
+  bool holes_ = false; // in something of the current frame
   FloorShadow floor_shadow_;
   Composite composite_;
   CoverageGrid blocks_;                // of the picture that bodies may cover
@@ -103,10 +114,11 @@ private:
   GlTexture target_colour_, target_depth_, shadow_map_;
   int target_width_ = 0, target_height_ = 0; // [texels]
   GlVertexArray corners_array_;
-  GlBuffer corners_buffer_;
+  GlBuffer corners_buffer_, points_buffer_;
   std::size_t capacity_ = 0; // [corners], of that buffer
 
   std::vector<Corner> packed_;       // the frame's corners, ready for upload
+  std::vector<TexturePoint> points_; // one a corner, 0 where there is no picture; empty: nothing has one
   std::vector<Draw> draws_;          // one a body
   std::vector<std::uint8_t> pixels_; // RGBA, bottom row first, as OpenGL returns them
 };

@@ -19,11 +19,18 @@ Vector3f normal(const Corner& corner) {
   return Vector3f(corner.normal.data());
 }
 
+std::vector<Corner> packed_corners(const FrameBody& body) {
+  std::vector<Corner> packed;
+  std::vector<TexturePoint> points;
+  pack(body, packed, points);
+  EXPECT_TRUE(points.empty());
+  return packed;
+}
+
 TEST(Packing, GivesAFlatTriangleItsNormal) {
   FrameBody body;
   add_triangle(body, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, red);
-  std::vector<Corner> packed;
-  pack(body, packed);
+  const std::vector<Corner> packed = packed_corners(body);
   for (const Corner& corner : packed) EXPECT_EQ(normal(corner), Vector3f(0, 0, 1));
 }
 
@@ -31,8 +38,7 @@ TEST(Packing, TurnsATriangleAroundItsNormalWithItsLines) {
   FrameBody body;
   add_triangle(body, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, red, {Line::None, Line::Cell, Line::Torn});
   for (Corner& corner : body.corners) corner.normal = {0, 0, -1};
-  std::vector<Corner> packed;
-  pack(body, packed);
+  const std::vector<Corner> packed = packed_corners(body);
   EXPECT_EQ(position(packed[1]), Vector3f(0, 2, 0));
   EXPECT_EQ(position(packed[2]), Vector3f(2, 0, 0));
   const std::array<std::uint8_t, 4> lines{0, 3, 1, 0}; // the torn line is still opposite (0, 2, 0)
@@ -47,16 +53,14 @@ TEST(Packing, TurnsNoTriangleOfASolid) {
   body.two_sided = false;
   add_triangle(body, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, red);
   for (Corner& corner : body.corners) corner.normal = {0, 0, -1};
-  std::vector<Corner> packed;
-  pack(body, packed);
+  const std::vector<Corner> packed = packed_corners(body);
   EXPECT_EQ(position(packed[1]), Vector3f(2, 0, 0));
 }
 
 TEST(Packing, LeavesATriangleWithoutAreaAlone) {
   FrameBody body;
   add_triangle(body, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, red);
-  std::vector<Corner> packed;
-  pack(body, packed);
+  const std::vector<Corner> packed = packed_corners(body);
   EXPECT_EQ(normal(packed[0]), Vector3f(0, 0, 0));
 }
 
@@ -65,8 +69,7 @@ TEST(Packing, RefusesNumbersThatAreNotFinite) {
     for (const bool in_normal : {false, true}) {
       FrameBody body = screen(0, 1, red);
       (in_normal ? body.corners[4].normal : body.corners[4].position)[1] = bad;
-      std::vector<Corner> packed;
-      EXPECT_THROW(pack(body, packed), InternalError);
+      EXPECT_THROW(packed_corners(body), InternalError);
     }
 }
 
@@ -77,10 +80,31 @@ TEST(Packing, LeavesOutWhatIsTooFarToBeDrawn) {
     add_triangle(body, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, red);
     body.corners.back().position = as_floats({0, far, 0});
   }
-  std::vector<Corner> packed;
-  pack(body, packed);
+  const std::vector<Corner> packed = packed_corners(body);
   EXPECT_EQ(packed.size(), near);
   EXPECT_EQ(bounds_of(packed).max().y(), bounds_of(std::span(body.corners).first(near)).max().y());
+}
+
+TEST(Packing, KeepsThePlacesInAPictureWithTheirCorners) {
+  FrameBody body;
+  body.texture.front = make_texture(Image(1, 1));
+  add_triangle(body, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, red); // is turned
+  for (Corner& corner : body.corners) corner.normal = {0, 0, -1};
+  add_triangle(body, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, red); // is left out
+  body.corners.back().position = as_floats({0, 1e33, 0});
+  add_triangle(body, {0, 0, 5}, {2, 0, 5}, {0, 2, 5}, red);
+  for (const Corner& corner : body.corners) // any number that follows from the place
+    body.texture_points.push_back({corner.position[0] + corner.position[2], corner.position[1]});
+  std::vector<Corner> packed;
+  std::vector<TexturePoint> points;
+  pack(body, packed, points);
+  ASSERT_EQ(packed.size(), 6U);
+  ASSERT_EQ(points.size(), packed.size());
+  EXPECT_EQ(position(packed[1]), Vector3f(0, 2, 0)) << "turned";
+  for (std::size_t n = 0; n < packed.size(); ++n)
+    EXPECT_EQ(points[n], (TexturePoint{packed[n].position[0] + packed[n].position[2], packed[n].position[1]}));
+  body.texture_points.pop_back();
+  EXPECT_THROW(pack(body, packed, points), InternalError);
 }
 
 TEST(Packing, BoundsHoldAllCorners) {

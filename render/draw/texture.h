@@ -1,0 +1,48 @@
+// A picture that is drawn on a body, with its mip levels.
+//
+// Levels are made here and not by OpenGL, in light: a minified picture has the mean light of the whole one, on
+// every machine the same. Each level is half as large as the one before, rounded down. Its texels are means
+// over boxes: of 2 x 2 texels, of 3 where a side is odd, the outer ones weighted by what of them lies in the
+// box, so that every level has exactly the same mean:
+//
+//   n = 2m + 1, texel i of m:  ((m - i) x[2i] + m x[2i+1] + (i + 1) x[2i+2]) / n
+//
+// Colours are weighted by alpha, so that what is transparent has no colour.
+//
+// Texels are what OpenGL is to filter. The shaders' light is the square of an sRGB number
+// (shaders/common.glsl), and filtering must act on light. So a texel holds the byte that GL_SRGB8_ALPHA8
+// decodes to that square, times alpha: what is sampled is the light that a plain colour of the same number has,
+// to half a level of 255 (two levels for the five darkest numbers). The means themselves are of exact sRGB
+// light (light_average.h).
+#pragma once
+
+#include "render/files/image.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace rend {
+
+constexpr int largest_texture = 4096; // [pixels], of each side
+
+struct TextureLevel {
+  int width = 0, height = 0;        // [texels]
+  std::vector<std::uint8_t> texels; // height x width x 4, row 0 at the bottom; see above
+};
+
+struct Texture {
+  std::vector<TextureLevel> levels; // down to 1 x 1
+  bool cut_out = false;             // some of it is transparent: below an alpha of one half there is a hole
+
+  double aspect() const { return static_cast<double>(levels.front().width) / levels.front().height; }
+  std::size_t bytes() const;
+};
+
+// Whether it has a pixel that is not opaque.
+bool is_transparent(const Image& image);
+
+// CHECK: at most largest_texture pixels wide and high.
+std::shared_ptr<const Texture> make_texture(const Image& image);
+
+} // namespace rend

@@ -1,0 +1,72 @@
+#include "render/draw/uploaded_textures.h"
+
+#include "sim/base/check.h"
+
+#include <algorithm>
+#include <set>
+
+namespace rend {
+namespace {
+
+GLint gl_wrap(Wrap wrap) {
+  return wrap == Wrap::Repeat ? GL_REPEAT : wrap == Wrap::Clamp ? GL_CLAMP_TO_EDGE : GL_MIRRORED_REPEAT;
+}
+
+} // namespace
+
+void UploadedTextures::take_those_of(const Frame& frame) {
+  std::set<std::shared_ptr<const Texture>> used;
+  for (const FrameBody& body : frame.bodies)
+    for (const auto& texture : {body.texture.front, body.texture.back})
+      if (texture) used.insert(texture);
+  const bool holes = std::ranges::any_of(used, [](const auto& texture) { return texture->cut_out; });
+  if (holes && !opaque_)
+    opaque_ = make_texture([] {
+      Image white(1, 1);
+      white.pixels = {255, 255, 255};
+      return white;
+    }());
+  if (holes) used.insert(opaque_);
+  std::erase_if(textures_, [&](const auto& each) { return !used.contains(each.first); });
+  for (const auto& texture : used) take(texture);
+}
+
+void UploadedTextures::take(const std::shared_ptr<const Texture>& texture) {
+  if (textures_.contains(texture)) return;
+  const GlTexture& name = textures_[texture];
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, name.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  GLint number = 0;
+  for (const TextureLevel& level : texture->levels)
+    glTexImage2D(GL_TEXTURE_2D, number++, GL_SRGB8_ALPHA8, level.width, level.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, level.texels.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, number - 1);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl("UploadedTextures");
+}
+
+void UploadedTextures::bind(const FrameTexture& texture) const {
+  if (texture.front) bind(front_unit, *texture.front, texture.wrap);
+  if (texture.back) bind(back_unit, *texture.back, texture.wrap);
+}
+
+void UploadedTextures::bind_holes(const FrameTexture& texture) const {
+  CHECK(opaque_);
+  const bool has_holes = texture.front && texture.front->cut_out;
+  bind(front_unit, has_holes ? *texture.front : *opaque_, texture.wrap);
+}
+
+void UploadedTextures::bind(int unit, const Texture& texture, Wrap wrap) const {
+  const auto at =
+      std::ranges::find_if(textures_, [&](const auto& each) { return each.first.get() == &texture; });
+  CHECK(at != textures_.end());
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(GL_TEXTURE_2D, at->second.name());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, gl_wrap(wrap));
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, gl_wrap(wrap));
+  glActiveTexture(GL_TEXTURE0);
+}
+
+} // namespace rend

@@ -1,0 +1,36 @@
+// The pictures of bodies as OpenGL has them: uploaded when a frame first has them, dropped with the first frame
+// that no longer does.
+//
+// A Device must be current, from construction to destruction.
+#pragma once
+
+#include "render/draw/frame.h"
+#include "render/draw/gl.h"
+
+#include <map>
+#include <memory>
+
+namespace rend {
+
+class UploadedTextures {
+public:
+  // Texture units: 0 to 2 are those of shadows.
+  static constexpr int front_unit = 3, back_unit = 4;
+
+  // UserError (OutOfBudget) if there is not enough memory.
+  void take_those_of(const Frame& frame);
+
+  // To be sampled by the program in use, as `front` and `back`. CHECK: it was taken.
+  void bind(const FrameTexture& texture) const;
+  // Its front where that has holes, elsewhere one without, as `front`. CHECK: something in the frame has holes.
+  void bind_holes(const FrameTexture& texture) const;
+
+private:
+  void take(const std::shared_ptr<const Texture>& texture);
+  void bind(int unit, const Texture& texture, Wrap wrap) const;
+
+  std::map<std::shared_ptr<const Texture>, GlTexture> textures_;
+  std::shared_ptr<const Texture> opaque_; // one white pixel; null: not needed yet
+};
+
+} // namespace rend

@@ -1,0 +1,104 @@
+// Mip levels, against the formulas of sRGB (IEC 61966-2-1) written out here.
+#include "render/draw/texture.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace rend::texture_test {
+namespace {
+
+double light_of(double number) {
+  return number <= 0.04045 ? number / 12.92 : std::pow((number + 0.055) / 1.055, 2.4);
+}
+double number_of(double light) {
+  return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
+}
+
+// The sRGB number, of 255, of a plain colour that has the light of this texel in the shaders, which square it.
+double shown(const TextureLevel& level, int x, int y, std::size_t c) {
+  const std::uint8_t* texel = &level.texels[4 * static_cast<std::size_t>(y * level.width + x)];
+  return 255 * std::sqrt(light_of(texel[c] / 255.0) / (texel[3] / 255.0));
+}
+
+Image noise(int width, int height, int channels) {
+  Image image(width, height, channels);
+  std::mt19937 random(static_cast<unsigned>(width * 1000 + height));
+  for (std::uint8_t& byte : image.pixels) byte = static_cast<std::uint8_t>(random() >> 24);
+  return image;
+}
+
+TEST(Texture, shows_the_numbers_of_its_pixels_with_the_lowest_row_first) {
+  Image image(256, 2);
+  for (int x = 0; x < 256; ++x)
+    for (int c = 0; c < 3; ++c) image.row(1)[3 * x + c] = static_cast<std::uint8_t>(x);
+  const auto texture = make_texture(image);
+  EXPECT_FALSE(texture->cut_out);
+  for (int x = 0; x < 256; ++x) {
+    EXPECT_NEAR(shown(texture->levels[0], x, 0, 1), x, x < 5 ? 2 : 0.7);
+    EXPECT_EQ(shown(texture->levels[0], x, 1, 1), 0);
+  }
+}
+
+TEST(Texture, is_halved_down_to_one_texel) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {2, 2}, {5, 3}, {7, 64}, {1, 9}, {33, 32}}) {
+    const auto texture = make_texture(noise(width, height, 3));
+    int w = width, h = height;
+    for (const TextureLevel& level : texture->levels) {
+      EXPECT_EQ(level.width, w);
+      EXPECT_EQ(level.height, h);
+      EXPECT_EQ(level.texels.size(), static_cast<std::size_t>(4 * w * h));
+      w = std::max(w / 2, 1);
+      h = std::max(h / 2, 1);
+    }
+    EXPECT_EQ(texture->levels.back().texels.size(), 4U);
+  }
+}
+
+TEST(Texture, has_the_same_mean_light_on_every_level_even_of_odd_sizes) {
+  for (const auto& [width, height] : {std::pair{64, 64}, {5, 3}, {7, 61}, {1, 9}, {101, 37}, {3, 3}}) {
+    const Image image = noise(width, height, 3);
+    const auto texture = make_texture(image);
+    for (std::size_t c = 0; c < 3; ++c) {
+      double mean = 0;
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) mean += light_of(image.at(x, y)[c] / 255.0) / (width * height);
+      for (const TextureLevel& level : texture->levels) {
+        double of_level = 0;
+        for (int y = 0; y < level.height; ++y)
+          for (int x = 0; x < level.width; ++x)
+            of_level += light_of(shown(level, x, y, c) / 255) / (level.width * level.height);
+        EXPECT_NEAR(255 * number_of(of_level), 255 * number_of(mean), 0.8)
+            << level.width << " x " << level.height;
+      }
+    }
+  }
+}
+
+// Sources of a texel by the shares of its box: those of the middle column of three are as large as of the
+// others.
+TEST(Texture, weighs_an_odd_row_by_what_lies_in_a_box) {
+  Image image(5, 1);
+  for (int x = 0; x < 5; ++x)
+    for (int c = 0; c < 3; ++c) image.row(0)[3 * x + c] = x == 2 ? 255 : 0;
+  const TextureLevel level = make_texture(image)->levels[1];
+  ASSERT_EQ(level.width, 2); // boxes of 2.5 texels: the middle one is halved
+  for (int x = 0; x < 2; ++x) EXPECT_NEAR(shown(level, x, 0, 0), 255 * number_of(0.2), 0.8);
+}
+
+TEST(Texture, gives_no_colour_to_what_is_transparent) {
+  Image image(2, 1, 4);
+  image.pixels = {0, 200, 0, 255, 255, 0, 0, 0};
+  const auto texture = make_texture(image);
+  EXPECT_TRUE(texture->cut_out);
+  const TextureLevel& mean = texture->levels.at(1);
+  EXPECT_EQ(mean.texels[0], 0) << "red";
+  EXPECT_NEAR(shown(mean, 0, 0, 1), 200, 1.5);
+  EXPECT_NEAR(mean.texels[3], 127.5, 0.6);
+  Image opaque(2, 1, 4);
+  opaque.pixels = {0, 200, 0, 255, 255, 0, 0, 255};
+  EXPECT_FALSE(make_texture(opaque)->cut_out);
+}
+
+} // namespace
+} // namespace rend::texture_test
