@@ -1,6 +1,7 @@
 #include "render/clip/picture_check.h"
 
 #include "render/draw/camera.h"
+#include "render/picture/texture_file.h"
 #include "sim/export/skin.h"
 #include "sim/topology/count.h"
 
@@ -199,6 +200,7 @@ void check_looks(const PictureSettings& picture, const Scene& scene) {
     const SettingsSource& look = picture.looks[n].source;
     const Body& body = *scene.bodies()[n];
     const bool solid = body.map->map().dimension() == 3;
+    check_textures(picture.looks[n], solid);
     const char* wrong = solid ? "back" : "inside";
     if (!look.given(wrong)) continue;
     if (solid)

@@ -19,7 +19,8 @@ namespace rend {
 // is inside of a solid. Cheap, and of no picture's size: asked of every preset.
 void check_camera(const PictureSettings& picture, const Scene& scene, double aspect, const FrameClock& clock);
 
-// UserError at a <look> that gives a sheet the colour of an inside, or a solid that of a back: neither has one.
+// UserError at a <look> that gives a sheet the colour of an inside, or a solid that of a back: neither has one;
+// and for pictures that cannot be shown (texture_file.h).
 void check_looks(const PictureSettings& picture, const Scene& scene);
 
 // What is to be told to who makes pictures. aspect: width / height.

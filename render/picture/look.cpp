@@ -1,5 +1,7 @@
 #include "render/picture/look.h"
 
+#include <fmt/format.h>
+
 namespace rend {
 namespace {
 
@@ -24,11 +26,42 @@ Field<LookSettings> finish() {
           [](const LookSettings&, const SettingsSource&) {}};
 }
 
+// `scale` is what it is of <place>: a factor of the size.
+Fields<LookSettings> texture_fields() {
+  using S = LookSettings;
+  const std::string file =
+      fmt::format("a PNG file of at most {0} x {0} pixels, relative to the preset, and in its "
+                  "folder or below",
+                  largest_texture);
+  return {field(&S::texture,
+                text("texture",
+                     "picture on the body, in place of its colour: " + file +
+                         ". It is spread once over a sheet that the preset makes; on others it is as wide as "
+                         "they are, and lies in the plane of x, y, z that a face is closest to at rest. Where "
+                         "it is transparent by more than a half, a sheet has holes. Not shown where by= shows "
+                         "something")),
+          field(&S::texture_back,
+                text("texture-back", "picture on the back of a sheet, likewise, where it reads from "
+                                     "left to right as well")),
+          field(&S::texture_inside,
+                text("texture-inside", "picture on the faces of a solid that fracture exposes, likewise")),
+          field(&S::wrap,
+                word("wrap", {"repeat", "clamp", "mirror"},
+                     "how a picture goes on beyond its sides; default: clamp where it is spread over a sheet "
+                     "once, else repeat\nrepeat: it begins again\nclamp: its outermost pixels go "
+                     "on\nmirror: it is mirrored")),
+          field(&S::scale,
+                numbers("scale", 2, "", "factors of the width and the height of a picture, about its middle")
+                    .at_least(1e-3)
+                    .at_most(1e3)),
+          field(&S::rotate, number("rotate", "degrees", "turns a picture anticlockwise about its middle"))};
+}
+
 } // namespace
 
 template <> const Fields<LookSettings>& fields_of() {
   using S = LookSettings;
-  static const Fields<S> fields{
+  static const Fields<S> plain{
       colour_field(&S::colour, text("colour", "colour of the body, #rrggbb")),
       colour_field(
           &S::back,
@@ -59,6 +92,7 @@ template <> const Fields<LookSettings>& fields_of() {
                 .above(0)
                 .at_most(10)),
       finish()};
+  static const Fields<S> fields = plain + texture_fields();
   return fields;
 }
 

@@ -2,9 +2,13 @@
 #pragma once
 
 #include "render/draw/finish.h"
+#include "render/draw/frame.h"
 #include "render/picture/colour.h"
+#include "sim/build/shape.h"
 
+#include <filesystem>
 #include <optional>
+#include <string>
 
 namespace rend {
 
@@ -12,6 +16,13 @@ namespace rend {
 enum class ColourBy { Plain, Strain, Stress, Force, Fragment };
 // What is drawn of it.
 enum class DrawStyle { Surface, Wires, Exploded, Darts };
+
+// The frame in which the pictures of a body lie: that of its shape, before <place> scales, rotates and moves
+// it.
+struct TextureFrame {
+  Placement place = {};
+  std::optional<SheetShape> sheet = {}; // it was made as a sheet, over which its picture is spread
+};
 
 struct LookSettings {
   Colour colour{0x2a, 0x7f, 0x8e};
@@ -27,6 +38,13 @@ struct LookSettings {
   DrawStyle as = DrawStyle::Surface;
   double apart = 0.4;                 // of exploded cells, in shares of their distance from the middle
   Finish finish = finishes().front(); // one of finishes(), or one of a program's own
+  // Files of pictures, in place of `colour`, `back` and `inside`; empty: none. Where they lie: texture_map.h.
+  std::string texture = {}, texture_back = {}, texture_inside = {};
+  std::optional<Wrap> wrap = {};     // none: clamped where a picture is spread over a sheet once, else repeated
+  std::array<double, 2> scale{1, 1}; // of pictures: how much wider and higher than by default
+  double rotate = 0;                 // of pictures, about their middle, anticlockwise [degrees]
+  TextureFrame frame = {};           // from the body's shape and place
+  std::filesystem::path folder = {}; // to which files of pictures are relative
   SettingsSource source = {};
 };
 template <> const Fields<LookSettings>& fields_of();

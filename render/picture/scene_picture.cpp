@@ -28,6 +28,10 @@ Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const s
       as_floats(x), as_floats(normal), {colour[0], colour[1], colour[2], 255}, {line(0), line(1), line(2), 0}};
 }
 
+bool is_drawn(BodyPicture::Faces which, bool exposed) {
+  return which == BodyPicture::Faces::All || exposed == (which == BodyPicture::Faces::Exposed);
+}
+
 // Their edges need no line to be seen.
 bool torn_by_cuts_alone(const Body& body) {
   const bool others = std::ranges::any_of(body.tear_laws, [](const TearLaw& law) {
@@ -39,9 +43,14 @@ bool torn_by_cuts_alone(const Body& body) {
 
 } // namespace
 
-BodyPicture::BodyPicture(Body& body, LookSettings look)
+BodyPicture::BodyPicture(Body& body, LookSettings look, LookTextures textures)
     : body_(&body), look_(std::move(look)), solid_(body.map->dimension() == 3),
       orientable_(solid_ || is_orientable(body.map->map())), scale_(look_.most.value_or(0)) {
+  const bool has_sides = look_.as == DrawStyle::Surface || look_.as == DrawStyle::Wires;
+  if (look_.by == ColourBy::Plain && has_sides) textures_ = std::move(textures);
+  if (const auto& sides = textures_.front ? textures_.front : textures_.back)
+    map_.emplace(body, look_, sides->aspect());
+  if (textures_.inside) inside_map_.emplace(body, look_, textures_.inside->aspect());
   if (!solid_) body.boundary().sheet(); // that of a solid is there
   if (look_.as == DrawStyle::Darts && body.map->map().dart_count() > most_drawn_darts)
     look_.source.fail("as",
@@ -103,8 +112,7 @@ void BodyPicture::colour_vertices() {
     vertex_colours_[v] = table[static_cast<std::size_t>(std::min(255.0, values_[v] * factor + 0.5))];
 }
 
-FrameBody BodyPicture::draw() {
-  if (look_.by != ColourBy::Plain && look_.by != ColourBy::Fragment) colour_vertices();
+FrameBody BodyPicture::plain() const {
   FrameBody out;
   out.edges = look_.edges;
   out.two_sided = !solid_;
@@ -113,14 +121,25 @@ FrameBody BodyPicture::draw() {
   out.finish = look_.finish;
   out.torn = torn_line();
   out.filled = look_.as != DrawStyle::Wires;
+  return out;
+}
+
+void BodyPicture::draw(std::vector<FrameBody>& out) {
+  if (look_.by != ColourBy::Plain && look_.by != ColourBy::Fragment) colour_vertices();
+  FrameBody body = plain();
   if (look_.as == DrawStyle::Darts)
-    draw_darts(*body_, out);
+    draw_darts(*body_, body);
   else if (look_.as == DrawStyle::Exploded)
     draw_exploded(
-        *body_, look_.apart, [this](const CellCorner& at) { return colour_at(at); }, out);
+        *body_, look_.apart, [this](const CellCorner& at) { return colour_at(at); }, body);
+  else if (!solid_)
+    draw_sheet(body);
+  else if (!map_ && !inside_map_)
+    draw_solid(body, Faces::All);
   else
-    solid_ ? draw_solid(out) : draw_sheet(out);
-  return out;
+    draw_solid(body, Faces::Outer);
+  out.push_back(std::move(body));
+  if (solid_ && (map_ || inside_map_)) draw_solid(out.emplace_back(plain()), Faces::Exposed);
 }
 
 TornLine BodyPicture::torn_line() const {
@@ -161,15 +180,38 @@ void BodyPicture::draw_sheet(FrameBody& out) {
       out.corners.push_back(corner(x[v], normal, colour, triangle.side));
     }
   });
+  if (map_) lay_on_sheet(out);
 }
 
-void BodyPicture::draw_solid(FrameBody& out) {
+void BodyPicture::lay_on_sheet(FrameBody& out) const {
+  const bool behind = textures_.back && orientable_; // what has one side has no back
+  out.texture = {textures_.front, behind ? textures_.back : nullptr, wrap(*map_), 1};
+  if (!out.texture.any()) return;
+  if (textures_.front && behind) // relative to the picture that the map is of
+    out.texture.back_height =
+        map_->is_spread() ? 1 : static_cast<float>(textures_.back->aspect() / textures_.front->aspect());
+  out.texture_points.reserve(out.corners.size());
+  const auto& rest = body_->map->rest().values();
+  body_->boundary().sheet().for_each_triangle([&](const Surface::Triangle& triangle) {
+    const auto [a, b, c] = triangle.vertex;
+    const Vec3 p = rest[a].vec(), q = rest[b].vec(), r = rest[c].vec();
+    const TextureMap::Chart chart = map_->chart((p + q + r) / 3, (q - p).cross(r - p));
+    for (const Vec3& x : {p, q, r}) out.texture_points.push_back(map_->at(x, chart));
+  });
+}
+
+Wrap BodyPicture::wrap(const TextureMap& map) const {
+  return look_.wrap.value_or(map.is_spread_once() ? Wrap::Clamp : Wrap::Repeat);
+}
+
+void BodyPicture::draw_solid(FrameBody& out, Faces which) {
   SolidSurface& surface = body_->boundary().solid();
-  surface.normals(normals_);
-  out.corners.reserve(3 * surface.triangles());
+  if (which != Faces::Exposed) surface.normals(normals_); // they are drawn after the others
+  if (which != Faces::Exposed) out.corners.reserve(3 * surface.triangles());
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
   surface.for_each_triangle([&](const SolidSurface::Triangle& triangle) {
+    if (!is_drawn(which, triangle.exposed)) return;
     Colour colour = triangle.exposed ? look_.inside : look_.colour;
     if (look_.by == ColourBy::Fragment) colour = fragment_colours_[labels_[triangle.first.value]];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -177,6 +219,29 @@ void BodyPicture::draw_solid(FrameBody& out) {
       if (by_vertex) colour = vertex_colours_[v];
       out.corners.push_back(corner(x[v], normals_[triangle.corner[k]], colour, triangle.side));
     }
+  });
+  if (which != Faces::All) lay_on_solid(out, which);
+}
+
+// Face after face as draw_solid() goes through their triangles; all triangles of one lie in one plane.
+void BodyPicture::lay_on_solid(FrameBody& out, Faces which) const {
+  const std::optional<TextureMap>& map = which == Faces::Exposed ? inside_map_ : map_;
+  if (!map) return;
+  out.texture = {which == Faces::Exposed ? textures_.inside : textures_.front, nullptr, wrap(*map), 1};
+  out.texture_points.reserve(out.corners.size());
+  const auto& rest = body_->map->rest().values();
+  std::vector<Vec3> ring; // of a face [m]
+  body_->boundary().solid().for_each_face([&](const auto& face, const auto& corners) {
+    if (!is_drawn(which, face.exposed)) return;
+    ring.clear();
+    for (const auto& at : corners) ring.push_back(rest[at.vertex].vec());
+    Vec3 across = Vec3::Zero();
+    for (std::size_t k = 1; k + 1 < ring.size(); ++k)
+      across += (ring[k] - ring[0]).cross(ring[k + 1] - ring[0]);
+    const TextureMap::Chart chart = map->chart(ring[0], across);
+    for (std::size_t k = 1; k + 1 < ring.size(); ++k)
+      for (const std::size_t n : {std::size_t{0}, k, k + 1})
+        out.texture_points.push_back(map->at(ring[n], chart));
   });
 }
 
@@ -195,8 +260,9 @@ FrameBuilder::FrameBuilder(const PictureSettings& settings, Scene& scene, double
   std::vector<LookSettings> looks = settings.looks;
   looks.resize(scene.bodies().size());
   const double start = wall_clock();
+  TextureFiles files;
   for (std::size_t n = 0; n < looks.size(); ++n)
-    bodies_.push_back(std::make_unique<BodyPicture>(*scene.bodies()[n], looks[n]));
+    bodies_.push_back(std::make_unique<BodyPicture>(*scene.bodies()[n], looks[n], files.of(looks[n])));
   seconds_ = wall_clock() - start;
 }
 
@@ -219,7 +285,7 @@ void FrameBuilder::observe_moment() {
 FrameState FrameBuilder::state() {
   const double start = wall_clock();
   FrameState state;
-  for (auto& body : bodies_) state.bodies.push_back(body->draw());
+  for (auto& body : bodies_) body->draw(state.bodies);
   for (const auto& body : scene_.bodies()) state.shape += body->boundary().revision();
   const World& world = scene_.world();
   for (std::size_t n = 0; n < spheres_.size(); ++n)

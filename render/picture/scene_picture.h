@@ -11,6 +11,8 @@
 #include "render/draw/frame.h"
 #include "render/picture/exploded_picture.h"
 #include "render/picture/picture_settings.h"
+#include "render/picture/texture_file.h"
+#include "render/picture/texture_map.h"
 #include "render/picture/viewpoint.h"
 
 #include <map>
@@ -23,18 +25,27 @@ namespace rend {
 // How one body is shown.
 class BodyPicture {
 public:
-  BodyPicture(Body& body, LookSettings look); // UserError: darts of a body that has too many to be drawn
+  enum class Faces { All, Outer, Exposed }; // of a solid
+  // UserError: darts of a body that has too many to be drawn
+  BodyPicture(Body& body, LookSettings look, LookTextures textures);
 
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that have a colour
-  FrameBody draw();                          // of the state that was observed
+  // Appends the state that was observed to `out`: of a solid with textures its outside and what fracture
+  // exposes, one after the other, of any other body one.
+  void draw(std::vector<FrameBody>& out);
   std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
   std::size_t bytes() const;               // of its surface
   std::size_t fragments_seen() const { return colour_numbers_.size(); } // of this body
   void store(Archive& archive);                                         // scale and colours so far; checkpoint
 
 private:
+  FrameBody plain() const; // without corners
   void draw_sheet(FrameBody& out);
-  void draw_solid(FrameBody& out);
+  void draw_solid(FrameBody& out, Faces which);
+  Wrap wrap(const TextureMap& map) const;
+  // The places of what was drawn in its pictures.
+  void lay_on_sheet(FrameBody& out) const;
+  void lay_on_solid(FrameBody& out, Faces which) const;
   void label_fragments(std::size_t& fragments_seen);
   void colour_vertices();
   TornLine torn_line() const;
@@ -42,6 +53,8 @@ private:
 
   Body* body_;
   LookSettings look_;
+  LookTextures textures_;                      // none where colours show something else, or no sides are drawn
+  std::optional<TextureMap> map_, inside_map_; // where they lie: those of its sides, and the one inside
   bool solid_ = false, orientable_ = true;
   double scale_ = 0;           // the quantity at the end of the colours; what look_.most says, or seen so far
   std::vector<Vec3> normals_;  // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)

@@ -112,6 +112,13 @@ HudSettings hud_settings(const PresetNode& node) {
   return hud;
 }
 
+TextureFrame texture_frame(const PresetNode& body) {
+  TextureFrame frame;
+  if (const PresetNode* place = body.child("place")) frame.place = read_settings<Placement>(*place);
+  if (const PresetNode* sheet = body.child("sheet")) frame.sheet = read_settings<SheetShape>(*sheet);
+  return frame;
+}
+
 void check_look(const PresetNode& look) {
   colour_of(look, "colour");
   colour_of(look, "inside");
@@ -199,6 +206,8 @@ PictureSettings picture_settings(const PresetNode& scene) {
   for (const PresetNode* body : scene.all("body")) {
     const PresetNode* look = body->child("look");
     settings.looks.push_back(look ? read_settings<LookSettings>(*look) : LookSettings{});
+    settings.looks.back().frame = texture_frame(*body);
+    settings.looks.back().folder = std::filesystem::path(scene.place().file).parent_path();
   }
   if (const PresetNode* world = scene.child("world")) {
     for (const PresetNode* node : world->all("sphere"))

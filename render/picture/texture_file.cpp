@@ -1,0 +1,100 @@
+#include "render/picture/texture_file.h"
+
+#include "render/files/png.h"
+#include "render/files/png_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rend {
+namespace {
+
+std::filesystem::path path_of(const LookSettings& look, const std::string& file) {
+  return (look.folder / file).lexically_normal();
+}
+
+// The errors of the reader name the file; here they get the place of its name.
+template <class F> auto at_attribute(const LookSettings& look, const std::string& attribute, F&& read) {
+  try {
+    return read();
+  } catch (const UserError& error) {
+    std::string hint = error.hint;
+    if (error.code == Exit::NoInput) hint = "its name is relative to the folder of the preset";
+    if (error.code == Exit::BadInput) hint = "a texture is a PNG file: save the picture as one, and whole";
+    throw UserError(error.code, look.source.place(attribute), error.what(), hint);
+  }
+}
+
+Image image_of(const LookSettings& look, const std::string& attribute, const std::string& file) {
+  const std::filesystem::path path = path_of(look, file);
+  const PngInfo info = at_attribute(look, attribute, [&] { return png_info(path); });
+  if (std::max(info.width, info.height) > largest_texture)
+    look.source.fail(attribute,
+                     fmt::format("{} is a picture of {} x {} pixels; at most {} x {} are allowed",
+                                 in_quotes(file), info.width, info.height, largest_texture, largest_texture),
+                     "make it smaller: a video of 1280 x 720 shows no more of it than 2048 pixels across");
+  return at_attribute(look, attribute, [&] { return read_png(path); });
+}
+
+void check_holes(const LookSettings& look, const std::string& attribute, const std::string& file,
+                 const std::string& why, const std::string& hint) {
+  if (!file.empty() && is_transparent(image_of(look, attribute, file)))
+    look.source.fail(attribute, fmt::format("{} is transparent in places, {}", in_quotes(file), why), hint);
+}
+
+void check_sides(const LookSettings& look, bool solid) {
+  if (solid && !look.texture_back.empty())
+    look.source.fail("texture-back", "the body is a solid, which shows no back",
+                     "texture is on its outside, texture-inside on the faces that tearing exposes");
+  if (!solid && !look.texture_inside.empty())
+    look.source.fail("texture-inside", "the body is a sheet, which has no inside",
+                     "texture and texture-back are on its sides");
+}
+
+void check_use(const LookSettings& look) {
+  const bool none = look.texture.empty() && look.texture_back.empty() && look.texture_inside.empty();
+  for (const char* attribute : {"wrap", "scale", "rotate"})
+    if (none && look.source.given(attribute))
+      look.source.fail(attribute, fmt::format("{} of <look> has no use without a texture", attribute),
+                       "name a picture: texture=\"picture.png\"");
+  const char* named = !look.texture.empty()        ? "texture"
+                      : !look.texture_back.empty() ? "texture-back"
+                                                   : "texture-inside";
+  if (!none && (look.as == DrawStyle::Exploded || look.as == DrawStyle::Darts))
+    look.source.fail(named,
+                     fmt::format("{} cannot be seen on a body that is shown as=\"{}\"", named,
+                                 look.as == DrawStyle::Darts ? "darts" : "exploded"),
+                     "leave it out, or show the body as=\"surface\" or \"wires\"");
+}
+
+} // namespace
+
+void check_textures(const LookSettings& look, bool solid) {
+  check_use(look);
+  check_sides(look, solid);
+  const std::string opaque = "save it without transparency";
+  if (solid) {
+    check_holes(look, "texture", look.texture, "and a solid has nothing behind its surface", opaque);
+  } else if (!look.texture.empty()) {
+    image_of(look, "texture", look.texture);
+  }
+  check_holes(look, "texture-back", look.texture_back, "but holes of a sheet are those of its texture", opaque);
+  check_holes(look, "texture-inside", look.texture_inside, "and a solid has nothing behind its surface",
+              opaque);
+}
+
+std::shared_ptr<const Texture> TextureFiles::texture(const LookSettings& look, const std::string& attribute,
+                                                     const std::string& file) {
+  if (file.empty()) return nullptr;
+  std::shared_ptr<const Texture>& texture = read_[path_of(look, file)];
+  if (!texture) texture = make_texture(image_of(look, attribute, file));
+  return texture;
+}
+
+LookTextures TextureFiles::of(const LookSettings& look) {
+  return {texture(look, "texture", look.texture), texture(look, "texture-back", look.texture_back),
+          texture(look, "texture-inside", look.texture_inside)};
+}
+
+} // namespace rend

@@ -1,0 +1,38 @@
+// The pictures that looks name, from their files.
+//
+// What is wrong with one is told at the attribute that names it. Its size is that of the header, and is asked
+// before anything is decoded.
+#pragma once
+
+#include "render/draw/texture.h"
+#include "render/picture/look.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace rend {
+
+// Those of a body; null: none.
+struct LookTextures {
+  std::shared_ptr<const Texture> front, back, inside;
+};
+
+// What a look says of pictures, and the pictures themselves. solid: the body is. UserError (BadInput): a
+// picture that the body has no side for, is drawn without, or that is no picture or too large; one with holes
+// on anything but the front of a sheet. NoInput: there is no such file.
+void check_textures(const LookSettings& look, bool solid);
+
+// Reads files once, for as long as it lives.
+class TextureFiles {
+public:
+  LookTextures of(const LookSettings& look); // UserError: what a file is refused for
+
+private:
+  std::shared_ptr<const Texture> texture(const LookSettings& look, const std::string& attribute,
+                                         const std::string& file);
+  std::map<std::filesystem::path, std::shared_ptr<const Texture>> read_;
+};
+
+} // namespace rend
