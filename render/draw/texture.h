@@ -12,8 +12,8 @@
 // Texels are what OpenGL is to filter. The shaders' light is the square of an sRGB number
 // (shaders/common.glsl), and filtering must act on light. So a texel holds the byte that GL_SRGB8_ALPHA8
 // decodes to that square, times alpha: what is sampled is the light that a plain colour of the same number has,
-// to half a level of 255 (two levels for the five darkest numbers). The means themselves are of exact sRGB
-// light (light_average.h).
+// to within one level of 255 (the three darkest become black). The means themselves are of exact sRGB light
+// (light_average.h).
 #pragma once
 
 #include "render/files/image.h"

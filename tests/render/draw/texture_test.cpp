@@ -35,7 +35,7 @@ TEST(Texture, shows_the_numbers_of_its_pixels_with_the_lowest_row_first) {
   const auto texture = make_texture(image);
   EXPECT_FALSE(texture->cut_out);
   for (int x = 0; x < 256; ++x) {
-    EXPECT_NEAR(shown(texture->levels[0], x, 0, 1), x, x < 5 ? 2 : 0.7);
+    EXPECT_NEAR(shown(texture->levels[0], x, 0, 1), x, x < 4 ? 3 : 0.8);
     EXPECT_EQ(shown(texture->levels[0], x, 1, 1), 0);
   }
 }

@@ -92,7 +92,7 @@ TEST(TextureMap, follows_the_lattice_of_bent_sheets) {
     const FrameBody body = band.bodies().at(0);
     std::map<std::pair<int, int>, int> cells; // triangles in each cell of 24 x 2
     for (std::size_t n = 0; n < body.corners.size(); n += 3) {
-      double low[2] = {9, 9}, high[2] = {-9, -9};
+      double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};
       for (std::size_t k = n; k < n + 3; ++k)
         for (std::size_t c = 0; c < 2; ++c) {
           const double cell = static_cast<double>(body.texture_points[k][c]) * (c == 0 ? 24 : 2);
@@ -241,8 +241,10 @@ TEST(TextureMap, keeps_the_bits_of_corners_through_cuts_and_puts_new_ones_betwee
     for (std::size_t k = 0; k < 3; ++k) {
       const bool corner_kept = was != before.end() && same_bits(kept.rest[k], was->second.rest[k]);
       same += corner_kept;
-      if (corner_kept) EXPECT_EQ(kept.point[k], was->second.point[k]);
-      if (corner_kept) continue;
+      if (corner_kept) {
+        EXPECT_EQ(kept.point[k], was->second.point[k]);
+        continue;
+      }
       ++moved;
       // it lies in a triangle of the start, whose corners say where it is in the picture
       const Vec3 x = kept.rest[k].vec();
