@@ -1,7 +1,7 @@
 // Cloth and solids under a key light with a shadow, a fill light, the sky and light reflected by the ground.
 // TORN: the colour of torn edges, linear. FRONT, BACK: pictures take the place of the colours of either side;
 // CUT_OUT: that of the front has holes. Their texels are decoded already, and multiplied by alpha
-// (render/draw/texture.h).
+// (render/draw/uploaded_textures.h).
 in vec4 to_eye; // see body.vert
 in vec4 across;
 in vec4 albedo;

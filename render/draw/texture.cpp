@@ -2,7 +2,6 @@
 
 #include "render/draw/light_average.h"
 #include "sim/base/check.h"
-#include "sim/base/math.h"
 
 #include <algorithm>
 #include <array>
@@ -16,20 +15,6 @@ using Light = std::array<double, 4>; // red, green, blue times alpha, and alpha:
 
 std::uint16_t rounded(double x) {
   return static_cast<std::uint16_t>(x + 0.5);
-}
-
-// The shaders' light, of 65535, for sRGB light of 65535.
-std::uint16_t shader_light(std::size_t light) {
-  static const std::vector<std::uint16_t> table = [] {
-    std::vector<std::uint16_t> all;
-    for (int n = 0; n <= 65535; ++n) {
-      const double linear = n / full_light;
-      const double number = linear <= 0.0031308 ? 12.92 * linear : 1.055 * power(linear, 1 / 2.4) - 0.055;
-      all.push_back(rounded(full_light * number * number));
-    }
-    return all;
-  }();
-  return table[light];
 }
 
 // One level while others are made of it.
@@ -101,7 +86,7 @@ template <class From> TextureLevel texels_of(const From& from, int width, int he
       const double alpha = light[3] / full_light;
       for (std::size_t c = 0; c < 3; ++c) {
         const double own = alpha > 0 ? std::min(light[c] / alpha, full_light) : 0;
-        level.texels.push_back(level_of_light(rounded(alpha * shader_light(rounded(own)))));
+        level.texels.push_back(level_of_light(rounded(own)));
       }
       level.texels.push_back(static_cast<std::uint8_t>(255 * alpha + 0.5));
     }

@@ -7,13 +7,8 @@
 //
 //   n = 2m + 1, texel i of m:  ((m - i) x[2i] + m x[2i+1] + (i + 1) x[2i+2]) / n
 //
-// Colours are weighted by alpha, so that what is transparent has no colour.
-//
-// Texels are what OpenGL is to filter. The shaders' light is the square of an sRGB number
-// (shaders/common.glsl), and filtering must act on light. So a texel holds the byte that GL_SRGB8_ALPHA8
-// decodes to that square, times alpha: what is sampled is the light that a plain colour of the same number has,
-// to within one level of 255 (the three darkest become black). The means themselves are of exact sRGB light
-// (light_average.h).
+// Light is that of sRGB (light_average.h), and levels are sRGB again. Colours are weighted by alpha, so that
+// what is transparent has none.
 #pragma once
 
 #include "render/files/image.h"
@@ -28,7 +23,7 @@ constexpr int largest_texture = 4096; // [pixels], of each side
 
 struct TextureLevel {
   int width = 0, height = 0;        // [texels]
-  std::vector<std::uint8_t> texels; // height x width x 4, row 0 at the bottom; see above
+  std::vector<std::uint8_t> texels; // sRGB and alpha, height x width x 4, row 0 at the bottom
 };
 
 struct Texture {

@@ -12,6 +12,28 @@ GLint gl_wrap(Wrap wrap) {
   return wrap == Wrap::Repeat ? GL_REPEAT : wrap == Wrap::Clamp ? GL_CLAMP_TO_EDGE : GL_MIRRORED_REPEAT;
 }
 
+// Of a number of 255, in 65535.
+std::uint32_t light_of_number(std::size_t number) {
+  return static_cast<std::uint32_t>((number * number * 65535 + 255 * 255 / 2) / (255 * 255));
+}
+
+void upload(GLint number, const TextureLevel& level) {
+  glTexImage2D(GL_TEXTURE_2D, number, GL_RGBA16, level.width, level.height, 0, GL_RGBA, GL_UNSIGNED_SHORT,
+               nullptr);
+  const std::size_t stride = std::size_t{4} * static_cast<std::size_t>(level.width);
+  std::vector<std::uint16_t> row(stride);
+  for (int y = 0; y < level.height; ++y) {
+    const std::uint8_t* from = level.texels.data() + stride * static_cast<std::size_t>(y);
+    for (std::size_t n = 0; n < stride; n += 4) {
+      const std::uint32_t alpha = from[n + 3];
+      for (std::size_t c = 0; c < 3; ++c)
+        row[n + c] = static_cast<std::uint16_t>((light_of_number(from[n + c]) * alpha + 127) / 255);
+      row[n + 3] = static_cast<std::uint16_t>(257 * alpha);
+    }
+    glTexSubImage2D(GL_TEXTURE_2D, number, 0, y, level.width, 1, GL_RGBA, GL_UNSIGNED_SHORT, row.data());
+  }
+}
+
 } // namespace
 
 void UploadedTextures::take_those_of(const Frame& frame) {
@@ -38,9 +60,7 @@ void UploadedTextures::take(const std::shared_ptr<const Texture>& texture) {
   glBindTexture(GL_TEXTURE_2D, name.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   GLint number = 0;
-  for (const TextureLevel& level : texture->levels)
-    glTexImage2D(GL_TEXTURE_2D, number++, GL_SRGB8_ALPHA8, level.width, level.height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, level.texels.data());
+  for (const TextureLevel& level : texture->levels) upload(number++, level);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, number - 1);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
