@@ -201,6 +201,12 @@ void check_looks(const PictureSettings& picture, const Scene& scene) {
     const Body& body = *scene.bodies()[n];
     const bool solid = body.map->map().dimension() == 3;
     check_textures(picture.looks[n], solid);
+    if (look.given("thickness") && (solid || picture.looks[n].as != DrawStyle::Surface))
+      look.fail("thickness",
+                solid ? fmt::format("the body {} is a solid, whose thickness is that of its shape",
+                                    in_quotes(body.name))
+                      : std::string("thickness cannot be seen on a sheet that is not shown as=\"surface\""),
+                "leave it out");
     const char* wrong = solid ? "back" : "inside";
     if (!look.given(wrong)) continue;
     if (solid)

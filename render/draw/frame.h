@@ -71,6 +71,9 @@ struct FrameTexture {
   bool any() const { return front || back; }
 };
 
+// Which sides of a sheet are drawn: the front is that of the normals.
+enum class SheetSides : std::uint8_t { Both, Front, Back };
+
 struct FrameBody {
   std::vector<Corner> corners; // three per triangle
   FrameTexture texture;
@@ -79,6 +82,7 @@ struct FrameBody {
   TornLine torn;
   // a sheet; false: a solid, whose triangles are counter-clockwise seen from outside, with back faces culled
   bool two_sided = true;
+  SheetSides sides = SheetSides::Both; // of a sheet
   // the back of a sheet is drawn a shade darker; false: front and back alike (a Möbius band)
   bool shades_back = true;
   std::optional<std::array<std::uint8_t, 3>> back; // sRGB, of a sheet's back; none: as the front

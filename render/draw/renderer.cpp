@@ -394,7 +394,8 @@ void Renderer::draw_body(const GlProgram& program, const Draw& draw) const {
   }
   if (!body.texture.back) program.set("far_colour", back);
   set_texture(program, body.texture);
-  const bool culled = !body.two_sided && body.filled;
+  const bool culled = (!body.two_sided || body.sides != SheetSides::Both) && body.filled;
+  glCullFace(body.sides == SheetSides::Back ? GL_FRONT : GL_BACK);
   (culled ? glEnable : glDisable)(GL_CULL_FACE);
   if (!body.filled) {
     glEnable(GL_BLEND);

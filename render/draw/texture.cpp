@@ -95,12 +95,6 @@ template <class From> TextureLevel texels_of(const From& from, int width, int he
 
 } // namespace
 
-std::size_t Texture::bytes() const {
-  std::size_t sum = 0;
-  for (const TextureLevel& level : levels) sum += level.texels.size();
-  return sum;
-}
-
 bool is_transparent(const Image& image) {
   if (image.channels < 4) return false;
   for (std::size_t n = 3; n < image.pixels.size(); n += 4)

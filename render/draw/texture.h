@@ -31,7 +31,6 @@ struct Texture {
   bool cut_out = false;             // some of it is transparent: below an alpha of one half there is a hole
 
   double aspect() const { return static_cast<double>(levels.front().width) / levels.front().height; }
-  std::size_t bytes() const;
 };
 
 // Whether it has a pixel that is not opaque.

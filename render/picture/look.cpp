@@ -33,28 +33,31 @@ Fields<LookSettings> texture_fields() {
       fmt::format("a PNG file of at most {0} x {0} pixels, relative to the preset, and in its "
                   "folder or below",
                   largest_texture);
-  return {field(&S::texture,
-                text("texture",
-                     "picture on the body, in place of its colour: " + file +
-                         ". It is spread once over a sheet that the preset makes; on others it is as wide as "
-                         "they are, and lies in the plane of x, y, z that a face is closest to at rest. Where "
-                         "it is transparent by more than a half, a sheet has holes. Not shown where by= shows "
-                         "something")),
-          field(&S::texture_back,
-                text("texture-back", "picture on the back of a sheet, likewise, where it reads from "
-                                     "left to right as well")),
-          field(&S::texture_inside,
-                text("texture-inside", "picture on the faces of a solid that fracture exposes, likewise")),
-          field(&S::wrap,
-                word("wrap", {"repeat", "clamp", "mirror"},
-                     "how a picture goes on beyond its sides; default: clamp where it is spread over a sheet "
-                     "once, else repeat\nrepeat: it begins again\nclamp: its outermost pixels go "
-                     "on\nmirror: it is mirrored")),
-          field(&S::scale,
-                numbers("scale", 2, "", "factors of the width and the height of a picture, about its middle")
-                    .at_least(1e-3)
-                    .at_most(1e3)),
-          field(&S::rotate, number("rotate", "degrees", "turns a picture anticlockwise about its middle"))};
+  return {
+      field(&S::texture,
+            text("texture",
+                 "picture on the body, in place of its colour: " + file +
+                     ". It is spread once over a sheet that the preset makes; on others it is as wide as "
+                     "they are, and lies in the plane of x, y, z that a face is closest to at rest. Where "
+                     "it is transparent by more than a half, a sheet has holes. Not shown where by= shows "
+                     "something")),
+      field(&S::texture_back,
+            text("texture-back", "picture on the back of a sheet, likewise, where it reads from "
+                                 "left to right as well")),
+      field(&S::texture_inside,
+            text("texture-inside", "picture on the faces of a solid that fracture exposes, likewise")),
+      field(&S::wrap,
+            word("wrap", {"repeat", "clamp", "mirror"},
+                 "how a picture goes on beyond its sides; default: clamp where it is spread over a sheet "
+                 "once, else repeat\nrepeat: it begins again\nclamp: its outermost pixels go "
+                 "on\nmirror: it is mirrored")),
+      field(&S::scale,
+            numbers("scale", 2, "", "factors of the width and the height of a picture, about its middle")
+                .at_least(1e-3)
+                .at_most(1e3)),
+      field(&S::rotate, number("rotate", "degrees",
+                               "turns a picture about its middle, anticlockwise as seen from the front; that "
+                               "on the back turns with it"))};
 }
 
 } // namespace
@@ -91,6 +94,13 @@ template <> const Fields<LookSettings>& fields_of() {
             number("apart", "", "exploded: how far cells are moved, relative to their distance from the middle")
                 .above(0)
                 .at_most(10)),
+      field(
+          &S::thickness,
+          number("thickness", "m",
+                 "of a sheet, as it is drawn: it gets a rim, round where it is whole, rough and lighter where "
+                 "it is torn (torn: in that colour), and no lines along edges; default: none")
+              .above(0)
+              .at_most(1)),
       finish()};
   static const Fields<S> fields = plain + texture_fields();
   return fields;

@@ -45,6 +45,7 @@ struct LookSettings {
   double rotate = 0;                 // of pictures, about their middle, anticlockwise [degrees]
   TextureFrame frame = {};           // from the body's shape and place
   std::filesystem::path folder = {}; // to which files of pictures are relative
+  std::optional<double> thickness = {}; // of a sheet [m]: thick_sheet.h; none: it has none
   SettingsSource source = {};
 };
 template <> const Fields<LookSettings>& fields_of();

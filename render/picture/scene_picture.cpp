@@ -2,6 +2,7 @@
 
 #include "render/draw/hud.h"
 #include "render/picture/dart_picture.h"
+#include "render/picture/sheet_rim.h"
 #include "sim/base/archive.h"
 #include "sim/base/units.h"
 #include "sim/base/wall_clock.h"
@@ -22,7 +23,7 @@ static_assert(static_cast<int>(LineKind::Inner) == static_cast<int>(Line::None) 
               static_cast<int>(LineKind::Torn) == static_cast<int>(Line::Torn) &&
               static_cast<int>(LineKind::Crease) == static_cast<int>(Line::Crease));
 
-Corner corner(const Record& x, const Vec3& normal, const Colour& colour, const std::array<LineKind, 3>& side) {
+Corner corner(const Vec3& x, const Vec3& normal, const Colour& colour, const std::array<LineKind, 3>& side) {
   const auto line = [&](std::size_t k) { return static_cast<std::uint8_t>(side[k]); };
   return {
       as_floats(x), as_floats(normal), {colour[0], colour[1], colour[2], 255}, {line(0), line(1), line(2), 0}};
@@ -126,6 +127,7 @@ FrameBody BodyPicture::plain() const {
 
 void BodyPicture::draw(std::vector<FrameBody>& out) {
   if (look_.by != ColourBy::Plain && look_.by != ColourBy::Fragment) colour_vertices();
+  if (look_.thickness) return draw_thick_sheet(out);
   FrameBody body = plain();
   if (look_.as == DrawStyle::Darts)
     draw_darts(*body_, body);
@@ -143,6 +145,7 @@ void BodyPicture::draw(std::vector<FrameBody>& out) {
 }
 
 TornLine BodyPicture::torn_line() const {
+  if (look_.thickness) return {.width = 0};
   if (!look_.torn_edges.value_or(!torn_by_cuts_alone(*body_))) return {.width = 0};
   TornLine line{.width = static_cast<float>(look_.torn_width)};
   for (std::size_t c = 0; look_.torn && c < 3; ++c) {
@@ -158,7 +161,33 @@ Colour BodyPicture::colour_at(const CellCorner& at) const {
   return at.inner ? look_.inside : look_.colour;
 }
 
-void BodyPicture::draw_sheet(FrameBody& out) {
+void BodyPicture::draw_thick_sheet(std::vector<FrameBody>& out) {
+  const double half = *look_.thickness / 2;
+  for (const SheetSides side : {SheetSides::Front, SheetSides::Back}) {
+    FrameBody& body = out.emplace_back(plain());
+    body.sides = side;
+    draw_sheet(body, side == SheetSides::Front ? half : -half);
+  }
+  FrameBody& rim = out.emplace_back(plain());
+  rim.two_sided = false;
+  const auto colour = [this](const Surface::Triangle& triangle, std::size_t k, bool torn) {
+    if (look_.by == ColourBy::Plain) return rim_colour(torn);
+    return colour_at({body_->map->cells(FaceOfVolume).first_dart(triangle.face), triangle.vertex[k], false});
+  };
+  draw_rim({*body_->map, body_->boundary().sheet(), normals_, *look_.thickness, colour}, rim);
+}
+
+// Of what the sheet is made of, where there is a picture on it: that of its back, or white.
+Colour BodyPicture::rim_colour(bool torn) const {
+  const Colour matter = textures_.front ? look_.back.value_or(Colour{255, 255, 255}) : look_.colour;
+  if (!torn) return matter;
+  if (look_.torn) return *look_.torn;
+  Colour lighter = matter;
+  for (std::uint8_t& channel : lighter) channel = static_cast<std::uint8_t>((channel + 255) / 2);
+  return lighter;
+}
+
+void BodyPicture::draw_sheet(FrameBody& out, double raised) {
   const Surface& sheet = body_->boundary().sheet();
   sheet.normals(normals_);
   out.corners.reserve(3 * sheet.triangles());
@@ -170,14 +199,13 @@ void BodyPicture::draw_sheet(FrameBody& out) {
     Colour colour = look_.colour;
     if (look_.by == ColourBy::Fragment)
       colour = fragment_colours_[labels_[body_->map->cells(FaceOfVolume).first_dart(triangle.face).value]];
+    std::array<LineKind, 3> lines = triangle.side;
+    if (look_.thickness) // the rim takes the place of the others
+      for (LineKind& line : lines) line = line == LineKind::Cell ? line : LineKind::Inner;
     for (Slot v : triangle.vertex) {
-      // A vertex normal has an arbitrary sign: within a triangle all are turned to the triangle's side.
-      Vec3 normal = normals_[v];
-      const double side = normal.dot(flat);
-      if (side < 0) normal = -normal;
-      if (side == 0 && normal.isZero(0) && !flat.isZero(0)) normal = flat.normalized();
+      const Vec3 normal = normal_on_side(normals_[v], flat);
       if (by_vertex) colour = vertex_colours_[v];
-      out.corners.push_back(corner(x[v], normal, colour, triangle.side));
+      out.corners.push_back(corner(Vec3(x[v].vec() + raised * normal), normal, colour, lines));
     }
   });
   if (map_) lay_on_sheet(out);

@@ -31,7 +31,8 @@ public:
 
   void observe(std::size_t& fragments_seen); // counts the fragments of all bodies that have a colour
   // Appends the state that was observed to `out`: of a solid with textures its outside and what fracture
-  // exposes, one after the other, of any other body one.
+  // exposes, one after the other, of a sheet with a thickness its front, its back and its rim; of any other
+  // body one.
   void draw(std::vector<FrameBody>& out);
   std::optional<HudLegend> legend() const; // none where colours show no quantity, or nothing is known of it yet
   std::size_t bytes() const;               // of its surface
@@ -40,7 +41,10 @@ public:
 
 private:
   FrameBody plain() const; // without corners
-  void draw_sheet(FrameBody& out);
+  // raised [m]: along the normals, where the sheet has a thickness.
+  void draw_sheet(FrameBody& out, double raised = 0);
+  void draw_thick_sheet(std::vector<FrameBody>& out);
+  Colour rim_colour(bool torn) const;
   void draw_solid(FrameBody& out, Faces which);
   Wrap wrap(const TextureMap& map) const;
   // The places of what was drawn in its pictures.

@@ -3,6 +3,8 @@
 #include "render/files/png.h"
 #include "render/files/png_reader.h"
 
+#include "sim/base/math.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,15 +28,27 @@ template <class F> auto at_attribute(const LookSettings& look, const std::string
   }
 }
 
+// A header that does not come first has no size.
+void check_size(const LookSettings& look, const std::string& attribute, const std::string& file, int width,
+                int height) {
+  if (width < 1 || height < 1)
+    look.source.fail(attribute,
+                     fmt::format("{} does not begin with its size: its header is damaged", in_quotes(file)),
+                     "a texture is a PNG file: save the picture as one, and whole");
+  if (std::max(width, height) > largest_texture)
+    look.source.fail(attribute,
+                     fmt::format("{} is a picture of {} x {} pixels; at most {} x {} are allowed",
+                                 in_quotes(file), width, height, largest_texture, largest_texture),
+                     "make it smaller: a video of 1280 x 720 shows no more of it than 2048 pixels across");
+}
+
 Image image_of(const LookSettings& look, const std::string& attribute, const std::string& file) {
   const std::filesystem::path path = path_of(look, file);
   const PngInfo info = at_attribute(look, attribute, [&] { return png_info(path); });
-  if (std::max(info.width, info.height) > largest_texture)
-    look.source.fail(attribute,
-                     fmt::format("{} is a picture of {} x {} pixels; at most {} x {} are allowed",
-                                 in_quotes(file), info.width, info.height, largest_texture, largest_texture),
-                     "make it smaller: a video of 1280 x 720 shows no more of it than 2048 pixels across");
-  return at_attribute(look, attribute, [&] { return read_png(path); });
+  check_size(look, attribute, file, info.width, info.height);
+  Image image = at_attribute(look, attribute, [&] { return read_png(path); });
+  check_size(look, attribute, file, image.width, image.height); // it may have been written anew meanwhile
+  return image;
 }
 
 void check_holes(const LookSettings& look, const std::string& attribute, const std::string& file,
@@ -53,6 +67,10 @@ void check_sides(const LookSettings& look, bool solid) {
 }
 
 void check_use(const LookSettings& look) {
+  // The sheet crosses the axis of the band: there its place at rest does not say which part of it is meant.
+  const auto& sheet = look.frame.sheet;
+  const bool crosses =
+      sheet && sheet->closure == SheetClosure::Twist && (*sheet->size)[1] * pi > (*sheet->size)[0];
   const bool none = look.texture.empty() && look.texture_back.empty() && look.texture_inside.empty();
   for (const char* attribute : {"wrap", "scale", "rotate"})
     if (none && look.source.given(attribute))
@@ -61,6 +79,9 @@ void check_use(const LookSettings& look) {
   const char* named = !look.texture.empty()        ? "texture"
                       : !look.texture_back.empty() ? "texture-back"
                                                    : "texture-inside";
+  if (!none && crosses)
+    look.source.fail(named, "a picture cannot lie on a twisted band that is this wide for its length",
+                     "make it narrower than its length over pi");
   if (!none && (look.as == DrawStyle::Exploded || look.as == DrawStyle::Darts))
     look.source.fail(named,
                      fmt::format("{} cannot be seen on a body that is shown as=\"{}\"", named,
@@ -93,6 +114,7 @@ std::shared_ptr<const Texture> TextureFiles::texture(const LookSettings& look, c
 }
 
 LookTextures TextureFiles::of(const LookSettings& look) {
+  if (look.by != ColourBy::Plain) return {}; // they are not shown
   return {texture(look, "texture", look.texture), texture(look, "texture-back", look.texture_back),
           texture(look, "texture-inside", look.texture_inside)};
 }

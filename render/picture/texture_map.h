@@ -2,9 +2,9 @@
 //
 // It follows from the rest position of the corner alone, in the frame of the body's shape, which <place> turns,
 // scales and moves. So nothing is stored in the map: what tears, is cut, is changed by a rule or has a vertex
-// moved keeps its picture, and a corner that is kept its bits. Each mapping is affine (but for bands, and
-// corners= that span no parallelogram), so that a corner born at (1 - t) a + t b lies there in the picture as
-// well.
+// moved keeps its picture, and a corner that is kept has the same place, bit for bit. Each mapping is affine
+// (but for bands, and corners= that span no parallelogram), so that a corner born at (1 - t) a + t b lies there
+// in the picture as well.
 //
 //   a generated sheet  once over the sheet: u along its x, v along its y, from 0 to 1. Of a bilinear patch
 //                      the (u, v) whose point is nearest; of a band u by the angle around it, and v across

@@ -72,7 +72,7 @@ std::vector<FileOfPreset> files_of(const PresetNode& scene) {
     for (const PresetNode* mesh : body->all("mesh")) files.push_back(file_of(*mesh));
     for (const PresetNode* look : body->all("look"))
       for (const char* attribute : {"texture", "texture-back", "texture-inside"})
-        if (look->find(attribute)) files.push_back({look, attribute, folder});
+        if (look->find(attribute) && !look->text(attribute).empty()) files.push_back({look, attribute, folder});
   }
   return files;
 }

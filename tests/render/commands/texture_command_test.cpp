@@ -49,10 +49,11 @@ TEST(Texture, that_is_no_picture_is_refused_at_the_attribute) {
       {"", "the file is empty"},
       {"no picture at all", "this is not a PNG file"},
       {"\xff\xd8\xff\xe0 and so on", "this is a JPEG, not a PNG file"},
-      {good.substr(0, 20), "the PNG cannot be read"},
+      {good.substr(0, 20), "its header is damaged"},
       {good.substr(0, good.size() - 20), "the PNG cannot be read"},
       {damaged(good.size() - 20), "the PNG cannot be read"},
       {damaged(18), "the PNG cannot be read"},
+      {good.substr(0, 8) + test::png_chunk("tEXt", "first") + good.substr(8), "its header is damaged"},
   };
   place.write("s.xml", preset(R"(<look texture="p.png"/>)"));
   for (const auto& [bytes, words] : cases) {
