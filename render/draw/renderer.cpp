@@ -1,12 +1,12 @@
 #include "render/draw/renderer.h"
 
 #include "render/draw/packing.h"
+#include "render/draw/picture_image.h"
 #include "sim/base/check.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace rend {
@@ -28,23 +28,6 @@ Eigen::Matrix4d to_texture(const Eigen::Matrix4d& clip) {
   half.topRightCorner<3, 1>().setConstant(0.5);
   half(3, 3) = 1;
   return half * clip;
-}
-
-// RGBA to RGB. Copies four bytes at once, of which the last is overwritten by the next pixel: three times as
-// fast.
-void drop_alpha(const std::uint8_t* from, std::uint8_t* to, int pixels) {
-  for (int x = 0; x + 1 < pixels; ++x) std::memcpy(to + std::ptrdiff_t{3} * x, from + std::ptrdiff_t{4} * x, 4);
-  std::memcpy(to + std::ptrdiff_t{3} * (pixels - 1), from + std::ptrdiff_t{4} * (pixels - 1), 3);
-}
-
-// From premultiplied to straight alpha, as PNG has it.
-void unmultiply(const std::uint8_t* from, std::uint8_t* to, int pixels) {
-  for (int x = 0; x < pixels; ++x, from += 4, to += 4) {
-    const int alpha = from[3];
-    for (int c = 0; c < 3; ++c)
-      to[c] = alpha == 0 ? 0 : static_cast<std::uint8_t>(std::min(255, (from[c] * 255 + alpha / 2) / alpha));
-    to[3] = from[3];
-  }
 }
 
 } // namespace
@@ -201,7 +184,7 @@ void Renderer::draw_plain(const Frame& frame) {
   if (frame.floor && !frame.transparent)
     floor_shadow_.build(
         frame.floor->z, view.distance, lights.key, lit, shadow_casters(), [this] { draw_all(); },
-        holes_ ? std::optional(UploadedTextures::front_unit) : std::nullopt);
+        textures_.holes() ? std::optional(UploadedTextures::front_unit) : std::nullopt);
   glDisable(GL_DEPTH_CLAMP);
 
   blocks_.clear();
@@ -237,23 +220,9 @@ void Renderer::upload(const Frame& frame) {
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity_ * sizeof(Corner)), nullptr, GL_STREAM_DRAW);
   }
   glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(packed_.size() * sizeof(Corner)), packed_.data());
-  upload_texture_points(frame);
-}
-
-// Without pictures none of it is there.
-void Renderer::upload_texture_points(const Frame& frame) {
-  constexpr GLuint attribute = 4;
-  textures_.take_those_of(frame);
-  holes_ = std::ranges::any_of(
-      frame.bodies, [](const FrameBody& body) { return body.texture.front && body.texture.front->cut_out; });
+  if (!points_.empty()) points_.resize(packed_.size());
   glBindVertexArray(corners_array_.name());
-  if (points_.empty()) return glDisableVertexAttribArray(attribute);
-  points_.resize(packed_.size());
-  glBindBuffer(GL_ARRAY_BUFFER, points_buffer_.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points_.size() * sizeof(TexturePoint)), points_.data(),
-               GL_STREAM_DRAW);
-  glVertexAttribPointer(attribute, 2, GL_FLOAT, GL_FALSE, sizeof(TexturePoint), nullptr);
-  glEnableVertexAttribArray(attribute);
+  textures_.take_those_of(frame, points_);
 }
 
 std::span<const Corner> Renderer::corners_of(const Draw& draw) const {
@@ -271,7 +240,7 @@ void Renderer::draw_all() const {
   glBindVertexArray(corners_array_.name());
   for (const Draw& draw : draws_) {
     if (!draw.body->filled) continue; // wire frames cast no shadow
-    if (holes_) textures_.bind_holes(draw.body->texture);
+    if (textures_.holes()) textures_.bind_holes(draw.body->texture);
     glDrawArrays(GL_TRIANGLES, draw.first, draw.count);
   }
 }
@@ -286,11 +255,12 @@ void Renderer::draw_shadow_map(const LightView& light) {
   glScissor(1, 1, shadow_side - 2, shadow_side - 2);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(2, 2);
-  if (holes_ && !cut_out_depth_) cut_out_depth_.emplace("depth.vert", "depth.frag", "#define CUT_OUT\n");
-  const GlProgram& depth = holes_ ? *cut_out_depth_ : depth_;
+  if (textures_.holes() && !cut_out_depth_)
+    cut_out_depth_.emplace("depth.vert", "depth.frag", "#define CUT_OUT\n");
+  const GlProgram& depth = textures_.holes() ? *cut_out_depth_ : depth_;
   depth.use();
   depth.set("world_to_clip", light.world_to_clip);
-  if (holes_) depth.set("front", UploadedTextures::front_unit);
+  if (textures_.holes()) depth.set("front", UploadedTextures::front_unit);
   draw_all();
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_SCISSOR_TEST);
@@ -419,12 +389,7 @@ Image Renderer::read() {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
   check_gl("Stage::read");
-  Image image(width_, height_, transparent_ ? 4 : 3);
-  for (int y = 0; y < height_; ++y) {
-    const std::uint8_t* from = pixels_.data() + static_cast<std::size_t>(height_ - 1 - y) * width_ * 4;
-    (transparent_ ? unmultiply : drop_alpha)(from, image.row(y), width_);
-  }
-  return image;
+  return picture_image(pixels_, width_, height_, transparent_);
 }
 
 } // namespace rend

@@ -77,7 +77,6 @@ private:
   void make_shadow_map();
   void make_vertex_array();
   void upload(const Frame& frame);
-  void upload_texture_points(const Frame& frame);
   std::span<const Corner> corners_of(const Draw& draw) const;
   std::vector<std::span<const Corner>> shadow_casters() const; // bodies that cast shadows
   void draw_all() const; // of these bodies; where some have holes, for a program that leaves holes out
@@ -102,7 +101,6 @@ private:
   std::optional<GlProgram> cut_out_depth_; // created for the first frame in which something has holes
   std::map<BodyKind, GlProgram> body_programs_;
   UploadedTextures textures_;
-  bool holes_ = false; // in something of the current frame
   FloorShadow floor_shadow_;
   Composite composite_;
   CoverageGrid blocks_;                // of the picture that bodies may cover
@@ -114,7 +112,7 @@ private:
   GlTexture target_colour_, target_depth_, shadow_map_;
   int target_width_ = 0, target_height_ = 0; // [texels]
   GlVertexArray corners_array_;
-  GlBuffer corners_buffer_, points_buffer_;
+  GlBuffer corners_buffer_;
   std::size_t capacity_ = 0; // [corners], of that buffer
 
   std::vector<Corner> packed_;       // the frame's corners, ready for upload

@@ -36,21 +36,31 @@ void upload(GLint number, const TextureLevel& level) {
 
 } // namespace
 
-void UploadedTextures::take_those_of(const Frame& frame) {
+void UploadedTextures::take_those_of(const Frame& frame, std::span<const TexturePoint> places) {
   std::set<std::shared_ptr<const Texture>> used;
   for (const FrameBody& body : frame.bodies)
     for (const auto& texture : {body.texture.front, body.texture.back})
       if (texture) used.insert(texture);
-  const bool holes = std::ranges::any_of(used, [](const auto& texture) { return texture->cut_out; });
-  if (holes && !opaque_)
+  holes_ = std::ranges::any_of(used, [](const auto& texture) { return texture->cut_out; });
+  if (holes_ && !opaque_)
     opaque_ = make_texture([] {
       Image white(1, 1);
       white.pixels = {255, 255, 255};
       return white;
     }());
-  if (holes) used.insert(opaque_);
+  if (holes_) used.insert(opaque_);
   std::erase_if(textures_, [&](const auto& each) { return !used.contains(each.first); });
   for (const auto& texture : used) take(texture);
+  take_places(places);
+}
+
+void UploadedTextures::take_places(std::span<const TexturePoint> places) {
+  constexpr GLuint attribute = 4; // in the shaders
+  if (places.empty()) return glDisableVertexAttribArray(attribute);
+  glBindBuffer(GL_ARRAY_BUFFER, places_.name());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(places.size_bytes()), places.data(), GL_STREAM_DRAW);
+  glVertexAttribPointer(attribute, 2, GL_FLOAT, GL_FALSE, sizeof(TexturePoint), nullptr);
+  glEnableVertexAttribArray(attribute);
 }
 
 void UploadedTextures::take(const std::shared_ptr<const Texture>& texture) {

@@ -15,6 +15,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 
 namespace rend {
 
@@ -23,8 +24,10 @@ public:
   // Texture units: 0 to 2 are those of shadows.
   static constexpr int front_unit = 3, back_unit = 4;
 
+  // places: one per corner of the vertex array that is bound; empty: nothing has a picture.
   // UserError (OutOfBudget) if there is not enough memory.
-  void take_those_of(const Frame& frame);
+  void take_those_of(const Frame& frame, std::span<const TexturePoint> places);
+  bool holes() const { return holes_; } // in something of that frame
 
   // To be sampled by the program in use, as `front` and `back`. CHECK: it was taken.
   void bind(const FrameTexture& texture) const;
@@ -32,10 +35,13 @@ public:
   void bind_holes(const FrameTexture& texture) const;
 
 private:
+  void take_places(std::span<const TexturePoint> places);
   void take(const std::shared_ptr<const Texture>& texture);
   void bind(int unit, const Texture& texture, Wrap wrap) const;
 
   std::map<std::shared_ptr<const Texture>, GlTexture> textures_;
+  GlBuffer places_;
+  bool holes_ = false;
   std::shared_ptr<const Texture> opaque_; // one white pixel; null: not needed yet
 };
 

@@ -42,10 +42,10 @@ struct LookSettings {
   std::string texture = {}, texture_back = {}, texture_inside = {};
   std::optional<Wrap> wrap = {};     // none: clamped where a picture is spread over a sheet once, else repeated
   std::array<double, 2> scale{1, 1}; // of pictures: how much wider and higher than by default
-  double rotate = 0;                 // of pictures, about their middle, anticlockwise [degrees]
+  double rotate = 0;                 // of pictures, about their middle, anticlockwise from the front [degrees]
   TextureFrame frame = {};           // from the body's shape and place
   std::filesystem::path folder = {}; // to which files of pictures are relative
-  std::optional<double> thickness = {}; // of a sheet [m]: thick_sheet.h; none: it has none
+  std::optional<double> thickness = {}; // of a sheet as it is drawn [m]: sheet_rim.h; none: it has none
   SettingsSource source = {};
 };
 template <> const Fields<LookSettings>& fields_of();

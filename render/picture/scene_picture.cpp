@@ -134,12 +134,10 @@ void BodyPicture::draw(std::vector<FrameBody>& out) {
   else if (look_.as == DrawStyle::Exploded)
     draw_exploded(
         *body_, look_.apart, [this](const CellCorner& at) { return colour_at(at); }, body);
-  else if (!solid_)
-    draw_sheet(body);
-  else if (!map_ && !inside_map_)
-    draw_solid(body, Faces::All);
+  else if (solid_)
+    draw_solid(body, map_ || inside_map_ ? Faces::Outer : Faces::All);
   else
-    draw_solid(body, Faces::Outer);
+    draw_thin_sheet(body);
   out.push_back(std::move(body));
   if (solid_ && (map_ || inside_map_)) draw_solid(out.emplace_back(plain()), Faces::Exposed);
 }
@@ -161,20 +159,30 @@ Colour BodyPicture::colour_at(const CellCorner& at) const {
   return at.inner ? look_.inside : look_.colour;
 }
 
+void BodyPicture::draw_thin_sheet(FrameBody& out) {
+  body_->boundary().sheet().normals(normals_);
+  draw_sheet(out, 0);
+  if (map_) lay_on_sheet(out);
+}
+
 void BodyPicture::draw_thick_sheet(std::vector<FrameBody>& out) {
+  body_->boundary().sheet().normals(normals_);
   const double half = *look_.thickness / 2;
-  for (const SheetSides side : {SheetSides::Front, SheetSides::Back}) {
-    FrameBody& body = out.emplace_back(plain());
-    body.sides = side;
-    draw_sheet(body, side == SheetSides::Front ? half : -half);
-  }
-  FrameBody& rim = out.emplace_back(plain());
+  FrameBody front = plain(), back = plain(), rim = plain();
+  draw_sheet(front, half);
+  draw_sheet(back, -half);
+  if (map_) lay_on_sheet(front);
+  back.texture = front.texture;
+  back.texture_points = front.texture_points;
+  front.sides = SheetSides::Front;
+  back.sides = SheetSides::Back;
   rim.two_sided = false;
   const auto colour = [this](const Surface::Triangle& triangle, std::size_t k, bool torn) {
     if (look_.by == ColourBy::Plain) return rim_colour(torn);
     return colour_at({body_->map->cells(FaceOfVolume).first_dart(triangle.face), triangle.vertex[k], false});
   };
   draw_rim({*body_->map, body_->boundary().sheet(), normals_, *look_.thickness, colour}, rim);
+  for (FrameBody* body : {&front, &back, &rim}) out.push_back(std::move(*body));
 }
 
 // Of what the sheet is made of, where there is a picture on it: that of its back, or white.
@@ -189,7 +197,6 @@ Colour BodyPicture::rim_colour(bool torn) const {
 
 void BodyPicture::draw_sheet(FrameBody& out, double raised) {
   const Surface& sheet = body_->boundary().sheet();
-  sheet.normals(normals_);
   out.corners.reserve(3 * sheet.triangles());
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
@@ -208,7 +215,6 @@ void BodyPicture::draw_sheet(FrameBody& out, double raised) {
       out.corners.push_back(corner(Vec3(x[v].vec() + raised * normal), normal, colour, lines));
     }
   });
-  if (map_) lay_on_sheet(out);
 }
 
 void BodyPicture::lay_on_sheet(FrameBody& out) const {
@@ -234,8 +240,10 @@ Wrap BodyPicture::wrap(const TextureMap& map) const {
 
 void BodyPicture::draw_solid(FrameBody& out, Faces which) {
   SolidSurface& surface = body_->boundary().solid();
-  if (which != Faces::Exposed) surface.normals(normals_); // they are drawn after the others
-  if (which != Faces::Exposed) out.corners.reserve(3 * surface.triangles());
+  if (which != Faces::Exposed) { // those are drawn after the others
+    surface.normals(normals_);
+    out.corners.reserve(3 * surface.triangles());
+  }
   const bool by_vertex = !vertex_colours_.empty();
   const auto& x = body_->map->position().values();
   surface.for_each_triangle([&](const SolidSurface::Triangle& triangle) {
@@ -251,7 +259,7 @@ void BodyPicture::draw_solid(FrameBody& out, Faces which) {
   if (which != Faces::All) lay_on_solid(out, which);
 }
 
-// Face after face as draw_solid() goes through their triangles; all triangles of one lie in one plane.
+// Face after face as draw_solid() goes through their triangles; those of one face are projected on one plane.
 void BodyPicture::lay_on_solid(FrameBody& out, Faces which) const {
   const std::optional<TextureMap>& map = which == Faces::Exposed ? inside_map_ : map_;
   if (!map) return;

@@ -40,9 +40,9 @@ public:
   void store(Archive& archive);                                         // scale and colours so far; checkpoint
 
 private:
-  FrameBody plain() const; // without corners
-  // raised [m]: along the normals, where the sheet has a thickness.
-  void draw_sheet(FrameBody& out, double raised = 0);
+  FrameBody plain() const;                        // without corners
+  void draw_sheet(FrameBody& out, double raised); // raised [m]: along the normals
+  void draw_thin_sheet(FrameBody& out);
   void draw_thick_sheet(std::vector<FrameBody>& out);
   Colour rim_colour(bool torn) const;
   void draw_solid(FrameBody& out, Faces which);

@@ -98,7 +98,9 @@ void check_textures(const LookSettings& look, bool solid) {
   if (solid) {
     check_holes(look, "texture", look.texture, "and a solid has nothing behind its surface", opaque);
   } else if (!look.texture.empty()) {
-    image_of(look, "texture", look.texture);
+    if (is_transparent(image_of(look, "texture", look.texture)) && look.thickness)
+      look.source.fail("thickness", "the holes of a picture have no rim",
+                       "leave the thickness out, or save the picture without transparency");
   }
   check_holes(look, "texture-back", look.texture_back, "but holes of a sheet are those of its texture", opaque);
   check_holes(look, "texture-inside", look.texture_inside, "and a solid has nothing behind its surface",

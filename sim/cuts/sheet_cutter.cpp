@@ -8,6 +8,7 @@
 //
 // Inside the matter both halves of the plane are cut. At a vertex on the border, the tip of a crack among them,
 // the half that leads furthest away from the border's two edges: so a crack does not turn back along its wake.
+// Where the place says what is ahead, the half that leads closest to that.
 //
 // A crack goes on from its tip: a vertex at most two edges away from where one ends is not cut itself. So no
 // bridges are left ahead of a crack, and its flanks do not fray.
@@ -21,7 +22,7 @@
 namespace rend {
 namespace {
 
-constexpr double most_along_rim = 0.866; // cos 30°: a cut this close to the border runs along it
+constexpr double most_along_border = 0.866; // cos 30°: a cut this close to the border runs along it
 
 // One half of the plane.
 struct Half {
@@ -52,7 +53,7 @@ public:
       return most;
     };
     const Half best = *std::ranges::min_element(all, {}, along);
-    return along(best) < most_along_rim ? std::vector{best} : std::vector<Half>{};
+    return along(best) < most_along_border ? std::vector{best} : std::vector<Half>{};
   }
 
 private:

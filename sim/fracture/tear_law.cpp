@@ -2,9 +2,9 @@
 
 #include "sim/base/archive.h"
 #include "sim/base/stop_request.h"
+#include "sim/cuts/touched_darts.h"
 #include "sim/fracture/counted_change.h"
 #include "sim/fracture/split_vertex.h"
-#include "sim/cuts/touched_darts.h"
 #include "sim/topology/index_set.h"
 #include "sim/topology/walk.h"
 

@@ -145,6 +145,7 @@ TEST(Texture, is_refused_where_it_cannot_be_seen) {
   refuse(R"(<look texture="clear.png"/>)", "a solid has nothing behind its surface", bar);
   refuse(R"(<look texture-inside="clear.png"/>)", "a solid has nothing behind its surface", bar);
   refuse(R"(<look texture-back="clear.png"/>)", "holes of a sheet are those of its texture");
+  refuse(R"(<look thickness="0.1" texture="clear.png"/>)", "the holes of a picture have no rim");
   place.write("s.xml", preset(R"(<look texture="clear.png" texture-back="p.png" as="wires"/>)"));
   EXPECT_EQ(place.rend("render s.xml -q -o out").code, 0);
 }
