@@ -42,7 +42,7 @@ Body& add_body(SceneDefinition& scene, const BodySettings& settings) {
   return *scene.bodies.back();
 }
 
-SceneDefinition read_scene(const PresetNode& preset) {
+SceneDefinition read_scene(const PresetNode& preset, const TextureChoice& is_textured) {
   const double start = wall_clock();
   SceneDefinition scene;
   scene.name = preset.text("name");
@@ -51,6 +51,8 @@ SceneDefinition read_scene(const PresetNode& preset) {
   for (const PresetNode* node : preset.all("body")) {
     BodySettings body = read_body(*node);
     body.rules = rules;
+    if (auto* mesh = std::get_if<MeshSettings>(&body.shape))
+      mesh->texture_coordinates = is_textured && is_textured(*node);
     add_body(scene, body);
   }
   scene.time = read_settings<TimeSettings>(*preset.child("time"));

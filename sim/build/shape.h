@@ -34,7 +34,8 @@ struct Placement {
 template <> const Fields<Placement>& fields_of();
 
 struct MeshSettings {
-  std::string file = {}; // relative to the preset; of settings that a program made, to where it runs
+  std::string file = {};            // relative to the preset; of settings that a program made, to where it runs
+  bool texture_coordinates = false; // keep those of the file, for pictures and exports
   SettingsSource source = {};
 };
 template <> const Fields<MeshSettings>& fields_of();

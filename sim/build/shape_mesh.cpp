@@ -39,6 +39,9 @@ void make_map(Body& body, const MeshSettings& shape, const Placement& place) {
                                                   : error.hint);
     }
   }();
+  if (PolygonMesh* polygons = std::get_if<PolygonMesh>(&file.mesh); polygons && !shape.texture_coordinates)
+    polygons->texture.clear();
+  if (shape.texture_coordinates && !file.texture_note.empty()) file.notes.push_back(file.texture_note);
   place.apply(file.points());
   order_for_locality(file);
   MeshBody mesh = sew(std::move(file));

@@ -63,6 +63,7 @@ struct Scratch {
   IndexSet gone;    // removed darts; those that were used again belong to new cells
   IndexSet seen;    // darts
   std::vector<Dart> region, unit, old;
+  std::vector<Dart> element; // of corners: the darts, before the edit, of that in which a new one lies
   void clear() {
     pool_of.clear();
     gone.clear();
@@ -102,7 +103,9 @@ public:
   Builder(Heirs& heirs, const EditRecord& record)
       : my_(heirs), record_(record), map_(record.map.map()), cells_(record.map.cells(heirs.orbit_)),
         entries_(heirs.by_ == Inheritance::Share && !heirs.by_element() ? std::vector{heirs.orbit_}
-                                                                        : entries_for(heirs.unit_)) {}
+                                                                        : entries_for(heirs.unit_)),
+        corners_(heirs.by_ == Inheritance::Mean &&
+                 united(heirs.orbit_, EdgeOfFace) == element_orbit(map_.dimension()) && !heirs.orbit_.has(0)) {}
 
   void run() {
     scratch.clear();
@@ -124,6 +127,8 @@ private:
   void add_child();
   void add_own_parents(Child& child);
   void add_recorded_parents(Child& child);
+  void find_element();
+  Dart corner_at(Dart parent) const;
   void pass_on_what_is_lost();
   bool add_lost_parents(const Child& child, std::size_t claimed);
   void add_share(const Child& child, std::uint32_t pool, double weight);
@@ -135,6 +140,7 @@ private:
   const GMap& map_;
   const CellIndex& cells_;           // as before the edit
   const std::vector<Orbit> entries_; // where parents are looked up
+  const bool corners_;               // the orbits are corners of elements, which do not share
 };
 
 void Heirs::Builder::visit(Orbit region, Dart d) {
@@ -179,9 +185,30 @@ void Heirs::Builder::add_recorded_parents(Child& child) {
     for (const Dart d : scratch.unit) {
       const auto parents = record_.lineage.parents(d, orbit);
       if (!parents) continue;
-      for (const Parent& parent : *parents) add_share(child, pool_at(parent.dart), parent.weight);
+      const bool in_element = corners_ && orbit != my_.orbit_;
+      if (in_element) find_element();
+      for (const Parent& parent : *parents)
+        add_share(child, pool_at(in_element ? corner_at(parent.dart) : parent.dart), parent.weight);
       return;
     }
+}
+
+// The element in which the cell that is born lies; without darts if nothing was recorded.
+void Heirs::Builder::find_element() {
+  scratch.element.clear();
+  const Orbit orbit = element_orbit(map_.dimension());
+  for (const Dart d : scratch.unit)
+    if (const auto parents = record_.lineage.parents(d, orbit); parents && !parents->empty())
+      return record_.old_links.collect(orbit, parents->front().dart, scratch.element);
+}
+
+// A dart of its corner at the vertex of a parent; the parent itself, where it has none there.
+Dart Heirs::Builder::corner_at(Dart parent) const {
+  if (std::ranges::binary_search(scratch.element, parent)) return parent;
+  const CellIndex& vertices = record_.map.cells(Vertex);
+  const auto found =
+      std::ranges::find(scratch.element, vertices.slot(parent), [&](Dart d) { return vertices.slot(d); });
+  return found == scratch.element.end() ? parent : *found;
 }
 
 // Elements of which no dart is left, and that nobody has claimed, give to those heirs whose new darts descend

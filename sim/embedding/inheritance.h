@@ -12,7 +12,8 @@
 //   2. Otherwise what was recorded for its smallest dart that has an entry for its own orbit.
 //   3. Otherwise the same for an orbit that contains its own and belongs to a cell of the same dimension: a
 //      side of a face (EdgeOfFace) takes an entry for Edge, a corner one for Vertex. It then descends from the
-//      orbit of its own kind at the parent dart. (Not where cells share; see below.)
+//      orbit of its own kind at the parent dart; a corner of an element, from that at the parent's vertex in
+//      the element in which it lies, if it has one there. (Not where cells share; see below.)
 //   4. Otherwise it has none, and is born.
 //
 // Inheritance::Share keeps sums: the old value of each parent is divided among its heirs. If the support is the
@@ -35,8 +36,7 @@
 //
 //   δ = Δp / Σ m_j       m_j: the whole mass of vertex j,
 //
-// of all shifts with Σ m_j δ_j = Δp the one with the least Σ m_j δ_j². Positions stay. Angular momentum and
-// energy are not restored.
+// of all shifts with Σ m_j δ_j = Δp that of least Σ m_j δ_j². Angular momentum and energy are not restored.
 #pragma once
 
 #include "sim/base/record.h"

@@ -119,8 +119,13 @@ std::vector<std::uint32_t> order_for_locality(const CellMesh& mesh) {
 }
 
 PolygonMesh reordered(const PolygonMesh& mesh, const std::vector<std::uint32_t>& order) {
-  PolygonMesh to{mesh.points, {}, {0}, mesh.names};
-  for (const std::uint32_t n : order) take_corners(mesh, n, to);
+  PolygonMesh to{mesh.points, {}, {0}, mesh.names, {}};
+  for (const std::uint32_t n : order) {
+    take_corners(mesh, n, to);
+    if (!mesh.texture.empty())
+      to.texture.insert(to.texture.end(), mesh.texture.begin() + mesh.first[n],
+                        mesh.texture.begin() + mesh.first[n + 1]);
+  }
   return to;
 }
 

@@ -19,7 +19,7 @@ constexpr std::size_t small_mesh_points = 8192; // their state fits into a cache
 std::vector<std::uint32_t> order_for_locality(const PolygonMesh& mesh);
 std::vector<std::uint32_t> order_for_locality(const CellMesh& mesh);
 
-// The same elements in that order.
+// The same elements in that order, and their texture coordinates.
 PolygonMesh reordered(const PolygonMesh& mesh, const std::vector<std::uint32_t>& order);
 CellMesh reordered(const CellMesh& mesh,
                    const std::vector<std::uint32_t>& order); // messages keep the names of cells

@@ -1,8 +1,9 @@
-// Wavefront's .obj: points and polygons, and the groups and objects that polygons belong to; the rest is
-// ignored.
+// Wavefront's .obj: points and polygons, texture coordinates of their corners, and the groups and objects that
+// polygons belong to; the rest is ignored.
 //
 // The parser is tinyobjloader. It accepts malformed numbers as 0 and any index, and reports no line numbers; so
-// the statements that matter here are checked first: v, f, g, o.
+// the statements that matter here are checked first: v, vt, f, g, o. Texture coordinates are of use if all
+// corners have them; those of a file where only some have are left out, and a note is there for who asks.
 #include "sim/base/wording.h"
 #include "sim/mesh/reader.h"
 #include "sim/mesh/scanner.h"
@@ -19,23 +20,49 @@ namespace {
 
 constexpr std::size_t most_corners = 255; // of a polygon, in tinyobjloader
 
-// A corner such as 3, -1, 3/1, 3//2, 3/1/2, of which only the first number is used.
-void check_corner(const Scanner& in, std::string_view corner, std::size_t points) {
-  std::int64_t value = 0;
-  const auto [stop, error] = std::from_chars(corner.data(), corner.data() + corner.size(), value);
-  const std::string_view rest = corner.substr(static_cast<std::size_t>(stop - corner.data()));
-  if (error != std::errc() || (!rest.empty() && rest[0] != '/') ||
-      rest.find_first_not_of("/-0123456789") != std::string_view::npos)
-    in.fail(fmt::format("{} is no corner of a polygon", in_quotes(corner)), "f 1 2 3, or f 1/1/1 2/2/2 3/3/3");
-  const auto count = static_cast<std::int64_t>(points);
-  if (value == 0 || value > count || value < -count)
-    in.fail(fmt::format("a polygon has a corner {}, and there are {} points so far, from 1", value, points));
+// What the statements so far have made.
+struct Content {
+  std::string statements; // the relevant ones, all of them well formed
+  std::size_t points = 0;
+  std::vector<TexturePlace> places; // of vt
+  std::size_t placed = 0, bare = 0; // corners with texture coordinates, and without
+};
+
+bool is_among(std::int64_t index, std::size_t size) {
+  const auto count = static_cast<std::int64_t>(size);
+  return index != 0 && index <= count && index >= -count;
 }
 
-void check_polygon(Scanner& in, std::size_t points, MeshFile& file) {
+// A corner such as 3, -1, 3/1, 3//2, 3/1/2, of which the last number is not used.
+void check_corner(const Scanner& in, std::string_view corner, Content& content) {
+  const auto read = [&corner](std::int64_t& value) {
+    const auto [stop, error] = std::from_chars(corner.data(), corner.data() + corner.size(), value);
+    corner.remove_prefix(static_cast<std::size_t>(stop - corner.data()));
+    return error == std::errc() && (corner.empty() || corner[0] == '/');
+  };
+  const std::string_view whole = corner;
+  std::int64_t point = 0, place = 0;
+  bool well_formed = read(point) && corner.find_first_not_of("/-0123456789") == std::string_view::npos;
+  const bool placed = corner.size() > 1 && corner[1] != '/';
+  if (placed && well_formed) {
+    corner.remove_prefix(1);
+    well_formed = read(place);
+  }
+  if (!well_formed)
+    in.fail(fmt::format("{} is no corner of a polygon", in_quotes(whole)), "f 1 2 3, or f 1/1/1 2/2/2 3/3/3");
+  if (!is_among(point, content.points))
+    in.fail(fmt::format("a polygon has a corner {}, and there are {} points so far, from 1", point,
+                        content.points));
+  if (placed && !is_among(place, content.places.size()))
+    in.fail(fmt::format("a corner has the texture coordinates {}, and there are {} so far, from 1", place,
+                        content.places.size()));
+  ++(placed ? content.placed : content.bare);
+}
+
+void check_polygon(Scanner& in, Content& content, MeshFile& file) {
   const Origin origin{in.last(), file.origins.size() + 1};
   std::size_t corners = 0;
-  for (; !in.line_ends(); ++corners) check_corner(in, in.token("a corner"), points);
+  for (; !in.line_ends(); ++corners) check_corner(in, in.token("a corner"), content);
   if (corners < 3)
     in.source().fail(origin.offset, fmt::format("a polygon of {} corners", corners), "it has three or more");
   if (corners > most_corners)
@@ -44,12 +71,21 @@ void check_polygon(Scanner& in, std::size_t points, MeshFile& file) {
   file.origins.push_back(origin);
 }
 
-// The relevant statements, all of them well formed. tinyobjloader gets no others: for tags (t) it allocates
-// what they announce, up to a hundred kilobytes per line.
-std::string checked(MeshFile& file) {
+// Texture coordinates: u, and v, which is 0 where it is not given. tinyobjloader rounds numbers: these are kept
+// as they are read here.
+TexturePlace texture_place(Scanner& in) {
+  TexturePlace place{0, 0};
+  if (in.line_ends()) in.fail("texture coordinates without numbers", "vt 0.5 0.25");
+  place.u = in.real("a texture coordinate");
+  if (!in.line_ends()) place.v = in.real("a texture coordinate");
+  return place;
+}
+
+// tinyobjloader gets no other statements: for tags (t) it allocates what they announce, up to a hundred
+// kilobytes per line.
+Content checked(MeshFile& file) {
   Scanner in(file.source);
-  std::string kept;
-  std::size_t points = 0;
+  Content content;
   while (!in.at_end()) {
     const std::string_view head = in.token("a statement");
     const std::size_t begin = in.last();
@@ -58,18 +94,25 @@ std::string checked(MeshFile& file) {
         if (in.line_ends()) in.fail("a point of fewer than three coordinates");
         in.real("the coordinate of a point");
       }
-      ++points;
+      ++content.points;
+    } else if (head == "vt") {
+      content.places.push_back(texture_place(in));
     } else if (head == "f") {
-      check_polygon(in, points, file);
+      check_polygon(in, content, file);
     } else if (head.ends_with('\\')) {
       in.fail("lines that go on in the next one are not read");
     }
     in.rest_of_line();
-    if (head == "v" || head == "f" || head == "g" || head == "o")
-      kept.append(file.source.bytes().substr(begin, in.offset() - begin));
+    if (head == "v" || head == "vt" || head == "f" || head == "g" || head == "o")
+      content.statements.append(file.source.bytes().substr(begin, in.offset() - begin));
   }
   if (file.origins.empty()) file.source.fail("holds no polygons");
-  return kept;
+  if (content.placed > 0 && content.bare > 0)
+    file.texture_note =
+        fmt::format("{}: {} corners of polygons have texture coordinates (vt), and {} have none: they are not "
+                    "used, and the picture lies as on a mesh without them",
+                    file.source.name(), content.placed, content.bare);
+  return content;
 }
 
 // A shape's name is what g or o gave: "g left arm" puts polygons into two groups. `members`: of all groups so
@@ -90,7 +133,8 @@ void add_to_groups(MeshFile& file, const std::string& names, std::span<const std
 }
 
 void read_obj(MeshFile& file) {
-  std::istringstream text(checked(file));
+  const Content content = checked(file);
+  std::istringstream text(content.statements);
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
@@ -106,8 +150,11 @@ void read_obj(MeshFile& file) {
   }
   for (const tinyobj::shape_t& shape : shapes) {
     const std::size_t begin = mesh.corners.size();
-    for (const tinyobj::index_t& index : shape.mesh.indices)
+    for (const tinyobj::index_t& index : shape.mesh.indices) {
       mesh.corners.push_back(static_cast<std::uint32_t>(index.vertex_index));
+      if (content.bare == 0)
+        mesh.texture.push_back(content.places.at(static_cast<std::size_t>(index.texcoord_index)));
+    }
     for (const unsigned char corners : shape.mesh.num_face_vertices)
       mesh.first.push_back(mesh.first.back() + corners);
     add_to_groups(file, shape.name, std::span(mesh.corners).subspan(begin), members);
@@ -120,7 +167,7 @@ void read_obj(MeshFile& file) {
 } // namespace
 
 MeshReader obj_reader() {
-  return {"Wavefront", {".obj"}, "points and polygons; g and o name groups", read_obj};
+  return {"Wavefront", {".obj"}, "points, polygons and texture coordinates; g and o name groups", read_obj};
 }
 
 } // namespace rend

@@ -1,5 +1,6 @@
 #include "sim/mesh/polygons.h"
 
+#include "sim/base/check.h"
 #include "sim/mesh/fault.h"
 
 #include <fmt/format.h>
@@ -115,6 +116,14 @@ void sew_sides(MapEdit& edit, const PolygonMesh& mesh, const PolygonSides& sides
   }
 }
 
+// A corner has the dart that starts its side, and that which ends the side before.
+void add_texture_coordinates(const PolygonMesh& mesh, EmbeddedMap& map) {
+  CHECK(mesh.texture.size() == mesh.corners.size());
+  Column<TextureCoordinates>& places = map.add(TextureCoordinates{});
+  for (std::uint32_t s = 0; s < mesh.texture.size(); ++s)
+    places[map.slot(VertexOfFace, Dart{2 * s})] = mesh.texture[s];
+}
+
 } // namespace
 
 SewnSheet sew_polygons(const PolygonMesh& mesh) {
@@ -130,6 +139,7 @@ SewnSheet sew_polygons(const PolygonMesh& mesh) {
     const Vec3& x = mesh.points[sheet.point.back()];
     return Point{x, x, Vec3::Zero()};
   });
+  if (!mesh.texture.empty()) add_texture_coordinates(mesh, *sheet.map);
   return sheet;
 }
 

@@ -4,7 +4,7 @@
 // polygons.
 #pragma once
 
-#include "sim/embedding/embedded_map.h"
+#include "sim/embedding/texture_coordinates.h"
 
 #include <array>
 #include <cstdint>
@@ -19,6 +19,7 @@ struct PolygonMesh {
   std::vector<std::uint32_t> corners; // point indices of all polygons, one polygon after another
   std::vector<std::uint32_t> first;   // where each polygon starts in `corners`; one more entry for the end
   std::vector<std::uint64_t> names;   // of each point in messages; empty: its index
+  std::vector<TexturePlace> texture;  // one per entry of `corners`; empty: there are none
   std::uint64_t name(std::uint32_t p) const { return p < names.size() ? names[p] : p; }
   std::size_t polygons() const { return first.empty() ? 0 : first.size() - 1; }
   void add(std::initializer_list<std::uint32_t> polygon);
@@ -39,7 +40,8 @@ struct SewnSheet {
 
 // Throws MeshFault, which is a std::invalid_argument and names the polygon, for a mesh that is no sheet: an
 // edge of more than two polygons, a polygon with fewer than three corners or a repeated corner, an index out of
-// range. A point shared by fans of polygons that have no common edge there becomes a vertex of each.
+// range. A point shared by fans of polygons that have no common edge there becomes a vertex of each. Texture
+// coordinates, where there are some, become an embedding.
 SewnSheet sew_polygons(const PolygonMesh& mesh);
 
 inline std::unique_ptr<EmbeddedMap> sheet_from(const PolygonMesh& mesh) {

@@ -27,7 +27,7 @@ MeshFile read_mesh(MeshSource source) {
     for (const std::string& each : reader.extensions) {
       known.push_back(each);
       if (each != extension) continue;
-      MeshFile file{std::move(source), {}, {}, {}, {}};
+      MeshFile file{std::move(source), {}, {}, {}, {}, {}};
       reader.read(file);
       for (auto& [name, points] : file.groups) {
         std::sort(points.begin(), points.end());

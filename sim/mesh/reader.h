@@ -36,6 +36,7 @@ struct MeshFile {
   std::vector<Origin> origins;                              // one per element; for a MapMesh one per dart
   std::map<std::string, std::vector<std::uint32_t>> groups; // increasing indices of points
   std::vector<std::string> notes;                           // messages for the user
+  std::string texture_note; // why texture coordinates are of no use; empty: they are, or there are none
   std::vector<Vec3>& points() {
     return std::visit([](auto& m) -> std::vector<Vec3>& { return m.points; }, mesh);
   }

@@ -210,6 +210,13 @@ TEST(BadMesh, other_formats_name_line_and_entity) {
   EXPECT_THAT(refusal("a.obj", points + "f 1 2\n"), HasSubstr("a.obj:4:1: a polygon of 2 corners"));
   EXPECT_THAT(refusal("a.obj", points + "f 1 2 2\n"), HasSubstr("a.obj:4:1: polygon 1 meets point 2 twice"));
   EXPECT_THAT(refusal("a.obj", points + "f 1 2 x\n"), HasSubstr("'x' is no corner"));
+  EXPECT_THAT(refusal("a.obj", points + "f 1 2/y 3\n"), HasSubstr("'2/y' is no corner"));
+  EXPECT_THAT(refusal("a.obj", points + "f 1 2/-/1 3\n"), HasSubstr("'2/-/1' is no corner"));
+  EXPECT_THAT(refusal("a.obj", points + "vt 0 0\nf 1/1 2/2 3/1\n"),
+              HasSubstr("a.obj:5:7: a corner has the texture coordinates 2, and there are 1"));
+  EXPECT_THAT(refusal("a.obj", points + "f 1/1 2/1 3/1\n"), HasSubstr("and there are 0 so far"));
+  EXPECT_THAT(refusal("a.obj", points + "vt\nf 1 2 3\n"), HasSubstr("texture coordinates without numbers"));
+  EXPECT_THAT(refusal("a.obj", points + "vt 0 inf\nf 1 2 3\n"), HasSubstr("a.obj:4:6: "));
   EXPECT_THAT(refusal("a.obj", "v 0 0\nf 1 2 3\n"), HasSubstr("fewer than three coordinates"));
   EXPECT_THAT(refusal("a.obj", "v 0 0 nan\n"), HasSubstr("a.obj:1:7: "));
   EXPECT_THAT(refusal("a.obj", points), HasSubstr("holds no polygons"));

@@ -2,6 +2,7 @@
 
 #include "sim/mesh/bar.h"
 #include "sim/mesh/fault.h"
+#include "sim/mesh/sheet.h"
 #include "sim/topology/walk.h"
 
 #include <gtest/gtest.h>
@@ -66,6 +67,23 @@ TEST(Locality, what_cannot_be_sewn_is_left_to_who_says_so) {
   mesh.points[7].x() = 0;
   mesh.corners[100] = 4000000;
   EXPECT_TRUE(order_for_locality(mesh).empty());
+}
+
+TEST(Locality, corners_keep_their_texture_coordinates) {
+  SheetShape shape;
+  shape.nx = shape.ny = 100;
+  shape.size = {1, 1};
+  PolygonMesh mesh = sheet_polygons(shape);
+  for (const std::uint32_t c : mesh.corners) mesh.texture.push_back({mesh.points[c].x(), -mesh.points[c].y()});
+  mesh = reordered(mesh, shuffled(mesh.polygons()));
+  const std::vector<std::uint32_t> order = order_for_locality(mesh);
+  ASSERT_FALSE(order.empty());
+  const auto map = sheet_from(reordered(mesh, order));
+  const auto& places = *find_texture_coordinates(*map);
+  map->map().for_each_dart([&](Dart d) {
+    const Vec3 x = map->rest_of(d);
+    ASSERT_EQ(places[map->slot(VertexOfFace, d)], (TexturePlace{x.x(), -x.y()}));
+  });
 }
 
 // A duplicate cell: the message must use the number in the file.

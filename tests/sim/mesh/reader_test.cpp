@@ -109,6 +109,39 @@ TEST(MeshFiles, of_obj_and_off_are_the_sheet_that_they_list) {
   EXPECT_TRUE(same(*sheet_from(mesh), *files::read("a.off", files::off_text(mesh)).map));
 }
 
+// A corner has the place that its polygon says, also where another polygon has the same point elsewhere.
+TEST(MeshFiles, of_obj_have_texture_coordinates_at_corners) {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\n"
+                           "vt 0.1 0.2\nvt 0.3 0.7 0\nvt 0.123456789012345678 1e-3\nvt 2\n"
+                           "f 1/1 2/2/1 3/-2 4/4\nf 5/1 3/2 2/-1\n";
+  const MeshBody body = files::read("a.obj", text);
+  const auto* places = find_texture_coordinates(*body.map);
+  ASSERT_TRUE(places);
+  const std::array<TexturePlace, 4> vt{{{0.1, 0.2}, {0.3, 0.7}, {0.123456789012345678, 1e-3}, {2, 0}}};
+  const std::map<std::pair<int, std::pair<double, double>>, int> expected{
+      {{0, {0, 0}}, 0}, {{0, {1, 0}}, 1}, {{0, {1, 1}}, 2}, {{0, {0, 1}}, 3},
+      {{1, {2, 0}}, 0}, {{1, {1, 1}}, 1}, {{1, {1, 0}}, 3}};
+  int corners = 0;
+  body.map->map().for_each_dart([&](Dart d) { // of the quad are the first eight
+    const Vec3 x = body.map->rest_of(d);
+    EXPECT_EQ((*places)[body.map->slot(VertexOfFace, d)],
+              vt[static_cast<std::size_t>(expected.at({d.value < 8 ? 0 : 1, {x.x(), x.y()}}))]);
+    ++corners;
+  });
+  EXPECT_EQ(corners, 14);
+  EXPECT_FALSE(
+      find_texture_coordinates(*files::read("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 1 1\nf 1 2 3\n").map));
+}
+
+TEST(MeshFiles, of_obj_in_which_some_corners_have_no_texture_coordinates_say_so) {
+  MeshFile file = read_mesh(MeshSource("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n"
+                                                "f 1/1 2/1 3/1\nf 1 3//1 4/1\n"));
+  EXPECT_THAT(file.texture_note,
+              testing::HasSubstr("4 corners of polygons have texture coordinates (vt), and 2 "));
+  EXPECT_TRUE(std::get<PolygonMesh>(file.mesh).texture.empty());
+  EXPECT_TRUE(file.notes.empty());
+}
+
 TEST(MeshFiles, of_obj_keep_polygons_and_name_groups) {
   const MeshBody body =
       files::read("a.OBJ", "# a house\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 1.0\nv 1 1 0\nv 0.5 2 0\n"
