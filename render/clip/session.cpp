@@ -87,14 +87,14 @@ Session::Session(const SessionOptions& options) : options_(options) {
   if (!options.allow_path) check_paths(*preset_);
   picture_ = picture_settings(*preset_);
   if (options.fps) picture_.image.fps = *options.fps;
-  scene_ =
-      std::make_unique<Scene>(read_scene(*preset_), SceneOptions{.walk = options.kernels == "walk",
-                                                                 .threads = threads(),
-                                                                 .count_fragments = options.count_fragments,
-                                                                 .set_between_steps = false,
-                                                                 .guard = options.guard,
-                                                                 .reach = options.reach,
-                                                                 .profile = options.profile});
+  scene_ = std::make_unique<Scene>(read_scene(*preset_, has_texture),
+                                   SceneOptions{.walk = options.kernels == "walk",
+                                                .threads = threads(),
+                                                .count_fragments = options.count_fragments,
+                                                .set_between_steps = false,
+                                                .guard = options.guard,
+                                                .reach = options.reach,
+                                                .profile = options.profile});
   if (options.reach)
     for (const auto& body : scene_->bodies()) body->look_every = options.reach_every;
   check_counts();

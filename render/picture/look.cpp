@@ -37,8 +37,9 @@ Fields<LookSettings> texture_fields() {
       field(&S::texture,
             text("texture",
                  "picture on the body, in place of its colour: " + file +
-                     ". It is spread once over a sheet that the preset makes; on others it is as wide as "
-                     "they are, and lies in the plane of x, y, z that a face is closest to at rest. Where "
+                     ". It is spread once over a sheet that the preset makes, and lies by the texture "
+                     "coordinates of a mesh file that has them; on others it is as wide as they are, and lies "
+                     "in the plane of x, y, z that a face is closest to at rest. Where "
                      "it is transparent by more than a half, a sheet has holes. Not shown where by= shows "
                      "something")),
       field(&S::texture_back,

@@ -42,6 +42,18 @@ bool torn_by_cuts_alone(const Body& body) {
   return !body.tear_laws.empty() && !others;
 }
 
+// Calls f(dart) for each corner of a face of a sheet, as its front is walked, from its smallest dart's on.
+template <class F> void for_each_corner_from_front(const EmbeddedMap& map, Slot face, F&& f) {
+  const Column<FaceSense>* sense = find_face_sense(map);
+  const Dart first = map.cells(FaceOfVolume).first_dart(face);
+  const Dart start = sense && (*sense)[face] != 0 ? map.map().alpha(1, first) : first;
+  Dart at = start;
+  do {
+    f(at);
+    at = map.map().alpha(1, map.map().alpha(0, at));
+  } while (at != start);
+}
+
 } // namespace
 
 BodyPicture::BodyPicture(Body& body, LookSettings look, LookTextures textures)
@@ -225,12 +237,29 @@ void BodyPicture::lay_on_sheet(FrameBody& out) const {
     out.texture.back_height =
         map_->is_spread() ? 1 : static_cast<float>(textures_.back->aspect() / textures_.front->aspect());
   out.texture_points.reserve(out.corners.size());
+  if (map_->places()) return lay_by_coordinates(out);
   const auto& rest = body_->map->rest().values();
   body_->boundary().sheet().for_each_triangle([&](const Surface::Triangle& triangle) {
     const auto [a, b, c] = triangle.vertex;
     const Vec3 p = rest[a].vec(), q = rest[b].vec(), r = rest[c].vec();
     const TextureMap::Chart chart = map_->chart((p + q + r) / 3, (q - p).cross(r - p));
     for (const Vec3& x : {p, q, r}) out.texture_points.push_back(map_->at(x, chart));
+  });
+}
+
+// The triangles of a face are a fan around its first corner (surface.h), in any order.
+void BodyPicture::lay_by_coordinates(FrameBody& out) const {
+  const EmbeddedMap& map = *body_->map;
+  std::vector<Dart> ring; // of a face
+  body_->boundary().sheet().for_each_triangle([&](const Surface::Triangle& triangle) {
+    ring.clear();
+    for_each_corner_from_front(map, triangle.face, [&](Dart d) { ring.push_back(d); });
+    std::size_t second = 1; // corner of the triangle, in the ring
+    while (second + 2 < ring.size() && (map.vertex(ring[second]) != triangle.vertex[1] ||
+                                        map.vertex(ring[second + 1]) != triangle.vertex[2]))
+      ++second;
+    for (const std::size_t corner : {std::size_t{0}, second, second + 1})
+      out.texture_points.push_back(map_->at((*map_->places())[map.slot(VertexOfFace, ring[corner])]));
   });
 }
 

@@ -49,6 +49,7 @@ private:
   Wrap wrap(const TextureMap& map) const;
   // The places of what was drawn in its pictures.
   void lay_on_sheet(FrameBody& out) const;
+  void lay_by_coordinates(FrameBody& out) const;
   void lay_on_solid(FrameBody& out, Faces which) const;
   void label_fragments(std::size_t& fragments_seen);
   void colour_vertices();

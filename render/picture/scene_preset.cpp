@@ -198,6 +198,11 @@ std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::st
   return checked(read_preset_text(text, file, scene_type(), overrides));
 }
 
+bool has_texture(const PresetNode& body) {
+  const PresetNode* look = body.child("look");
+  return look && (look->given("texture") || look->given("texture-back"));
+}
+
 PictureSettings picture_settings(const PresetNode& scene) {
   PictureSettings settings;
   if (const PresetNode* camera = scene.child("camera")) settings.camera = camera_settings(*camera);

@@ -22,6 +22,9 @@ std::unique_ptr<PresetNode> load_scene(const std::filesystem::path& path,
 std::unique_ptr<PresetNode> load_scene_text(std::string_view text, const std::string& file,
                                             std::span<const Override> overrides = {});
 
+// Whether pictures lie on the outside of a body, by its <look>.
+bool has_texture(const PresetNode& body);
+
 // What a scene that was loaded here says of its pictures. Messages about it read from the scene for as long as
 // they may come.
 PictureSettings picture_settings(const PresetNode& scene);

@@ -25,14 +25,18 @@ bool is_band(const SheetShape& sheet) {
 } // namespace
 
 TextureMap::TextureMap(const Body& body, const LookSettings& look, double aspect)
-    : scale_(look.scale[0], look.scale[1]), cosine_(cosine_of_degrees(look.rotate)),
-      sine_(sine_of_degrees(look.rotate)) {
+    : places_(find_texture_coordinates(*body.map)), scale_(look.scale[0], look.scale[1]),
+      cosine_(cosine_of_degrees(look.rotate)), sine_(sine_of_degrees(look.rotate)) {
   std::vector<Vec3> frame{Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   look.frame.place.apply(frame);
   origin_ = frame[0];
   Eigen::Matrix3d axes; // a rotation times the scale
   axes << frame[1] - origin_, frame[2] - origin_, frame[3] - origin_;
   to_own_ = axes.transpose() / (look.frame.place.scale * look.frame.place.scale);
+  if (places_) {
+    size_ = Vector2d(aspect, 1);
+    return;
+  }
   if (body.map->dimension() == 2) sheet_ = look.frame.sheet;
   if (sheet_) {
     corners_ = corners_of(*sheet_);
@@ -52,7 +56,7 @@ TextureMap::TextureMap(const Body& body, const LookSettings& look, double aspect
 }
 
 bool TextureMap::is_spread_once() const {
-  return sheet_ && scale_ == Vector2d::Ones() && sine_ == 0 && cosine_ == 1;
+  return sheet_ && is_plain();
 }
 
 Vec3 TextureMap::own(const Vec3& rest) const {
@@ -75,14 +79,23 @@ TextureMap::Chart TextureMap::chart(const Vec3& middle, const Vec3& normal) cons
   return chart;
 }
 
-TexturePoint TextureMap::at(const Vec3& rest, const Chart& chart) const {
+TexturePlace TextureMap::place(const Vec3& rest, const Chart& chart) const {
   const Vec3 here = own(rest);
   const Vector2d from_middle =
       sheet_ ? Vector2d((on_sheet(here, chart) - Vector2d(0.5, 0.5)).cwiseProduct(size_)) : on_box(here, chart);
+  return in_picture(from_middle);
+}
+
+TexturePlace TextureMap::place(const TexturePlace& given) const {
+  if (is_plain()) return given;
+  return in_picture(Vector2d(given.u - 0.5, given.v - 0.5).cwiseProduct(size_));
+}
+
+TexturePlace TextureMap::in_picture(const Vector2d& from_middle) const {
   const Vector2d turned(cosine_ * from_middle.x() + sine_ * from_middle.y(),
                         cosine_ * from_middle.y() - sine_ * from_middle.x());
   const Vector2d place = turned.cwiseQuotient(scale_.cwiseProduct(size_));
-  return {static_cast<float>(place.x() + 0.5), static_cast<float>(place.y() + 0.5)};
+  return {place.x() + 0.5, place.y() + 0.5};
 }
 
 // Upright as seen from outside: to the right of who looks against the face's normal, and up.

@@ -1,10 +1,14 @@
 // Where the picture of a body lies: the place in it of each corner of the surface.
 //
-// It follows from the rest position of the corner alone, in the frame of the body's shape, which <place> turns,
-// scales and moves. So nothing is stored in the map: what tears, is cut, is changed by a rule or has a vertex
-// moved keeps its picture, and a corner that is kept has the same place, bit for bit. Each mapping is affine
-// (but for bands, and corners= that span no parallelogram), so that a corner born at (1 - t) a + t b lies there
-// in the picture as well.
+// A mesh with texture coordinates (vt of .obj) has them in its map, as an embedding on corners of faces, which
+// tears, cuts and rules hand on (sim/embedding/texture_coordinates.h): they are the place. A vertex that a cut
+// moves takes its place along.
+//
+// Otherwise it follows from the rest position of the corner alone, in the frame of the body's shape, which
+// <place> turns, scales and moves. So nothing is stored in the map: what tears, is cut, is changed by a rule or
+// has a vertex moved keeps its picture, and a corner that is kept has the same place, bit for bit. Each mapping
+// is affine (but for bands, and corners= that span no parallelogram), so that a corner born at (1 - t) a + t b
+// lies there in the picture as well.
 //
 //   a generated sheet  once over the sheet: u along its x, v along its y, from 0 to 1. Of a bilinear patch
 //                      the (u, v) whose point is nearest; of a band u by the angle around it, and v across
@@ -14,12 +18,14 @@
 //                      front of a sheet, it stands upright: z is up, on faces across z it is y. The picture is
 //                      as wide as the largest extent of the body at the start, centred, in its proportions.
 //
-// Then scale and rotate act about the middle of the picture, in metres: it is turned as a whole, not sheared.
+// Then scale and rotate act about the middle of the picture, in metres (of texture coordinates: in the
+// proportions of the picture): it is turned as a whole, not sheared.
 #pragma once
 
 #include "render/draw/frame.h"
 #include "render/picture/look.h"
 #include "sim/body/body.h"
+#include "sim/embedding/texture_coordinates.h"
 
 #include <Eigen/Geometry>
 #include <array>
@@ -39,23 +45,35 @@ public:
   };
   // middle [m]: any point of the face; normal: of its front or outside, any length. Both at rest.
   Chart chart(const Vec3& middle, const Vec3& normal) const;
-  TexturePoint at(const Vec3& rest, const Chart& chart) const; // [m]
+  TexturePlace place(const Vec3& rest, const Chart& chart) const; // [m]
+  TexturePoint at(const Vec3& rest, const Chart& chart) const { return as_point(place(rest, chart)); }
 
-  bool is_spread() const { return sheet_.has_value(); } // over a sheet
-  bool is_spread_once() const;                          // ... and neither scaled nor turned
+  // The texture coordinates of the body; null: it has none. Then charts and rest positions are of no use.
+  const Column<TextureCoordinates>* places() const { return places_; }
+  TexturePlace place(const TexturePlace& given) const; // the same bits, if it is neither scaled nor turned
+  TexturePoint at(const TexturePlace& given) const { return as_point(place(given)); }
+
+  bool is_spread() const { return sheet_ || places_; } // over a sheet, so that each picture covers it alike
+  bool is_spread_once() const;                         // over one that was made, and neither scaled nor turned
 
 private:
+  static TexturePoint as_point(const TexturePlace& place) {
+    return {static_cast<float>(place.u), static_cast<float>(place.v)};
+  }
+  bool is_plain() const { return scale_ == Eigen::Vector2d::Ones() && sine_ == 0 && cosine_ == 1; }
+  TexturePlace in_picture(const Eigen::Vector2d& from_middle) const;   // [m]
   Vec3 own(const Vec3& rest) const;                                    // in the shape's frame [m]
   Eigen::Vector2d on_sheet(const Vec3& own, const Chart& chart) const; // 0 to 1
   Eigen::Vector2d on_patch(const Vec3& own) const;
   Eigen::Vector2d on_band(const Vec3& own, const Chart& chart) const;
   Eigen::Vector2d on_box(const Vec3& own, const Chart& chart) const; // from its middle [m]
 
-  std::optional<SheetShape> sheet_; // none: box projection
+  const Column<TextureCoordinates>* places_;
+  std::optional<SheetShape> sheet_; // none: box projection, or texture coordinates
   std::array<Vec3, 4> corners_;     // of a sheet that is no band [m]
   Eigen::Matrix3d to_own_;          // from the world's axes to the shape's
   Vec3 origin_, middle_;            // of the shape's frame in the world; of the body in that frame [m]
-  Eigen::Vector2d size_;            // of the picture: width, height [m]
+  Eigen::Vector2d size_;            // of the picture: width, height [m]; of texture coordinates: aspect, 1
   Eigen::Vector2d scale_;           // factors of it
   double cosine_ = 1, sine_ = 0;    // of the angle by which it is turned
 };

@@ -5,6 +5,7 @@
 #include "sim/build/read_settings.h"
 #include "sim/build/shape.h"
 #include "sim/cuts/start_element.h"
+#include "sim/embedding/texture_coordinates.h"
 #include "sim/mesh/dart_order.h"
 #include "sim/rules/cell_words.h"
 #include "sim/rules/rest_measures.h"
@@ -78,6 +79,15 @@ private:
   double slack_ = 0; // [m]
 };
 
+// To a map that was made from another one: order[n] is the dart there of dart n here.
+void hand_on_texture_coordinates(const EmbeddedMap& from, EmbeddedMap& to, std::span<const Dart> order) {
+  const Column<TextureCoordinates>* old = find_texture_coordinates(from);
+  if (!old) return;
+  Column<TextureCoordinates>& places = to.add(TextureCoordinates{});
+  to.map().for_each_dart(
+      [&](Dart d) { places[to.slot(VertexOfFace, d)] = (*old)[from.slot(VertexOfFace, order[d.value])]; });
+}
+
 class Construction {
 public:
   Construction(Body& body, const RuleBook& rules, const SettingsSource& shape)
@@ -135,6 +145,7 @@ public:
     }
     body_.groups = std::move(groups);
     if (keep_start == KeepStart::Yes) hand_on_start_elements(*body_.map, *map, order, place.scale);
+    hand_on_texture_coordinates(*body_.map, *map, order);
     body_.map = std::move(map);
   }
 

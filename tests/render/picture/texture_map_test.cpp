@@ -6,6 +6,7 @@
 #include "render/picture/scene_preset.h"
 #include "sim/build/build_scene.h"
 #include "sim/scene/scene.h"
+#include "sim/topology/walk.h"
 #include "tests/render/needs.h"
 #include "tests/render/pictures.h"
 
@@ -13,19 +14,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <map>
 
 namespace rend::texture_map_test {
 namespace {
 
-// A scene in a folder with a picture twice as wide as high, wide.png, and one of 30 x 20, other.png.
+// A scene in a folder with a picture twice as wide as high, wide.png, one of 30 x 20, other.png, and mesh.obj.
 struct Shown {
-  explicit Shown(const std::string& body, const std::string& time = R"(<time duration="1"/>)") {
+  explicit Shown(const std::string& body, const std::string& time = R"(<time duration="1"/>)",
+                 const std::string& mesh = "") {
+    std::ofstream(folder / "mesh.obj") << mesh;
     write_png(folder / "wide.png", test::pattern(20, 10));
     write_png(folder / "other.png", test::pattern(30, 20));
     preset = load_scene_text(R"(<scene name="shown"><body>)" + body + "</body>" + time + "</scene>",
                              (folder / "shown.xml").string());
-    scene = std::make_unique<Scene>(read_scene(*preset), SceneOptions{});
+    scene = std::make_unique<Scene>(read_scene(*preset, has_texture), SceneOptions{});
     maker = std::make_unique<FrameBuilder>(picture_settings(*preset), *scene, 1.5, 1.0, 31);
   }
   Body& body() const { return *scene->bodies()[0]; }
@@ -267,6 +271,105 @@ TEST(TextureMap, keeps_the_bits_of_corners_through_cuts_and_puts_new_ones_betwee
   }
   EXPECT_GT(same, 200U);
   EXPECT_GT(moved, 10U);
+}
+
+// A strip of 4 x 1 m in the xz plane, a quad and two triangles; between the quad and the triangles is a seam.
+constexpr const char* strip = R"(v 0 0 0
+v 2 0 0
+v 4 0 0
+v 0 0 1
+v 2 0 1
+v 4 0 1
+vt 0 0.5
+vt 0.4 0.5
+vt 0.4 1
+vt 0 1
+vt 0.7 0
+vt 1.1 0
+vt 1.1 0.3
+vt 0.7 0.3
+f 1/1 2/2 5/3 4/4
+f 2/5 3/6 6/7
+f 2/5 6/7 5/-1
+)";
+Found place_in_strip(double x, double z, bool left) {
+  return left ? Found{0.2 * x, 0.5 + 0.5 * z} : Found{0.7 + 0.2 * (x - 2), 0.3 * z};
+}
+
+TEST(TextureMap, lays_a_picture_by_the_texture_coordinates_of_the_mesh) {
+  NEEDS_PNG;
+  const std::string mesh = R"(<mesh file="mesh.obj"/><place translate="5 6 7"/>)" + matter,
+                    time = R"(<time duration="1"/>)";
+  const auto expect_at = [](const Shown& shown, auto&& then) { // then(plain place): where it lies in the end
+    const FrameBody body = shown.bodies().at(0);
+    EXPECT_EQ(body.texture.wrap, Wrap::Repeat);
+    EXPECT_EQ(body.corners.size(), 12U);
+    each_corner(body, [&](std::size_t n, const Vec3& x, const Found& at) {
+      double middle = 0; // of the triangle
+      for (std::size_t k = n - n % 3; k < n - n % 3 + 3; ++k)
+        middle += static_cast<double>(body.corners[k].position[0]) - 7;
+      const Found expected = then(place_in_strip(x.x() - 5, x.z() - 7, middle < 0));
+      EXPECT_NEAR(at[0], expected[0], 1e-6);
+      EXPECT_NEAR(at[1], expected[1], 1e-6);
+    });
+  };
+  const auto plain = [](const Found& place) { return place; };
+  expect_at(Shown(mesh + R"(<look texture="wide.png"/>)", time, strip), plain);
+  expect_at(Shown(mesh + R"(<look texture="wide.png" thickness="1e-4"/>)", time, strip), plain);
+  // about the middle, in a picture of 2 x 1 that is now 4 wide, upwards, and 0.5 high, to the left
+  expect_at(Shown(mesh + R"(<look texture="wide.png" scale="2 0.5" rotate="90"/>)", time, strip),
+            [](const Found& place) {
+              return Found{0.5 + (place[1] - 0.5) / 4, 0.5 - 2 * (place[0] - 0.5) / 0.5};
+            });
+  const Shown both(mesh + R"(<look texture="wide.png" texture-back="other.png"/>)", time, strip);
+  EXPECT_EQ(both.bodies().at(0).texture.back_height, 1) << "both have the same texture coordinates";
+}
+
+TEST(TextureMap, keeps_texture_coordinates_only_where_a_picture_lies) {
+  NEEDS_PNG;
+  const std::string mesh = R"(<mesh file="mesh.obj"/>)" + matter, time = R"(<time duration="1"/>)";
+  EXPECT_FALSE(find_texture_coordinates(*Shown(mesh, time, strip).body().map));
+  EXPECT_FALSE(find_texture_coordinates(*Shown(mesh + R"(<look back="#ffffff"/>)", time, strip).body().map));
+  EXPECT_TRUE(
+      find_texture_coordinates(*Shown(mesh + R"(<look texture-back="wide.png"/>)", time, strip).body().map));
+  const std::string some = std::string(strip) + "v 0 0 -1\nv 2 0 -1\nf 1 7 8 2\n";
+  const Shown partial(mesh + R"(<look texture="wide.png"/>)", time, some);
+  EXPECT_FALSE(find_texture_coordinates(*partial.body().map));
+  ASSERT_EQ(partial.body().notes.size(), 1U);
+  EXPECT_NE(
+      partial.body().notes[0].find("10 corners of polygons have texture coordinates (vt), and 4 have none"),
+      std::string::npos)
+      << partial.body().notes[0];
+  EXPECT_TRUE(Shown(mesh, time, some).body().notes.empty()) << "nobody asked";
+}
+
+// A tear runs from one side of the strip to the other, and a quad that a rule divides is drawn as triangles.
+TEST(TextureMap, keeps_texture_coordinates_of_a_sheet_that_tears_and_is_subdivided) {
+  NEEDS_PNG;
+  const Shown shown(R"(<mesh file="mesh.obj"/><apply rule="star-face"/><apply rule="insert-vertex"/>)" +
+                        matter +
+                        R"(<fix side="-x"/><drive side="+x" velocity="1 0 0"/>)"
+                        R"(<tear criterion="global-border" threshold="0.1"/><look texture="wide.png"/>)",
+                    R"(<time step="1e-3" duration="1"/>)", strip);
+  for (int n = 0; n < 900 && shown.scene->tears() == 0; ++n) shown.scene->step();
+  ASSERT_GT(shown.scene->tears(), 0U);
+  const FrameBody body = shown.bodies().at(0);
+  ASSERT_EQ(body.texture_points.size(), body.corners.size());
+  ASSERT_GT(body.corners.size(), 12U);
+  const EmbeddedMap& map = *shown.body().map;
+  const auto& rest = map.rest();
+  std::size_t n = 0;
+  shown.body().boundary().sheet().for_each_triangle([&](const Surface::Triangle& triangle) {
+    double middle = 0; // of the face: some of its triangles lie in the seam
+    for (const Dart d : darts_of(map.map(), FaceOfVolume, map.cells(FaceOfVolume).first_dart(triangle.face)))
+      middle += map.rest_of(d).x() - 2;
+    for (const Slot v : triangle.vertex) {
+      const Found expected = place_in_strip(rest[v].x, rest[v].z, middle < 0);
+      EXPECT_NEAR(body.texture_points[n][0], expected[0], 1e-6);
+      EXPECT_NEAR(body.texture_points[n][1], expected[1], 1e-6);
+      ++n;
+    }
+  });
 }
 
 TEST(TextureMap, puts_a_picture_of_its_own_on_what_breaks_open) {
