@@ -1,5 +1,6 @@
 #include "render/clip/export_series.h"
 
+#include "render/clip/picture_on_skin.h"
 #include "render/files/output.h"
 #include "sim/base/wording.h"
 
@@ -10,7 +11,9 @@ namespace rend {
 ExportSeries::ExportSeries(const Session& session, const ExportFormat& format,
                            const std::filesystem::path& folder, const FrameChoice& choice)
     : session_(session), format_(format), folder_(folder), choice_(choice),
-      exporter_(format.make(session.scene())), scene_file_(session, format.name) {}
+      exporter_(
+          format.make(session.scene(), pictures_on_skin(session.picture(), session.scene(), folder_.path()))),
+      scene_file_(session, format.name) {}
 
 void ExportSeries::name_files(NamedFiles& files) const {
   const std::string what = "--export " + format_.name;
@@ -18,6 +21,7 @@ void ExportSeries::name_files(NamedFiles& files) const {
                       [this](long frame) { return frame < session_.clock().frames() && choice_.has(frame); });
   if (!index_name().empty()) files.writes(what, folder_.path() / index_name());
   files.writes(what, folder_.path() / scene_file_name());
+  for (const FileBeside& file : exporter_->beside()) files.writes(what, folder_.path() / file.name);
 }
 
 void ExportSeries::take(long frame) {
@@ -58,6 +62,8 @@ void ExportSeries::finish() {
   release();
   if (!files_.empty() && !index_name().empty()) write(index_name(), exporter_->index(files_));
   if (!files_.empty()) write(scene_file_name(), scene_file_.text());
+  for (const FileBeside& file : exporter_->beside())
+    if (!files_.empty()) write(file.name, file.bytes);
   folder_.sync();
   seconds_ += wall_clock() - start;
 }

@@ -2,11 +2,13 @@
 // all_export_formats().
 #pragma once
 
+#include "sim/export/skin_picture.h"
 #include "sim/scene/scene.h"
 
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace rend {
@@ -17,6 +19,11 @@ struct ExportedFile {
   std::string name; // in the folder of the index
 };
 
+// A file beside those of the states.
+struct FileBeside {
+  std::string name, bytes;
+};
+
 // Writes the states of one scene.
 class Exporter {
 public:
@@ -24,6 +31,8 @@ public:
   virtual std::string state() const = 0; // the bytes of a file with the current state
   // The bytes of the file that lists the others; only for formats that have one.
   virtual std::string index(std::span<const ExportedFile>) const { return {}; }
+  // Files that those of the states name, and that are the same for all of them.
+  virtual std::vector<FileBeside> beside() const { return {}; }
 };
 
 struct ExportFormat {
@@ -31,12 +40,16 @@ struct ExportFormat {
   std::string extension, index_extension; // ".vtu", ".pvd"; empty: no index
   bool every_frame; // files are numbered by frame: a state shown in several frames is written for each
   // called in the scene's first state; the scene outlives the exporter
-  std::unique_ptr<Exporter> (*make)(const Scene& scene);
+  std::unique_ptr<Exporter> (*make)(const Scene& scene, const SkinPictures& pictures);
 };
 
-// ExportFormat::make of an exporter that takes the scene alone.
-template <class Made> std::unique_ptr<Exporter> make_exporter(const Scene& scene) {
-  return std::make_unique<Made>(scene);
+// ExportFormat::make of an exporter that takes the scene alone, and of one that takes pictures as well.
+template <class Made>
+std::unique_ptr<Exporter> make_exporter(const Scene& scene, const SkinPictures& pictures) {
+  if constexpr (std::is_constructible_v<Made, const Scene&, const SkinPictures&>)
+    return std::make_unique<Made>(scene, pictures);
+  else
+    return std::make_unique<Made>(scene);
 }
 
 const std::vector<ExportFormat>& all_export_formats();

@@ -114,6 +114,7 @@ void add_obstacles(Skin& skin, const World& world) {
     if (!skin.largest_stress.empty()) skin.largest_stress.resize(skin.vertex.size(), 0);
     if (!skin.exposed.empty()) skin.exposed.resize(skin.ends.size(), 0);
     if (!skin.equivalent.empty()) skin.equivalent.resize(skin.ends.size(), 0);
+    if (!skin.texture.empty()) skin.texture.resize(skin.corners.size());
     skin.bodies.push_back(
         {.name = obstacle.name, .points_end = skin.vertex.size(), .faces_end = skin.ends.size()});
   }

@@ -27,8 +27,8 @@ public:
       : body_(body), map_(*body.map), links_(map_.map()), sides_(sides), skin_(skin),
         number_(static_cast<std::int32_t>(skin.bodies.size())) {}
 
-  // `fragments`: how many there are in the bodies before; grows by those of this one.
-  void add(const SkinMaker::Arrays& wanted, std::int32_t& fragments);
+  // `fragments`: how many there are in the bodies before; grows by those of this one. picture: null, none has.
+  void add(const SkinMaker::Arrays& wanted, const SkinPicture* picture, std::int32_t& fragments);
 
 private:
   void collect_faces();
@@ -36,6 +36,7 @@ private:
   void add_faces(std::int32_t fragments);
   void add_stress();
   void add_exposed();
+  void add_places(const SkinPicture& picture);
 
   Body& body_;
   const EmbeddedMap& map_;
@@ -48,12 +49,13 @@ private:
   std::vector<std::int32_t> point_; // of each vertex slot; -1: not on the surface
 };
 
-void BodySkin::add(const SkinMaker::Arrays& wanted, std::int32_t& fragments) {
+void BodySkin::add(const SkinMaker::Arrays& wanted, const SkinPicture* picture, std::int32_t& fragments) {
   collect_faces();
   add_points();
   add_faces(fragments);
   if (wanted.stress) add_stress();
   if (wanted.exposed) add_exposed();
+  if (picture) add_places(*picture);
   fragments += static_cast<std::int32_t>(fragments_);
   skin_.bodies.push_back({body_.name, body_.tears(), skin_.points.size() / 3, skin_.ends.size()});
 }
@@ -131,9 +133,26 @@ void BodySkin::add_exposed() {
   for (const SkinFace& face : faces_) skin_.exposed.push_back(face.exposed ? 1 : 0);
 }
 
+void BodySkin::add_places(const SkinPicture& picture) {
+  std::vector<Dart> corners; // of a face
+  for (const SkinFace& face : faces_) {
+    corners.clear();
+    Dart at = face.start;
+    do {
+      corners.push_back(at);
+      at = links_.follow(at, to_next_side);
+    } while (at != face.start);
+    if (picture.material(face.exposed).picture.empty())
+      skin_.texture.resize(skin_.texture.size() + corners.size());
+    else
+      picture.lay(corners, face.exposed, skin_.texture);
+  }
+}
+
 } // namespace
 
-SkinMaker::SkinMaker(const Scene& scene) : scene_(&scene) {
+SkinMaker::SkinMaker(const Scene& scene, SkinPictures pictures)
+    : scene_(&scene), pictures_(std::move(pictures)) {
   for (const auto& body : scene.bodies()) {
     const bool sheet = body->map->dimension() == 2;
     sides_.push_back(sheet ? sides_of(body->map->map()) : Sides{});
@@ -147,7 +166,8 @@ Skin SkinMaker::skin() const {
   skin.time = scene_->time();
   std::int32_t fragments = 0;
   for (std::size_t n = 0; n < sides_.size(); ++n)
-    BodySkin(*scene_->bodies()[n], sides_[n], skin).add(arrays_, fragments);
+    BodySkin(*scene_->bodies()[n], sides_[n], skin)
+        .add(arrays_, pictures_.empty() ? nullptr : &pictures_.at(n), fragments);
   return skin;
 }
 

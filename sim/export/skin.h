@@ -8,6 +8,7 @@
 // and a vertex split by a tear becomes two points. Vertices inside a solid are left out.
 #pragma once
 
+#include "sim/export/skin_picture.h"
 #include "sim/scene/scene.h"
 #include "sim/topology/orientation.h"
 
@@ -50,12 +51,15 @@ struct Skin {
   std::vector<std::uint8_t> exposed;
   // [Pa], one per face: von Mises stress of its cell; empty: no body has elements
   std::vector<double> equivalent;
+  // The place in the picture of each entry of `corners`; of faces without a picture the middle. Empty: no body
+  // has one.
+  std::vector<TexturePlace> texture;
 };
 
 // Makes skins of a scene's states, starting with the first, which determines which arrays are empty.
 class SkinMaker {
 public:
-  explicit SkinMaker(const Scene& scene);
+  explicit SkinMaker(const Scene& scene, SkinPictures pictures = {});
   Skin skin() const; // of the current state
 
   // Which of those that a skin may lack it has.
@@ -65,6 +69,7 @@ public:
 
 private:
   const Scene* scene_;
+  SkinPictures pictures_;
   std::vector<Sides> sides_; // of each body; of solids empty
   Arrays arrays_;
 };
