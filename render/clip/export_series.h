@@ -3,7 +3,7 @@
 // A state is held back until the simulation has advanced beyond it or has ended normally, as pictures are
 // (frame_output.h). A state that several frames show is written once, under the number of the first, unless the
 // readers of the format go by file numbers alone. The index file is written last, and lists the files that
-// exist; so are SCENE.scene.json, which tells what meshes cannot (scene_file.h), and what lies beside the states.
+// exist; so are SCENE.scene.json, which tells what meshes cannot (scene_file.h), and files that states name.
 #pragma once
 
 #include "render/clip/figures.h"

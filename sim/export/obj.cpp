@@ -3,10 +3,10 @@
 //
 // Numbers are the shortest that parse to the same double. There are no normals: programs compute their own.
 //
-// Where a body has a picture, corners have texture coordinates (vt, v up), each place once; a corner on a seam,
-// or where the sheet is torn, has one for each face. A material library (.mtl) beside the files names the
-// pictures: one material for each body and obstacle, and one for what fracture exposed of a body with a picture.
-// How a picture goes on beyond 0 and 1 it does not say, since readers disagree on the option for it.
+// Where a body has a picture, corners of faces have texture coordinates (vt, v up), each place once. A material
+// library (.mtl) beside the files names the pictures: it has one material for each body and obstacle, and one
+// for the faces of a solid that fracture exposes. How a picture goes on beyond 0 and 1 it does not say, since
+// readers disagree on the option for it.
 #include "sim/export/format.h"
 #include "sim/export/obstacle_skin.h"
 

@@ -80,8 +80,7 @@ TEST_F(NamedFiles, a_preset_and_its_meshes_are_not_written_over) {
   expect_refused("run pulled.xml --events preset.csv", preset);
   expect_refused("run preset.csv --diagnostics pulled.xml", "the preset 'preset.csv'");
   expect_refused("run d/mesh.xml --diagnostics same/00001.obj", "the mesh 'd/00001.obj'");
-  expect_refused("run d/mesh.xml --export obj -o d",
-                 "the mesh 'd/00001.obj' would be overwritten by --export");
+  expect_refused("run d/mesh.xml --export obj -o d", "the mesh 'd/00001.obj' would be overwritten by --export");
   EXPECT_EQ(place.rend("run d/mesh.xml --export obj -o d --frames 0,2 -q").code, 0) << "by no other frame";
   EXPECT_EQ(content(place.path() / "d/00001.obj"), triangle);
 }
@@ -105,8 +104,7 @@ TEST_F(NamedFiles, reports_and_pictures_are_not_written_over_presets) {
   expect_refused("render d/pulled.checkpoint -o same", "would be overwritten by the stored state");
   if (video_available())
     expect_refused("render d/pulled.mp4 -o d --video mp4 --no-png", "would be overwritten by the video");
-  expect_refused("sheet pulled.xml d/00002.png -o same/00002.png",
-                 "would be overwritten by the contact sheet");
+  expect_refused("sheet pulled.xml d/00002.png -o same/00002.png", "would be overwritten by the contact sheet");
   expect_refused("batch d/index.html -o d", "would be overwritten by the page");
   expect_refused("check d/index.html -o d --quick", "would be overwritten by the report");
   expect_refused("study d/study.csv -o d --quick", "would be overwritten by the study");

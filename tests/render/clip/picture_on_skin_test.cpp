@@ -1,5 +1,5 @@
-// Texture coordinates and material libraries of exported .obj files, read back by a parser of their own: against
-// those of the mesh file, and against formulas of the presets' own numbers.
+// Texture coordinates and material libraries of exported .obj files, read back by another parser: against those
+// of the mesh file, and against formulas of the presets' own numbers.
 #include "render/files/png.h"
 #include "tests/render/commands/program_run.h"
 #include "tests/render/needs.h"
@@ -76,7 +76,8 @@ TEST_F(PictureOnSkin, has_the_texture_coordinates_of_the_mesh_to_the_last_bit_be
   place.write("strip.obj", strip);
   const Json mesh = read("strip.obj");
   run(R"(<body name="the strip"><mesh file="strip.obj"/>)" + std::string(matter) +
-          R"(<fix side="-x"/><drive side="+x" velocity="1 0 0"/><tear criterion="global-border" threshold="0.1"/>)"
+          R"(<fix side="-x"/><drive side="+x" velocity="1 0 0"/>)"
+          R"(<tear criterion="global-border" threshold="0.1"/>)"
           R"(<look texture="pictures/wide one.png"/></body>)",
       "0,9");
   const Json start = read("out/states/00000.obj"), torn = read("out/states/00009.obj");
@@ -99,12 +100,16 @@ TEST_F(PictureOnSkin, has_the_texture_coordinates_of_the_mesh_to_the_last_bit_be
 }
 
 TEST_F(PictureOnSkin, has_the_places_that_pictures_show_where_the_mesh_has_none) {
-  run(R"(<body name="flag"><sheet pattern="triangles" cells="3 2" size="2 1"/>)" + std::string(matter) +
-          R"(<look texture="pictures/wide one.png" scale="2 0.5"/></body><body name="bar"><bar cells="2 2 2" size="2 1 0.5"/>)" +
-          R"(<place translate="5 6 7"/><mass total="1"/><springs><stretch k="60"/></springs>)"
-          R"(<look texture="pictures/wide one.png" colour="#ff0000"/></body><body name="plain"><sheet cells="1 1" size="1 1"/><place translate="0 9 0"/>)" +
-          matter +
-          R"(<look colour="#336699"/></body><world gravity="0 0 0"><sphere centre="0 0 9" radius="1" colour="#ffffff"/></world>)",
+  const std::string flag = R"(<body name="flag"><sheet pattern="triangles" cells="3 2" size="2 1"/>)" +
+                           std::string(matter) +
+                           R"(<look texture="pictures/wide one.png" scale="2 0.5"/></body>)";
+  const std::string bar = R"(<body name="bar"><bar cells="2 2 2" size="2 1 0.5"/><place translate="5 6 7"/>)" +
+                          std::string(matter) +
+                          R"(<look texture="pictures/wide one.png" colour="#ff0000"/></body>)";
+  const std::string plain = R"(<body name="plain"><sheet cells="1 1" size="1 1"/><place translate="0 9 0"/>)" +
+                            std::string(matter) + R"(<look colour="#336699"/></body>)";
+  run(flag + bar + plain +
+          R"(<world gravity="0 0 0"><sphere centre="0 0 9" radius="1" colour="#ffffff"/></world>)",
       "0");
   const Json obj = read("out/states/00000.obj");
   EXPECT_EQ(obj["materials"].size(), 5U);
