@@ -6,10 +6,14 @@
 // There are no normals: a normal per point would round the creases of a solid, and programs that draw compute
 // their own.
 //
+// Where a body has a picture, points have texture coordinates (s t, as Blender reads them, t up), and points on
+// a seam are split (seams.h). The format has no word for the picture itself.
+//
 // ParaView takes times from a .series file, which lists the others; other programs use the numbers in their
 // names.
 #include "sim/export/format.h"
 #include "sim/export/obstacle_skin.h"
+#include "sim/export/seams.h"
 
 #include <fmt/format.h>
 
@@ -42,13 +46,15 @@ void add_column(std::vector<Column>& to, std::vector<const char*> names, const s
   if (!values.empty()) to.push_back({type_name<T>(), std::move(names), values.data(), bytes});
 }
 
-std::vector<Column> point_columns(const Skin& skin) {
+std::vector<Column> point_columns(const Skin& skin, const std::vector<TexturePlace>& places) {
   std::vector<Column> all;
   add_column(all, {"x", "y", "z"}, skin.points);
   add_column(all, {"vx", "vy", "vz"}, skin.velocity);
   add_column(all, {"stress"}, skin.largest_stress);
   add_column(all, {"body"}, skin.body_of_point);
   add_column(all, {"vertex"}, skin.vertex);
+  static_assert(sizeof(TexturePlace) == 2 * sizeof(double), "two numbers");
+  if (!places.empty()) all.push_back({"double", {"s", "t"}, places.data(), sizeof(TexturePlace)});
   return all;
 }
 
@@ -64,8 +70,9 @@ std::vector<Column> face_columns(const Skin& skin) {
 
 class PlyFile {
 public:
-  explicit PlyFile(const Skin& skin)
-      : skin_(skin), on_points_(point_columns(skin)), on_faces_(face_columns(skin)) {
+  // places: of points, or empty.
+  PlyFile(const Skin& skin, const std::vector<TexturePlace>& places)
+      : skin_(skin), on_points_(point_columns(skin, places)), on_faces_(face_columns(skin)) {
     for (std::size_t f = 0; f < skin.ends.size(); ++f) many_sides_ = many_sides_ || sides(f) > 255;
   }
 
@@ -124,11 +131,14 @@ private:
 
 class PlyExporter final : public Exporter {
 public:
-  explicit PlyExporter(const Scene& scene) : world_(scene.world()), maker_(scene) {}
+  PlyExporter(const Scene& scene, const SkinPictures& pictures)
+      : world_(scene.world()), maker_(scene, pictures) {}
   std::string state() const override {
     Skin skin = maker_.skin();
     add_obstacles(skin, world_);
-    return PlyFile(skin).bytes();
+    std::vector<TexturePlace> places;
+    if (!skin.texture.empty()) places = split_at_seams(skin);
+    return PlyFile(skin, places).bytes();
   }
 
   std::string index(std::span<const ExportedFile> files) const override {

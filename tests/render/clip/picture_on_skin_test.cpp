@@ -28,15 +28,16 @@ protected:
     write_png(place.path() / "pictures" / "other.png", test::pattern(30, 20));
   }
   // The states of these frames, of one second in ten frames.
-  void run(const std::string& scene, const std::string& frames) const {
+  void run(const std::string& scene, const std::string& frames, const std::string& format = "obj") const {
     place.write("s.xml",
                 R"(<scene name="s">)" + scene + R"(<time step="1e-3" duration="1"/><image fps="10"/></scene>)");
-    const Outcome outcome = place.rend("run s.xml --quiet --export obj -o out/states --frames " + frames);
+    const Outcome outcome =
+        place.rend("run s.xml --quiet --export " + format + " -o out/states --frames " + frames);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
   }
-  Json read(const std::string& name) const {
+  Json read(const std::string& name, const std::string& reader = "obj_to_json.py") const {
     const Outcome outcome = place.shell("/usr/bin/python3 " + std::string(test::source_root) +
-                                        "/tests/render/clip/obj_to_json.py " + name);
+                                        "/tests/render/clip/" + reader + " " + name);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return outcome.json();
   }
@@ -166,6 +167,37 @@ TEST_F(PictureOnSkin, of_what_breaks_open_is_another) {
   }
   EXPECT_EQ(outside, 26);
   EXPECT_GE(inside, 2);
+}
+
+// Points on the seam are two, and a sphere beside the strip has the middle of the picture.
+TEST_F(PictureOnSkin, is_on_points_of_ply_which_are_split_at_seams) {
+  place.write("strip.obj", strip);
+  run(R"(<body><mesh file="strip.obj"/>)" + std::string(matter) +
+          R"(<look texture="pictures/wide one.png"/></body>)"
+          R"(<world><sphere centre="0 0 9" radius="1"/></world>)",
+      "0", "ply");
+  const Json mesh = read("strip.obj"), ply = read("out/states/00000.ply", "ply_to_json.py");
+  const Json& points = ply["vertex"];
+  std::map<std::vector<double>, int> vertices; // of the strip: position → points there
+  const auto place_of = [&](std::size_t p) {
+    return std::vector<double>{points["s"][p].get<double>(), points["t"][p].get<double>()};
+  };
+  const auto position_of = [&](std::size_t p) {
+    return std::vector<double>{points["x"][p], points["y"][p], points["z"][p]};
+  };
+  for (std::size_t p = 0; p < points["x"].size(); ++p)
+    if (points["body"][p] == 0)
+      ++vertices[position_of(p)];
+    else
+      EXPECT_EQ(place_of(p), (std::vector<double>{0.5, 0.5}));
+  EXPECT_EQ(vertices.size(), 10U);
+  for (const auto& [x, count] : vertices) EXPECT_EQ(count, x[0] == 2 ? 2 : 1);
+  for (std::size_t face = 0; face < 4; ++face)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto p = ply["face"]["vertex_indices"][face][k].get<std::size_t>();
+      EXPECT_EQ(position_of(p), mesh["faces"][face]["points"][k].get<std::vector<double>>());
+      EXPECT_EQ(place_of(p), mesh["faces"][face]["places"][k].get<std::vector<double>>());
+    }
 }
 
 TEST_F(PictureOnSkin, is_not_there_where_no_body_has_one) {
