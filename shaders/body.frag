@@ -23,14 +23,15 @@ uniform sampler2D back;
 
 out vec4 pixel;
 
-// Four taps, each filtered over four texels by the hardware, on a rotated square.
+float tap(float x, float y) {
+  return texture(shadow, vec3(in_shadow.xy + SHADOW_SPREAD * vec2(x, y), in_shadow.z));
+}
+
+// Eight taps, each filtered over four texels by the hardware, where eight queens stand on a chessboard: seen
+// along its sides or diagonals, no two are behind each other, so that an edge of a shadow falls in even steps.
 float lit() {
-  const vec2 a = SHADOW_SPREAD * vec2(0.38, 0.92), b = vec2(-a.y, a.x);
-  float sum = texture(shadow, vec3(in_shadow.xy + a, in_shadow.z)) +
-              texture(shadow, vec3(in_shadow.xy - a, in_shadow.z)) +
-              texture(shadow, vec3(in_shadow.xy + b, in_shadow.z)) +
-              texture(shadow, vec3(in_shadow.xy - b, in_shadow.z));
-  return 0.25 * sum;
+  return 0.125 * (tap(-1.0, -0.714) + tap(-0.714, 0.143) + tap(-0.429, 1.0) + tap(-0.143, 0.429) +
+                  tap(0.143, -0.429) + tap(0.429, 0.714) + tap(0.714, -1.0) + tap(1.0, -0.143));
 }
 
 // How much of the pixel is covered by lines (x: dark, y: torn). A barycentric coordinate divided by its slope
@@ -88,6 +89,8 @@ void main() {
   float rim = 1.0 - facing;
   rim *= rim * rim;
   float sheen = max(2.0 * to_viewer * to_key - near * to_eye.w, 0.0); // towards the reflected key light
+  // The lamp itself, seen in what is glazed: a bright spot with an edge.
+  vec3 shine = vec3(gloss * gloss * clamp(40.0 * sheen - 38.4, 0.0, 0.6));
   if (squares.x > 0.5) sheen *= sheen;
   float squared = sheen * sheen;
   if (squares.y > 0.5) sheen = squared * squared;
@@ -95,7 +98,7 @@ void main() {
   squared *= squared;
   squared *= squared;
   if (squares.z > 0.5) sheen = squared * squared;
-  vec3 shine = (0.4 * rim_light * rim * up) * vec3(0.9, 0.95, 1.0) + (gloss * sheen * direct);
+  shine = (shine + gloss * sheen) * direct + (0.4 * rim_light * rim * up) * vec3(0.9, 0.95, 1.0);
   pixel = vec4(encode(surface * (light + rim * rim_light * up) + shine * (1.0 - line.x)), 1.0);
 #endif
 #if CUT_OUT

@@ -1,7 +1,7 @@
 // A pixel of the picture: the mean of the bodies' samples, darkened by occlusion, over the background.
 //
 // BODIES: 1 where there may be some. OCCLUDED: 1 with ambient occlusion. BEHIND: 0 nothing, 1 the backdrop, 2
-// the floor without shadows, 3 the floor. SAMPLES of each of FINE x FINE pixels make one of the picture.
+// the floor without shadows, 3 the floor, 4 its shadows alone. SAMPLES of each of FINE x FINE pixels make one of the picture.
 #if BEHIND
 noperspective in vec2 place; // see composite.vert
 flat in vec3 light;
@@ -50,8 +50,7 @@ vec3 open() {
   float deep = 1.0 / (to_nearness.x + to_nearness.y * stored);
 
   const float back = 0.5 * float(PART) - float(PART / 2);
-  // The blur of texel i covers i - 2 to i + 1, centred at i - 1/2.
-  vec2 spot = (vec2(at) + back) / float(PART);
+  vec2 spot = (vec2(at) + back) / float(PART) - 0.5;
   vec2 first = floor(spot), share = spot - first;
   float sum = 0.0, weights = 0.0;
   for (int j = 0; j < 2; ++j)
@@ -67,24 +66,48 @@ vec3 open() {
 #endif
 
 #if BEHIND
-// The studio floor has the same light as the backdrop, so that it has no visible end, darkened by the bodies'
-// shadows.
-vec3 behind() {
-  vec3 all = backdrop(place, light);
+// Between -1/2 and 1/2 of a level, in a pattern of 4 x 4 pixels (Bayer 1973): without it, the backdrop shows
+// bands that are a level apart.
+float dither() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int x = at.x ^ at.y, y = at.y;
+  int rank = (x & 1) << 3 | (y & 1) << 2 | (x & 2) | (y & 2) >> 1;
+  return (float(rank) - 7.5) / (16.0 * 255.0);
+}
+#endif
+
 #if BEHIND > 1
+// What is left of the studio's light on its floor, linear: a pool of light, and the bodies' shadows.
+vec3 on_the_floor() {
   float below = 1.0 / max(on_floor.z, 1e-6);
   vec2 at = on_floor.xy * below;
   float away = min(dot(at, at), 1.0);
+#if BEHIND == 4
+  vec3 left = vec3(1.0);
+#else
   float pool = max(1.0 - 4.0 * away, 0.0); // of the key light, around the centre
   vec3 left = vec3(0.94 + 0.08 * pool * pool);
+#endif
 #if BEHIND > 2
   vec2 lost = texture(shade, in_shade * below).xy;
   left *= (1.0 - vec3(0.62, 0.59, 0.54) * lost.x) * (1.0 - 0.70 * lost.y);
 #endif
   float fade = away * away * (3.0 - 2.0 * away);
-  all *= mix(left, vec3(1.0), fade);
+  return mix(left, vec3(1.0), fade);
+}
 #endif
-  return encode(all);
+
+#if BEHIND == 4
+// Black, as strong as the shadow is: over any picture it takes as much light as over the floor.
+vec4 behind() { return vec4(vec3(0.0), 1.0 - encode(on_the_floor()).g); }
+#elif BEHIND
+// The studio floor has the same light as the backdrop, so that it has no visible end.
+vec4 behind() {
+  vec3 all = backdrop(place, light);
+#if BEHIND > 1
+  all *= on_the_floor();
+#endif
+  return vec4(encode(all) + dither(), 1.0);
 }
 #endif
 
@@ -97,6 +120,6 @@ void main() {
   pixel.rgb *= open();
 #endif
 #if BEHIND
-  pixel = vec4(pixel.rgb + (1.0 - pixel.a) * behind(), 1.0);
+  pixel += (1.0 - pixel.a) * behind();
 #endif
 }

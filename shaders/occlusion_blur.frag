@@ -2,6 +2,7 @@
 // surface: x; y: depth.
 uniform sampler2D kept;
 uniform vec2 texel; // in texture coordinates
+uniform float first; // of the block, along each axis: -2, or -1 where -2 came before
 uniform float tolerance; // [1/m]: 1 over the largest distance from the surface
 out vec4 pixel;
 
@@ -12,10 +13,11 @@ void main() {
   float depth = at(vec2(0.0)).y, sum = 0.0, weights = 0.0;
   vec2 slope = vec2(nearer(depth - at(vec2(-1.0, 0.0)).y, at(vec2(1.0, 0.0)).y - depth),
                     nearer(depth - at(vec2(0.0, -1.0)).y, at(vec2(0.0, 1.0)).y - depth));
-  for (int j = -2; j < 2; ++j)
-    for (int i = -2; i < 2; ++i) {
-      vec2 other = at(vec2(i, j));
-      float weight = max(1.0 - abs(other.y - depth - dot(slope, vec2(i, j))) * tolerance, 0.0);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      vec2 away = first + vec2(i, j);
+      vec2 other = at(away);
+      float weight = max(1.0 - abs(other.y - depth - dot(slope, away)) * tolerance, 0.0);
       sum += weight * other.x;
       weights += weight;
     }

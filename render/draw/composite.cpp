@@ -94,13 +94,14 @@ void set_bodies(const GlProgram& program, const BodyTargets& bodies) {
 
 void Composite::draw(const Frame& frame, const View& view, const BodyTargets& bodies,
                      const CoverageGrid& blocks, const FloorShadow& shadow, const Occlusion* occlusion) {
-  const bool seen =
-      frame.floor && !frame.transparent && view.eye.z() > frame.floor->z; // the floor is invisible from below
+  const bool seen = frame.has_floor() && view.eye.z() > frame.floor->z; // the floor is invisible from below
   const std::optional<FloorView> floor = seen ? std::optional(FloorView(frame, view, shadow)) : std::nullopt;
   const Background bare = frame.transparent ? Background::Nothing
                           : floor           ? Background::Floor
                                             : Background::Backdrop;
-  const Background shaded = floor ? Background::FloorInShadow : bare;
+  const Background shaded = !floor              ? bare
+                            : frame.transparent ? Background::ShadowAlone
+                                                : Background::FloorInShadow;
   glViewport(0, 0, width_, height_);
   glDisable(GL_DEPTH_TEST);
   glClearColor(0, 0, 0, 0);
@@ -115,7 +116,7 @@ void Composite::draw(const Frame& frame, const View& view, const BodyTargets& bo
     if (boxes.empty()) return;
     const GlProgram& used = program(what, bodies);
     used.use();
-    if (what.background >= Background::Backdrop)
+    if (what.background >= Background::Backdrop && what.background != Background::ShadowAlone)
       used.set("background", Eigen::Vector3f(frame.background.data()));
     if (what.background >= Background::Floor) set_floor(used, *floor);
     if (what.background >= Background::FloorInShadow) set_shade(used, *floor, shadow.shade());
@@ -126,8 +127,8 @@ void Composite::draw(const Frame& frame, const View& view, const BodyTargets& bo
   };
   const auto boxes = runs(blocks.columns(), blocks.rows(), 3, kind);
   draw_blocks({.bodies = true, .occluded = occlusion != nullptr, .background = shaded}, boxes[0]);
-  if (frame.transparent) return;
   draw_blocks({.bodies = false, .occluded = false, .background = shaded}, boxes[1]);
+  if (frame.transparent) return;
   draw_blocks({.bodies = false, .occluded = false, .background = bare}, boxes[2]);
 }
 

@@ -28,7 +28,7 @@ public:
             const FloorShadow& shadow, const Occlusion* occlusion);
 
 private:
-  enum class Background { Nothing = 0, Backdrop = 1, Floor = 2, FloorInShadow = 3 };
+  enum class Background { Nothing = 0, Backdrop = 1, Floor = 2, FloorInShadow = 3, ShadowAlone = 4 };
   struct Kind { // a variant of the program
     bool bodies, occluded;
     Background background;

@@ -6,12 +6,12 @@ namespace rend {
 
 const std::vector<Finish>& finishes() {
   static const std::vector<Finish> all{
-      {"cloth", "woven: light shines through a little", 0.07f, 3, 0.25f, 0, 0.16f},
-      {"matte", "paper, plaster: no gloss", 0, 1, 0.10f, 0, 0.05f},
-      {"rubber", "dark and smooth, with a soft gloss", 0.30f, 4, 0.15f, 0.10f, 0},
-      {"organ", "wet and soft: light goes under the skin, and a sharp gloss lies on it", 0.55f, 6, 0.20f, 0.45f,
+      {"cloth", "woven: light shines through a little", 0.07f, 3, 0.42f, 0, 0.16f},
+      {"matte", "paper, plaster: no gloss, and soft light", 0, 1, 0, 0.12f, 0.05f},
+      {"rubber", "dark and smooth, with a soft gloss", 0.40f, 3, 0.05f, 0, 0},
+      {"organ", "wet and soft: light goes under the skin, and a sharp gloss lies on it", 0.60f, 5, 0.20f, 0.50f,
        0.10f},
-      {"brittle", "glazed: a hard, bright gloss", 0.85f, 7, 0.45f, 0, 0.05f}};
+      {"brittle", "glazed: a hard, bright gloss", 1, 7, 0.90f, 0, 0.05f}};
   return all;
 }
 

@@ -125,9 +125,12 @@ struct Frame {
   std::optional<Eigen::Vector3d>
       light; // towards the key light, any length; none: from over the camera's left shoulder
   std::array<float, 3> background{0.93f, 0.94f, 0.96f}; // sRGB; a soft gradient around it
-  bool transparent = false; // no floor and no backdrop: the picture has an alpha channel
-  bool occlusion = false;   // draw with ambient occlusion
-  HudContent hud;           // drawn over the picture; empty: nothing
+  bool transparent = false;  // no floor and no backdrop: the picture has an alpha channel
+  bool floor_shadow = false; // of a transparent one: the floor is there, but only its shadows are seen
+  bool occlusion = false;    // draw with ambient occlusion
+
+  bool has_floor() const { return floor && (!transparent || floor_shadow); } // that is seen, or its shadows
+  HudContent hud; // drawn over the picture; empty: nothing
   // Motion blur: the picture is the mean of those at these moments, in linear light. They take the place of
   // bodies, obstacles and camera. Empty: a plain picture.
   std::vector<FrameMoment> moments;

@@ -52,6 +52,7 @@ Frame frame_at(const Frame& frame, const FrameMoment& moment) {
   out.light = frame.light;
   out.background = frame.background;
   out.transparent = frame.transparent;
+  out.floor_shadow = frame.floor_shadow;
   out.occlusion = frame.occlusion;
   return out;
 }

@@ -82,9 +82,10 @@ void Occlusion::find(const BodyTargets& bodies, const View& view, std::optional<
   glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
   glViewport(0, 0, small_width_, small_height_);
-  read_depths(bodies, view, grown(longest + 5), floor_z);
-  compute_occlusion(view, grown(3));
-  blur(view, grown(1));
+  read_depths(bodies, view, grown(longest + 7), floor_z);
+  compute_occlusion(view, grown(5));
+  blur(view, grown(3), occlusion_texture_, blurred_target_, -2);
+  blur(view, grown(1), blurred_, occlusion_target_, -1);
   glDisable(GL_SCISSOR_TEST);
 }
 
@@ -95,7 +96,7 @@ void Occlusion::set(const GlProgram& program, const View& view, const BodyTarget
   program.set("to_nearness", to_nearness(view));
   program.set("tolerance", tolerance(view));
   bind(unit, bodies.kind(), bodies.depth);
-  bind(unit + 1, GL_TEXTURE_2D, blurred_.name());
+  bind(unit + 1, GL_TEXTURE_2D, occlusion_texture_.name());
 }
 
 void Occlusion::read_depths(const BodyTargets& bodies, const View& view, const PixelRect& box,
@@ -134,13 +135,15 @@ void Occlusion::compute_occlusion(const View& view, const PixelRect& box) {
   draw_over(box);
 }
 
-void Occlusion::blur(const View& view, const PixelRect& box) {
-  glBindFramebuffer(GL_FRAMEBUFFER, blurred_target_.name());
+void Occlusion::blur(const View& view, const PixelRect& box, const GlTexture& from, const GlFramebuffer& to,
+                     int first) {
+  glBindFramebuffer(GL_FRAMEBUFFER, to.name());
   blur_program_.use();
   blur_program_.set("kept", 0);
   blur_program_.set("texel", texel());
+  blur_program_.set("first", static_cast<float>(first));
   blur_program_.set("tolerance", tolerance(view));
-  bind(0, GL_TEXTURE_2D, occlusion_texture_.name());
+  bind(0, GL_TEXTURE_2D, from.name());
   draw_over(box);
 }
 

@@ -4,7 +4,7 @@
 // Computed in screen space from the bodies' depth buffer, at a third of the resolution each way (at half of it,
 // it takes 8 ms more):
 //
-//   depths ─▶ occlusion along a slice ─▶ mean over 4 x 4 ─▶ multiplied into the bodies (composite.h)
+//   depths ─▶ occlusion along a slice ─▶ mean over 4 x 4, twice ─▶ multiplied into the bodies (composite.h)
 //
 // The visibility of a point is the cosine-weighted unoccluded share of its hemisphere. For one slice of the
 // hemisphere through the eye, with n the angle of the normal in it and h1 ≤ n ≤ h2 the angles of the two
@@ -16,7 +16,8 @@
 // along the slice; its squared sine counts in full up to 0.6 of the radius, and falls off to 0 at the radius,
 // which is within 0.03 of ray casting with a fall-off by squared distance. The pixels of a 4 x 4 block take 16
 // slices and 4 offsets along them, in a fixed pattern, and are averaged over those on the same surface: 128
-// depth samples for a point. A plane does not occlude itself, nor does a convex body, up to 2 % along sharp
+// depth samples for a point. At the edge of a surface a block has a part of the slices alone: the second mean,
+// over blocks that lie the other way, smooths what differs from block to block there. A plane does not occlude itself, nor does a convex body, up to 2 % along sharp
 // edges. Surfaces that are hidden or outside the picture do not occlude.
 //
 // Source: Jimenez, Wu, Pesce and Jarabo, Practical real-time strategies for accurate indirect occlusion, 2016.
@@ -48,7 +49,8 @@ private:
   void read_depths(const BodyTargets& bodies, const View& view, const PixelRect& box,
                    std::optional<double> floor_z);
   void compute_occlusion(const View& view, const PixelRect& box);
-  void blur(const View& view, const PixelRect& box);
+  // Over the texels first to first + 3 away, along each axis.
+  void blur(const View& view, const PixelRect& box, const GlTexture& from, const GlFramebuffer& to, int first);
   Eigen::Vector2f texel() const {
     return {1.0f / static_cast<float>(small_width_), 1.0f / static_cast<float>(small_height_)};
   }
@@ -57,7 +59,7 @@ private:
   GlProgram depths_program_;
   GlProgram occlusion_program_{"screen.vert", "occlusion.frag"};
   GlProgram blur_program_{"screen.vert", "occlusion_blur.frag"};
-  // small textures: depth [m]; the other two: occlusion, depth [m]
+  // small textures: depth [m]; the other two: occlusion, depth [m], averaged once, and not at all or twice
   GlTexture depths_, occlusion_texture_, blurred_;
   GlFramebuffer depths_target_, occlusion_target_, blurred_target_;
 };

@@ -1,8 +1,33 @@
 #include "render/picture/camera_settings.h"
 
+#include "sim/base/math.h"
 #include "sim/base/reach.h"
 
+#include <algorithm>
+
 namespace rend {
+namespace {
+
+constexpr double sensor = 36; // [mm]
+
+AttributeType lens_type() {
+  return number("lens", "mm",
+                "focal length, in place of fov, where the longer side of the sensor is 36 mm: 24 is "
+                "wide, 50 usual, 85 narrow")
+      .at_least(1)
+      .at_most(2000);
+}
+
+void refuse_both(const SettingsSource& source) {
+  if (source.given("fov") && source.given("lens"))
+    source.fail("lens", "fov and lens both say how wide the angle of view is", "leave out one of them");
+}
+
+} // namespace
+
+double fov_of_lens(double lens, double aspect) {
+  return 360 / pi * arc_tangent(sensor / 2 / std::max(aspect, 1.0), lens);
+}
 
 template <> const Fields<CameraKey>& fields_of() {
   using S = CameraKey;
@@ -12,7 +37,8 @@ template <> const Fields<CameraKey>& fields_of() {
       field(&S::target, position("target", "the point that it looks at; default: that of the camera")),
       field(&S::fov, number("fov", "degrees", "angle of view from bottom to top; default: that of the camera")
                          .at_least(1)
-                         .at_most(170))};
+                         .at_most(170)),
+      field(&S::lens, lens_type())};
   return fields;
 }
 
@@ -24,6 +50,7 @@ template <> const Fields<CameraSettings>& fields_of() {
             position("target", "the point that it looks at; default: the middle of the bodies at the start")),
       field(&S::up, within(numbers("up", 3, "", "the direction that is up in the picture"), farthest)),
       field(&S::fov, number("fov", "degrees", "angle of view from bottom to top").at_least(1).at_most(170)),
+      field(&S::lens, lens_type()),
       field(&S::turn, within(number("turn", "degrees",
                                     "the angle by which the camera moves around the target during the clip"),
                              most_degrees)),
@@ -36,6 +63,8 @@ template <> const Fields<CameraSettings>& fields_of() {
 }
 
 void check_framing(const CameraSettings& camera) {
+  refuse_both(camera.source);
+  for (const CameraKey& key : camera.keys) refuse_both(key.source);
   if (camera.up.norm() == 0)
     camera.source.fail("up", "the camera's up has no direction", "up=\"0 0 1\" is usual");
   if (!camera.keys.empty() && camera.frame && camera.frame != Framing::Given)

@@ -14,6 +14,7 @@ struct CameraKey {
   Vec3 eye = Vec3::Zero();         // [m]
   std::optional<Vec3> target = {}; // [m]; none: the camera's
   std::optional<double> fov = {};  // [degrees]; none: the camera's
+  std::optional<double> lens = {}; // [mm], in place of fov
   SettingsSource source = {};
 };
 template <> const Fields<CameraKey>& fields_of();
@@ -29,6 +30,7 @@ struct CameraSettings {
   std::optional<Vec3> target = {}; // [m]; none: the middle of the bodies at the start
   Vec3 up{0, 0, 1};
   double fov = 35;                   // from bottom to top of the picture [degrees]
+  std::optional<double> lens = {};   // focal length, in place of fov [mm]: fov_of_lens()
   double turn = 0;                   // around the target over the clip [degrees]
   std::optional<Framing> frame = {}; // none: Given where there is an eye, else Auto
   std::vector<CameraKey> keys = {};  // in order of time; where there are some, the camera goes where they say
@@ -39,5 +41,9 @@ template <> const Fields<CameraSettings>& fields_of();
 // UserError for what cannot be together: an up of no direction, keys with a framing of another kind, a given
 // frame without an eye, an eye at its target.
 void check_framing(const CameraSettings& camera);
+
+// The angle of view from bottom to top [degrees] with that focal length [mm], in a picture of that width over its
+// height: the longer side of the sensor is 36 mm.
+double fov_of_lens(double lens, double aspect);
 
 } // namespace rend

@@ -50,18 +50,24 @@ template <> const Fields<ImageSettings>& fields_of() {
       colour_field(&S::background,
                    text("background", "background colour, #rrggbb; none: transparent, without the floor"),
                    "none"),
+      field(&S::floor_shadow,
+            flag("floor-shadow", "with background=\"none\": the floor shows by the shadows on it, black in the "
+                                 "alpha channel, and hides what is below it")),
       field(&S::occlusion, flag("occlusion", "ambient occlusion: folds, cracks and gaps are darker; it takes a "
                                              "fifth of the time of a picture"))};
   return fields;
 }
 
-void check_times(const ImageSettings& image) {
+void check_image(const ImageSettings& image) {
   if (!image.speed_keys.empty() && image.source.given("speed"))
     image.source.fail("speed", "speed cannot be used together with <key>: the keys say how fast the clip plays",
                       "leave out speed, or the keys");
   if (image.source.given("shutter-samples") && image.shutter == 0 && !image.source.given("shutter"))
     image.source.fail("shutter-samples", "the shutter has samples, but it does not open",
                       "add shutter=\"0.5\": it is open for half of the time between two frames");
+  if (image.floor_shadow && !image.transparent())
+    image.source.fail("floor-shadow", "floor-shadow has no use where there is a background: the floor is seen",
+                      "leave it out, or add background=\"none\"");
   image.playback();
 }
 

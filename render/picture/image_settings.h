@@ -18,7 +18,8 @@ struct ImageSettings {
   int shutter_samples = 8; // moments of that time of which a picture is the mean
   int samples = 4;         // a pixel: 1, 4 or 16
   std::optional<Colour> background = Colour{0xed, 0xef, 0xf3}; // none: transparent, without floor
-  bool occlusion = false;                                      // ambient occlusion
+  bool floor_shadow = false; // without a background: shadows on the floor are kept, in the alpha channel
+  bool occlusion = false;    // ambient occlusion
   std::vector<SpeedKey> speed_keys = {}; // in order of time; where there are some, the speed is what they say
   SettingsSource source = {};
 
@@ -31,7 +32,7 @@ struct ImageSettings {
 template <> const Fields<ImageSettings>& fields_of();
 
 // UserError for what cannot be together: a speed for the whole clip beside keys, keys out of order, samples of
-// a shutter that is not there.
-void check_times(const ImageSettings& image);
+// a shutter that is not there, the shadows of a floor that is seen itself.
+void check_image(const ImageSettings& image);
 
 } // namespace rend

@@ -9,7 +9,7 @@ namespace {
 Field<LookSettings> torn() {
   return {text("torn",
                "of a sheet: colour of the line along torn edges, #rrggbb, or none for no line; default: "
-               "orange, and none where change=\"cut\" alone tears the body"),
+               "none, but orange with edges=\"yes\" if anything but change=\"cut\" tears the body"),
           [](LookSettings& look, const AttributeValue& value) {
             look.torn_edges = value.text != "none";
             look.torn = *look.torn_edges ? colour_called(value.text) : std::nullopt;
@@ -80,7 +80,9 @@ template <> const Fields<LookSettings>& fields_of() {
                              "the value at the upper end of the colour scale; default: the largest value of "
                              "the clip so far, rounded up")
                           .above(0)),
-      field(&S::edges, flag("edges", "whether the edges of cells are drawn")),
+      field(&S::edges, flag("edges", "whether the edges of cells are drawn, and the mesh is shaded as it is; "
+                                     "default: no, but yes for wires and exploded. Without them a sheet is "
+                                     "shaded as the smooth surface that its mesh stands for")),
       torn(),
       field(&S::torn_width, number("torn-width", "",
                                    "width of that line, where there is one: pixels in a picture of height 720; "
@@ -102,6 +104,11 @@ template <> const Fields<LookSettings>& fields_of() {
                  "it is torn (torn: in that colour), and no lines along edges; default: none")
               .above(0)
               .at_most(1)),
+      field(&S::smooth,
+            integer("smooth", "draws curved triangles, each side in so many parts, so that outlines are no "
+                              "polygons: 2 to 4 where cells are large; torn and sharp edges stay straight")
+                .at_least(1)
+                .at_most(8)),
       finish()};
   static const Fields<S> fields = plain + texture_fields();
   return fields;

@@ -30,8 +30,8 @@ struct LookSettings {
   Colour inside{0xe8, 0xb2, 0x7a}; // of the faces of a solid that fracture lays bare
   ColourBy by = ColourBy::Plain;   // the largest principal strain or stress [Pa], or force [N]
   std::optional<double> most = {}; // the quantity at the end of the scale; none: the most seen so far
-  bool edges = true;               // of cells
-  // Whether a line is drawn along edges exposed by tearing; none: if anything but cuts tears the body ...
+  std::optional<bool> edges = {};  // whether those of cells are drawn; none: draws_edges()
+  // Whether a line is drawn along edges exposed by tearing; none: with edges, if anything but cuts tears ...
   std::optional<bool> torn_edges = {};
   std::optional<Colour> torn = {}; // ... in this colour; none: orange
   double torn_width = 3.4;         // [pixels] in a picture of height 720
@@ -45,9 +45,15 @@ struct LookSettings {
   double rotate = 0;                 // of pictures, about their middle, anticlockwise from the front [degrees]
   TextureFrame frame = {};           // from the body's shape and place
   std::filesystem::path folder = {}; // to which files of pictures are relative
+  int smooth = 1;                    // parts into which each side is divided: curved_triangles.h
   std::optional<double> thickness = {}; // of a sheet as it is drawn [m]: sheet_rim.h; none: it has none
   SettingsSource source = {};
 };
 template <> const Fields<LookSettings>& fields_of();
+
+// Lines of cells: by default where there are no surfaces that show a shape without them.
+inline bool draws_edges(const LookSettings& look) {
+  return look.edges.value_or(look.as == DrawStyle::Wires || look.as == DrawStyle::Exploded);
+}
 
 } // namespace rend

@@ -1,8 +1,10 @@
 #include "render/picture/scene_picture.h"
 
 #include "render/draw/hud.h"
+#include "render/picture/curved_triangles.h"
 #include "render/picture/dart_picture.h"
 #include "render/picture/sheet_rim.h"
+#include "render/picture/smooth_normals.h"
 #include "sim/base/archive.h"
 #include "sim/base/units.h"
 #include "sim/base/wall_clock.h"
@@ -127,7 +129,7 @@ void BodyPicture::colour_vertices() {
 
 FrameBody BodyPicture::plain() const {
   FrameBody out;
-  out.edges = look_.edges;
+  out.edges = draws_edges(look_);
   out.two_sided = !solid_;
   out.shades_back = orientable_;
   out.back = look_.back;
@@ -138,6 +140,12 @@ FrameBody BodyPicture::plain() const {
 }
 
 void BodyPicture::draw(std::vector<FrameBody>& out) {
+  const std::size_t before = out.size();
+  draw_as_it_is(out);
+  for (std::size_t n = before; n < out.size(); ++n) curve_triangles(out[n], look_.smooth);
+}
+
+void BodyPicture::draw_as_it_is(std::vector<FrameBody>& out) {
   if (look_.by != ColourBy::Plain && look_.by != ColourBy::Fragment) colour_vertices();
   if (look_.thickness) return draw_thick_sheet(out);
   FrameBody body = plain();
@@ -156,7 +164,7 @@ void BodyPicture::draw(std::vector<FrameBody>& out) {
 
 TornLine BodyPicture::torn_line() const {
   if (look_.thickness) return {.width = 0};
-  if (!look_.torn_edges.value_or(!torn_by_cuts_alone(*body_))) return {.width = 0};
+  if (!look_.torn_edges.value_or(draws_edges(look_) && !torn_by_cuts_alone(*body_))) return {.width = 0};
   TornLine line{.width = static_cast<float>(look_.torn_width)};
   for (std::size_t c = 0; look_.torn && c < 3; ++c) {
     const float share = static_cast<float>((*look_.torn)[c]) / 255;
@@ -171,14 +179,20 @@ Colour BodyPicture::colour_at(const CellCorner& at) const {
   return at.inner ? look_.inside : look_.colour;
 }
 
+void BodyPicture::find_sheet_normals() {
+  const Surface& sheet = body_->boundary().sheet();
+  sheet.normals(normals_);
+  if (!draws_edges(look_)) smooth_normals(sheet, body_->map->position().values(), normals_, normal_sums_);
+}
+
 void BodyPicture::draw_thin_sheet(FrameBody& out) {
-  body_->boundary().sheet().normals(normals_);
+  find_sheet_normals();
   draw_sheet(out, 0);
   if (map_) lay_on_sheet(out);
 }
 
 void BodyPicture::draw_thick_sheet(std::vector<FrameBody>& out) {
-  body_->boundary().sheet().normals(normals_);
+  find_sheet_normals();
   const double half = *look_.thickness / 2;
   FrameBody front = plain(), back = plain(), rim = plain();
   draw_sheet(front, half);
@@ -380,6 +394,7 @@ Frame FrameBuilder::draw_without_bodies(long number, double time) {
   const Colour background = image_.background.value_or(Colour{});
   for (std::size_t c = 0; c < 3; ++c) frame.background[c] = static_cast<float>(background[c]) / 255;
   frame.transparent = image_.transparent();
+  frame.floor_shadow = image_.floor_shadow;
   frame.occlusion = image_.occlusion;
   if (hud_) frame.hud = hud_->content(legends(), number, image_.playback().speed_at(scene_.time()));
   seconds_ += wall_clock() - start;

@@ -40,8 +40,10 @@ public:
   void store(Archive& archive);                                         // scale and colours so far; checkpoint
 
 private:
-  FrameBody plain() const;                        // without corners
-  void draw_sheet(FrameBody& out, double raised); // raised [m]: along the normals
+  FrameBody plain() const;                         // without corners
+  void draw_as_it_is(std::vector<FrameBody>& out); // with straight triangles
+  void draw_sheet(FrameBody& out, double raised);  // raised [m]: along the normals
+  void find_sheet_normals();
   void draw_thin_sheet(FrameBody& out);
   void draw_thick_sheet(std::vector<FrameBody>& out);
   Colour rim_colour(bool torn) const;
@@ -61,9 +63,10 @@ private:
   LookTextures textures_;                      // none where colours show something else, or no sides are drawn
   std::optional<TextureMap> map_, inside_map_; // where they lie: those of its sides, and the one inside
   bool solid_ = false, orientable_ = true;
-  double scale_ = 0;           // the quantity at the end of the colours; what look_.most says, or seen so far
-  std::vector<Vec3> normals_;  // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)
-  std::vector<double> values_; // of strain or force, one per vertex slot
+  double scale_ = 0;          // the quantity at the end of the colours; what look_.most says, or seen so far
+  std::vector<Vec3> normals_; // unit or 0, one per vertex slot (of a solid: per corner of a drawn face)
+  std::vector<Vec3> normal_sums_;                       // scratch memory
+  std::vector<double> values_;                          // of strain or force, one per vertex slot
   std::vector<Colour> vertex_colours_;                  // one per vertex slot; empty unless by strain or force
   std::vector<std::uint32_t> labels_;                   // fragment of each dart; empty unless by fragment
   std::vector<Colour> fragment_colours_;                // one per label

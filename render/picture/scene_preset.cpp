@@ -152,7 +152,7 @@ std::unique_ptr<PresetNode> checked(std::unique_ptr<PresetNode> scene) {
   duration_of(*scene->child("time")); // said by all commands alike
   if (const PresetNode* image = scene->child("image")) {
     if (image->text("background") != "none") colour_of(*image, "background");
-    check_times(image_settings(*image));
+    check_image(image_settings(*image));
   }
   if (const PresetNode* hud = scene->child("hud"))
     for (const HudText& text : hud_settings(*hud).texts) check_text(text);

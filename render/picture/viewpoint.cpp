@@ -135,7 +135,7 @@ Viewpoint::Viewpoint(const CameraSettings& camera, const Scene& scene, double as
   Bounds start;
   for (const auto& body : scene.bodies()) start.extend(bounds_of(*body));
   start_.up = camera.up;
-  start_.fov = camera.fov;
+  start_.fov = camera.lens ? fov_of_lens(*camera.lens, aspect) : camera.fov;
   start_.target = camera.target.value_or(start.center());
   Vec3 direction = best_direction(start);
   if (camera.eye) {
@@ -160,7 +160,8 @@ void Viewpoint::read_keys(const CameraSettings& camera) {
   for (const CameraKey& given : camera.keys) {
     Key key;
     key.time = given.at;
-    key.camera << given.eye, given.target.value_or(start_.target), given.fov.value_or(start_.fov);
+    const double fov = given.lens ? fov_of_lens(*given.lens, aspect_) : given.fov.value_or(start_.fov);
+    key.camera << given.eye, given.target.value_or(start_.target), fov;
     if (at_target(key.camera.head<3>(), key.camera.segment<3>(3)))
       given.source.fail("eye", "the camera's eye stands at its target", "move it away from there");
     if (!keys_.empty()) check_key_times(keys_.back().time, key.time, given.source);

@@ -206,6 +206,29 @@ TEST_F(CompositeTest, WhereNoBodyIsTheStudioIsSeen) {
   }
 }
 
+// Its shadows, laid over the studio's light, take as much of it as they do in the opaque picture.
+TEST_F(CompositeTest, AFloorThatShowsByItsShadowsAlone) {
+  const KnownBodies none(width, height, 4, 1, 0);
+  const CoverageGrid blocks = blocks_of(width, height);
+  for (Frame frame : frames()) {
+    frame.background = {0.8f, 0.8f, 0.8f};
+    const Pixels bare = drawn(frame, none, blocks);
+    frame.bodies.push_back(table(-0.1f, 0.3f, red));
+    const Pixels opaque = drawn(frame, none, blocks);
+    frame.transparent = frame.floor_shadow = true;
+    const Pixels found = drawn(frame, none, blocks);
+    int shaded = 0;
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      ASSERT_EQ(std::max({found[n][0], found[n][1], found[n][2]}), 0);
+      const double left = 1 - found[n][3] / 255.0;
+      ASSERT_NEAR(bare[n][1] * left, opaque[n][1], 2.5) << n;
+      shaded += found[n][3] > 20;
+    }
+    const bool floor_seen = frame.floor && frame.camera.eye.z() > frame.floor->z;
+    EXPECT_EQ(shaded > 50, floor_seen) << shaded;
+  }
+}
+
 // The textures cover only the blocks that bodies may cover: two of four columns, two of three rows.
 TEST_F(CompositeTest, APixelIsTheMeanOfItsSamplesOverWhatIsBehind) {
   CoverageGrid blocks = blocks_of(width, height);

@@ -89,7 +89,8 @@ TEST(Picture, MarksWhatTearingLaidBare) {
 }
 
 TEST(Picture, DrawsTornEdgesAsThePresetSays) {
-  EXPECT_EQ(Shown(quads).frame().bodies.at(0).torn, TornLine{});
+  EXPECT_EQ(Shown(quads).frame().bodies.at(0).torn.width, 0);
+  EXPECT_EQ(Shown(quads, R"(<look edges="yes"/>)").frame().bodies.at(0).torn, TornLine{});
   EXPECT_EQ(Shown(quads, R"(<look torn="none"/>)").frame().bodies.at(0).torn.width, 0);
   const TornLine line = Shown(quads, R"(<look torn="#00ff33" torn-width="7"/>)").frame().bodies.at(0).torn;
   EXPECT_EQ(line.width, 7);
@@ -110,9 +111,11 @@ TEST(Picture, DrawsNoLineWhereCutsAloneTear) {
   };
   const std::string cut = R"(<tear criterion="vertex-stress" threshold="1e4" change="cut"/>)";
   const std::string split = R"(<tear criterion="vertex-stress" threshold="1e4" change="split-vertex"/>)";
-  EXPECT_EQ(width(cut), 0);
-  EXPECT_EQ(width(split), TornLine{}.width);
-  EXPECT_EQ(width(cut + split), TornLine{}.width);
+  const std::string edges = R"(<look edges="yes"/>)";
+  EXPECT_EQ(width(split), 0);
+  EXPECT_EQ(width(cut + edges), 0);
+  EXPECT_EQ(width(split + edges), TornLine{}.width);
+  EXPECT_EQ(width(cut + split + edges), TornLine{}.width);
   EXPECT_EQ(width(cut + R"(<look torn="#00ff33"/>)"), TornLine{}.width);
 }
 

@@ -46,6 +46,20 @@ TEST(Viewpoint, between_keys_it_neither_jumps_nor_jerks) {
   }
 }
 
+// Of a sensor of 36 x 24 mm the usual lens sees 39.6 degrees from side to side, and of 36 x 20.25 mm 22.9 upwards.
+TEST(Viewpoint, a_lens_says_how_wide_the_angle_of_view_is) {
+  const auto preset =
+      scene_with(R"(<camera eye="0 -4 2" lens="50"><key at="0" eye="3 0 1" lens="85"/></camera>)");
+  const Scene scene(read_scene(*preset), {});
+  CameraSettings camera = picture_settings(*preset).camera;
+  EXPECT_NEAR(Viewpoint(camera, scene, 1.5, 2).at(0).fov, 16.071, 1e-3); // 2 atan(12 / 85)
+  camera.keys.clear();
+  EXPECT_NEAR(Viewpoint(camera, scene, 1.5, 2).at(0).fov, 26.991, 1e-3);      // 2 atan(12 / 50)
+  EXPECT_NEAR(Viewpoint(camera, scene, 16 / 9.0, 2).at(0).fov, 22.895, 1e-3); // 2 atan(10.125 / 50)
+  EXPECT_NEAR(Viewpoint(camera, scene, 9 / 16.0, 2).at(0).fov, 39.598, 1e-3); // 2 atan(18 / 50)
+  EXPECT_THROW(scene_with(R"(<camera eye="0 -4 2" lens="50" fov="30"/>)"), UserError);
+}
+
 TEST(Viewpoint, keys_out_of_order_are_refused) {
   const auto preset = scene_with(R"(<camera><key at="1" eye="3 0 1"/><key at="1" eye="0 -4 2"/></camera>)");
   const Scene scene(read_scene(*preset), {});
