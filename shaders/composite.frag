@@ -1,7 +1,8 @@
 // A pixel of the picture: the mean of the bodies' samples, darkened by occlusion, over the background.
 //
 // BODIES: 1 where there may be some. OCCLUDED: 1 with ambient occlusion. BEHIND: 0 nothing, 1 the backdrop, 2
-// the floor without shadows, 3 the floor, 4 its shadows alone. SAMPLES of each of FINE x FINE pixels make one of the picture.
+// the floor without shadows, 3 the floor, 4 its shadows alone. SAMPLES of each of FINE x FINE pixels make one
+// of the picture.
 #if BEHIND
 noperspective in vec2 place; // see composite.vert
 flat in vec3 light;

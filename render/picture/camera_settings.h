@@ -42,8 +42,8 @@ template <> const Fields<CameraSettings>& fields_of();
 // frame without an eye, an eye at its target.
 void check_framing(const CameraSettings& camera);
 
-// The angle of view from bottom to top [degrees] with that focal length [mm], in a picture of that width over its
-// height: the longer side of the sensor is 36 mm.
+// The angle of view from bottom to top [degrees] with that focal length [mm]; aspect: the picture's width over
+// its height. The longer side of the sensor is 36 mm.
 double fov_of_lens(double lens, double aspect);
 
 } // namespace rend

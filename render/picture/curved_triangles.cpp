@@ -63,7 +63,7 @@ template <class F> void each_part(int parts, F&& f) {
     }
 }
 
-// The line along the side between two points of the triangle: that of the side of the triangle on which both lie.
+// The line along the side between two points: that of the side of the triangle on which both lie.
 std::uint8_t line_between(const Corner* corners, const PartWeights& a, const PartWeights& b) {
   for (std::size_t k = 0; k < 3; ++k)
     if (a[k] == 0 && b[k] == 0) return corners->line[k];

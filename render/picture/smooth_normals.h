@@ -5,7 +5,7 @@
 //
 //   n'_v = unit Σ_t A_t (n_a + n_b + n_c),   t: the triangles (a, b, c) at v, A_t: their areas,
 //
-// each turned to the side of its triangle that n_v is on, and this twice over. Edges that tear or end separate vertices, so that
+// each turned to the side of its triangle that n_v is on, and this twice over. Tears separate vertices, so that
 // nothing is smoothed across them.
 #pragma once
 

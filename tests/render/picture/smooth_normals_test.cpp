@@ -1,4 +1,4 @@
-// A crossed sheet whose middles stand out of its plane is shaded nearly as the plane; a bent one as its cylinder.
+// A crossed sheet whose middles stand out of a surface is shaded nearly as the surface.
 #include "render/picture/scene_preset.h"
 #include "render/picture/smooth_normals.h"
 #include "sim/boundary/boundary.h"

@@ -46,7 +46,7 @@ TEST(Viewpoint, between_keys_it_neither_jumps_nor_jerks) {
   }
 }
 
-// Of a sensor of 36 x 24 mm the usual lens sees 39.6 degrees from side to side, and of 36 x 20.25 mm 22.9 upwards.
+// On a sensor of 36 mm the usual lens sees 39.6 degrees from side to side.
 TEST(Viewpoint, a_lens_says_how_wide_the_angle_of_view_is) {
   const auto preset =
       scene_with(R"(<camera eye="0 -4 2" lens="50"><key at="0" eye="3 0 1" lens="85"/></camera>)");
