@@ -16,6 +16,11 @@
 #include <libdeflate.h>
 #include <png.h>
 #endif
+#ifdef REND_JPEG
+#include <cstdio>
+
+#include <jpeglib.h> // needs <cstdio> before
+#endif
 #ifdef REND_VIDEO
 extern "C" {
 #include <libavutil/avutil.h>
@@ -60,6 +65,9 @@ std::vector<Version> libraries() {
 #ifdef REND_PNG
   all.push_back({"libpng", png_get_libpng_ver(nullptr)});
   all.push_back({"libdeflate", LIBDEFLATE_VERSION_STRING});
+#endif
+#ifdef REND_JPEG
+  all.push_back({"libjpeg-turbo", dotted(LIBJPEG_TURBO_VERSION_NUMBER, 1000)});
 #endif
 #ifdef REND_VIDEO
   all.push_back({"FFmpeg", av_version_info()});

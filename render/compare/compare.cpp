@@ -1,6 +1,7 @@
 #include "render/compare/compare.h"
 
 #include "render/compare/heat.h"
+#include "render/files/input_file.h"
 #include "render/files/png.h"
 #include "sim/base/check.h"
 #include "sim/base/enum_words.h"

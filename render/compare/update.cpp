@@ -1,5 +1,6 @@
 #include "render/compare/update.h"
 
+#include "render/files/input_file.h"
 #include "render/files/output.h"
 #include "render/files/temporaries.h"
 #include "sim/base/error.h"

@@ -1,62 +1,17 @@
 #include "render/files/png_reader.h"
 
+#include "render/files/input_file.h"
+#include "render/files/picture_file.h"
 #include "render/files/png.h"
 #include "render/files/png_chunks.h"
 #include "sim/base/error.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
-#include <limits>
-#include <memory>
 
 namespace rend {
-namespace {
-
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
-
-File opened(const std::filesystem::path& path) {
-  const Place place{path.string()};
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw UserError(Exit::NoInput, place, "this is a folder, not a picture");
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-    throw UserError(Exit::NoInput, place, "this is not a regular file");
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file)
-    throw UserError(Exit::NoInput, place, fmt::format("it cannot be opened: {}", std::strerror(errno)));
-  return file;
-}
-
-std::size_t size_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) throw UserError(Exit::ReadWrite, {path.string()}, "its size cannot be read: " + error.message());
-  return size;
-}
-
-// Reads at most so many bytes.
-std::vector<std::uint8_t> first_bytes(const std::filesystem::path& path, std::size_t most) {
-  const File file = opened(path);
-  std::vector<std::uint8_t> bytes(std::min(most, size_of(path)));
-  const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get());
-  if (std::ferror(file.get()))
-    throw UserError(Exit::ReadWrite, {path.string()},
-                    fmt::format("it cannot be read: {}", std::strerror(errno)));
-  bytes.resize(count);
-  return bytes;
-}
-
-} // namespace
-
-std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path) {
-  return first_bytes(path, std::numeric_limits<std::size_t>::max());
-}
 
 bool PngInfo::is_plausible() const {
   return rows_bytes <= most_inflated * file_bytes;
@@ -89,7 +44,6 @@ std::size_t PngInfo::decoding_bytes() const {
 #include <csetjmp>
 #include <new>
 #include <png.h>
-#include <string_view>
 
 // libpng reports errors by longjmp: the functions below that call setjmp have no local objects with
 // destructors.
@@ -201,24 +155,10 @@ std::string kind_of(const Reader& reader) {
   return kind;
 }
 
-// The kind of a file that is not a PNG, by its first bytes; empty if unknown.
-std::string other_kind(std::span<const std::uint8_t> bytes) {
-  const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
-                               std::min<std::size_t>(bytes.size(), 12));
-  if (start.starts_with("\xff\xd8\xff")) return "a JPEG";
-  if (start.starts_with("GIF8")) return "a GIF";
-  if (start.starts_with("BM")) return "a BMP";
-  if (start.starts_with("v/1\x01")) return "an OpenEXR";
-  if (start.starts_with(std::string_view("II*\0", 4)) || start.starts_with(std::string_view("MM\0*", 4)))
-    return "a TIFF";
-  if (start.starts_with("RIFF") && start.size() == 12 && start.ends_with("WEBP")) return "a WebP";
-  return "";
-}
-
 void check_signature(std::span<const std::uint8_t> bytes, const Place& place) {
   if (bytes.empty()) throw UserError(Exit::BadInput, place, "the file is empty");
   if (has_png_signature(bytes)) return;
-  const std::string other = other_kind(bytes);
+  const std::string other = picture_kind(bytes);
   throw UserError(Exit::BadInput, place,
                   other.empty() ? "this is not a PNG file" : "this is " + other + ", not a PNG file");
 }
@@ -318,7 +258,7 @@ PngInfo png_info(std::span<const std::uint8_t> bytes, const std::string& name) {
 
 PngInfo png_info(const std::filesystem::path& path) {
   PngInfo head = png_info(first_bytes(path, png_header_bytes), path.string());
-  head.file_bytes = size_of(path);
+  head.file_bytes = size_of_file(path);
   return head;
 }
 

@@ -57,7 +57,4 @@ HighDepthImage read_high_depth_png(std::span<const std::uint8_t> bytes, const st
 // Validates without keeping pixels: throws what read_high_depth_png() would. Holds a row at a time.
 void check_png(std::span<const std::uint8_t> bytes, const std::string& name);
 
-// The content of a file. Throws UserError: NoInput if it cannot be opened or is not a regular file; ReadWrite.
-std::vector<std::uint8_t> file_bytes(const std::filesystem::path& path);
-
 } // namespace rend

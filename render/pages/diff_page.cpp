@@ -1,5 +1,6 @@
 #include "render/pages/diff_page.h"
 
+#include "render/files/input_file.h"
 #include "render/report/page.h"
 #include "render/report/picture_viewer.h"
 #include "sim/base/error.h"

@@ -30,7 +30,7 @@ Field<LookSettings> finish() {
 Fields<LookSettings> texture_fields() {
   using S = LookSettings;
   const std::string file =
-      fmt::format("a PNG file of at most {0} x {0} pixels, relative to the preset, and in its "
+      fmt::format("a PNG or JPEG file of at most {0} x {0} pixels, relative to the preset, and in its "
                   "folder or below",
                   largest_texture);
   return {

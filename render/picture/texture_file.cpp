@@ -1,7 +1,6 @@
 #include "render/picture/texture_file.h"
 
-#include "render/files/png.h"
-#include "render/files/png_reader.h"
+#include "render/files/picture_file.h"
 
 #include "sim/base/math.h"
 
@@ -11,6 +10,8 @@
 
 namespace rend {
 namespace {
+
+constexpr const char* whole_file = "a texture is a PNG or JPEG file: save the picture as one, and whole";
 
 std::filesystem::path path_of(const LookSettings& look, const std::string& file) {
   return (look.folder / file).lexically_normal();
@@ -23,7 +24,7 @@ template <class F> auto at_attribute(const LookSettings& look, const std::string
   } catch (const UserError& error) {
     std::string hint = error.hint;
     if (error.code == Exit::NoInput) hint = "its name is relative to the folder of the preset";
-    if (error.code == Exit::BadInput) hint = "a texture is a PNG file: save the picture as one, and whole";
+    if (error.code == Exit::BadInput) hint = whole_file;
     throw UserError(error.code, look.source.place(attribute), error.what(), hint);
   }
 }
@@ -34,7 +35,7 @@ void check_size(const LookSettings& look, const std::string& attribute, const st
   if (width < 1 || height < 1)
     look.source.fail(attribute,
                      fmt::format("{} does not begin with its size: its header is damaged", in_quotes(file)),
-                     "a texture is a PNG file: save the picture as one, and whole");
+                     whole_file);
   if (std::max(width, height) > largest_texture)
     look.source.fail(attribute,
                      fmt::format("{} is a picture of {} x {} pixels; at most {} x {} are allowed",
@@ -44,9 +45,9 @@ void check_size(const LookSettings& look, const std::string& attribute, const st
 
 Image image_of(const LookSettings& look, const std::string& attribute, const std::string& file) {
   const std::filesystem::path path = path_of(look, file);
-  const PngInfo info = at_attribute(look, attribute, [&] { return png_info(path); });
+  const PictureInfo info = at_attribute(look, attribute, [&] { return picture_info(path); });
   check_size(look, attribute, file, info.width, info.height);
-  Image image = at_attribute(look, attribute, [&] { return read_png(path); });
+  Image image = at_attribute(look, attribute, [&] { return read_picture(path); });
   check_size(look, attribute, file, image.width, image.height); // it may have been written anew meanwhile
   return image;
 }

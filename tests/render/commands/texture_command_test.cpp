@@ -47,8 +47,8 @@ TEST(Texture, that_is_no_picture_is_refused_at_the_attribute) {
   };
   const std::vector<std::tuple<std::string, std::string>> cases{
       {"", "the file is empty"},
-      {"no picture at all", "this is not a PNG file"},
-      {"\xff\xd8\xff\xe0 and so on", "this is a JPEG, not a PNG file"},
+      {"no picture at all", "this is not a PNG or JPEG file"},
+      {"GIF89a and so on", "this is a GIF, not a PNG or JPEG file"},
       {good.substr(0, 20), "its header is damaged"},
       {good.substr(0, good.size() - 20), "the PNG cannot be read"},
       {damaged(good.size() - 20), "the PNG cannot be read"},

@@ -1,6 +1,7 @@
 // PNG files whose headers claim more than the files contain.
 #include "render/files/png_reader.h"
 
+#include "render/files/input_file.h"
 #include "render/files/png.h"
 #include "sim/base/error.h"
 #include "tests/render/needs.h"
