@@ -5,47 +5,24 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
 namespace rend {
 namespace {
 
 constexpr double full_light = 65535;
 using Light = std::array<double, 4>; // red, green, blue times alpha, and alpha: 0 to 65535
+using LightRow = std::vector<Light>;
 
 std::uint16_t rounded(double x) {
   return static_cast<std::uint16_t>(x + 0.5);
 }
 
-// One level while others are made of it.
-struct LightLevel {
-  int width, height;
-  std::vector<std::uint16_t> values; // height x width x 4, row 0 at the bottom: Light, rounded
-
-  Light at(int x, int y) const {
-    const std::uint16_t* of = &values[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                           static_cast<std::size_t>(x))];
-    return {static_cast<double>(of[0]), static_cast<double>(of[1]), static_cast<double>(of[2]),
-            static_cast<double>(of[3])};
-  }
-};
-
-// The same of a picture itself.
-struct LightImage {
-  const Image& image;
-
-  Light at(int x, int y) const {
-    const std::uint8_t* pixel = image.at(x, image.height - 1 - y);
-    const int alpha = image.channels == 4 ? pixel[3] : 255;
-    const auto channel = [&](int c) { return light_of_level(pixel[c]) * (alpha / 255.0); };
-    return {channel(0), channel(1), channel(2), 257.0 * alpha};
-  }
-};
-
 // What a texel of the next level takes of a row or column of n texels.
 struct Taps {
   int first = 0, count = 1;
   std::array<double, 3> share{1, 0, 0};
+  int end() const { return first + count; }
 };
 
 Taps taps_of(int i, int n) {
@@ -56,41 +33,112 @@ Taps taps_of(int i, int n) {
   return {2 * i, 3, {(m - i) / whole, m / whole, (i + 1) / whole}};
 }
 
-template <class From> LightLevel halved(const From& from, int width, int height) {
-  LightLevel to{std::max(width / 2, 1), std::max(height / 2, 1), {}};
-  to.values.reserve(std::size_t{4} * static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height));
-  for (int y = 0; y < to.height; ++y) {
-    const Taps rows = taps_of(y, height);
-    for (int x = 0; x < to.width; ++x) {
-      const Taps columns = taps_of(x, width);
-      Light sum{};
-      for (int j = 0; j < rows.count; ++j)
-        for (int i = 0; i < columns.count; ++i) {
-          const Light one = from.at(columns.first + i, rows.first + j);
-          const double share =
-              rows.share[static_cast<std::size_t>(j)] * columns.share[static_cast<std::size_t>(i)];
-          for (std::size_t c = 0; c < 4; ++c) sum[c] += share * one[c];
-        }
-      for (const double value : sum) to.values.push_back(rounded(value));
-    }
-  }
-  return to;
+int halved(int n) {
+  return std::max(n / 2, 1);
 }
 
-template <class From> TextureLevel texels_of(const From& from, int width, int height) {
-  TextureLevel level{width, height, {}};
-  level.texels.reserve(std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const Light light = from.at(x, y);
-      const double alpha = light[3] / full_light;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double own = alpha > 0 ? std::min(light[c] / alpha, full_light) : 0;
-        level.texels.push_back(level_of_light(rounded(own)));
+// The rows of one level, from those of the level before as they come.
+class RowHalver {
+public:
+  RowHalver(int width, int height) : width_(width), height_(height) {}
+
+  // The next row, if that was the last one that it takes; else null. Valid until the next call.
+  const LightRow* take(const LightRow& row) {
+    last_[static_cast<std::size_t>(taken_++ % 3)] = row;
+    if (made_ == halved(height_)) return nullptr;
+    const Taps rows = taps_of(made_, height_);
+    if (taken_ < rows.end()) return nullptr;
+    ++made_;
+    row_.clear();
+    for (int x = 0; x < halved(width_); ++x) row_.push_back(texel(rows, taps_of(x, width_)));
+    return &row_;
+  }
+
+private:
+  Light texel(const Taps& rows, const Taps& columns) const {
+    Light sum{};
+    for (int j = 0; j < rows.count; ++j)
+      for (int i = 0; i < columns.count; ++i) {
+        const Light& one =
+            last_[static_cast<std::size_t>((rows.first + j) % 3)][static_cast<std::size_t>(columns.first + i)];
+        const double share =
+            rows.share[static_cast<std::size_t>(j)] * columns.share[static_cast<std::size_t>(i)];
+        for (std::size_t c = 0; c < 4; ++c) sum[c] += share * one[c];
       }
-      level.texels.push_back(static_cast<std::uint8_t>(255 * alpha + 0.5));
+    for (double& value : sum) value = rounded(value);
+    return sum;
+  }
+
+  int width_, height_; // of the level before [texels]
+  int taken_ = 0, made_ = 0;
+  std::array<LightRow, 3> last_; // row n of the level before is in n % 3
+  LightRow row_;
+};
+
+void append(TextureLevel& level, const LightRow& row) {
+  for (const Light& light : row) {
+    const double alpha = light[3] / full_light;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double own = alpha > 0 ? std::min(light[c] / alpha, full_light) : 0;
+      level.texels.push_back(level_of_light(rounded(own)));
     }
-  return level;
+    if (level.channels == 4) level.texels.push_back(static_cast<std::uint8_t>(255 * alpha + 0.5));
+  }
+}
+
+void read_row(const TextureLevel& level, int y, LightRow& row) {
+  const std::uint8_t* texel = level.texels.data() + level.stride() * static_cast<std::size_t>(y);
+  for (Light& light : row) {
+    const int alpha = level.channels == 4 ? texel[3] : 255;
+    for (std::size_t c = 0; c < 3; ++c) light[c] = light_of_level(texel[c]) * (alpha / 255.0);
+    light[3] = 257.0 * alpha;
+    texel += level.channels;
+  }
+}
+
+void remove_alpha(Image& image) {
+  std::uint8_t* to = image.pixels.data();
+  for (std::size_t at = 0; at < image.pixels.size(); at += 4)
+    for (std::size_t c = 0; c < 3; ++c) *to++ = image.pixels[at + c];
+  image.pixels.resize(image.pixels.size() / 4 * 3);
+  image.channels = 3;
+}
+
+void remove_colour_of_what_is_transparent(Image& image) {
+  for (std::size_t at = 0; at < image.pixels.size(); at += 4)
+    if (image.pixels[at + 3] == 0) std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(at), 3, 0);
+}
+
+// In the memory of the picture.
+TextureLevel first_level(Image image, bool cut_out) {
+  if (image.channels == 4 && !cut_out) remove_alpha(image);
+  if (cut_out) remove_colour_of_what_is_transparent(image);
+  for (int low = 0, high = image.height - 1; low < high; ++low, --high)
+    std::swap_ranges(image.row(low), image.row(low) + image.stride(), image.row(high));
+  return {image.width, image.height, image.channels, std::move(image.pixels)};
+}
+
+std::vector<TextureLevel> levels_from(TextureLevel first) {
+  std::vector<TextureLevel> levels;
+  levels.push_back(std::move(first)); // in braces it would be copied
+  std::vector<RowHalver> halvers;     // [n] makes level n + 1
+  while (levels.back().width > 1 || levels.back().height > 1) {
+    const TextureLevel& before = levels.back();
+    halvers.emplace_back(before.width, before.height);
+    TextureLevel level{halved(before.width), halved(before.height), before.channels, {}};
+    level.texels.reserve(level.stride() * static_cast<std::size_t>(level.height));
+    levels.push_back(std::move(level));
+  }
+  LightRow whole(static_cast<std::size_t>(levels.front().width));
+  for (int y = 0; y < levels.front().height; ++y) {
+    read_row(levels.front(), y, whole);
+    const LightRow* row = &whole;
+    for (std::size_t n = 0; n < halvers.size() && row != nullptr; ++n) {
+      row = halvers[n].take(*row);
+      if (row != nullptr) append(levels[n + 1], *row);
+    }
+  }
+  return levels;
 }
 
 } // namespace
@@ -102,19 +150,12 @@ bool is_transparent(const Image& image) {
   return false;
 }
 
-std::shared_ptr<const Texture> make_texture(const Image& image) {
+std::shared_ptr<const Texture> make_texture(Image image) {
   CHECK(image.width >= 1 && image.height >= 1 && std::max(image.width, image.height) <= largest_texture);
   auto texture = std::make_shared<Texture>();
   texture->cut_out = is_transparent(image);
-  const LightImage whole{image};
-  texture->levels.push_back(texels_of(whole, image.width, image.height));
-  if (std::max(image.width, image.height) == 1) return texture;
-  LightLevel level = halved(whole, image.width, image.height);
-  while (true) {
-    texture->levels.push_back(texels_of(level, level.width, level.height));
-    if (std::max(level.width, level.height) == 1) return texture;
-    level = halved(level, level.width, level.height);
-  }
+  texture->levels = levels_from(first_level(std::move(image), texture->cut_out));
+  return texture;
 }
 
 } // namespace rend

@@ -20,14 +20,13 @@ std::uint32_t light_of_number(std::size_t number) {
 void upload(GLint number, const TextureLevel& level) {
   glTexImage2D(GL_TEXTURE_2D, number, GL_RGBA16, level.width, level.height, 0, GL_RGBA, GL_UNSIGNED_SHORT,
                nullptr);
-  const std::size_t stride = std::size_t{4} * static_cast<std::size_t>(level.width);
-  std::vector<std::uint16_t> row(stride);
+  std::vector<std::uint16_t> row(std::size_t{4} * static_cast<std::size_t>(level.width));
+  const std::uint8_t* from = level.texels.data();
   for (int y = 0; y < level.height; ++y) {
-    const std::uint8_t* from = level.texels.data() + stride * static_cast<std::size_t>(y);
-    for (std::size_t n = 0; n < stride; n += 4) {
-      const std::uint32_t alpha = from[n + 3];
+    for (std::size_t n = 0; n < row.size(); n += 4, from += level.channels) {
+      const std::uint32_t alpha = level.channels == 4 ? from[3] : 255;
       for (std::size_t c = 0; c < 3; ++c)
-        row[n + c] = static_cast<std::uint16_t>((light_of_number(from[n + c]) * alpha + 127) / 255);
+        row[n + c] = static_cast<std::uint16_t>((light_of_number(from[c]) * alpha + 127) / 255);
       row[n + 3] = static_cast<std::uint16_t>(257 * alpha);
     }
     glTexSubImage2D(GL_TEXTURE_2D, number, 0, y, level.width, 1, GL_RGBA, GL_UNSIGNED_SHORT, row.data());

@@ -1,6 +1,8 @@
 // Mip levels, against the formulas of sRGB (IEC 61966-2-1) written out here.
 #include "render/draw/texture.h"
 
+#include "tests/render/peak_memory.h"
+
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -16,7 +18,7 @@ double number_of(double light) {
 }
 
 int shown(const TextureLevel& level, int x, int y, std::size_t c) {
-  return level.texels[4 * static_cast<std::size_t>(y * level.width + x) + c];
+  return level.texels[static_cast<std::size_t>(level.channels * (y * level.width + x)) + c];
 }
 
 Image noise(int width, int height, int channels) {
@@ -45,11 +47,11 @@ TEST(Texture, is_halved_down_to_one_texel) {
     for (const TextureLevel& level : texture->levels) {
       EXPECT_EQ(level.width, w);
       EXPECT_EQ(level.height, h);
-      EXPECT_EQ(level.texels.size(), static_cast<std::size_t>(4 * w * h));
+      EXPECT_EQ(level.texels.size(), static_cast<std::size_t>(3 * w * h));
       w = std::max(w / 2, 1);
       h = std::max(h / 2, 1);
     }
-    EXPECT_EQ(texture->levels.back().texels.size(), 4U);
+    EXPECT_EQ(texture->levels.back().texels.size(), 3U);
   }
 }
 
@@ -96,6 +98,42 @@ TEST(Texture, gives_no_colour_to_what_is_transparent) {
   Image opaque(2, 1, 4);
   opaque.pixels = {0, 200, 0, 255, 255, 0, 0, 255};
   EXPECT_FALSE(make_texture(opaque)->cut_out);
+  EXPECT_EQ(make_texture(opaque)->levels[0].texels, (std::vector<std::uint8_t>{0, 200, 0, 255, 0, 0}));
+}
+
+// In doubles, without rounding between levels: each level by itself from the whole picture, since shares of
+// halves of halves are shares of quarters where sizes are powers of two.
+TEST(Texture, is_the_mean_over_squares_of_the_whole_picture_weighted_by_alpha) {
+  const Image image = noise(32, 16, 4);
+  const auto texture = make_texture(image);
+  for (std::size_t number = 0; number < texture->levels.size() - 1; ++number) { // the last one is 2 x 1, halved
+    const TextureLevel& level = texture->levels[number];
+    const int side = 1 << number;
+    ASSERT_EQ(level.channels, 4);
+    for (int y = 0; y < level.height; ++y)
+      for (int x = 0; x < level.width; ++x) {
+        double alpha = 0, light[3] = {};
+        for (int j = 0; j < side; ++j)
+          for (int i = 0; i < side; ++i) {
+            const std::uint8_t* pixel = image.at(side * x + i, 15 - (side * y + j));
+            alpha += pixel[3] / 255.0;
+            for (int c = 0; c < 3; ++c) light[c] += light_of(pixel[c] / 255.0) * pixel[3] / 255.0;
+          }
+        EXPECT_NEAR(shown(level, x, y, 3), 255 * alpha / (side * side), 0.6);
+        for (std::size_t c = 0; c < 3 && alpha > 0.2; ++c)
+          EXPECT_NEAR(shown(level, x, y, c), 255 * number_of(light[c] / alpha), 0.7);
+      }
+  }
+}
+
+TEST(Texture, of_the_largest_size_takes_a_third_more_than_its_picture_while_it_is_made) {
+  const std::int64_t peak = test::peak_of([] {
+    Image image(largest_texture, largest_texture);
+    std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{90});
+    if (make_texture(std::move(image))->levels.back().texels[1] != 90) throw 0;
+  });
+  EXPECT_GT(peak, 50 * test::megabyte); // that of the picture
+  EXPECT_LT(peak, 72 * test::megabyte);
 }
 
 } // namespace
