@@ -166,13 +166,40 @@ Image upright(Image image, int orientation) {
   return out;
 }
 
-void check_colours(const JpegReader& reader) {
+void check_kind(const JpegReader& reader) {
+  if (reader.cinfo.arith_code != 0)
+    throw UserError(Exit::BadInput, reader.place, "the JPEG cannot be read: its coding is arithmetic",
+                    "save it as a usual JPEG, baseline or progressive");
   const J_COLOR_SPACE space = reader.cinfo.jpeg_color_space;
   if (space == JCS_GRAYSCALE || space == JCS_YCbCr || space == JCS_RGB) return;
   const std::string what = space == JCS_CMYK || space == JCS_YCCK
                                ? "its colours are those of a printer (CMYK), not RGB"
                                : fmt::format("it has {} channels, not 1 or 3", reader.cinfo.num_components);
   throw UserError(Exit::BadInput, reader.place, "the JPEG cannot be read: " + what);
+}
+
+std::size_t blocks_of(const jpeg_decompress_struct& cinfo) { // of 8 x 8 samples
+  std::size_t sum = 0;
+  for (int n = 0; n < cinfo.num_components; ++n)
+    sum += std::size_t{cinfo.comp_info[n].width_in_blocks} * cinfo.comp_info[n].height_in_blocks;
+  return sum;
+}
+
+// What decoding takes, against what there is. Each block has a code for its lowest coefficient (T.81, F.1.2.1).
+void check_needs(JpegReader& reader) {
+  const std::size_t file = size_of_file(reader.place.file), blocks = blocks_of(reader.cinfo);
+  if (blocks > 8 * file)
+    throw UserError(Exit::BadInput, reader.place,
+                    fmt::format("the JPEG cannot be read: its header says {} x {} pixels, but its {} bytes "
+                                "cannot hold them",
+                                reader.cinfo.image_width, reader.cinfo.image_height, file));
+  const std::size_t held = file + blocks * sizeof(JBLOCK);
+  if (jpeg_has_multiple_scans(&reader.cinfo) != 0 && held > max_jpeg_held)
+    throw UserError(Exit::BadInput, reader.place,
+                    fmt::format("the JPEG cannot be read: it is progressive, and decoding it takes {} MB "
+                                "besides the picture; at most {} are allowed",
+                                held / 1'000'000 + 1, max_jpeg_held / 1'000'000),
+                    "save it as a baseline JPEG, or smaller");
 }
 
 // As it lies in the file.
@@ -182,6 +209,7 @@ Image decoded(JpegReader& reader) {
     throw UserError(Exit::BadInput, reader.place,
                     fmt::format("its header says {} x {} pixels, but rend reads at most {} x {} of a JPEG",
                                 width, height, max_jpeg_side, max_jpeg_side));
+  check_needs(reader);
   if (!start_jpeg(reader)) throw reader.refusal();
   Image image;
   image.width = static_cast<int>(width);
@@ -201,7 +229,7 @@ template <class F> auto with_header(const std::filesystem::path& path, F&& read)
   try {
     JpegReader reader(path);
     if (!read_jpeg_header(reader)) throw reader.refusal();
-    check_colours(reader);
+    check_kind(reader);
     return read(reader);
   } catch (const std::bad_alloc&) {
     throw UserError(Exit::OutOfBudget, {path.string()}, "there is not enough memory to read this picture");

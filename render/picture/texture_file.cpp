@@ -24,7 +24,7 @@ template <class F> auto at_attribute(const LookSettings& look, const std::string
   } catch (const UserError& error) {
     std::string hint = error.hint;
     if (error.code == Exit::NoInput) hint = "its name is relative to the folder of the preset";
-    if (error.code == Exit::BadInput) hint = whole_file;
+    if (error.code == Exit::BadInput && hint.empty()) hint = whole_file;
     throw UserError(error.code, look.source.place(attribute), error.what(), hint);
   }
 }

@@ -163,6 +163,9 @@ TEST(Jpeg, of_a_kind_that_is_not_read_is_refused_in_words) {
   const auto message = [](const std::string& file) { return Written(file).error_message(); };
   EXPECT_EQ(message(good), "");
   EXPECT_THAT(message(jpeg_file(pattern(24, 16, 4), {.colours = JpegColours::Cmyk})), HasSubstr("(CMYK)"));
+  std::string arithmetic = good;
+  arithmetic.replace(good.find("\xff\xc0"), 2, "\xff\xc9"); // SOF9
+  EXPECT_THAT(message(arithmetic), HasSubstr("arithmetic"));
   EXPECT_THAT(message(jpeg_claiming(good, 24, 16, 12)), HasSubstr("it has 12 bits a channel, not 8"));
   EXPECT_THAT(message(jpeg_claiming(good, 4097, 16)),
               HasSubstr("4097 x 16 pixels, but rend reads at most 4096"));
@@ -195,11 +198,25 @@ TEST(Jpeg, has_at_most_a_hundred_scans) {
   EXPECT_THAT(with(190), HasSubstr("more than 100 scans"));
 }
 
+// One is as its header says, but of chroma as fine as its luma; the others lie.
+TEST(Jpeg, that_would_take_more_memory_than_its_pixels_justify_is_refused_before_it_is_decoded) {
+  NEEDS_JPEG;
+  const Written fine(jpeg_file(smooth(4096, 4096), {.quality = 50, .progressive = true}));
+  EXPECT_THAT(fine.error_message(), HasSubstr("it is progressive, and decoding it takes 10"));
+  EXPECT_LT(peak_of([&] { EXPECT_NE(fine.error_message(), ""); }), 4 * megabyte);
+  for (const bool progressive : {false, true}) {
+    const Written small(jpeg_claiming(jpeg_file(smooth(64, 64), {.progressive = progressive}), 4096, 4096));
+    EXPECT_THAT(small.error_message(), HasSubstr("bytes cannot hold them"));
+    EXPECT_LT(peak_of([&] { EXPECT_NE(small.error_message(), ""); }), 4 * megabyte);
+  }
+}
+
 TEST(Jpeg, takes_the_memory_of_its_pixels_and_what_progressive_coefficients_take) {
   NEEDS_JPEG;
-  constexpr std::int64_t pixels = 4096 * 4096, coefficients = 2 * 3 * pixels;
+  constexpr std::int64_t pixels = 4096 * 4096, coefficients = 2 * pixels * 3 / 2; // of luma, and two quarters
   for (const bool progressive : {false, true}) {
-    const Written file(jpeg_file(smooth(4096, 4096), {.quality = 90, .progressive = progressive}));
+    const Written file(
+        jpeg_file(smooth(4096, 4096), {.quality = 90, .progressive = progressive, .across = 2, .down = 2}));
     const std::int64_t peak = peak_of([&] { file.image(); });
     EXPECT_GT(peak, 3 * pixels);
     EXPECT_LT(peak, 3 * pixels + (progressive ? coefficients : 0) + 4 * megabyte);
