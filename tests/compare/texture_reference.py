@@ -4,10 +4,11 @@
     texture_reference.py REND [--keep FOLDER]
 
 Scenes of 128 x 128 pixels, one sample in the middle of each pixel: a sheet seen at a low angle, the same with
-a picture that is repeated and turned, and a box. Here, for each pixel: the ray through it, the point of the
-body that it hits, the place in the picture (presets/README.md, render/picture/texture_map.h), the level by the
-longer one of its two derivatives on the screen (OpenGL 3.3, 3.8.11), eight texels in linear light
-(IEC 61966-2-1), and levels that are means over areas.
+a picture that is repeated and turned, a box, and a sheet with a JPEG that a camera stored on its side, turned
+by 30 degrees. Here, for each pixel: the ray through it, the point of the body that it hits, the place in the
+picture (presets/README.md, render/picture/texture_map.h), the level by the longer one of its two derivatives on
+the screen (OpenGL 3.3, 3.8.11), eight texels in linear light (IEC 61966-2-1), and levels that are means over
+areas. The JPEG is decoded, and set upright, by Pillow.
 
 What the lamps do to a colour c is a c + b, where a and b differ from pixel to pixel, and colours are squares of
 numbers (shaders/common.glsl): both are measured on the same body in black and in grey, without a picture.
@@ -24,7 +25,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageOps
 from scipy import ndimage
 
 SIDE = 128           # [pixels]
@@ -150,13 +151,26 @@ def sampled(levels, uv, steps, repeat):
 
 
 class Scene:
-    def __init__(self, name, shape, faces, camera, picture, size, scale=(1, 1), turn=0, repeat=False):
+    def __init__(self, name, shape, faces, camera, picture, size, scale=(1, 1), turn=0, repeat=False,
+                 photograph=False):
         self.name, self.shape, self.faces, self.camera = name, shape, faces, camera
         self.picture = picture
         self.size = np.array(size) * scale  # on the body, to the right and up [m]
         self.turn, self.repeat = math.radians(turn), repeat
-        self.look = f'texture="picture.png" scale="{scale[0]} {scale[1]}" rotate="{turn}" ' \
+        self.file = "picture.jpg" if photograph else "picture.png"
+        self.look = f'texture="{self.file}" scale="{scale[0]} {scale[1]}" rotate="{turn}" ' \
                     f'wrap="{"repeat" if repeat else "clamp"}"'
+
+    def save(self, folder):
+        """The picture is then what the file shows."""
+        if self.file == "picture.png":
+            Image.fromarray(self.picture).save(folder / self.file)
+            return
+        exif = Image.Exif()
+        exif[0x0112] = 6  # the first row is seen at the right, the first column at the top
+        stored = Image.fromarray(self.picture).transpose(Image.Transpose.ROTATE_90)
+        stored.save(folder / self.file, quality=95, exif=exif)
+        self.picture = np.asarray(ImageOps.exif_transpose(Image.open(folder / self.file)).convert("RGB"))
 
     def place(self, at):
         """In the picture, from places on a face: (0, 0) is its bottom left corner, (1, 1) the top right one."""
@@ -198,6 +212,9 @@ def scenes():
     above = Camera((2, -1.5, 1.6), (0.5, 0.35, 0.2), 30)
     yield Scene("box", '<bar cells="1 1 1" size="1 0.7 0.5"/>', box_faces(np.array([1, 0.7, 0.5])), above, wide,
                 (1, 200 / 300), repeat=True)
+    over = Camera((0.6, -0.1, 1.4), (0.5, 0.48, 0), 40)
+    yield Scene("photograph", sheet, sheet_faces(), over, drawing(480, 360), (1, 1), turn=30, repeat=True,
+                photograph=True)
 
 
 def rendered(rend, folder, name, preset):
@@ -222,7 +239,7 @@ def flip(rend, folder, expected, now, mask):
 def compare(rend, folder, scene):
     """Mean FLIP from the expected picture, and from the one upside down."""
     folder.mkdir()
-    Image.fromarray(scene.picture).save(folder / "picture.png")
+    scene.save(folder)
     now = rendered(rend, folder, "now", scene.preset(scene.look))
     lit = [rendered(rend, folder, name, scene.preset(f'colour="#{level:02x}{level:02x}{level:02x}"')) / 255
            for name, level in (("black", 0), ("grey", GREY))]
