@@ -16,10 +16,10 @@
 // along the slice; its squared sine counts in full up to 0.6 of the radius, and falls off to 0 at the radius,
 // which is within 0.03 of ray casting with a fall-off by squared distance. The pixels of a 4 x 4 block take 16
 // slices and 4 offsets along them, in a fixed pattern, and are averaged over those on the same surface: 128
-// depth samples for a point. At the edge of a surface a block has a part of the slices alone: the second
-// mean, over blocks that lie the other way, smooths what differs from block to block there. A plane does not
-// occlude itself, nor does a convex body, up to 2 % along sharp edges. Surfaces that are hidden or outside the
-// picture do not occlude.
+// depth samples for a point. At the edge of a surface a block contains only some of the slices, so that
+// neighbouring blocks differ: a second mean, over blocks that lie the other way, smooths this. A plane does
+// not occlude itself, nor does a convex body, up to 2 % along sharp edges. Surfaces that are hidden or outside
+// the picture do not occlude.
 //
 // Source: Jimenez, Wu, Pesce and Jarabo, Practical real-time strategies for accurate indirect occlusion, 2016.
 //

@@ -8,8 +8,9 @@
 //
 // and its middle one is e + (e - m) / 2, e the mean of the six on the sides, m that of the corners. A side
 // follows from its two ends alone, so that two triangles that share it and their normals have no gap between
-// them. Sides where normals differ from one triangle to the next (creases, torn edges) stay straight. Normals,
-// colours and places in pictures are linear over the triangle.
+// them. Sides where normals differ from one triangle to the next (creases, torn edges) stay straight. (A
+// vertex without a normal, as in a sheet that is folded flat, has one in each triangle: beside it there may be
+// gaps.) Normals, colours and places in pictures are linear over the triangle.
 //
 // Source: Vlachos, Peters, Boyd and Mitchell, Curved PN triangles, 2001.
 #pragma once

@@ -51,8 +51,8 @@ template <> const Fields<ImageSettings>& fields_of() {
                    text("background", "background colour, #rrggbb; none: transparent, without the floor"),
                    "none"),
       field(&S::floor_shadow,
-            flag("floor-shadow", "with background=\"none\": the floor shows by the shadows on it, black in the "
-                                 "alpha channel, and hides what is below it")),
+            flag("floor-shadow", "with background=\"none\": the shadows on the floor are kept, as black whose "
+                                 "alpha says how dark they are")),
       field(&S::occlusion, flag("occlusion", "ambient occlusion: folds, cracks and gaps are darker; it takes a "
                                              "fifth of the time of a picture"))};
   return fields;

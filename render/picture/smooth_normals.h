@@ -1,4 +1,4 @@
-// Normals of the smooth surface that the mesh of a sheet stands for.
+// Normals of the smooth surface that the mesh of a sheet approximates.
 //
 // A crossed mesh folds in small pyramids, one a cell: the middle of a cell lies above or below its corners, and
 // shading by the normals of vertices shows every cell. So a vertex takes the mean of the normals around it,

@@ -28,7 +28,9 @@
 #include "sim/embedding/texture_coordinates.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace rend {
 
@@ -57,8 +59,12 @@ public:
   bool is_spread_once() const;                         // over one that was made, and neither scaled nor turned
 
 private:
+  // A file may name any number: what is that far away is no place in a picture that could be seen.
   static TexturePoint as_point(const TexturePlace& place) {
-    return {static_cast<float>(place.u), static_cast<float>(place.v)};
+    const auto within = [](double x) {
+      return std::isfinite(x) ? static_cast<float>(std::clamp(x, -1e9, 1e9)) : 0.5f;
+    };
+    return {within(place.u), within(place.v)};
   }
   bool is_plain() const { return scale_ == Eigen::Vector2d::Ones() && sine_ == 0 && cosine_ == 1; }
   TexturePlace in_picture(const Eigen::Vector2d& from_middle) const;   // [m]

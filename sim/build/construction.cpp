@@ -316,6 +316,10 @@ private:
       });
       groups_ = &groups;
     }
+    if (find_texture_coordinates(*body_.map))
+      body_.notes.emplace_back(
+          "the texture coordinates of its mesh are of no use to a solid that a rule makes of "
+          "it: pictures lie on its faces as on other solids");
     body_.map = std::move(solid);
   }
 

@@ -1,9 +1,9 @@
 // Texture coordinates: the place in a picture of each corner of a face of a sheet, where its mesh has them.
 //
-// They belong to corners, and not to vertices, since a picture may have a seam: along it the two faces at an
-// edge lie in other parts of the picture. Each is then divided by itself. What becomes of a corner:
+// They belong to corners, and not to vertices: at a seam the two faces at an edge lie in different parts of the
+// picture, and each face is divided with its own coordinates. What becomes of a corner:
 //
-//   kept, or its vertex torn, or its face divided at it   keeps its place, bit for bit
+//   old, also if its vertex is torn or its face divided   keeps its place, bit for bit
 //   born on a side from a to b, or within a face          Σ w uv of the corners of that face at the vertices
 //                                                         that the new one lies between: (1 − t) a + t b
 //   two that become one                                   that of the smaller dart
@@ -13,7 +13,7 @@
 // that is moved at rest keeps its places, and takes the picture along. A rule that gives a vertex a place among
 // vertices of several faces (Catmull and Clark) mixes what these have: across a seam, that of both sides.
 //
-// Only bodies have this embedding whose mesh file has texture coordinates and whose picture is wanted.
+// A body has this embedding only if its mesh file has texture coordinates and its look shows a picture outside.
 #pragma once
 
 #include "sim/embedding/embedded_map.h"

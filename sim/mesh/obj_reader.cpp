@@ -74,10 +74,17 @@ void check_polygon(Scanner& in, Content& content, MeshFile& file) {
 // Texture coordinates: u, and v, which is 0 where it is not given. tinyobjloader rounds numbers: these are kept
 // as they are read here.
 TexturePlace texture_place(Scanner& in) {
+  constexpr double most = 1e6; // pictures away from the picture
+  const auto coordinate = [&] {
+    const double x = in.real("a texture coordinate");
+    if (std::abs(x) > most)
+      in.fail(fmt::format("the texture coordinate {:g}, and {:g} is the largest", x, most), "vt 0.5 0.25");
+    return x;
+  };
   TexturePlace place{0, 0};
   if (in.line_ends()) in.fail("texture coordinates without numbers", "vt 0.5 0.25");
-  place.u = in.real("a texture coordinate");
-  if (!in.line_ends()) place.v = in.real("a texture coordinate");
+  place.u = coordinate();
+  if (!in.line_ends()) place.v = coordinate();
   return place;
 }
 

@@ -114,6 +114,26 @@ TEST_F(MotionBlurTest, OfWhatDoesNotMoveIsThePlainPicture) {
   }
 }
 
+TEST_F(MotionBlurTest, KeepsTheShadowOnAFloorThatIsNotSeen) {
+  Frame frame = front_view();
+  frame.camera.eye = {0, -4, 3};
+  frame.floor = FrameFloor{0};
+  frame.transparent = frame.floor_shadow = true;
+  frame.bodies.push_back(table(0.4f, 0.4f, red));
+  Renderer renderer(96, 64, 4);
+  renderer.draw(frame);
+  const Image still = renderer.read();
+  int shadow = 0;
+  for (int y = 0; y < still.height; ++y)
+    for (int x = 0; x < still.width; ++x) shadow += still.at(x, y)[3] > 20 && still.at(x, y)[0] == 0;
+  EXPECT_GT(shadow, 50);
+  frame.states.push_back({frame.bodies, {}, 0});
+  frame.moments.assign(2, FrameMoment{.camera = frame.camera});
+  frame.bodies.clear();
+  renderer.draw(frame);
+  EXPECT_LE(largest_difference(renderer.read(), still), 1);
+}
+
 TEST_F(MotionBlurTest, AMovingCameraBlursToo) {
   Frame frame = transparent();
   frame.states.push_back(square(0));

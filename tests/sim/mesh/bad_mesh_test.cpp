@@ -216,6 +216,7 @@ TEST(BadMesh, other_formats_name_line_and_entity) {
               HasSubstr("a.obj:5:7: a corner has the texture coordinates 2, and there are 1"));
   EXPECT_THAT(refusal("a.obj", points + "f 1/1 2/1 3/1\n"), HasSubstr("and there are 0 so far"));
   EXPECT_THAT(refusal("a.obj", points + "vt\nf 1 2 3\n"), HasSubstr("texture coordinates without numbers"));
+  EXPECT_THAT(refusal("a.obj", points + "vt 0 -1e7\nf 1 2 3\n"), HasSubstr("the texture coordinate -1e+07"));
   EXPECT_THAT(refusal("a.obj", points + "vt 0 inf\nf 1 2 3\n"), HasSubstr("a.obj:4:6: "));
   EXPECT_THAT(refusal("a.obj", "v 0 0\nf 1 2 3\n"), HasSubstr("fewer than three coordinates"));
   EXPECT_THAT(refusal("a.obj", "v 0 0 nan\n"), HasSubstr("a.obj:1:7: "));
