@@ -1,5 +1,6 @@
 #include "render/clip/clip_run.h"
 
+#include "render/clip/fitted_camera.h"
 #include "render/console/console.h"
 #include "render/console/progress.h"
 #include "render/console/signals.h"
@@ -37,8 +38,9 @@ ClipRun::ClipRun(Session& session, const ClipRunOptions& options)
   video_at_end_ = files.video && existing_ > 0;
   PipelineOptions now = files;
   now.video = files.video && !video_at_end_;
+  if (!plan_.to_make().empty() || fs::exists(checkpoint_)) camera_found_ = fit_camera_to_clip(session);
   frame_output_.emplace(session, now, plan_);
-  begin();
+  if (camera_found_ == Stopped::No) begin();
 }
 
 // Whether a state whose next frame is this one lies between this run's start and its end. After the clip's last
@@ -73,6 +75,10 @@ void ClipRun::begin() {
 }
 
 Stopped ClipRun::run() {
+  if (camera_found_ != Stopped::No) {
+    frame_output_->abandon(camera_found_);
+    return camera_found_;
+  }
   Stopped stopped = simulates() ? simulate() : Stopped::No;
   if (!session_.quiet())
     for (const std::string& note : frame_output_->notes()) print_note(note);

@@ -58,7 +58,8 @@ private:
   ClipRunOptions options_;
   FramePlan plan_;
   std::filesystem::path checkpoint_;
-  std::string key_; // of the checkpoint
+  std::string key_;                    // of the checkpoint
+  Stopped camera_found_ = Stopped::No; // Interrupted: before it was known where the camera stands
   bool video_at_end_ = false, left_checkpoint_ = false;
   bool keeps_later_checkpoint_ = false; // the existing checkpoint is beyond this run's end
   long existing_ = 0;                   // frames that exist

@@ -49,11 +49,13 @@ public:
   // of the simulation, rend's version. Reads the mesh files again.
   std::uint64_t key() const;
   const std::string& preset_path() const { return options_.preset; }
+  const SessionOptions& options() const { return options_; }
   Scene& scene() { return *scene_; }
   const Scene& scene() const { return *scene_; }
   const FrameClock& clock() const { return *clock_; }
   const PictureSettings& picture() const { return picture_; }
   const ImageSettings& image() const { return picture_.image; }
+  void set_camera_room(const Eigen::AlignedBox3d& room) { picture_.camera.room = room; } // [m]
   int threads() const; // that were asked for, or all that the machine has
   bool quiet() const { return options_.quiet; }
   bool reaches() const { return options_.reach; } // nothing tears: largest values of criteria are looked for

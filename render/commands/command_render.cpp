@@ -141,8 +141,8 @@ Exit render(const RenderOptions& options) {
   Session session(options.session);
   const ClipRunOptions wanted = clip_run_options(options, session);
   check_files(session, wanted);
+  const GracefulStop graceful_stop; // a signal only ends the time loop; it is handled afterwards
   ClipRun clip_run(session, wanted);
-  const GracefulStop graceful_stop;
   const Stopped stopped = clip_run.run();
   print_figures(options, session, clip_run, stopped, wanted.files, wall_clock() - start);
   const Exit end = exit_code_of(session, stopped);

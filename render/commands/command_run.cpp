@@ -1,6 +1,7 @@
 // rend run: the simulation without pictures.
 #include "render/clip/export_series.h"
 #include "render/clip/figures.h"
+#include "render/clip/fitted_camera.h"
 #include "render/clip/named_files.h"
 #include "render/clip/run_logs.h"
 #include "render/clip/session.h"
@@ -113,9 +114,12 @@ Exit run(const RunOptions& options) {
   wanted.count_fragments = !options.events.empty();
   Session session(wanted);
   files.reads_files(session.preset());
+  const GracefulStop graceful_stop;
+  // Files that are exported say where the camera stands.
+  if (!options.format.empty() && fit_camera_to_clip(session) == Stopped::Interrupted)
+    return exit_code_of(session, Stopped::Interrupted);
   const std::unique_ptr<ExportSeries> series = export_of(session, options);
   if (series) series->name_files(files);
-  const GracefulStop graceful_stop;
   const Stopped stopped = simulate(session, options, series.get());
   Costs costs;
   costs.total = wall_clock() - start;

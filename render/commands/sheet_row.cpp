@@ -1,5 +1,6 @@
 #include "render/commands/sheet_row.h"
 
+#include "render/clip/fitted_camera.h"
 #include "render/console/progress.h"
 #include "render/console/signals.h"
 #include "render/picture/scene_picture.h"
@@ -49,9 +50,11 @@ SheetRow::SheetRow(const SessionOptions& options, double aspect, bool end_alone)
     : options_(options), aspect_(aspect), end_alone_(end_alone) {}
 
 Exit SheetRow::simulate(Session& session, long last, const std::function<void(long, FrameBuilder&)>& frame) {
+  const GracefulStop graceful_stop; // a signal only ends the time loop; it is handled afterwards
+  if (const Stopped stopped = fit_camera_to_clip(session); stopped != Stopped::No)
+    return exit_code_of(session, stopped);
   FrameBuilder maker(session.picture(), session.scene(), aspect_, session.clock().duration(),
                      session.clock().frames());
-  const GracefulStop graceful_stop; // a signal only ends the time loop; it is handled afterwards
   Progress progress(options_.quiet, session.last_step(last), session.clock().duration(), 0);
   Session::Callbacks calls;
   calls.frame = [&](long number) {

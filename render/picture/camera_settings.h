@@ -3,7 +3,9 @@
 
 #include "sim/base/settings.h"
 
+#include <Eigen/Geometry>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace rend {
@@ -34,9 +36,16 @@ struct CameraSettings {
   double turn = 0;                   // around the target over the clip [degrees]
   std::optional<Framing> frame = {}; // none: Given where there is an eye, else Auto
   std::vector<CameraKey> keys = {};  // in order of time; where there are some, the camera goes where they say
+  // The name of the body that is to be in the picture over the whole clip, or fit_all; empty: an estimate does
+  std::string fit = {};
+  // What is to be in the picture [m], once it is known (fitted_camera.h); none: an estimate (viewpoint.h)
+  std::optional<Eigen::AlignedBox3d> room = {};
   SettingsSource source = {};
 };
 template <> const Fields<CameraSettings>& fields_of();
+
+constexpr double least_fov = 1, most_fov = 170; // [degrees]
+constexpr const char* fit_all = "all";          // of CameraSettings::fit
 
 // UserError for what cannot be together: an up of no direction, keys with a framing of another kind, a given
 // frame without an eye, an eye at its target.

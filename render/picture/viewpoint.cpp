@@ -6,6 +6,8 @@
 #include "sim/base/math.h"
 #include "sim/base/reach.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,6 +50,17 @@ Bounds bounds_to_frame(const Body& body, double duration) {
   const Vec3 down = gravity.normalized() * std::max(0.15 * size, hang);
   const Bounds below(in_reach(room.min() + down), in_reach(room.max() + down));
   return room.merged(below);
+}
+
+// The angle of view of a lens must be one that fov may have.
+double fov_of_lens(const SettingsSource& source, double lens, double aspect) {
+  const double fov = rend::fov_of_lens(lens, aspect);
+  if (fov < least_fov || fov > most_fov)
+    source.fail(
+        "lens",
+        fmt::format("a lens of {:g} mm sees {:.3g} degrees from bottom to top of this picture", lens, fov),
+        fmt::format("from {:g} to {:g} are possible", least_fov, most_fov));
+  return fov;
 }
 
 // To round-off: no direction is left.
@@ -135,7 +148,7 @@ Viewpoint::Viewpoint(const CameraSettings& camera, const Scene& scene, double as
   Bounds start;
   for (const auto& body : scene.bodies()) start.extend(bounds_of(*body));
   start_.up = camera.up;
-  start_.fov = camera.lens ? fov_of_lens(*camera.lens, aspect) : camera.fov;
+  start_.fov = camera.lens ? fov_of_lens(camera.source, *camera.lens, aspect) : camera.fov;
   start_.target = camera.target.value_or(start.center());
   Vec3 direction = best_direction(start);
   if (camera.eye) {
@@ -145,13 +158,17 @@ Viewpoint::Viewpoint(const CameraSettings& camera, const Scene& scene, double as
       camera.source.fail("eye", "the camera's eye stands at its target", "move it away from there");
   }
   read_keys(camera);
-  const Framing frame = camera.frame.value_or(camera.eye ? Framing::Given : Framing::Auto);
+  const bool stands_at_eye = camera.eye && camera.fit.empty();
+  const Framing frame = camera.frame.value_or(stands_at_eye ? Framing::Given : Framing::Auto);
   follows_ = frame == Framing::Follow;
   direction_ = direction;
   start_middle_ = start.center();
   reach_ = 3 * start.sizes().norm();
   if (frame == Framing::Given) return;
-  const FrameCamera fitted = fit_camera(bounds_to_frame(scene, duration), start_.fov, aspect, direction);
+  const bool known = camera.room && !camera.room->isEmpty();
+  const Bounds room = known ? Bounds(in_reach(camera.room->min()), in_reach(camera.room->max()))
+                            : bounds_to_frame(scene, duration);
+  const FrameCamera fitted = fit_camera(room, start_.fov, aspect, direction);
   start_.eye = fitted.eye;
   start_.target = fitted.target;
 }
@@ -160,7 +177,8 @@ void Viewpoint::read_keys(const CameraSettings& camera) {
   for (const CameraKey& given : camera.keys) {
     Key key;
     key.time = given.at;
-    const double fov = given.lens ? fov_of_lens(*given.lens, aspect_) : given.fov.value_or(start_.fov);
+    const double fov =
+        given.lens ? fov_of_lens(given.source, *given.lens, aspect_) : given.fov.value_or(start_.fov);
     key.camera << given.eye, given.target.value_or(start_.target), fov;
     if (at_target(key.camera.head<3>(), key.camera.segment<3>(3)))
       given.source.fail("eye", "the camera's eye stands at its target", "move it away from there");
@@ -176,7 +194,7 @@ FrameCamera Viewpoint::between_keys(double time) const {
   const auto set = [&](const Eigen::Matrix<double, 7, 1>& at) {
     camera.eye = at.head<3>();
     camera.target = at.segment<3>(3);
-    camera.fov = std::clamp(at[6], 1.0, 170.0);
+    camera.fov = std::clamp(at[6], least_fov, most_fov);
   };
   if (time <= keys_.front().time) return set(keys_.front().camera), camera;
   if (time >= keys_.back().time) return set(keys_.back().camera), camera;

@@ -58,6 +58,10 @@ TEST(Viewpoint, a_lens_says_how_wide_the_angle_of_view_is) {
   EXPECT_NEAR(Viewpoint(camera, scene, 16 / 9.0, 2).at(0).fov, 22.895, 1e-3); // 2 atan(10.125 / 50)
   EXPECT_NEAR(Viewpoint(camera, scene, 9 / 16.0, 2).at(0).fov, 39.598, 1e-3); // 2 atan(18 / 50)
   EXPECT_THROW(scene_with(R"(<camera eye="0 -4 2" lens="50" fov="30"/>)"), UserError);
+  camera.lens = 2000; // 0.69 degrees
+  EXPECT_THROW(Viewpoint(camera, scene, 1.5, 2), UserError);
+  camera.lens = 1; // 173.6 degrees
+  EXPECT_THROW(Viewpoint(camera, scene, 9 / 16.0, 2), UserError);
 }
 
 TEST(Viewpoint, keys_out_of_order_are_refused) {
